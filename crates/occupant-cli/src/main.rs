@@ -1,0 +1,3 @@
+//! The command `occupant`.
+
+fn main() {}
