@@ -1,1 +1,10 @@
 //! Occupant.
+
+pub mod belt;
+pub mod body;
+pub mod joint;
+pub mod material;
+pub mod problem;
+pub mod report_coordinates;
+pub mod seating;
+pub mod surface;
