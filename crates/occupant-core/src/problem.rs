@@ -32,7 +32,11 @@ impl fmt::Display for Problem {
             Severity::Warning => "warning",
             Severity::Error => "error",
         };
-        write!(f, "{word}: {}: {}; expected {}", self.path, self.found, self.expected)?;
+        write!(
+            f,
+            "{word}: {}: {}; expected {}",
+            self.path, self.found, self.expected
+        )?;
         match &self.hint {
             Some(hint) => write!(f, " ({hint})"),
             None => Ok(()),
