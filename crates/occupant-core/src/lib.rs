@@ -1,1 +1,4 @@
 //! Occupant.
+
+pub mod path;
+mod trig;
