@@ -83,7 +83,11 @@ fn speed_and_distance_run_on_across_corners_and_after_the_end() {
                 1e-10,
             );
             let travelled_m = before.speed_m_s * 2e-13;
-            assert_below("distance, m", (after.distance_m - before.distance_m - travelled_m).abs(), 1e-14);
+            assert_below(
+                "distance, m",
+                (after.distance_m - before.distance_m - travelled_m).abs(),
+                1e-14,
+            );
         }
         let (end, later) = (at(profile.duration_s()), at(profile.duration_s() + 2.0));
         assert_eq!(
