@@ -1,4 +1,12 @@
 //! Occupant.
 
+pub mod belt;
+pub mod body;
+pub mod joint;
+pub mod material;
 pub mod path;
+pub mod problem;
+pub mod report_coordinates;
+pub mod seating;
+pub mod surface;
 mod trig;
