@@ -1,1 +1,3 @@
 //! Occupant.
+pub mod measure;
+pub mod signal;
