@@ -6,18 +6,24 @@
 //! averages and crossings are those of that line and not of a staircase. Nothing here knows the
 //! simulator: the same functions serve a run and a recorded test.
 
+pub mod cfc;
 pub mod error;
 pub mod integral;
+pub mod low_pass;
 pub mod moving_average;
+pub mod resample;
 pub mod resultant;
 
 mod check;
 
+pub use cfc::{CfcFamily, ChannelClass, cfc_coefficients, filter_cfc};
 pub(crate) use check::{require_positive, require_same_length, require_samples};
 pub use check::{uniform_interval, whole_steps};
 pub use error::SignalError;
 pub use integral::{CumulativeIntegral, integrate};
+pub use low_pass::{Continuation, LowPass};
 pub use moving_average::{MovingAverage, WindowExtreme, moving_average};
+pub use resample::{Interpolant, Interpolation, resample};
 pub use resultant::{resultant, resultant2};
 
 /// Standard acceleration of gravity, m/s²: the "g" of every criterion stated in g.
