@@ -1,3 +1,4 @@
 //! Occupant.
+pub mod correlation;
 pub mod measure;
 pub mod signal;

@@ -148,7 +148,7 @@ impl WindowSearch<'_> {
                 self.best_04 = gain / self.tau_06[lag];
                 self.window = Some((start, start + lag));
             }
-            lag += ((shortfall * self.per_gain) as usize).max(stride);
+            lag = lag.saturating_add(((shortfall * self.per_gain) as usize).max(stride));
         }
     }
 }

@@ -20,7 +20,7 @@ pub enum Continuation {
     },
     /// End values held. Filter passes start at rest on the held value.
     Hold {
-        /// Samples added at each end.
+        /// Samples added at each end, at most two million.
         samples: usize,
     },
 }
@@ -138,6 +138,7 @@ fn continued(values: &[f64], continuation: Continuation) -> (Vec<f64>, usize) {
             )
         }
         Continuation::Hold { samples } => {
+            let samples = samples.min(2_000_000);
             let held = |value| std::iter::repeat_n(value, samples);
             (
                 held(first)
