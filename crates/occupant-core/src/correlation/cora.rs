@@ -139,31 +139,59 @@ pub fn cora(
         settings.corridor_exponent,
     );
 
-    let steps = (last - first) as f64;
+    let cross = cross_ratings(reference, computed, settings);
+    Ok(Cora {
+        overall: 0.5 * corridor + 0.5 * cross.weighted(),
+        corridor,
+        cross_correlation: cross.weighted(),
+        progression: cross.progression,
+        size: cross.size,
+        phase: cross.phase,
+        lag_s: cross.lag as f64 * dt_s,
+        interval_s: [first as f64 * dt_s, last as f64 * dt_s],
+    })
+}
+
+struct CrossRatings {
+    progression: f64,
+    size: f64,
+    phase: f64,
+    lag: isize,
+}
+
+impl CrossRatings {
+    fn weighted(&self) -> f64 {
+        0.5 * self.progression + 0.25 * self.size + 0.25 * self.phase
+    }
+}
+
+/// Progression, size and phase at the shift of the largest cross-correlation.
+fn cross_ratings(reference: &[f64], computed: &[f64], settings: &CoraSettings) -> CrossRatings {
+    let steps = (reference.len() - 1) as f64;
     let most = ((1.0 - settings.least_overlap) * steps + 1e-9).floor() as usize;
     let shifted = best_shift(reference, computed, most, cross_correlation);
     // V = (½(K + 1))^k; a computed signal of zeros has no K
     let progression = if shifted.agreement.is_finite() {
-        (0.5 * (shifted.agreement + 1.0)).powf(settings.progression_exponent)
+        libm::pow(
+            0.5 * (shifted.agreement + 1.0),
+            settings.progression_exponent,
+        )
     } else {
         0.0
     };
-    let size = size_ratio(shifted.reference, shifted.computed).powf(settings.size_exponent);
+    let size = libm::pow(
+        size_ratio(shifted.reference, shifted.computed),
+        settings.size_exponent,
+    );
     let shift = shifted.lag.unsigned_abs() as f64 / steps;
-    let phase = ((settings.largest_shift - shift) / (settings.largest_shift - settings.free_shift))
-        .clamp(0.0, 1.0)
-        .powf(settings.phase_exponent);
-    let cross_correlation = 0.5 * progression + 0.25 * size + 0.25 * phase;
-    Ok(Cora {
-        overall: 0.5 * corridor + 0.5 * cross_correlation,
-        corridor,
-        cross_correlation,
+    let in_time = (settings.largest_shift - shift) / (settings.largest_shift - settings.free_shift);
+    let phase = libm::pow(in_time.clamp(0.0, 1.0), settings.phase_exponent);
+    CrossRatings {
         progression,
         size,
         phase,
-        lag_s: shifted.lag as f64 * dt_s,
-        interval_s: [first as f64 * dt_s, last as f64 * dt_s],
-    })
+        lag: shifted.lag,
+    }
 }
 
 /// Mean over the samples of 1 up to the inner distance, 0 beyond the outer one and
@@ -181,7 +209,7 @@ pub(super) fn corridor_mean(
         } else if distance > outer {
             0.0
         } else {
-            ((outer - distance) / (outer - inner)).powf(exponent)
+            libm::pow((outer - distance) / (outer - inner), exponent)
         }
     };
     reference

@@ -5,7 +5,7 @@
 //! all three within 40 %, is quoted from general knowledge, not read.
 
 use super::require_pair;
-use crate::signal::SignalError;
+use crate::{signal::SignalError, trig};
 
 /// Largest magnitude of each error that W179 is said to accept.
 pub const W179_LARGEST_ERROR: f64 = 0.40;
@@ -51,7 +51,7 @@ pub fn sprague_geers(measured: &[f64], computed: &[f64]) -> Result<SpragueGeers,
     let magnitude = (cc / mm).sqrt() - 1.0;
     // rounding may carry the cosine just past one
     let cosine = (cm / (cc.sqrt() * mm.sqrt())).clamp(-1.0, 1.0);
-    let phase = cosine.acos() / std::f64::consts::PI;
+    let phase = trig::acos(cosine) / std::f64::consts::PI;
     Ok(SpragueGeers {
         magnitude,
         phase,

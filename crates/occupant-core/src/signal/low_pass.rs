@@ -57,7 +57,7 @@ impl LowPass {
             });
         }
         // ω_d = 2π f,  ω_a = tan(ω_d T/2),  d = 1 + √2 ω_a + ω_a²
-        let wa = (PI * corner_hz * dt_s).tan();
+        let wa = libm::tan(PI * corner_hz * dt_s);
         let d = 1.0 + SQRT_2 * wa + wa * wa;
         let a0 = wa * wa / d;
         Ok(Self {
