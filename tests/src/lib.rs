@@ -1,1 +1,7 @@
 //! Shared pieces of the proofs.
+
+pub mod golden;
+pub mod random;
+pub mod reference;
+pub mod scene;
+pub mod space_state;
