@@ -23,7 +23,7 @@ impl System {
         }
     }
 
-    /// Ṫ̇1, angular accelerations and α̈ of a state, by report coordinates in the scene as it stands.
+    /// Acceleration of T1, angular accelerations and α̈ of a state, by report coordinates in the scene as it stands.
     pub fn accelerations_as_it_stands(&self, state: &SpaceState) -> SpaceMotion {
         let (q, rates) = state.to_report();
         let accelerations = equations_of_motion(self, &q, &rates).accelerations;

@@ -28,7 +28,7 @@ fn joint_angles_and_kinetic_energy_agree() {
 
 #[test]
 fn d_agrees() {
-    // Measured: MEASURED_D.
+    // Measured: 5.9e-16.
     let worst = worst_of(|equations, state| {
         let mut worst: f64 = 0.0;
         for j in 0..DOF {

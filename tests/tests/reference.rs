@@ -25,15 +25,16 @@ fn scenes() -> impl Iterator<Item = (System, Point, Point)> {
 
 #[test]
 fn the_mass_matrix_is_symmetric_and_positive_definite() {
+    let (mut skew, mut least): (f64, f64) = (0.0, f64::INFINITY);
     for (system, q, rates) in scenes() {
         let d = equations_of_motion(&system, &q, &rates).d;
         let scale = d.diagonal().map(|x| 1.0 / x.sqrt());
         let scaled = DMatrix::from_fn(DOF, DOF, |j, k| scale[j] * d[(j, k)] * scale[k]);
-        let skew = (&scaled - scaled.transpose()).amax();
-        assert!(skew < 1e-14, "{skew:e}"); // Measured: MEASURED.
-        let least = scaled.symmetric_eigenvalues().min();
-        assert!(least > 1e-4, "{least:e}"); // Measured: MEASURED.
+        skew = skew.max((&scaled - scaled.transpose()).amax());
+        least = least.min(scaled.symmetric_eigenvalues().min());
     }
+    assert!(skew < 1e-14, "{skew:e}"); // Measured: 1.2e-16.
+    assert!(least > 1e-3, "{least:e}"); // Measured: 4.2e-3, the least of 20 scenes.
 }
 
 #[test]
@@ -50,7 +51,7 @@ fn newton_and_euler_give_the_same_equations_of_motion() {
             worst = worst.max((equations.e[j] - e[j]).abs() / e.amax());
         }
     }
-    assert!(worst < 1e-12, "{worst:e}"); // Measured: MEASURED.
+    assert!(worst < 1e-12, "{worst:e}"); // Measured: 6.9e-16.
 }
 
 /// D = Σ M JᵀJ + J_ωᵀ I J_ω and E = −Σ M Jᵀa₀ + J_ωᵀ(I α₀ + ω × I ω), a₀ and α₀ the accelerations for q̈ = 0, all from
@@ -140,7 +141,7 @@ fn forces_change_the_whole_body_s_momentum_and_joints_do_not() {
         }
         worst = worst.max(linear.amax() / size).max(angular.amax() / size);
     }
-    assert!(worst < 1e-12, "{worst:e}"); // Measured: MEASURED.
+    assert!(worst < 1e-12, "{worst:e}"); // Measured: 3.0e-15.
 }
 
 #[test]
@@ -160,7 +161,7 @@ fn kinetic_energy_grows_by_the_power_of_the_forces() {
         worst = worst.max((growth - power).abs() / size);
         assert!(parts[3] < 0.0, "dampers take energy");
     }
-    assert!(worst < 1e-12, "{worst:e}"); // Measured: MEASURED.
+    assert!(worst < 1e-12, "{worst:e}"); // Measured: 4.9e-15.
 }
 
 #[test]
@@ -180,7 +181,7 @@ fn velocity_forces_balance_the_change_of_the_mass_matrix() {
         let power = dot(&equations_of_motion(&system, &q, &rates).e, &rates);
         worst = worst.max((power + change).abs() / change.abs());
     }
-    assert!(worst < 1e-7, "{worst:e}"); // Measured: MEASURED.
+    assert!(worst < 1e-9, "{worst:e}"); // Measured: 1.4e-11.
 }
 
 #[test]
@@ -198,7 +199,7 @@ fn gravity_and_springs_are_slopes_of_their_energies() {
             worst = worst.max((s.f_s[j] + slope(&springs, &q, j)).abs() / 400.0);
         }
     }
-    assert!(worst < 1e-9, "{worst:e}"); // Measured: MEASURED.
+    assert!(worst < 1e-9, "{worst:e}"); // Measured: 6.6e-12.
 }
 
 #[test]
@@ -210,7 +211,7 @@ fn a_turned_scene_moves_the_same_way() {
         let here = system.accelerations_as_it_stands(&state);
         worst = worst.max(system.accelerations(&state).difference(&here));
     }
-    assert!(worst < 1e-11, "{worst:e}"); // Measured: MEASURED.
+    assert!(worst < 1e-11, "{worst:e}"); // Measured: 1.1e-14.
 }
 
 #[test]
@@ -225,7 +226,7 @@ fn the_two_forms_of_a_state_convert_into_each_other() {
                 .max((rates[j] - rates2[j]).abs());
         }
     }
-    assert!(worst < 1e-12, "{worst:e}"); // Measured: MEASURED.
+    assert!(worst < 1e-12, "{worst:e}"); // Measured: 5.8e-15.
 }
 
 fn matrix<T: Number>(pose: &Pose<T>, segment: usize, part: impl Fn(T) -> f64) -> Matrix3<f64> {
@@ -261,7 +262,7 @@ fn dot(a: &Point, b: &Point) -> f64 {
 
 /// ∂f/∂q_j by central differences of order 4.
 fn slope(f: &impl Fn(&Point) -> f64, q: &Point, j: usize) -> f64 {
-    let h = 1e-3;
+    let h = 2e-4;
     let at = |n: f64| {
         let mut there = *q;
         there[j] += n * h;
