@@ -33,10 +33,10 @@ fn damping_and_springs_do_the_work_of_their_torques() {
         let torques =
             balls(&joints).map(|(ball, k, l)| (torque(&ball, &joints, &state, k, l), k, l));
         let damping = damping_forces(&joints, &q, &rates);
-        for j in 0..DOF {
+        for (j, damping_j) in damping.iter().enumerate() {
             let column = space_velocities(&q, &unit(j));
             let spring = -spine_energy(&joints, &varied(&q, j)).slope;
-            let found = damping[j] + spring - hinge_part(&joints, &q, &rates, j);
+            let found = damping_j + spring - hinge_part(&joints, &q, &rates, j);
             let expected = torques
                 .iter()
                 .map(|(t, k, l)| work(t, &column, *k, *l))
