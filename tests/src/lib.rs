@@ -1,5 +1,6 @@
 //! Shared pieces of the proofs.
 
+pub mod core_side;
 pub mod golden;
 pub mod random;
 pub mod reference;

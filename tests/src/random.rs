@@ -6,7 +6,7 @@ use crate::{
     reference::{DOF, PointForce, SpaceMotion, System},
     space_state::SpaceState,
 };
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use occupant_core::{
     body::{Body, Segment, SegmentProperties, standard_spheres},
     joint::{AngularSpring, BallJoint, HingeJoint, Joints, Stop},
@@ -162,22 +162,25 @@ impl Random {
         }
     }
 
-    /// A state at a singular posture of the report's coordinates: most free segments exactly vertical, head up or down.
+    /// A state at a singular posture of the report's coordinates: most free segments exactly vertical, all of them either
+    /// upright or head down.
+    ///
+    /// Two neighbours folded back by exactly 180° are left out: there the sign of β̇, and with it a stop, is undecided.
     pub fn vertical_state(&mut self) -> SpaceState {
         let mut state = self.space_state();
-        for turn in &mut state.turn {
-            if self.chance(0.7) {
-                *turn = self.vertical_turn();
+        let head_down = self.chance(0.3);
+        for (slot, turn) in state.turn.iter_mut().enumerate() {
+            if slot == 0 || self.chance(0.7) {
+                *turn = self.vertical_turn(head_down);
             }
         }
-        state.turn[0] = self.vertical_turn();
         state
     }
 
-    fn vertical_turn(&mut self) -> UnitQuaternion<f64> {
+    fn vertical_turn(&mut self, head_down: bool) -> UnitQuaternion<f64> {
         let yaw = UnitQuaternion::from_scaled_axis(Vector3::z() * self.between(-PI, PI));
-        let half_turn = nalgebra::Quaternion::new(0.0, 1.0, 0.0, 0.0);
-        match self.chance(0.3) {
+        let half_turn = Quaternion::new(0.0, 1.0, 0.0, 0.0);
+        match head_down {
             true => yaw * UnitQuaternion::new_unchecked(half_turn),
             false => yaw,
         }
