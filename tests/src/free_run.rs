@@ -39,13 +39,24 @@ impl FreeRun {
             contacts: ContactSystem::new(&system.body, &[], &[], &[]),
             belts: Vec::new(),
         };
-        let history = History { pairs: Vec::new(), belts: Vec::new() };
-        FreeRun { system, history, frames: [Moving::space(), Moving::space()] }
+        let history = History {
+            pairs: Vec::new(),
+            belts: Vec::new(),
+        };
+        FreeRun {
+            system,
+            history,
+            frames: [Moving::space(), Moving::space()],
+        }
     }
 
     /// The state after `steps` steps of `h` seconds.
     pub fn run(&mut self, state: &State<f64>, h: f64, steps: usize) -> State<f64> {
-        let FreeRun { system, history, frames } = self;
+        let FreeRun {
+            system,
+            history,
+            frames,
+        } = self;
         let mut state = *state;
         for _ in 0..steps {
             state = rk4::step(&state, h, |_, s| system.rate::<false>(s, frames, history));
@@ -62,7 +73,11 @@ impl FreeRun {
             + energy::gravity(body, &k)
             + self.system.joints.stored(&k)
             + state.work.joints;
-        Conserved { energy, linear: linear.to_vector(), angular: angular.to_vector() }
+        Conserved {
+            energy,
+            linear: linear.to_vector(),
+            angular: angular.to_vector(),
+        }
     }
 
     /// Total mass and centre of gravity.

@@ -100,7 +100,12 @@ fn places_and_velocities_agree() {
     for (system, q, rates, state) in report_scenes() {
         let core = CoreSide::new(&system, &state);
         let h = 1e-4;
-        let at = |n: f64| pose(&system.body, &std::array::from_fn(|j| q[j] + n * h * rates[j]));
+        let at = |n: f64| {
+            pose(
+                &system.body,
+                &std::array::from_fn(|j| q[j] + n * h * rates[j]),
+            )
+        };
         let (here, places) = (at(0.0), [at(1.0), at(-1.0), at(2.0), at(-2.0)]);
         for i in 0..12 {
             let cg = core.kinematics.cg(&core.skeleton, i).to_vector();
@@ -141,7 +146,11 @@ fn the_reference_solves_the_same_scenes_in_its_own_coordinates() {
     for (system, q, rates, state) in report_scenes() {
         let solution = equations_of_motion(&system, &q, &rates).accelerations;
         let expected = space_accelerations(&q, &rates, &solution);
-        worst = worst.max(CoreSide::new(&system, &state).accelerations.difference(&expected));
+        worst = worst.max(
+            CoreSide::new(&system, &state)
+                .accelerations
+                .difference(&expected),
+        );
     }
     assert!(worst < 1e-11, "{worst:e}"); // Measured: 2.2e-14.
 }
