@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use occupant_core::{
     body::SEGMENTS,
     kernel::{
-        dynamics::{self, Wrench},
+        dynamics::{self, Accelerations, Wrench},
         joints::JointSystem,
         kinematics::Kinematics,
         skeleton::Skeleton,
@@ -45,8 +45,10 @@ pub struct CoreSide {
     pub kinematics: Kinematics<f64>,
     /// Power that the joints dissipate.
     pub dissipated: f64,
-    /// Accelerations.
+    /// Accelerations of the degrees of freedom.
     pub accelerations: SpaceMotion,
+    /// Accelerations of all segments.
+    pub segments: Accelerations<f64>,
 }
 
 impl CoreSide {
@@ -71,6 +73,7 @@ impl CoreSide {
             kinematics,
             dissipated,
             accelerations,
+            segments: found,
         }
     }
 }

@@ -9,6 +9,7 @@ use occupant_core::{
         self, Frames, History, contact::ContactSystem, frame::Moving, joints::JointSystem,
         kinematics::Kinematics, skeleton::Skeleton, state::State, vector::V3,
     },
+    setup::EdgeForce,
 };
 
 /// A body in empty space.
@@ -36,7 +37,7 @@ impl FreeRun {
         let system = kernel::System {
             skeleton: Skeleton::new(&system.body, -system.gravity.z),
             joints: JointSystem::new(&system.joints, &[f64::NAN; 7]),
-            contacts: ContactSystem::new(&system.body, &[], &[], &[]),
+            contacts: ContactSystem::new(&system.body, &[], &[], &[], EdgeForce::default()),
             belts: Vec::new(),
         };
         let history = History {

@@ -1,5 +1,6 @@
 //! Shared pieces of the proofs.
 
+pub mod compartment;
 pub mod core_side;
 pub mod free_run;
 pub mod golden;
@@ -7,4 +8,5 @@ pub mod mirror;
 pub mod random;
 pub mod reference;
 pub mod scene;
+pub mod segment_motion;
 pub mod space_state;

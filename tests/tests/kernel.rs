@@ -3,15 +3,19 @@
 //! Differences are relative to the largest component of the kind (acceleration of T1; angular accelerations).
 
 use nalgebra::{UnitQuaternion, Vector3};
-use occupant_core::kernel::joints::BALLS;
+use occupant_core::{
+    energy,
+    kernel::{frame::Moving, joints::BALLS, vector::V3},
+};
 use occupant_tests::{
     core_side::CoreSide,
     golden::Golden,
     random::Random,
     reference::{
-        System, damping_forces, equations_of_motion, joint_angle, pose, space_accelerations,
-        spine_energy,
+        System, damping_forces, equations_of_motion, gravity_energy, joint_angle, kinetic_energy,
+        space_accelerations, spine_energy,
     },
+    segment_motion::segment_motions,
     space_state::SpaceState,
 };
 
@@ -95,30 +99,61 @@ fn lean(lean_rad: f64) -> (f64, f64) {
 }
 
 #[test]
-fn places_and_velocities_agree() {
-    let mut worst: f64 = 0.0;
+fn places_velocities_and_accelerations_of_every_segment_agree() {
+    let (mut place, mut speed, mut rate): (f64, f64, f64) = (0.0, 0.0, 0.0);
     for (system, q, rates, state) in report_scenes() {
-        let core = CoreSide::new(&system, &state);
-        let h = 1e-4;
-        let at = |n: f64| {
-            pose(
-                &system.body,
-                &std::array::from_fn(|j| q[j] + n * h * rates[j]),
-            )
-        };
-        let (here, places) = (at(0.0), [at(1.0), at(-1.0), at(2.0), at(-2.0)]);
-        for i in 0..12 {
-            let cg = core.kinematics.cg(&core.skeleton, i).to_vector();
-            worst = worst.max((cg - Vector3::from(here.cg[i])).amax());
-            let z = core.kinematics.axes[i].z.to_vector();
-            worst = worst.max((z - Vector3::from(here.axes[i].z)).amax());
-            let [a, b, c, d] = [0, 1, 2, 3].map(|n| Vector3::from(places[n].cg[i]));
-            let velocity = (8.0 * (a - b) - (c - d)) / (12.0 * h);
-            let found = core.kinematics.cg_velocity(&core.skeleton, i).to_vector();
-            assert!((found - velocity).amax() < 1e-9); // Measured: 9.4e-12.
+        let solution = equations_of_motion(&system, &q, &rates).accelerations;
+        let expected = segment_motions(&system.body, &q, &rates, &solution);
+        let CoreSide {
+            skeleton,
+            kinematics: k,
+            segments,
+            ..
+        } = CoreSide::new(&system, &state);
+        let size = expected.iter().fold(0.0_f64, |m, s| m.max(s.alpha.amax()));
+        for (i, motion) in expected.iter().enumerate() {
+            let gap =
+                |found: V3<f64>, expected| (found.to_vector() - expected as Vector3<f64>).amax();
+            place = place.max(gap(k.cg(&skeleton, i), motion.place));
+            place = place.max((k.axes[i].to_matrix() - motion.turn).amax());
+            speed = speed.max(gap(k.cg_velocity(&skeleton, i), motion.velocity));
+            speed = speed.max(gap(k.omega[i], motion.omega));
+            rate = rate.max(gap(segments.cg(&skeleton, &k, i), motion.acceleration) / size);
+            rate = rate.max(gap(segments.alpha[i], motion.alpha) / size);
         }
     }
-    assert!(worst < 1e-13, "{worst:e}"); // Measured: 8.9e-16.
+    assert!(place < 1e-13, "{place:e}"); // Measured: 8.9e-16.
+    assert!(speed < 1e-12, "{speed:e}"); // Measured: 5.4e-15.
+    assert!(rate < 1e-11, "{rate:e}"); // Measured: 1.2e-14.
+}
+
+#[test]
+fn energies_and_momenta_agree() {
+    let mut worst: f64 = 0.0;
+    for (system, q, rates, state) in report_scenes() {
+        let CoreSide {
+            skeleton,
+            kinematics: k,
+            ..
+        } = CoreSide::new(&system, &state);
+        let found = energy::kinetic(&skeleton, &k, &Moving::space());
+        let expected = kinetic_energy(&system.body, &q, &rates);
+        worst = worst.max((found - expected).abs() / expected);
+        let found = energy::gravity(&skeleton, &k);
+        let expected = gravity_energy(&system.body, &system.gravity, &q);
+        worst = worst.max((found - expected).abs() / expected.abs());
+
+        let motion = segment_motions(&system.body, &q, &rates, &[0.0; 31]);
+        let (mut linear, mut angular) = (Vector3::zeros(), Vector3::zeros());
+        for (m, segment) in motion.iter().zip(&system.body.segments) {
+            linear += segment.mass_kg * m.velocity;
+            angular += segment.mass_kg * m.place.cross(&m.velocity) + m.inertia * m.omega;
+        }
+        let (p, h) = energy::momentum(&skeleton, &k, V3::zero());
+        worst = worst.max((p.to_vector() - linear).norm() / linear.norm());
+        worst = worst.max((h.to_vector() - angular).norm() / angular.norm());
+    }
+    assert!(worst < 1e-12, "{worst:e}"); // Measured: 8.1e-16.
 }
 
 #[test]

@@ -1,13 +1,12 @@
 //! The reference formulation against laws that it was not built from: Newton and Euler, momentum, power, symmetry.
 
-use nalgebra::{DMatrix, DVector, Matrix3, Vector3};
-use occupant_core::body::SEGMENTS;
+use nalgebra::{DMatrix, DVector, Vector3};
 use occupant_tests::{
     random::Random,
     reference::{
-        DOF, Dual, Number, Pose, System, equations_of_motion, gravity_energy, kinetic_energy, pose,
-        spine_energy,
+        DOF, Dual, System, equations_of_motion, gravity_energy, kinetic_energy, spine_energy,
     },
+    segment_motion::segment_motions,
     space_state::SpaceState,
 };
 
@@ -57,12 +56,12 @@ fn newton_and_euler_give_the_same_equations_of_motion() {
 /// D = Σ M JᵀJ + J_ωᵀ I J_ω and E = −Σ M Jᵀa₀ + J_ωᵀ(I α₀ + ω × I ω), a₀ and α₀ the accelerations for q̈ = 0, all from
 /// the positions and from ω× = Ṫ Tᵀ: neither an energy nor Eqs 44–46 enter.
 fn newton_euler(system: &System, q: &Point, rates: &Point) -> (DMatrix<f64>, DVector<f64>) {
-    let motion = segment_motions(system, q, rates, &[0.0; DOF]);
+    let motion = segment_motions(&system.body, q, rates, &[0.0; DOF]);
     let mut d = DMatrix::zeros(DOF, DOF);
     let mut e = DVector::zeros(DOF);
     let push = |j: usize| {
         let unit = std::array::from_fn(|k| if j == k { 1.0 } else { 0.0 });
-        segment_motions(system, q, &unit, &[0.0; DOF])
+        segment_motions(&system.body, q, &unit, &[0.0; DOF])
     };
     let columns: Vec<_> = (0..DOF).map(push).collect();
     for (i, segment) in system.body.segments.iter().enumerate() {
@@ -79,52 +78,12 @@ fn newton_euler(system: &System, q: &Point, rates: &Point) -> (DMatrix<f64>, DVe
     (d, e)
 }
 
-/// One segment's motion in space axes, from its place and turn alone.
-struct SegmentMotion {
-    turn: Matrix3<f64>,
-    place: Vector3<f64>,
-    velocity: Vector3<f64>,
-    acceleration: Vector3<f64>,
-    omega: Vector3<f64>,
-    /// Of the segment about its centre of gravity, space axes.
-    inertia: Matrix3<f64>,
-    /// I α + ω × I ω.
-    moment: Vector3<f64>,
-}
-
-fn segment_motions(
-    system: &System,
-    q: &Point,
-    rates: &Point,
-    accelerations: &Point,
-) -> [SegmentMotion; SEGMENTS] {
-    let pose = moving_pose(system, q, rates, accelerations);
-    std::array::from_fn(|i| {
-        let turn = matrix(&pose, i, |x| x.value.value);
-        let turn_rate = matrix(&pose, i, |x| x.slope.value);
-        let turn_second = matrix(&pose, i, |x| x.slope.slope);
-        let principal = system.body.segments[i].inertia_kg_m2;
-        let inertia = turn * Matrix3::from_diagonal(&principal) * turn.transpose();
-        let omega = axial(&(turn_rate * turn.transpose()));
-        let alpha = axial(&(turn_second * turn.transpose()));
-        SegmentMotion {
-            turn,
-            place: Vector3::from(pose.cg[i].0.map(|x| x.value.value)),
-            velocity: Vector3::from(pose.cg[i].0.map(|x| x.slope.value)),
-            acceleration: Vector3::from(pose.cg[i].0.map(|x| x.slope.slope)),
-            omega,
-            inertia,
-            moment: inertia * alpha + omega.cross(&(inertia * omega)),
-        }
-    })
-}
-
 #[test]
 fn forces_change_the_whole_body_s_momentum_and_joints_do_not() {
     let mut worst: f64 = 0.0;
     for (system, q, rates) in scenes() {
         let accelerations = equations_of_motion(&system, &q, &rates).accelerations;
-        let motion = segment_motions(&system, &q, &rates, &accelerations);
+        let motion = segment_motions(&system.body, &q, &rates, &accelerations);
         let (mut linear, mut angular, mut size) = (Vector3::zeros(), Vector3::zeros(), 0.0);
         for (segment, properties) in motion.iter().zip(&system.body.segments) {
             let push = properties.mass_kg * (segment.acceleration - system.gravity);
@@ -227,28 +186,6 @@ fn the_two_forms_of_a_state_convert_into_each_other() {
         }
     }
     assert!(worst < 1e-12, "{worst:e}"); // Measured: 5.8e-15.
-}
-
-fn matrix<T: Number>(pose: &Pose<T>, segment: usize, part: impl Fn(T) -> f64) -> Matrix3<f64> {
-    let t = pose.axes[segment];
-    Matrix3::from_columns(&[t.x, t.y, t.z].map(|column| Vector3::from(column.0.map(&part))))
-}
-
-/// ω of ω×.
-fn axial(m: &Matrix3<f64>) -> Vector3<f64> {
-    0.5 * Vector3::new(
-        m[(2, 1)] - m[(1, 2)],
-        m[(0, 2)] - m[(2, 0)],
-        m[(1, 0)] - m[(0, 1)],
-    )
-}
-
-/// The pose and its first and second time derivatives.
-fn moving_pose(system: &System, q: &Point, rates: &Point, second: &Point) -> Pose<Dual<Dual<f64>>> {
-    let moving = std::array::from_fn(|j| {
-        Dual::new(Dual::new(q[j], rates[j]), Dual::new(rates[j], second[j]))
-    });
-    pose(&system.body, &moving)
 }
 
 /// x + τ ẋ.
