@@ -6,5 +6,6 @@ pub mod joint;
 pub mod material;
 pub mod problem;
 pub mod report_coordinates;
+pub mod scenario;
 pub mod seating;
 pub mod surface;
