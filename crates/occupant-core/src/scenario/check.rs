@@ -94,13 +94,15 @@ impl Checker<'_> {
     /// Points into the text of a quantity where the text stands letter by letter in the source.
     fn unit_error(&mut self, error: UnitError, node: &Node, path: &str) {
         let literal = self.sources.slice(node.span);
-        let plain = node
-            .as_str()
-            .is_some_and(|text| literal.get(1..literal.len().saturating_sub(1)) == Some(text));
-        let span = match plain && error.end > error.start {
-            true => node.span.part(error.start + 1, error.end + 1),
-            false => node.span,
+        let text = node.as_str().unwrap_or("");
+        let quotes = match literal.get(1..literal.len().saturating_sub(1)) {
+            _ if error.end <= error.start => None,
+            Some(inner) if inner == text => Some(1),
+            _ => (literal == text).then_some(0),
         };
+        let span = quotes.map_or(node.span, |q| {
+            node.span.part(error.start + q, error.end + q)
+        });
         self.report(span, path, error.found, error.expected, error.hint);
     }
 
@@ -115,7 +117,8 @@ impl Checker<'_> {
         .find_map(|(word, words, sign, strict)| {
             let limit = bound(word)?;
             let excess = sign * (value - limit);
-            (excess > 0.0 || (strict && excess == 0.0)).then(|| format!("{} {words} {limit}", kind.noun))
+            (excess > 0.0 || (strict && excess == 0.0))
+                .then(|| format!("{} {words} {limit}", kind.noun))
         });
         if let Some(expected) = expected {
             let found = format!("`{}` is out of range", self.sources.slice(node.span));
@@ -128,7 +131,8 @@ impl Checker<'_> {
         match &node.value {
             Value::String(text) if names.contains(&text.as_str()) => {}
             Value::String(text) => {
-                let hint = nearest(text, names.iter().copied()).map(|n| format!("did you mean \"{n}\"?"));
+                let hint =
+                    nearest(text, names.iter().copied()).map(|n| format!("did you mean \"{n}\"?"));
                 self.report(node.span, path, format!("\"{text}\""), expected, hint);
             }
             _ => self.report(node.span, path, node.kind(), expected, None),
@@ -147,7 +151,9 @@ impl Checker<'_> {
             let found = format!("`{path}` has no key `kind`");
             return self.report(node.span, path, found, expected, None);
         };
-        let case = cases.iter().find(|(name, _)| tag.node.as_str() == Some(name));
+        let case = cases
+            .iter()
+            .find(|(name, _)| tag.node.as_str() == Some(name));
         match case {
             Some((_, view)) => self.table(view, node, table, path),
             None => self.name(&names, &tag.node, &with_key(path, "kind")),
@@ -201,11 +207,18 @@ impl Checker<'_> {
 
     fn unknown_key(&mut self, view: &View, entry: &Entry, path: &str) {
         let keys = view.keys();
-        let hint = nearest(&entry.key, keys.iter().copied()).map(|n| format!("did you mean `{n}`?"));
+        let hint =
+            nearest(&entry.key, keys.iter().copied()).map(|n| format!("did you mean `{n}`?"));
         let found = format!("unknown key `{}`", entry.key);
         let expected = one_of(&keys, '`');
         let parent = &path[..path.len() - with_key("", &entry.key).len()];
-        self.report(entry.key_span, parent.trim_end_matches('.'), found, expected, hint);
+        self.report(
+            entry.key_span,
+            parent.trim_end_matches('.'),
+            found,
+            expected,
+            hint,
+        );
     }
 
     fn groups(&mut self, view: &View, node: &Node, table: &Table, path: &str) {
@@ -216,14 +229,22 @@ impl Checker<'_> {
         for group in groups(object, "x-together") {
             let (given, absent): (Vec<&str>, Vec<&str>) =
                 group.iter().partition(|k| table.get(k).is_some());
-            if let (Some(first), false) = (given.first().and_then(|k| table.get(k)), absent.is_empty()) {
+            if let (Some(first), false) =
+                (given.first().and_then(|k| table.get(k)), absent.is_empty())
+            {
                 let found = format!("{} without {}", quoted(&given, '`'), quoted(&absent, '`'));
                 self.report(first.key_span, path, found, "both or neither", None);
             }
         }
     }
 
-    fn exclusive_groups(&mut self, object: &Map<String, Json>, node: &Node, table: &Table, path: &str) {
+    fn exclusive_groups(
+        &mut self,
+        object: &Map<String, Json>,
+        node: &Node,
+        table: &Table,
+        path: &str,
+    ) {
         for (word, needed) in [("x-exactly-one", true), ("x-at-most-one", false)] {
             for group in groups(object, word) {
                 let given: Vec<&Entry> = group.iter().filter_map(|k| table.get(k)).collect();
@@ -270,7 +291,8 @@ impl Checker<'_> {
         hint: Option<String>,
     ) {
         let problem = error(path, found.into(), expected.into(), hint);
-        self.problems.push(Diagnostic::at(self.sources, span, problem));
+        self.problems
+            .push(Diagnostic::at(self.sources, span, problem));
     }
 }
 

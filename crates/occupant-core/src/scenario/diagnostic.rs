@@ -66,7 +66,9 @@ impl Diagnostic {
         } else {
             0
         };
-        let to = chars.len().min(end.min(start + CONTEXT_CHARS) + CONTEXT_CHARS);
+        let to = chars
+            .len()
+            .min(end.min(start + CONTEXT_CHARS) + CONTEXT_CHARS);
         let (lead, tail) = (
             if from > 0 { "…" } else { "" },
             if to < chars.len() { "…" } else { "" },

@@ -17,7 +17,11 @@ pub enum Format {
 impl Format {
     /// JSON if the first character that is not a blank opens an object, else TOML: no TOML document starts with `{`.
     pub fn of_text(text: &str) -> Format {
-        match text.trim_start_matches('\u{feff}').trim_start().starts_with('{') {
+        match text
+            .trim_start_matches('\u{feff}')
+            .trim_start()
+            .starts_with('{')
+        {
             true => Format::Json,
             false => Format::Toml,
         }

@@ -52,7 +52,9 @@ pub(super) fn expand(sources: &mut Sources, root: &Node) -> Node {
     let mut explicit = root.clone();
     let body = section(sources, root, "body", |layers| body(&layers));
     let sets = root.get("joint_sets").cloned();
-    let joints = section(sources, root, "joints", |layers| joints(&layers, sets.as_ref()));
+    let joints = section(sources, root, "joints", |layers| {
+        joints(&layers, sets.as_ref())
+    });
     if let Some(table) = explicit.as_table_mut() {
         for entry in [body, joints].into_iter().flatten() {
             table.insert(entry);
@@ -100,11 +102,24 @@ fn body(layers: &[Node]) -> Table {
     };
     let segments = parts("segments");
     let names = Segment::ALL.iter().map(|s| s.name());
-    put(&mut explicit, "segments", &segments, members(&segments, names, &SEGMENT_PAIRS));
+    put(
+        &mut explicit,
+        "segments",
+        &segments,
+        members(&segments, names, &SEGMENT_PAIRS),
+    );
     let spheres = parts("spheres");
     let others = other_names(&spheres, &SPHERE_PAIRS, &SPHERE_NAMES);
-    let names = SPHERE_NAMES.iter().copied().chain(others.iter().map(String::as_str));
-    put(&mut explicit, "spheres", &spheres, members(&spheres, names, &SPHERE_PAIRS));
+    let names = SPHERE_NAMES
+        .iter()
+        .copied()
+        .chain(others.iter().map(String::as_str));
+    put(
+        &mut explicit,
+        "spheres",
+        &spheres,
+        members(&spheres, names, &SPHERE_PAIRS),
+    );
     explicit
 }
 
@@ -116,14 +131,21 @@ fn joints(layers: &[Node], sets: Option<&Node>) -> Table {
         explicit.remove(word);
     }
     for joint in Joint::ALL {
-        let pair = JOINT_PAIRS.iter().find(|p| p.contains(&joint.name())).map(|p| p[0]);
+        let pair = JOINT_PAIRS
+            .iter()
+            .find(|p| p.contains(&joint.name()))
+            .map(|p| p[0]);
         let mut merged: Option<Entry> = None;
         for layer in layers {
             for word in ["all"].into_iter().chain(pair).chain([joint.name()]) {
                 let entry = layer.as_table().and_then(|t| t.get(word));
                 if let Some(entry) = entry {
                     let entry = with_set(entry, sets);
-                    let entry = if word == "all" { fitting(entry, joint) } else { entry };
+                    let entry = if word == "all" {
+                        fitting(entry, joint)
+                    } else {
+                        entry
+                    };
                     merged = Some(laid_over(merged, entry));
                 }
             }
@@ -171,7 +193,11 @@ fn with_set(entry: &Entry, sets: Option<&Node>) -> Entry {
 /// All keys of the layers but `preset` and `except`; later layers win.
 fn plain_keys(layers: &[Node], except: &[&str]) -> Table {
     let mut plain = Table::new();
-    for entry in layers.iter().filter_map(Node::as_table).flat_map(Table::iter) {
+    for entry in layers
+        .iter()
+        .filter_map(Node::as_table)
+        .flat_map(Table::iter)
+    {
         if entry.key != "preset" && !except.contains(&entry.key.as_str()) {
             plain.insert(entry.clone());
         }
@@ -182,7 +208,11 @@ fn plain_keys(layers: &[Node], except: &[&str]) -> Table {
 /// Names in the layers that are neither a pair's word nor among `known`, in order of appearance.
 fn other_names(layers: &[Node], pairs: &[[&str; 3]], known: &[&str]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
-    for entry in layers.iter().filter_map(Node::as_table).flat_map(Table::iter) {
+    for entry in layers
+        .iter()
+        .filter_map(Node::as_table)
+        .flat_map(Table::iter)
+    {
         let key = entry.key.as_str();
         let is_pair = pairs.iter().any(|p| p[0] == key);
         if !is_pair && !known.contains(&key) && !names.iter().any(|n| n == key) {

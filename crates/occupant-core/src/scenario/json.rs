@@ -37,7 +37,11 @@ pub fn parse(sources: &Sources, id: SourceId) -> Result<Node, Diagnostics> {
     let node = match parse_to_ast(sources.text(id), &CollectOptions::default(), &STRICT) {
         Ok(parsed) => match parsed.value {
             Some(Ast::Object(object)) => reader.object(object),
-            _ => reader.reject(sources.start_of(id), "no JSON object", "{ \"title\": …, … }"),
+            _ => reader.reject(
+                sources.start_of(id),
+                "no JSON object",
+                "{ \"title\": …, … }",
+            ),
         },
         Err(error) => {
             let span = reader.span(&error.range());
@@ -136,7 +140,10 @@ mod tests {
     #[test]
     fn reads_values_and_rejects_duplicates() {
         let node = read(r#"{"a": [1, 2.5, "x\u00e9"], "b": {"c": null, "d": true}}"#).unwrap();
-        assert_eq!(node.to_json().to_string(), r#"{"a":[1,2.5,"xé"],"b":{"c":null,"d":true}}"#);
+        assert_eq!(
+            node.to_json().to_string(),
+            r#"{"a":[1,2.5,"xé"],"b":{"c":null,"d":true}}"#
+        );
         let error = read("{\"a\": 1,\n \"a\": 2}").unwrap_err().to_string();
         assert_eq!(
             error,
@@ -146,7 +153,16 @@ mod tests {
 
     #[test]
     fn is_strict_and_survives_nonsense() {
-        for text in ["", "[]", "{a: 1}", "{\"a\": 1,}", "{\"a\": 0x1}", "{\"a\": 1} x", "{\"a\": NaN}", "// c\n{}"] {
+        for text in [
+            "",
+            "[]",
+            "{a: 1}",
+            "{\"a\": 1,}",
+            "{\"a\": 0x1}",
+            "{\"a\": 1} x",
+            "{\"a\": NaN}",
+            "// c\n{}",
+        ] {
             assert!(read(text).is_err(), "{text}");
         }
         assert!(read(&"[".repeat(100_000)).is_err());

@@ -50,7 +50,12 @@ pub(super) fn read_csv(
     let mut reader = Reader::new(sources, columns);
     let mut lines = lines(sources, id);
     let Some(header) = lines.next() else {
-        reader.error(sources.start_of(id), "an empty table", "a line that names the columns", None);
+        reader.error(
+            sources.start_of(id),
+            "an empty table",
+            "a line that names the columns",
+            None,
+        );
         return Err(reader.problems);
     };
     reader.header(&cells(sources, header), header);
@@ -84,7 +89,10 @@ pub(super) fn read_inline(
         .iter()
         .filter_map(|n| n.as_str().map(|text| Cell { text, span: n.span }))
         .collect();
-    reader.header(&header, section.get("columns").map_or(section.span, |n| n.span));
+    reader.header(
+        &header,
+        section.get("columns").map_or(section.span, |n| n.span),
+    );
     let mut table = NumberTable {
         rows: Vec::new(),
         row_spans: Vec::new(),
@@ -131,7 +139,13 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn error(&mut self, span: Span, found: impl Into<String>, expected: impl Into<String>, hint: Option<String>) {
+    fn error(
+        &mut self,
+        span: Span,
+        found: impl Into<String>,
+        expected: impl Into<String>,
+        hint: Option<String>,
+    ) {
         let problem = Problem {
             severity: Severity::Error,
             path: String::new(),
@@ -139,7 +153,8 @@ impl<'a> Reader<'a> {
             expected: expected.into(),
             hint,
         };
-        self.problems.push(Diagnostic::at(self.sources, span, problem));
+        self.problems
+            .push(Diagnostic::at(self.sources, span, problem));
     }
 
     fn header(&mut self, cells: &[Cell], span: Span) {
@@ -163,11 +178,21 @@ impl<'a> Reader<'a> {
         let names: Vec<&str> = self.wanted.iter().map(|c| c.name).collect();
         let Some(i) = names.iter().position(|n| *n == name) else {
             let hint = nearest(name, names.iter().copied()).map(|n| format!("did you mean `{n}`?"));
-            self.error(cell.span, format!("unknown column `{name}`"), one_of(&names, '`'), hint);
+            self.error(
+                cell.span,
+                format!("unknown column `{name}`"),
+                one_of(&names, '`'),
+                hint,
+            );
             return None;
         };
         if self.found.iter().flatten().any(|(at, _)| *at == i) {
-            self.error(cell.span, format!("column `{name}` a second time"), "each column once", None);
+            self.error(
+                cell.span,
+                format!("column `{name}` a second time"),
+                "each column once",
+                None,
+            );
             return None;
         }
         let kind = &KINDS[self.wanted[i].kind];
@@ -175,10 +200,24 @@ impl<'a> Reader<'a> {
         Some((i, factor))
     }
 
-    fn factor(&mut self, cell: &Cell, name: &str, unit_text: Option<&str>, kind: &Kind) -> Option<f64> {
-        let expected = format!("the unit of {} in brackets, such as `{name}[{}]`", kind.noun, kind.si);
+    fn factor(
+        &mut self,
+        cell: &Cell,
+        name: &str,
+        unit_text: Option<&str>,
+        kind: &Kind,
+    ) -> Option<f64> {
+        let expected = format!(
+            "the unit of {} in brackets, such as `{name}[{}]`",
+            kind.noun, kind.si
+        );
         let Some(unit_text) = unit_text else {
-            self.error(cell.span, format!("column `{name}` without a unit"), expected, None);
+            self.error(
+                cell.span,
+                format!("column `{name}` without a unit"),
+                expected,
+                None,
+            );
             return None;
         };
         match unit::parse(unit_text, 0) {
@@ -268,7 +307,11 @@ fn cells(sources: &Sources, line: Span) -> Vec<Cell<'_>> {
             let text = raw.trim_matches(blank);
             let lead = raw.len() - raw.trim_start_matches(blank).len();
             let span = match text {
-                "" => Span { source: line.source, start: from, end: from + raw.len() },
+                "" => Span {
+                    source: line.source,
+                    start: from,
+                    end: from + raw.len(),
+                },
                 _ => Span {
                     source: line.source,
                     start: from + lead,

@@ -76,7 +76,10 @@ fn quoted_step(text: &str) -> Result<(Step, usize), String> {
 
 /// A path with one more key.
 pub fn with_key(path: &str, key: &str) -> String {
-    let plain = !key.is_empty() && key.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-');
+    let plain = !key.is_empty()
+        && key
+            .chars()
+            .all(|c| c.is_alphanumeric() || c == '_' || c == '-');
     let key = match plain {
         true => key.to_owned(),
         false => format!("\"{key}\""),
@@ -109,6 +112,11 @@ pub fn child<'a>(node: &'a Node, step: &Step) -> Option<&'a Node> {
     }
 }
 
+/// [`child`] for use in a fold.
+pub(super) fn child_of<'a>(node: &'a Node, step: &Step) -> Option<&'a Node> {
+    child(node, step)
+}
+
 /// Where a path stands in a tree: its value, or the nearest part above it that exists.
 pub fn locate(root: &Node, path: &str) -> Option<Span> {
     let steps = parse(path).ok()?;
@@ -135,7 +143,13 @@ mod tests {
         let key = |k: &str| Step::Key(k.into());
         assert_eq!(
             parse("belts.lap.anchors[1][0]").unwrap(),
-            [key("belts"), key("lap"), key("anchors"), Step::Index(1), Step::Index(0)]
+            [
+                key("belts"),
+                key("lap"),
+                key("anchors"),
+                Step::Index(1),
+                Step::Index(0)
+            ]
         );
         assert_eq!(
             parse("joints.*.damping").unwrap(),
@@ -143,7 +157,9 @@ mod tests {
         );
         let quoted = "surfaces.\"front. cushion\".material";
         assert_eq!(to_text(&parse(quoted).unwrap()), quoted);
-        for wrong in ["", ".", "a.", "a..b", "a[", "a[x]", "a[0]b", "a.\"b", "a.\"\""] {
+        for wrong in [
+            "", ".", "a.", "a..b", "a[", "a[x]", "a[0]b", "a.\"b", "a.\"\"",
+        ] {
             assert!(parse(wrong).is_err(), "{wrong}");
         }
     }

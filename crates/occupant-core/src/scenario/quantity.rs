@@ -80,7 +80,11 @@ fn bare_si(value: f64, kind: &Kind, units: UnitSystem) -> Result<f64, UnitError>
 fn finite(value: f64, text: &str) -> Result<f64, UnitError> {
     match value.is_finite() {
         true => Ok(value),
-        false => Err(whole(text, format!("`{text}` is not finite"), "a finite number".into())),
+        false => Err(whole(
+            text,
+            format!("`{text}` is not finite"),
+            "a finite number".into(),
+        )),
     }
 }
 
@@ -98,13 +102,22 @@ fn whole(text: &str, found: String, expected: String) -> UnitError {
 /// Reads `"48 lbf/in"` and the like.
 fn text_si(text: &str, kind: &Kind) -> Result<f64, UnitError> {
     let expected = || format!("{}: {}", kind.noun, kind.example);
-    let (number, unit_start) = split_number(text)
-        .ok_or_else(|| whole(text, format!("`{text}` does not start with a number"), expected()))?;
+    let (number, unit_start) = split_number(text).ok_or_else(|| {
+        whole(
+            text,
+            format!("`{text}` does not start with a number"),
+            expected(),
+        )
+    })?;
     let unit_text = text[unit_start..].trim_end();
     if unit_text.is_empty() {
         return Err(UnitError {
             hint: Some(format!("write {} without quotes", text.trim())),
-            ..whole(text, format!("a number without unit in quotes, `{text}`"), expected())
+            ..whole(
+                text,
+                format!("a number without unit in quotes, `{text}`"),
+                expected(),
+            )
         });
     }
     if unit_text.starts_with(',') {
@@ -166,16 +179,26 @@ fn pound_hint(number: f64, unit_text: &str, scale: Scale, kind: &Kind) -> Option
     if kind.name == "ratio" || scale.dimension == kind.dimension {
         return None;
     }
-    [("lbf", "lb", "mass"), ("lb", "lbf", "force"), ("lbs", "lbf", "force")]
-        .into_iter()
-        .find_map(|(wrong, right, what)| {
-            let swapped: Vec<String> = words(unit_text)
-                .map(|w| if w == wrong { right.to_owned() } else { w.to_owned() })
-                .collect();
-            let swapped = swapped.concat();
-            let fits = unit::parse(&swapped, 0).is_ok_and(|s| s.dimension.serves_as(kind.dimension));
-            fits.then(|| format!("the pound of {what} is `{right}`: \"{number} {swapped}\""))
-        })
+    [
+        ("lbf", "lb", "mass"),
+        ("lb", "lbf", "force"),
+        ("lbs", "lbf", "force"),
+    ]
+    .into_iter()
+    .find_map(|(wrong, right, what)| {
+        let swapped: Vec<String> = words(unit_text)
+            .map(|w| {
+                if w == wrong {
+                    right.to_owned()
+                } else {
+                    w.to_owned()
+                }
+            })
+            .collect();
+        let swapped = swapped.concat();
+        let fits = unit::parse(&swapped, 0).is_ok_and(|s| s.dimension.serves_as(kind.dimension));
+        fits.then(|| format!("the pound of {what} is `{right}`: \"{number} {swapped}\""))
+    })
 }
 
 /// Splits into runs of letters and single other characters.
@@ -184,7 +207,9 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
     std::iter::from_fn(move || {
         let first = rest.chars().next()?;
         let length = match first.is_alphabetic() {
-            true => rest.find(|c: char| !c.is_alphabetic()).unwrap_or(rest.len()),
+            true => rest
+                .find(|c: char| !c.is_alphabetic())
+                .unwrap_or(rest.len()),
             false => first.len_utf8(),
         };
         let (word, tail) = rest.split_at(length);

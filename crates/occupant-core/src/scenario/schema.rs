@@ -111,6 +111,9 @@ fn at_most_one(keys: &[&str]) -> Value {
 }
 
 fn together(keys: &[&str]) -> Value {
-    let each: Map<String, Value> = keys.iter().map(|k| ((*k).to_owned(), json!(keys))).collect();
+    let each: Map<String, Value> = keys
+        .iter()
+        .map(|k| ((*k).to_owned(), json!(keys)))
+        .collect();
     json!({ "dependentRequired": each })
 }

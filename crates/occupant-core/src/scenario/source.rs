@@ -135,9 +135,15 @@ mod tests {
             start,
             end,
         };
-        assert_eq!(sources.position(span(0, 1)), Position { line: 1, column: 1 });
+        assert_eq!(
+            sources.position(span(0, 1)),
+            Position { line: 1, column: 1 }
+        );
         // γ is two bytes: δ starts at byte 6 but is the second character.
-        assert_eq!(sources.position(span(6, 8)), Position { line: 2, column: 2 });
+        assert_eq!(
+            sources.position(span(6, 8)),
+            Position { line: 2, column: 2 }
+        );
         assert_eq!(sources.line(span(0, 1)), "ab");
         assert_eq!(sources.line(span(6, 8)), "γδ = 1");
         assert_eq!(sources.slice(span(6, 8)), "δ");

@@ -117,16 +117,20 @@ impl<'a> Reader<'a> {
             DeValue::Integer(number) => {
                 match i64::from_str_radix(number.as_str(), number.radix()) {
                     Ok(i) => Value::Integer(i),
-                    Err(_) => self.reject(span, "a whole number too large to read", "at most 64 bits"),
+                    Err(_) => {
+                        self.reject(span, "a whole number too large to read", "at most 64 bits")
+                    }
                 }
             }
             DeValue::Float(number) => match number.as_str().parse() {
                 Ok(x) => Value::Float(x),
                 Err(_) => self.reject(span, "a number that cannot be read", "a decimal number"),
             },
-            DeValue::Datetime(_) => {
-                self.reject(span, "a date or time of day", "a text, in quotes, or a number")
-            }
+            DeValue::Datetime(_) => self.reject(
+                span,
+                "a date or time of day",
+                "a text, in quotes, or a number",
+            ),
         };
         Node { span, value }
     }
@@ -155,9 +159,18 @@ mod tests {
         let node = node.unwrap();
         let keys: Vec<_> = node.as_table().unwrap().iter().map(|e| &e.key).collect();
         assert_eq!(keys, ["z", "a", "m"]);
-        let k1 = node.get("m").unwrap().get("seat").unwrap().get("k1").unwrap();
+        let k1 = node
+            .get("m")
+            .unwrap()
+            .get("seat")
+            .unwrap()
+            .get("k1")
+            .unwrap();
         assert_eq!(sources.slice(k1.span), "4.80");
-        assert_eq!(sources.slice(node.get("m").unwrap().get("seat").unwrap().span), "[m.seat]");
+        assert_eq!(
+            sources.slice(node.get("m").unwrap().get("seat").unwrap().span),
+            "[m.seat]"
+        );
         assert_eq!(sources.slice(node.get("m").unwrap().span), "m");
     }
 

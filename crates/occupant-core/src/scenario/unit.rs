@@ -228,7 +228,11 @@ fn raised(c: char) -> Option<char> {
 }
 
 /// `^2`, `^-1`, `**2`: `digits` follows the sign of `sign_length` bytes at `start`.
-fn power(digits: &str, sign_length: usize, start: usize) -> Result<(Option<Word>, usize), UnitError> {
+fn power(
+    digits: &str,
+    sign_length: usize,
+    start: usize,
+) -> Result<(Option<Word>, usize), UnitError> {
     let minus = usize::from(digits.starts_with('-'));
     let length = digits[minus..]
         .find(|c: char| !c.is_ascii_digit())
@@ -282,7 +286,10 @@ impl Parser {
                 Word::Times | Word::Name(_) | Word::Open | Word::Power(_) if divided => {
                     return Err(UnitError {
                         hint: Some("write a/(b·c) if both divide, a·c/b if only b does".into()),
-                        ..token.error("a product after `/`", "parentheses that say what is divided")
+                        ..token.error(
+                            "a product after `/`",
+                            "parentheses that say what is divided",
+                        )
                     });
                 }
                 Word::Times => {
@@ -292,7 +299,9 @@ impl Parser {
                 _ => 1,
             };
             let factor = self.factor(depth)?;
-            product = product.times(factor.power(sign)).ok_or_else(|| too_high(&token))?;
+            product = product
+                .times(factor.power(sign))
+                .ok_or_else(|| too_high(&token))?;
         }
         Ok(product)
     }
@@ -319,10 +328,18 @@ impl Parser {
                 }
                 inner
             }
-            _ => return Err(token.error("a sign where a unit should stand", "a unit such as in, lbf, s")),
+            _ => {
+                return Err(token.error(
+                    "a sign where a unit should stand",
+                    "a unit such as in, lbf, s",
+                ));
+            }
         };
         match self.peek().cloned() {
-            Some(Token { word: Word::Power(n), .. }) => {
+            Some(Token {
+                word: Word::Power(n),
+                ..
+            }) => {
                 self.at += 1;
                 base.checked_power(n).ok_or_else(|| too_high(&token))
             }
@@ -332,7 +349,10 @@ impl Parser {
 }
 
 fn too_high(token: &Token) -> UnitError {
-    token.error("too high a power", format!("powers of at most {MAX_EXPONENT}"))
+    token.error(
+        "too high a power",
+        format!("powers of at most {MAX_EXPONENT}"),
+    )
 }
 
 /// Looks a unit up.

@@ -95,7 +95,10 @@ impl View {
                 .iter()
                 .any(|word| object.contains_key(*word))
         };
-        [Some(self.own), self.base].into_iter().flatten().find(|o| has(o))
+        [Some(self.own), self.base]
+            .into_iter()
+            .flatten()
+            .find(|o| has(o))
     }
 
     /// What is expected here, in words.

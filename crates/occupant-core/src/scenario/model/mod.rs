@@ -20,7 +20,9 @@ pub use belt::BeltSection;
 pub use body::{BodySection, SegmentSection, Segments, SphereSection};
 pub use joint::{JointSection, JointsSection, StopSection};
 pub use material::{MaterialSection, MemoryChoice};
-pub use path::{After, Interpolate, PathSection, PoseSection, PulseSection, PulseShape, TableSection};
+pub use path::{
+    After, Interpolate, PathSection, PoseSection, PulseSection, PulseShape, TableSection,
+};
 pub use posture::{InitialStateSection, PostureSection, SeatSection};
 pub use run::{AdaptiveSection, IntegratorSection, OutputSection, Rk4Section, TimeSection};
 pub use surface::{DiscSection, FacingChoice, FrameChoice, PlaneSection, SurfaceSection};
