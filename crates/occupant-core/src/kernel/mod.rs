@@ -1,0 +1,265 @@
+//! The derivative kernel: from a state to its rate of change.
+//!
+//! One evaluation reads as the report's method: places and velocities of the segments, loads from contacts, belts and
+//! joints, then the accelerations of the tree. It allocates nothing, and is written once over [`scalar::Scalar`].
+//!
+//! Results that are not integrated (which surface is touched, how strongly) go to an [`Observer`]; the unit observer `()`
+//! costs nothing.
+
+pub mod assembly;
+pub mod belts;
+pub mod contact;
+pub mod dynamics;
+pub mod face;
+pub mod frame;
+pub mod joints;
+pub mod kinematics;
+pub mod limb;
+pub mod scalar;
+pub mod skeleton;
+pub mod spring;
+pub mod state;
+pub mod vector;
+
+use belts::{BeltAction, BeltHistory, BeltLaw};
+use contact::{Approach, ContactSystem, PairHistory, Touch};
+use dynamics::{Accelerations, Wrench};
+use frame::{Moving, VEHICLE};
+use joints::JointSystem;
+use kinematics::Kinematics;
+use scalar::Scalar;
+use skeleton::Skeleton;
+use state::{FREE, State, Work};
+use vector::V3;
+
+use crate::body::SEGMENTS;
+
+/// Motions of the frames at one instant, by [`frame::SPACE`] and [`frame::VEHICLE`].
+pub type Frames<S> = [Moving<S>; 2];
+
+/// Constants of everything that acts: body, joints, contacts, belts.
+#[derive(Clone, Debug)]
+pub struct System<S> {
+    /// Masses and geometry.
+    pub skeleton: Skeleton<S>,
+    /// Joint moments.
+    pub joints: JointSystem<S>,
+    /// Spheres and surfaces.
+    pub contacts: ContactSystem<S>,
+    /// Belts.
+    pub belts: Vec<BeltLaw<S>>,
+}
+
+/// What pairs and belts remember between steps; changed only at accepted steps.
+#[derive(Clone, Debug)]
+pub struct History<S> {
+    /// By pair.
+    pub pairs: Vec<PairHistory<S>>,
+    /// By belt.
+    pub belts: Vec<BeltHistory<S>>,
+}
+
+/// Receives what happens in an evaluation.
+pub trait Observer<S> {
+    /// A pair exerts a force.
+    #[inline(always)]
+    fn touch(&mut self, _touch: &Touch<S>) {}
+    /// Shape and force of belt `_index`.
+    #[inline(always)]
+    fn belt(&mut self, _index: usize, _action: &BeltAction<S>) {}
+}
+
+impl<S> Observer<S> for () {}
+
+/// One evaluation with all that it derived.
+#[derive(Clone, Copy, Debug)]
+pub struct Evaluation<S> {
+    /// Places and velocities.
+    pub kinematics: Kinematics<S>,
+    /// Loads on the segments, without gravity.
+    pub wrench: [Wrench<S>; SEGMENTS],
+    /// Accelerations.
+    pub accelerations: Accelerations<S>,
+    /// Powers for the energy ledger, W.
+    pub power: Work<S>,
+}
+
+impl<S: Scalar> System<S> {
+    /// Rate of change of `state`. With `COMMIT` the history first takes over the present position, which must be that of
+    /// an accepted step; without it the history is only read.
+    #[inline]
+    pub fn rate<const COMMIT: bool>(
+        &self,
+        state: &State<S>,
+        frames: &Frames<S>,
+        history: &mut History<S>,
+    ) -> State<S> {
+        self.rate_observed::<COMMIT>(state, frames, history, &mut ())
+    }
+
+    /// [`System::rate`] with an observer.
+    #[inline]
+    pub fn rate_observed<const COMMIT: bool>(
+        &self,
+        state: &State<S>,
+        frames: &Frames<S>,
+        history: &mut History<S>,
+        observer: &mut impl Observer<S>,
+    ) -> State<S> {
+        let e = self.evaluate::<COMMIT>(state, frames, history, observer);
+        let mut rate = State {
+            t1: state.velocity,
+            velocity: e.accelerations.joint[0],
+            hinge: state.hinge_rate,
+            hinge_rate: e.accelerations.hinge,
+            work: e.power,
+            ..*state
+        };
+        for (slot, &n) in FREE.iter().enumerate() {
+            rate.orientation[slot] = state.orientation[slot].rate(state.omega[slot]);
+            rate.omega[slot] = e.accelerations.alpha[n];
+        }
+        rate
+    }
+
+    /// Everything that [`System::rate`] derives.
+    #[inline(always)]
+    pub fn evaluate<const COMMIT: bool>(
+        &self,
+        state: &State<S>,
+        frames: &Frames<S>,
+        history: &mut History<S>,
+        observer: &mut impl Observer<S>,
+    ) -> Evaluation<S> {
+        let kinematics = Kinematics::new(&self.skeleton, state);
+        let mut wrench = [Wrench::zero(); SEGMENTS];
+        let mut power = State::zero().work;
+        self.add_contacts::<COMMIT>(
+            &kinematics,
+            frames,
+            history,
+            &mut wrench,
+            &mut power,
+            observer,
+        );
+        self.add_belts::<COMMIT>(
+            &kinematics,
+            frames,
+            history,
+            &mut wrench,
+            &mut power,
+            observer,
+        );
+        power.joints = self.joints.apply(&kinematics, state, &mut wrench);
+        let accelerations =
+            dynamics::solve(&self.skeleton, &kinematics, &state.hinge_rate, &wrench);
+        Evaluation {
+            kinematics,
+            wrench,
+            accelerations,
+            power,
+        }
+    }
+
+    /// Takes over the position of an accepted step into the history.
+    #[inline]
+    pub fn commit(
+        &self,
+        state: &State<S>,
+        frames: &Frames<S>,
+        history: &mut History<S>,
+        observer: &mut impl Observer<S>,
+    ) {
+        let k = Kinematics::new(&self.skeleton, state);
+        let mut wrench = [Wrench::zero(); SEGMENTS];
+        let mut power = State::zero().work;
+        self.add_contacts::<true>(&k, frames, history, &mut wrench, &mut power, observer);
+        self.add_belts::<true>(&k, frames, history, &mut wrench, &mut power, observer);
+    }
+
+    /// Contact forces on the segments (Eqs 84–94, 63–68).
+    #[inline(always)]
+    fn add_contacts<const COMMIT: bool>(
+        &self,
+        k: &Kinematics<S>,
+        frames: &Frames<S>,
+        history: &mut History<S>,
+        wrench: &mut [Wrench<S>; SEGMENTS],
+        power: &mut Work<S>,
+        observer: &mut impl Observer<S>,
+    ) {
+        for group in &self.contacts.groups {
+            let n = self.contacts.sites[group.sphere].segment;
+            let radius = self.contacts.sites[group.sphere].radius;
+            let frame = &frames[group.frame];
+            let (arm, centre, velocity) = self.sphere(k, group.sphere);
+            let approach = Approach::new(frame, centre, velocity, k.omega[n]);
+            let (mut force, mut twist) = (V3::zero(), V3::zero());
+            let mut touched = false;
+            for i in group.pairs.clone() {
+                let pair = &mut history.pairs[i];
+                let Some(t) = self.contacts.touch::<COMMIT>(group, i, &approach, pair) else {
+                    continue;
+                };
+                touched = true;
+                let press = t.normal * t.normal_force + t.edge;
+                force += press + t.friction;
+                twist += t.normal.cross(t.friction) * -radius;
+                power.contact -= press.dot(approach.velocity);
+                power.friction -= t.friction.dot(t.slip);
+                observer.touch(&t);
+            }
+            if !touched {
+                continue;
+            }
+            let (force, twist) = (frame.axes.out(force), frame.axes.out(twist));
+            wrench[n].force += force;
+            wrench[n].moment += arm.cross(force) + twist;
+            // F·v of the frame at the centre, and the friction's lever about it
+            power.vehicle += force.dot(frame.velocity_at(centre)) + twist.dot(frame.omega);
+        }
+    }
+
+    /// Belt forces (Eqs 95–108), at the spheres' centres.
+    #[inline(always)]
+    fn add_belts<const COMMIT: bool>(
+        &self,
+        k: &Kinematics<S>,
+        frames: &Frames<S>,
+        history: &mut History<S>,
+        wrench: &mut [Wrench<S>; SEGMENTS],
+        power: &mut Work<S>,
+        observer: &mut impl Observer<S>,
+    ) {
+        let frame = &frames[VEHICLE];
+        for (i, belt) in self.belts.iter().enumerate() {
+            let n = self.contacts.sites[belt.sphere].segment;
+            let (arm, centre, velocity) = self.sphere(k, belt.sphere);
+            let centre_v = frame.axes.into_frame(centre - frame.origin);
+            let action = belt.act(centre_v, &history.belts[i]);
+            if COMMIT {
+                belt.commit(&action, &mut history.belts[i]);
+            }
+            let force = frame.axes.out(action.force);
+            let carried = frame.velocity_at(centre);
+            wrench[n].force += force;
+            wrench[n].moment += arm.cross(force);
+            power.belts -= force.dot(velocity - carried);
+            power.vehicle += force.dot(carried);
+            observer.belt(i, &action);
+        }
+    }
+
+    /// A sphere's centre seen from its segment's joint, in space, and its velocity; all in space axes.
+    #[inline(always)]
+    pub fn sphere(&self, k: &Kinematics<S>, sphere: usize) -> (V3<S>, V3<S>, V3<S>) {
+        let site = &self.contacts.sites[sphere];
+        let n = site.segment;
+        let arm = k.axes[n].out(site.offset);
+        (
+            arm,
+            k.joint[n] + arm,
+            k.joint_velocity[n] + k.omega[n].cross(arm),
+        )
+    }
+}
