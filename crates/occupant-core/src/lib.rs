@@ -13,18 +13,13 @@ pub mod path;
 pub mod problem;
 pub mod recorder;
 pub mod report_coordinates;
-<<<<<<< HEAD
-pub mod scenario;
-pub mod seating;
-pub mod setup;
-=======
 pub mod sample;
+pub mod scenario;
 pub mod seat;
 pub mod seating;
 pub mod settle;
 pub mod setup;
 pub mod simulate;
->>>>>>> main
 pub mod surface;
 mod trig;
 mod validate;

@@ -108,15 +108,9 @@ impl PulsePath {
         let stop = stop_after_loss(definition.initial_speed_m_s);
         let floor =
             stop_after_loss(definition.initial_speed_m_s + definition.rebound_m_s.unwrap_or(0.0));
-        if let Some(floor) = floor.filter(|_| definition.initial_speed_m_s == 0.0) {
-            let since_s = floor.time_s - begin_s;
-            let before_m_s = profile.greatest_gain_m_s(0.0, since_s);
-            let after_m_s = profile.greatest_gain_m_s(since_s, profile.duration_s());
-            if floor.distance_m == 0.0 || after_m_s > before_m_s {
-                return Err(vec![PathProblem::PulseHoldsBack {
-                    stop_s: floor.time_s,
-                }]);
-            }
+        if definition.initial_speed_m_s == 0.0 && floor.is_some_and(|floor| floor.distance_m == 0.0)
+        {
+            return Err(vec![PathProblem::PulseNeverMoves]);
         }
         let at_rest = FrameMotion {
             origin_m: to_space(definition.initial.position_m),

@@ -173,8 +173,7 @@ fn station_of(problem: &PathProblem) -> Option<usize> {
     match problem {
         PathProblem::TimeNotIncreasing { station, .. }
         | PathProblem::StationNotFinite { station, .. }
-        | PathProblem::AngleJump { station, .. }
-        | PathProblem::TooSteep { station, .. } => Some(*station),
+        | PathProblem::AngleJump { station, .. } => Some(*station),
         _ => None,
     }
 }
