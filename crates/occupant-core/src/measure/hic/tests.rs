@@ -189,6 +189,25 @@ fn published_examples() {
     let found = hic(&sine, 1e-4, HicWindow::Other(0.03)).unwrap();
     assert!((found.value - 0.020_480_2).abs() < 1e-7);
     assert!((found.start_s - 0.010).abs() < 1e-6 && (found.end_s - 0.040).abs() < 1e-6);
+    // 10·sin t over half a period: the best 36 ms stand around the crest
+    let slow: Vec<f64> = (0..=3141)
+        .map(|i| 10.0 * G * (f64::from(i) * 1e-3).sin())
+        .collect();
+    let found = hic(&slow, 1e-3, HicWindow::Ms36).unwrap().value;
+    let expected = 0.036 * (20.0 * 0.018f64.sin() / 0.036).powf(2.5);
+    assert!((found / expected - 1.0).abs() < 1e-6); // measured 2.1e-7
+    // 22000/((t − 74)² + 500), t in ms: the same head with an airbag, 10 kHz
+    let airbag: Vec<f64> = (0..=1500)
+        .map(|i| G * 22_000.0 / ((f64::from(i) * 0.1 - 74.0).powi(2) + 500.0))
+        .collect();
+    for (window, expected) in [
+        (HicWindow::Ms15, 176.141_965),
+        (HicWindow::Ms36, 300.728_307),
+        (HicWindow::Other(0.05), 315.247_615),
+    ] {
+        // measured 2e-8, 3e-7 and, where the free window ends between samples, 6.6e-4
+        assert!((hic(&airbag, 1e-4, window).unwrap().value - expected).abs() < 1e-3);
+    }
 }
 
 #[test]
