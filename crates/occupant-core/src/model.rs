@@ -128,7 +128,14 @@ fn begin(
         .path
         .motion(start_s, start_s, &mut PathCursor::default());
     let skeleton = Skeleton::new(&setup.body, setup.gravity_m_s2);
-    let contacts = ContactSystem::new(&setup.body, &setup.surfaces, faces, &setup.materials);
+    let contacts = ContactSystem::new(
+        &setup.body,
+        &setup.surfaces,
+        faces,
+        &setup.materials,
+        setup.edge_force,
+        setup.integrator.longest_step_s(),
+    );
     let mut system = System {
         skeleton,
         joints: JointSystem::new(&setup.joints, &[0.0; 7]),
@@ -296,5 +303,5 @@ pub(crate) fn initial_history(
         .iter()
         .map(|b| b.initial_history(in_frame(b.sphere, VEHICLE)))
         .collect();
-    History { pairs, belts }
+    History::new(&system.contacts, pairs, belts)
 }

@@ -47,11 +47,31 @@ pub enum Integrator {
     },
 }
 
+impl Integrator {
+    /// The longest step that it can take, s.
+    pub fn longest_step_s(&self) -> f64 {
+        match *self {
+            Integrator::Rk4 { step_s } => step_s,
+            Integrator::Adaptive { max_step_s, .. } => max_step_s,
+        }
+    }
+}
+
 /// What is recorded besides the results every run has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct OutputOptions {
     /// Also record the report's q₁…q₃₁ and their rates.
     pub report_coordinates: bool,
+}
+
+/// Where the edge force of a bounded face acts on a sphere.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum EdgeForce {
+    /// At A = centre − r N̂ like the rest of the contact force: the specification's words.
+    #[default]
+    AtContactPoint,
+    /// At the centre, where it is conservative.
+    AtCentre,
 }
 
 /// Everything a run needs.
@@ -69,6 +89,8 @@ pub struct Setup {
     pub materials: Vec<Material>,
     /// Surfaces, vehicle's and space's.
     pub surfaces: Vec<Surface>,
+    /// Where the edge force acts.
+    pub edge_force: EdgeForce,
     /// Belts.
     pub belts: Vec<Belt>,
     /// Motion of the vehicle.
