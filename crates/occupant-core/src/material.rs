@@ -1,0 +1,46 @@
+//! What a surface or a webbing is made of: the bilinear dissipative spring, as data.
+//!
+//! Report: "Magnitude of the Contact Force", Fig. 16 (lost; the curve is our reading, see the theory manual).
+
+/// Force over deformation while loading: slope K₁ up to Δ_b, then K₂.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BilinearSpring {
+    /// K₁.
+    pub k1_n_per_m: f64,
+    /// K₂.
+    pub k2_n_per_m: f64,
+    /// Δ_b, where the slope changes.
+    pub break_m: f64,
+    /// μ₁, fraction of the energy stored below Δ_b that unloading returns, 0 to 1.
+    pub returned_1: f64,
+    /// μ₂, the same above Δ_b.
+    pub returned_2: f64,
+}
+
+/// Whether a pair remembers its crush after it has opened.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Memory {
+    /// Δ_m is forgotten when the pair opens (padding that recovers).
+    #[default]
+    Reset,
+    /// Δ_m is kept for that pair (crushed metal).
+    Retain,
+}
+
+/// A contact material.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// Unique name.
+    pub name: String,
+    /// Normal force law.
+    pub spring: BilinearSpring,
+    /// f, coefficient of friction.
+    pub friction: f64,
+    /// v_s, speed at which friction reaches 1/√2 of its full value. Default 0.127 m/s (5 in/s).
+    pub friction_speed_m_s: f64,
+    /// What is remembered after opening.
+    pub memory: Memory,
+}
+
+/// v_s unless a scenario gives another: 5 in/s.
+pub const DEFAULT_FRICTION_SPEED_M_S: f64 = 0.127;

@@ -1,0 +1,46 @@
+//! A vehicle (or any frame) that stands still.
+
+use super::frame::{FrameMotion, rotation_to_space, to_space};
+use super::problem::PathProblem;
+use super::{VehiclePose, expect_finite_pose};
+
+/// A frame at rest.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FixedPath {
+    pose: VehiclePose,
+    motion: FrameMotion,
+}
+
+impl FixedPath {
+    /// A frame that stands at `pose` for ever.
+    ///
+    /// # Errors
+    /// Every number of the pose that is not finite.
+    pub fn new(pose: VehiclePose) -> Result<Self, Vec<PathProblem>> {
+        let mut problems = Vec::new();
+        expect_finite_pose(&mut problems, &pose);
+        if !problems.is_empty() {
+            return Err(problems);
+        }
+        let origin_m = to_space(pose.position_m);
+        let rotation = rotation_to_space(pose.attitude.matrix());
+        Ok(FixedPath {
+            pose,
+            motion: FrameMotion {
+                origin_m,
+                rotation,
+                ..FrameMotion::space()
+            },
+        })
+    }
+
+    /// Where it stands.
+    pub fn pose(&self) -> VehiclePose {
+        self.pose
+    }
+
+    /// The same, with its (zero) motion, in space axes.
+    pub fn motion(&self) -> FrameMotion {
+        self.motion
+    }
+}

@@ -1,0 +1,110 @@
+//! Pose and motion of a moving frame at one instant (Eqs 81 to 83).
+
+use nalgebra::{Matrix3, Vector3};
+
+use super::attitude::rotation_by;
+
+/// Pose and motion of a moving frame at one instant, all in space axes (X′ forward, Y′ left, Z′ up), SI.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrameMotion {
+    /// Where the frame's origin is, m. For a vehicle F·X_vc (Eq. 82).
+    pub origin_m: Vector3<f64>,
+    /// Turns components along the frame's axes into components along the space axes: R_v = F·A (Eq. 82).
+    pub rotation: Matrix3<f64>,
+    /// Velocity of the origin, m/s.
+    pub velocity_m_s: Vector3<f64>,
+    /// Angular velocity of the frame, rad/s.
+    pub angular_velocity_rad_s: Vector3<f64>,
+    /// Acceleration of the origin, m/s².
+    pub acceleration_m_s2: Vector3<f64>,
+    /// Angular acceleration of the frame, rad/s².
+    pub angular_acceleration_rad_s2: Vector3<f64>,
+}
+
+impl FrameMotion {
+    /// The space frame itself: origin at zero, at rest.
+    pub const fn space() -> Self {
+        let zero = Vector3::new(0.0, 0.0, 0.0);
+        FrameMotion {
+            origin_m: zero,
+            rotation: Matrix3::new(1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0),
+            velocity_m_s: zero,
+            angular_velocity_rad_s: zero,
+            acceleration_m_s2: zero,
+            angular_acceleration_rad_s2: zero,
+        }
+    }
+
+    /// The space point of a point given in the frame, m.
+    pub fn point_to_space(&self, point_frame_m: Vector3<f64>) -> Vector3<f64> {
+        // X′ = F·X_vc + F·A·X_v (82)
+        self.origin_m + self.rotation * point_frame_m
+    }
+
+    /// The point in the frame of a point given in space, m.
+    pub fn point_to_frame(&self, point_space_m: Vector3<f64>) -> Vector3<f64> {
+        // X_v = Aᵀ·F·X′ − Aᵀ·X_vc (83)
+        self.rotation.tr_mul(&(point_space_m - self.origin_m))
+    }
+
+    /// Components along the space axes of a vector given along the frame's axes (Eq. 94).
+    pub fn vector_to_space(&self, vector_frame: Vector3<f64>) -> Vector3<f64> {
+        self.rotation * vector_frame
+    }
+
+    /// Components along the frame's axes of a vector given along the space axes.
+    pub fn vector_to_frame(&self, vector_space: Vector3<f64>) -> Vector3<f64> {
+        self.rotation.tr_mul(&vector_space)
+    }
+
+    /// Velocity in space, m/s, of the point of the frame that is at `point_space_m` now.
+    pub fn velocity_at(&self, point_space_m: Vector3<f64>) -> Vector3<f64> {
+        // v + ω × r
+        self.velocity_m_s
+            + self
+                .angular_velocity_rad_s
+                .cross(&(point_space_m - self.origin_m))
+    }
+
+    /// Acceleration in space, m/s², of the point of the frame that is at `point_space_m` now.
+    pub fn acceleration_at(&self, point_space_m: Vector3<f64>) -> Vector3<f64> {
+        // a + α × r + ω × (ω × r)
+        let arm_m = point_space_m - self.origin_m;
+        let omega = self.angular_velocity_rad_s;
+        self.acceleration_m_s2
+            + self.angular_acceleration_rad_s2.cross(&arm_m)
+            + omega.cross(&omega.cross(&arm_m))
+    }
+
+    /// The same frame `duration_s` later, its velocity and angular velocity in space unchanged.
+    pub(super) fn coasted(&self, duration_s: f64) -> Self {
+        FrameMotion {
+            origin_m: self.origin_m + self.velocity_m_s * duration_s,
+            rotation: rotation_by(self.angular_velocity_rad_s * duration_s) * self.rotation,
+            acceleration_m_s2: Vector3::zeros(),
+            angular_acceleration_rad_s2: Vector3::zeros(),
+            ..*self
+        }
+    }
+
+    /// The same pose, at rest.
+    pub(super) fn held(&self) -> Self {
+        FrameMotion {
+            origin_m: self.origin_m,
+            rotation: self.rotation,
+            ..FrameMotion::space()
+        }
+    }
+}
+
+/// F·v: a vehicle-space vector (X′_v forward, Y′_v right, Z′_v down) along the space axes (Eq. 81).
+///
+/// F = diag(1, −1, −1) is a half turn about X′, a proper rotation: angular velocities go by the same rule.
+pub(super) fn to_space(vector: Vector3<f64>) -> Vector3<f64> {
+    Vector3::new(vector.x, -vector.y, -vector.z)
+}
+
+/// F·A: rows 2 and 3 of `matrix` with their signs turned.
+pub(super) fn rotation_to_space(matrix: Matrix3<f64>) -> Matrix3<f64> {
+    Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0)) * matrix
+}

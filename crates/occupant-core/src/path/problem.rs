@@ -1,0 +1,208 @@
+//! What can be wrong with a vehicle path.
+
+use std::error::Error;
+use std::fmt;
+
+/// One thing that is wrong with a vehicle path, with what was found and what was expected.
+///
+/// Stations (and points of a tabulated pulse) are counted from 0 in the fields and from 1 in the message.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum PathProblem {
+    /// A table or a tabulated pulse needs two stations.
+    TooFewStations {
+        /// How many there are.
+        found: usize,
+    },
+    /// A station is not later than the one before it.
+    TimeNotIncreasing {
+        /// The later one of the two stations.
+        station: usize,
+        /// Its time, s.
+        time_s: f64,
+        /// The time of the station before it, s.
+        previous_s: f64,
+    },
+    /// A number at a station is infinite or not a number.
+    StationNotFinite {
+        /// The station.
+        station: usize,
+        /// Which of its quantities.
+        quantity: &'static str,
+        /// What was found.
+        value: f64,
+    },
+    /// An angle changes by more than half a turn from one station to the next.
+    AngleJump {
+        /// The later one of the two stations.
+        station: usize,
+        /// Which angle.
+        angle: &'static str,
+        /// The angle at the station before, rad.
+        from_rad: f64,
+        /// The angle at the station, rad.
+        to_rad: f64,
+    },
+    /// A quantity changes so much in so short a time that its rate is no number.
+    TooSteep {
+        /// The later one of the two stations.
+        station: usize,
+        /// Which quantity.
+        quantity: &'static str,
+    },
+    /// A number is infinite or not a number.
+    NotFinite {
+        /// Which quantity.
+        quantity: &'static str,
+        /// What was found.
+        value: f64,
+    },
+    /// A number that must be above zero is not.
+    NotPositive {
+        /// Which quantity.
+        quantity: &'static str,
+        /// What was found, SI.
+        value: f64,
+    },
+    /// A number that must be zero or above is not.
+    Negative {
+        /// Which quantity.
+        quantity: &'static str,
+        /// What was found, SI.
+        value: f64,
+    },
+    /// The direction of travel is the zero vector.
+    NoDirection,
+    /// The peak of a triangle lies outside its duration.
+    PeakFractionOutside {
+        /// What was found; expected between 0 and 1.
+        value: f64,
+    },
+    /// A pulse begins before t = 0, where its initial speed and position hold.
+    PulseBeforeZero {
+        /// When it begins, s.
+        begin_s: f64,
+    },
+    /// The pulse decelerates nothing: its peak, or its change of velocity, is zero.
+    PulseIsZero,
+    /// A vehicle that starts at rest is stopped by the pulse before the pulse has set it going.
+    PulseHoldsBack {
+        /// When it is stopped for good, s.
+        stop_s: f64,
+    },
+    /// A run starts before the first station.
+    StartsBeforePath {
+        /// Start of the run, s.
+        start_s: f64,
+        /// First station, s.
+        first_s: f64,
+    },
+    /// A run ends past the last station, and the path says nothing of what comes after.
+    EndsAfterPath {
+        /// End of the run, s.
+        end_s: f64,
+        /// Last station, s.
+        last_s: f64,
+    },
+}
+
+impl fmt::Display for PathProblem {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        use PathProblem as P;
+        match *self {
+            P::TooFewStations { found } => write!(f, "found {found} stations, expected at least 2"),
+            P::TimeNotIncreasing {
+                station,
+                time_s,
+                previous_s,
+            } => write!(
+                f,
+                "station {}: found t = {time_s} s, expected a time after that of the station before ({previous_s} s)",
+                station + 1
+            ),
+            P::StationNotFinite {
+                station,
+                quantity,
+                value,
+            } => {
+                write!(
+                    f,
+                    "station {}: found {quantity} = {value}, expected a finite number",
+                    station + 1
+                )
+            }
+            P::AngleJump {
+                station,
+                angle,
+                from_rad,
+                to_rad,
+            } => write!(
+                f,
+                "station {}: {angle} goes from {:.3}° to {:.3}°, expected less than half a turn between stations; unwrap \
+                 the angles (add or take whole turns) or give more stations",
+                station + 1,
+                from_rad.to_degrees(),
+                to_rad.to_degrees()
+            ),
+            P::TooSteep { station, quantity } => write!(
+                f,
+                "station {}: {quantity} changes too much since the station before for its rate to be a number, expected \
+                 stations farther apart in time",
+                station + 1
+            ),
+            P::NotFinite { quantity, value } => {
+                write!(f, "found {quantity} = {value}, expected a finite number")
+            }
+            P::NotPositive { quantity, value } => {
+                write!(f, "found {quantity} = {value}, expected more than 0")
+            }
+            P::Negative { quantity, value } => {
+                write!(f, "found {quantity} = {value}, expected 0 or more")
+            }
+            P::NoDirection => write!(
+                f,
+                "the direction of travel is zero, expected a vector with a length"
+            ),
+            P::PeakFractionOutside { value } => {
+                write!(
+                    f,
+                    "found a peak at the fraction {value} of the pulse, expected 0 to 1"
+                )
+            }
+            P::PulseBeforeZero { begin_s } => write!(
+                f,
+                "the pulse begins at {begin_s} s, expected 0 s or later: the initial speed and position are those at 0 s"
+            ),
+            P::PulseIsZero => write!(
+                f,
+                "the pulse is zero throughout, expected a deceleration somewhere"
+            ),
+            P::PulseHoldsBack { stop_s } => write!(
+                f,
+                "the initial speed is 0 and the pulse decelerates before it has set the vehicle going, so that the \
+                 vehicle stands still from {stop_s} s on; give an initial speed, or a negative deceleration for a \
+                 vehicle that is accelerated, or a rebound for one that may move back"
+            ),
+            P::StartsBeforePath { start_s, first_s } => {
+                write!(
+                    f,
+                    "the run starts at {start_s} s, expected at or after the first station at {first_s} s"
+                )
+            }
+            P::EndsAfterPath { end_s, last_s } => write!(
+                f,
+                "the run ends at {end_s} s, expected at or before the last station at {last_s} s; shorten the run, or say \
+                 what the vehicle does after the last station: after = \"coast\" or \"hold\""
+            ),
+        }
+    }
+}
+
+impl Error for PathProblem {}
+
+/// Adds a problem to `problems` unless `value` is finite.
+pub(super) fn expect_finite(problems: &mut Vec<PathProblem>, quantity: &'static str, value: f64) {
+    if !value.is_finite() {
+        problems.push(PathProblem::NotFinite { quantity, value });
+    }
+}

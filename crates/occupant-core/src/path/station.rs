@@ -1,0 +1,114 @@
+//! Stations of a table: the vehicle's place and attitude at given times, and what can be wrong with them.
+
+use std::f64::consts::PI;
+
+use nalgebra::{Vector3, Vector6};
+
+use super::VehiclePose;
+use super::attitude::Attitude;
+use super::problem::PathProblem;
+
+/// Place and attitude of the vehicle at one time.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Station {
+    /// Time, s.
+    pub time_s: f64,
+    /// Where the vehicle is; its angles run on past a whole turn (unwrapped).
+    pub pose: VehiclePose,
+}
+
+impl Station {
+    /// A station at `time_s` (s) from (x, y, z) in vehicle-space (m) and (roll, pitch, yaw) (rad).
+    pub fn new(time_s: f64, position_m: [f64; 3], roll_pitch_yaw_rad: [f64; 3]) -> Self {
+        let attitude = Attitude::from_vector(Vector3::from(roll_pitch_yaw_rad));
+        Station {
+            time_s,
+            pose: VehiclePose {
+                position_m: Vector3::from(position_m),
+                attitude,
+            },
+        }
+    }
+
+    /// (x, y, z, roll, pitch, yaw).
+    pub(super) fn channels(&self) -> Vector6<f64> {
+        let (place, angles) = (self.pose.position_m, self.pose.attitude.to_vector());
+        Vector6::new(place.x, place.y, place.z, angles.x, angles.y, angles.z)
+    }
+}
+
+const COLUMNS: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
+
+/// Adds whole turns (or the other name of the same attitude) to the angles of `stations`, so that each is nearest to the
+/// one before it. For tables whose angles were written between −180° and 180°.
+pub fn unwrap_angles(stations: &mut [Station]) {
+    for i in 1..stations.len() {
+        stations[i].pose.attitude = stations[i]
+            .pose
+            .attitude
+            .unwrapped_after(&stations[i - 1].pose.attitude);
+    }
+}
+
+/// Everything that is wrong with `stations`, in their order.
+pub(super) fn problems_of(stations: &[Station]) -> Vec<PathProblem> {
+    let mut problems = Vec::new();
+    if stations.len() < 2 {
+        problems.push(PathProblem::TooFewStations {
+            found: stations.len(),
+        });
+    }
+    for (station, here) in stations.iter().enumerate() {
+        let values = here.channels();
+        let numbers = std::iter::once(("t", here.time_s))
+            .chain(COLUMNS.into_iter().zip(values.iter().copied()));
+        problems.extend(numbers.filter(|(_, value)| !value.is_finite()).map(
+            |(quantity, value)| PathProblem::StationNotFinite {
+                station,
+                quantity,
+                value,
+            },
+        ));
+        if station > 0 {
+            compare_with_previous(station, &stations[station - 1], here, &mut problems);
+        }
+    }
+    problems
+}
+
+/// What is wrong with a station only in the light of the one before it.
+fn compare_with_previous(
+    station: usize,
+    previous: &Station,
+    here: &Station,
+    problems: &mut Vec<PathProblem>,
+) {
+    let (time_s, previous_s) = (here.time_s, previous.time_s);
+    if time_s <= previous_s {
+        problems.push(PathProblem::TimeNotIncreasing {
+            station,
+            time_s,
+            previous_s,
+        });
+    }
+    let (before, now) = (previous.channels(), here.channels());
+    let length_s = time_s - previous_s;
+    for (channel, quantity) in COLUMNS.into_iter().enumerate() {
+        let (from, to) = (before[channel], now[channel]);
+        if !(to - from).is_finite() {
+            continue;
+        }
+        // The second derivatives of a spline divide by the time twice.
+        if length_s > 0.0 && !((to - from) / length_s / length_s).is_finite() {
+            problems.push(PathProblem::TooSteep { station, quantity });
+        }
+        if channel >= 3 && (to - from).abs() > PI {
+            problems.push(PathProblem::AngleJump {
+                station,
+                angle: quantity,
+                from_rad: from,
+                to_rad: to,
+            });
+        }
+    }
+}

@@ -1,0 +1,211 @@
+//! A vehicle path given by stations in time: the report's tabular record (its POSVEH), and the smooth one.
+
+use nalgebra::{Vector3, Vector6};
+
+use super::attitude::{Attitude, turning};
+use super::cursor::PathCursor;
+use super::frame::{FrameMotion, rotation_to_space, to_space};
+use super::problem::PathProblem;
+use super::spline::{Piece, linear_pieces, spline_pieces};
+use super::station::{Station, problems_of};
+use super::{TIME_SLACK, VehiclePose};
+
+/// How a table is read between its stations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Interpolation {
+    /// Straight lines in all six quantities, as in the report; the velocity jumps at every station.
+    Linear,
+    /// Natural cubic splines through all six quantities: velocity and acceleration are continuous. Ours.
+    Spline,
+}
+
+/// What the vehicle does after the last station.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum AfterEnd {
+    /// A run that goes on past it is refused.
+    Error,
+    /// It goes on with its last velocity and angular velocity (constant in space).
+    Coast,
+    /// It stands still at once.
+    Hold,
+}
+
+/// A vehicle path through stations, checked and ready to be asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TablePath {
+    stations: Vec<Station>,
+    interpolation: Interpolation,
+    after: AfterEnd,
+    pieces: Vec<Piece>,
+    /// Motion at the first and at the last station, from which it coasts.
+    ends: [FrameMotion; 2],
+    /// Roll, pitch and yaw rates at the last station, rad/s.
+    last_rates_rad_s: Vector3<f64>,
+}
+
+impl TablePath {
+    /// A path through `stations`.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the stations at once: fewer than two of them, times that do not increase, numbers
+    /// that are not finite, angles that jump by more than half a turn (see [`unwrap_angles`](super::unwrap_angles)).
+    pub fn new(
+        stations: Vec<Station>,
+        interpolation: Interpolation,
+        after: AfterEnd,
+    ) -> Result<Self, Vec<PathProblem>> {
+        let problems = problems_of(&stations);
+        if !problems.is_empty() {
+            return Err(problems);
+        }
+        let times_s: Vec<f64> = stations.iter().map(|station| station.time_s).collect();
+        let values: Vec<Vector6<f64>> = stations.iter().map(Station::channels).collect();
+        let pieces = match interpolation {
+            Interpolation::Linear => linear_pieces(&times_s, &values),
+            Interpolation::Spline => spline_pieces(&times_s, &values),
+        };
+        let (first, last) = (&pieces[0], &pieces[pieces.len() - 1]);
+        let (first_s, last_s) = (times_s[0], times_s[times_s.len() - 1]);
+        let ends = [
+            motion_of(first, first, first_s),
+            motion_of(last, last, last_s),
+        ];
+        let last_rates_rad_s = last.rate(last_s).fixed_rows::<3>(3).into_owned();
+        Ok(TablePath {
+            stations,
+            interpolation,
+            after,
+            pieces,
+            ends,
+            last_rates_rad_s,
+        })
+    }
+
+    /// The stations.
+    pub fn stations(&self) -> &[Station] {
+        &self.stations
+    }
+
+    /// How the table is read between them.
+    pub fn interpolation(&self) -> Interpolation {
+        self.interpolation
+    }
+
+    /// What the vehicle does after the last one.
+    pub fn after(&self) -> AfterEnd {
+        self.after
+    }
+
+    /// Times of the first and the last station, s.
+    pub fn span_s(&self) -> (f64, f64) {
+        (
+            self.stations[0].time_s,
+            self.stations[self.stations.len() - 1].time_s,
+        )
+    }
+
+    /// Pose and motion at `t_s`, in space axes.
+    ///
+    /// The pose is the interpolant at `t_s` itself. Velocities differentiate the interpolant: of a spline at `t_s`; of
+    /// straight lines in the interval that contains `step_middle_s`, so that one integration step sees one velocity
+    /// even where it begins or ends at a station. Outside the stations the vehicle coasts, or stands still if the path
+    /// says so; it stands still in the steps whose middle is past the last station.
+    pub fn motion(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> FrameMotion {
+        let (first_s, last_s) = self.span_s();
+        let inside_s = t_s.clamp(first_s, last_s);
+        let place = self.piece_at(inside_s, cursor);
+        let pace = match self.interpolation {
+            Interpolation::Linear => self.piece_at(step_middle_s, cursor),
+            Interpolation::Spline => place,
+        };
+        let mut motion = motion_of(place, pace, inside_s);
+        if t_s != inside_s {
+            let end = &self.ends[usize::from(t_s > last_s)];
+            let stands = t_s > last_s && self.after == AfterEnd::Hold;
+            let carried = if stands {
+                end.held()
+            } else {
+                end.coasted(t_s - inside_s)
+            };
+            motion = FrameMotion {
+                velocity_m_s: motion.velocity_m_s,
+                angular_velocity_rad_s: motion.angular_velocity_rad_s,
+                ..carried
+            };
+        }
+        if self.after == AfterEnd::Hold && step_middle_s > last_s {
+            motion.held()
+        } else {
+            motion
+        }
+    }
+
+    /// Place and attitude at `t_s` as the table tells them, for output.
+    pub fn pose(&self, t_s: f64, cursor: &mut PathCursor) -> VehiclePose {
+        let (first_s, last_s) = self.span_s();
+        let inside_s = t_s.clamp(first_s, last_s);
+        let values = self.piece_at(inside_s, cursor).value(inside_s);
+        let angles = values.fixed_rows::<3>(3).into_owned();
+        let pose = VehiclePose {
+            position_m: values.fixed_rows::<3>(0).into_owned(),
+            attitude: Attitude::from_vector(angles),
+        };
+        if t_s == inside_s || (t_s > last_s && self.after == AfterEnd::Hold) {
+            return pose;
+        }
+        let coasted = self.ends[usize::from(t_s > last_s)].coasted(t_s - inside_s);
+        let near = Attitude::from_vector(angles + self.last_rates_rad_s * (t_s - last_s).max(0.0));
+        VehiclePose {
+            position_m: to_space(coasted.origin_m),
+            attitude: Attitude::from_matrix(&rotation_to_space(coasted.rotation), &near),
+        }
+    }
+
+    /// Whether the path has an answer from `start_s` to `end_s`.
+    ///
+    /// # Errors
+    /// A run that starts before the first station, or ends past the last one without saying what comes after.
+    pub fn check_span(&self, start_s: f64, end_s: f64) -> Result<(), PathProblem> {
+        let (first_s, last_s) = self.span_s();
+        let slack_s = TIME_SLACK * (last_s - first_s);
+        if start_s < first_s - slack_s {
+            Err(PathProblem::StartsBeforePath { start_s, first_s })
+        } else if end_s > last_s + slack_s && self.after == AfterEnd::Error {
+            Err(PathProblem::EndsAfterPath { end_s, last_s })
+        } else {
+            Ok(())
+        }
+    }
+
+    /// Times at which the velocity or the acceleration jumps, s, in increasing order.
+    pub fn breaks_s(&self) -> Vec<f64> {
+        match self.interpolation {
+            Interpolation::Linear => self.stations.iter().map(|station| station.time_s).collect(),
+            Interpolation::Spline => vec![self.span_s().0, self.span_s().1],
+        }
+    }
+
+    fn piece_at(&self, t_s: f64, cursor: &mut PathCursor) -> &Piece {
+        &self.pieces[cursor.locate(self.pieces.len(), t_s, |piece| self.pieces[piece].start_s)]
+    }
+}
+
+/// Motion at `t_s`: pose from the piece `place`, derivatives from the piece `pace`.
+fn motion_of(place: &Piece, pace: &Piece, t_s: f64) -> FrameMotion {
+    let (values, rates, seconds) = (place.value(t_s), pace.rate(t_s), pace.second_rate(t_s));
+    let linear = |channels: &Vector6<f64>| to_space(channels.fixed_rows::<3>(0).into_owned());
+    let angular = |channels: &Vector6<f64>| channels.fixed_rows::<3>(3).into_owned();
+    let turning = turning(angular(&values), angular(&rates), angular(&seconds));
+    FrameMotion {
+        origin_m: linear(&values),
+        rotation: rotation_to_space(turning.matrix),
+        velocity_m_s: linear(&rates),
+        angular_velocity_rad_s: to_space(turning.velocity_rad_s),
+        acceleration_m_s2: linear(&seconds),
+        angular_acceleration_rad_s2: to_space(turning.acceleration_rad_s2),
+    }
+}
+
+#[cfg(test)]
+#[path = "tests/table.rs"]
+mod tests;

@@ -1,0 +1,108 @@
+//! Everything a run needs, as plain SI data: what a scenario says once its words are numbers.
+//!
+//! A `Setup` may still be wrong; [`crate::model::Model::new`] checks it and reports every problem at once.
+
+use crate::belt::Belt;
+use crate::body::Body;
+use crate::joint::Joints;
+use crate::material::Material;
+use crate::path::VehiclePath;
+use crate::seating::{InitialPosture, InitialVelocity};
+use crate::surface::Surface;
+
+/// Standard gravity, 9.80665 m/s².
+pub const STANDARD_GRAVITY_M_S2: f64 = 9.80665;
+
+/// Start, end and output times.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimeSpan {
+    /// Start of the run.
+    pub start_s: f64,
+    /// End of the run.
+    pub end_s: f64,
+    /// Results are recorded at `start_s + k·output_s` exactly, and at the end.
+    pub output_s: f64,
+}
+
+/// How the equations of motion are integrated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Integrator {
+    /// Classical fourth-order Runge–Kutta with a fixed step (Eqs 115–127).
+    Rk4 {
+        /// Step.
+        step_s: f64,
+    },
+    /// Embedded 5(4) pair with error control.
+    Adaptive {
+        /// Relative tolerance on speeds and positions.
+        relative: f64,
+        /// Absolute tolerance on positions, m; angles are taken at a radius of 1 m.
+        absolute_m: f64,
+        /// Absolute tolerance on speeds, m/s.
+        absolute_m_s: f64,
+        /// The first and the smallest step allowed; a smaller one ends the run with an error.
+        min_step_s: f64,
+        /// The largest step allowed.
+        max_step_s: f64,
+    },
+}
+
+impl Integrator {
+    /// The longest step that it can take, s.
+    pub fn longest_step_s(&self) -> f64 {
+        match *self {
+            Integrator::Rk4 { step_s } => step_s,
+            Integrator::Adaptive { max_step_s, .. } => max_step_s,
+        }
+    }
+}
+
+/// What is recorded besides the results every run has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct OutputOptions {
+    /// Also record the report's q₁…q₃₁ and their rates.
+    pub report_coordinates: bool,
+}
+
+/// Where the edge force of a bounded face acts on a sphere.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum EdgeForce {
+    /// At A = centre − r N̂ like the rest of the contact force: the specification's words.
+    #[default]
+    AtContactPoint,
+    /// At the centre, where it is conservative.
+    AtCentre,
+}
+
+/// Everything a run needs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setup {
+    /// One line that names the case.
+    pub title: String,
+    /// The occupant.
+    pub body: Body,
+    /// Its joints.
+    pub joints: Joints,
+    /// g, along −Z′; 0 switches gravity off.
+    pub gravity_m_s2: f64,
+    /// Contact materials.
+    pub materials: Vec<Material>,
+    /// Surfaces, vehicle's and space's.
+    pub surfaces: Vec<Surface>,
+    /// Where the edge force acts.
+    pub edge_force: EdgeForce,
+    /// Belts.
+    pub belts: Vec<Belt>,
+    /// Motion of the vehicle.
+    pub path: VehiclePath,
+    /// Position at the start.
+    pub posture: InitialPosture,
+    /// Velocity at the start.
+    pub velocity: InitialVelocity,
+    /// Times.
+    pub time: TimeSpan,
+    /// Integrator.
+    pub integrator: Integrator,
+    /// Extra outputs.
+    pub output: OutputOptions,
+}
