@@ -125,6 +125,31 @@ impl CompartmentLayout {
         Ok(layout)
     }
 
+    /// The name of a surface by its number.
+    pub fn name_of(&self, number: u32) -> Option<&str> {
+        let surface = self.surfaces.iter().find(|s| s.number == number);
+        let wheel = (self.wheel.number == number).then_some(&self.wheel.name);
+        surface.map(|s| &s.name).or(wheel).map(String::as_str)
+    }
+
+    /// The points by which a surface is bounded; that of the wheel's place for the wheel.
+    pub fn points_of(&self, number: u32) -> Vec<u32> {
+        let Some(surface) = self.surfaces.iter().find(|s| s.number == number) else {
+            return vec![self.wheel.point];
+        };
+        let corners = surface.corners.iter().flatten().flat_map(|c| [c.x, c.z]);
+        let mut points: Vec<u32> = surface
+            .edge
+            .iter()
+            .flatten()
+            .copied()
+            .chain(corners)
+            .collect();
+        points.sort_unstable();
+        points.dedup();
+        points
+    }
+
     fn check(&self) -> Result<(), String> {
         let mut numbers: Vec<u32> = self
             .surfaces

@@ -41,13 +41,11 @@ fn check_step(check: &mut Check<'_>, station: usize, before: &[f64], after: &[f6
     );
     for (place, name) in [(4, "CALPH"), (5, "CALTH"), (6, "CALPS")] {
         let jump = (after[place] - before[place]).abs();
-        let message = format!(
-            "it jumps by {jump} degrees from the station before; it is taken as a real turn"
-        );
+        let message = format!("it jumps by {jump} degrees from the station before");
         let remedy = "let the angle run on beyond 180 degrees instead of starting again at −180";
         check.complain_if(
             jump > 180.0,
-            Rule::Inconsistent,
+            Rule::Impossible,
             &format!("{name}({station})"),
             &message,
             "unwrapped angles",
