@@ -79,8 +79,7 @@ fn declares(source: &str, name: &str) -> bool {
             return false;
         };
         let end = rest.chars().next().unwrap_or(',');
-        let ends_here = !end.is_alphanumeric() && end != '_' && end != '.';
-        ends_here && !rest.starts_with("::")
+        !(end.is_alphanumeric() || end == '_' || end == '.' || rest.starts_with("::"))
     })
 }
 
