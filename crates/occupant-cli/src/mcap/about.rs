@@ -34,8 +34,8 @@ pub struct About {
     pub program: String,
     /// The scenario as it was read.
     pub scenario: Document,
-    /// The scenario with all that was resolved and overridden, if it differs.
-    pub resolved: Option<Document>,
+    /// What belongs to it: its tables, the scenario with all that was resolved and overridden.
+    pub others: Vec<Document>,
     /// More entries of the first metadata record. Nothing that changes from run to run of one scenario belongs here.
     pub notes: BTreeMap<String, String>,
 }
@@ -49,8 +49,8 @@ pub fn run(about: &About, model: &Model) -> Metadata {
     put("title", setup.title.clone());
     put("scenario", about.scenario.name.clone());
     put("scenario_sha256", sha256(&about.scenario.content));
-    if let Some(resolved) = &about.resolved {
-        put("resolved_sha256", sha256(&resolved.content));
+    for other in &about.others {
+        put(&format!("sha256 {}", other.name), sha256(&other.content));
     }
     put("body", setup.body.name.clone());
     put("body_mass_kg", setup.body.mass_kg().to_string());

@@ -107,16 +107,6 @@ impl<W: Write + Seek> McapRecorder<W> {
         self.writer.into_inner()
     }
 
-    fn attach(&mut self, document: &Document) -> McapResult<()> {
-        self.writer.attach(&Attachment {
-            log_time: 0,
-            create_time: 0,
-            name: document.name.clone(),
-            media_type: document.media_type.clone(),
-            data: Cow::Borrowed(&document.content),
-        })
-    }
-
     fn write_documents(&mut self, model: &Model, belts: &[String]) -> Result<(), RecorderError> {
         self.writer
             .write_metadata(&about::run(&self.about, model))?;
@@ -125,10 +115,15 @@ impl<W: Write + Seek> McapRecorder<W> {
             media_type: "application/json".to_owned(),
             content: serde_json::to_vec_pretty(&layout::layout(model, belts))?,
         };
-        let resolved = self.about.resolved.clone();
-        let documents = [Some(self.about.scenario.clone()), resolved, Some(layout)];
-        for document in documents.iter().flatten() {
-            self.attach(document)?;
+        let scenario = std::iter::once(&self.about.scenario);
+        for document in scenario.chain(&self.about.others).chain([&layout]) {
+            self.writer.attach(&Attachment {
+                log_time: 0,
+                create_time: 0,
+                name: document.name.clone(),
+                media_type: document.media_type.clone(),
+                data: Cow::Borrowed(&document.content),
+            })?;
         }
         Ok(())
     }
