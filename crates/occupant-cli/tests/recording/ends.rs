@@ -28,8 +28,11 @@ impl Recorder for Halt {
     }
 }
 
+/// A metadata record: its name and entries.
+type Entry = (String, BTreeMap<String, String>);
+
 /// Metadata records in the file's order, as far as it can be read, and the number of messages.
-fn scan(bytes: &[u8]) -> (Vec<(String, BTreeMap<String, String>)>, usize) {
+fn scan(bytes: &[u8]) -> (Vec<Entry>, usize) {
     let options = LinearReaderOptions::default()
         .with_validate_chunk_crcs(true)
         .with_validate_data_section_crc(true);

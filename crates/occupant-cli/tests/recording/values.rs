@@ -256,8 +256,8 @@ fn assert_all_named(topic: &str, message: &DynamicMessage, fields: &Fields) {
 #[test]
 fn touches_come_back_one_by_one() {
     type Touch = (String, [f64; 12]);
-    let model = model();
-    let mut samples: Vec<Vec<(Vec<Touch>, Option<Vec<f64>>)>> = Vec::new();
+    type Load = (Vec<Touch>, Option<Vec<f64>>);
+    let mut samples: Vec<Vec<Load>> = Vec::new();
     let watch = Watch(|s: &Sample<'_>| {
         let of_sphere = |i: usize| {
             let own = s.contacts().filter(|c| c.sphere == i);
