@@ -1,0 +1,1 @@
+//! What will be simulated and whether the step suits it: the core of `occupant check`.
