@@ -128,7 +128,13 @@ fn begin(
         .path
         .motion(start_s, start_s, &mut PathCursor::default());
     let skeleton = Skeleton::new(&setup.body, setup.gravity_m_s2);
-    let contacts = ContactSystem::new(&setup.body, &setup.surfaces, faces, &setup.materials);
+    let contacts = ContactSystem::new(
+        &setup.body,
+        &setup.surfaces,
+        faces,
+        &setup.materials,
+        setup.edge_force,
+    );
     let mut system = System {
         skeleton,
         joints: JointSystem::new(&setup.joints, &[0.0; 7]),

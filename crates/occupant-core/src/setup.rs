@@ -54,6 +54,16 @@ pub struct OutputOptions {
     pub report_coordinates: bool,
 }
 
+/// Where the edge force of a bounded face acts on a sphere.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum EdgeForce {
+    /// At A = centre − r N̂ like the rest of the contact force: the specification's words.
+    #[default]
+    AtContactPoint,
+    /// At the centre, where it is conservative.
+    AtCentre,
+}
+
 /// Everything a run needs.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Setup {
@@ -69,6 +79,8 @@ pub struct Setup {
     pub materials: Vec<Material>,
     /// Surfaces, vehicle's and space's.
     pub surfaces: Vec<Surface>,
+    /// Where the edge force acts.
+    pub edge_force: EdgeForce,
     /// Belts.
     pub belts: Vec<Belt>,
     /// Motion of the vehicle.

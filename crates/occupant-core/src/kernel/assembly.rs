@@ -11,6 +11,7 @@ use super::vector::V3;
 use crate::body::{Body, ContactSphere};
 use crate::compartment::FlatFace;
 use crate::material::{Material, Memory};
+use crate::setup::EdgeForce;
 use crate::surface::{Frame, Outline as FaceOutline, Surface};
 
 impl<S: Scalar> ContactSystem<S> {
@@ -20,6 +21,7 @@ impl<S: Scalar> ContactSystem<S> {
         surfaces: &[Surface],
         faces: &[FlatFace],
         materials: &[Material],
+        edge_force: EdgeForce,
     ) -> Self {
         let sites = body.spheres.iter().map(|s| site(body, s)).collect();
         let mut system = ContactSystem {
@@ -27,6 +29,10 @@ impl<S: Scalar> ContactSystem<S> {
             groups: Vec::new(),
             planes: Vec::new(),
             pairs: Vec::new(),
+            edge_lever: S::of(match edge_force {
+                EdgeForce::AtContactPoint => 1.0,
+                EdgeForce::AtCentre => 0.0,
+            }),
         };
         for (sphere, data) in body.spheres.iter().enumerate() {
             for (frame, index) in [(Frame::Vehicle, VEHICLE), (Frame::Space, SPACE)] {

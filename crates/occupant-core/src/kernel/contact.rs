@@ -2,15 +2,20 @@
 //!
 //! Report: Eqs 84–94, Fig. 15, Fig. 16. L = G − N̂·x_c, Δ = r + L; Δ > 0 is contact and Δ the deformation. Our decisions:
 //! bounded faces with weight w = clamp01(1 − d/r); the states open, touching and passed; coplanar faces that share an
-//! edge act as one; regularised friction. With (F, U) of the spring at Δ, the sphere gets wF N̂ and (U/r) ê at its centre
-//! and the friction −f·wF·v_t/√(v_t² + v_s²) at A = centre − r N̂. The edge force is minus the gradient of wU and d belongs
-//! to the centre, so it acts at the centre: through any other point it would do work that nothing stores.
+//! edge act as one; regularised friction. With (F, U) of the spring at Δ, the sphere gets the normal force wF N̂, the edge
+//! force (U/r) ê, and at A = centre − r N̂ the friction −f·wF·v_t/√(v_t² + v_s²).
+//!
+//! The edge force is minus the gradient of wU over the centre's place, so it is conservative if it acts at the centre, as
+//! any frictionless force on a sphere must. At A, with the rest of the contact force, it has the moment U N̂×ê about the
+//! centre, which is work done on a turning segment that nothing stores. [`EdgeForce`] names both readings.
 
 use super::face::{Offset, Outline, V2};
 use super::frame::Moving;
 use super::scalar::Scalar;
 use super::spring::Spring;
 use super::vector::V3;
+#[cfg(doc)]
+use crate::setup::EdgeForce;
 
 /// A pair is open: apart, or not yet committed.
 pub const OPEN: f64 = 0.0;
@@ -119,6 +124,8 @@ pub struct ContactSystem<S> {
     pub(super) groups: Vec<Group>,
     pub(super) planes: Vec<Plane<S>>,
     pub(super) pairs: Vec<Pair<S>>,
+    /// 1 where the edge force acts at A, 0 at the centre.
+    pub(super) edge_lever: S,
 }
 
 /// A sphere's motion relative to a frame, in the frame's axes.

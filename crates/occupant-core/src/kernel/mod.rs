@@ -203,9 +203,12 @@ impl<S: Scalar> System<S> {
                 };
                 touched = true;
                 let press = t.normal * t.normal_force + t.edge;
+                let arm = t.normal * -radius;
+                let edge_arm = arm * self.contacts.edge_lever;
                 force += press + t.friction;
-                twist += t.normal.cross(t.friction) * -radius;
-                power.contact -= press.dot(approach.velocity);
+                twist += arm.cross(t.friction) + edge_arm.cross(t.edge);
+                power.contact -=
+                    press.dot(approach.velocity) + edge_arm.cross(t.edge).dot(approach.omega);
                 power.friction -= t.friction.dot(t.slip);
                 observer.touch(&t);
             }

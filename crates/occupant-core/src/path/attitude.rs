@@ -181,7 +181,7 @@ impl Trigonometry {
     }
 }
 
-/// The rotation (3×3) about the direction of `turn_rad` by its length in rad: the exponential of [turn]×.
+/// The rotation (3×3) about the direction of `turn_rad` by its length in rad: the exponential of its cross-product matrix.
 pub(super) fn rotation_by(turn_rad: Vector3<f64>) -> Matrix3<f64> {
     let angle = turn_rad.norm();
     let (sine, _) = trig::sin_cos(angle);

@@ -108,9 +108,12 @@ impl PulsePath {
         let stop = stop_after_loss(definition.initial_speed_m_s);
         let floor =
             stop_after_loss(definition.initial_speed_m_s + definition.rebound_m_s.unwrap_or(0.0));
-        if definition.initial_speed_m_s == 0.0 && floor.is_some_and(|floor| floor.distance_m == 0.0)
+        if let Some(floor) = floor.filter(|_| definition.initial_speed_m_s == 0.0)
+            && holds_back(&profile, floor.time_s - begin_s, floor.distance_m)
         {
-            return Err(vec![PathProblem::PulseNeverMoves]);
+            return Err(vec![PathProblem::PulseHoldsBack {
+                stop_s: floor.time_s,
+            }]);
         }
         let at_rest = FrameMotion {
             origin_m: to_space(definition.initial.position_m),
@@ -249,6 +252,15 @@ fn find_problems(definition: &PulseDefinition, problems: &mut Vec<PathProblem>) 
     if let Some(rebound_m_s) = definition.rebound_m_s {
         expect_not_negative(problems, "rebound", rebound_m_s);
     }
+}
+
+/// Whether a vehicle that starts at rest and stands still from τ = `since_s` on never got going: it has not moved, or
+/// was to be faster afterwards than ever before. Without this the noise before a measured thrust would stop the
+/// vehicle, and the thrust would be lost in silence.
+fn holds_back(profile: &Profile, since_s: f64, distance_m: f64) -> bool {
+    let before_m_s = profile.greatest_gain_m_s(0.0, since_s);
+    let after_m_s = profile.greatest_gain_m_s(since_s, profile.duration_s());
+    distance_m == 0.0 || after_m_s > before_m_s
 }
 
 /// `vector` at length one; a problem if it has no length.
