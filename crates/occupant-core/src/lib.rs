@@ -16,6 +16,7 @@ pub mod problem;
 pub mod recorder;
 pub mod report_coordinates;
 pub mod sample;
+pub mod scenario;
 pub mod seat;
 pub mod seating;
 pub mod settle;
