@@ -3,6 +3,7 @@
 pub mod belt;
 pub mod body;
 pub mod compartment;
+pub mod correlation;
 pub mod diagnosis;
 pub mod energy;
 pub mod integrate;

@@ -134,6 +134,7 @@ fn begin(
         faces,
         &setup.materials,
         setup.edge_force,
+        setup.integrator.longest_step_s(),
     );
     let mut system = System {
         skeleton,
@@ -302,5 +303,5 @@ pub(crate) fn initial_history(
         .iter()
         .map(|b| b.initial_history(in_frame(b.sphere, VEHICLE)))
         .collect();
-    History { pairs, belts }
+    History::new(&system.contacts, pairs, belts)
 }

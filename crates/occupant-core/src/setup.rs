@@ -47,6 +47,16 @@ pub enum Integrator {
     },
 }
 
+impl Integrator {
+    /// The longest step that it can take, s.
+    pub fn longest_step_s(&self) -> f64 {
+        match *self {
+            Integrator::Rk4 { step_s } => step_s,
+            Integrator::Adaptive { max_step_s, .. } => max_step_s,
+        }
+    }
+}
+
 /// What is recorded besides the results every run has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct OutputOptions {

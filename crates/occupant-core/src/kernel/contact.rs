@@ -9,8 +9,8 @@
 //! any frictionless force on a sphere must. At A, with the rest of the contact force, it has the moment U N̂×ê about the
 //! centre, which is work done on a turning segment that nothing stores. [`EdgeForce`] names both readings.
 
+use super::encounter::Approach;
 use super::face::{Offset, Outline, V2};
-use super::frame::Moving;
 use super::scalar::Scalar;
 use super::spring::Spring;
 use super::vector::V3;
@@ -65,6 +65,14 @@ pub struct Pair<S> {
 pub struct Plane<S> {
     pub(super) normal: V3<S>,
     pub(super) reach: S,
+}
+
+impl<S: Scalar> Plane<S> {
+    /// Δ for a centre in the face's frame (Eqs 89, 92).
+    #[inline(always)]
+    pub fn depth(&self, centre: V3<S>) -> S {
+        self.reach - self.normal.dot(centre)
+    }
 }
 
 /// Pairs of one sphere with faces of one frame.
@@ -126,26 +134,8 @@ pub struct ContactSystem<S> {
     pub(super) pairs: Vec<Pair<S>>,
     /// 1 where the edge force acts at A, 0 at the centre.
     pub(super) edge_lever: S,
-}
-
-/// A sphere's motion relative to a frame, in the frame's axes.
-#[derive(Clone, Copy)]
-pub(super) struct Approach<S> {
-    pub centre: V3<S>,
-    pub velocity: V3<S>,
-    pub omega: V3<S>,
-}
-
-impl<S: Scalar> Approach<S> {
-    /// From the sphere's centre, velocity and angular velocity in space.
-    #[inline(always)]
-    pub fn new(frame: &Moving<S>, centre: V3<S>, velocity: V3<S>, omega: V3<S>) -> Self {
-        Approach {
-            centre: frame.axes.into_frame(centre - frame.origin),
-            velocity: frame.axes.into_frame(velocity - frame.velocity_at(centre)),
-            omega: frame.axes.into_frame(omega - frame.omega),
-        }
-    }
+    /// A face farther than this, m, cannot be met within one step.
+    pub(super) reach_of_a_step: S,
 }
 
 impl<S: Scalar> ContactSystem<S> {
@@ -159,16 +149,9 @@ impl<S: Scalar> ContactSystem<S> {
         &self.groups
     }
 
-    /// Δ of pair `i` for a centre in the face's frame.
-    #[inline(always)]
-    pub(super) fn depth(&self, i: usize, centre: V3<S>) -> S {
-        let plane = &self.planes[i];
-        plane.reach - plane.normal.dot(centre)
-    }
-
     /// The state of a pair at the initial time: passed where the centre is beyond the plane or beside the face.
     pub fn initial_history(&self, i: usize, radius: S, centre: V3<S>) -> PairHistory<S> {
-        let depth = self.depth(i, centre);
+        let depth = self.planes[i].depth(centre);
         let (offset, _) = self.pairs[i].nearest(centre);
         let beside = !weight(offset.distance, radius).gt(S::zero());
         let passed = depth.gt(radius) | beside;
@@ -180,26 +163,25 @@ impl<S: Scalar> ContactSystem<S> {
         }
     }
 
-    /// Forces of pair `i` on its sphere, or `None` if there are none in any lane. With `COMMIT` the pair's history first
-    /// takes over the present position, which must be that of an accepted step.
+    /// True if the pair can exert a force before the next commit: not passed, and within reach of a step.
     #[inline(always)]
+    pub(super) fn is_near(&self, depth: S, history: &PairHistory<S>) -> bool {
+        S::any((-self.reach_of_a_step).lt(depth) & history.phase.lt(S::of(PASSED)))
+    }
+
+    /// Forces of pair `i`, which is live, on its sphere, or `None` if there are none in any lane. With `COMMIT` the pair's
+    /// history first takes over the present position, which must be that of an accepted step.
+    #[inline]
     pub(super) fn touch<const COMMIT: bool>(
         &self,
         group: &Group,
         i: usize,
+        depth: S,
         approach: &Approach<S>,
         history: &mut PairHistory<S>,
     ) -> Option<Touch<S>> {
         let (o, touching) = (S::zero(), S::of(TOUCHING));
-        let depth = self.depth(i, approach.centre);
-        let contact = depth.gt(o);
-        if COMMIT {
-            self.open(i, contact, history);
-        }
-        let live = contact & history.phase.lt(S::of(PASSED));
-        if !S::any(live) {
-            return None;
-        }
+        let live = depth.gt(o) & history.phase.lt(S::of(PASSED));
         let pair = &self.pairs[i];
         let radius = self.sites[group.sphere].radius;
         let (offset, nearest) = pair.nearest(approach.centre);
@@ -228,8 +210,9 @@ impl<S: Scalar> ContactSystem<S> {
 
     /// Opens a pair that is apart, and forgets its crush unless its material keeps it.
     #[inline(always)]
-    fn open(&self, i: usize, contact: S::Mask, history: &mut PairHistory<S>) {
+    pub(super) fn open(&self, i: usize, depth: S, history: &mut PairHistory<S>) {
         let o = S::zero();
+        let contact = depth.gt(o);
         let closed = history.phase.gt(o) | history.greatest.gt(o);
         if S::any(!contact & closed) {
             let kept = history.greatest * self.pairs[i].retain;

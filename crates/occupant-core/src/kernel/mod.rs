@@ -10,6 +10,7 @@ pub mod assembly;
 pub mod belts;
 pub mod contact;
 pub mod dynamics;
+mod encounter;
 pub mod face;
 pub mod frame;
 pub mod joints;
@@ -22,8 +23,9 @@ pub mod state;
 pub mod vector;
 
 use belts::{BeltAction, BeltHistory, BeltLaw};
-use contact::{Approach, ContactSystem, PairHistory, Touch};
+use contact::{ContactSystem, PairHistory, Touch};
 use dynamics::{Accelerations, Wrench};
+use encounter::Sphere;
 use frame::{Moving, VEHICLE};
 use joints::JointSystem;
 use kinematics::Kinematics;
@@ -57,6 +59,35 @@ pub struct History<S> {
     pub pairs: Vec<PairHistory<S>>,
     /// By belt.
     pub belts: Vec<BeltHistory<S>>,
+    /// Pairs that can exert a force before the next commit, in ascending order.
+    near: Vec<u32>,
+    /// By group of pairs: where its part of `near` ends.
+    near_end: Vec<u32>,
+}
+
+impl<S: Scalar> History<S> {
+    /// A history in which every pair counts as near until the first commit.
+    pub fn new(
+        contacts: &ContactSystem<S>,
+        pairs: Vec<PairHistory<S>>,
+        belts: Vec<BeltHistory<S>>,
+    ) -> Self {
+        let near = (0..pairs.len() as u32).collect();
+        let near_end = contacts.groups.iter().map(|g| g.pairs.end as u32).collect();
+        History {
+            pairs,
+            belts,
+            near,
+            near_end,
+        }
+    }
+
+    /// Places in `near` of the pairs of group `g`.
+    #[inline(always)]
+    fn near_of(&self, g: usize) -> std::ops::Range<usize> {
+        let start = if g == 0 { 0 } else { self.near_end[g - 1] };
+        start as usize..self.near_end[g] as usize
+    }
 }
 
 /// Receives what happens in an evaluation.
@@ -188,38 +219,35 @@ impl<S: Scalar> System<S> {
         power: &mut Work<S>,
         observer: &mut impl Observer<S>,
     ) {
-        for group in &self.contacts.groups {
-            let n = self.contacts.sites[group.sphere].segment;
-            let radius = self.contacts.sites[group.sphere].radius;
-            let frame = &frames[group.frame];
-            let (arm, centre, velocity) = self.sphere(k, group.sphere);
-            let approach = Approach::new(frame, centre, velocity, k.omega[n]);
-            let (mut force, mut twist) = (V3::zero(), V3::zero());
-            let mut touched = false;
-            for i in group.pairs.clone() {
-                let pair = &mut history.pairs[i];
-                let Some(t) = self.contacts.touch::<COMMIT>(group, i, &approach, pair) else {
-                    continue;
-                };
-                touched = true;
-                let press = t.normal * t.normal_force + t.edge;
-                let arm = t.normal * -radius;
-                let edge_arm = arm * self.contacts.edge_lever;
-                force += press + t.friction;
-                twist += arm.cross(t.friction) + edge_arm.cross(t.edge);
-                power.contact -=
-                    press.dot(approach.velocity) + edge_arm.cross(t.edge).dot(approach.omega);
-                power.friction -= t.friction.dot(t.slip);
-                observer.touch(&t);
-            }
-            if !touched {
+        let contacts = &self.contacts;
+        if COMMIT {
+            history.near.clear();
+        }
+        for (g, group) in contacts.groups.iter().enumerate() {
+            let near = if COMMIT { 0..0 } else { history.near_of(g) };
+            if !COMMIT && near.is_empty() {
                 continue;
             }
-            let (force, twist) = (frame.axes.out(force), frame.axes.out(twist));
-            wrench[n].force += force;
-            wrench[n].moment += arm.cross(force) + twist;
-            // F·v of the frame at the centre, and the friction's lever about it
-            power.vehicle += force.dot(frame.velocity_at(centre)) + twist.dot(frame.omega);
+            let mut sphere = Sphere::new(contacts, group, k, &frames[group.frame]);
+            if COMMIT {
+                for i in group.pairs.clone() {
+                    let pair = &mut history.pairs[i];
+                    let depth = contacts.planes[i].depth(sphere.centre_f);
+                    contacts.open(i, depth, pair);
+                    sphere.meet::<COMMIT>(i, depth, pair, power, observer);
+                    if contacts.is_near(depth, pair) {
+                        history.near.push(i as u32);
+                    }
+                }
+                history.near_end[g] = history.near.len() as u32;
+            } else {
+                for &i in &history.near[near] {
+                    let i = i as usize;
+                    let depth = contacts.planes[i].depth(sphere.centre_f);
+                    sphere.meet::<COMMIT>(i, depth, &mut history.pairs[i], power, observer);
+                }
+            }
+            sphere.load(wrench, power);
         }
     }
 

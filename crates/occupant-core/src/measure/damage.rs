@@ -14,12 +14,14 @@ const DAMPING_TIME_S: f64 = 5.9148e-3;
 const SCALE: f64 = 2.9903;
 /// The stiffest mode turns at about 184 rad/s; this step keeps the peak within 1e−7 (see the tests).
 const LONGEST_STEP_S: f64 = 2.5e-4;
+/// A record coarser than this says nothing about a head impact.
+const LONGEST_INTERVAL_S: f64 = 0.02;
 
 /// DAMAGE (without unit) and its time, of angular accelerations in rad/s², head axes.
 ///
 /// # Errors
 /// Fewer than two samples, different lengths, a sample that is not finite, an interval that is not
-/// positive.
+/// positive or above 20 ms.
 pub fn damage(
     alpha_x_rps2: &[f64],
     alpha_y_rps2: &[f64],
@@ -29,6 +31,14 @@ pub fn damage(
     for axis in [alpha_x_rps2, alpha_y_rps2, alpha_z_rps2] {
         require_samples("head angular acceleration", axis, dt_s, 2)?;
         require_same_length("head angular acceleration", axis, alpha_x_rps2)?;
+    }
+    if dt_s > LONGEST_INTERVAL_S {
+        let expected = "at most 0.02 s";
+        return Err(SignalError::OutOfRange {
+            what: "sample interval (s)",
+            found: dt_s,
+            expected,
+        });
     }
     let steps = (dt_s / LONGEST_STEP_S).ceil().max(1.0) as usize;
     let h_s = dt_s / steps as f64;

@@ -105,7 +105,7 @@ fn best_sampled_window(
         return None;
     }
     let tau_06: Vec<f64> = (0..=longest)
-        .map(|lag| (lag as f64 * dt_s).powf(0.6))
+        .map(|lag| libm::pow(lag as f64 * dt_s, 0.6))
         .collect();
     let mut search = WindowSearch {
         integral,
@@ -148,7 +148,7 @@ impl WindowSearch<'_> {
                 self.best_04 = gain / self.tau_06[lag];
                 self.window = Some((start, start + lag));
             }
-            lag += ((shortfall * self.per_gain) as usize).max(stride);
+            lag = lag.saturating_add(((shortfall * self.per_gain) as usize).max(stride));
         }
     }
 }

@@ -6,7 +6,7 @@
 //! load (Nij: 3.8 %, criticised in SAE 2010-22-0004).
 
 use super::Dummy;
-use crate::signal::STANDARD_GRAVITY_MPS2;
+use crate::{signal::STANDARD_GRAVITY_MPS2, trig};
 
 /// Severity of injury, on the abbreviated injury scale: this level or worse.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -35,7 +35,7 @@ pub fn hic_risk(hic: f64, severity: Severity) -> Option<f64> {
         _ => return None,
     };
     Some(if hic > 0.0 {
-        normal_cdf((hic.ln() - mu) / sigma)
+        normal_cdf((libm::log(hic) - mu) / sigma)
     } else {
         0.0
     })
@@ -93,7 +93,7 @@ pub fn chest_deflection_risk(deflection_m: f64, dummy: Dummy) -> Option<f64> {
     };
     Some(logistic(
         10.5456,
-        b * (1000.0 * deflection_m.max(0.0)).powf(0.4612),
+        b * libm::pow(1000.0 * deflection_m.max(0.0), 0.4612),
     ))
 }
 
@@ -102,7 +102,7 @@ pub fn chest_deflection_risk(deflection_m: f64, dummy: Dummy) -> Option<f64> {
 pub fn chest_deflection_risk_at_age(deflection_m: f64, age_years: f64) -> f64 {
     logistic(
         12.597 - 0.058_61 * age_years,
-        1.568 * (1000.0 * deflection_m.max(0.0)).powf(0.4612),
+        1.568 * libm::pow(1000.0 * deflection_m.max(0.0), 0.4612),
     )
 }
 
@@ -138,7 +138,7 @@ pub fn bric_risk(bric: f64, severity: Severity) -> Option<f64> {
         _ => return None,
     };
     Some(if bric > 0.523 {
-        1.0 - (-((bric - 0.523) / scale).powf(1.8)).exp()
+        1.0 - trig::exp(-libm::pow((bric - 0.523) / scale, 1.8))
     } else {
         0.0
     })
@@ -168,21 +168,12 @@ pub fn us_ncap_frontal_stars(joint_risk: f64) -> Option<u8> {
 
 /// 1/(1 + exp(a − x))
 fn logistic(a: f64, x: f64) -> f64 {
-    1.0 / (1.0 + (a - x).exp())
+    1.0 / (1.0 + trig::exp(a - x))
 }
 
-/// Φ(x) = ½ + φ(x)·(x + x³/3 + x⁵/15 + …), Marsaglia (2004); error below 1e−15 in Φ.
+/// Φ(x) = ½ erfc(−x/√2)
 fn normal_cdf(x: f64) -> f64 {
-    if x.abs() > 8.0 {
-        return if x > 0.0 { 1.0 } else { 0.0 };
-    }
-    let (mut sum, mut term, mut k) = (x, x, 1.0);
-    while term.abs() > 1e-17 * sum.abs() {
-        k += 2.0;
-        term *= x * x / k;
-        sum += term;
-    }
-    0.5 + sum * (-0.5 * x * x).exp() / (2.0 * std::f64::consts::PI).sqrt()
+    0.5 * libm::erfc(-x * std::f64::consts::FRAC_1_SQRT_2)
 }
 
 #[cfg(test)]

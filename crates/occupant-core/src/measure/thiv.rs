@@ -14,6 +14,7 @@
 use crate::signal::{
     CumulativeIntegral, MovingAverage, SignalError, WindowExtreme, require_same_length, resultant2,
 };
+use crate::trig;
 
 /// Where the head starts and how far it may fly.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -110,7 +111,11 @@ fn head_motion(
     flight: HeadFlight,
 ) -> Result<Vec<[f64; 4]>, SignalError> {
     let yaw = CumulativeIntegral::new(yaw_rate_rps, dt_s)?;
-    let turned: Vec<(f64, f64)> = yaw.at_samples().iter().map(|psi| psi.sin_cos()).collect();
+    let turned: Vec<(f64, f64)> = yaw
+        .at_samples()
+        .iter()
+        .map(|psi| trig::sin_cos(*psi))
+        .collect();
     let along = |pick: fn(f64, f64, (f64, f64)) -> f64| -> Vec<f64> {
         ax_mps2
             .iter()

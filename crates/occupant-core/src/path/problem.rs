@@ -43,6 +43,13 @@ pub enum PathProblem {
         /// The angle at the station, rad.
         to_rad: f64,
     },
+    /// A quantity changes so much in so short a time that its rate is no number.
+    TooSteep {
+        /// The later one of the two stations.
+        station: usize,
+        /// Which quantity.
+        quantity: &'static str,
+    },
     /// A number is infinite or not a number.
     NotFinite {
         /// Which quantity.
@@ -78,8 +85,11 @@ pub enum PathProblem {
     },
     /// The pulse decelerates nothing: its peak, or its change of velocity, is zero.
     PulseIsZero,
-    /// A vehicle at rest meets a pulse that decelerates it, and so never moves.
-    PulseNeverMoves,
+    /// A vehicle that starts at rest is stopped by the pulse before the pulse has set it going.
+    PulseHoldsBack {
+        /// When it is stopped for good, s.
+        stop_s: f64,
+    },
     /// A run starts before the first station.
     StartsBeforePath {
         /// Start of the run, s.
@@ -134,6 +144,12 @@ impl fmt::Display for PathProblem {
                 from_rad.to_degrees(),
                 to_rad.to_degrees()
             ),
+            P::TooSteep { station, quantity } => write!(
+                f,
+                "station {}: {quantity} changes too much since the station before for its rate to be a number, expected \
+                 stations farther apart in time",
+                station + 1
+            ),
             P::NotFinite { quantity, value } => {
                 write!(f, "found {quantity} = {value}, expected a finite number")
             }
@@ -161,10 +177,11 @@ impl fmt::Display for PathProblem {
                 f,
                 "the pulse is zero throughout, expected a deceleration somewhere"
             ),
-            P::PulseNeverMoves => write!(
+            P::PulseHoldsBack { stop_s } => write!(
                 f,
-                "the initial speed is 0 and the pulse decelerates, so that the vehicle never moves; give an initial speed, \
-                 or a negative deceleration for a vehicle that is accelerated, or a rebound for one that may be driven back"
+                "the initial speed is 0 and the pulse decelerates before it has set the vehicle going, so that the \
+                 vehicle stands still from {stop_s} s on; give an initial speed, or a negative deceleration for a \
+                 vehicle that is accelerated, or a rebound for one that may move back"
             ),
             P::StartsBeforePath { start_s, first_s } => {
                 write!(

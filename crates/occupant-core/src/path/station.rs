@@ -92,14 +92,22 @@ fn compare_with_previous(
         });
     }
     let (before, now) = (previous.channels(), here.channels());
-    for channel in 3..6 {
-        let (from_rad, to_rad) = (before[channel], now[channel]);
-        if (to_rad - from_rad).is_finite() && (to_rad - from_rad).abs() > PI {
+    let length_s = time_s - previous_s;
+    for (channel, quantity) in COLUMNS.into_iter().enumerate() {
+        let (from, to) = (before[channel], now[channel]);
+        if !(to - from).is_finite() {
+            continue;
+        }
+        // The second derivatives of a spline divide by the time twice.
+        if length_s > 0.0 && !((to - from) / length_s / length_s).is_finite() {
+            problems.push(PathProblem::TooSteep { station, quantity });
+        }
+        if channel >= 3 && (to - from).abs() > PI {
             problems.push(PathProblem::AngleJump {
                 station,
-                angle: COLUMNS[channel],
-                from_rad,
-                to_rad,
+                angle: quantity,
+                from_rad: from,
+                to_rad: to,
             });
         }
     }

@@ -73,7 +73,7 @@ impl Checker<'_> {
         };
         let found = match &node.value {
             Value::Float(x) if !x.is_finite() => format!("`{x}`"),
-            _ => node.kind().to_owned(),
+            _ => format!("{} where {} should stand", node.kind(), view.noun()),
         };
         self.report(node.span, path, found, view.wanted(), hint);
     }
@@ -133,9 +133,13 @@ impl Checker<'_> {
             Value::String(text) => {
                 let hint =
                     nearest(text, names.iter().copied()).map(|n| format!("did you mean \"{n}\"?"));
-                self.report(node.span, path, format!("\"{text}\""), expected, hint);
+                let found = format!("\"{text}\" is not a value of `{}`", last_key(path));
+                self.report(node.span, path, found, expected, hint);
             }
-            _ => self.report(node.span, path, node.kind(), expected, None),
+            _ => {
+                let found = format!("{} where a name in quotes should stand", node.kind());
+                self.report(node.span, path, found, expected, None);
+            }
         }
     }
 
@@ -144,7 +148,8 @@ impl Checker<'_> {
         let names: Vec<&str> = cases.iter().map(|(name, _)| *name).collect();
         let Some(table) = node.as_table() else {
             let expected = format!("a table with a key `kind`, {}", one_of(&names, '"'));
-            return self.report(node.span, path, node.kind(), expected, None);
+            let found = format!("{} where a table should stand", node.kind());
+            return self.report(node.span, path, found, expected, None);
         };
         let Some(tag) = table.get("kind") else {
             let expected = format!("kind = {}", one_of(&names, '"'));
@@ -247,21 +252,23 @@ impl Checker<'_> {
     ) {
         for (word, needed) in [("x-exactly-one", true), ("x-at-most-one", false)] {
             for group in groups(object, word) {
-                let given: Vec<&Entry> = group.iter().filter_map(|k| table.get(k)).collect();
+                let mut given: Vec<&Entry> =
+                    group.iter().filter_map(|k| table.get(k)).collect();
+                given.sort_by_key(|e| e.key_span.start);
                 match given.as_slice() {
                     [] if needed => {
                         let found = match path {
                             "" => "the scenario does not say where the occupant is".to_owned(),
                             _ => format!("`{path}` has none of {}", quoted(&group, '`')),
                         };
-                        let expected = format!("one of {}", quoted(&group, '`'));
+                        let expected = one_of(&group, '`');
                         self.report_table(node, path, found, expected, None);
                     }
                     [] | [_] => {}
                     [.., last] => {
                         let keys: Vec<&str> = given.iter().map(|e| e.key.as_str()).collect();
-                        let found = format!("{} together", quoted(&keys, '`'));
-                        self.report(last.key_span, path, found, "one of them only", None);
+                        let found = format!("{} together", all_of(&keys));
+                        self.report(last.key_span, path, found, "only one of them", None);
                     }
                 }
             }
@@ -272,7 +279,10 @@ impl Checker<'_> {
         let length = |word: &str| view.get(word).and_then(Json::as_u64).map(|n| n as usize);
         let (least, most) = (length("minItems").unwrap_or(0), length("maxItems"));
         if items.len() < least || most.is_some_and(|most| items.len() > most) {
-            let found = format!("a list of {}", items.len());
+            let found = match items.len() {
+                0 => "an empty list".to_owned(),
+                n => format!("a list of {n}"),
+            };
             self.report(node.span, path, found, view.wanted(), None);
         }
         if let Some(item_view) = view.items(self.root) {
@@ -318,6 +328,20 @@ pub(super) fn one_of(names: &[&str], quote: char) -> String {
         [only] => format!("{quote}{only}{quote}"),
         [first @ .., last] => format!("{} or {quote}{last}{quote}", quoted(first, quote)),
     }
+}
+
+/// `a` and `b`, all in quotes.
+fn all_of(names: &[&str]) -> String {
+    match names {
+        [first @ .., last] if !first.is_empty() => format!("{} and `{last}`", quoted(first, '`')),
+        _ => quoted(names, '`'),
+    }
+}
+
+/// The last name of a path, without indices.
+fn last_key(path: &str) -> &str {
+    let end = path.find('[').unwrap_or(path.len());
+    path[..end].rsplit('.').next().unwrap_or(path)
 }
 
 fn quoted(names: &[&str], quote: char) -> String {

@@ -129,9 +129,17 @@ impl Diagnostics {
         Diagnostics::default()
     }
 
-    /// Adds one.
+    /// Adds one, unless the same is said of the same place already (of both joints of a pair, say).
     pub fn push(&mut self, diagnostic: Diagnostic) {
-        self.0.push(diagnostic);
+        let same = |d: &Diagnostic| {
+            d.position.is_some()
+                && d.position == diagnostic.position
+                && d.source == diagnostic.source
+                && d.problem.found == diagnostic.problem.found
+        };
+        if !self.0.iter().any(same) {
+            self.0.push(diagnostic);
+        }
     }
 
     /// Adds all of `other`.

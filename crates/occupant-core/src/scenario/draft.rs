@@ -4,7 +4,7 @@ use super::diagnostic::{Diagnostic, Diagnostics};
 use super::document::{self, Format, Node, Value};
 use super::expand::expand;
 use super::loaded::{Loaded, Resolver};
-use super::overrides::{put, targets};
+use super::overrides::{needs_explicit, put, targets};
 use super::path_text::{self, to_text};
 use super::source::{SourceId, Sources};
 use super::toml_text;
@@ -73,14 +73,14 @@ impl Draft {
             .map_err(|found| refuse(&name, found, "a path such as belts.lap.anchors[1]"))?;
         let id = self.sources.add(&name, value);
         let value = self.value(id);
-        let explicit = expand(&mut self.sources, &self.root);
-        let places = targets(&explicit, &steps);
+        let explicit = needs_explicit(&self.root, &steps).then(|| expand(&mut self.sources, &self.root));
+        let places = targets(explicit.as_ref().unwrap_or(&self.root), &steps);
         if places.is_empty() {
             let found = format!("`{path}` leads to nothing in this scenario");
             return Err(refuse(&name, found, "a path to at least one place"));
         }
         for place in places {
-            put(&mut self.root, &explicit, &place, value.clone())
+            put(&mut self.root, explicit.as_ref(), &place, value.clone())
                 .map_err(|found| refuse(&name, found, "a path that exists in the scenario"))?;
         }
         Ok(())

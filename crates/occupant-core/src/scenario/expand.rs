@@ -91,7 +91,13 @@ fn preset_section(sources: &mut Sources, name: &str, key: &str) -> Option<Node> 
 }
 
 fn add_preset(sources: &mut Sources, name: &str) -> Option<SourceId> {
-    Some(sources.add(format!("preset {name}"), preset_text(name)?))
+    let title = format!("preset {name}");
+    let text = preset_text(name)?;
+    Some(
+        sources
+            .named(&title)
+            .unwrap_or_else(|| sources.add(title, text)),
+    )
 }
 
 fn body(layers: &[Node]) -> Table {

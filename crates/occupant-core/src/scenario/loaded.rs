@@ -11,6 +11,7 @@ use super::expand::expand;
 use super::model::{PathSection, Scenario};
 use super::path_text::locate;
 use super::source::{SourceId, Sources};
+use crate::model::Model;
 use crate::problem::{Problem, Problems};
 use crate::setup::Setup;
 
@@ -97,6 +98,24 @@ impl Loaded {
             &self.sources,
             self.path_table,
         )
+    }
+
+    /// The model of the scenario, ready to be run, with warnings.
+    ///
+    /// # Errors
+    /// As [`Loaded::build`], and everything the model refuses; warnings are among them.
+    pub fn model(&self) -> Result<(Model, Diagnostics), Diagnostics> {
+        let (setup, mut diagnostics) = self.build()?;
+        match Model::new(setup) {
+            Ok(model) => {
+                diagnostics.extend(self.diagnose(model.warnings()));
+                Ok((model, diagnostics))
+            }
+            Err(problems) => {
+                diagnostics.extend(self.diagnose(&problems));
+                Err(diagnostics)
+            }
+        }
     }
 
     /// Places in the text for problems found later, when the model is built or run.

@@ -1,8 +1,16 @@
 //! The nearest valid name to a misspelt one.
 
 /// The candidate most like `word`, if any is near enough to be meant: at most a third of the letters differ, or only
-/// upper and lower case. The first of several equally near ones.
+/// upper and lower case. The first of several equally near ones; else the only one that contains the word.
 pub fn nearest<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
+    let candidates: Vec<&str> = candidates.collect();
+    alike(word, candidates.iter().copied()).or_else(|| {
+        let mut longer = candidates.iter().filter(|c| word.len() > 3 && c.contains(word));
+        longer.next().filter(|_| longer.next().is_none()).copied()
+    })
+}
+
+fn alike<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let plain = normal(word);
     let limit = plain.len().clamp(2, 60) / 3;
     candidates
@@ -55,6 +63,7 @@ mod tests {
         assert_eq!(find("twist-damping"), Some("twist_damping"));
         assert_eq!(find("firction"), Some("friction"));
         assert_eq!(find("K1"), Some("k1"));
+        assert_eq!(find("twist"), Some("twist_damping"));
         assert_eq!(find("colour"), None);
         assert_eq!(find(""), None);
     }

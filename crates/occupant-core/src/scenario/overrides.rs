@@ -1,8 +1,16 @@
 //! `path.to.key=value`: changes to a scenario from a command line or a sweep, made before it is checked.
 
 use super::document::{Entry, Node, Table, Value};
-use super::path_text::{Step, child, with_key};
+use super::path_text::{Step, child, child_of, with_key};
 use super::source::Span;
+
+/// Whether a path can only be followed in the explicit form of a scenario: it has wildcards, or it leads into a list that
+/// is not written.
+pub(super) fn needs_explicit(root: &Node, steps: &[Step]) -> bool {
+    let written = || steps.iter().try_fold(root, child_of).is_some();
+    steps.contains(&Step::Every)
+        || (steps.iter().any(|s| matches!(s, Step::Index(_))) && !written())
+}
 
 /// The places a path with wildcards leads to in the explicit form of a scenario, as paths without wildcards.
 ///
@@ -44,12 +52,12 @@ fn collect(node: &Node, rest: &[Step], path: &mut Vec<Step>, found: &mut Vec<Vec
 /// The part of the path that leads nowhere.
 pub(super) fn put(
     root: &mut Node,
-    explicit: &Node,
+    explicit: Option<&Node>,
     steps: &[Step],
     value: Node,
 ) -> Result<(), String> {
     let mut node = root;
-    let mut shadow = Some(explicit);
+    let mut shadow = explicit;
     let mut path = String::new();
     for (i, step) in steps.iter().enumerate() {
         let last = i + 1 == steps.len();

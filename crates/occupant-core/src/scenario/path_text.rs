@@ -46,6 +46,7 @@ pub fn parse(text: &str) -> Result<Vec<Step>, String> {
         after_dot = false;
     }
     match after_dot {
+        true if text.trim().is_empty() => Err("an empty path".to_owned()),
         true => Err(format!("`{text}` ends where a name should follow")),
         false => Ok(steps),
     }

@@ -66,6 +66,11 @@ impl Sources {
         SourceId(self.0.len() - 1)
     }
 
+    /// The text with this name, if there is one already.
+    pub fn named(&self, name: &str) -> Option<SourceId> {
+        self.0.iter().position(|s| s.name == name).map(SourceId)
+    }
+
     /// The text, or an empty one for an id of another set.
     pub fn text(&self, id: SourceId) -> &str {
         self.0.get(id.0).map_or("", |s| s.text.as_str())

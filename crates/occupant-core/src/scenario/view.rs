@@ -101,7 +101,19 @@ impl View {
             .find(|o| has(o))
     }
 
-    /// What is expected here, in words.
+    /// What is expected here in two or three words.
+    pub(super) fn noun(&self) -> &'static str {
+        match (self.kind(), self.type_name()) {
+            (Some(kind), _) => kind.noun,
+            (None, "array") => "a list",
+            (None, "string") => "a text",
+            (None, "boolean") => "true or false",
+            (None, "number") => "a number",
+            _ => "a table",
+        }
+    }
+
+    /// What is expected here, with examples.
     pub(super) fn wanted(&self) -> String {
         if let Some(kind) = self.kind() {
             return format!("{}: {}", kind.noun, kind.example);

@@ -20,7 +20,7 @@ pub enum Continuation {
     },
     /// End values held. Filter passes start at rest on the held value.
     Hold {
-        /// Samples added at each end.
+        /// Samples added at each end, at most two million.
         samples: usize,
     },
 }
@@ -57,7 +57,7 @@ impl LowPass {
             });
         }
         // ω_d = 2π f,  ω_a = tan(ω_d T/2),  d = 1 + √2 ω_a + ω_a²
-        let wa = (PI * corner_hz * dt_s).tan();
+        let wa = libm::tan(PI * corner_hz * dt_s);
         let d = 1.0 + SQRT_2 * wa + wa * wa;
         let a0 = wa * wa / d;
         Ok(Self {
@@ -138,6 +138,7 @@ fn continued(values: &[f64], continuation: Continuation) -> (Vec<f64>, usize) {
             )
         }
         Continuation::Hold { samples } => {
+            let samples = samples.min(2_000_000);
             let held = |value| std::iter::repeat_n(value, samples);
             (
                 held(first)

@@ -7,6 +7,9 @@
 
 use super::{SignalError, require_positive, require_same_length, require_samples, whole_steps};
 
+/// Most steps of a resampled record.
+const MOST_STEPS: usize = 100_000_000;
+
 /// Shape between samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Interpolation {
@@ -93,11 +96,19 @@ impl<'a> Interpolant<'a> {
     /// Samples from the first time to the last whole interval.
     ///
     /// # Errors
-    /// An interval that is not positive.
+    /// An interval that is not positive, or too short for the length of the record.
     pub fn resample(&self, dt_s: f64) -> Result<Vec<f64>, SignalError> {
         require_positive("new sample interval (s)", dt_s)?;
         let start_s = self.time_s[0];
         let steps = whole_steps(self.time_s[self.time_s.len() - 1] - start_s, dt_s);
+        if steps > MOST_STEPS {
+            let expected = "long enough for at most a hundred million samples";
+            return Err(SignalError::OutOfRange {
+                what: "new sample interval (s)",
+                found: dt_s,
+                expected,
+            });
+        }
         Ok((0..=steps)
             .map(|i| self.value_at(start_s + i as f64 * dt_s))
             .collect())
@@ -206,6 +217,7 @@ mod tests {
             [0.0, 1.0, 2.0, 0.5, -1.0]
         );
         assert!(resample(&coarse, 1e-3, 0.0).is_err());
+        assert!(resample(&coarse, 1e-3, 1e-15).is_err());
         let tied = Interpolant::new(&[0.0, 0.0], &[1.0, 2.0], Interpolation::Linear);
         assert!(matches!(tied, Err(SignalError::NotIncreasing { .. })));
     }

@@ -118,6 +118,19 @@ impl Profile {
         }
     }
 
+    /// The greatest speed gained at the end of a ramp between `from_s` and `until_s`, m/s; zero where there is none, and
+    /// for the sines, which never both give and take.
+    pub fn greatest_gain_m_s(&self, from_s: f64, until_s: f64) -> f64 {
+        let Profile::Ramps(ramps) = self else {
+            return 0.0;
+        };
+        ramps
+            .iter()
+            .filter(|ramp| (from_s..=until_s).contains(&(ramp.start_s + ramp.length_s)))
+            .map(|ramp| -ramp.loss(ramp.length_s).speed_m_s)
+            .fold(0.0, f64::max)
+    }
+
     /// Loss at τ = `since_s`: nothing before the pulse, and the speed lost stays lost after it.
     pub fn loss(&self, since_s: f64, cursor: &mut PathCursor) -> Loss {
         let duration_s = self.duration_s();

@@ -2,6 +2,7 @@
 
 use std::f64::consts::PI;
 
+use super::super::cursor::PathCursor;
 use super::super::problem::{PathProblem, expect_finite};
 use super::profile::Profile;
 
@@ -94,11 +95,13 @@ impl PulseShape {
             return Err(problems);
         }
         let profile = self.unchecked_profile();
-        let peak = profile.peak_m_s2();
-        if peak == 0.0 {
+        if profile.peak_m_s2() == 0.0 {
             return Err(vec![PathProblem::PulseIsZero]);
         }
-        expect_finite(&mut problems, "peak deceleration", peak);
+        let end = profile.loss(profile.duration_s(), &mut PathCursor::default());
+        expect_finite(&mut problems, "peak deceleration", profile.peak_m_s2());
+        expect_finite(&mut problems, "delta-v", end.speed_m_s);
+        expect_finite(&mut problems, "distance", end.distance_m);
         if problems.is_empty() {
             Ok(profile)
         } else {

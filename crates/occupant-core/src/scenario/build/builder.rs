@@ -149,6 +149,17 @@ impl<'a> Builder<'a> {
         );
     }
 
+    /// Adds a warning with a remedy.
+    pub(super) fn warning(
+        &mut self,
+        path: &str,
+        found: impl Into<String>,
+        expected: impl Into<String>,
+        hint: impl Into<String>,
+    ) {
+        self.report(Severity::Warning, path, found.into(), expected.into(), Some(hint.into()));
+    }
+
     fn report(
         &mut self,
         severity: Severity,

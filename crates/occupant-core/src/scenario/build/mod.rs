@@ -8,6 +8,7 @@ mod body;
 mod builder;
 mod joints;
 mod path;
+mod plausible;
 mod posture;
 mod pulse;
 mod run;
@@ -66,5 +67,6 @@ pub(super) fn build(
         integrator,
         output,
     };
+    plausible::check(&mut b, &setup, explicit);
     Ok((setup, b.problems))
 }

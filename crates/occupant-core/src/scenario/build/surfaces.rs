@@ -62,17 +62,21 @@ pub(super) fn spring(
 
 /// All surfaces, in the order written.
 pub(super) fn surfaces(b: &mut Builder, scenario: &Scenario, body: &Body) -> Vec<Surface> {
+    let mut undecided = Vec::new();
     let each = scenario.surfaces.iter();
-    each.map(|(name, section)| surface(b, scenario, body, name, section))
-        .collect()
+    let surfaces = each
+        .map(|(name, section)| surface(b, scenario, body, (name, section), &mut undecided))
+        .collect();
+    report_undecided(b, &undecided);
+    surfaces
 }
 
 fn surface(
     b: &mut Builder,
     scenario: &Scenario,
     body: &Body,
-    name: &str,
-    section: &SurfaceSection,
+    (name, section): (&str, &SurfaceSection),
+    undecided: &mut Vec<String>,
 ) -> Surface {
     let path = with_key("surfaces", name);
     let names = scenario.materials.keys().map(String::as_str);
@@ -87,7 +91,7 @@ fn surface(
         Some(FrameChoice::Vehicle) | None => Frame::Vehicle,
     };
     let outline = outline(b, &path, section);
-    let facing = facing(b, scenario, &path, section, frame);
+    let facing = facing(b, scenario, (&path, section), frame, undecided);
     let spheres = section.spheres.as_ref().map(|names| {
         let known = body.spheres.iter().map(|s| s.name.as_str());
         let each = names.iter().enumerate();
@@ -189,9 +193,9 @@ fn disc(b: &mut Builder, path: &str, section: &DiscSection) -> Outline {
 fn facing(
     b: &mut Builder,
     scenario: &Scenario,
-    path: &str,
-    section: &SurfaceSection,
+    (path, section): (&str, &SurfaceSection),
     frame: Frame,
+    undecided: &mut Vec<String>,
 ) -> Facing {
     if let Some(inside) = &section.inside {
         if section.facing.is_some() {
@@ -208,13 +212,25 @@ fn facing(
         (None, Some(inside), Frame::Vehicle) => Facing::Towards(b.point("inside", inside)),
         _ if section.disc.is_some() || section.plane.is_some() => Facing::Order,
         _ => {
-            b.error_with_hint(
-                path,
-                format!("`{path}` does not say which side is open"),
-                "inside = [x, y, z], a point on the open side, or facing = \"order\"",
-                "a key `inside` at the top of the scenario serves all surfaces of the vehicle",
-            );
+            undecided.push(path.to_owned());
             Facing::Order
         }
     }
+}
+
+/// One message for all surfaces whose open side is not told.
+fn report_undecided(b: &mut Builder, paths: &[String]) {
+    let Some((first, others)) = paths.split_first() else {
+        return;
+    };
+    let found = match others.len() {
+        0 => format!("`{first}` does not say which side is open"),
+        n => format!("`{first}` and {n} more do not say which side is open"),
+    };
+    b.error_with_hint(
+        first,
+        found,
+        "inside = [x, y, z], a point on the open side, or facing = \"order\"",
+        "a key `inside` at the top of the scenario serves all surfaces of the vehicle",
+    );
 }
