@@ -252,8 +252,7 @@ impl Checker<'_> {
     ) {
         for (word, needed) in [("x-exactly-one", true), ("x-at-most-one", false)] {
             for group in groups(object, word) {
-                let mut given: Vec<&Entry> =
-                    group.iter().filter_map(|k| table.get(k)).collect();
+                let mut given: Vec<&Entry> = group.iter().filter_map(|k| table.get(k)).collect();
                 given.sort_by_key(|e| e.key_span.start);
                 match given.as_slice() {
                     [] if needed => {

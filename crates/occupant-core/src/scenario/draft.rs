@@ -73,7 +73,8 @@ impl Draft {
             .map_err(|found| refuse(&name, found, "a path such as belts.lap.anchors[1]"))?;
         let id = self.sources.add(&name, value);
         let value = self.value(id);
-        let explicit = needs_explicit(&self.root, &steps).then(|| expand(&mut self.sources, &self.root));
+        let explicit =
+            needs_explicit(&self.root, &steps).then(|| expand(&mut self.sources, &self.root));
         let places = targets(explicit.as_ref().unwrap_or(&self.root), &steps);
         if places.is_empty() {
             let found = format!("`{path}` leads to nothing in this scenario");

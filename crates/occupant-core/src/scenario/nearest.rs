@@ -5,7 +5,9 @@
 pub fn nearest<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let candidates: Vec<&str> = candidates.collect();
     alike(word, candidates.iter().copied()).or_else(|| {
-        let mut longer = candidates.iter().filter(|c| word.len() > 3 && c.contains(word));
+        let mut longer = candidates
+            .iter()
+            .filter(|c| word.len() > 3 && c.contains(word));
         longer.next().filter(|_| longer.next().is_none()).copied()
     })
 }

@@ -157,7 +157,13 @@ impl<'a> Builder<'a> {
         expected: impl Into<String>,
         hint: impl Into<String>,
     ) {
-        self.report(Severity::Warning, path, found.into(), expected.into(), Some(hint.into()));
+        self.report(
+            Severity::Warning,
+            path,
+            found.into(),
+            expected.into(),
+            Some(hint.into()),
+        );
     }
 
     fn report(

@@ -59,6 +59,7 @@ pub(super) fn build(
         gravity_m_s2,
         materials,
         surfaces,
+        edge_force: run::edge_force(explicit),
         belts,
         path,
         posture,

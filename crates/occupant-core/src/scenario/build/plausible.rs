@@ -78,7 +78,11 @@ pub(super) fn check(b: &mut Builder, setup: &Setup, scenario: &Scenario) {
         warn_unless(b, one("gravity", setup.gravity_m_s2), &GRAVITY);
     }
     warn_unless(b, one("body.segments", setup.body.mass_kg()), &BODY_MASS);
-    warn_unless(b, one("time.end", setup.time.end_s - setup.time.start_s), &END);
+    warn_unless(
+        b,
+        one("time.end", setup.time.end_s - setup.time.start_s),
+        &END,
+    );
     warn_unless(b, radii(setup), &RADIUS);
     warn_unless(b, stiffnesses(setup), &STIFFNESS);
     warn_unless(b, places(setup), &PLACE);
@@ -116,7 +120,10 @@ fn stiffnesses(setup: &Setup) -> Values {
         let path = with_key(&with_key(group, name), "k1");
         (path, spring.k1_n_per_m)
     };
-    let materials = setup.materials.iter().map(|m| k1("materials", &m.name, &m.spring));
+    let materials = setup
+        .materials
+        .iter()
+        .map(|m| k1("materials", &m.name, &m.spring));
     let belts = setup.belts.iter().map(|b| k1("belts", &b.name, &b.webbing));
     materials.chain(belts).collect()
 }
@@ -195,7 +202,10 @@ fn check_stop_angles(b: &mut Builder, scenario: &Scenario) {
             ("upper_stop", &section.upper_stop),
         ];
         for (key, stop) in stops {
-            if stop.as_ref().is_some_and(|s| look_like_radians(&[&s.begin, &s.full])) {
+            if stop
+                .as_ref()
+                .is_some_and(|s| look_like_radians(&[&s.begin, &s.full]))
+            {
                 b.warning(
                     &format!("joints.{name}.{key}"),
                     "angles of a stop that are both below 3.2°, as if they were radians",

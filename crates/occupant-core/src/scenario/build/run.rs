@@ -1,8 +1,8 @@
 //! `[time]`, `[integrator]`, `[output]` → [`TimeSpan`], [`Integrator`], [`OutputOptions`].
 
 use super::builder::Builder;
-use crate::scenario::model::{IntegratorSection, Scenario};
-use crate::setup::{Integrator, OutputOptions, TimeSpan};
+use crate::scenario::model::{EdgeForceChoice, IntegratorSection, Scenario};
+use crate::setup::{EdgeForce, Integrator, OutputOptions, TimeSpan};
 
 /// Time between records unless given: 1 ms.
 const DEFAULT_OUTPUT_S: f64 = 1e-3;
@@ -51,6 +51,14 @@ pub(super) fn integrator(b: &mut Builder, s: &Scenario) -> Integrator {
                 max_step_s,
             }
         }
+    }
+}
+
+/// Where the edge force acts.
+pub(super) fn edge_force(s: &Scenario) -> EdgeForce {
+    match s.contact.as_ref().and_then(|c| c.edge_force) {
+        Some(EdgeForceChoice::Centre) => EdgeForce::AtCentre,
+        Some(EdgeForceChoice::ContactPoint) | None => EdgeForce::AtContactPoint,
     }
 }
 

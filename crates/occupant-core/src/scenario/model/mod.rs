@@ -5,6 +5,7 @@
 
 mod belt;
 mod body;
+mod contact;
 mod joint;
 mod material;
 mod path;
@@ -18,6 +19,7 @@ use serde::{Deserialize, Serialize};
 
 pub use belt::BeltSection;
 pub use body::{BodySection, SegmentSection, Segments, SphereSection};
+pub use contact::{ContactSection, EdgeForceChoice};
 pub use joint::{JointSection, JointsSection, StopSection};
 pub use material::{MaterialSection, MemoryChoice};
 pub use path::{
@@ -114,6 +116,9 @@ pub struct Scenario {
     /// Contact materials by name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub materials: IndexMap<String, MaterialSection>,
+    /// How contact forces act.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub contact: Option<ContactSection>,
     /// Surfaces by name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub surfaces: IndexMap<String, SurfaceSection>,
