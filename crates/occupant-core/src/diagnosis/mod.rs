@@ -203,4 +203,4 @@ fn vehicle(model: &Model) -> VehicleFigures {
 }
 
 #[cfg(test)]
-mod tests;
+pub(crate) mod tests;

@@ -201,3 +201,6 @@ pub struct Solver {
     /// Time taken, given from outside; absent where nobody measured it.
     pub wall_time_s: Option<f64>,
 }
+
+#[cfg(test)]
+mod tests;

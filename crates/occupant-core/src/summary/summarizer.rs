@@ -103,6 +103,12 @@ impl Summarizer {
         })
     }
 
+    /// Room for outputs.
+    #[cfg(test)]
+    pub(super) fn room(&self) -> [usize; 3] {
+        std::array::from_fn(|i| self.resultants_m_s2[i].capacity())
+    }
+
     fn acceleration(&self, i: usize, time: &TimeSpan) -> Acceleration {
         let peak = self.accelerations[i].unwrap_or(Peak {
             value: 0.0,

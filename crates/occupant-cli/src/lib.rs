@@ -1,0 +1,4 @@
+//! The command `occupant`, as a library: its recorders for other programs, and the command line itself.
+
+pub mod cli;
+pub mod mcap;
