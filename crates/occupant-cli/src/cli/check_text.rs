@@ -218,7 +218,9 @@ fn verdict(d: &Diagnosis) -> String {
         fastest.by
     );
     match d.step_by_time_scale {
-        Some(number) => format!("{scale}; step/time scale {number:.3}, which must stay below 2.8\n"),
+        Some(number) => {
+            format!("{scale}; step/time scale {number:.3}, which must stay below 2.8\n")
+        }
         None => format!("{scale}; the error control chooses the step\n"),
     }
 }
