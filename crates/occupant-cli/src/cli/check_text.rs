@@ -161,7 +161,7 @@ fn belts(d: &Diagnosis) -> String {
 fn sphere_rates(d: &Diagnosis) -> String {
     let mut table = Table::new(&[
         ("sphere", Left),
-        ("stiffest surface", Left),
+        ("stiffest material", Left),
         ("effective mass, kg", Right),
         ("slope, kN/m", Right),
         ("time scale, ms", Right),

@@ -14,10 +14,11 @@ use crate::joint::{BallJoint, HingeJoint};
 use crate::kernel::frame::Moving;
 use crate::kernel::joints::BALLS;
 use crate::kernel::spring::Spring;
-use crate::material::BilinearSpring;
+use crate::material::{BilinearSpring, Material};
 use crate::model::Model;
 use crate::path::{FrameMotion, PathCursor};
 use crate::sample::Sample;
+use crate::setup::Setup;
 use crate::surface::Frame;
 
 /// step·rate at which the classical Runge–Kutta method becomes unstable, on the imaginary axis; 2.785 on the real one.
@@ -28,7 +29,7 @@ pub const RK4_STABILITY_LIMIT: f64 = 2.8;
 pub struct Rate {
     /// Name of the sphere, belt or joint.
     pub of: String,
-    /// What makes it: the surface, the belt's sphere, or the joint's damper or spring.
+    /// What makes it: the material, the belt's sphere, or the joint's damper or spring.
     pub by: String,
     /// Effective mass in kg, or effective inertia in kg·m².
     pub effective: f64,
@@ -41,7 +42,7 @@ pub struct Rate {
 /// What a sphere meets: its stiffest contact and the friction that the step can bear.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SphereRate {
-    /// The spring rate; `by` is the surface.
+    /// The spring rate; `by` is the material.
     #[serde(flatten)]
     pub rate: Rate,
     /// Normal force up to which friction is stable at the step; absent without friction or with a step under error control.
@@ -89,7 +90,7 @@ impl FrictionMasses {
     fn per_newton(&self, model: &Model, sphere: usize, surface: usize, step_s: f64) -> f64 {
         let mass_kg = self.tangential_kg[sphere * self.surfaces + surface];
         let setup = model.setup();
-        let material = &setup.materials[setup.surfaces[surface].material];
+        let material = material_of(setup, surface);
         if mass_kg > 0.0 {
             step_s * material.friction / (material.friction_speed_m_s * mass_kg)
         } else {
@@ -147,8 +148,7 @@ pub(super) fn of_spheres(
                 .filter(move |&(s, _)| s == sphere)
                 .map(|(_, f)| f)
         };
-        let slope =
-            |&surface: &usize| steepest(&setup.materials[setup.surfaces[surface].material].spring);
+        let slope = |&surface: &usize| steepest(&material_of(setup, surface).spring);
         let stiffest = own().max_by(|a, b| slope(a).total_cmp(&slope(b)))?;
         let site = &model.system().contacts.sites[sphere];
         let (_, centre, _) = model.system().sphere(mobility.kinematics(), sphere);
@@ -162,7 +162,7 @@ pub(super) fn of_spheres(
         let name = |surface: usize| setup.surfaces[surface].name.clone();
         let rate = spring_rate(
             setup.body.spheres[sphere].name.clone(),
-            name(stiffest),
+            material_of(setup, stiffest).name.clone(),
             mass_kg,
             slope(&stiffest),
         );
@@ -301,6 +301,11 @@ fn damper_rate(of: &str, inertia_kg_m2: f64, damping_n_m_s: f64) -> Option<Rate>
         coefficient: damping_n_m_s,
         time_scale_s: inertia_kg_m2 / damping_n_m_s,
     })
+}
+
+/// Material of a surface.
+fn material_of(setup: &Setup, surface: usize) -> &Material {
+    &setup.materials[setup.surfaces[surface].material]
 }
 
 fn steepest(spring: &BilinearSpring) -> f64 {
