@@ -110,7 +110,7 @@ pub struct UnitError {
 /// Largest power of a base dimension that makes sense.
 pub(super) const MAX_EXPONENT: i32 = 9;
 
-/// Looks a unit up.
+/// The unit with this name.
 ///
 /// # Errors
 /// No unit has this name; `start` and `end` say where it stands.
@@ -135,7 +135,8 @@ pub(super) fn named(name: &str, start: usize, end: usize) -> Result<Scale, UnitE
 }
 
 impl Scale {
-    pub(super) fn checked_power(self, n: i32) -> Option<Scale> {
+    /// The power, unless it is beyond sense.
+    pub(super) fn power(self, n: i32) -> Option<Scale> {
         let d = self.dimension;
         let raised = Scale {
             dimension: Dimension::new(d.length * n, d.mass * n, d.time * n, d.angle * n),
@@ -144,21 +145,7 @@ impl Scale {
         raised.is_sensible().then_some(raised)
     }
 
-    pub(super) fn power(self, sign: i32) -> Scale {
-        match sign {
-            -1 => Scale {
-                dimension: Dimension::new(
-                    -self.dimension.length,
-                    -self.dimension.mass,
-                    -self.dimension.time,
-                    -self.dimension.angle,
-                ),
-                factor: 1.0 / self.factor,
-            },
-            _ => self,
-        }
-    }
-
+    /// The product, unless its powers are beyond sense.
     pub(super) fn times(self, other: Scale) -> Option<Scale> {
         let (a, b) = (self.dimension, other.dimension);
         let product = Scale {

@@ -197,8 +197,9 @@ impl<'a> Parser<'a> {
                 _ => 1,
             };
             let factor = self.factor(depth)?;
-            product = product
-                .times(factor.power(sign))
+            product = factor
+                .power(sign)
+                .and_then(|f| product.times(f))
                 .ok_or_else(|| too_high(&token))?;
         }
         Ok(product)
@@ -239,7 +240,7 @@ impl<'a> Parser<'a> {
                 ..
             }) => {
                 self.at += 1;
-                base.checked_power(n).ok_or_else(|| too_high(&token))
+                base.power(n).ok_or_else(|| too_high(&token))
             }
             _ => Ok(base),
         }
