@@ -1,6 +1,16 @@
-//! Shared parts of the proofs: bodies and compartments built in code, prescribed motion, reference data.
+//! Shared pieces of the proofs.
 
 pub mod cart;
 pub mod cases;
+pub mod compartment;
+pub mod core_side;
+pub mod free_run;
+pub mod golden;
 pub mod measure;
+pub mod mirror;
 pub mod probe;
+pub mod random;
+pub mod reference;
+pub mod scene;
+pub mod segment_motion;
+pub mod space_state;

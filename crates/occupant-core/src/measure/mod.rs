@@ -1,0 +1,49 @@
+//! Measures of injury and of occupant risk, from signals alone.
+//!
+//! Every function takes samples in SI with one interval, assumes the channel filtered as its page
+//! says (see [`crate::signal`]), and returns a value with its unit in the name and the time where it
+//! stands, counted from the first sample. Formulas were collected from open sources that cite the
+//! standards; the standards themselves were not at hand, so nothing here claims to be their text.
+//!
+//! What a rigid thorax cannot give (rib deflection, viscous criterion) is not computed from a run.
+
+pub mod asi;
+pub mod bric;
+pub mod damage;
+pub mod dummy;
+pub mod femur;
+pub mod flail_space;
+pub mod hic;
+pub mod limits;
+pub mod max_average;
+pub mod neck;
+pub mod olc;
+pub mod peak;
+pub mod risk;
+pub mod severity_index;
+pub mod thiv;
+pub mod thorax;
+pub mod three_ms;
+
+#[cfg(test)]
+mod any_input;
+
+pub use asi::{Asi, AsiEdition, SeverityClass, asi};
+pub use bric::{Bric, BricBasis, bric};
+pub use damage::damage;
+pub use dummy::Dummy;
+pub use femur::{DurationLimit, DurationUse, duration_use};
+pub use flail_space::{FlailDistances, FlailSpace, flail_space};
+pub use hic::{Hic, HicWindow, hic, hic_d};
+pub use limits::{Basis, Grade, LIMITS, Limit, Quantity, Rule, Verdict, limits};
+pub use max_average::max_50ms_average;
+pub use neck::{NeckIntercepts, NeckMode, Nij, condyle_moment, neck_axial_peaks, nij};
+pub use olc::{Olc, olc};
+pub use peak::{Peak, largest_magnitude, maximum, minimum};
+pub use risk::Severity;
+pub use severity_index::severity_index;
+pub use thiv::{HeadFlight, Thiv, thiv};
+pub use thorax::{ChestSize, combined_thoracic_index, viscous_criterion};
+pub use three_ms::{
+    ThreeMs, clip_contiguous, clip_cumulative, three_ms_contiguous, three_ms_cumulative,
+};

@@ -1,0 +1,262 @@
+//! Injury risk curves: probability of an injury of a severity or worse.
+//!
+//! Collected from open-source programs that cite the SafetyCompanion 2023/24, NHTSA 1999/2004/2008,
+//! Prasad and Mertz, and Takhounts et al.; not read in the originals. A risk is that of the
+//! population the curve was fitted to, loaded like the dummy; the logistic ones do not vanish at zero
+//! load (Nij: 3.8 %, criticised in SAE 2010-22-0004).
+
+use super::Dummy;
+use crate::{signal::STANDARD_GRAVITY_MPS2, trig};
+
+/// Severity of injury, on the abbreviated injury scale: this level or worse.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Hash)]
+pub enum Severity {
+    /// AIS 1+.
+    Ais1,
+    /// AIS 2+.
+    Ais2,
+    /// AIS 3+.
+    Ais3,
+    /// AIS 4+.
+    Ais4,
+    /// AIS 5+.
+    Ais5,
+    /// Fatal.
+    Fatal,
+}
+
+/// Head risk from HIC15 (the same curve is used with HIC36), P = Φ((ln H − μ)/σ); AIS 2+, 3+, 4+.
+#[must_use]
+pub fn hic_risk(hic: f64, severity: Severity) -> Option<f64> {
+    let (mu, sigma) = match severity {
+        Severity::Ais2 => (6.963_52, 0.846_64),
+        Severity::Ais3 => (7.452_31, 0.739_98),
+        Severity::Ais4 => (7.656_05, 0.605_80),
+        _ => return None,
+    };
+    Some(if hic > 0.0 {
+        normal_cdf((libm::log(hic) - mu) / sigma)
+    } else {
+        0.0
+    })
+}
+
+/// Head risk from HIC, expanded Prasad–Mertz curves: 1/(1 + exp(a + 200/H − bH)).
+#[must_use]
+pub fn hic_risk_prasad_mertz(hic: f64, severity: Severity) -> f64 {
+    let (a, b) = match severity {
+        Severity::Ais1 => (1.54, 0.0065),
+        Severity::Ais2 => (2.49, 0.004_83),
+        Severity::Ais3 => (3.39, 0.003_72),
+        Severity::Ais4 => (4.90, 0.003_51),
+        Severity::Ais5 => (7.82, 0.004_29),
+        Severity::Fatal => (12.24, 0.005_65),
+    };
+    if hic > 0.0 {
+        logistic(a + 200.0 / hic, b * hic)
+    } else {
+        0.0
+    }
+}
+
+/// Neck risk from Nij; AIS 2+ to 5+.
+#[must_use]
+pub fn nij_risk(nij: f64, severity: Severity) -> Option<f64> {
+    let (a, b) = match severity {
+        Severity::Ais2 => (2.054, 1.195),
+        Severity::Ais3 => (3.2269, 1.9688),
+        Severity::Ais4 => (2.693, 1.195),
+        Severity::Ais5 => (3.817, 1.195),
+        _ => return None,
+    };
+    Some(logistic(a, b * nij))
+}
+
+/// Neck AIS 3+ risk from tension or compression (positive), N; Hybrid III dummies.
+#[must_use]
+pub fn neck_axial_risk(force_n: f64, dummy: Dummy) -> Option<f64> {
+    let (a, b) = match dummy {
+        Dummy::HybridIii50M => (10.9745, 2.375),
+        Dummy::HybridIii5F => (10.958, 3.770),
+        Dummy::Thor50M => return None,
+    };
+    Some(logistic(a, b * force_n / 1000.0))
+}
+
+/// Chest AIS 3+ risk from a measured deflection, m; Hybrid III dummies. A run gives no deflection.
+#[must_use]
+pub fn chest_deflection_risk(deflection_m: f64, dummy: Dummy) -> Option<f64> {
+    let b = match dummy {
+        Dummy::HybridIii50M => 1.568,
+        Dummy::HybridIii5F => 1.7212,
+        Dummy::Thor50M => return None,
+    };
+    Some(logistic(
+        10.5456,
+        b * libm::pow(1000.0 * deflection_m.max(0.0), 0.4612),
+    ))
+}
+
+/// Chest AIS 3+ risk from a measured deflection, m, and age in years; Hybrid III 50M.
+#[must_use]
+pub fn chest_deflection_risk_at_age(deflection_m: f64, age_years: f64) -> f64 {
+    logistic(
+        12.597 - 0.058_61 * age_years,
+        1.568 * libm::pow(1000.0 * deflection_m.max(0.0), 0.4612),
+    )
+}
+
+/// Chest AIS 3+ risk from the 3 ms level of the chest resultant, m/s².
+#[must_use]
+pub fn chest_three_ms_risk(three_ms_mps2: f64) -> f64 {
+    logistic(3.1493, 0.0630 * three_ms_mps2 / STANDARD_GRAVITY_MPS2)
+}
+
+/// Chest AIS 3+ risk from the combined thoracic index.
+#[must_use]
+pub fn combined_thoracic_risk(cti: f64) -> f64 {
+    logistic(8.224, 7.125 * cti)
+}
+
+/// Femur AIS 2+ risk from axial compression (positive), N; Hybrid III dummies.
+#[must_use]
+pub fn femur_risk(force_n: f64, dummy: Dummy) -> Option<f64> {
+    let (a, b) = match dummy {
+        Dummy::HybridIii50M => (5.795, 0.5196),
+        Dummy::HybridIii5F => (5.7949, 0.7619),
+        Dummy::Thor50M => return None,
+    };
+    Some(logistic(a, b * force_n / 1000.0))
+}
+
+/// Brain risk from BrIC: 1 − exp(−((B − 0.523)/λ)^1.8), zero below 0.523; AIS 3+ and 4+.
+#[must_use]
+pub fn bric_risk(bric: f64, severity: Severity) -> Option<f64> {
+    let scale = match severity {
+        Severity::Ais3 => 0.531,
+        Severity::Ais4 => 0.647,
+        _ => return None,
+    };
+    Some(if bric > 0.523 {
+        1.0 - trig::exp(-libm::pow((bric - 0.523) / scale, 1.8))
+    } else {
+        0.0
+    })
+}
+
+/// Probability of at least one of several independent injuries: 1 − Π(1 − Pᵢ).
+#[must_use]
+pub fn joint_risk(risks: &[f64]) -> f64 {
+    1.0 - risks.iter().map(|p| 1.0 - p).product::<f64>()
+}
+
+/// Stars of the US frontal rating from the joint risk of head, neck, chest and femur.
+///
+/// The relative risk is the joint risk over 0.15; five stars below 0.67, four below 1.00, three below
+/// 1.33, two below 2.67. None where the risk is not a probability.
+#[must_use]
+pub fn us_ncap_frontal_stars(joint_risk: f64) -> Option<u8> {
+    if !(0.0..=1.0).contains(&joint_risk) {
+        return None;
+    }
+    let relative = joint_risk / 0.15;
+    Some([2.67, 1.33, 1.00, 0.67].iter().fold(
+        1,
+        |stars, &bound| if relative < bound { stars + 1 } else { stars },
+    ))
+}
+
+/// 1/(1 + exp(a − x))
+fn logistic(a: f64, x: f64) -> f64 {
+    1.0 / (1.0 + trig::exp(a - x))
+}
+
+/// Φ(x) = ½ erfc(−x/√2)
+fn normal_cdf(x: f64) -> f64 {
+    0.5 * libm::erfc(-x * std::f64::consts::FRAC_1_SQRT_2)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn close(found: f64, expected: f64) {
+        assert!((found - expected).abs() < 5.1e-7, "{found} {expected}");
+    }
+
+    #[test]
+    fn check_values() {
+        close(hic_risk(700.0, Severity::Ais3).unwrap(), 0.111_629);
+        close(hic_risk(1000.0, Severity::Ais3).unwrap(), 0.230_894);
+        close(hic_risk_prasad_mertz(1000.0, Severity::Ais3), 0.532_454);
+        close(hic_risk_prasad_mertz(1000.0, Severity::Ais4), 0.169_384);
+        close(nij_risk(0.5, Severity::Ais3).unwrap(), 0.095_998);
+        close(nij_risk(1.0, Severity::Ais3).unwrap(), 0.221_301);
+        close(chest_three_ms_risk(40.0 * STANDARD_GRAVITY_MPS2), 0.347_669);
+        close(chest_three_ms_risk(60.0 * STANDARD_GRAVITY_MPS2), 0.652_648);
+        close(
+            chest_deflection_risk(0.040, Dummy::HybridIii50M).unwrap(),
+            0.124_424,
+        );
+        close(femur_risk(6000.0, Dummy::HybridIii50M).unwrap(), 0.064_320);
+        close(
+            femur_risk(10_000.0, Dummy::HybridIii50M).unwrap(),
+            0.354_573,
+        );
+    }
+
+    #[test]
+    fn curves_rise_from_low_to_high_and_order_by_severity() {
+        use Severity::{Ais1, Ais2, Ais3, Ais4, Ais5, Fatal};
+        for load in [100.0, 500.0, 1000.0, 2000.0] {
+            let risks =
+                [Ais1, Ais2, Ais3, Ais4, Ais5, Fatal].map(|s| hic_risk_prasad_mertz(load, s));
+            assert!(risks.windows(2).all(|w| w[1] < w[0]), "{load}: {risks:?}");
+            assert!(
+                hic_risk(load, Ais4) < hic_risk(load, Ais3)
+                    && hic_risk(load, Ais3) < hic_risk(load, Ais2)
+            );
+            assert!(hic_risk(2.0 * load, Ais3) > hic_risk(load, Ais3));
+        }
+        assert_eq!(hic_risk(0.0, Ais3), Some(0.0));
+        assert_eq!(hic_risk_prasad_mertz(0.0, Ais1), 0.0);
+        assert_eq!(hic_risk(700.0, Fatal), None);
+        close(nij_risk(0.0, Ais3).unwrap(), 0.038_166); // does not vanish
+        // age 35 is the curve without age
+        let at_35 = chest_deflection_risk_at_age(0.040, 35.0);
+        assert!((at_35 - chest_deflection_risk(0.040, Dummy::HybridIii50M).unwrap()).abs() < 1e-5);
+        assert_eq!(bric_risk(0.5, Ais3), Some(0.0));
+        close(
+            bric_risk(0.523 + 0.531, Ais3).unwrap(),
+            1.0 - (-1.0f64).exp(),
+        );
+    }
+
+    #[test]
+    fn normal_distribution_against_tables() {
+        for (x, p) in [
+            (0.0, 0.5),
+            (1.0, 0.841_344_746_068_542_9),
+            (-2.0, 0.022_750_131_948_179_2),
+            (3.5, 0.999_767_370_920_964_5),
+            (-6.0, 9.865_876_450_377e-10),
+        ] {
+            assert!(
+                (normal_cdf(x) - p).abs() < 1e-15,
+                "{x}: {:e}",
+                normal_cdf(x) - p
+            );
+        }
+        assert_eq!((normal_cdf(40.0), normal_cdf(-40.0)), (1.0, 0.0));
+    }
+
+    #[test]
+    fn joint_risk_and_stars() {
+        assert!((joint_risk(&[0.1, 0.2, 0.0]) - 0.28).abs() < 1e-15);
+        assert_eq!(
+            [0.05, 0.12, 0.18, 0.30, 0.60].map(us_ncap_frontal_stars),
+            [5, 4, 3, 2, 1].map(Some)
+        );
+        assert_eq!(us_ncap_frontal_stars(f64::NAN), None);
+    }
+}

@@ -1,0 +1,155 @@
+//! `[joints]` → [`Joints`].
+
+use super::builder::Builder;
+use crate::joint::{AngularSpring, BallJoint, HingeJoint, Joint, Joints, Stop};
+use crate::scenario::model::{JointSection, JointsSection, StopSection};
+use crate::scenario::path_text::with_key;
+
+/// The eleven joints; `section` is explicit.
+pub(super) fn joints(b: &mut Builder, section: &JointsSection) -> Joints {
+    report_undamped(b, section);
+    let s = section;
+    Joints {
+        neck: ball(b, Joint::Neck, &s.neck),
+        right_shoulder: ball(b, Joint::RightShoulder, &s.right_shoulder),
+        left_shoulder: ball(b, Joint::LeftShoulder, &s.left_shoulder),
+        upper_back: ball(b, Joint::UpperBack, &s.upper_back),
+        left_elbow: hinge(b, Joint::LeftElbow, &s.left_elbow),
+        right_elbow: hinge(b, Joint::RightElbow, &s.right_elbow),
+        lower_back: ball(b, Joint::LowerBack, &s.lower_back),
+        right_hip: ball(b, Joint::RightHip, &s.right_hip),
+        left_hip: ball(b, Joint::LeftHip, &s.left_hip),
+        right_knee: hinge(b, Joint::RightKnee, &s.right_knee),
+        left_knee: hinge(b, Joint::LeftKnee, &s.left_knee),
+        epsilon: b.optional("joints.epsilon", &s.epsilon, Joints::default().epsilon),
+    }
+}
+
+/// The section of a joint that must be spoken of somewhere.
+fn given<'s>(
+    b: &mut Builder,
+    joint: Joint,
+    section: &'s Option<JointSection>,
+) -> Option<&'s JointSection> {
+    if let Some(JointSection {
+        set: Some(name), ..
+    }) = section
+    {
+        let path = format!("joints.{}.set", joint.name());
+        let sets = b.root.get("joint_sets").and_then(|n| n.as_table());
+        let names: Vec<&str> = sets
+            .into_iter()
+            .flat_map(|t| t.iter())
+            .map(|e| e.key.as_str())
+            .collect();
+        b.index_of(&path, "joint set", name, names.into_iter());
+    }
+    section.as_ref().filter(|section| section.damping.is_some())
+}
+
+/// One message for all joints that nobody gave a damping.
+fn report_undamped(b: &mut Builder, section: &JointsSection) {
+    let undamped: Vec<&str> = Joint::ALL
+        .into_iter()
+        .filter(|joint| {
+            let section = section.of(*joint);
+            section.is_none_or(|section| section.damping.is_none())
+        })
+        .map(Joint::name)
+        .collect();
+    let Some((first, others)) = undamped.split_first() else {
+        return;
+    };
+    let found = match others.len() {
+        0 => format!("joint `{first}` has no damping"),
+        n => format!("joint `{first}` and {n} more have no damping"),
+    };
+    b.error_with_hint(
+        &format!("joints.{first}"),
+        found,
+        "a damping for each of the eleven joints",
+        "joints.all.damping is that of every joint, joints.preset = \"male50\" gives a starting set",
+    );
+}
+
+fn ball(b: &mut Builder, joint: Joint, section: &Option<JointSection>) -> BallJoint {
+    let Some(section) = given(b, joint, section) else {
+        return BallJoint::default();
+    };
+    let path = format!("joints.{}", joint.name());
+    for (key, stop) in [
+        ("lower_stop", &section.lower_stop),
+        ("upper_stop", &section.upper_stop),
+    ] {
+        if stop.is_some() {
+            let found = format!("`{key}` of a ball joint");
+            b.error(
+                &with_key(&path, key),
+                found,
+                "`stop`, the limit of the angle between its segments",
+            );
+        }
+    }
+    let spring = section.stiffness.as_ref().map(|stiffness| AngularSpring {
+        stiffness_n_m: b.si(&with_key(&path, "stiffness"), stiffness),
+        rest_rad: section
+            .rest_angle
+            .as_ref()
+            .map(|angle| b.si(&with_key(&path, "rest_angle"), angle)),
+    });
+    if section.rest_angle.is_some() && spring.is_none() {
+        b.error(
+            &with_key(&path, "rest_angle"),
+            "`rest_angle` without `stiffness`",
+            "both or neither",
+        );
+    }
+    BallJoint {
+        damping_n_m_s: b.needed(&path, "damping", &section.damping),
+        twist_damping_n_m_s: b.optional(
+            &with_key(&path, "twist_damping"),
+            &section.twist_damping,
+            0.0,
+        ),
+        stop: stop(b, &path, "stop", &section.stop),
+        spring,
+    }
+}
+
+fn hinge(b: &mut Builder, joint: Joint, section: &Option<JointSection>) -> HingeJoint {
+    let Some(section) = given(b, joint, section) else {
+        return HingeJoint::default();
+    };
+    let path = format!("joints.{}", joint.name());
+    let foreign = [
+        ("stop", section.stop.is_some()),
+        ("twist_damping", section.twist_damping.is_some()),
+        ("stiffness", section.stiffness.is_some()),
+        ("rest_angle", section.rest_angle.is_some()),
+    ];
+    for (key, there) in foreign {
+        if there {
+            let expected = "`damping`, `lower_stop`, `upper_stop`: elbows and knees are hinges";
+            b.error(
+                &with_key(&path, key),
+                format!("`{key}` of a hinge"),
+                expected,
+            );
+        }
+    }
+    HingeJoint {
+        damping_n_m_s: b.needed(&path, "damping", &section.damping),
+        lower_stop: stop(b, &path, "lower_stop", &section.lower_stop),
+        upper_stop: stop(b, &path, "upper_stop", &section.upper_stop),
+    }
+}
+
+fn stop(b: &mut Builder, path: &str, key: &str, section: &Option<StopSection>) -> Option<Stop> {
+    let section = section.as_ref()?;
+    let path = with_key(path, key);
+    Some(Stop {
+        begin_rad: b.si(&with_key(&path, "begin"), &section.begin),
+        full_rad: b.si(&with_key(&path, "full"), &section.full),
+        damping_n_m_s: b.si(&with_key(&path, "damping"), &section.damping),
+    })
+}

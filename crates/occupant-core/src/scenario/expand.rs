@@ -1,0 +1,295 @@
+//! Makes a scenario explicit: presets, pairs, `all` and joint sets become one entry for each segment, sphere and joint.
+//!
+//! Every value keeps the place it was written at. Later layers win: preset, then the scenario; within each `all`, then
+//! the pair, then the single name.
+
+use super::document::{Entry, Node, Table, Value};
+use super::source::{SourceId, Sources};
+use super::toml_text;
+use crate::body::{SPHERE_NAMES, Segment};
+use crate::joint::Joint;
+
+/// Pairs of segments: the word for both, left, right.
+const SEGMENT_PAIRS: [[&str; 3]; 4] = [
+    ["upper_arms", "left_upper_arm", "right_upper_arm"],
+    ["forearms", "left_forearm", "right_forearm"],
+    ["thighs", "left_thigh", "right_thigh"],
+    ["lower_legs", "left_lower_leg", "right_lower_leg"],
+];
+
+/// Pairs of spheres.
+const SPHERE_PAIRS: [[&str; 3]; 7] = [
+    ["shoulders", "left_shoulder", "right_shoulder"],
+    ["elbows", "left_elbow", "right_elbow"],
+    ["hands", "left_hand", "right_hand"],
+    ["thighs", "left_thigh", "right_thigh"],
+    ["knees", "left_knee", "right_knee"],
+    ["shins", "left_shin", "right_shin"],
+    ["feet", "left_foot", "right_foot"],
+];
+
+/// Pairs of joints.
+const JOINT_PAIRS: [[&str; 3]; 4] = [
+    ["shoulders", "left_shoulder", "right_shoulder"],
+    ["elbows", "left_elbow", "right_elbow"],
+    ["hips", "left_hip", "right_hip"],
+    ["knees", "left_knee", "right_knee"],
+];
+
+/// Two keys of which a later layer's one replaces an earlier layer's other.
+const RIVALS: [[&str; 2]; 2] = [["mass", "weight"], ["weight", "mass"]];
+
+/// The text of a preset.
+fn preset_text(name: &str) -> Option<&'static str> {
+    match name {
+        "male50" => Some(include_str!("presets/male50.toml")),
+        _ => None,
+    }
+}
+
+/// The explicit form of a scenario tree that has passed the check.
+pub(super) fn expand(sources: &mut Sources, root: &Node) -> Node {
+    let mut explicit = root.clone();
+    let body = section(sources, root, "body", |layers| body(&layers));
+    let sets = root.get("joint_sets").cloned();
+    let joints = section(sources, root, "joints", |layers| {
+        joints(&layers, sets.as_ref())
+    });
+    if let Some(table) = explicit.as_table_mut() {
+        for entry in [body, joints].into_iter().flatten() {
+            table.insert(entry);
+        }
+    }
+    explicit
+}
+
+/// Replaces the table under `key` by what `explicit` makes of its layers.
+fn section(
+    sources: &mut Sources,
+    root: &Node,
+    key: &str,
+    explicit: impl FnOnce(Vec<Node>) -> Table,
+) -> Option<Entry> {
+    let entry = root.as_table()?.get(key)?.clone();
+    entry.node.as_table()?;
+    let preset = entry.node.get("preset").and_then(Node::as_str);
+    let base = preset.and_then(|name| preset_section(sources, name, key));
+    let layers: Vec<Node> = base.into_iter().chain([entry.node.clone()]).collect();
+    Some(Entry {
+        node: Node {
+            span: entry.node.span,
+            value: Value::Table(explicit(layers)),
+        },
+        ..entry
+    })
+}
+
+fn preset_section(sources: &mut Sources, name: &str, key: &str) -> Option<Node> {
+    let id = add_preset(sources, name)?;
+    let root = toml_text::parse(sources, id).ok()?;
+    root.get(key).cloned()
+}
+
+fn add_preset(sources: &mut Sources, name: &str) -> Option<SourceId> {
+    let title = format!("preset {name}");
+    let text = preset_text(name)?;
+    Some(
+        sources
+            .named(&title)
+            .unwrap_or_else(|| sources.add(title, text)),
+    )
+}
+
+fn body(layers: &[Node]) -> Table {
+    let mut explicit = plain_keys(layers, &["segments", "spheres"]);
+    let parts = |key: &str| -> Vec<Node> {
+        let found = layers.iter().filter_map(|l| l.get(key).cloned());
+        found.collect()
+    };
+    let segments = parts("segments");
+    let names = Segment::ALL.iter().map(|s| s.name());
+    put(
+        &mut explicit,
+        "segments",
+        &segments,
+        members(&segments, names, &SEGMENT_PAIRS),
+    );
+    let spheres = parts("spheres");
+    let others = other_names(&spheres, &SPHERE_PAIRS, &SPHERE_NAMES);
+    let names = SPHERE_NAMES
+        .iter()
+        .copied()
+        .chain(others.iter().map(String::as_str));
+    put(
+        &mut explicit,
+        "spheres",
+        &spheres,
+        members(&spheres, names, &SPHERE_PAIRS),
+    );
+    explicit
+}
+
+fn joints(layers: &[Node], sets: Option<&Node>) -> Table {
+    let mut explicit = plain_keys(layers, &[]);
+    let words = JOINT_PAIRS.iter().flatten().copied().chain(["all"]);
+    let named: Vec<&str> = words.chain(Joint::ALL.iter().map(|j| j.name())).collect();
+    for word in &named {
+        explicit.remove(word);
+    }
+    for joint in Joint::ALL {
+        let pair = JOINT_PAIRS
+            .iter()
+            .find(|p| p.contains(&joint.name()))
+            .map(|p| p[0]);
+        let mut merged: Option<Entry> = None;
+        for layer in layers {
+            for word in ["all"].into_iter().chain(pair).chain([joint.name()]) {
+                let entry = layer.as_table().and_then(|t| t.get(word));
+                if let Some(entry) = entry {
+                    let entry = with_set(entry, sets);
+                    let entry = if word == "all" {
+                        fitting(entry, joint)
+                    } else {
+                        entry
+                    };
+                    merged = Some(laid_over(merged, entry));
+                }
+            }
+        }
+        if let Some(entry) = merged {
+            explicit.insert(Entry {
+                key: joint.name().to_owned(),
+                ..entry
+            });
+        }
+    }
+    explicit
+}
+
+/// What is said of all joints, without what this kind of joint cannot have.
+fn fitting(mut entry: Entry, joint: Joint) -> Entry {
+    let foreign: &[&str] = match joint.is_hinge() {
+        true => &["twist_damping", "stop", "stiffness", "rest_angle"],
+        false => &["lower_stop", "upper_stop"],
+    };
+    if let Some(table) = entry.node.as_table_mut() {
+        for key in foreign {
+            table.remove(key);
+        }
+    }
+    entry
+}
+
+/// A joint with the joint set it refers to laid under it. A reference that leads nowhere stays, to be reported.
+fn with_set(entry: &Entry, sets: Option<&Node>) -> Entry {
+    let name = entry.node.get("set").and_then(Node::as_str);
+    let set = name.and_then(|name| sets?.as_table()?.get(name));
+    match set {
+        None => entry.clone(),
+        Some(set) => {
+            let mut own = entry.clone();
+            if let Some(table) = own.node.as_table_mut() {
+                table.remove("set");
+            }
+            laid_over(Some(set.clone()), own)
+        }
+    }
+}
+
+/// All keys of the layers but `preset` and `except`; later layers win.
+fn plain_keys(layers: &[Node], except: &[&str]) -> Table {
+    let mut plain = Table::new();
+    for entry in layers
+        .iter()
+        .filter_map(Node::as_table)
+        .flat_map(Table::iter)
+    {
+        if entry.key != "preset" && !except.contains(&entry.key.as_str()) {
+            plain.insert(entry.clone());
+        }
+    }
+    plain
+}
+
+/// Names in the layers that are neither a pair's word nor among `known`, in order of appearance.
+fn other_names(layers: &[Node], pairs: &[[&str; 3]], known: &[&str]) -> Vec<String> {
+    let mut names: Vec<String> = Vec::new();
+    for entry in layers
+        .iter()
+        .filter_map(Node::as_table)
+        .flat_map(Table::iter)
+    {
+        let key = entry.key.as_str();
+        let is_pair = pairs.iter().any(|p| p[0] == key);
+        if !is_pair && !known.contains(&key) && !names.iter().any(|n| n == key) {
+            names.push(key.to_owned());
+        }
+    }
+    names
+}
+
+/// One merged entry for each of `names` that any layer speaks of, itself or through its pair.
+fn members<'a>(
+    layers: &[Node],
+    names: impl Iterator<Item = &'a str>,
+    pairs: &[[&str; 3]],
+) -> Vec<Entry> {
+    names
+        .filter_map(|name| {
+            let pair = pairs.iter().find(|p| p[1..].contains(&name)).map(|p| p[0]);
+            let mut merged: Option<Entry> = None;
+            for table in layers.iter().filter_map(Node::as_table) {
+                for word in pair.into_iter().chain([name]) {
+                    if let Some(entry) = table.get(word) {
+                        merged = Some(laid_over(merged, entry.clone()));
+                    }
+                }
+            }
+            merged.map(|entry| Entry {
+                key: name.to_owned(),
+                ..entry
+            })
+        })
+        .collect()
+}
+
+fn put(explicit: &mut Table, key: &str, layers: &[Node], members: Vec<Entry>) {
+    let Some(last) = layers.last() else {
+        return;
+    };
+    let mut table = Table::new();
+    members.into_iter().for_each(|m| table.insert(m));
+    explicit.insert(Entry {
+        key: key.to_owned(),
+        key_span: last.span,
+        node: Node {
+            span: last.span,
+            value: Value::Table(table),
+        },
+    });
+}
+
+/// `over` laid over `under`: tables merge key by key, everything else is replaced.
+fn laid_over(under: Option<Entry>, over: Entry) -> Entry {
+    let Some(mut under) = under else {
+        return over;
+    };
+    match (under.node.as_table_mut(), over.node.as_table()) {
+        (Some(base), Some(table)) => {
+            for entry in table.iter() {
+                for [given, rival] in RIVALS {
+                    if entry.key == given {
+                        base.remove(rival);
+                    }
+                }
+                let below = base.get(&entry.key).cloned();
+                base.insert(laid_over(below, entry.clone()));
+            }
+            under.node.span = over.node.span;
+            under.key = over.key;
+            under.key_span = over.key_span;
+            under
+        }
+        _ => over,
+    }
+}

@@ -1,0 +1,327 @@
+//! Tables of numbers, in a CSV file beside the scenario or in the scenario itself.
+//!
+//! The first line names the columns with their units, `t[s],x[m],yaw[deg]`. Every further line holds one number for each
+//! column. Blank lines and lines that start with `#` are skipped.
+
+use super::check::one_of;
+use super::diagnostic::{Diagnostic, Diagnostics};
+use super::document::{Node, Value};
+use super::kind::{KINDS, Kind};
+use super::nearest::nearest;
+use super::source::{SourceId, Sources, Span};
+use super::unit;
+use crate::problem::{Problem, Severity};
+
+/// A column that a table may have.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Column {
+    /// Its name.
+    pub name: &'static str,
+    /// Index of its kind of quantity.
+    pub kind: usize,
+    /// Whether it must be there; others are zero where they are not.
+    pub required: bool,
+}
+
+/// A table in SI units, angles in radians; one value for each of the columns asked for.
+#[derive(Clone, Debug)]
+pub(super) struct NumberTable {
+    /// Lines of numbers.
+    pub rows: Vec<Vec<f64>>,
+    /// Where each line stands.
+    pub row_spans: Vec<Span>,
+}
+
+/// A cell: its words and place.
+struct Cell<'a> {
+    text: &'a str,
+    span: Span,
+}
+
+/// Reads a CSV text.
+///
+/// # Errors
+/// Unknown, doubled and missing columns, wrong units, lines with too few or too many cells, cells that are no number.
+pub(super) fn read_csv(
+    sources: &Sources,
+    id: SourceId,
+    columns: &[Column],
+) -> Result<NumberTable, Diagnostics> {
+    let mut reader = Reader::new(sources, columns);
+    let mut lines = lines(sources, id);
+    let Some(header) = lines.next() else {
+        reader.error(
+            sources.start_of(id),
+            "an empty table",
+            "a line that names the columns",
+            None,
+        );
+        return Err(reader.problems);
+    };
+    reader.header(&cells(sources, header), header);
+    let mut table = NumberTable {
+        rows: Vec::new(),
+        row_spans: Vec::new(),
+    };
+    for line in lines {
+        let cells = cells(sources, line);
+        let numbers = cells.iter().map(|c| reader.number(c)).collect();
+        reader.row(&mut table, numbers, line);
+    }
+    reader.finish(table)
+}
+
+/// Reads the `columns` and `rows` of a section of the scenario; both have passed the check.
+///
+/// # Errors
+/// As for [`read_csv`].
+pub(super) fn read_inline(
+    sources: &Sources,
+    section: &Node,
+    columns: &[Column],
+) -> Result<NumberTable, Diagnostics> {
+    let mut reader = Reader::new(sources, columns);
+    let items = |key: &str| match section.get(key).map(|n| &n.value) {
+        Some(Value::Array(items)) => items.as_slice(),
+        _ => &[],
+    };
+    let header: Vec<Cell> = items("columns")
+        .iter()
+        .filter_map(|n| n.as_str().map(|text| Cell { text, span: n.span }))
+        .collect();
+    reader.header(
+        &header,
+        section.get("columns").map_or(section.span, |n| n.span),
+    );
+    let mut table = NumberTable {
+        rows: Vec::new(),
+        row_spans: Vec::new(),
+    };
+    for row in items("rows") {
+        if let Value::Array(cells) = &row.value {
+            let numbers = cells.iter().map(plain_number).collect();
+            reader.row(&mut table, numbers, row.span);
+        }
+    }
+    reader.finish(table)
+}
+
+fn plain_number(node: &Node) -> f64 {
+    match node.value {
+        Value::Integer(i) => i as f64,
+        Value::Float(x) => x,
+        _ => f64::NAN,
+    }
+}
+
+struct Reader<'a> {
+    sources: &'a Sources,
+    wanted: &'a [Column],
+    /// For each column of the table, the wanted column and SI units in one of its own.
+    found: Vec<Option<(usize, f64)>>,
+    problems: Diagnostics,
+}
+
+impl<'a> Reader<'a> {
+    fn new(sources: &'a Sources, wanted: &'a [Column]) -> Self {
+        Reader {
+            sources,
+            wanted,
+            found: Vec::new(),
+            problems: Diagnostics::new(),
+        }
+    }
+
+    fn finish(self, table: NumberTable) -> Result<NumberTable, Diagnostics> {
+        match self.problems.is_empty() {
+            true => Ok(table),
+            false => Err(self.problems),
+        }
+    }
+
+    fn error(
+        &mut self,
+        span: Span,
+        found: impl Into<String>,
+        expected: impl Into<String>,
+        hint: Option<String>,
+    ) {
+        let problem = Problem {
+            severity: Severity::Error,
+            path: String::new(),
+            found: found.into(),
+            expected: expected.into(),
+            hint,
+        };
+        self.problems
+            .push(Diagnostic::at(self.sources, span, problem));
+    }
+
+    fn header(&mut self, cells: &[Cell], span: Span) {
+        for cell in cells {
+            let column = self.column(cell);
+            self.found.push(column);
+        }
+        let wanted = self.wanted;
+        for (i, column) in wanted.iter().enumerate() {
+            let there = cells.iter().any(|c| name_and_unit(c.text).0 == column.name);
+            let known = self.found.iter().flatten().any(|(at, _)| *at == i);
+            if column.required && !there && !known {
+                let expected = format!("a column `{}[{}]`", column.name, KINDS[column.kind].si);
+                self.error(span, format!("no column `{}`", column.name), expected, None);
+            }
+        }
+    }
+
+    fn column(&mut self, cell: &Cell) -> Option<(usize, f64)> {
+        let (name, unit_text) = name_and_unit(cell.text);
+        let names: Vec<&str> = self.wanted.iter().map(|c| c.name).collect();
+        let Some(i) = names.iter().position(|n| *n == name) else {
+            let hint = nearest(name, names.iter().copied()).map(|n| format!("did you mean `{n}`?"));
+            self.error(
+                cell.span,
+                format!("unknown column `{name}`"),
+                one_of(&names, '`'),
+                hint,
+            );
+            return None;
+        };
+        if self.found.iter().flatten().any(|(at, _)| *at == i) {
+            self.error(
+                cell.span,
+                format!("column `{name}` a second time"),
+                "each column once",
+                None,
+            );
+            return None;
+        }
+        let kind = &KINDS[self.wanted[i].kind];
+        let factor = self.factor(cell, name, unit_text, kind)?;
+        Some((i, factor))
+    }
+
+    fn factor(
+        &mut self,
+        cell: &Cell,
+        name: &str,
+        unit_text: Option<&str>,
+        kind: &Kind,
+    ) -> Option<f64> {
+        let expected = format!(
+            "the unit of {} in brackets, such as `{name}[{}]`",
+            kind.noun, kind.si
+        );
+        let Some(unit_text) = unit_text else {
+            self.error(
+                cell.span,
+                format!("column `{name}` without a unit"),
+                expected,
+                None,
+            );
+            return None;
+        };
+        match unit::parse(unit_text, 0) {
+            Ok(scale) if scale.dimension.serves_as(kind.dimension) => Some(scale.factor),
+            Ok(_) => {
+                let found = format!("`{unit_text}` is not the unit of {}", kind.noun);
+                self.error(cell.span, found, expected, None);
+                None
+            }
+            Err(error) => {
+                self.error(cell.span, error.found, expected, error.hint);
+                None
+            }
+        }
+    }
+
+    fn number(&mut self, cell: &Cell) -> f64 {
+        match cell.text.parse::<f64>() {
+            Ok(x) if x.is_finite() => x,
+            _ => {
+                let found = match cell.text {
+                    "" => "an empty cell".to_owned(),
+                    text => format!("`{text}`"),
+                };
+                self.error(cell.span, found, "a number", None);
+                f64::NAN
+            }
+        }
+    }
+
+    fn row(&mut self, table: &mut NumberTable, numbers: Vec<f64>, span: Span) {
+        if numbers.len() != self.found.len() {
+            let expected = format!("{}, one for each column", self.found.len());
+            return self.error(span, format!("{} numbers", numbers.len()), expected, None);
+        }
+        let mut row = vec![0.0; self.wanted.len()];
+        for (number, column) in numbers.into_iter().zip(&self.found) {
+            if let Some((i, factor)) = column {
+                row[*i] = number * factor;
+            }
+        }
+        table.rows.push(row);
+        table.row_spans.push(span);
+    }
+}
+
+/// `x[m]` → `x` and `m`.
+fn name_and_unit(text: &str) -> (&str, Option<&str>) {
+    match text.split_once('[') {
+        Some((name, rest)) => (
+            name.trim(),
+            Some(rest.trim_end().strip_suffix(']').unwrap_or(rest).trim()),
+        ),
+        None => (text.trim(), None),
+    }
+}
+
+/// The lines of a text that hold something.
+fn lines(sources: &Sources, id: SourceId) -> impl Iterator<Item = Span> {
+    let mut start = 0;
+    sources
+        .text(id)
+        .split_inclusive('\n')
+        .map(move |line| {
+            let from = start;
+            start += line.len();
+            (line, from)
+        })
+        .filter(|(line, _)| {
+            let line = line.trim_start_matches('\u{feff}').trim();
+            !line.is_empty() && !line.starts_with('#')
+        })
+        .map(move |(line, from)| Span {
+            source: id,
+            start: from,
+            end: from + line.trim_end().len(),
+        })
+}
+
+/// The cells of a line, trimmed. A byte-order mark is no part of the first.
+fn cells(sources: &Sources, line: Span) -> Vec<Cell<'_>> {
+    let mut start = line.start;
+    sources
+        .slice(line)
+        .split(',')
+        .map(|raw| {
+            let from = start;
+            start += raw.len() + 1;
+            let blank = |c: char| c.is_whitespace() || c == '\u{feff}';
+            let text = raw.trim_matches(blank);
+            let lead = raw.len() - raw.trim_start_matches(blank).len();
+            let span = match text {
+                "" => Span {
+                    source: line.source,
+                    start: from,
+                    end: from + raw.len(),
+                },
+                _ => Span {
+                    source: line.source,
+                    start: from + lead,
+                    end: from + lead + text.len(),
+                },
+            };
+            Cell { text, span }
+        })
+        .collect()
+}

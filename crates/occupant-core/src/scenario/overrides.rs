@@ -1,0 +1,121 @@
+//! `path.to.key=value`: changes to a scenario from a command line or a sweep, made before it is checked.
+
+use super::document::{Entry, Node, Table, Value};
+use super::path_text::{Step, child, child_of, with_key};
+use super::source::Span;
+
+/// Whether a path can only be followed in the explicit form of a scenario: it has wildcards, or it leads into a list that
+/// is not written.
+pub(super) fn needs_explicit(root: &Node, steps: &[Step]) -> bool {
+    let written = || steps.iter().try_fold(root, child_of).is_some();
+    steps.contains(&Step::Every)
+        || (steps.iter().any(|s| matches!(s, Step::Index(_))) && !written())
+}
+
+/// The places a path with wildcards leads to in the explicit form of a scenario, as paths without wildcards.
+///
+/// A path without wildcards leads to itself, even where nothing stands yet.
+pub(super) fn targets(explicit: &Node, steps: &[Step]) -> Vec<Vec<Step>> {
+    if !steps.contains(&Step::Every) {
+        return vec![steps.to_vec()];
+    }
+    let mut found = Vec::new();
+    collect(explicit, steps, &mut Vec::new(), &mut found);
+    found
+}
+
+fn collect(node: &Node, rest: &[Step], path: &mut Vec<Step>, found: &mut Vec<Vec<Step>>) {
+    let Some((step, rest)) = rest.split_first() else {
+        found.push(path.clone());
+        return;
+    };
+    let next: Vec<Step> = match (step, &node.value) {
+        (Step::Every, Value::Table(table)) => {
+            table.iter().map(|e| Step::Key(e.key.clone())).collect()
+        }
+        (Step::Every, Value::Array(items)) => (0..items.len()).map(Step::Index).collect(),
+        _ => vec![step.clone()],
+    };
+    for step in next {
+        if let Some(below) = child(node, &step) {
+            path.push(step);
+            collect(below, rest, path, found);
+            path.pop();
+        }
+    }
+}
+
+/// Puts `value` at a path without wildcards. Tables on the way are made where they are missing; a list on the way that
+/// only the explicit form has (a preset's inertia, say) is copied from there first.
+///
+/// # Errors
+/// The part of the path that leads nowhere.
+pub(super) fn put(
+    root: &mut Node,
+    explicit: Option<&Node>,
+    steps: &[Step],
+    value: Node,
+) -> Result<(), String> {
+    let mut node = root;
+    let mut shadow = explicit;
+    let mut path = String::new();
+    for (i, step) in steps.iter().enumerate() {
+        let last = i + 1 == steps.len();
+        let above = path.clone();
+        shadow = shadow.and_then(|s| child(s, step));
+        path = match step {
+            Step::Key(key) => with_key(&path, key),
+            Step::Index(at) => format!("{path}[{at}]"),
+            Step::Every => format!("{path}.*"),
+        };
+        if let (Step::Key(key), Value::Table(table)) = (step, &mut node.value)
+            && table.get(key).is_none()
+        {
+            table.insert(blank(key, value.span, steps.get(i + 1), shadow));
+        }
+        let below = below_mut(node, step);
+        node = below.ok_or_else(|| match step {
+            Step::Index(at) => format!("`{above}` has no item {at}"),
+            _ => format!("`{above}` has nothing named `{}`", path_end(step)),
+        })?;
+        if last {
+            *node = value;
+            return Ok(());
+        }
+    }
+    Err("an empty path".to_owned())
+}
+
+fn path_end(step: &Step) -> &str {
+    match step {
+        Step::Key(key) => key,
+        _ => "*",
+    }
+}
+
+/// An entry to be filled: a copy of the explicit list if the path goes on into a list, else an empty table.
+fn blank(key: &str, span: Span, next: Option<&Step>, shadow: Option<&Node>) -> Entry {
+    let copied = match (next, shadow.map(|s| &s.value)) {
+        (Some(_), Some(Value::Array(items))) => Some(Value::Array(items.clone())),
+        _ => None,
+    };
+    Entry {
+        key: key.to_owned(),
+        key_span: span,
+        node: Node {
+            span,
+            value: copied.unwrap_or(Value::Table(Table::new())),
+        },
+    }
+}
+
+fn below_mut<'a>(node: &'a mut Node, step: &Step) -> Option<&'a mut Node> {
+    match (&mut node.value, step) {
+        (Value::Table(table), Step::Key(key)) => table.get_mut(key).map(|e| &mut e.node),
+        (Value::Array(items), Step::Index(i)) => items.get_mut(*i),
+        (Value::Array(items), Step::Key(key)) => items
+            .iter_mut()
+            .find(|item| item.get("name").and_then(Node::as_str) == Some(key)),
+        _ => None,
+    }
+}

@@ -1,0 +1,104 @@
+//! The simulator's body on its own: no surface, no belt, only gravity and joints, stepped by its Runge–Kutta method.
+
+use crate::reference::System;
+use nalgebra::Vector3;
+use occupant_core::{
+    energy,
+    integrate::rk4,
+    kernel::{
+        self, Frames, History, contact::ContactSystem, frame::Moving, joints::JointSystem,
+        kinematics::Kinematics, skeleton::Skeleton, state::State, vector::V3,
+    },
+    setup::EdgeForce,
+};
+
+/// A body in empty space.
+pub struct FreeRun {
+    system: kernel::System<f64>,
+    history: History<f64>,
+    frames: Frames<f64>,
+}
+
+/// What a closed system keeps.
+#[derive(Clone, Copy, Debug)]
+pub struct Conserved {
+    /// Kinetic, gravity and spring energy plus what the joints have dissipated.
+    pub energy: f64,
+    /// Σ M v.
+    pub linear: Vector3<f64>,
+    /// Σ (M x × v + I ω) about the origin.
+    pub angular: Vector3<f64>,
+}
+
+impl FreeRun {
+    /// `system` without its forces.
+    pub fn new(system: &System) -> FreeRun {
+        assert_eq!(system.gravity.xy().norm(), 0.0);
+        let system = kernel::System {
+            skeleton: Skeleton::new(&system.body, -system.gravity.z),
+            joints: JointSystem::new(&system.joints, &[f64::NAN; 7]),
+            contacts: ContactSystem::new(&system.body, &[], &[], &[], EdgeForce::default(), 1e-3),
+            belts: Vec::new(),
+        };
+        let history = History::new(&system.contacts, Vec::new(), Vec::new());
+        FreeRun {
+            system,
+            history,
+            frames: [Moving::space(), Moving::space()],
+        }
+    }
+
+    /// The state after `steps` steps of `h` seconds.
+    pub fn run(&mut self, state: &State<f64>, h: f64, steps: usize) -> State<f64> {
+        let FreeRun {
+            system,
+            history,
+            frames,
+        } = self;
+        let mut state = *state;
+        for _ in 0..steps {
+            state = rk4::step(&state, h, |_, s| system.rate::<false>(s, frames, history));
+        }
+        state
+    }
+
+    /// Energy and momenta of a state.
+    pub fn conserved(&self, state: &State<f64>) -> Conserved {
+        let body = &self.system.skeleton;
+        let k = Kinematics::new(body, state);
+        let (linear, angular) = energy::momentum(body, &k, V3::zero());
+        let energy = energy::kinetic(body, &k, &Moving::space())
+            + energy::gravity(body, &k)
+            + self.system.joints.stored(&k)
+            + state.work.joints;
+        Conserved {
+            energy,
+            linear: linear.to_vector(),
+            angular: angular.to_vector(),
+        }
+    }
+
+    /// Total mass and centre of gravity.
+    pub fn centre(&self, state: &State<f64>) -> (f64, Vector3<f64>) {
+        let body = &self.system.skeleton;
+        let k = Kinematics::new(body, state);
+        let mass: f64 = body.links.iter().map(|l| l.mass).sum();
+        let moment = |n: usize| k.cg(body, n).to_vector() * body.links[n].mass;
+        (mass, (0..12).map(moment).sum::<Vector3<f64>>() / mass)
+    }
+}
+
+/// Root mean square of all components' differences.
+pub fn distance(a: &State<f64>, b: &State<f64>) -> f64 {
+    let mut squares = (a.t1 - b.t1).norm_squared() + (a.velocity - b.velocity).norm_squared();
+    for i in 0..8 {
+        let (p, q) = (&a.orientation[i], &b.orientation[i]);
+        squares += (p.w - q.w).powi(2) + (p.v - q.v).norm_squared();
+        squares += (a.omega[i] - b.omega[i]).norm_squared();
+    }
+    for i in 0..4 {
+        squares += (a.hinge[i] - b.hinge[i]).powi(2);
+        squares += (a.hinge_rate[i] - b.hinge_rate[i]).powi(2);
+    }
+    (squares / 66.0).sqrt()
+}

@@ -1,0 +1,115 @@
+//! What must not matter to the simulator: which side is left, which way is forward, how fast the whole scene moves.
+
+use nalgebra::{UnitQuaternion, Vector3};
+use occupant_tests::{
+    core_side::CoreSide,
+    free_run::{FreeRun, distance},
+    random::Random,
+    reference::System,
+    space_state::SpaceState,
+};
+
+/// Random bodies, joints, forces and states, upright ones among them.
+fn scenes() -> impl Iterator<Item = (Random, System, SpaceState)> {
+    (0..100).map(|seed| {
+        let mut random = Random::new(seed);
+        let system = random.system();
+        let state = if seed % 3 == 0 {
+            random.vertical_state()
+        } else {
+            random.space_state()
+        };
+        (random, system, state)
+    })
+}
+
+#[test]
+fn the_mirror_image_of_a_scene_moves_in_the_mirror() {
+    let mut worst: f64 = 0.0;
+    for (_, system, state) in scenes() {
+        let here = CoreSide::new(&system, &state).accelerations.mirrored();
+        let there = CoreSide::new(&system.mirrored(), &state.mirrored()).accelerations;
+        worst = worst.max(there.difference(&here));
+    }
+    assert!(worst < 1e-11, "{worst:e}"); // Measured: 3.5e-14.
+}
+
+#[test]
+fn a_symmetric_body_in_a_symmetric_state_stays_symmetric() {
+    let mut worst: f64 = 0.0;
+    for seed in 0..10 {
+        let mut random = Random::new(seed);
+        let (mut system, mut state) = (random.system(), random.space_state());
+        make_symmetric(&mut system, &mut state);
+        let mut run = FreeRun::new(&system);
+        let start = state.to_core();
+        assert!(distance(&start, &state.mirrored().to_core()) < 1e-15);
+        let end = run.run(&start, 1e-3, 100);
+        assert!(distance(&start, &end) > 0.1, "it moves");
+        worst = worst
+            .max(end.t1.y.abs())
+            .max((end.hinge[0] - end.hinge[1]).abs());
+        worst = worst.max((end.hinge_rate[2] - end.hinge_rate[3]).abs());
+        for (left, right) in [(4, 5), (6, 7)] {
+            let (l, r) = (end.omega[left], end.omega[right]);
+            worst = worst
+                .max((l.x + r.x).abs())
+                .max((l.y - r.y).abs())
+                .max((l.z + r.z).abs());
+        }
+    }
+    assert!(worst < 1e-9, "{worst:e}"); // Measured: 0.
+}
+
+/// Gives the right side what the left has, and puts the trunk in the mirror's plane.
+fn make_symmetric(system: &mut System, state: &mut SpaceState) {
+    for (left, right) in [(4, 5), (6, 7), (8, 9), (10, 11)] {
+        system.body.segments[right] = system.body.segments[left];
+    }
+    let joints = &mut system.joints;
+    (joints.right_shoulder, joints.right_elbow) = (joints.left_shoulder, joints.left_elbow);
+    (joints.right_hip, joints.right_knee) = (joints.left_hip, joints.left_knee);
+    for slot in 0..4 {
+        let about_y = state.turn[slot].angle();
+        state.turn[slot] = UnitQuaternion::from_scaled_axis(Vector3::y() * about_y);
+        let w = &mut state.speed.angular[slot];
+        (w.x, w.z) = (0.0, 0.0);
+    }
+    (state.t1.y, state.speed.t1.y) = (0.0, 0.0);
+    let image = state.mirrored();
+    for right in [5, 7] {
+        state.turn[right] = image.turn[right];
+        state.speed.angular[right] = image.speed.angular[right];
+    }
+    for right in [1, 3] {
+        state.hinge[right] = image.hinge[right];
+        state.speed.hinge[right] = image.speed.hinge[right];
+    }
+}
+
+#[test]
+fn a_scene_turned_about_the_vertical_moves_the_same_way() {
+    let mut worst: f64 = 0.0;
+    for (mut random, system, state) in scenes() {
+        let yaw = UnitQuaternion::from_scaled_axis(Vector3::z() * random.between(-3.0, 3.0));
+        let here = CoreSide::new(&system, &state).accelerations.turned(&yaw);
+        let there = CoreSide::new(&system.turned(&yaw), &state.turned(&yaw)).accelerations;
+        worst = worst.max(there.difference(&here));
+    }
+    assert!(worst < 1e-11, "{worst:e}"); // Measured: 3.0e-14.
+}
+
+#[test]
+fn a_scene_that_is_elsewhere_and_moves_steadily_accelerates_the_same() {
+    let mut worst: f64 = 0.0;
+    for (mut random, system, state) in scenes() {
+        let mut moved = state;
+        moved.t1 += random.vector(100.0);
+        moved.speed.t1 += random.vector(50.0);
+        let here = CoreSide::new(&system, &state).accelerations;
+        let there = CoreSide::new(&system, &moved).accelerations;
+        worst = worst.max(there.difference(&here));
+    }
+    // Places 100 m away cost three digits of arms of 0.1 m.
+    assert!(worst < 1e-10, "{worst:e}"); // Measured: 2.7e-13.
+}
