@@ -1,0 +1,235 @@
+//! Materials and surfaces (series 8 and 9).
+
+use super::ConversionError;
+use super::writer::{Writer, negated};
+use crate::compartment::{CompartmentLayout, Corner, Face};
+use crate::kept::Kept;
+
+const FIELDS: [&str; 6] = ["STIF1", "STIF2", "DELB", "AMU1", "AMU2", "COFR"];
+
+/// A surface of the scenario.
+struct Written {
+    number: u32,
+    name: String,
+    body: String,
+}
+
+pub(super) fn write(w: &mut Writer<'_>, layout: &CompartmentLayout) -> Result<(), ConversionError> {
+    let surfaces = surfaces(w, layout);
+    let groups = materials(w, &surfaces);
+    w.table("materials", "Series 9: surfaces with the same six numbers share a material, named after the first of them");
+    for (name, members) in &groups {
+        let [k1, k2, delta_b, mu1, mu2, friction] =
+            FIELDS.map(|field| w.quantity(&format!("{field}({})", members[0])));
+        let numbers: Vec<String> = members.iter().map(u32::to_string).collect();
+        w.comment(&format!("Cards 9b, J = {}", numbers.join(", ")));
+        w.set(
+            name,
+            &format!("{{ k1 = {k1}, delta_b = {delta_b}, k2 = {k2}, mu1 = {mu1}, mu2 = {mu2}, friction = {friction} }}"),
+        );
+    }
+    w.table(
+        "surfaces",
+        "Series 8: points in vehicle axes, in; the open side is told by the order of the points",
+    );
+    for surface in &surfaces {
+        let material = groups
+            .iter()
+            .find(|(_, members)| members.contains(&surface.number))
+            .map_or("", |g| &g.0);
+        w.comment(&surface.number.to_string());
+        w.set(
+            &surface.name,
+            &format!(
+                "{{ material = \"{material}\", {}, facing = \"order\" }}",
+                surface.body
+            ),
+        );
+    }
+    let wheel = &layout.wheel;
+    w.report.assumptions.push(format!(
+        "the steering wheel's centre stands {} in behind point {} and level with it, its plane tilted {} degrees: no card places it",
+        wheel.behind_in, wheel.point, wheel.tilt_deg
+    ));
+    w.report.assumptions.push(
+        "which points bound which of the 25 surfaces is a reconstruction: the report's figures 13 and 14 are lost".to_owned(),
+    );
+    Ok(())
+}
+
+/// The surfaces that a scenario can have, by number.
+fn surfaces(w: &mut Writer<'_>, layout: &CompartmentLayout) -> Vec<Written> {
+    let mut written = Vec::new();
+    for face in layout.faces(w.deck) {
+        if !face.corners.is_empty() && !is_without_resistance(w, face.number) {
+            let body = match strip(&face) {
+                Some(ends) => edge(w, ends),
+                None => points(w, &face),
+            };
+            written.push(Written {
+                number: face.number,
+                name: face.name,
+                body,
+            });
+        }
+    }
+    if has_wheel(w, layout) {
+        let body = disc(w, layout);
+        written.push(Written {
+            number: layout.wheel.number,
+            name: layout.wheel.name.clone(),
+            body,
+        });
+    }
+    written
+}
+
+fn has_wheel(w: &mut Writer<'_>, layout: &CompartmentLayout) -> bool {
+    w.value("DSW") > 0.0 && !is_without_resistance(w, layout.wheel.number)
+}
+
+fn is_without_resistance(w: &mut Writer<'_>, number: u32) -> bool {
+    w.value(&format!("STIF1({number})")) == 0.0
+}
+
+/// The numbers of surfaces that the scenario leaves out are kept for the way back.
+pub(super) fn keep_left_out(
+    w: &mut Writer<'_>,
+    layout: &CompartmentLayout,
+    kept: &mut Kept,
+) -> Result<(), ConversionError> {
+    let mut left_out = Vec::new();
+    for face in layout.faces(w.deck) {
+        if face.corners.is_empty() {
+            left_out.push((face.number, face.name, "has no area"));
+        } else if is_without_resistance(w, face.number) {
+            left_out.push((face.number, face.name, "resists nothing (STIF1 = 0)"));
+        }
+    }
+    if !has_wheel(w, layout) {
+        let why = if w.value("DSW") > 0.0 {
+            "resists nothing (STIF1 = 0)"
+        } else {
+            "has no diameter"
+        };
+        left_out.push((layout.wheel.number, layout.wheel.name.clone(), why));
+        for name in ["SWP", "DSW"] {
+            kept.insert(name.into(), w.bare(name));
+        }
+    }
+    for (number, name, why) in left_out {
+        let (soft, stiff) = (
+            w.value(&format!("STIF1({number})")),
+            w.value(&format!("STIF2({number})")),
+        );
+        if soft == 0.0 && stiff > 0.0 {
+            let reason =
+                "a surface that resists only beyond DELB; give STIF1 a small stiffness".to_owned();
+            return Err(ConversionError::NoCounterpart {
+                variable: format!("STIF1({number}) = 0"),
+                reason,
+            });
+        }
+        for field in FIELDS.map(|field| format!("{field}({number})")) {
+            let digits = w.bare(&field);
+            kept.insert(field, digits);
+        }
+        for point in layout.points_of(number) {
+            for field in [format!("XV({point})"), format!("ZV({point})")] {
+                let digits = w.bare(&field);
+                kept.insert(field, digits);
+            }
+        }
+        for field in ["VCW", "VRW"] {
+            kept.insert(field.into(), w.bare(field));
+        }
+        w.report.ignored.push(format!(
+            "surface {number} ({name}): it {why} and is left out"
+        ));
+    }
+    Ok(())
+}
+
+/// Surfaces with the same numbers share a material, named after the first.
+fn materials(w: &mut Writer<'_>, surfaces: &[Written]) -> Vec<(String, Vec<u32>)> {
+    let mut groups: Vec<(Vec<u64>, String, Vec<u32>)> = Vec::new();
+    for surface in surfaces {
+        let numbers: Vec<u64> = FIELDS
+            .map(|field| w.value(&format!("{field}({})", surface.number)).to_bits())
+            .to_vec();
+        match groups.iter_mut().find(|g| g.0 == numbers) {
+            Some(group) => group.2.push(surface.number),
+            None => groups.push((numbers, surface.name.clone(), vec![surface.number])),
+        }
+    }
+    groups
+        .into_iter()
+        .map(|(_, name, members)| (name, members))
+        .collect()
+}
+
+/// The two ends of a face that reaches from left to right at two points, ordered so that its corners, near end first and
+/// left before right, run counter-clockwise seen from the open side.
+fn strip(face: &Face) -> Option<[Corner; 2]> {
+    let corners = &face.corners;
+    let pair = |a: &Corner, b: &Corner| {
+        let ((width, left), (other, right)) = (a.wall.half_width(), b.wall.half_width());
+        width == other && left && !right && a.x_of == b.x_of && a.z_of == b.z_of && a.x_of == a.z_of
+    };
+    if corners.len() != 4 {
+        return None;
+    }
+    let at = (0..4).find(|i| pair(&corners[*i], &corners[(i + 1) % 4]))?;
+    let (near, far) = (&corners[at], &corners[(at + 2) % 4]);
+    pair(&corners[(at + 3) % 4], far).then(|| [near.clone(), far.clone()])
+}
+
+fn edge(w: &mut Writer<'_>, [near, far]: [Corner; 2]) -> String {
+    let mut point = |c: &Corner| {
+        format!(
+            "[{}, {}]",
+            w.bare(&format!("XV({})", c.x_of)),
+            w.bare(&format!("ZV({})", c.z_of))
+        )
+    };
+    let (from, to) = (point(&near), point(&far));
+    let (width, end_width) = (near.wall.half_width().0, far.wall.half_width().0);
+    let mut text = format!("edge = [{from}, {to}], half_width = {}", w.bare(width));
+    if width != end_width {
+        text.push_str(&format!(", end_half_width = {}", w.bare(end_width)));
+    }
+    text
+}
+
+fn points(w: &mut Writer<'_>, face: &Face) -> String {
+    let corners: Vec<String> = face.corners.iter().map(|corner| place(w, corner)).collect();
+    format!("points = [{}]", corners.join(", "))
+}
+
+fn place(w: &mut Writer<'_>, corner: &Corner) -> String {
+    let (x, z) = (
+        w.bare(&format!("XV({})", corner.x_of)),
+        w.bare(&format!("ZV({})", corner.z_of)),
+    );
+    let (width, left) = corner.wall.half_width();
+    let y = w.bare(width);
+    format!("[{x}, {}, {z}]", if left { negated(&y) } else { y })
+}
+
+fn disc(w: &mut Writer<'_>, layout: &CompartmentLayout) -> String {
+    let wheel = &layout.wheel;
+    let x = decimal(w.value(&format!("XV({})", wheel.point)) - wheel.behind_in);
+    let z = w.bare(&format!("ZV({})", wheel.point));
+    let y = negated(&w.bare("SWP"));
+    let diameter = w.bare("DSW");
+    format!(
+        "disc = {{ centre = [{x}, {y}, {z}], diameter = {diameter}, tilt = {} }}",
+        wheel.tilt_deg
+    )
+}
+
+/// A difference of card numbers without the noise of binary fractions.
+fn decimal(value: f64) -> String {
+    let text = format!("{value:.9}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}

@@ -1,0 +1,131 @@
+//! Title, notes, gravity, times (cards 1–3, 11e).
+
+use super::writer::{Writer, escaped, quoted};
+use super::{ConversionError, ConvertOptions};
+use crate::compartment::CompartmentLayout;
+use crate::deck::Plot;
+use crate::kept::{kept_of, to_notes};
+
+pub(super) fn write(
+    w: &mut Writer<'_>,
+    options: &ConvertOptions,
+    layout: &CompartmentLayout,
+) -> Result<(), ConversionError> {
+    let [title, more] = w.deck.titles().clone();
+    w.comment(format!("{title}\n{more}").trim_end());
+    w.comment("\n");
+    w.comment(&format!(
+        "Converted from the card deck {}. Numbers are the cards'; comments name the cards they come from.",
+        options.deck_name
+    ));
+    w.blank_line();
+    w.set_with(
+        "title",
+        &quoted(if title.is_empty() { "untitled" } else { &title }),
+        "card 1",
+    );
+    w.set_with(
+        "units",
+        "\"in-lbf-s\"",
+        "bare numbers: in, lbf, s; angles in degrees",
+    );
+    let gravity = w.quantity("GR");
+    w.set_with("gravity", &gravity, "card 11e, GR");
+    let mut kept = kept_of(w.deck);
+    if title.is_empty() {
+        kept.insert("TITLE 1".into(), String::new());
+    }
+    super::compartment::keep_left_out(w, layout, &mut kept)?;
+    w.blank_line();
+    w.raw(&format!(
+        "notes = \"\"\"\n{}\"\"\"\n",
+        escaped(&to_notes(&kept))
+    ));
+    times(w);
+    switches(w);
+    Ok(())
+}
+
+fn times(w: &mut Writer<'_>) {
+    w.table("time", "Card 3");
+    for (key, name) in [("start", "T1"), ("end", "TF")] {
+        let value = w.quantity(name);
+        w.set_with(key, &value, name);
+    }
+    w.table(
+        "integrator",
+        "Card 3; the report's method with its fixed step",
+    );
+    w.set("kind", "\"rk4\"");
+    let step = w.quantity("DT");
+    w.set_with("step", &step, "DT");
+    w.table("output", "Card 3");
+    let interval = w.quantity("DTPRNT");
+    w.set_with("interval", &interval, "DTPRNT");
+    if w.value("NDISK") == 0.0 {
+        w.set_with(
+            "report_coordinates",
+            "true",
+            "NDISK = 0: data for plots go to disk",
+        );
+    }
+}
+
+/// Switches whose meaning today is another one.
+fn switches(w: &mut Writer<'_>) {
+    let plots = match w.deck.plot() {
+        Plot::Standard => {
+            "STAN (card 16): 14 plots were drawn; every run records the histories that they showed"
+        }
+        Plot::None => {
+            "NONE (card 16): no plots were drawn; every run records its histories nevertheless"
+        }
+    };
+    let disk = if w.value("NDISK") == 0.0 {
+        "NDISK = 0 (card 3): plot data went to disk; the report's coordinates are recorded as well"
+    } else {
+        "NDISK = 1 (card 3): no plot data went to disk; the results are written nevertheless"
+    };
+    w.report
+        .assumptions
+        .extend([plots.to_owned(), disk.to_owned()]);
+    w.report.assumptions.push("friction grows with sliding speed below 5 in/s and joint angles are smoothed by ε = 0.001, as everywhere in this program".into());
+    let unused = [
+        (
+            6,
+            0.0,
+            "series 6 (coordinates): NPOS = 0 seats the occupant",
+        ),
+        (
+            4,
+            1.0,
+            "series 4 (velocity): NPOS = 1 takes the state from series 6",
+        ),
+        (
+            10,
+            1.0,
+            "series 10 (seating): NPOS = 1 takes the state from series 6",
+        ),
+    ];
+    let npos = w.value("NPOS");
+    let ignored: Vec<_> = unused
+        .into_iter()
+        .filter(|(series, when, _)| npos == *when && w.deck.has_series(*series))
+        .collect();
+    w.report
+        .ignored
+        .extend(ignored.into_iter().map(|(_, _, text)| text.to_owned()));
+    if w.value("MREAD") != 0.0 && w.deck.has_series(12) {
+        w.report
+            .ignored
+            .push("series 12 (path): MREAD ≠ 0 takes it from the path file".into());
+    }
+    let pairs = w.deck.passed_pairs().len();
+    if w.deck.has_series(14) {
+        w.report.ignored.push(format!(
+            "series 14 ({pairs} passed pairs): a scenario has no pair states; at the start a sphere whose centre is through a \
+             plane has passed it, any other that is nearer than its radius touches. Cards carry no greatest deformation \
+             either, so an extension by cards is approximate; resuming the recorded run is exact"
+        ));
+    }
+}

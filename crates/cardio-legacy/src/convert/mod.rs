@@ -1,0 +1,148 @@
+//! Deck → scenario: the TOML text that a person would have written for the same case.
+//!
+//! Numbers keep the card's digits; comments say which card each block came from. What the cards leave open and this
+//! crate decides stands in the [`Report`], and so does what a scenario has no place for; the latter is also written into
+//! the scenario's notes (see [`crate::kept`]), so that the way back gives the same deck.
+
+mod body;
+mod compartment;
+mod head;
+mod joints;
+mod motion;
+mod path;
+mod report;
+mod writer;
+
+use std::fmt;
+
+use occupant_core::scenario::document::Format;
+use occupant_core::scenario::{Diagnostics as ScenarioDiagnostics, Scenario};
+
+pub use path::PathSource;
+pub use report::Report;
+
+use crate::compartment::CompartmentLayout;
+use crate::deck::Deck;
+use writer::Writer;
+
+/// What a conversion needs besides the deck.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ConvertOptions {
+    /// Name of the deck, for the comment at the head of the scenario.
+    pub deck_name: String,
+    /// The vehicle's path of a deck with MREAD ≠ 0.
+    pub path: Option<PathSource>,
+    /// Which points bound which surface, and where the wheel stands; `None` is the crate's reconstruction.
+    pub compartment: Option<CompartmentLayout>,
+}
+
+impl Default for ConvertOptions {
+    fn default() -> Self {
+        Self {
+            deck_name: "deck".into(),
+            path: None,
+            compartment: None,
+        }
+    }
+}
+
+/// A scenario made from a deck.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Conversion {
+    /// The scenario, TOML.
+    pub toml: String,
+    /// What was assumed, left away, counted.
+    pub report: Report,
+}
+
+/// Why a deck has no scenario.
+#[derive(Debug, Clone, PartialEq)]
+pub enum ConversionError {
+    /// MREAD ≠ 0, and no path was given.
+    PathNeeded {
+        /// Stations that MREAD asks for.
+        stations: f64,
+    },
+    /// The path file cannot be used.
+    Path(String),
+    /// The compartment's data file cannot be used.
+    Compartment(String),
+    /// A number that has no counterpart in a scenario.
+    NoCounterpart {
+        /// The card's variable.
+        variable: String,
+        /// What it says and why that cannot be said.
+        reason: String,
+    },
+    /// A field that the conversion needs is not in the deck.
+    MissingField(String),
+    /// The scenario that came out is refused by the scenario format: the deck's numbers contradict one another in a way that
+    /// only shows there.
+    Refused(Box<ScenarioDiagnostics>),
+}
+
+impl fmt::Display for ConversionError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::PathNeeded { stations } => write!(
+                f,
+                "the deck takes {stations} stations of the vehicle's path from disk (MREAD on card 3), expected that path; \
+                 give it with --path file, as CSV or as cards of series 12"
+            ),
+            Self::Path(reason) => write!(f, "the path of the vehicle cannot be read: {reason}"),
+            Self::Compartment(reason) => {
+                write!(f, "the compartment's data file cannot be used: {reason}")
+            }
+            Self::NoCounterpart { variable, reason } => {
+                write!(f, "{variable} has no counterpart in a scenario: {reason}")
+            }
+            Self::MissingField(name) => write!(
+                f,
+                "the deck has no field {name}, which the conversion needs"
+            ),
+            Self::Refused(diagnostics) => write!(
+                f,
+                "the scenario made from the deck is refused:\n{diagnostics}"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for ConversionError {}
+
+impl Deck {
+    /// The scenario of this deck.
+    ///
+    /// # Errors
+    /// A path that is missing or unreadable, numbers without counterpart, a scenario that the format refuses.
+    pub fn to_scenario(&self, options: &ConvertOptions) -> Result<Conversion, ConversionError> {
+        let layout = match &options.compartment {
+            Some(layout) => layout.clone(),
+            None => CompartmentLayout::reconstruction().map_err(ConversionError::Compartment)?,
+        };
+        let path = path::read(self, options.path.as_ref())?;
+        let mut writer = Writer::new(self);
+        head::write(&mut writer, options, &layout)?;
+        path.write(&mut writer);
+        body::write(&mut writer);
+        joints::write(&mut writer);
+        motion::write(&mut writer, &layout);
+        compartment::write(&mut writer, &layout)?;
+        let conversion = writer.finish()?;
+        check(&conversion.toml, path.beside())?;
+        Ok(conversion)
+    }
+}
+
+/// Reads the text as the program will: nothing that it refuses is handed out.
+fn check(toml: &str, beside: Option<&str>) -> Result<(), ConversionError> {
+    let resolver = |name: &str| match beside {
+        Some(text) => Ok(text.as_bytes().to_vec()),
+        None => Err(format!("there is no file {name}")),
+    };
+    let refused = |diagnostics| ConversionError::Refused(Box::new(diagnostics));
+    let loaded = Scenario::from_text(toml, Format::Toml, "converted scenario", &resolver)
+        .map_err(refused)?;
+    loaded.build().map_err(refused)?;
+    Ok(())
+}

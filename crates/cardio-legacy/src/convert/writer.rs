@@ -1,0 +1,147 @@
+//! TOML text, block by block, with numbers by their card's name.
+
+use std::fmt::Write as _;
+
+use super::{Conversion, ConversionError, Report};
+use crate::deck::{Deck, Number};
+use crate::layout::Unit;
+
+/// Column of the comments behind short lines.
+const COMMENT_COLUMN: usize = 40;
+
+/// A scenario on its way.
+pub(super) struct Writer<'a> {
+    pub deck: &'a Deck,
+    pub report: Report,
+    text: String,
+    missing: Option<String>,
+}
+
+impl<'a> Writer<'a> {
+    pub fn new(deck: &'a Deck) -> Self {
+        let report = Report {
+            blanks: deck.blank_fields(),
+            ..Report::default()
+        };
+        Self {
+            deck,
+            report,
+            text: String::new(),
+            missing: None,
+        }
+    }
+
+    /// The text and the report; an error if the deck lacked a field that was asked for.
+    pub fn finish(self) -> Result<Conversion, ConversionError> {
+        match self.missing {
+            Some(name) => Err(ConversionError::MissingField(name)),
+            None => Ok(Conversion {
+                toml: self.text.trim_end().to_owned() + "\n",
+                report: self.report,
+            }),
+        }
+    }
+
+    fn number(&mut self, name: &str) -> Option<&'a Number> {
+        let number = self.deck.number(name);
+        if number.is_none() {
+            self.missing.get_or_insert_with(|| name.to_owned());
+        }
+        number
+    }
+
+    /// The value of a field, in the card's unit; zero where it is absent, which [`Writer::finish`] reports.
+    pub fn value(&mut self, name: &str) -> f64 {
+        self.number(name).map_or(0.0, |n| n.value)
+    }
+
+    /// The digits of a field as a bare number.
+    pub fn bare(&mut self, name: &str) -> String {
+        self.number(name)
+            .map_or_else(|| "0".to_owned(), |n| n.digits.clone())
+    }
+
+    /// A field as a quantity with its unit, quoted: `"13.71 in"`.
+    pub fn quantity(&mut self, name: &str) -> String {
+        let unit = self
+            .deck
+            .place_of(name)
+            .map_or(Unit::One, |(_, field)| field.unit);
+        let digits = self.bare(name);
+        match unit_in_toml(unit) {
+            "" => digits,
+            unit => format!("\"{digits} {unit}\""),
+        }
+    }
+
+    pub fn blank_line(&mut self) {
+        self.text.push('\n');
+    }
+
+    pub fn comment(&mut self, text: &str) {
+        for line in text.lines() {
+            let _ = writeln!(self.text, "{}", format!("# {line}").trim_end());
+        }
+    }
+
+    /// A table's head, after an empty line and a comment.
+    pub fn table(&mut self, name: &str, comment: &str) {
+        self.blank_line();
+        self.comment(comment);
+        let _ = writeln!(self.text, "[{name}]");
+    }
+
+    /// A line `key = value`.
+    pub fn set(&mut self, key: &str, value: &str) {
+        let _ = writeln!(self.text, "{key} = {value}");
+    }
+
+    /// A line `key = value  # comment`.
+    pub fn set_with(&mut self, key: &str, value: &str, comment: &str) {
+        let line = format!("{key} = {value}");
+        let _ = writeln!(self.text, "{line:COMMENT_COLUMN$} # {comment}");
+    }
+
+    /// Text as it is.
+    pub fn raw(&mut self, text: &str) {
+        self.text.push_str(text);
+    }
+}
+
+/// The unit as scenarios write it.
+fn unit_in_toml(unit: Unit) -> &'static str {
+    match unit {
+        Unit::One => "",
+        Unit::Second => "s",
+        Unit::Inch => "in",
+        Unit::InchPerSecond => "in/s",
+        Unit::InchPerSecondSquared => "in/s^2",
+        Unit::Radian => "rad",
+        Unit::RadianPerSecond => "rad/s",
+        Unit::Degree => "deg",
+        Unit::Mass => "lbf s^2/in",
+        Unit::Inertia => "lbf in s^2",
+        Unit::Stiffness => "lbf/in",
+        Unit::RotaryDamping => "in lbf s/rad",
+        Unit::RotaryStiffness => "in lbf/rad",
+    }
+}
+
+/// A text as a TOML string on one line.
+pub(super) fn quoted(text: &str) -> String {
+    format!("\"{}\"", escaped(text))
+}
+
+/// A text with TOML's special characters escaped.
+pub(super) fn escaped(text: &str) -> String {
+    text.replace('\\', "\\\\").replace('"', "\\\"")
+}
+
+/// The digits of the negative of a number.
+pub(super) fn negated(digits: &str) -> String {
+    match digits.strip_prefix('-') {
+        Some(positive) => positive.to_owned(),
+        None if digits.trim_matches(['0', '.']).is_empty() => digits.to_owned(),
+        None => format!("-{digits}"),
+    }
+}

@@ -1,0 +1,89 @@
+//! Card values that a scenario has no place for, kept in its notes for the way back to cards.
+//!
+//! They stand as lines `NAME = value` behind [`MARKER`], the last thing in the notes. A person may change or remove them;
+//! what is not there is chosen, and said in the report.
+
+use std::collections::BTreeMap;
+
+use crate::deck::{Deck, Plot};
+
+/// The line before the kept values.
+pub(crate) const MARKER: &str =
+    "Card values without a place in a scenario, kept for the way back to cards:";
+
+/// The second title card.
+pub(crate) const TITLE_2: &str = "TITLE 2";
+/// The plot option, STAN or NONE.
+pub(crate) const PLOT: &str = "PLOT";
+/// A pair of series 14, sphere and surface, numbered from 1 behind this name.
+pub(crate) const PAIR: &str = "PASSED PAIR";
+
+/// Values by name, in the order of their names.
+pub(crate) type Kept = BTreeMap<String, String>;
+
+/// What a deck's scenario has to keep, surfaces left out of it excepted.
+pub(crate) fn kept_of(deck: &Deck) -> Kept {
+    let mut kept = Kept::new();
+    let mut keep = |name: &str, value: String| drop(kept.insert(name.to_owned(), value));
+    if !deck.titles()[1].is_empty() {
+        keep(TITLE_2, deck.titles()[1].clone());
+    }
+    keep(
+        PLOT,
+        if deck.plot() == Plot::Standard {
+            "STAN"
+        } else {
+            "NONE"
+        }
+        .to_owned(),
+    );
+    let mut fields = vec!["NDISK", "MREAD", "XV(14)", "ZV(14)"];
+    if deck.value("NPOS") == Some(1.0) {
+        fields.extend(spring_angles(deck));
+        fields.extend(
+            ["SLACK(1)", "SLACK(2)"]
+                .into_iter()
+                .filter(|n| deck.value(n).is_some_and(|v| v != 0.0)),
+        );
+    }
+    for name in fields {
+        if let Some(number) = deck.number(name) {
+            keep(name, number.digits.clone());
+        }
+    }
+    for (at, (sphere, surface)) in deck.passed_pairs().into_iter().enumerate() {
+        keep(
+            &format!("{PAIR} {:03}", at + 1),
+            format!("{sphere} {surface}"),
+        );
+    }
+    kept
+}
+
+/// β₀ of a back joint without a spring, which has no place beside it.
+fn spring_angles(deck: &Deck) -> impl Iterator<Item = &'static str> {
+    [("SPJNT4", "BETA4"), ("SPJNT7", "BETA7")]
+        .into_iter()
+        .filter(|(spring, _)| deck.value(spring) == Some(0.0))
+        .map(|(_, angle)| angle)
+}
+
+/// The block for the notes.
+pub(crate) fn to_notes(kept: &Kept) -> String {
+    let lines: String = kept
+        .iter()
+        .map(|(name, value)| format!("  {name} = {value}\n"))
+        .collect();
+    format!("{MARKER}\n{lines}")
+}
+
+/// The kept values of a scenario's notes; empty if there are none.
+pub(crate) fn from_notes(notes: &str) -> Kept {
+    let Some((_, block)) = notes.split_once(MARKER) else {
+        return Kept::new();
+    };
+    let lines = block.lines().filter_map(|line| line.split_once(" = "));
+    lines
+        .map(|(name, value)| (name.trim().to_owned(), value.to_owned()))
+        .collect()
+}

@@ -1,0 +1,140 @@
+//! Cards from a deck, in the normalised form.
+//!
+//! The normalised form: series in the report's order, segments and surfaces by number, pairs as listed; every number
+//! right-justified in its field with its decimal point and the card's digits; a blank that means zero written `0.`;
+//! fields without effect (the belt that is not in use, SLACK if NPOS = 1) left as blank as they were; the card number
+//! where the report's table has it; nothing in free columns; no trailing blanks; LF behind each card.
+
+use crate::card::CARD_WIDTH;
+use crate::columns::Columns;
+use crate::deck::{Deck, DeckCard, Number, Plot, fields_of, name_of};
+use crate::layout::{Field, Format};
+
+impl Deck {
+    /// The deck as cards, from the titles to the plot card. The final card FINI belongs to the file: [`write_file`].
+    pub fn write(&self) -> String {
+        let mut text = String::new();
+        for title in self.titles() {
+            push_line(&mut text, title);
+        }
+        for card in self.cards() {
+            push_line(&mut text, &self.punch_card(card));
+        }
+        push_line(
+            &mut text,
+            match self.plot() {
+                Plot::Standard => "STAN",
+                Plot::None => "NONE",
+            },
+        );
+        text
+    }
+
+    fn punch_card(&self, card: &DeckCard) -> String {
+        let mut columns = [b' '; CARD_WIDTH];
+        for (field, number) in fields_of(card).zip(&card.numbers) {
+            let text = match field.format {
+                Format::Integer => punch_integer(number),
+                Format::Real if number.blank && self.has_no_effect(&name_of(card, field)) => {
+                    String::new()
+                }
+                Format::Real => punch_real(number, field.columns.width()),
+                Format::Text => String::new(),
+            };
+            place(&mut columns, field, &text);
+        }
+        columns.iter().map(|b| char::from(*b)).collect()
+    }
+}
+
+/// A file of decks as bytes of Latin-1, with the final card FINI. Characters that Latin-1 lacks become `?`.
+pub fn write_file(decks: &[Deck]) -> Vec<u8> {
+    let mut text: String = decks.iter().map(Deck::write).collect();
+    text.push_str("FINI\n");
+    text.chars()
+        .map(|c| u8::try_from(u32::from(c)).unwrap_or(b'?'))
+        .collect()
+}
+
+fn push_line(text: &mut String, line: &str) {
+    text.push_str(line.trim_end_matches(' '));
+    text.push('\n');
+}
+
+/// Puts text at the right end of a field; what is too long is cut on the left, which [`punch_real`] prevents.
+fn place(columns: &mut [u8; CARD_WIDTH], field: &Field, text: &str) {
+    let Columns { first, last } = field.columns;
+    let bytes = text.bytes().rev();
+    let cells = columns
+        .iter_mut()
+        .take(usize::from(last))
+        .skip(usize::from(first) - 1)
+        .rev();
+    for (cell, byte) in cells.zip(bytes) {
+        *cell = byte;
+    }
+}
+
+fn punch_integer(number: &Number) -> String {
+    format!("{:.0}", number.value)
+}
+
+/// A number for an F field: with its point where there is room, with all its digits.
+///
+/// A number read from a field of this width always fits, because each form below is at most as long as the one read;
+/// another one is rounded to as many digits as there is room for.
+pub(crate) fn punch_real(number: &Number, width: usize) -> String {
+    if number.value == 0.0 {
+        return "0.".to_owned();
+    }
+    if let Some(text) = fitting_form(&number.digits, width) {
+        return text;
+    }
+    (0..17)
+        .rev()
+        .flat_map(|digits| {
+            [
+                format!("{:.*}", digits, number.value),
+                format!("{:.*e}", digits, number.value),
+            ]
+        })
+        .filter(|text| text.parse().is_ok_and(|value: f64| value != 0.0))
+        .find_map(|text| fitting_form(&text, width))
+        .unwrap_or_else(|| "0.".to_owned())
+}
+
+/// The forms in which digits may be punched, the plainest first; the first one that fits.
+fn fitting_form(digits: &str, width: usize) -> Option<String> {
+    let (mantissa, exponent) = digits
+        .split_once('e')
+        .map_or((digits, None), |(m, e)| (m, Some(e)));
+    let pointed = if mantissa.contains('.') {
+        mantissa.to_owned()
+    } else {
+        format!("{mantissa}.")
+    };
+    let short = pointed.replacen(
+        "0.",
+        ".",
+        usize::from(pointed.trim_start_matches('-').starts_with("0.")),
+    );
+    let bare = short.trim_end_matches('.');
+    let forms = match exponent {
+        None => vec![pointed.clone(), short.clone(), bare.to_owned()],
+        Some(exponent) => {
+            let signed = if exponent.starts_with('-') {
+                exponent.to_owned()
+            } else {
+                format!("+{exponent}")
+            };
+            vec![
+                format!("{pointed}E{exponent}"),
+                format!("{short}E{exponent}"),
+                format!("{bare}E{exponent}"),
+                format!("{short}{signed}"),
+                format!("{bare}{signed}"),
+            ]
+        }
+    };
+    forms.into_iter().find(|form| form.len() <= width)
+}

@@ -1,0 +1,365 @@
+//! Wrong decks, one fault each: what is found, where, and how gravely.
+
+mod support;
+
+use cardio_legacy::{Diagnostic, Diagnostics, Rule, Severity, Strictness};
+use support::{driver, first_card, lines, parse, parse_as, punch, rules};
+
+/// The errors of a deck, as (rule, line, variable).
+fn errors(text: &str) -> Vec<(Rule, usize, String)> {
+    of(text, Severity::Error)
+}
+
+fn warnings(text: &str) -> Vec<(Rule, usize, String)> {
+    of(text, Severity::Warning)
+}
+
+fn of(text: &str, severity: Severity) -> Vec<(Rule, usize, String)> {
+    let (decks, diagnostics) = parse(text);
+    assert_eq!(
+        decks.is_empty(),
+        diagnostics.has_errors(),
+        "a deck with an error is not handed out\n{diagnostics}"
+    );
+    let key = |d: &Diagnostic| {
+        (
+            d.rule,
+            d.line.unwrap_or(0),
+            d.variable.clone().unwrap_or_default(),
+        )
+    };
+    diagnostics
+        .iter()
+        .filter(|d| d.severity == severity)
+        .map(key)
+        .collect()
+}
+
+/// The driver's deck with a text punched into a card: series by card number, how many cards behind its first one, column.
+fn punched(ncard: &str, behind: usize, column: usize, text: &str) -> String {
+    driver(|lines| {
+        let at = first_card(lines, ncard) + behind;
+        punch(&mut lines[at], column, text);
+    })
+}
+
+fn found(rule: Rule, line: usize, variable: &str) -> (Rule, usize, String) {
+    (rule, line, variable.to_owned())
+}
+
+#[test]
+fn a_diagnostic_names_everything_a_person_needs() {
+    let (_, diagnostics) = parse(&punched("11", 1, 11, "      6O.0"));
+    let text = diagnostics.to_string();
+    let expected = "\
+error[not-a-number]: `      6O.0` is no number: `O` in column 18; damping of the upper back
+  --> test.dat:58, card 11b, column 18, XJNUB
+   |     2.9671      6O.0     .6109      800.     .5236        6.     .6981      800.
+   |                  ^
+   = expected: a number in F10.0, in in·lbf·s
+   = remedy: punch the number again; look whether a neighbouring field has slipped into these columns
+";
+    assert!(text.contains(expected), "{text}");
+}
+
+#[test]
+fn every_numeric_field_of_every_card_reports_what_is_no_number() {
+    for name in support::DECKS {
+        let deck = &cardio_legacy::Deck::parse(support::bytes(name), &Default::default()).0[0];
+        for card in deck.cards() {
+            let series = cardio_legacy::layout::series(card.id.series).expect("a series");
+            let layout = series
+                .cards
+                .iter()
+                .find(|c| c.letter == card.id.letter)
+                .expect("a card");
+            for field in layout.fields.iter().filter(|f| f.variable != "NCARD") {
+                let line = card.line.expect("read from a file");
+                let mut lines = lines(name);
+                punch(&mut lines[line - 1], usize::from(field.columns.last), "?");
+                let variable = layout.name_of(
+                    field,
+                    card.id
+                        .number
+                        .filter(|_| !matches!(field.variable, "J" | "NSEG")),
+                );
+                let found = errors(&lines.join("\n"));
+                let named = found.iter().any(|(rule, at, v)| {
+                    *rule == Rule::NotANumber
+                        && *at == line
+                        && (*v == variable || field.columns.first == 1)
+                });
+                assert!(named, "{name}, line {line}, {variable}: {found:?}");
+            }
+        }
+    }
+}
+
+#[test]
+fn all_problems_are_reported_at_once() {
+    let text = driver(|lines| {
+        punch(&mut lines[2], 21, "        x.");
+        punch(&mut lines[5], 31, "          ");
+        punch(&mut lines[18], 1, "       -4.");
+        let at = first_card(lines, "13");
+        punch(&mut lines[at], 1, "        4.");
+    });
+    assert_eq!(
+        errors(&text),
+        [
+            found(Rule::NotANumber, 3, "DT"),
+            found(Rule::Impossible, 6, "XM(1)"),
+            found(Rule::Impossible, 19, "RS(1)"),
+            found(Rule::Impossible, 114, "NOPBLT"),
+        ]
+    );
+}
+
+#[test]
+fn missing_cards_are_missed_where_they_should_be() {
+    let without = |line: usize| driver(|lines| drop(lines.remove(line - 1)));
+    assert_eq!(errors(&without(1))[0].0, Rule::MissingTitle);
+    assert_eq!(errors(&without(3)), [found(Rule::SeriesMissing, 1, "")]);
+    assert_eq!(errors(&without(4)), [found(Rule::SeriesMissing, 3, "")]);
+    assert_eq!(errors(&without(8)), [found(Rule::IndexMissing, 5, "")]);
+    assert_eq!(errors(&without(19)), [found(Rule::SeriesTooShort, 18, "")]);
+    assert_eq!(errors(&without(70)), [found(Rule::CountDiffers, 62, "")]);
+    assert_eq!(errors(&without(117)), [found(Rule::NoTerminator, 117, "")]);
+    assert_eq!(errors(&without(118)), [found(Rule::NoPlotCard, 118, "")]);
+    assert_eq!(warnings(&without(119)), [found(Rule::NoFinalCard, 118, "")]);
+    // The first card of series 7 gone: its radii belong to nothing.
+    let found = errors(&without(18));
+    assert_eq!(
+        found.iter().map(|f| f.0).collect::<Vec<_>>(),
+        [Rule::SeriesMissing, Rule::UnexpectedCard]
+    );
+}
+
+#[test]
+fn the_series_that_the_switches_ask_for_are_asked_for() {
+    let (_, diagnostics) = parse(&punched("3", 0, 51, "        1."));
+    let missing: Vec<_> = diagnostics
+        .iter()
+        .filter(|d| d.severity == Severity::Error)
+        .map(|d| &d.message)
+        .collect();
+    assert_eq!(missing.len(), 1, "{diagnostics}");
+    assert!(
+        missing[0].starts_with("series 6 ") && missing[0].contains("NPOS = 1"),
+        "{}",
+        missing[0]
+    );
+    assert_eq!(
+        rules(&diagnostics, Severity::Note),
+        [Rule::SeriesUnused, Rule::SeriesUnused]
+    );
+    assert_eq!(
+        errors(&punched("3", 0, 51, "        2.")),
+        [found(Rule::Impossible, 3, "NPOS")]
+    );
+    assert_eq!(
+        errors(&punched("3", 0, 41, "      -51.")),
+        [found(Rule::NotAWholeNumber, 3, "MREAD")]
+    );
+}
+
+#[test]
+fn doubled_surplus_and_unordered_cards_are_named() {
+    let doubled = |line: usize| driver(|lines| lines.insert(line, lines[line - 1].clone()));
+    assert_eq!(errors(&doubled(4)), [found(Rule::SeriesTwice, 5, "")]);
+    assert_eq!(errors(&doubled(8)), [found(Rule::IndexTwice, 9, "NSEG")]);
+    assert_eq!(errors(&doubled(21)), [found(Rule::UnexpectedCard, 22, "")]);
+    assert_eq!(errors(&doubled(80))[0], found(Rule::CountDiffers, 62, ""));
+    let swapped = driver(|lines| {
+        let series_4 = lines.remove(3);
+        lines.insert(16, series_4);
+    });
+    assert_eq!(warnings(&swapped), [found(Rule::OutOfOrder, 17, "")]);
+    assert_eq!(errors(&swapped), []);
+    let shuffled = driver(|lines| lines[5..17].reverse());
+    assert_eq!(errors(&shuffled), [], "segments come in any order");
+    assert_eq!(warnings(&shuffled), []);
+}
+
+#[test]
+fn segment_and_surface_numbers_are_judged() {
+    assert_eq!(
+        errors(&punched("5", 1, 1, " 2")),
+        [
+            found(Rule::IndexMissing, 5, ""),
+            found(Rule::IndexTwice, 7, "NSEG")
+        ]
+    );
+    assert_eq!(
+        errors(&punched("5", 1, 1, "13")),
+        [
+            found(Rule::IndexMissing, 5, ""),
+            found(Rule::BadIndex, 6, "NSEG")
+        ]
+    );
+    assert_eq!(
+        errors(&punched("9", 25, 1, "  "))[1],
+        found(Rule::BadIndex, line_of("9") + 25, "J")
+    );
+    let left = punched("5", 1, 1, "1 ");
+    assert_eq!(
+        warnings(&left),
+        [found(Rule::LeftJustified, 6, "NSEG")],
+        "`1 ` in I2 is 10"
+    );
+    assert_eq!(
+        errors(&left).last(),
+        Some(&found(Rule::IndexTwice, 15, "NSEG"))
+    );
+}
+
+#[test]
+fn card_numbers_are_read_where_they_stand() {
+    let moved = |from: usize, text: &str| {
+        driver(|lines| punch(&mut lines[first_card_by_line(from)], 71, text))
+    };
+    assert_eq!(
+        errors(&moved(18, "       7  ")),
+        [],
+        "the format I8 of series 7 ends in column 78"
+    );
+    assert_eq!(
+        errors(&moved(5, "5         ")),
+        [found(Rule::CardNumber, 5, "NCARD")]
+    );
+    assert_eq!(
+        errors(&moved(5, "          ")),
+        [found(Rule::CardNumber, 5, "NCARD")]
+    );
+    assert_eq!(errors(&moved(5, "        77"))[0].0, Rule::SeriesMissing);
+    let (decks, diagnostics) = parse_as(&moved(5, "          "), Strictness::Lenient);
+    assert_eq!(decks.len(), 1, "{diagnostics}");
+    assert_eq!(rules(&diagnostics, Severity::Warning), [Rule::CardNumber]);
+}
+
+fn first_card_by_line(line: usize) -> usize {
+    line - 1
+}
+
+#[test]
+fn lines_that_are_no_cards_are_named() {
+    let long = driver(|lines| lines[3] = format!("{:80}SURPLUS", lines[3]));
+    assert_eq!(warnings(&long), [found(Rule::LineTooLong, 4, "")]);
+    let tab = driver(|lines| lines[4] = format!("    6.57\t{}", &format!("{:80}", lines[4])[16..]));
+    assert_eq!(errors(&tab).first().map(|f| f.0), Some(Rule::Tab));
+    let free = punched("4", 0, 45, "12.5");
+    assert_eq!(warnings(&free), [found(Rule::NotBlank, 4, "")]);
+    let behind = driver(|lines| lines.push("MORE".into()));
+    assert_eq!(warnings(&behind), [found(Rule::AfterFinalCard, 120, "")]);
+    let word = driver(|lines| lines[117] = "stan".into());
+    assert_eq!(errors(&word), [found(Rule::UnknownWord, 118, "")]);
+    let control = driver(|lines| lines[0].push('\u{7}'));
+    assert_eq!(warnings(&control), [found(Rule::ControlCharacter, 1, "")]);
+    let utf = driver(|lines| lines[0] = "Führer".into());
+    assert_eq!(warnings(&utf), [found(Rule::LooksLikeUtf8, 1, "")]);
+}
+
+#[test]
+fn units_that_look_wrong_are_doubted() {
+    let cases = [
+        ("11", 4, 31, "      32.2", "GR"),
+        ("11", 4, 31, "      9.81", "GR"),
+        ("11", 0, 11, "       60.", "AGSN"),
+        ("4", 0, 1, "      20.0", "VXVC"),
+        ("4", 0, 1, "    29.333", "VXVC"),
+        ("8", 0, 1, "       2.4", "VCW"),
+        ("5", 1, 31, "       5.1", "XM(1)"),
+    ];
+    for (ncard, behind, column, text, variable) in cases {
+        let found = warnings(&punched(ncard, behind, column, text));
+        let doubted = found
+            .iter()
+            .any(|(rule, _, v)| *rule == Rule::LooksLikeOtherUnit && v == variable);
+        assert!(doubted, "{variable} = {text}: {found:?}");
+        let (decks, _) = parse_as(&punched(ncard, behind, column, text), Strictness::Strict);
+        assert!(decks.is_empty(), "strict reading refuses what it doubts");
+    }
+    let radians = punched(
+        "10",
+        0,
+        11,
+        "       .26       .31       .09       .35       .61     -1.05",
+    );
+    assert_eq!(
+        warnings(&radians),
+        [found(Rule::LooksLikeOtherUnit, 52, "GAMA1")].map(|f| (f.0, line_of("10"), f.2))
+    );
+}
+
+fn line_of(ncard: &str) -> usize {
+    first_card(&lines("driver-lap-torso.dat"), ncard) + 1
+}
+
+#[test]
+fn contradictions_are_found() {
+    let equality = punched("8", 4, 71, "      3.00");
+    assert_eq!(warnings(&equality).len(), 0, "point 16 is in no equality");
+    let equality = punched("8", 4, 11, "      13.5");
+    assert_eq!(
+        warnings(&equality),
+        [found(Rule::CompartmentEquality, line_of("8") + 4, "ZV(13)")]
+    );
+    assert_eq!(
+        errors(&punched("5", 1, 21, "      3.25")),
+        [found(Rule::Impossible, line_of("5") + 1, "RHO(1)")]
+    );
+    assert_eq!(
+        errors(&punched("5", 1, 61, "     .2489")),
+        [found(Rule::Impossible, line_of("5") + 1, "ZIN(1)")]
+    );
+    assert_eq!(
+        errors(&punched("9", 4, 41, "       30.")),
+        [found(Rule::Impossible, line_of("9") + 4, "AMU1(4)")]
+    );
+    assert_eq!(
+        warnings(&punched("9", 1, 21, "      200.")),
+        [found(Rule::Unlikely, line_of("9") + 1, "STIF2(1)")]
+    );
+    assert_eq!(
+        errors(&punched("3", 0, 11, "       .26")),
+        [found(Rule::PathTooShort, 113, "CALT(51)")]
+    );
+    assert_eq!(
+        errors(&punched("12", 2, 1, "        0.")),
+        [found(Rule::Impossible, line_of("12") + 2, "CALT(2)")]
+    );
+    assert_eq!(
+        errors(&punched("11", 0, 31, "    1.1000")),
+        [found(Rule::Impossible, line_of("11"), "AGNN")]
+    );
+}
+
+#[test]
+fn counts_must_count() {
+    for text in ["          ", "       2.5", "       -3.", "     1.E30"] {
+        let found = errors(&punched("12", 0, 1, text));
+        assert!(
+            found
+                .iter()
+                .any(|f| matches!(f.0, Rule::NotAWholeNumber | Rule::CountDiffers)),
+            "{text}: {found:?}"
+        );
+    }
+    assert_eq!(
+        errors(&punched("12", 0, 1, "       52.")),
+        [found(Rule::CountDiffers, line_of("12"), "NVPOS")].map(|f| (f.0, f.1, String::new()))
+    );
+}
+
+#[test]
+fn no_deck_at_all_is_an_error() {
+    for text in ["", "\n\n\n", "FINI\n", "   \r\n"] {
+        let (decks, diagnostics): (_, Diagnostics) = parse(text);
+        assert!(decks.is_empty());
+        assert_eq!(
+            rules(&diagnostics, Severity::Error),
+            [Rule::EmptyFile],
+            "{text:?}"
+        );
+    }
+}

@@ -1,0 +1,24 @@
+//! Runs as MCAP files that Foxglove-compatible viewers show and Python reads.
+//!
+//! [`McapRecorder`] is a recorder of `occupant_core`. What a file holds — topics, units, frames, schemas — stands in
+//! `docs/mcap.md`.
+//!
+//! Field numbers, topic names and frame names are never used again for something else; additions get new ones.
+
+pub mod about;
+mod channel;
+mod clock;
+pub mod column;
+pub mod descriptor;
+pub mod foxglove;
+pub mod groups;
+mod layout;
+mod log;
+mod recorder;
+pub mod scene;
+pub mod topics;
+mod transforms;
+pub mod wire;
+
+pub use about::{About, Document};
+pub use recorder::{McapOptions, McapRecorder};
