@@ -24,6 +24,8 @@
 //!
 //! The crate reads no files and prints nothing; no bytes make it panic.
 
+mod back;
+mod builder;
 mod card;
 mod card_number;
 mod check;
@@ -42,6 +44,7 @@ mod rule;
 mod series_reader;
 mod write;
 
+pub use back::{FromScenario, NoDeck, RunEnd, spine_rest};
 pub use columns::Columns;
 pub use compartment::{CompartmentLayout, Corner, Face, Wall, WheelLayout};
 pub use convert::{Conversion, ConversionError, ConvertOptions, PathSource, Report};

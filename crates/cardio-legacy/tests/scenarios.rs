@@ -81,3 +81,30 @@ fn every_converted_deck_runs_to_its_end() {
         assert_eq!(outcome.status, Status::Completed, "{name}");
     }
 }
+
+#[test]
+fn deck_to_scenario_to_deck_is_the_same_deck() {
+    for name in DECKS {
+        let deck = deck(name);
+        let conversion = deck
+            .to_scenario(&options(name))
+            .unwrap_or_else(|e| panic!("{name}: {e}"));
+        let back = Deck::from_scenario(&load(&conversion.toml), None)
+            .unwrap_or_else(|e| panic!("{name}: {e}"));
+        assert_eq!(back.deck.differences(&deck), [], "{name}");
+        assert_eq!(
+            back.remarks
+                .iter()
+                .filter(|r| !r.starts_with("MREAD"))
+                .count(),
+            0,
+            "{:?}",
+            back.remarks
+        );
+        assert_eq!(
+            back.deck.write(),
+            deck.write(),
+            "{name}: to the last column"
+        );
+    }
+}
