@@ -93,16 +93,20 @@ impl Compartment {
         let faces: Vec<_> = self.surfaces.iter().filter_map(face).collect();
         assert!(problems.is_empty(), "{problems}");
         let edge = EdgeForce::default();
-        let contacts =
-            ContactSystem::new(&system.body, &self.surfaces, &faces, &self.materials, edge);
+        let contacts = ContactSystem::new(
+            &system.body,
+            &self.surfaces,
+            &faces,
+            &self.materials,
+            edge,
+            1e-3,
+        );
         let untouched = PairHistory {
             phase: OPEN,
             greatest: 0.0,
         };
-        let history = History {
-            pairs: vec![untouched; contacts.pairs().len()],
-            belts: Vec::new(),
-        };
+        let pairs = vec![untouched; contacts.pairs().len()];
+        let history = History::new(&contacts, pairs, Vec::new());
         let vehicle = Moving {
             origin: V3::of(&self.vehicle.origin),
             axes: M3::of(&self.vehicle.axes),

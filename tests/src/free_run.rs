@@ -37,13 +37,10 @@ impl FreeRun {
         let system = kernel::System {
             skeleton: Skeleton::new(&system.body, -system.gravity.z),
             joints: JointSystem::new(&system.joints, &[f64::NAN; 7]),
-            contacts: ContactSystem::new(&system.body, &[], &[], &[], EdgeForce::default()),
+            contacts: ContactSystem::new(&system.body, &[], &[], &[], EdgeForce::default(), 1e-3),
             belts: Vec::new(),
         };
-        let history = History {
-            pairs: Vec::new(),
-            belts: Vec::new(),
-        };
+        let history = History::new(&system.contacts, Vec::new(), Vec::new());
         FreeRun {
             system,
             history,

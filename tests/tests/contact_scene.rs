@@ -3,7 +3,7 @@
 
 use nalgebra::{Rotation3, Vector3};
 use occupant_core::{
-    kernel::{Evaluation, state::FREE},
+    kernel::{Evaluation, History, Observer, contact::Touch, state::FREE},
     surface::Frame,
 };
 use occupant_tests::{
@@ -63,6 +63,45 @@ fn contact_forces_act_at_the_touching_point() {
     }
     assert!(touches > 500, "{touches}"); // Measured: 1027.
     assert!(worst < 1e-11, "{worst:e}"); // Measured: 3.9e-14.
+}
+
+#[test]
+fn faces_that_are_far_at_a_commit_are_not_missed_before_the_next() {
+    let mut new_touches = 0;
+    for seed in 0..500 {
+        let (mut random, system, room) = scene(seed);
+        let (kernel, frames, mut culled) = room.kernel(&system);
+        let mut state = random.space_state();
+        state.t1 *= 0.1;
+        let mut moved = state;
+        moved.t1 += random.vector(0.025); // less than the 0.05 m that are always looked at
+        let (state, moved) = (state.to_core(), moved.to_core());
+
+        let mut before = Seen::default();
+        kernel.commit(&state, &frames, &mut culled, &mut before);
+        let mut all = History::new(&kernel.contacts, culled.pairs.clone(), Vec::new());
+        let (mut some, mut every) = (Seen::default(), Seen::default());
+        let found = kernel.rate_observed::<false>(&moved, &frames, &mut culled, &mut some);
+        let expected = kernel.rate_observed::<false>(&moved, &frames, &mut all, &mut every);
+        assert_eq!(found, expected);
+        assert_eq!(some.0, every.0);
+        new_touches += every
+            .0
+            .iter()
+            .filter(|pair| !before.0.contains(pair))
+            .count();
+    }
+    assert!(new_touches > 50, "{new_touches}"); // Measured: 87.
+}
+
+/// Pairs that touch.
+#[derive(Default)]
+struct Seen(Vec<usize>);
+
+impl Observer<f64> for Seen {
+    fn touch(&mut self, touch: &Touch<f64>) {
+        self.0.push(touch.pair);
+    }
 }
 
 #[test]

@@ -168,7 +168,7 @@ fn load(
     )
 }
 
-/// Central differences over a tenth of a millimetre.
+/// Central differences over a hundredth of a millimetre to either side (or the like in rotation).
 fn jacobian(x: &Vector6<f64>, residual: &impl Fn(&Vector6<f64>) -> Vector6<f64>) -> Matrix6<f64> {
     let h = 1e-5;
     let mut j = Matrix6::zeros();

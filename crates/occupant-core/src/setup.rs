@@ -34,13 +34,13 @@ pub enum Integrator {
     },
     /// Embedded 5(4) pair with error control.
     Adaptive {
-        /// Relative tolerance on speeds and positions.
+        /// Relative tolerance on speeds; positions have an absolute one alone.
         relative: f64,
         /// Absolute tolerance on positions, m; angles are taken at a radius of 1 m.
         absolute_m: f64,
         /// Absolute tolerance on speeds, m/s.
         absolute_m_s: f64,
-        /// The first and the smallest step allowed; a smaller one ends the run with an error.
+        /// The smallest step that error control may ask for; less ends the run with an error. The first trial is ten times it.
         min_step_s: f64,
         /// The largest step allowed.
         max_step_s: f64,

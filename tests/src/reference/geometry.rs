@@ -17,7 +17,7 @@ pub struct Axes<T> {
 /// Where every segment is, in space axes; index = segment number − 1.
 #[derive(Clone, Copy, Debug)]
 pub struct Pose<T> {
-    /// [Tⁿ] and [Tⁿᵐ].
+    /// Tⁿ and Tⁿᵐ.
     pub axes: [Axes<T>; 12],
     /// Centres of gravity.
     pub cg: [Vector<T>; 12],

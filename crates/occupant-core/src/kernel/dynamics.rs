@@ -4,8 +4,10 @@
 //! the force that the subtree needs at the joint is f = M̃ a + b̃, a the joint's acceleration. For a body with joint P,
 //! moment of inertia J about P, c.g. at r, and subtrees (M̃ₖ, b̃ₖ) hung at cₖ, with α its angular acceleration:
 //!
-//! - force:  f = A a − B α + β_f,  A = m1 + ΣM̃ₖ,  B = m[r]× + ΣM̃ₖ[cₖ]×
-//! - moment: τ = J α − Bᵀ a + β_τ
+//! ```text
+//! force    f = A a − B α + β_f     A = m1 + ΣM̃ₖ     B = m[r]× + ΣM̃ₖ[cₖ]×
+//! moment   τ = J α − Bᵀ a + β_τ
+//! ```
 //!
 //! so α = J⁻¹(τ − β_τ) + (BJ⁻¹)ᵀ a, M̃ = A − BJ⁻¹Bᵀ, b̃ = β_f − BJ⁻¹(τ − β_τ). The root T1 carries two subtrees and no mass.
 //! Gravity is uniform: it only shifts every acceleration, and is added at the root.

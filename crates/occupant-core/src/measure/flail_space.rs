@@ -8,7 +8,7 @@
 //! distance is reached, the velocity change over the record stands for the impact velocity.
 //!
 //! The record must start at first contact. The manuals were not read as a whole: limits and lengths
-//! come from sources that quote them. [`super::thiv`] adds the yaw that is missing here.
+//! come from sources that quote them. [`mod@super::thiv`] adds the yaw that is missing here.
 
 use crate::signal::{
     CumulativeIntegral, MovingAverage, SignalError, WindowExtreme, require_same_length,

@@ -188,6 +188,7 @@ fn refine(integral: &CumulativeIntegral, sampled: Hic, dt_s: f64, limit_s: f64) 
     let mut step_s = 0.5 * dt_s;
     while step_s > 1e-6 * dt_s {
         let mut moved = best;
+        let mut improved = false;
         for (at_start, at_end) in MOVES {
             let end_s = (best.end_s + at_end * step_s).min(integral.duration_s());
             let start_s = (best.start_s + at_start * step_s)
@@ -196,9 +197,10 @@ fn refine(integral: &CumulativeIntegral, sampled: Hic, dt_s: f64, limit_s: f64) 
             let tried = hic_of_window(integral, start_s, end_s.min(start_s + limit_s));
             if tried.value > moved.value {
                 moved = tried;
+                improved = true;
             }
         }
-        if moved == best {
+        if !improved {
             step_s *= 0.5;
         }
         best = moved;

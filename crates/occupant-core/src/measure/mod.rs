@@ -25,6 +25,9 @@ pub mod thiv;
 pub mod thorax;
 pub mod three_ms;
 
+#[cfg(test)]
+mod any_input;
+
 pub use asi::{Asi, AsiEdition, SeverityClass, asi};
 pub use bric::{Bric, BricBasis, bric};
 pub use damage::damage;

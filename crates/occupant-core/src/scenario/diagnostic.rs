@@ -105,7 +105,8 @@ impl fmt::Display for Diagnostic {
                 let (pad, gap) = (" ".repeat(margin), " ".repeat(start));
                 let Position { line: row, column } = position;
                 write!(f, "\n{pad}--> {}:{row}:{column}", self.source)?;
-                write!(f, "\n{pad} |\n{number} | {line}\n{pad} | {gap}{carets}")?;
+                let bar = if line.is_empty() { " |" } else { " | " };
+                write!(f, "\n{pad} |\n{number}{bar}{line}\n{pad} | {gap}{carets}")?;
                 margin
             }
         };

@@ -6,6 +6,7 @@ use super::expand::expand;
 use super::loaded::{Loaded, Resolver};
 use super::overrides::{needs_explicit, put, targets};
 use super::path_text::{self, to_text};
+use super::quantity::scaled_text;
 use super::source::{SourceId, Sources};
 use super::toml_text;
 use crate::problem::{Problem, Severity};
@@ -83,6 +84,27 @@ impl Draft {
         for place in places {
             put(&mut self.root, explicit.as_ref(), &place, value.clone())
                 .map_err(|found| refuse(&name, found, "a path that exists in the scenario"))?;
+        }
+        Ok(())
+    }
+
+    /// Multiplies the quantities that a path leads to, presets included, each in its own unit.
+    ///
+    /// # Errors
+    /// A path that cannot be read, leads nowhere, or leads to something that is no number.
+    pub fn scale(&mut self, path: &str, factor: f64) -> Result<(), Diagnostics> {
+        for (place, value) in self.get(path)? {
+            let scaled = match &value {
+                Value::Integer(i) => Some((*i as f64 * factor).to_string()),
+                Value::Float(x) => Some((x * factor).to_string()),
+                Value::String(text) => scaled_text(text, factor),
+                _ => None,
+            };
+            let Some(scaled) = scaled else {
+                let found = format!("`{place}` is no number, so it cannot be multiplied");
+                return Err(refuse(path, found, "a path to quantities"));
+            };
+            self.set_value(&place, &scaled)?;
         }
         Ok(())
     }

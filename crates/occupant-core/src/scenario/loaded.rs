@@ -137,6 +137,12 @@ impl Loaded {
         &self.explicit_scenario
     }
 
+    /// Name and text of the table the scenario names, if it names one.
+    pub fn table(&self) -> Option<(&str, &str)> {
+        let id = self.path_table?;
+        Some((self.sources.name(id), self.sources.text(id)))
+    }
+
     /// The text the scenario was read from.
     pub fn text(&self) -> &str {
         self.sources.text(self.main)

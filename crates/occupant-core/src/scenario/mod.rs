@@ -31,3 +31,6 @@ pub use draft::Draft;
 pub use loaded::{Loaded, Resolver};
 pub use model::Scenario;
 pub use schema::schema;
+
+#[cfg(test)]
+mod tests;

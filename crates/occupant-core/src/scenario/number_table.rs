@@ -286,7 +286,10 @@ fn lines(sources: &Sources, id: SourceId) -> impl Iterator<Item = Span> {
             start += line.len();
             (line, from)
         })
-        .filter(|(line, _)| !line.trim().is_empty() && !line.trim_start().starts_with('#'))
+        .filter(|(line, _)| {
+            let line = line.trim_start_matches('\u{feff}').trim();
+            !line.is_empty() && !line.starts_with('#')
+        })
         .map(move |(line, from)| Span {
             source: id,
             start: from,

@@ -14,6 +14,9 @@ pub enum Step {
     Every,
 }
 
+/// More steps than any path into a scenario has.
+const MAX_STEPS: usize = 32;
+
 /// Reads a path.
 ///
 /// # Errors
@@ -40,6 +43,9 @@ pub fn parse(text: &str) -> Result<Vec<Step>, String> {
         };
         if step == Step::Key(String::new()) {
             return Err(format!("an empty name in `{text}`"));
+        }
+        if steps.len() == MAX_STEPS {
+            return Err(format!("a path of more than {MAX_STEPS} names"));
         }
         steps.push(step);
         rest = &rest[length..];

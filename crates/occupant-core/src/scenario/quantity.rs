@@ -57,6 +57,13 @@ impl<const KIND: usize> Quantity<KIND> {
     }
 }
 
+/// A text such as `"20 mph"` with its number multiplied and its unit kept; none if it does not start with a number.
+pub fn scaled_text(text: &str, factor: f64) -> Option<String> {
+    let (number, unit_start) = split_number(text)?;
+    let unit = text[unit_start..].trim_end();
+    Some(format!("{} {unit}", number * factor))
+}
+
 /// The value of a written quantity in SI units, angles in radians.
 ///
 /// # Errors

@@ -2,6 +2,11 @@
 
 use super::SignalError;
 
+/// Largest magnitude accepted: no signal is larger, and powers and integrals of it stay finite.
+const LARGEST: f64 = 1e100;
+/// Sample intervals accepted, s.
+const INTERVALS_S: std::ops::RangeInclusive<f64> = 1e-12..=1e6;
+
 /// The interval of a uniform time vector, s.
 ///
 /// Each time may lie off the grid by up to one millionth of the time span or one thousandth of the
@@ -47,14 +52,21 @@ pub fn whole_steps(duration_s: f64, dt_s: f64) -> usize {
     }
 }
 
-/// Checks a signal: at least `needed` samples, all finite, and a positive interval.
+/// Checks a signal: at least `needed` samples, all finite and within 1e100, and a sound interval.
 pub(crate) fn require_samples(
     what: &'static str,
     values: &[f64],
     dt_s: f64,
     needed: usize,
 ) -> Result<(), SignalError> {
-    require_positive("sample interval (s)", dt_s)?;
+    if !INTERVALS_S.contains(&dt_s) {
+        let expected = "between 1e-12 s and 1e6 s";
+        return Err(SignalError::OutOfRange {
+            what: "sample interval (s)",
+            found: dt_s,
+            expected,
+        });
+    }
     require_finite(what, values, needed)
 }
 
@@ -94,7 +106,7 @@ fn require_finite(what: &'static str, values: &[f64], needed: usize) -> Result<(
             needed,
         });
     }
-    match values.iter().position(|v| !v.is_finite()) {
+    match values.iter().position(|v| v.is_nan() || v.abs() > LARGEST) {
         Some(index) => Err(SignalError::NotFinite {
             what,
             index,

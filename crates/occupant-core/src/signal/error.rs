@@ -23,7 +23,7 @@ pub enum SignalError {
         /// Duration needed, s.
         needed_s: f64,
     },
-    /// A sample is NaN or infinite.
+    /// A sample is NaN, infinite or beyond 1e100 in magnitude.
     NotFinite {
         /// The signal.
         what: &'static str,
@@ -117,7 +117,7 @@ impl fmt::Display for SignalError {
             Self::NotFinite { what, index, found } => {
                 write!(
                     f,
-                    "{what}: sample {index} is {found}, every sample must be a finite number"
+                    "{what}: sample {index} is {found}, every sample must be a finite number within 1e100"
                 )
             }
             Self::LengthMismatch {

@@ -35,7 +35,8 @@ impl<'a> CumulativeIntegral<'a> {
     /// Integrates from zero at the first sample.
     ///
     /// # Errors
-    /// Fewer than two samples, a sample that is not finite, an interval that is not positive.
+    /// Fewer than two samples, a sample that is not finite, an interval that is not positive, an integral
+    /// beyond the range of numbers.
     pub fn new(values: &'a [f64], dt_s: f64) -> Result<Self, SignalError> {
         require_samples("signal to integrate", values, dt_s, 2)?;
         Ok(Self {

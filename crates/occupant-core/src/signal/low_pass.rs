@@ -1,6 +1,6 @@
 //! Two-pole Butterworth low-pass filter, run forward and backward.
 //!
-//! y[n] = a₀ x[n] + a₁ x[n−1] + a₂ x[n−2] + b₁ y[n−1] + b₂ y[n−2]. One pass forward and one backward
+//! yₙ = a₀ xₙ + a₁ xₙ₋₁ + a₂ xₙ₋₂ + b₁ yₙ₋₁ + b₂ yₙ₋₂. One pass forward and one backward
 //! make a four-pole filter without phase lag.
 
 use super::{SignalError, require_positive, require_samples, whole_steps};
@@ -28,15 +28,15 @@ pub enum Continuation {
 /// Coefficients of one pass.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LowPass {
-    /// Weight of x[n].
+    /// Weight of xₙ.
     pub a0: f64,
-    /// Weight of x[n−1].
+    /// Weight of xₙ₋₁.
     pub a1: f64,
-    /// Weight of x[n−2].
+    /// Weight of xₙ₋₂.
     pub a2: f64,
-    /// Weight of y[n−1].
+    /// Weight of yₙ₋₁.
     pub b1: f64,
-    /// Weight of y[n−2].
+    /// Weight of yₙ₋₂.
     pub b2: f64,
 }
 

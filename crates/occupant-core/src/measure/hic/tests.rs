@@ -189,6 +189,25 @@ fn published_examples() {
     let found = hic(&sine, 1e-4, HicWindow::Other(0.03)).unwrap();
     assert!((found.value - 0.020_480_2).abs() < 1e-7);
     assert!((found.start_s - 0.010).abs() < 1e-6 && (found.end_s - 0.040).abs() < 1e-6);
+    // 10·sin t over half a period: the best 36 ms stand around the crest
+    let slow: Vec<f64> = (0..=3141)
+        .map(|i| 10.0 * G * (f64::from(i) * 1e-3).sin())
+        .collect();
+    let found = hic(&slow, 1e-3, HicWindow::Ms36).unwrap().value;
+    let expected = 0.036 * (20.0 * 0.018f64.sin() / 0.036).powf(2.5);
+    assert!((found / expected - 1.0).abs() < 1e-6); // measured 2.1e-7
+    // 22000/((t − 74)² + 500), t in ms: the same head with an airbag, 10 kHz
+    let airbag: Vec<f64> = (0..=1500)
+        .map(|i| G * 22_000.0 / ((f64::from(i) * 0.1 - 74.0).powi(2) + 500.0))
+        .collect();
+    for (window, expected) in [
+        (HicWindow::Ms15, 176.141_965),
+        (HicWindow::Ms36, 300.728_307),
+        (HicWindow::Other(0.05), 315.247_615),
+    ] {
+        // measured 2e-8, 3e-7 and, where the free window ends between samples, 6.6e-4
+        assert!((hic(&airbag, 1e-4, window).unwrap().value - expected).abs() < 1e-3);
+    }
 }
 
 #[test]
@@ -216,4 +235,44 @@ fn quiet_and_unusable_signals() {
     ));
     assert!(hic(&[1.0; 9], 1e-3, HicWindow::Other(-1.0)).is_err());
     assert!((hic_d(1000.0) - 920.86).abs() < 1e-9);
+}
+
+/// Best window on samples at 10 kHz, computed elsewhere by an exhaustive scan:
+/// (shape, peak g, length s, HIC15, HIC36).
+#[rustfmt::skip] // a table: one pulse a line
+const SAMPLED_AT_10_KHZ: [(Shape, f64, f64, f64, f64); 8] = [
+    (Shape::HalfSine, 100.0, 0.010, 414.465_075_268_739_8, 414.465_075_268_739_8),
+    (Shape::Haversine, 100.0, 0.010, 302.778_852_579_676_77, 302.778_852_579_676_77),
+    (Shape::HalfSine, 60.0, 0.040, 361.354_413_418_112_5, 462.497_717_640_292_6),
+    (Shape::Haversine, 60.0, 0.040, 314.413_740_016_498_4, 337.890_124_897_896_4),
+    (Shape::HalfSine, 80.0, 0.100, 838.978_104_571_747_4, 1_801.074_591_484_601),
+    (Shape::Haversine, 80.0, 0.100, 819.898_730_115_943, 1_583.645_424_690_259_5),
+    (Shape::HalfSine, 150.0, 0.005, 570.713_467_425_537_6, 570.713_467_425_537_6),
+    (Shape::Haversine, 150.0, 0.005, 416.652_209_654_419_95, 416.652_209_654_419_95),
+];
+
+#[test]
+fn windows_on_samples_match_an_exhaustive_scan_made_elsewhere() {
+    for (shape, peak_g, length_s, hic15, hic36) in SAMPLED_AT_10_KHZ {
+        let signal = pulse(shape, peak_g, length_s, 1e-4);
+        let integral = CumulativeIntegral::new(&signal, 1e-4).unwrap();
+        for (longest, expected) in [(150, hic15), (360, hic36)] {
+            let (start, end) =
+                best_sampled_window(&signal, integral.at_samples(), 1e-4, longest).unwrap();
+            let found = hic_of_window(&integral, start as f64 * 1e-4, end as f64 * 1e-4).value;
+            assert!(
+                (found / expected - 1.0).abs() < 1e-10,
+                "{shape:?} {peak_g} g: {found} {expected}"
+            );
+            // the refined window lies between that and the closed form, chords lying below the arc
+            let u = (longest as f64 * 1e-4 / length_s).min(closed_form(shape).1);
+            let refined = hic(&signal, 1e-4, HicWindow::Other(longest as f64 * 1e-4))
+                .unwrap()
+                .value;
+            assert!(
+                refined >= found * (1.0 - 1e-12)
+                    && refined <= limited(shape, peak_g, length_s, u) * (1.0 + 1e-9)
+            );
+        }
+    }
 }

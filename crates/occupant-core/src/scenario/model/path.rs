@@ -77,7 +77,7 @@ pub struct PulseSection {
     /// CSV file beside the scenario with the deceleration of a tabulated pulse; columns `t` and `a`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
-    /// Names and units of the columns of `rows`, such as ["t[ms]", "a[g]"].
+    /// Names and units of the columns of `rows`, such as `["t[ms]", "a[g]"]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub columns: Option<Vec<String>>,
     /// The table itself, one list for each time.
@@ -135,7 +135,7 @@ pub struct TableSection {
     /// `t[s],x[m],y[m],z[m],roll[deg],pitch[deg],yaw[deg]`. Columns other than `t` may be left out and are then 0.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
-    /// Names and units of the columns of `rows`, such as ["t[s]", "x[ft]", "yaw[deg]"].
+    /// Names and units of the columns of `rows`, such as `["t[s]", "x[ft]", "yaw[deg]"]`.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub columns: Option<Vec<String>>,
     /// The table itself, one list for each time.

@@ -1,0 +1,257 @@
+//! What the words come to: precedence, defaults, outlines, warnings.
+
+use approx::assert_relative_eq;
+use nalgebra::{Point3, Vector3};
+
+use super::{build, complaint, load, short_with};
+use crate::material::{DEFAULT_FRICTION_SPEED_M_S, Memory};
+use crate::seating::{InitialPosture, InitialVelocity};
+use crate::setup::{Integrator, STANDARD_GRAVITY_M_S2};
+use crate::surface::{Facing, Frame, Outline};
+
+const JOINTS: &str = "[joints]\npreset = \"male50\"";
+
+#[test]
+fn what_is_said_of_fewer_joints_wins() {
+    let setup = build(&short_with(
+        JOINTS,
+        "[joints]
+preset = \"male50\"
+all.damping = 1
+shoulders = { damping = 2, twist_damping = 0.1 }
+left_shoulder.damping = 3
+neck.set = \"stiff\"
+knees = { set = \"stiff\", damping = 5 }
+[joint_sets.stiff]
+damping = 4",
+    ));
+    let j = &setup.joints;
+    assert_eq!(j.left_hip.damping_n_m_s, 1.0);
+    assert_eq!(j.right_shoulder.damping_n_m_s, 2.0);
+    assert_eq!(j.left_shoulder.damping_n_m_s, 3.0);
+    assert_eq!(j.left_shoulder.twist_damping_n_m_s, 0.1);
+    assert_eq!(j.neck.damping_n_m_s, 4.0);
+    assert_eq!(j.left_knee.damping_n_m_s, 5.0);
+    // What nobody spoke of comes from the preset.
+    assert_relative_eq!(
+        j.neck.stop.unwrap().begin_rad,
+        45f64.to_radians(),
+        max_relative = 1e-15
+    );
+    assert_relative_eq!(
+        j.upper_back.spring.unwrap().stiffness_n_m,
+        112.9848290276167,
+        max_relative = 1e-14
+    );
+}
+
+#[test]
+fn all_gives_each_kind_of_joint_what_it_can_have() {
+    let setup = build(&short_with(
+        JOINTS,
+        "[joints]
+epsilon = 0
+all = { damping = 1, twist_damping = 0.2, stop = { begin = 50, full = 60, damping = 9 } }",
+    ));
+    assert_eq!(setup.joints.epsilon, 0.0);
+    assert_eq!(setup.joints.left_hip.twist_damping_n_m_s, 0.2);
+    assert_relative_eq!(
+        setup.joints.left_hip.stop.unwrap().full_rad,
+        60f64.to_radians()
+    );
+    assert_eq!(setup.joints.left_knee.damping_n_m_s, 1.0);
+    assert!(setup.joints.left_knee.upper_stop.is_none());
+}
+
+#[test]
+fn defaults_are_those_of_the_description() {
+    let setup = build(super::SHORT);
+    assert_eq!(setup.gravity_m_s2, STANDARD_GRAVITY_M_S2);
+    assert_eq!(setup.integrator, Integrator::Rk4 { step_s: 1e-4 });
+    assert_eq!(
+        (setup.time.start_s, setup.time.end_s, setup.time.output_s),
+        (0.0, 0.15, 1e-3)
+    );
+    assert_eq!(setup.velocity, InitialVelocity::WithVehicle);
+    assert!(!setup.output.report_coordinates);
+    let foam = &setup.materials[0];
+    assert_eq!(foam.friction_speed_m_s, DEFAULT_FRICTION_SPEED_M_S);
+    assert_eq!(foam.memory, Memory::Reset);
+    // Linear without a break, one returned fraction for both ranges.
+    assert_eq!(foam.spring.k2_n_per_m, foam.spring.k1_n_per_m);
+    assert_eq!(foam.spring.returned_2, 0.5);
+}
+
+#[test]
+fn spheres_know_their_place_and_can_be_moved_removed_and_added() {
+    let setup = build(&short_with(
+        "[body]\npreset = \"male50\"",
+        "[body]
+preset = \"male50\"
+[body.spheres]
+hands.remove = true
+head = { centre = [0.02, 0, 0.2] }
+nose = { segment = \"head\", centre = [0.1, 0, 0.18], radius = \"1 cm\" }",
+    ));
+    let names: Vec<&str> = setup.body.spheres.iter().map(|s| s.name.as_str()).collect();
+    assert_eq!(names.len(), 16);
+    assert_eq!((names[0], names[15]), ("head", "nose"));
+    assert_eq!(
+        setup.body.spheres[0].centre_from_lower_end_m,
+        Point3::new(0.02, 0.0, 0.2)
+    );
+    assert_relative_eq!(
+        setup.body.spheres[0].radius_m,
+        3.9 * 0.0254,
+        max_relative = 1e-15
+    );
+    let pelvis = &setup.body.spheres[setup.body.sphere("pelvis").unwrap()];
+    assert_eq!(pelvis.centre_from_lower_end_m, Point3::origin());
+}
+
+#[test]
+fn outlines_have_their_corners() {
+    let setup = build(&short_with(
+        "[surfaces]",
+        "[surfaces]
+trapezoid = { material = \"foam\", edge = [[0, 1], [2, 1]], y = 0.5, half_width = 1, end_half_width = 0.5 }
+wheel = { material = \"foam\", disc = { centre = [1, 0, 0], diameter = 0.4, tilt = 30 } }
+ground = { material = \"foam\", frame = \"space\", plane = { point = [0, 0, -1], normal = [0, 0, 2] }, spheres = [\"head\"] }
+pane = { material = \"foam\", points = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], facing = \"order\" }",
+    ));
+    let corner = Point3::new;
+    assert_eq!(
+        setup.surfaces[0].outline,
+        Outline::Polygon(vec![
+            corner(0.0, -0.5, 1.0),
+            corner(0.0, 1.5, 1.0),
+            corner(2.0, 1.0, 1.0),
+            corner(2.0, 0.0, 1.0)
+        ])
+    );
+    assert_eq!(
+        setup.surfaces[0].facing,
+        Facing::Towards(corner(0.1, 0.0, -0.3))
+    );
+    let Outline::Disc { axis, radius_m, .. } = &setup.surfaces[1].outline else {
+        panic!("no disc")
+    };
+    // Rearward and up.
+    let expected = Vector3::new(-(0.75f64.sqrt()), 0.0, -0.5);
+    assert_relative_eq!(*axis, expected, max_relative = 1e-15);
+    assert_eq!(*radius_m, 0.2);
+    // A point inside the vehicle says nothing about space.
+    assert_eq!(
+        (setup.surfaces[2].frame, setup.surfaces[2].facing),
+        (Frame::Space, Facing::Order)
+    );
+    assert_eq!(setup.surfaces[2].spheres, Some(vec![0]));
+    assert_eq!(setup.surfaces[3].facing, Facing::Order);
+}
+
+#[test]
+fn an_exact_state_replaces_the_posture() {
+    let posture = super::SHORT
+        .split("[posture]")
+        .nth(1)
+        .unwrap()
+        .split("[belts")
+        .next()
+        .unwrap();
+    let numbers = |x: f64| {
+        (0..31)
+            .map(|_| x.to_string())
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    let text = super::SHORT.replace(
+        &format!("[posture]{posture}"),
+        &format!(
+            "[initial_state]\nq = [{}]\nrates = [{}]\n\n",
+            numbers(0.5),
+            numbers(2.0)
+        ),
+    );
+    let in_metres = build(&text);
+    let in_inches = build(&text.replace("title", "units = \"in-lbf-s\"\ntitle"));
+    let InitialPosture::Coordinates(metres) = &in_metres.posture else {
+        panic!("no coordinates")
+    };
+    let InitialPosture::Coordinates(inches) = &in_inches.posture else {
+        panic!("no coordinates")
+    };
+    assert_eq!((metres.q[0], metres.q[5], metres.rates[1]), (0.5, 0.5, 2.0));
+    assert_eq!(
+        (inches.q[0], inches.q[5], inches.rates[1]),
+        (0.0127, 0.5, 0.0508)
+    );
+}
+
+#[test]
+fn velocities_at_the_start() {
+    let posture = |line: &str| short_with("heels =", &format!("{line}\nheels ="));
+    assert_eq!(
+        build(&posture("moves_with_vehicle = false")).velocity,
+        InitialVelocity::VehicleOrigin
+    );
+    assert_eq!(
+        build(&posture("velocity = [\"36 km/h\", 0, 1]")).velocity,
+        InitialVelocity::Given(Vector3::new(10.0, 0.0, 1.0))
+    );
+    let both = posture("moves_with_vehicle = true\nvelocity = [1, 0, 0]");
+    assert!(complaint(&both).contains("`moves_with_vehicle` and `velocity` together"));
+}
+
+#[test]
+fn slips_of_units_are_warned_of() {
+    let warnings = |text: &str| load(text).unwrap().build().unwrap().1.to_string();
+    assert_eq!(warnings(super::SHORT), "");
+    let text = short_with("inside", "gravity = 32.17\ninside")
+        .replace("\"70 kN/m\"", "400")
+        .replace("heels = [0.69, 0.33]", "heels = [27, 13]")
+        .replace("end = \"150 ms\"", "end = 150")
+        .replace("middle_torso = 15", "middle_torso = 0.26")
+        .replace("upper_torso = 18", "upper_torso = 0.31")
+        .replace("head = 5", "head = 0.09")
+        .replace("lower_torso = 20", "lower_torso = 0.35")
+        .replace("upper_arms = 35", "upper_arms = 0.61")
+        .replace("elbows = -60", "elbows = -1.05");
+    let problems = load(&text).unwrap().build().unwrap().1;
+    let found: Vec<&str> = problems.iter().map(|d| d.problem.found.as_str()).collect();
+    assert_eq!(
+        found,
+        [
+            "32.17 m/s² is unusual for gravity on earth",
+            "150 s is unusual for the length of a crash",
+            "400 N/m is unusual for the stiffness of a part of a car",
+            "27 m is unusual for a place in a vehicle, and so are 1 more",
+            "angles of the posture that are all below 3.2°, as if they were radians",
+        ]
+    );
+}
+
+#[test]
+fn provenance_of_nothing_is_warned_of() {
+    let text = short_with(
+        "[body]",
+        "[provenance]\n\"materials.foan.k1\" = \"a guess\"\n\"the pulse\" = \"sled\"\n[body]",
+    );
+    let warnings = load(&text).unwrap().build().unwrap().1;
+    // The nearest part that exists is `materials`, so the path leads somewhere; a wrong section leads nowhere.
+    assert!(warnings.is_empty(), "{warnings}");
+    let text = short_with(
+        "[body]",
+        "[provenance]\n\"material.foam.k1\" = \"a guess\"\n[body]",
+    );
+    let warnings = load(&text).unwrap().build().unwrap().1;
+    assert_eq!(
+        warnings.to_string(),
+        "warning: `material.foam.k1` is no part of the scenario
+  --> s.toml:13:22
+   |
+13 | \"material.foam.k1\" = \"a guess\"
+   |                      ^^^^^^^^^
+   = in: provenance.\"material.foam.k1\"
+   = expected: a path such as materials.seat, or a topic in words"
+    );
+}

@@ -1,0 +1,45 @@
+//! Tests of the scenario format.
+
+mod carts;
+mod meaning;
+mod messages;
+mod overrides;
+mod robustness;
+mod round_trip;
+mod schema;
+mod tables;
+mod units;
+
+use super::{Diagnostics, Format, Loaded, Scenario};
+use crate::setup::Setup;
+
+/// The shortest useful scenario.
+const SHORT: &str = include_str!("short.toml");
+
+/// A resolver for scenarios that name no file.
+fn no_files(name: &str) -> Result<Vec<u8>, String> {
+    Err(format!("there is no file {name}"))
+}
+
+fn load(text: &str) -> Result<Loaded, Diagnostics> {
+    Scenario::from_text(text, Format::Toml, "s.toml", &no_files)
+}
+
+fn build(text: &str) -> Setup {
+    let loaded = load(text).unwrap_or_else(|e| panic!("{e}"));
+    loaded.build().unwrap_or_else(|e| panic!("{e}")).0
+}
+
+/// What is wrong with a text, as a user reads it.
+fn complaint(text: &str) -> String {
+    match load(text).and_then(|l| l.build()) {
+        Ok(_) => String::new(),
+        Err(problems) => problems.to_string(),
+    }
+}
+
+/// The short scenario with one piece of text replaced by another.
+fn short_with(old: &str, new: &str) -> String {
+    assert!(SHORT.contains(old), "{old}");
+    SHORT.replacen(old, new, 1)
+}
