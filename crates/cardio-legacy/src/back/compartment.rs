@@ -29,9 +29,8 @@ pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
                 polygons.extend(polygon(back, layout, surface, number));
             }
             None => back.misfit(format!(
-                "surfaces.{}: it is none of the 25 surfaces of the cards ({})",
-                surface.name,
-                layout.names().join(", ")
+                "surfaces.{}: it is none of the 25 surfaces of the cards",
+                surface.name
             )),
         }
     }
@@ -39,14 +38,18 @@ pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
     if let Some((surface, centre, axis)) = wheel(back.setup, layout) {
         check_wheel(back, layout, &surface, centre, axis);
     }
-    for number in 1..=25 {
-        let name = layout.name_of(number).unwrap_or_default().to_owned();
-        let absent = !back.setup.surfaces.iter().any(|s| s.name == name);
-        let kept = back.kept.contains_key(&format!("STIF1({number})"));
-        back.misfit_if(
-            absent && !kept,
-            &format!("surfaces.{name} is missing: cards need all 25 surfaces"),
-        );
+    let there = |name: &str| back.setup.surfaces.iter().any(|s| s.name == name);
+    let kept = |number: u32| back.kept.contains_key(&format!("STIF1({number})"));
+    let numbered = (1..=25).zip(layout.names());
+    let missing: Vec<&str> = numbered
+        .filter(|(number, name)| !there(name) && !kept(*number))
+        .map(|(_, name)| name)
+        .collect();
+    if !missing.is_empty() {
+        back.misfit(format!(
+            "surfaces {} are missing: cards need all 25 surfaces",
+            missing.join(", ")
+        ));
     }
 }
 

@@ -7,8 +7,7 @@ use occupant_core::kernel::contact::PASSED;
 use occupant_core::report_coordinates::ReportCoordinates;
 use occupant_core::sample::Sample;
 
-use super::digits::digits;
-use super::motion::set_coordinates;
+use super::digits::{digits, factor};
 use crate::builder::DeckBuilder;
 use crate::compartment::CompartmentLayout;
 use crate::deck::Deck;
@@ -115,12 +114,12 @@ impl Deck {
         builder.without_series(10);
         builder.with_series(6);
         for (name, angle) in ["BETA4", "BETA7"].into_iter().zip(end.spine_rest_rad) {
-            builder.set(name, &digits(angle, Unit::Radian).0);
+            builder.set(name, &rounded(angle, Unit::Radian));
         }
         for (belt, length) in [1, 2].into_iter().zip(end.belt_lengths_m) {
             builder.clear(&format!("SLACK({belt})"));
             if let Some(length_m) = length {
-                builder.set(&format!("BLTLEO({belt})"), &digits(length_m, Unit::Inch).0);
+                builder.set(&format!("BLTLEO({belt})"), &rounded(length_m, Unit::Inch));
             }
         }
         set_coordinates(&mut builder, &end.coordinates);
@@ -136,6 +135,43 @@ impl Deck {
         builder.build(self.titles().clone(), self.plot())
     }
 }
+
+/// q and their rates in inches and radians.
+fn set_coordinates(builder: &mut DeckBuilder, coordinates: &ReportCoordinates) {
+    for (at, (q, rate)) in coordinates.q.iter().zip(&coordinates.rates).enumerate() {
+        let (unit, rate_unit) = if at < 3 {
+            (Unit::Inch, Unit::InchPerSecond)
+        } else {
+            (Unit::Radian, Unit::RadianPerSecond)
+        };
+        builder.set(&format!("Q0({})", at + 1), &rounded(*q, unit));
+        builder.set(&format!("QDO({})", at + 1), &rounded(*rate, rate_unit));
+    }
+}
+
+/// A number of a state as cards show it: six decimals, fewer where they would not leave a blank before the next field.
+fn rounded(si: f64, unit: Unit) -> String {
+    let value = si / factor(unit);
+    let texts = (0..=DECIMALS)
+        .rev()
+        .map(|decimals| format!("{value:.decimals$}"));
+    let fitting = texts
+        .into_iter()
+        .find(|text| text.len() <= STATE_WIDTH)
+        .unwrap_or_else(|| format!("{value:e}"));
+    match fitting.contains('.') {
+        true => fitting
+            .trim_end_matches('0')
+            .trim_end_matches('.')
+            .to_owned(),
+        false => fitting,
+    }
+}
+
+/// Decimals of a state on cards.
+const DECIMALS: usize = 6;
+/// Columns of a number of a state; the tenth stays blank.
+const STATE_WIDTH: usize = 9;
 
 /// The cards of series 14.
 pub(super) fn set_pairs(builder: &mut DeckBuilder, pairs: &[(String, String)]) {

@@ -5,7 +5,6 @@ use occupant_core::report_coordinates::ReportCoordinates;
 use occupant_core::seating::{InitialPosture, InitialVelocity, Seating};
 
 use super::Back;
-use crate::builder::DeckBuilder;
 use crate::compartment::CompartmentLayout;
 use crate::convert::{BELTS, POSTURE, SEATS};
 use crate::layout::Unit;
@@ -174,24 +173,5 @@ fn read_belt(back: &mut Back<'_>, belt: &Belt, number: u32, exact: bool) {
             "belts.{}: with an exact state cards take its length (BLTLEO)",
             belt.name
         )),
-    }
-}
-
-/// Sets the rates and coordinates of an extension; see [`super::extension`].
-pub(super) fn set_coordinates(builder: &mut DeckBuilder, coordinates: &ReportCoordinates) {
-    for (at, (q, rate)) in coordinates.q.iter().zip(&coordinates.rates).enumerate() {
-        let (unit, rate_unit) = if at < 3 {
-            (Unit::Inch, Unit::InchPerSecond)
-        } else {
-            (Unit::Radian, Unit::RadianPerSecond)
-        };
-        builder.set(
-            &format!("Q0({})", at + 1),
-            &super::digits::digits(*q, unit).0,
-        );
-        builder.set(
-            &format!("QDO({})", at + 1),
-            &super::digits::digits(*rate, rate_unit).0,
-        );
     }
 }
