@@ -79,7 +79,8 @@ fn declares(source: &str, name: &str) -> bool {
             return false;
         };
         let end = rest.chars().next().unwrap_or(',');
-        !(end.is_alphanumeric() || end == '_' || end == '.' || rest.starts_with("::"))
+        let ends_here = !end.is_alphanumeric() && end != '_' && end != '.';
+        ends_here && !rest.starts_with("::")
     })
 }
 

@@ -76,7 +76,7 @@ pub struct Contact {
     pub force_n: Vector3<f64>,
     /// Friction alone, vehicle axes, N.
     pub friction_n: Vector3<f64>,
-    /// Where normal force and friction act: centre − r N̂, vehicle axes, m. The edge band acts at the centre.
+    /// Where the force acts: centre − r N̂, vehicle axes, m; the edge band by choice at the centre.
     pub point_m: Point3<f64>,
     /// Speed of slip, m/s.
     pub slip_m_s: f64,

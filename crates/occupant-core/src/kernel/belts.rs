@@ -86,7 +86,10 @@ impl<S: Scalar> BeltLaw<S> {
         let backward = cross.dot(history.normal).lt(S::zero());
         let (l_1, l_2) = (to_1.norm_squared().sqrt(), to_2.norm_squared().sqrt());
         let area = cross.norm_squared().sqrt();
+        // on the anchors' line the plane is undetermined: it stays what it was
+        let on_the_line = area.lt(l_1 * l_2 * S::of(1e-12));
         let normal = unit(V3::select(backward, -cross, cross));
+        let normal = V3::select(on_the_line, history.normal, normal);
         // θ₃ in (0, 2π), measured about the remembered normal
         let sine = S::select(backward, -area, area);
         let angle = sine.atan2(to_1.dot(to_2));

@@ -6,7 +6,7 @@
 //! force (U/r) ê, and at A = centre − r N̂ the friction −f·wF·v_t/√(v_t² + v_s²).
 //!
 //! The edge force is minus the gradient of wU over the centre's place, so it is conservative if it acts at the centre, as
-//! any frictionless force on a sphere must. At A, with the rest of the contact force, it has the moment U N̂×ê about the
+//! any frictionless force on a sphere must. At A, with the rest of the contact force, it has the moment −U N̂×ê about the
 //! centre, which is work done on a turning segment that nothing stores. [`EdgeForce`] names both readings.
 
 use super::encounter::Approach;

@@ -7,6 +7,7 @@ use crate::scenario::path_text::with_key;
 
 /// The eleven joints; `section` is explicit.
 pub(super) fn joints(b: &mut Builder, section: &JointsSection) -> Joints {
+    report_undamped(b, section);
     let s = section;
     Joints {
         neck: ball(b, Joint::Neck, &s.neck),
@@ -43,18 +44,32 @@ fn given<'s>(
             .collect();
         b.index_of(&path, "joint set", name, names.into_iter());
     }
-    match section {
-        Some(section) if section.damping.is_some() => Some(section),
-        _ => {
-            b.error_with_hint(
-                &format!("joints.{}", joint.name()),
-                format!("joint `{}` has no damping", joint.name()),
-                "a damping for each of the eleven joints",
-                "joints.all.damping is that of every joint, joints.preset = \"male50\" gives a starting set",
-            );
-            None
-        }
-    }
+    section.as_ref().filter(|section| section.damping.is_some())
+}
+
+/// One message for all joints that nobody gave a damping.
+fn report_undamped(b: &mut Builder, section: &JointsSection) {
+    let undamped: Vec<&str> = Joint::ALL
+        .into_iter()
+        .filter(|joint| {
+            let section = section.of(*joint);
+            section.is_none_or(|section| section.damping.is_none())
+        })
+        .map(Joint::name)
+        .collect();
+    let Some((first, others)) = undamped.split_first() else {
+        return;
+    };
+    let found = match others.len() {
+        0 => format!("joint `{first}` has no damping"),
+        n => format!("joint `{first}` and {n} more have no damping"),
+    };
+    b.error_with_hint(
+        &format!("joints.{first}"),
+        found,
+        "a damping for each of the eleven joints",
+        "joints.all.damping is that of every joint, joints.preset = \"male50\" gives a starting set",
+    );
 }
 
 fn ball(b: &mut Builder, joint: Joint, section: &Option<JointSection>) -> BallJoint {

@@ -2,8 +2,9 @@
 //! lbf/in as N/m, milliseconds as seconds.
 
 use super::builder::Builder;
+use crate::joint::Joint;
 use crate::material::BilinearSpring;
-use crate::scenario::model::{Angle, JointSection, PostureSection, Scenario};
+use crate::scenario::model::{Angle, PostureSection, Scenario};
 use crate::scenario::path_text::with_key;
 use crate::scenario::quantity::Written;
 use crate::seating::InitialPosture;
@@ -180,22 +181,10 @@ fn check_posture_angles(b: &mut Builder, p: &PostureSection) {
 }
 
 fn check_stop_angles(b: &mut Builder, scenario: &Scenario) {
-    let j = &scenario.joints;
-    let joints: [(&str, &Option<JointSection>); 11] = [
-        ("neck", &j.neck),
-        ("upper_back", &j.upper_back),
-        ("lower_back", &j.lower_back),
-        ("left_shoulder", &j.left_shoulder),
-        ("right_shoulder", &j.right_shoulder),
-        ("left_elbow", &j.left_elbow),
-        ("right_elbow", &j.right_elbow),
-        ("left_hip", &j.left_hip),
-        ("right_hip", &j.right_hip),
-        ("left_knee", &j.left_knee),
-        ("right_knee", &j.right_knee),
-    ];
-    for (name, section) in joints {
-        let Some(section) = section else { continue };
+    for joint in Joint::ALL {
+        let Some(section) = scenario.joints.of(joint) else {
+            continue;
+        };
         let stops = [
             ("stop", &section.stop),
             ("lower_stop", &section.lower_stop),
@@ -207,7 +196,7 @@ fn check_stop_angles(b: &mut Builder, scenario: &Scenario) {
                 .is_some_and(|s| look_like_radians(&[&s.begin, &s.full]))
             {
                 b.warning(
-                    &format!("joints.{name}.{key}"),
+                    &format!("joints.{}.{key}", joint.name()),
                     "angles of a stop that are both below 3.2°, as if they were radians",
                     "degrees",
                     "bare angles are degrees; write \"0.79 rad\" for radians",

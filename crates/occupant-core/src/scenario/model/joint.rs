@@ -3,6 +3,8 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use crate::joint::Joint;
+
 use super::{Angle, Ratio, RotationalDamping, RotationalStiffness};
 
 /// The eleven joints. What is said of one joint replaces what is said of its pair, that replaces what is said of `all`,
@@ -66,6 +68,25 @@ pub struct JointsSection {
     /// 10, hinge.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub right_knee: Option<JointSection>,
+}
+
+impl JointsSection {
+    /// What is said of one joint by its own name.
+    pub fn of(&self, joint: Joint) -> Option<&JointSection> {
+        match joint {
+            Joint::Neck => self.neck.as_ref(),
+            Joint::RightShoulder => self.right_shoulder.as_ref(),
+            Joint::LeftShoulder => self.left_shoulder.as_ref(),
+            Joint::UpperBack => self.upper_back.as_ref(),
+            Joint::LeftElbow => self.left_elbow.as_ref(),
+            Joint::RightElbow => self.right_elbow.as_ref(),
+            Joint::LowerBack => self.lower_back.as_ref(),
+            Joint::RightHip => self.right_hip.as_ref(),
+            Joint::LeftHip => self.left_hip.as_ref(),
+            Joint::RightKnee => self.right_knee.as_ref(),
+            Joint::LeftKnee => self.left_knee.as_ref(),
+        }
+    }
 }
 
 /// Properties of a joint.

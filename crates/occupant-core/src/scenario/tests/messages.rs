@@ -144,7 +144,7 @@ error: the scenario has no key `title`
         (
             "[joints]\npreset = \"male50\"",
             "[joints]\nneck.damping = 1",
-            "error: joint `right_shoulder` has no damping
+            "error: joint `right_shoulder` and 9 more have no damping
   --> s.toml:15:1
    |
 15 | [joints]

@@ -1,0 +1,3 @@
+//! Parts of the command `occupant` that other programs and tests may use: its recorders.
+
+pub mod mcap;

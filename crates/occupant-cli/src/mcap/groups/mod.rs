@@ -1,0 +1,36 @@
+//! The groups of results (the report's "Output", items 1 to 7, and what we add).
+//!
+//! Field names end in their unit; the word before it names the axes: `vehicle`, `segment`, `space`, or `path` for the
+//! report's vehicle-space axes (forward, right, down).
+
+mod belt;
+mod energy;
+mod joints;
+mod report_coordinates;
+mod segment;
+mod solver;
+mod sphere;
+mod vehicle;
+
+pub use belt::BELT;
+pub use energy::ENERGY;
+pub use joints::JOINTS;
+pub use report_coordinates::REPORT_COORDINATES;
+pub use segment::SEGMENT;
+pub use solver::SOLVER;
+pub use sphere::SPHERE;
+pub use vehicle::VEHICLE;
+
+use super::column::Group;
+
+/// All groups.
+pub const ALL: [&Group; 8] = [
+    &VEHICLE,
+    &SEGMENT,
+    &SPHERE,
+    &BELT,
+    &JOINTS,
+    &ENERGY,
+    &SOLVER,
+    &REPORT_COORDINATES,
+];

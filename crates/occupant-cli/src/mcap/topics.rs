@@ -1,0 +1,99 @@
+//! Names of topics and frames. ASCII and small letters, the same in every run of a scenario.
+
+use std::collections::BTreeSet;
+
+use occupant_core::body::Segment;
+
+/// Space: X forward, Y left, Z up; the root of all frames.
+pub const SPACE_FRAME: &str = "space";
+/// The vehicle: X forward, Y right, Z down, origin at its centre of gravity.
+pub const VEHICLE_FRAME: &str = "vehicle";
+
+/// Transforms.
+pub const TRANSFORMS: &str = "/tf";
+/// Surfaces, written once.
+pub const COMPARTMENT_SCENE: &str = "/scene/compartment";
+/// Limbs and trunk, written once; the transforms move them.
+pub const BODY_SCENE: &str = "/scene/body";
+/// Contact spheres, written once; the transforms move them.
+pub const SPHERES_SCENE: &str = "/scene/spheres";
+/// Belts, every frame.
+pub const BELTS_SCENE: &str = "/scene/belts";
+/// Contact and belt forces, every frame.
+pub const FORCES_SCENE: &str = "/scene/forces";
+/// Names and open sides of the surfaces, written once.
+pub const LABELS_SCENE: &str = "/scene/labels";
+/// Motion of the vehicle.
+pub const VEHICLE: &str = "/vehicle";
+/// Joint angles.
+pub const JOINTS: &str = "/occupant/joints";
+/// Parent of the topics of contact spheres.
+pub const SPHERES: &str = "/occupant/sphere";
+/// Parent of the topics of belts.
+pub const BELTS: &str = "/belt";
+/// The report's coordinates.
+pub const REPORT_COORDINATES: &str = "/occupant/report_coordinates";
+/// Energy ledger.
+pub const ENERGY: &str = "/energy";
+/// Integrator.
+pub const SOLVER: &str = "/solver";
+/// Warnings, first touches, the end.
+pub const LOG: &str = "/log";
+
+/// The frame of a segment: its axes, at its centre of gravity.
+pub fn segment_frame(segment: Segment) -> String {
+    format!("occupant/{}", segment.name())
+}
+
+/// The topic of a segment.
+pub fn segment(segment: Segment) -> String {
+    format!("/occupant/segment/{}", segment.name())
+}
+
+/// Topics below `parent` for names that a user chose, one for each, all different.
+pub fn named<'a>(parent: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<String> {
+    let mut taken = BTreeSet::new();
+    let mut topic = |name: &str| {
+        let plain = format!("{parent}/{}", in_small_letters(name));
+        let mut found = plain.clone();
+        let mut number = 2;
+        while !taken.insert(found.clone()) {
+            found = format!("{plain}_{number}");
+            number += 1;
+        }
+        found
+    };
+    names.into_iter().map(&mut topic).collect()
+}
+
+/// Letters and digits stay, in small letters; anything else becomes `_`.
+fn in_small_letters(name: &str) -> String {
+    let letter = |c: char| {
+        if c.is_ascii_alphanumeric() {
+            c.to_ascii_lowercase()
+        } else {
+            '_'
+        }
+    };
+    name.chars().map(letter).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_become_different_topics() {
+        let names = ["lap", "Lap", "left knee", "gurt/λ"];
+        let topics = named("/belt", names);
+        assert_eq!(
+            topics,
+            [
+                "/belt/lap",
+                "/belt/lap_2",
+                "/belt/left_knee",
+                "/belt/gurt__"
+            ]
+        );
+    }
+}
