@@ -50,6 +50,7 @@ impl Default for McapOptions {
 pub struct McapRecorder<W: Write + Seek> {
     writer: Writer<W>,
     about: About,
+    tables: Vec<Document>,
     options: McapOptions,
     wire: Wire,
     tracks: Option<Tracks>,
@@ -95,11 +96,18 @@ impl<W: Write + Seek> McapRecorder<W> {
         Ok(McapRecorder {
             writer,
             about,
+            tables: Vec::new(),
             options,
             wire: Wire::default(),
             tracks: None,
             outputs: 0,
         })
+    }
+
+    /// Attaches a table that the scenario names.
+    pub fn with_table(mut self, table: Document) -> Self {
+        self.tables.push(table);
+        self
     }
 
     /// The target, after the run's end. Before it, what was written so far is cut off.
@@ -109,14 +117,14 @@ impl<W: Write + Seek> McapRecorder<W> {
 
     fn write_documents(&mut self, model: &Model, belts: &[String]) -> Result<(), RecorderError> {
         self.writer
-            .write_metadata(&about::run(&self.about, model))?;
+            .write_metadata(&about::run(&self.about, &self.tables, model))?;
         let layout = Document {
             name: layout::NAME.to_owned(),
             media_type: "application/json".to_owned(),
             content: serde_json::to_vec_pretty(&layout::layout(model, belts))?,
         };
-        let scenario = std::iter::once(&self.about.scenario);
-        for document in scenario.chain(&self.about.others).chain([&layout]) {
+        let scenario = [&self.about.scenario].into_iter().chain(&self.tables);
+        for document in scenario.chain(&self.about.resolved).chain([&layout]) {
             self.writer.attach(&Attachment {
                 log_time: 0,
                 create_time: 0,
