@@ -33,6 +33,18 @@ pub(crate) fn free_body() -> Model {
     ))
 }
 
+/// Height of the lowest point of the spheres of [`free_body`], m.
+pub(crate) fn lowest_m() -> f64 {
+    let model = free_body();
+    let mobility = Mobility::new(&model);
+    let spheres = model.body().spheres.iter().enumerate();
+    let bottom = spheres.map(|(i, sphere)| {
+        let (_, centre, _) = model.system().sphere(mobility.kinematics(), i);
+        centre.z - sphere.radius_m
+    });
+    bottom.fold(f64::INFINITY, f64::min)
+}
+
 /// The same body over a floor in space that its lowest spheres press by a little.
 fn standing_on(friction: f64, step: &str) -> Model {
     let q: Vec<String> = (0..31)
@@ -45,8 +57,9 @@ fn standing_on(friction: f64, step: &str) -> Model {
          integrator = {{ kind = \"rk4\", step = \"{step}\" }}\n\
          [materials]\nfloor = {{ k1 = \"50 kN/m\", mu1 = 0.5, friction = {friction} }}\n\
          [surfaces.floor]\nmaterial = \"floor\"\nframe = \"space\"\nfacing = \"order\"\n\
-         plane = {{ point = [0, 0, -0.30], normal = [0, 0, 1] }}\n",
-        q.join(", ")
+         plane = {{ point = [0, 0, {}], normal = [0, 0, 1] }}\n",
+        q.join(", "),
+        lowest_m() + 0.005
     ))
 }
 

@@ -1,6 +1,6 @@
 use super::*;
 use crate::body::Segment;
-use crate::diagnosis::tests::model_of;
+use crate::diagnosis::tests::{lowest_m, model_of};
 use crate::model::Model;
 use crate::recorder::{Flow, Recorder, RecorderError};
 use crate::sample::Sample;
@@ -18,8 +18,15 @@ fn falling(floor: &str, end_s: f64) -> Model {
     ))
 }
 
-const FLOOR: &str = "[materials]\nfloor = { k1 = \"50 kN/m\", mu1 = 0.5, friction = 0.5 }\n[surfaces.floor]\n\
-    material = \"floor\"\nframe = \"space\"\nfacing = \"order\"\nplane = { point = [0, 0, -0.6], normal = [0, 0, 1] }\n";
+/// A floor in space 5 cm below the lowest sphere.
+fn floor() -> String {
+    format!(
+        "[materials]\nfloor = {{ k1 = \"50 kN/m\", mu1 = 0.5, friction = 0.5 }}\n[surfaces.floor]\n\
+         material = \"floor\"\nframe = \"space\"\nfacing = \"order\"\n\
+         plane = {{ point = [0, 0, {}], normal = [0, 0, 1] }}\n",
+        lowest_m() - 0.05
+    )
+}
 
 fn summary_of(model: &Model) -> Summary {
     let mut summarizer = Summarizer::new();
@@ -78,7 +85,7 @@ impl Recorder for Everything {
 
 #[test]
 fn peaks_are_those_of_the_whole_record() {
-    let model = falling(FLOOR, 0.25);
+    let model = falling(&floor(), 0.25);
     let (mut summarizer, mut all) = (Summarizer::new(), Everything::default());
     let outcome = simulate(&model, (&mut summarizer, &mut all)).unwrap();
     let s = summarizer.summary(Some(1.5)).unwrap();
@@ -126,7 +133,7 @@ fn peaks_are_those_of_the_whole_record() {
 
 #[test]
 fn the_same_run_gives_the_same_summary_and_a_summarizer_can_be_used_again() {
-    let model = falling(FLOOR, 0.2);
+    let model = falling(&floor(), 0.2);
     let mut summarizer = Summarizer::new();
     simulate(&falling("", 0.05), &mut summarizer).unwrap();
     simulate(&model, &mut summarizer).unwrap();
@@ -160,11 +167,11 @@ fn an_interrupted_run_says_so() {
 #[test]
 fn a_last_output_between_two_regular_times_does_not_bend_the_levels() {
     // the last interval is half as long as the others
-    let model = falling(FLOOR, 0.2035);
+    let model = falling(&floor(), 0.2035);
     let s = summary_of(&model);
     assert_eq!(s.solver.outputs, output_count(&model));
     assert_eq!(s.reached_s, 0.2035);
-    let whole = summary_of(&falling(FLOOR, 0.203));
+    let whole = summary_of(&falling(&floor(), 0.203));
     assert_eq!(
         s.accelerations.head.three_ms_contiguous,
         whole.accelerations.head.three_ms_contiguous
@@ -173,7 +180,7 @@ fn a_last_output_between_two_regular_times_does_not_bend_the_levels() {
 
 #[test]
 fn nothing_grows_between_the_first_output_and_the_last() {
-    let model = falling(FLOOR, 0.25);
+    let model = falling(&floor(), 0.25);
     let mut summarizer = Summarizer::new();
     summarizer.begin(&model).unwrap();
     let before = summarizer.room();
@@ -183,7 +190,7 @@ fn nothing_grows_between_the_first_output_and_the_last() {
 
 #[test]
 fn it_is_json_with_units_in_its_names() {
-    let json = serde_json::to_value(summary_of(&falling(FLOOR, 0.2))).unwrap();
+    let json = serde_json::to_value(summary_of(&falling(&floor(), 0.2))).unwrap();
     assert_eq!(json["status"], "completed");
     assert!(json["accelerations"]["head"]["peak_g"].is_f64());
     assert!(json["contacts"][0]["closing_m_s"].is_f64());
