@@ -34,14 +34,14 @@ pub struct About {
     pub program: String,
     /// The scenario as it was read.
     pub scenario: Document,
-    /// What belongs to it: its tables, the scenario with all that was resolved and overridden.
-    pub others: Vec<Document>,
+    /// The scenario with all that was resolved and overridden, if it differs.
+    pub resolved: Option<Document>,
     /// More entries of the first metadata record. Nothing that changes from run to run of one scenario belongs here.
     pub notes: BTreeMap<String, String>,
 }
 
-/// The first metadata record.
-pub fn run(about: &About, model: &Model) -> Metadata {
+/// The first metadata record, for a scenario that names `tables`.
+pub fn run(about: &About, tables: &[Document], model: &Model) -> Metadata {
     let setup = model.setup();
     let mut entries = about.notes.clone();
     let mut put = |key: &str, value: String| entries.insert(key.to_owned(), value);
@@ -49,8 +49,8 @@ pub fn run(about: &About, model: &Model) -> Metadata {
     put("title", setup.title.clone());
     put("scenario", about.scenario.name.clone());
     put("scenario_sha256", sha256(&about.scenario.content));
-    for other in &about.others {
-        put(&format!("sha256 {}", other.name), sha256(&other.content));
+    for table in tables {
+        put(&format!("sha256 {}", table.name), sha256(&table.content));
     }
     put("body", setup.body.name.clone());
     put("body_mass_kg", setup.body.mass_kg().to_string());

@@ -50,6 +50,7 @@ impl Default for McapOptions {
 pub struct McapRecorder<W: Write + Seek> {
     writer: Writer<W>,
     about: About,
+    tables: Vec<Document>,
     options: McapOptions,
     wire: Wire,
     tracks: Option<Tracks>,
@@ -95,11 +96,18 @@ impl<W: Write + Seek> McapRecorder<W> {
         Ok(McapRecorder {
             writer,
             about,
+            tables: Vec::new(),
             options,
             wire: Wire::default(),
             tracks: None,
             outputs: 0,
         })
+    }
+
+    /// Attaches a table that the scenario names.
+    pub fn with_table(mut self, table: Document) -> Self {
+        self.tables.push(table);
+        self
     }
 
     /// The target, after the run's end. Before it, what was written so far is cut off.
@@ -109,14 +117,14 @@ impl<W: Write + Seek> McapRecorder<W> {
 
     fn write_documents(&mut self, model: &Model, belts: &[String]) -> Result<(), RecorderError> {
         self.writer
-            .write_metadata(&about::run(&self.about, model))?;
+            .write_metadata(&about::run(&self.about, &self.tables, model))?;
         let layout = Document {
             name: layout::NAME.to_owned(),
             media_type: "application/json".to_owned(),
             content: serde_json::to_vec_pretty(&layout::layout(model, belts))?,
         };
-        let scenario = std::iter::once(&self.about.scenario);
-        for document in scenario.chain(&self.about.others).chain([&layout]) {
+        let scenario = [&self.about.scenario].into_iter().chain(&self.tables);
+        for document in scenario.chain(&self.about.resolved).chain([&layout]) {
             self.writer.attach(&Attachment {
                 log_time: 0,
                 create_time: 0,
@@ -290,11 +298,14 @@ impl<W: Write + Seek> Recorder for McapRecorder<W> {
             .as_mut()
             .ok_or("an output before the run began")?;
         tracks.write_groups(writer, wire, sample)?;
-        if sample.index % tracks.stride == 0 || sample.index == tracks.last {
+        if sample.index.is_multiple_of(tracks.stride) || sample.index == tracks.last {
             tracks.write_frame(writer, wire, sample, self.options.force_scale_m_per_n)?;
         }
         self.outputs += 1;
-        if self.outputs % u64::from(self.options.outputs_per_chunk.get()) == 0 {
+        if self
+            .outputs
+            .is_multiple_of(self.options.outputs_per_chunk.get().into())
+        {
             writer.flush()?;
         }
         Ok(Flow::Continue)

@@ -1,4 +1,6 @@
-//! A results file that carries its name only when it is complete: `run.mcap.partial` becomes `run.mcap`.
+//! A results file that carries its name only when it is complete: `run.partial.mcap` becomes `run.mcap`.
+//!
+//! The provisional name keeps the ending, so that viewers open what an interrupted run has left.
 
 use std::ffi::OsString;
 use std::fmt;
@@ -176,11 +178,15 @@ impl Seek for PartialFile {
     }
 }
 
-/// `run.mcap` → `run.mcap.partial`.
+/// `dir/run.mcap` → `dir/run.partial.mcap`.
 fn partial_path(target: &Path) -> PathBuf {
-    let mut name = OsString::from(target);
+    let mut name = OsString::from(target.file_stem().unwrap_or_default());
     name.push(".partial");
-    name.into()
+    if let Some(extension) = target.extension() {
+        name.push(".");
+        name.push(extension);
+    }
+    target.with_file_name(name)
 }
 
 fn refuse_existing(target: &Path) -> Result<(), FileProblem> {
@@ -197,5 +203,18 @@ fn sync_folder(target: &Path) {
     let folder = target.parent().filter(|p| !p.as_os_str().is_empty());
     if let Ok(folder) = File::open(folder.unwrap_or(Path::new("."))) {
         let _ = folder.sync_all();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_provisional_name_keeps_folder_and_ending() {
+        let name = |path: &str| partial_path(Path::new(path)).display().to_string();
+        assert_eq!(name("a/run.mcap"), "a/run.partial.mcap");
+        assert_eq!(name("run.1.mcap"), "run.1.partial.mcap");
+        assert_eq!(name("run"), "run.partial");
     }
 }
