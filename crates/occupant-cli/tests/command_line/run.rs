@@ -41,10 +41,10 @@ fn the_table_and_the_json_tell_the_same_numbers() {
     for first in json["first_contacts"].as_array().unwrap() {
         // "head" has a row among the accelerations too: the one below is meant
         let name = first["sphere"].as_str().unwrap();
-        let rows = table
+        let mut rows = table
             .lines()
             .filter(|l| l.split_whitespace().next() == Some(name) && !l.contains("excursion"));
-        let cells: Vec<&str> = rows.last().unwrap().split_whitespace().collect();
+        let cells: Vec<&str> = rows.next_back().unwrap().split_whitespace().collect();
         match first["contact"].as_object() {
             None => assert_eq!(cells[1], "–"),
             Some(contact) => {
