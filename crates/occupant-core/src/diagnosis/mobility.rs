@@ -159,7 +159,7 @@ mod tests {
         for segment in Segment::ALL {
             let n = segment.index();
             let change = a.joint[n] - mobility.unloaded.joint[n];
-            // measured: 2e-15
+            // measured: 6.7e-16, and 5.2e-15 for the angular part
             assert!((change.x - 1.0).abs() < 1e-12, "{segment:?}: {change:?}");
             assert!(a.alpha[n].norm_squared().sqrt() < 1e-11, "{segment:?}");
         }

@@ -103,7 +103,7 @@ fn an_impulse_at_a_point_gives_the_kinetic_energy_that_its_mobility_says() {
             &Moving::space(),
         );
         let by_mobility = 0.5 * force.dot(&(mobility.of_point(n, k.joint[n] + arm) * force));
-        // measured: below 1e-13
+        // measured: 4.6e-15
         assert!(
             (energy_j / by_mobility - 1.0).abs() < 1e-11,
             "{segment:?}: {energy_j} against {by_mobility}"
