@@ -7,6 +7,7 @@
 mod check;
 mod check_text;
 mod completions;
+mod convert;
 mod exit;
 mod interrupt;
 mod new;
@@ -40,6 +41,7 @@ enum Command {
     Check(check::Args),
     New(new::Args),
     Schema(schema::Args),
+    Convert(convert::Args),
     Completions(completions::Args),
 }
 
@@ -50,6 +52,7 @@ pub fn main() -> ExitCode {
         Command::Check(args) => check::check(&args),
         Command::New(args) => new::new(&args),
         Command::Schema(args) => schema::print(&args),
+        Command::Convert(args) => convert::convert(&args),
         Command::Completions(args) => completions::print(&args),
     };
     exit::code(result)
