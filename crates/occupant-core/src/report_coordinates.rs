@@ -103,7 +103,7 @@ fn angular_velocity([phi, theta, _]: [f64; 3], rates: [f64; 3]) -> Vector3<f64> 
 /// Euler angles and rates of an orientation that turns with `omega` (space axes).
 fn euler(rotation: &Matrix3<f64>, omega: Vector3<f64>) -> ([f64; 3], [f64; 3]) {
     let z = rotation.column(2);
-    let sine = z.x.hypot(z.y);
+    let sine = (z.x * z.x + z.y * z.y).sqrt();
     if sine < SINGULAR {
         return euler_when_vertical(rotation, omega);
     }
@@ -117,7 +117,7 @@ fn euler(rotation: &Matrix3<f64>, omega: Vector3<f64>) -> ([f64; 3], [f64; 3]) {
 }
 
 fn euler_when_vertical(rotation: &Matrix3<f64>, omega: Vector3<f64>) -> ([f64; 3], [f64; 3]) {
-    let horizontal = omega.x.hypot(omega.y);
+    let horizontal = (omega.x * omega.x + omega.y * omega.y).sqrt();
     let phi = if horizontal > 0.0 {
         atan2(-omega.x, omega.y)
     } else {

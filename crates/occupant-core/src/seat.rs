@@ -159,7 +159,7 @@ fn sink(
             "seat.cushion",
             format!(
                 "a cushion whose normal makes {:.0}° with the vertical",
-                support.acos().to_degrees()
+                crate::trig::acos(support).to_degrees()
             ),
             "a cushion that faces up at the start",
             "check the cushion's `inside` point, or give the initial state in report coordinates",

@@ -4,7 +4,7 @@
 //! damped Newton iteration on the resultant force and moment of contacts, belts and weight, every contact on its loading
 //! curve, at rest relative to the vehicle. Directions that nothing resists are left alone.
 
-use nalgebra::{Matrix6, Rotation3, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 use crate::kernel::System;
 use crate::kernel::belts::BeltLaw;
@@ -16,6 +16,7 @@ use crate::path::FrameMotion;
 use crate::problem::Problems;
 use crate::report_coordinates::quaternion;
 use crate::setup::Setup;
+use crate::trig;
 
 /// Lever that turns moments into comparable forces, m.
 const LEVER_M: f64 = 0.3;
@@ -109,14 +110,25 @@ fn limited(step: Vector6<f64>) -> Vector6<f64> {
 
 /// The body moved by x[0..3] (m) and turned about T1 by the rotation vector x[3..6]/lever.
 fn moved(state: &State<f64>, x: &Vector6<f64>) -> State<f64> {
-    let turn = Rotation3::new(x.fixed_rows::<3>(3) / LEVER_M);
+    let turn = turned_by(&(x.fixed_rows::<3>(3) / LEVER_M));
     let mut out = *state;
     out.t1 += V3::of(&x.fixed_rows::<3>(0).into());
     for q in &mut out.orientation {
         let axes = crate::kernel::kinematics::axes(q).to_matrix();
-        *q = quaternion(&(turn.matrix() * axes));
+        *q = quaternion(&(turn * axes));
     }
     out
+}
+
+/// The rotation of a rotation vector (rad).
+fn turned_by(vector: &Vector3<f64>) -> Matrix3<f64> {
+    let angle = vector.norm();
+    if angle == 0.0 {
+        return Matrix3::identity();
+    }
+    let (sine, cosine) = trig::sin_cos(angle);
+    let cross = (vector / angle).cross_matrix();
+    Matrix3::identity() + cross * sine + cross * cross * (1.0 - cosine)
 }
 
 /// Resultant force (N) and moment about T1 over the lever (N) of contacts, belts and weight on the resting body.

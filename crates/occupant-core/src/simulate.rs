@@ -16,6 +16,7 @@ use crate::path::PathCursor;
 use crate::recorder::{Flow, Recorder, RecorderError};
 use crate::sample::{Effort, Sample};
 use crate::setup::Integrator;
+use crate::trig;
 
 /// How a run ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -385,7 +386,7 @@ impl<'a> Run<'a> {
             self.effort.evaluations += 6;
             // fifth-order growth with a safety factor; a trial that is not a number asks for a tenth
             let growth = if trial.error.is_finite() {
-                (0.9 * trial.error.max(1e-10).powf(-0.2)).clamp(0.1, 5.0)
+                (0.9 * trig::pow(trial.error.max(1e-10), -0.2)).clamp(0.1, 5.0)
             } else {
                 0.1
             };

@@ -22,21 +22,18 @@ pub(crate) fn asin(sine: f64) -> f64 {
 }
 
 /// Angle in [0, π] rad whose cosine is `cosine`; NaN outside [−1, 1].
-#[allow(
-    dead_code,
-    reason = "the one door to arc cosines, kept whole for the other rooms of the core"
-)]
 pub(crate) fn acos(cosine: f64) -> f64 {
     libm::acos(cosine)
 }
 
 /// e to the power `exponent`.
-#[allow(
-    dead_code,
-    reason = "the one door to exponentials, kept whole for the other rooms of the core"
-)]
 pub(crate) fn exp(exponent: f64) -> f64 {
     libm::exp(exponent)
+}
+
+/// `base` to the power `exponent`.
+pub(crate) fn pow(base: f64, exponent: f64) -> f64 {
+    libm::pow(base, exponent)
 }
 
 #[cfg(test)]

@@ -3,7 +3,7 @@
 //! A quantity of a scenario is its number times its unit's factor. The shortest decimal number that gives the same product
 //! is the number that was written, so a deck's digits come back however its scenario was read.
 
-use occupant_core::scenario::unit;
+use occupant_core::scenario::unit_expression;
 
 use crate::deck::Number;
 use crate::layout::Unit;
@@ -29,7 +29,7 @@ pub(super) fn factor(unit: Unit) -> f64 {
         Unit::RotaryDamping => "in lbf s/rad",
         Unit::RotaryStiffness => "in lbf/rad",
     };
-    unit::parse(text, 0).map_or(1.0, |scale| scale.factor)
+    unit_expression::parse(text, 0).map_or(1.0, |scale| scale.factor)
 }
 
 /// The digits of `si` in a card's unit, and the number as it fits into ten columns where that is not the same.

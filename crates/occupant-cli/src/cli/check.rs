@@ -60,7 +60,7 @@ fn too_long(diagnosis: &Diagnosis) -> Option<String> {
         return None;
     }
     Some(format!(
-        "error: the step of {:.4} ms is too long for {} on {}, whose time scale is {:.4} ms\n = expected: a step below {:.4} ms\n = help: set `integrator.step`, use the adaptive integrator, or soften what makes it so fast",
+        "error: the step of {:.4} ms is too long for {} ({}), whose time scale is {:.4} ms\n = expected: a step below {:.4} ms\n = help: set `integrator.step`, use the adaptive integrator, or soften what makes it so fast",
         step_s * 1e3,
         fastest.of,
         fastest.by,

@@ -161,7 +161,7 @@ fn belts(d: &Diagnosis) -> String {
 fn sphere_rates(d: &Diagnosis) -> String {
     let mut table = Table::new(&[
         ("sphere", Left),
-        ("stiffest surface", Left),
+        ("stiffest material", Left),
         ("effective mass, kg", Right),
         ("slope, kN/m", Right),
         ("time scale, ms", Right),
@@ -218,7 +218,9 @@ fn verdict(d: &Diagnosis) -> String {
         fastest.by
     );
     match d.step_by_time_scale {
-        Some(number) => format!("{scale}; step/time scale {number:.3}, which must stay below 2.8\n"),
+        Some(number) => {
+            format!("{scale}; step/time scale {number:.3}, which must stay below 2.8\n")
+        }
         None => format!("{scale}; the error control chooses the step\n"),
     }
 }

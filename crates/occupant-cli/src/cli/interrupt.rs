@@ -20,7 +20,9 @@ impl Interrupt {
         let interrupt = Interrupt::default();
         let asked = Arc::clone(&interrupt.asked);
         if let Err(error) = ctrlc::set_handler(move || asked.store(true, Ordering::Relaxed)) {
-            say(&format!("warning: Ctrl-C will end the run at once: {error}"));
+            say(&format!(
+                "warning: Ctrl-C will end the run at once: {error}"
+            ));
         }
         interrupt
     }

@@ -33,7 +33,10 @@ pub fn new(args: &Args) -> Result<Done, Failure> {
         file.set_extension("toml");
     }
     let name = file.display();
-    if file.extension().is_some_and(|e| !e.eq_ignore_ascii_case("toml")) {
+    if file
+        .extension()
+        .is_some_and(|e| !e.eq_ignore_ascii_case("toml"))
+    {
         return Err(Failure::with_help(
             format!("{name} is not named .toml, and the starter scenario is TOML"),
             "give it a name that ends with .toml",

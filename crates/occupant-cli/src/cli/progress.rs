@@ -21,7 +21,9 @@ impl Progress {
         };
         let bar = ProgressBar::with_draw_target(None, target);
         // the words of the template are ours; should they not parse, the plain bar does
-        if let Ok(style) = ProgressStyle::with_template("{bar:40} {msg}, {elapsed} so far, {eta} to go") {
+        if let Ok(style) =
+            ProgressStyle::with_template("{bar:40} {msg}, {elapsed} so far, {eta} to go")
+        {
             bar.set_style(style);
         }
         Progress { bar }

@@ -63,9 +63,8 @@ impl Recording {
         let file = PartialFile::create(name, existing).map_err(|e| refused(&e))?;
         let partial = file.partial_path().to_owned();
         let recorder = McapRecorder::new(file, about, McapOptions::default());
-        let recorder = recorder.map_err(|e| {
-            Failure::plain(format!("{} cannot be written: {e}", partial.display()))
-        })?;
+        let recorder = recorder
+            .map_err(|e| Failure::plain(format!("{} cannot be written: {e}", partial.display())))?;
         Ok(Recording(Some(Open { partial, recorder })))
     }
 
@@ -95,7 +94,9 @@ impl Recording {
         };
         closed.map_err(|problem| {
             let partial = open.partial.display();
-            Failure::BrokeOff(format!("error: {problem}\n = done: the run is in {partial}"))
+            Failure::BrokeOff(format!(
+                "error: {problem}\n = done: the run is in {partial}"
+            ))
         })
     }
 }
@@ -133,7 +134,8 @@ fn about(args: &ScenarioArgs, opened: &Opened) -> Result<About, Failure> {
     let name = args.scenario.file_name().unwrap_or_default();
     let name = name.to_string_lossy().into_owned();
     let resolved = opened.loaded.explicit().to_toml();
-    let resolved = resolved.map_err(|e| Failure::plain(format!("the scenario cannot be written down: {e}")))?;
+    let resolved = resolved
+        .map_err(|e| Failure::plain(format!("the scenario cannot be written down: {e}")))?;
     let media_type = match args.scenario.extension() {
         Some(e) if e.eq_ignore_ascii_case("json") => "application/json",
         _ => "application/toml",

@@ -4,8 +4,9 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use occupant_core::diagnosis::{FrictionWatch, UnstableFriction};
+use occupant_core::scenario::Diagnostics;
 use occupant_core::simulate::{Status, simulate};
-use occupant_core::summary::{Summarizer, Summary};
+use occupant_core::summary::{RunStatus, Summarizer, Summary};
 use serde::Serialize;
 
 use super::exit::{Done, Failure};
@@ -103,7 +104,10 @@ fn output_name(args: &Args) -> Result<Option<PathBuf>, Failure> {
     }
     let stem = args.scenario.scenario.file_stem().map(Path::new);
     let stem = stem.ok_or_else(|| {
-        Failure::with_help("the scenario's name gives no name to its results", "use -o FILE.mcap")
+        Failure::with_help(
+            "the scenario's name gives no name to its results",
+            "use -o FILE.mcap",
+        )
     })?;
     let mut name = stem.as_os_str().to_owned();
     name.push(".mcap");
@@ -125,7 +129,11 @@ fn tell(
     friction: &FrictionWatch,
     written: &Written,
 ) -> Result<(), Failure> {
-    let unstable = opened.loaded.diagnose(&friction.warnings(&opened.model));
+    // the forces of a run that has failed say nothing about its friction
+    let unstable = match summary.status {
+        RunStatus::Failed => Diagnostics::new(),
+        _ => opened.loaded.diagnose(&friction.warnings(&opened.model)),
+    };
     if !args.quiet && !unstable.is_empty() {
         say(&format!("{unstable}\n"));
     }
@@ -161,7 +169,10 @@ fn broke_off(summary: &Summary, written: &Written) -> String {
         (summary.end_s - summary.start_s) * 1e3
     );
     let file = match written {
-        Written::Partial(path) => format!("; these are in {}, which says that it is partial", path.display()),
+        Written::Partial(path) => format!(
+            "; these are in {}, which says that it is partial",
+            path.display()
+        ),
         _ => String::new(),
     };
     format!("error: the run was not completed: {reason}\n = done: {reached}{file}")

@@ -81,7 +81,10 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
 }
 
 fn refused(name: &str, problems: &Diagnostics) -> Failure {
-    let errors = problems.iter().filter(|d| d.problem.severity == Severity::Error).count();
+    let errors = problems
+        .iter()
+        .filter(|d| d.problem.severity == Severity::Error)
+        .count();
     let count = match errors {
         1 => "1 error".to_owned(),
         n => format!("{n} errors"),

@@ -1,10 +1,10 @@
 //! The short table at the end of a run.
 
-use occupant_core::summary::{Acceleration, FirstContact, RunStatus, Summary};
+use occupant_core::summary::{Acceleration, ContactBegin, FirstContact, RunStatus, Summary};
 
 use super::recording::Written;
 use super::table::Align::{Left, Right};
-use super::table::{NONE, Table, facts};
+use super::table::{NONE, Table, facts, number};
 
 /// The table: title, accelerations, belts, first contacts, and how far to trust the run.
 pub fn summary_table(summary: &Summary, written: &Written) -> String {
@@ -39,7 +39,11 @@ fn accelerations(summary: &Summary) -> String {
         ("3 ms in total, g", Right),
     ]);
     let a = &summary.accelerations;
-    for (name, part) in [("head", &a.head), ("chest", &a.chest), ("pelvis", &a.pelvis)] {
+    for (name, part) in [
+        ("head", &a.head),
+        ("chest", &a.chest),
+        ("pelvis", &a.pelvis),
+    ] {
         table.row(acceleration(name, part));
     }
     table.text()
@@ -50,11 +54,13 @@ fn acceleration(name: &str, part: &Acceleration) -> [String; 6] {
     let total = part.three_ms_cumulative;
     [
         name.to_owned(),
-        format!("{:.1}", part.peak_g),
+        number(part.peak_g, 1),
         ms(part.peak_time_s),
-        held.map_or(NONE.to_owned(), |l| format!("{:.1}", l.level_g)),
-        held.map_or(NONE.to_owned(), |l| format!("{}–{}", ms(l.from_s), ms(l.to_s))),
-        total.map_or(NONE.to_owned(), |l| format!("{:.1}", l.level_g)),
+        held.map_or(NONE.to_owned(), |l| number(l.level_g, 1)),
+        held.map_or(NONE.to_owned(), |l| {
+            format!("{}–{}", ms(l.from_s), ms(l.to_s))
+        }),
+        total.map_or(NONE.to_owned(), |l| number(l.level_g, 1)),
     ]
 }
 
@@ -69,10 +75,10 @@ fn belts(summary: &Summary) -> String {
     for belt in &summary.belts {
         table.row([
             belt.belt.clone(),
-            format!("{:.0}", belt.loop_force_n),
+            number(belt.loop_force_n, 0),
             belt.time_s.map_or(NONE.to_owned(), ms),
-            format!("{:.1}", belt.elongation_m * 1e3),
-            format!("{:.0}", belt.body_force_n),
+            number(belt.elongation_m * 1e3, 1),
+            number(belt.body_force_n, 0),
         ]);
     }
     table.text()
@@ -80,7 +86,7 @@ fn belts(summary: &Summary) -> String {
 
 fn first_contacts(summary: &Summary) -> String {
     let mut table = Table::new(&[
-        ("first contact", Left),
+        ("new contact", Left),
         ("surface", Left),
         ("at, ms", Right),
         ("speed, m/s", Right),
@@ -89,48 +95,67 @@ fn first_contacts(summary: &Summary) -> String {
         ("on", Left),
     ]);
     for first in &summary.first_contacts {
-        table.row(first_contact(summary, first));
+        rows_of(summary, first)
+            .into_iter()
+            .for_each(|row| table.row(row));
     }
     table.text()
 }
 
-fn first_contact(summary: &Summary, first: &FirstContact) -> [String; 7] {
-    let contact = first.contact.as_ref();
-    let peaks = summary.sphere_forces.iter();
-    let peak = peaks.clone().find(|p| p.sphere == first.sphere);
-    let or_none = |text: Option<String>| text.unwrap_or(NONE.to_owned());
-    [
-        first.sphere.clone(),
-        or_none(contact.map(|c| c.surface.clone())),
-        or_none(contact.map(|c| ms(c.time_s))),
-        or_none(contact.map(|c| format!("{:.2}", c.closing_m_s))),
-        or_none(peak.map(|p| format!("{:.0}", p.force_n))),
-        or_none(peak.map(|p| ms(p.time_s))),
-        or_none(peak.map(|p| p.surface.clone())),
-    ]
+/// A row for each surface that a sphere touched after the start; the greatest force stands in the first.
+fn rows_of(summary: &Summary, first: &FirstContact) -> Vec<[String; 7]> {
+    let peak = summary
+        .sphere_forces
+        .iter()
+        .find(|p| p.sphere == first.sphere);
+    let none = || NONE.to_owned();
+    let force = match peak {
+        Some(p) => [number(p.force_n, 0), ms(p.time_s), p.surface.clone()],
+        None => [none(), none(), none()],
+    };
+    let new = |c: &&ContactBegin| c.sphere == first.sphere && !c.at_start;
+    let mut touches: Vec<[String; 3]> = summary
+        .contacts
+        .iter()
+        .filter(new)
+        .map(|c| [c.surface.clone(), ms(c.time_s), number(c.closing_m_s, 2)])
+        .collect();
+    if touches.is_empty() {
+        touches.push([none(), none(), none()]);
+    }
+    let row = |(i, [surface, at, speed]): (usize, [String; 3])| {
+        let (name, [n, when, on]) = match i {
+            0 => (first.sphere.clone(), force.clone()),
+            _ => (String::new(), [String::new(), String::new(), String::new()]),
+        };
+        [name, surface, at, speed, n, when, on]
+    };
+    touches.into_iter().enumerate().map(row).collect()
 }
 
 fn trust(summary: &Summary, written: &Written) -> String {
     let mut lines = Vec::new();
     if let Some(e) = &summary.head_excursion {
-        lines.push((
-            "head excursion",
+        let mm = |way: &str, distance_m: f64| format!("{way} {} mm", number(distance_m * 1e3, 0));
+        let ways = [
             format!(
-                "forward {:.0} mm at {} ms, up {:.0} mm, down {:.0} mm, left {:.0} mm, right {:.0} mm",
-                e.forward_m * 1e3,
-                ms(e.forward_time_s),
-                e.up_m * 1e3,
-                e.down_m * 1e3,
-                e.left_m * 1e3,
-                e.right_m * 1e3
+                "{} at {} ms",
+                mm("forward", e.forward_m),
+                ms(e.forward_time_s)
             ),
-        ));
+            mm("up", e.up_m),
+            mm("down", e.down_m),
+            mm("left", e.left_m),
+            mm("right", e.right_m),
+        ];
+        lines.push(("head excursion", ways.join(", ")));
     }
     lines.push((
         "energy balance",
         format!(
-            "error {:.1e} of the greatest kinetic energy in the vehicle, {:.0} J",
-            summary.energy.balance_error, summary.energy.greatest_kinetic_j
+            "error {:.1e} of the greatest kinetic energy in the vehicle, {} J",
+            summary.energy.balance_error,
+            number(summary.energy.greatest_kinetic_j, 0)
         ),
     ));
     lines.push(("integration", integration(summary)));
@@ -150,7 +175,9 @@ fn integration(summary: &Summary) -> String {
         0 => String::new(),
         n => format!(" ({n} rejected)"),
     };
-    let time = s.wall_time_s.map_or(String::new(), |t| format!(", {t:.3} s of wall time"));
+    let time = s
+        .wall_time_s
+        .map_or(String::new(), |t| format!(", {t:.3} s of wall time"));
     format!(
         "{}, {} steps{rejected}, {} evaluations, {} outputs{time}",
         s.integrator, s.steps, s.evaluations, s.outputs

@@ -35,11 +35,6 @@ impl Table {
         self.rows.push(cells.into_iter().collect());
     }
 
-    /// Whether there is nothing below the head.
-    pub fn is_empty(&self) -> bool {
-        self.rows.len() == 1
-    }
-
     /// The text, each line ended, no blanks at line ends.
     pub fn text(&self) -> String {
         let width = |column: usize| {
@@ -62,11 +57,21 @@ impl Table {
     }
 }
 
+/// A number with so many decimals; one that no column holds, with an exponent.
+pub fn number(value: f64, decimals: usize) -> String {
+    match value.abs() < 1e6 {
+        true => format!("{value:.decimals$}"),
+        false => format!("{value:.2e}"),
+    }
+}
+
 /// Two columns of words without a head: a name and what there is to say of it.
 pub fn facts(facts: &[(&str, String)]) -> String {
     let width = facts.iter().map(|(name, _)| name.chars().count()).max();
     let width = width.unwrap_or(0);
-    let lines = facts.iter().map(|(name, words)| format!("{name:<width$}{GAP}{words}\n"));
+    let lines = facts
+        .iter()
+        .map(|(name, words)| format!("{name:<width$}{GAP}{words}\n"));
     lines.collect()
 }
 
@@ -80,9 +85,16 @@ mod tests {
         table.row(["neck".to_owned(), "3.5".to_owned()]);
         table.row(["left_shoulder".to_owned(), "127.0".to_owned()]);
         table.row(["blank".to_owned()]);
-        let expected = "joint            β, °\nneck              3.5\nleft_shoulder   127.0\nblank\n";
+        let expected =
+            "joint            β, °\nneck              3.5\nleft_shoulder   127.0\nblank\n";
         assert_eq!(table.text(), expected);
-        assert!(!table.is_empty());
+    }
+
+    #[test]
+    fn numbers_that_fit_no_column_get_an_exponent() {
+        assert_eq!(number(-12.345, 1), "-12.3");
+        assert_eq!(number(4.6e34, 1), "4.60e34");
+        assert_eq!(number(f64::INFINITY, 0), "inf");
     }
 
     #[test]

@@ -2,7 +2,7 @@
 //!
 //! Names, field numbers and enum values are those of the published schemas, all fields included, because a viewer may read
 //! a list that we never fill. They are stated here rather than taken from Foxglove's own crate, which would add some
-//! thirty crates for these tables; `tests/mcap/read_back.py` compares them with Foxglove's published Python package.
+//! thirty crates for these tables; `tests/read_back.py` compares them with Foxglove's published Python package.
 
 use prost_types::FileDescriptorProto;
 

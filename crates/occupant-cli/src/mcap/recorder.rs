@@ -298,11 +298,14 @@ impl<W: Write + Seek> Recorder for McapRecorder<W> {
             .as_mut()
             .ok_or("an output before the run began")?;
         tracks.write_groups(writer, wire, sample)?;
-        if sample.index % tracks.stride == 0 || sample.index == tracks.last {
+        if sample.index.is_multiple_of(tracks.stride) || sample.index == tracks.last {
             tracks.write_frame(writer, wire, sample, self.options.force_scale_m_per_n)?;
         }
         self.outputs += 1;
-        if self.outputs % u64::from(self.options.outputs_per_chunk.get()) == 0 {
+        if self
+            .outputs
+            .is_multiple_of(self.options.outputs_per_chunk.get().into())
+        {
             writer.flush()?;
         }
         Ok(Flow::Continue)

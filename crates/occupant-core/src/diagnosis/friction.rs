@@ -78,27 +78,19 @@ impl FrictionWatch {
             .collect()
     }
 
-    /// The same as warnings.
+    /// The same as warnings, one for each material: the worst sphere in figures, the others by name.
     pub fn warnings(&self, model: &Model) -> Problems {
         let mut problems = Problems::new();
-        for found in self.found(model) {
-            let step_ms = found.step_s * 1e3;
-            problems.warning(
-                format!("materials.{}.friction", found.material),
-                format!(
-                    "friction of {} on {} is too stiff for the step of {step_ms:.4} ms: {:.0} N at t = {:.1} ms make a stability number of {:.1}, and the sphere may chatter",
-                    found.sphere,
-                    found.surface,
-                    found.normal_force_n,
-                    found.time_s * 1e3,
-                    found.number,
-                ),
-                format!(
-                    "at most {LIMIT}: a step of {:.4} ms or less, or a `friction_speed` {:.1} times as large",
-                    step_ms * LIMIT / found.number,
-                    found.number / LIMIT
-                ),
-            );
+        let found = self.found(model);
+        for material in &model.setup().materials {
+            let own = || found.iter().filter(|f| f.material == material.name);
+            if let Some(worst) = own().max_by(|a, b| a.number.total_cmp(&b.number)) {
+                let others: Vec<&str> = own()
+                    .filter(|f| f.sphere != worst.sphere)
+                    .map(|f| f.sphere.as_str())
+                    .collect();
+                warn(&mut problems, worst, &others);
+            }
         }
         problems
     }
@@ -120,6 +112,31 @@ impl FrictionWatch {
             };
         }
     }
+}
+
+/// Words for the worst sphere on a material.
+fn warn(problems: &mut Problems, worst: &UnstableFriction, others: &[&str]) {
+    let step_ms = worst.step_s * 1e3;
+    let also = match others {
+        [] => String::new(),
+        names => format!(" (so may {})", names.join(", ")),
+    };
+    problems.warning(
+        format!("materials.{}.friction", worst.material),
+        format!(
+            "friction is too stiff for the step of {step_ms:.4} ms: {:.0} N of {} on {} at t = {:.1} ms make a stability number of {:.1}, and the sphere may chatter{also}",
+            worst.normal_force_n,
+            worst.sphere,
+            worst.surface,
+            worst.time_s * 1e3,
+            worst.number,
+        ),
+        format!(
+            "at most {LIMIT}: a step of {:.4} ms or less, or a `friction_speed` {:.1} times as large",
+            step_ms * LIMIT / worst.number,
+            worst.number / LIMIT
+        ),
+    );
 }
 
 impl Recorder for FrictionWatch {

@@ -139,7 +139,9 @@ pub fn diagnose(model: &Model) -> Diagnosis {
     let fastest = all
         .min_by(|a, b| a.time_scale_s.total_cmp(&b.time_scale_s))
         .cloned();
-    let step_by_time_scale = step_s.zip(fastest.as_ref()).map(|(h, r)| h / r.time_scale_s);
+    let step_by_time_scale = step_s
+        .zip(fastest.as_ref())
+        .map(|(h, r)| h / r.time_scale_s);
     Diagnosis {
         title: setup.title.clone(),
         body: body(model),

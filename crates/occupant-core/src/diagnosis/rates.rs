@@ -14,10 +14,11 @@ use crate::joint::{BallJoint, HingeJoint};
 use crate::kernel::frame::Moving;
 use crate::kernel::joints::BALLS;
 use crate::kernel::spring::Spring;
-use crate::material::BilinearSpring;
+use crate::material::{BilinearSpring, Material};
 use crate::model::Model;
 use crate::path::{FrameMotion, PathCursor};
 use crate::sample::Sample;
+use crate::setup::Setup;
 use crate::surface::Frame;
 
 /// step·rate at which the classical Runge–Kutta method becomes unstable, on the imaginary axis; 2.785 on the real one.
@@ -28,7 +29,7 @@ pub const RK4_STABILITY_LIMIT: f64 = 2.8;
 pub struct Rate {
     /// Name of the sphere, belt or joint.
     pub of: String,
-    /// What makes it: the surface, the belt's sphere, or the joint's damper or spring.
+    /// What makes it: the material, the belt's sphere, or the joint's damper or spring.
     pub by: String,
     /// Effective mass in kg, or effective inertia in kg·m².
     pub effective: f64,
@@ -41,7 +42,7 @@ pub struct Rate {
 /// What a sphere meets: its stiffest contact and the friction that the step can bear.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SphereRate {
-    /// The spring rate; `by` is the surface.
+    /// The spring rate; `by` is the material.
     #[serde(flatten)]
     pub rate: Rate,
     /// Normal force up to which friction is stable at the step; absent without friction or with a step under error control.
@@ -64,7 +65,8 @@ impl FrictionMasses {
         let surfaces = model.faces().len();
         let mut tangential_kg = vec![0.0; surfaces * model.body().spheres.len()];
         for (sphere, surface) in pairs(model) {
-            tangential_kg[sphere * surfaces + surface] = tangential(model, mobility, sphere, surface);
+            tangential_kg[sphere * surfaces + surface] =
+                tangential(model, mobility, sphere, surface);
         }
         FrictionMasses {
             surfaces,
@@ -88,7 +90,7 @@ impl FrictionMasses {
     fn per_newton(&self, model: &Model, sphere: usize, surface: usize, step_s: f64) -> f64 {
         let mass_kg = self.tangential_kg[sphere * self.surfaces + surface];
         let setup = model.setup();
-        let material = &setup.materials[setup.surfaces[surface].material];
+        let material = material_of(setup, surface);
         if mass_kg > 0.0 {
             step_s * material.friction / (material.friction_speed_m_s * mass_kg)
         } else {
@@ -101,7 +103,9 @@ impl FrictionMasses {
 fn pairs(model: &Model) -> impl Iterator<Item = (usize, usize)> + '_ {
     let contacts = &model.system().contacts;
     contacts.groups().iter().flat_map(move |group| {
-        let parts = contacts.pairs()[group.pairs.clone()].iter().flat_map(|p| &p.parts);
+        let parts = contacts.pairs()[group.pairs.clone()]
+            .iter()
+            .flat_map(|p| &p.parts);
         parts.map(move |part| (group.sphere, part.surface))
     })
 }
@@ -139,21 +143,26 @@ pub(super) fn of_spheres(
 ) -> Vec<SphereRate> {
     let setup = model.setup();
     let one = |sphere: usize| {
-        let own = || pairs(model).filter(move |&(s, _)| s == sphere).map(|(_, f)| f);
-        let slope = |&surface: &usize| steepest(&setup.materials[setup.surfaces[surface].material].spring);
+        let own = || {
+            pairs(model)
+                .filter(move |&(s, _)| s == sphere)
+                .map(|(_, f)| f)
+        };
+        let slope = |&surface: &usize| steepest(&material_of(setup, surface).spring);
         let stiffest = own().max_by(|a, b| slope(a).total_cmp(&slope(b)))?;
         let site = &model.system().contacts.sites[sphere];
         let (_, centre, _) = model.system().sphere(mobility.kinematics(), sphere);
         let mass_kg = 1.0 / greatest(mobility.of_point(site.segment, centre));
         let friction = step_s.and_then(|step_s| {
-            let worst = |surface: usize| (masses.per_newton(model, sphere, surface, step_s), surface);
+            let worst =
+                |surface: usize| (masses.per_newton(model, sphere, surface, step_s), surface);
             let (per_newton, surface) = own().map(worst).max_by(|a, b| a.0.total_cmp(&b.0))?;
             (per_newton > 0.0).then_some((super::friction::LIMIT / per_newton, surface))
         });
         let name = |surface: usize| setup.surfaces[surface].name.clone();
         let rate = spring_rate(
             setup.body.spheres[sphere].name.clone(),
-            name(stiffest),
+            material_of(setup, stiffest).name.clone(),
             mass_kg,
             slope(&stiffest),
         );
@@ -173,7 +182,10 @@ pub(super) fn of_belts(sample: &Sample<'_>, mobility: &Mobility<'_>) -> Vec<Rate
     let vehicle: Moving<f64> = Moving::of(sample.vehicle);
     let one = |(belt, action): (&crate::belt::Belt, &crate::kernel::belts::BeltAction<f64>)| {
         // −gradient of the length with respect to the centre
-        let gradient = vehicle.axes.out(action.free[0] + action.free[1]).to_vector();
+        let gradient = vehicle
+            .axes
+            .out(action.free[0] + action.free[1])
+            .to_vector();
         let site = &model.system().contacts.sites[belt.sphere];
         let (_, centre, _) = model.system().sphere(mobility.kinematics(), belt.sphere);
         let give = gradient.dot(&(mobility.of_point(site.segment, centre) * gradient));
@@ -209,14 +221,18 @@ pub(super) fn of_joints(model: &Model, mobility: &Mobility<'_>) -> Vec<Rate> {
     let mut rates = Vec::new();
     for ((name, joint), &(inner, outer)) in balls.into_iter().zip(&BALLS) {
         let relative = mobility.of_joint(inner, outer);
-        rates.extend(ball_rates(name, joint, &relative, mobility, inner, outer, j.epsilon));
+        rates.extend(ball_rates(
+            name, joint, &relative, mobility, inner, outer, j.epsilon,
+        ));
     }
     for (limb, (name, joint)) in hinges.into_iter().enumerate() {
         let stops = [joint.lower_stop, joint.upper_stop];
         let strongest = stops
             .iter()
             .flatten()
-            .fold(joint.damping_n_m_s, |most, stop| most.max(stop.damping_n_m_s));
+            .fold(joint.damping_n_m_s, |most, stop| {
+                most.max(stop.damping_n_m_s)
+            });
         rates.extend(damper_rate(name, 1.0 / mobility.of_hinge(limb), strongest));
     }
     rates
@@ -238,7 +254,9 @@ fn ball_rates(
     // T = −J·C·ω with C = [n nᵀ + ε²(1 − Z_k Z_kᵀ)]/(s² + ε²)
     let plane = Matrix3::identity() - z_k * z_k.transpose();
     let shape = (n * n.transpose() + plane * (epsilon * epsilon)) / sine_squared;
-    let damping = joint.stop.map_or(joint.damping_n_m_s, |s| s.damping_n_m_s.max(joint.damping_n_m_s));
+    let damping = joint.stop.map_or(joint.damping_n_m_s, |s| {
+        s.damping_n_m_s.max(joint.damping_n_m_s)
+    });
     // the eigenvalues of C·W are those of LᵀCL, W = L·Lᵀ
     let give = relative
         .cholesky()
@@ -248,7 +266,11 @@ fn ball_rates(
         rates.extend(damper_rate(name, 1.0 / give, damping));
     }
     let twist = z_l.dot(&(relative * z_l));
-    rates.extend(damper_rate(&format!("{name}, twist"), 1.0 / twist, joint.twist_damping_n_m_s));
+    rates.extend(damper_rate(
+        &format!("{name}, twist"),
+        1.0 / twist,
+        joint.twist_damping_n_m_s,
+    ));
     let bend = n.dot(&(relative * n)) / sine_squared;
     if let Some(spring) = joint.spring.filter(|s| s.stiffness_n_m > 0.0 && bend > 0.0) {
         rates.push(spring_rate(
@@ -279,6 +301,11 @@ fn damper_rate(of: &str, inertia_kg_m2: f64, damping_n_m_s: f64) -> Option<Rate>
         coefficient: damping_n_m_s,
         time_scale_s: inertia_kg_m2 / damping_n_m_s,
     })
+}
+
+/// Material of a surface.
+fn material_of(setup: &Setup, surface: usize) -> &Material {
+    &setup.materials[setup.surfaces[surface].material]
 }
 
 fn steepest(spring: &BilinearSpring) -> f64 {

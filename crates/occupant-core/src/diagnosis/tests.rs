@@ -22,7 +22,9 @@ pub(crate) fn model_of(text: &str) -> Model {
 
 /// A body in a crooked posture that nothing touches.
 pub(crate) fn free_body() -> Model {
-    let q: Vec<String> = (0..31).map(|i| format!("{:.2}", 0.3 + 0.07 * f64::from(i))).collect();
+    let q: Vec<String> = (0..31)
+        .map(|i| format!("{:.2}", 0.3 + 0.07 * f64::from(i)))
+        .collect();
     let rates = ["0.0"; 31].join(", ");
     model_of(&format!(
         "title = \"free\"\ntime = {{ end = 0.1 }}\npath = {{ kind = \"fixed\" }}\nbody = {{ preset = \"male50\" }}\n\
@@ -31,9 +33,23 @@ pub(crate) fn free_body() -> Model {
     ))
 }
 
+/// Height of the lowest point of the spheres of [`free_body`], m.
+pub(crate) fn lowest_m() -> f64 {
+    let model = free_body();
+    let mobility = Mobility::new(&model);
+    let spheres = model.body().spheres.iter().enumerate();
+    let bottom = spheres.map(|(i, sphere)| {
+        let (_, centre, _) = model.system().sphere(mobility.kinematics(), i);
+        centre.z - sphere.radius_m
+    });
+    bottom.fold(f64::INFINITY, f64::min)
+}
+
 /// The same body over a floor in space that its lowest spheres press by a little.
 fn standing_on(friction: f64, step: &str) -> Model {
-    let q: Vec<String> = (0..31).map(|i| format!("{:.2}", 0.3 + 0.07 * f64::from(i))).collect();
+    let q: Vec<String> = (0..31)
+        .map(|i| format!("{:.2}", 0.3 + 0.07 * f64::from(i)))
+        .collect();
     let rates = ["0.0"; 31].join(", ");
     model_of(&format!(
         "title = \"floor\"\ntime = {{ end = 0.02 }}\npath = {{ kind = \"fixed\" }}\nbody = {{ preset = \"male50\" }}\n\
@@ -41,8 +57,9 @@ fn standing_on(friction: f64, step: &str) -> Model {
          integrator = {{ kind = \"rk4\", step = \"{step}\" }}\n\
          [materials]\nfloor = {{ k1 = \"50 kN/m\", mu1 = 0.5, friction = {friction} }}\n\
          [surfaces.floor]\nmaterial = \"floor\"\nframe = \"space\"\nfacing = \"order\"\n\
-         plane = {{ point = [0, 0, -0.30], normal = [0, 0, 1] }}\n",
-        q.join(", ")
+         plane = {{ point = [0, 0, {}], normal = [0, 0, 1] }}\n",
+        q.join(", "),
+        lowest_m() + 0.005
     ))
 }
 
@@ -80,7 +97,11 @@ fn an_impulse_at_a_point_gives_the_kinetic_energy_that_its_mobility_says() {
             hinge_rate: std::array::from_fn(|i| pushed.hinge[i] - base.hinge[i]),
             ..still
         };
-        let energy_j = kinetic(skeleton, &Kinematics::new(skeleton, &moving), &Moving::space());
+        let energy_j = kinetic(
+            skeleton,
+            &Kinematics::new(skeleton, &moving),
+            &Moving::space(),
+        );
         let by_mobility = 0.5 * force.dot(&(mobility.of_point(n, k.joint[n] + arm) * force));
         // measured: below 1e-13
         assert!(
@@ -134,14 +155,23 @@ fn friction_warns_where_its_stability_number_passes_two() {
     let d = diagnose(&slippery);
     assert!(!found.is_empty());
     for f in &found {
-        let sphere = d.sphere_rates.iter().find(|s| s.rate.of == f.sphere).unwrap();
+        let sphere = d
+            .sphere_rates
+            .iter()
+            .find(|s| s.rate.of == f.sphere)
+            .unwrap();
         let limit_n = sphere.friction_limit_n.unwrap();
         let expected = friction::LIMIT * f.normal_force_n / limit_n;
         assert!((f.number / expected - 1.0).abs() < 1e-12);
         assert!(f.number > friction::LIMIT);
     }
-    let spheres: std::collections::BTreeSet<&str> = found.iter().map(|f| f.sphere.as_str()).collect();
-    assert_eq!(spheres.len(), found.len(), "once for each sphere and material");
+    let spheres: std::collections::BTreeSet<&str> =
+        found.iter().map(|f| f.sphere.as_str()).collect();
+    assert_eq!(
+        spheres.len(),
+        found.len(),
+        "once for each sphere and material"
+    );
 }
 
 #[test]
@@ -151,8 +181,13 @@ fn contacts_at_the_start_are_those_of_the_first_output() {
     for c in &d.contacts {
         assert_eq!(c.surface, "floor");
         // on the loading curve: F = K₁Δ
-        assert!((c.normal_force_n - 5e4 * c.depth_m).abs() < 1e-9 * c.normal_force_n, "{c:?}");
+        assert!(
+            (c.normal_force_n - 5e4 * c.depth_m).abs() < 1e-9 * c.normal_force_n,
+            "{c:?}"
+        );
     }
     assert_eq!(d.body.degrees_of_freedom, 31);
-    assert!((d.body.segments.iter().map(|s| s.mass_kg).sum::<f64>() - d.body.mass_kg).abs() < 1e-12);
+    assert!(
+        (d.body.segments.iter().map(|s| s.mass_kg).sum::<f64>() - d.body.mass_kg).abs() < 1e-12
+    );
 }

@@ -52,7 +52,7 @@ impl<S: Scalar> Outline<S> {
     pub fn polygon(corners: &[[f64; 2]]) -> Self {
         let edges = (0..corners.len()).map(|i| {
             let ([u, v], [u2, v2]) = (corners[i], corners[(i + 1) % corners.len()]);
-            let length = (u2 - u).hypot(v2 - v);
+            let length = ((u2 - u).powi(2) + (v2 - v).powi(2)).sqrt();
             Edge {
                 start: V2 {
                     u: S::of(u),

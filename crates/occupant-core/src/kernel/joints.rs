@@ -11,6 +11,7 @@ use super::state::State;
 use super::vector::V3;
 use crate::body::SEGMENTS;
 use crate::joint::{BallJoint, HingeJoint, Joints, Stop};
+use crate::trig;
 
 /// Segments (k, l) of the ball joints, in the order of [`JointSystem::balls`]: neck, right and left shoulder, upper and
 /// lower back, right and left hip.
@@ -219,7 +220,7 @@ fn ball<S: Scalar>(data: &BallJoint, rest_rad: f64, epsilon: f64) -> Ball<S> {
         (s.stiffness_n_m, s.rest_rad.unwrap_or(rest_rad))
     });
     let stop_cosine = data.stop.map_or(-2.0, |s| {
-        s.begin_rad.cos() * (1.0 + epsilon * epsilon).sqrt()
+        trig::sin_cos(s.begin_rad).1 * (1.0 + epsilon * epsilon).sqrt()
     });
     Ball {
         damping: S::of(data.damping_n_m_s),

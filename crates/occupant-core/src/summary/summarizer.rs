@@ -247,9 +247,7 @@ impl Summarizer {
             let t = sample.time_s;
             track.loop_force.see(action.loop_force, t);
             track.elongation.see(action.elongation, t);
-            track
-                .body_force
-                .see(action.force.norm_squared().sqrt(), t);
+            track.body_force.see(action.force.norm_squared().sqrt(), t);
         }
     }
 

@@ -28,7 +28,7 @@ pub const SOLVER: Group = Group {
         ),
         column(
             5,
-            "step_s",
+            "last_step_s",
             Number(|s, _| s.effort.step_s),
             "last accepted step",
         ),

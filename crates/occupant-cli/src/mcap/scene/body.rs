@@ -19,6 +19,8 @@ use crate::mcap::wire::Wire;
 const SLIM: f64 = 0.8;
 /// The neck over the width of head and neck.
 const NECK: f64 = 0.55;
+/// Length of the drawn neck over that of head and neck.
+const NECK_LENGTH: f64 = 0.6;
 const SKIN: Color = Color(0.85, 0.65, 0.52, 1.0);
 const SHIRT: Color = Color(0.30, 0.42, 0.58, 1.0);
 const TROUSERS: Color = Color(0.25, 0.27, 0.33, 1.0);
@@ -47,12 +49,16 @@ pub fn write_spheres(wire: &mut Wire, body: &Body, frames: &FrameNames) {
 fn write_segment(wire: &mut Wire, body: &Body, segment: Segment) {
     let p = body.segment(segment);
     let color = color(segment);
-    let (lower, upper) = (-p.cg_from_lower_end_m, p.length_m - p.cg_from_lower_end_m);
+    let length = match segment {
+        Segment::Head => NECK_LENGTH * p.length_m,
+        _ => p.length_m,
+    };
+    let (lower, upper) = (-p.cg_from_lower_end_m, length - p.cg_from_lower_end_m);
     let (a, b) = half_axes_m(p, segment);
     let middle = Vector3::z() * (0.5 * (lower + upper));
-    let size = Vector3::new(2.0 * a, 2.0 * b, p.length_m);
+    let size = Vector3::new(2.0 * a, 2.0 * b, length);
     cylinder(wire, middle, UnitQuaternion::identity(), size, color);
-    let cap = Vector3::new(2.0 * a, 2.0 * b, (a + b).min(0.5 * p.length_m));
+    let cap = Vector3::new(2.0 * a, 2.0 * b, (a + b).min(0.5 * length));
     ellipsoid(wire, Vector3::z() * lower, cap, color);
     ellipsoid(wire, Vector3::z() * upper, cap, color);
     match segment {

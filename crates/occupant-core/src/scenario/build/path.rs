@@ -173,7 +173,8 @@ fn station_of(problem: &PathProblem) -> Option<usize> {
     match problem {
         PathProblem::TimeNotIncreasing { station, .. }
         | PathProblem::StationNotFinite { station, .. }
-        | PathProblem::AngleJump { station, .. } => Some(*station),
+        | PathProblem::AngleJump { station, .. }
+        | PathProblem::TooSteep { station, .. } => Some(*station),
         _ => None,
     }
 }

@@ -11,6 +11,7 @@ use crate::scenario::model::{
 };
 use crate::scenario::path_text::with_key;
 use crate::surface::{Facing, Frame, Outline, Surface};
+use crate::trig;
 
 /// All materials, in the order written.
 pub(super) fn materials(b: &mut Builder, scenario: &Scenario) -> Vec<Material> {
@@ -90,7 +91,7 @@ fn surface(
         Some(FrameChoice::Space) => Frame::Space,
         Some(FrameChoice::Vehicle) | None => Frame::Vehicle,
     };
-    let outline = outline(b, &path, section);
+    let outline = outline(b, &path, section, frame);
     let facing = facing(b, scenario, (&path, section), frame, undecided);
     let spheres = section.spheres.as_ref().map(|names| {
         let known = body.spheres.iter().map(|s| s.name.as_str());
@@ -108,7 +109,7 @@ fn surface(
     }
 }
 
-fn outline(b: &mut Builder, path: &str, section: &SurfaceSection) -> Outline {
+fn outline(b: &mut Builder, path: &str, section: &SurfaceSection, frame: Frame) -> Outline {
     let for_edges = [
         ("half_width", section.half_width.is_some()),
         ("end_half_width", section.end_half_width.is_some()),
@@ -130,7 +131,7 @@ fn outline(b: &mut Builder, path: &str, section: &SurfaceSection) -> Outline {
         };
     }
     if let Some(section) = &section.disc {
-        return disc(b, &with_key(path, "disc"), section);
+        return disc(b, &with_key(path, "disc"), section, frame);
     }
     if let Some([from, to]) = &section.edge {
         return Outline::Polygon(strip(b, path, section, [from, to]));
@@ -172,13 +173,16 @@ fn strip(
     corners
 }
 
-fn disc(b: &mut Builder, path: &str, section: &DiscSection) -> Outline {
+fn disc(b: &mut Builder, path: &str, section: &DiscSection, frame: Frame) -> Outline {
     let axis = match (&section.tilt, &section.normal) {
         (_, Some(normal)) => Vector3::from(b.triple(&with_key(path, "normal"), normal)),
         (Some(tilt), None) => {
-            // Rearward and up: N̂ = (−cos τ, 0, −sin τ) in vehicle axes, z down.
-            let (sin, cos) = b.si(&with_key(path, "tilt"), tilt).sin_cos();
-            Vector3::new(-cos, 0.0, -sin)
+            // Rearward and up: N̂ = (−cos τ, 0, −sin τ) in vehicle axes, z down; z is up in space.
+            let (sin, cos) = trig::sin_cos(b.si(&with_key(path, "tilt"), tilt));
+            match frame {
+                Frame::Vehicle => Vector3::new(-cos, 0.0, -sin),
+                Frame::Space => Vector3::new(-cos, 0.0, sin),
+            }
         }
         (None, None) => Vector3::zeros(),
     };

@@ -1,0 +1,126 @@
+//! What the benchmarks and the examples time: one car, one occupant, one instant with a realistic handful of touches.
+//!
+//! Three sizes of the same problem: *bare* (the skeleton under given loads), *held* (joint moments and belts as well), *full*
+//! (all 17 × 25 contact pairs as well).
+
+#![allow(
+    dead_code,
+    reason = "each benchmark and each example compiles this file and takes what it wants"
+)]
+
+use occupant_core::body::SEGMENTS;
+use occupant_core::integrate::rk4::{self, Stage};
+use occupant_core::kernel::contact::{ContactSystem, Touch};
+use occupant_core::kernel::dynamics::{self, Accelerations, Wrench};
+use occupant_core::kernel::kinematics::Kinematics;
+use occupant_core::kernel::state::State;
+use occupant_core::kernel::{Frames, History, Observer, System};
+use occupant_core::model::Model;
+use occupant_core::path::PathCursor;
+use occupant_core::scenario::{Format, Loaded, Scenario};
+
+/// The scenario's text.
+pub const TEXT: &str = include_str!("../car.toml");
+
+/// Step of the integrator, s.
+pub const STEP_S: f64 = 1e-4;
+
+/// The scenario, read and checked.
+pub fn load() -> Loaded {
+    let no_file = |name: &str| Err(format!("{name}: the scene has no file beside it"));
+    Scenario::from_text(TEXT, Format::Toml, "car.toml", &no_file).expect("the scene is valid")
+}
+
+/// The model.
+pub fn model() -> Model {
+    load().model().expect("the scene is valid").0
+}
+
+/// A system with its occupant at one instant of the crash.
+#[derive(Clone)]
+pub struct Instant {
+    pub system: System<f64>,
+    pub state: State<f64>,
+    pub frames: Frames<f64>,
+    pub history: History<f64>,
+}
+
+impl Instant {
+    /// The scene at `time_s` of the crash, with every contact and belt.
+    pub fn full(model: &Model, time_s: f64) -> Instant {
+        let (mut cursor, start) = (PathCursor::default(), model.start());
+        let mut now = Instant {
+            system: model.system().clone(),
+            state: start.state,
+            frames: model.frames(0.0, 0.0, &mut cursor),
+            history: start.history.clone(),
+        };
+        for i in 0..(time_s / STEP_S).round() as usize {
+            let t = i as f64 * STEP_S;
+            now.frames = model.frames(t, t + 0.5 * STEP_S, &mut cursor);
+            now.state = now.step();
+        }
+        now.frames = model.frames(time_s, time_s + 0.5 * STEP_S, &mut cursor);
+        now.commit();
+        now
+    }
+
+    /// The same instant without surfaces.
+    pub fn held(&self, model: &Model) -> Instant {
+        let setup = model.setup();
+        let mut now = self.clone();
+        let contacts = ContactSystem::new(&setup.body, &[], &[], &[], setup.edge_force, STEP_S);
+        now.history = History::new(&contacts, Vec::new(), self.history.belts.clone());
+        now.system.contacts = contacts;
+        now
+    }
+
+    /// The rate of change, the history committed.
+    pub fn commit(&mut self) -> State<f64> {
+        self.system
+            .rate::<true>(&self.state, &self.frames, &mut self.history)
+    }
+
+    /// The rate of change within a step.
+    pub fn rate(&mut self) -> State<f64> {
+        self.system
+            .rate::<false>(&self.state, &self.frames, &mut self.history)
+    }
+
+    /// The skeleton alone: accelerations under given loads, which is what an articulated-body algorithm answers.
+    pub fn bare(&self, loads: &[Wrench<f64>; SEGMENTS]) -> Accelerations<f64> {
+        let skeleton = &self.system.skeleton;
+        let kinematics = Kinematics::new(skeleton, &self.state);
+        dynamics::solve(skeleton, &kinematics, &self.state.hinge_rate, loads)
+    }
+
+    /// One step in a vehicle whose motion stands still: four evaluations and the sums of the integrator.
+    pub fn step(&mut self) -> State<f64> {
+        let (system, frames, history) = (&self.system, &self.frames, &mut self.history);
+        rk4::step(&self.state, STEP_S, |stage, state| match stage {
+            Stage::Start => system.rate::<true>(state, frames, history),
+            Stage::Middle | Stage::End => system.rate::<false>(state, frames, history),
+        })
+    }
+
+    /// Number of pairs that exert a force.
+    pub fn touches(&mut self) -> usize {
+        let mut count = Count(0);
+        self.system
+            .rate_observed::<false>(&self.state, &self.frames, &mut self.history, &mut count);
+        count.0
+    }
+}
+
+/// No load on any segment.
+pub fn no_loads() -> [Wrench<f64>; SEGMENTS] {
+    [Wrench::zero(); SEGMENTS]
+}
+
+struct Count(usize);
+
+impl Observer<f64> for Count {
+    fn touch(&mut self, _touch: &Touch<f64>) {
+        self.0 += 1;
+    }
+}

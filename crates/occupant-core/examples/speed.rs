@@ -1,0 +1,134 @@
+//! How long one derivative evaluation, one step and one event take on this machine, one thread.
+//!
+//! `cargo run --release --example speed` prints nanoseconds: the least of many medians of short batches, taken in turn, so
+//! that a disturbed moment spoils no figure and all figures alike. `speed count NAME N` runs one of them `N` times and
+//! measures nothing: for instruction counts under callgrind.
+
+#[path = "../benches/scene/mod.rs"]
+mod scene;
+
+use std::hint::black_box;
+use std::time::Instant as Clock;
+
+use occupant_core::model::Model;
+use occupant_core::recorder::Watch;
+use occupant_core::sample::Sample;
+use occupant_core::simulate::{output_count, simulate};
+use scene::Instant;
+
+/// Instant of the crash that is timed, s: belts taut, seat, floor and panel touched.
+const TIME_S: f64 = 0.09;
+/// Rounds over all figures.
+const ROUNDS: usize = 200;
+/// Calls of a batch, whose mean is one sample; nine samples make a median.
+const CALLS: usize = 50;
+
+type Work<'a> = (&'static str, Box<dyn FnMut() + 'a>);
+
+fn main() {
+    let model = scene::model();
+    let mut works = works(&model);
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if let [mode, name, count] = &arguments[..]
+        && mode == "count"
+    {
+        let work = works.iter_mut().find(|w| w.0 == name);
+        let (_, call) = work.expect("one of the names that the table shows");
+        for _ in 0..count.parse().expect("a number") {
+            call();
+        }
+        return;
+    }
+    let mut best = vec![f64::INFINITY; works.len()];
+    for _ in 0..ROUNDS {
+        for ((_, call), best) in works.iter_mut().zip(&mut best) {
+            *best = best.min(median_ns(call));
+        }
+    }
+    report("pairs", model.system().contacts.pairs().len() as f64);
+    report("touches", Instant::full(&model, TIME_S).touches() as f64);
+    for ((name, _), best) in works.iter().zip(best) {
+        report(name, best);
+    }
+    report("event_ms", event_ms(&model));
+}
+
+#[allow(clippy::print_stdout, reason = "an example prints its result")]
+fn report(name: &str, value: f64) {
+    println!("{name} {value:.1}");
+}
+
+/// Everything that is timed, by name.
+fn works(model: &Model) -> Vec<Work<'static>> {
+    let full = Instant::full(model, TIME_S);
+    let held = full.held(model);
+    let loads = scene::no_loads();
+    let (bare, mut committed, mut within) = (full.clone(), full.clone(), full.clone());
+    let (mut held_step, mut held_within, mut step) = (held.clone(), held, full);
+    vec![
+        (
+            "bare",
+            Box::new(move || {
+                black_box(black_box(&bare).bare(black_box(&loads)));
+            }),
+        ),
+        (
+            "held",
+            Box::new(move || {
+                black_box(black_box(&mut held_within).rate());
+            }),
+        ),
+        (
+            "full",
+            Box::new(move || {
+                black_box(black_box(&mut within).rate());
+            }),
+        ),
+        (
+            "full_commit",
+            Box::new(move || {
+                black_box(black_box(&mut committed).commit());
+            }),
+        ),
+        (
+            "held_step",
+            Box::new(move || {
+                black_box(black_box(&mut held_step).step());
+            }),
+        ),
+        (
+            "step",
+            Box::new(move || {
+                black_box(black_box(&mut step).step());
+            }),
+        ),
+    ]
+}
+
+/// Median of nine batches, ns a call.
+fn median_ns(call: &mut impl FnMut()) -> f64 {
+    let mut samples: [f64; 9] = std::array::from_fn(|_| {
+        let clock = Clock::now();
+        for _ in 0..CALLS {
+            call();
+        }
+        clock.elapsed().as_nanos() as f64 / CALLS as f64
+    });
+    samples.sort_by(f64::total_cmp);
+    samples[4]
+}
+
+/// A whole run, ms: the shortest time of each output interval among twenty runs, summed up.
+fn event_ms(model: &Model) -> f64 {
+    let mut least = vec![f64::INFINITY; output_count(model)];
+    for _ in 0..20 {
+        let mut clock = Clock::now();
+        let watch = Watch(|sample: &Sample<'_>| {
+            let ms = clock.elapsed().as_secs_f64() * 1e3;
+            least[sample.index] = least[sample.index].min(ms);
+            clock = Clock::now();
+        });
+        black_box(simulate(model, watch).expect("nothing is written"));
+    }
+    least.iter().filter(|ms| ms.is_finite()).sum()
+}
