@@ -4,6 +4,7 @@ use allocation_counter::{AllocationInfo, measure};
 use occupant_core::model::Model;
 use occupant_core::setup::Integrator;
 use occupant_core::simulate::simulate;
+use occupant_core::summary::Summarizer;
 use occupant_tests::cart::lap;
 
 /// Allocations of a run of the lap case over 0.15 s with two outputs.
@@ -57,4 +58,19 @@ fn more_outputs_allocate_no_more() {
         measure(|| drop(simulate(&model, ()).unwrap())).count_total
     };
     assert_eq!(run(0.05), run(0.001));
+}
+
+#[test]
+fn a_summary_allocates_at_the_start_and_at_the_end_and_never_between() {
+    let run = |output_s: f64, step_s: f64| {
+        let mut setup = lap(Integrator::Rk4 { step_s });
+        setup.time.output_s = output_s;
+        let model = Model::new(setup).unwrap();
+        let mut summarizer = Summarizer::new();
+        let info = measure(|| drop(simulate(&model, &mut summarizer).unwrap()));
+        assert!(summarizer.summary(None).is_some());
+        info.count_total
+    };
+    let few = run(0.05, 2e-4);
+    assert_eq!((run(0.001, 2e-4), run(0.001, 1e-4)), (few, few));
 }
