@@ -5,17 +5,14 @@ use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use cardio_legacy::{
-    CompartmentLayout, ConvertOptions, Deck, FromScenario, ParseOptions, PathSource, RunEnd,
-    Strictness, spine_rest, write_file,
+    CompartmentLayout, ConvertOptions, Deck, FromScenario, ParseOptions, PathSource, Strictness,
+    write_file,
 };
 use clap::ArgGroup;
-use occupant_core::model::Model;
-use occupant_core::recorder::Watch;
-use occupant_core::sample::Sample;
 use occupant_core::scenario::{Draft, Format, Loaded};
-use occupant_core::simulate::{Status, simulate};
 
 use super::exit::{Done, Failure};
+use super::extend::extend;
 use super::speak::{print, say};
 
 /// Convert a card deck of 1970 to a scenario, or a scenario to a card deck
@@ -147,7 +144,7 @@ fn decks_to_scenarios(
             .to_scenario(&options)
             .map_err(|error| Failure::plain(format!("{}: {error}", args.input.display())))?;
         let text = match args.extend {
-            Some(final_s) => extend(deck, &conversion.toml, &options, final_s, args)?,
+            Some(final_s) => extend(deck, &conversion.toml, &options, final_s, args.quiet)?,
             None => conversion.toml.into_bytes(),
         };
         deliver(args, output.as_deref(), &text)?;
@@ -252,62 +249,6 @@ fn numbered(file: &Path, number: usize) -> PathBuf {
         .map(|e| format!(".{}", e.to_string_lossy()))
         .unwrap_or_default();
     file.with_file_name(format!("{stem}-{number}{extension}"))
-}
-
-/// Runs a deck's scenario and gives the deck that goes on from there.
-fn extend(
-    deck: &Deck,
-    toml: &str,
-    options: &ConvertOptions,
-    final_s: f64,
-    args: &Args,
-) -> Result<Vec<u8>, Failure> {
-    let layout = match &options.compartment {
-        Some(layout) => layout.clone(),
-        None => CompartmentLayout::reconstruction().map_err(Failure::plain)?,
-    };
-    let beside = match &options.path {
-        Some(PathSource::Csv { text, .. }) => text.clone(),
-        _ => String::new(),
-    };
-    let resolver = |_: &str| Ok(beside.clone().into_bytes());
-    let refused =
-        |problems: occupant_core::scenario::Diagnostics| Failure::CouldNotRun(problems.to_string());
-    let loaded = Draft::read(toml, Format::Toml, "converted scenario")
-        .and_then(|d| d.load(&resolver))
-        .map_err(refused)?;
-    let (model, _) = loaded.model().map_err(refused)?;
-    let end = run_end(&model, &layout)?;
-    if final_s.is_nan() || final_s <= end.time_s {
-        let found = format!(
-            "--extend {final_s} s lies not after the end of the run, {} s",
-            end.time_s
-        );
-        return Err(Failure::with_help(found, "give a later time"));
-    }
-    if !args.quiet {
-        say(&format!(
-            "ran to {} s; cards carry no greatest deformations, so the extension is approximate",
-            end.time_s
-        ));
-    }
-    Ok(write_file(&[deck.extended(&end, final_s)]))
-}
-
-fn run_end(model: &Model, layout: &CompartmentLayout) -> Result<RunEnd, Failure> {
-    let (mut rest, mut end) = (None, None);
-    let watch = Watch(|sample: &Sample<'_>| {
-        let rest = *rest.get_or_insert_with(|| spine_rest(sample));
-        end = Some(RunEnd::after(rest, sample, layout));
-    });
-    let outcome =
-        simulate(model, watch).map_err(|error| Failure::BrokeOff(format!("error: {error}")))?;
-    match (outcome.status, end) {
-        (Status::Completed, Some(end)) => Ok(end),
-        (status, _) => Err(Failure::BrokeOff(format!(
-            "error: the run did not reach its end: {status:?}"
-        ))),
-    }
 }
 
 fn scenario_to_deck(

@@ -9,6 +9,7 @@ mod check_text;
 mod completions;
 mod convert;
 mod exit;
+mod extend;
 mod interrupt;
 mod new;
 mod output_file;
