@@ -7,9 +7,8 @@ use crate::card_number::{CardNumber, NCARD, card_number, looks_like_first_card, 
 use crate::check::check_deck;
 use crate::columns::Columns;
 use crate::completeness::check_completeness;
-use crate::deck::{Deck, DeckCard, Plot};
+use crate::deck::{Deck, DeckCard};
 use crate::diagnostic::{Finding, Sink};
-use crate::field_reader::read_fields;
 use crate::layout::{CardId, FINAL_CARD, SeriesLayout, series};
 use crate::rule::Rule;
 use crate::series_reader::{WORD, is_word, read_series};
@@ -18,7 +17,6 @@ use crate::series_reader::{WORD, is_word, read_series};
 pub(crate) type SeriesRead = BTreeMap<u8, Vec<DeckCard>>;
 
 const TERMINATOR_SERIES: u8 = 15;
-const PLOT_SERIES: u8 = 16;
 /// How many cards are searched for the third one when the titles are not where they should be.
 const TITLE_SEARCH: usize = 8;
 
@@ -82,7 +80,7 @@ fn report_no_deck(card: &Card, sink: &mut Sink) {
     );
 }
 
-fn starts_with_fini(card: &Card) -> bool {
+pub(crate) fn starts_with_fini(card: &Card) -> bool {
     card.field(WORD) == b"FINI"
 }
 
@@ -99,14 +97,15 @@ fn place_of_third(cards: &[Card]) -> Option<usize> {
     cards.iter().take(TITLE_SEARCH).position(is_third)
 }
 
-struct Reader<'a> {
-    cards: &'a [Card],
-    at: usize,
-    sink: &'a mut Sink,
+/// A file under reading: its cards, where it stands, what was found.
+pub(crate) struct Reader<'a> {
+    pub(crate) cards: &'a [Card],
+    pub(crate) at: usize,
+    pub(crate) sink: &'a mut Sink,
 }
 
 impl<'a> Reader<'a> {
-    fn card(&self) -> Option<&'a Card> {
+    pub(crate) fn card(&self) -> Option<&'a Card> {
         self.cards.get(self.at)
     }
 
@@ -308,64 +307,6 @@ impl<'a> Reader<'a> {
             .expected("a card with 1000 in columns 77–80 before this one")
             .remedy("add the card"),
         );
-    }
-
-    /// The plot card; `None` if the deck ends without one and is not to be used.
-    fn read_plot(&mut self) -> Option<Plot> {
-        let id = CardId {
-            series: PLOT_SERIES,
-            letter: None,
-            number: None,
-        };
-        let card = self.card();
-        let third_follows = self
-            .cards
-            .get(self.at + 2)
-            .and_then(looks_like_first_card)
-            .is_some_and(|s| s.number == 3);
-        let word = card.map(|c| c.text_of(WORD).to_ascii_uppercase());
-        let plot = match word.as_deref() {
-            Some("STAN") => Plot::Standard,
-            Some("NONE") => Plot::None,
-            _ if card.is_none_or(starts_with_fini) || third_follows => {
-                self.report_no_plot_card(card, id);
-                return Some(Plot::None);
-            }
-            _ => Plot::None,
-        };
-        let card = card?;
-        self.at += 1;
-        if card.text_of(WORD) != word.unwrap_or_default()
-            || !matches!(card.field(WORD), b"STAN" | b"NONE")
-        {
-            self.sink.report(
-                Finding::new(Rule::UnknownWord, format!("`{}` is no plot option", card.text_of(WORD)))
-                    .on(card)
-                    .in_card(id)
-                    .at(WORD)
-                    .expected("STAN or NONE")
-                    .remedy("punch the word in capitals from column 1; in lenient reading capitals do not matter, anything else is NONE"),
-            );
-        }
-        self.check_rest_of_word_card(card, id);
-        Some(plot)
-    }
-
-    fn report_no_plot_card(&mut self, card: Option<&Card>, id: CardId) {
-        let mut finding = Finding::new(Rule::NoPlotCard, "the plot card (series 16) is missing")
-            .in_card(id)
-            .expected("STAN or NONE behind the card 1000")
-            .remedy("add the card; in lenient reading it is NONE");
-        if let Some(card) = card.or(self.cards.last()) {
-            finding = finding.on(card);
-        }
-        self.sink.report(finding);
-    }
-
-    fn check_rest_of_word_card(&mut self, card: &Card, id: CardId) {
-        if let Some(layout) = series(PLOT_SERIES).and_then(|s| s.cards.first()) {
-            read_fields(card, layout, id, self.sink);
-        }
     }
 
     /// The final card, and what stands behind it.

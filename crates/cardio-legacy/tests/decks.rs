@@ -234,3 +234,11 @@ fn the_windshield_joins_body_width_and_roof_width() {
         ]
     );
 }
+
+#[test]
+fn the_example_s_deck_is_the_driver_s() {
+    assert_eq!(
+        include_bytes!("../examples/driver.dat").as_slice(),
+        bytes("driver-lap-torso.dat")
+    );
+}

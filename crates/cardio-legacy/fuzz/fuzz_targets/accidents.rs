@@ -44,7 +44,7 @@ fn happen(lines: &mut Vec<Vec<u8>>, accident: Accident) {
         Accident::Swapped(a, b) if !lines.is_empty() => lines.swap(place(a), place(b)),
         Accident::Cut(at, column) => lines.get_mut(place(at)).into_iter().for_each(|l| l.truncate(column.into())),
         Accident::Shifted(at, column) => {
-            for line in lines.get_mut(place(at)) {
+            if let Some(line) = lines.get_mut(place(at)) {
                 line.insert(usize::from(column).min(line.len()), b' ');
             }
         }

@@ -16,11 +16,7 @@ pub struct Report {
 impl fmt::Display for Report {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let mut list = |title: &str, items: &[String]| {
-            writeln!(
-                f,
-                "{title}: {}",
-                if items.is_empty() { "none" } else { "" }.trim_end()
-            )?;
+            writeln!(f, "{title}:{}", if items.is_empty() { " none" } else { "" })?;
             items.iter().try_for_each(|item| writeln!(f, "  - {item}"))
         };
         list("Assumptions", &self.assumptions)?;

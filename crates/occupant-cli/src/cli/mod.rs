@@ -7,7 +7,9 @@
 mod check;
 mod check_text;
 mod completions;
+mod convert;
 mod exit;
+mod extend;
 mod interrupt;
 mod new;
 mod output_file;
@@ -47,6 +49,7 @@ enum Command {
     Check(check::Args),
     New(new::Args),
     Schema(schema::Args),
+    Convert(convert::Args),
     Completions(completions::Args),
 }
 
@@ -57,6 +60,7 @@ pub fn main() -> ExitCode {
         Command::Check(args) => check::check(&args),
         Command::New(args) => new::new(&args),
         Command::Schema(args) => schema::print(&args),
+        Command::Convert(args) => convert::convert(&args),
         Command::Completions(args) => completions::print(&args),
     };
     exit::code(result)

@@ -1,0 +1,185 @@
+//! `occupant convert` as sentences.
+
+use std::path::{Path, PathBuf};
+
+use assert_cmd::Command;
+
+fn decks() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/decks")
+}
+
+fn convert(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
+    let output = Command::cargo_bin("occupant")
+        .expect("built")
+        .current_dir(folder)
+        .arg("convert")
+        .args(arguments)
+        .output()
+        .expect("runs");
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    (
+        output.status.code().unwrap_or(-1),
+        text(&output.stdout),
+        text(&output.stderr),
+    )
+}
+
+#[test]
+fn a_deck_becomes_the_committed_scenario_and_comes_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let deck = decks().join("driver-lap-torso.dat");
+    let (code, out, said) = convert(
+        folder.path(),
+        &[
+            deck.to_str().expect("UTF-8"),
+            "-o",
+            "case.toml",
+            "--report",
+            "case.txt",
+        ],
+    );
+    assert_eq!((code, out.as_str()), (0, ""), "{said}");
+    let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).expect(name);
+    let committed =
+        std::fs::read_to_string(decks().join("driver-lap-torso.toml")).expect("committed");
+    assert_eq!(read("case.toml"), committed);
+    assert!(
+        said.contains("Assumptions") && read("case.txt").contains("Assumptions"),
+        "{said}"
+    );
+    let (code, _, said) = convert(folder.path(), &["case.toml", "-o", "case.dat"]);
+    assert_eq!(code, 0, "{said}");
+    let (code, out, said) = convert(folder.path(), &["case.dat", "-q"]);
+    assert_eq!(code, 0, "{said}");
+    assert_eq!(
+        out.replace("case.dat", "driver-lap-torso.dat"),
+        committed,
+        "deck, scenario, deck, scenario"
+    );
+}
+
+#[test]
+fn nothing_is_overwritten_without_force() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let deck = decks().join("right-front-lap.dat");
+    let deck = deck.to_str().expect("UTF-8");
+    assert_eq!(convert(folder.path(), &[deck, "-o", "a.toml"]).0, 0);
+    let (code, _, said) = convert(folder.path(), &[deck, "-o", "a.toml"]);
+    assert_eq!(code, 2);
+    assert!(
+        said.contains("a.toml exists") && said.contains("--force"),
+        "{said}"
+    );
+    assert_eq!(
+        convert(folder.path(), &[deck, "-o", "a.toml", "--force"]).0,
+        0
+    );
+}
+
+#[test]
+fn a_wrong_deck_is_refused_with_all_its_problems() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = std::fs::read_to_string(decks().join("driver-lap-torso.dat")).expect("a deck");
+    let wrong =
+        text.replacen("     .0001", "     .0O01", 1)
+            .replacen("      13.71", "     -13.71", 1);
+    std::fs::write(folder.path().join("wrong.dat"), wrong).expect("written");
+    let (code, out, said) = convert(folder.path(), &["wrong.dat", "-o", "wrong.toml"]);
+    assert_eq!((code, out.as_str()), (2, ""));
+    assert!(
+        said.contains("wrong.dat:3, card 3, column 28, DT"),
+        "{said}"
+    );
+    assert!(
+        said.contains("wrong.dat:8, card 5b no. 3, columns 11–20, XLE(3)"),
+        "{said}"
+    );
+    assert!(!folder.path().join("wrong.toml").exists());
+}
+
+#[test]
+fn the_path_from_disk_is_asked_for_and_taken() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for name in ["driver-path-from-disk.dat", "driver-path-from-disk.csv"] {
+        std::fs::copy(decks().join(name), folder.path().join(name)).expect("copied");
+    }
+    let (code, _, said) = convert(folder.path(), &["driver-path-from-disk.dat"]);
+    assert_eq!(code, 2);
+    assert!(
+        said.contains("51 stations") && said.contains("--path"),
+        "{said}"
+    );
+    let arguments = [
+        "driver-path-from-disk.dat",
+        "--path",
+        "driver-path-from-disk.csv",
+        "-o",
+        "case.toml",
+    ];
+    assert_eq!(convert(folder.path(), &arguments).0, 0);
+    let committed =
+        std::fs::read_to_string(decks().join("driver-path-from-disk.toml")).expect("committed");
+    assert_eq!(
+        std::fs::read_to_string(folder.path().join("case.toml")).expect("written"),
+        committed
+    );
+    let (code, out, said) = convert(
+        folder.path(),
+        &[
+            "driver-path-from-disk.dat",
+            "--path",
+            "driver-path-from-disk.csv",
+        ],
+    );
+    assert_eq!(code, 0, "{said}");
+    assert!(
+        out.contains("[0.005, 1.7544, 0, 0, 0, 0, 0]"),
+        "written out where no folder is known"
+    );
+}
+
+#[test]
+fn a_scenario_that_does_not_fit_says_why() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let cart = decks().join("../cart-lap-torso.toml");
+    let (code, out, said) = convert(folder.path(), &[cart.to_str().expect("UTF-8")]);
+    assert_eq!((code, out.as_str()), (2, ""));
+    assert!(
+        said.contains("does not fit on cards") && said.contains("path.kind"),
+        "{said}"
+    );
+}
+
+#[test]
+fn a_run_is_extended_by_cards() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let deck = decks().join("driver-exact-state.dat");
+    let deck = deck.to_str().expect("UTF-8");
+    let (code, _, said) = convert(folder.path(), &[deck, "--extend", "0.25", "-o", "next.dat"]);
+    assert_eq!(code, 0, "{said}");
+    let (code, out, said) = convert(folder.path(), &["next.dat"]);
+    assert_eq!(code, 0, "{said}");
+    assert!(
+        out.contains("start = \"0.2 s\"")
+            && out.contains("end = \"0.25 s\"")
+            && out.contains("PASSED PAIR"),
+        "{out}"
+    );
+    assert_eq!(convert(folder.path(), &[deck, "--extend", "0.1"]).0, 2);
+}
+
+#[test]
+fn several_decks_become_numbered_scenarios() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let read = |name: &str| std::fs::read_to_string(decks().join(name)).expect("a deck");
+    let both = read("driver-lap-torso.dat").replace("FINI\n", "") + &read("left-rear-unbelted.dat");
+    std::fs::write(folder.path().join("both.dat"), both).expect("written");
+    assert_eq!(convert(folder.path(), &["both.dat"]).0, 2);
+    assert_eq!(
+        convert(folder.path(), &["both.dat", "-o", "case.toml"]).0,
+        0
+    );
+    assert!(
+        folder.path().join("case-1.toml").exists() && folder.path().join("case-2.toml").exists()
+    );
+}
