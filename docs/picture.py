@@ -42,7 +42,7 @@ class Panel:
             f'<g clip-path="url(#c)" transform="translate({self.x0:.1f} {self.y0:.1f})">',
             f'<rect class="room" width="{width:.1f}" height="{height:.1f}"/>',
         ]
-        self.label = f'<text x="10" y="20">{time_s * 1000:.0f} ms</text>'
+        self.label = f'<text x="10" y="{(Z_RANGE[1] - Z_RANGE[0]) * SCALE - 10:.0f}">{time_s * 1000:.0f} ms</text>'
 
     def at(self, x, z):
         return f"{(x - X_RANGE[0]) * SCALE:.1f},{(z - Z_RANGE[0]) * SCALE:.1f}"
@@ -71,7 +71,8 @@ def draw(panel, messages, outlines, radii):
         for name, m in segments.items():
             if name.split("_")[0] not in ("left", "right") and side == "" or side and name.startswith(side):
                 width = next(w for key, w in LIMB_M.items() if key in name)
-                ends = (m.upper_end_vehicle_m, m.lower_end_vehicle_m)
+                upper = messages["/occupant/sphere/head"].centre_vehicle_m if name == "head" else m.upper_end_vehicle_m
+                ends = (upper, m.lower_end_vehicle_m)
                 panel.polyline([(p.x, p.z) for p in ends], f"limb {side}", width)
     for topic, m in messages.items():
         if topic.startswith("/occupant/sphere/"):

@@ -1,10 +1,14 @@
 //! Shared pieces of the proofs.
 
+pub mod cart;
+pub mod cases;
 pub mod compartment;
 pub mod core_side;
 pub mod free_run;
 pub mod golden;
+pub mod measure;
 pub mod mirror;
+pub mod probe;
 pub mod random;
 pub mod reference;
 pub mod scene;

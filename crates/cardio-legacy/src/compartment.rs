@@ -132,6 +132,29 @@ impl CompartmentLayout {
         surface.map(|s| &s.name).or(wheel).map(String::as_str)
     }
 
+    /// The number of a surface by its name.
+    pub fn number_of(&self, name: &str) -> Option<u32> {
+        let surface = self
+            .surfaces
+            .iter()
+            .find(|s| s.name == name)
+            .map(|s| s.number);
+        surface.or_else(|| (self.wheel.name == name).then_some(self.wheel.number))
+    }
+
+    /// The names of all surfaces, by number.
+    pub fn names(&self) -> Vec<&str> {
+        (1..=SURFACES)
+            .filter_map(|number| self.name_of(number))
+            .collect()
+    }
+
+    /// The corners of a surface in the order of the data file, whatever its open side; none for the wheel.
+    pub(crate) fn corners_of(&self, number: u32) -> Vec<Corner> {
+        let surface = self.surfaces.iter().find(|s| s.number == number);
+        surface.map(|s| self.corners(s)).unwrap_or_default()
+    }
+
     /// The points by which a surface is bounded; that of the wheel's place for the wheel.
     pub fn points_of(&self, number: u32) -> Vec<u32> {
         let Some(surface) = self.surfaces.iter().find(|s| s.number == number) else {

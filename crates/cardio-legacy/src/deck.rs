@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::diagnostic::{Diagnostics, Sink};
-use crate::layout::{CardId, CardLayout, Field, Repeat, series};
+use crate::layout::{CardId, CardLayout, Field, Repeat, SERIES, TERMINATOR, series};
 use crate::reader::read_file;
 use crate::rule::Strictness;
 
@@ -129,6 +129,17 @@ impl Deck {
 
     /// Puts a deck together; the cards come in the report's order afterwards.
     pub(crate) fn assemble(titles: [String; 2], mut cards: Vec<DeckCard>, plot: Plot) -> Self {
+        let terminator = SERIES.iter().find(|s| s.ncard == Some(TERMINATOR));
+        if let Some(series) = terminator.filter(|s| cards.iter().all(|c| c.id.series != s.number)) {
+            // In lenient reading the card may have been missing.
+            let numbers = vec![Number::whole(TERMINATOR)];
+            cards.push(DeckCard {
+                id: CardId::first_of(series),
+                line: None,
+                raw: None,
+                numbers,
+            });
+        }
         cards.sort_by_key(|card| card.id);
         let mut places = HashMap::new();
         for (at, card) in cards.iter().enumerate() {

@@ -5,25 +5,42 @@
 //! 360 read them, reports every problem at once with file, line, card, columns and remedy, and writes them back.
 //!
 //! ```
-//! use cardio_legacy::{Deck, ParseOptions};
+//! use cardio_legacy::{ConvertOptions, Deck, ParseOptions};
 //!
-//! let bytes = b"a title\nits second line\nFINI\n";
-//! let (decks, diagnostics) = Deck::parse(bytes, &ParseOptions::default());
-//! assert!(decks.is_empty());
-//! assert!(diagnostics.has_errors());
-//! println!("{diagnostics}");
+//! # fn main() -> Result<(), Box<dyn std::error::Error>> {
+//! # let bytes = std::fs::read(concat!(env!("CARGO_MANIFEST_DIR"), "/examples/driver.dat"))?;
+//! // Read: every problem of the file is in the diagnostics; a deck with an error is not handed out.
+//! let (decks, diagnostics) = Deck::parse(&bytes, &ParseOptions::default());
+//! assert!(!diagnostics.has_errors(), "{diagnostics}");
+//! let deck = &decks[0];
+//! assert_eq!(deck.value("XLE(3)"), Some(13.71));
+//!
+//! // Convert: TOML as a person would have written it, and what was assumed.
+//! let conversion = deck.to_scenario(&ConvertOptions::default())?;
+//! assert!(conversion.toml.contains("head.length = \"13.71 in\""));
+//! assert!(conversion.report.to_string().contains("steering wheel"));
+//!
+//! // Write: the normalised form.
+//! assert!(deck.write().starts_with("DRIVER WITH LAP AND TORSO BELT"));
+//! # Ok(())
+//! # }
 //! ```
 //!
-//! | module or type | what |
+//! | type or module | what |
 //! |---|---|
-//! | [`Deck`] | the numbers of one run by the report's names |
+//! | [`Deck`] | the numbers of one run by the report's names: [`Deck::parse`], [`Deck::write`], [`Deck::to_scenario`], [`Deck::from_scenario`], [`Deck::extended`] |
 //! | [`Diagnostics`], [`Rule`], [`Strictness`] | what is wrong, under which rule, how gravely |
+//! | [`Conversion`], [`Report`] | a scenario made from a deck; what was assumed, not used, blank |
+//! | [`FromScenario`], [`NoDeck`] | a deck made from a scenario; what does not fit on cards |
 //! | [`layout`] | every field of every card as data |
 //! | [`field`] | the field rules of FORTRAN IV |
-//! | [`CompartmentLayout`] | which points bound which surface |
+//! | [`CompartmentLayout`] | which points bound which surface, from `compartment.toml` |
 //!
-//! The crate reads no files and prints nothing; no bytes make it panic.
+//! The crate reads no files and prints nothing; no bytes make it panic. `docs/cards.md` holds the tables of all cards, the
+//! decisions where the report is silent, and what becomes of each card in a scenario.
 
+mod back;
+mod builder;
 mod card;
 mod card_number;
 mod check;
@@ -42,6 +59,7 @@ mod rule;
 mod series_reader;
 mod write;
 
+pub use back::{FromScenario, NoDeck, RunEnd, spine_rest};
 pub use columns::Columns;
 pub use compartment::{CompartmentLayout, Corner, Face, Wall, WheelLayout};
 pub use convert::{Conversion, ConversionError, ConvertOptions, PathSource, Report};

@@ -30,6 +30,32 @@ impl Deck {
         text
     }
 
+    /// The deck without what has no effect: series that its switches make superfluous, numbers of the belt that is not in use,
+    /// SLACK if NPOS = 1. It is what a way through a scenario keeps.
+    pub fn normalised(&self) -> Deck {
+        let unused = |series: u8| match series {
+            4 | 10 => self.value("NPOS") == Some(1.0),
+            6 => self.value("NPOS") == Some(0.0),
+            12 => self.value("MREAD") != Some(0.0),
+            _ => false,
+        };
+        let mut cards: Vec<DeckCard> = self
+            .cards()
+            .iter()
+            .filter(|c| !unused(c.id.series))
+            .cloned()
+            .collect();
+        for card in &mut cards {
+            let names: Vec<String> = fields_of(card).map(|field| name_of(card, field)).collect();
+            for (number, name) in card.numbers.iter_mut().zip(names) {
+                if self.has_no_effect(&name) {
+                    *number = Number::blank();
+                }
+            }
+        }
+        Deck::assemble(self.titles().clone(), cards, self.plot())
+    }
+
     fn punch_card(&self, card: &DeckCard) -> String {
         let mut columns = [b' '; CARD_WIDTH];
         for (field, number) in fields_of(card).zip(&card.numbers) {

@@ -1,3 +1,4 @@
-//! Parts of the command `occupant` that other programs and tests may use: its recorders.
+//! The command `occupant`, as a library: its recorders for other programs, and the command line itself.
 
+pub mod cli;
 pub mod mcap;

@@ -1,3 +1,7 @@
 //! The command `occupant`.
 
-fn main() {}
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    occupant_cli::cli::main()
+}

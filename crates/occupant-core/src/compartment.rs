@@ -189,5 +189,17 @@ fn polygon_plane(
             return None;
         }
     }
+    // turning one way at every corner is not enough: a star does so too
+    let beyond =
+        |(p, q): Side, r: &Point3<f64>| (q - p).cross(&(r - p)).dot(&normal) < -1e-9 * size * size;
+    if sides(corners).any(|side| corners.iter().any(|r| beyond(side, r))) {
+        problems.error_with_hint(
+            path,
+            "an outline that goes round more than once",
+            "a convex polygon, corners in order",
+            "order the corners, or split the surface",
+        );
+        return None;
+    }
     Some((corners[0], normal))
 }

@@ -18,6 +18,7 @@ use std::fmt;
 use occupant_core::scenario::document::Format;
 use occupant_core::scenario::{Diagnostics as ScenarioDiagnostics, Scenario};
 
+pub(crate) use motion::{BELTS, POSTURE, SEATS};
 pub use path::PathSource;
 pub use report::Report;
 

@@ -6,12 +6,13 @@ use std::path::PathBuf;
 
 use cardio_legacy::{Deck, Diagnostics, ParseOptions, Rule, Severity, Strictness};
 
-pub const DECKS: [&str; 5] = [
+pub const DECKS: [&str; 6] = [
     "driver-lap-torso.dat",
     "right-front-lap.dat",
     "left-rear-unbelted.dat",
     "driver-exact-state.dat",
     "driver-path-from-disk.dat",
+    "driver-exact-state-extended.dat",
 ];
 
 pub fn path(name: &str) -> PathBuf {

@@ -257,6 +257,7 @@ fn assert_all_named(topic: &str, message: &DynamicMessage, fields: &Fields) {
 fn touches_come_back_one_by_one() {
     type Touch = (String, [f64; 12]);
     type Load = (Vec<Touch>, Option<Vec<f64>>);
+    let model = model();
     let mut samples: Vec<Vec<Load>> = Vec::new();
     let watch = Watch(|s: &Sample<'_>| {
         let of_sphere = |i: usize| {

@@ -246,7 +246,7 @@ def main(folder):
     ]
     for label, name, own in rows:
         print(f"{name:32} {best[name]:9.0f} ns   ours, {label:17} {own:7.0f} ns   ratio {best[name] / own:5.1f}")
-    print(f"ours, a step of rk4 {ours['step']:.0f} ns, an event of 0.25 s in steps of 0.1 ms {ours['event_ms']:.1f} ms")
+    print("ours: " + ", ".join(f"{name} {value:.1f}" for name, value in ours.items()))
 
 
 if __name__ == "__main__":

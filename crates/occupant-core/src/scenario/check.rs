@@ -1,6 +1,6 @@
 //! Checks a scenario tree against the schema and reports every problem at once.
 
-use serde_json::{Map, Value as Json};
+use serde_json::Value as Json;
 
 use super::diagnostic::{Diagnostic, Diagnostics};
 use super::document::{Entry, Node, Table, Value};
@@ -8,7 +8,7 @@ use super::kind::{KINDS, Kind, UnitSystem};
 use super::nearest::nearest;
 use super::path_text::with_key;
 use super::quantity::{Written, si_value};
-use super::schema::{groups, schema};
+use super::schema::schema;
 use super::source::{Sources, Span};
 use super::unit::UnitError;
 use super::view::View;
@@ -32,7 +32,7 @@ pub fn check(sources: &Sources, root: &Node) -> Diagnostics {
     checker.problems
 }
 
-struct Checker<'a> {
+pub(super) struct Checker<'a> {
     sources: &'a Sources,
     root: &'static Json,
     units: UnitSystem,
@@ -192,7 +192,7 @@ impl Checker<'_> {
     }
 
     /// Reports a problem of a table as a whole; the root has no words of its own to point at.
-    fn report_table(
+    pub(super) fn report_table(
         &mut self,
         node: &Node,
         path: &str,
@@ -226,54 +226,6 @@ impl Checker<'_> {
         );
     }
 
-    fn groups(&mut self, view: &View, node: &Node, table: &Table, path: &str) {
-        let Some(object) = view.object_with_groups() else {
-            return;
-        };
-        self.exclusive_groups(object, node, table, path);
-        for group in groups(object, "x-together") {
-            let (given, absent): (Vec<&str>, Vec<&str>) =
-                group.iter().partition(|k| table.get(k).is_some());
-            if let (Some(first), false) =
-                (given.first().and_then(|k| table.get(k)), absent.is_empty())
-            {
-                let found = format!("{} without {}", quoted(&given, '`'), quoted(&absent, '`'));
-                self.report(first.key_span, path, found, "both or neither", None);
-            }
-        }
-    }
-
-    fn exclusive_groups(
-        &mut self,
-        object: &Map<String, Json>,
-        node: &Node,
-        table: &Table,
-        path: &str,
-    ) {
-        for (word, needed) in [("x-exactly-one", true), ("x-at-most-one", false)] {
-            for group in groups(object, word) {
-                let mut given: Vec<&Entry> = group.iter().filter_map(|k| table.get(k)).collect();
-                given.sort_by_key(|e| e.key_span.start);
-                match given.as_slice() {
-                    [] if needed => {
-                        let found = match path {
-                            "" => "the scenario does not say where the occupant is".to_owned(),
-                            _ => format!("`{path}` has none of {}", quoted(&group, '`')),
-                        };
-                        let expected = one_of(&group, '`');
-                        self.report_table(node, path, found, expected, None);
-                    }
-                    [] | [_] => {}
-                    [.., last] => {
-                        let keys: Vec<&str> = given.iter().map(|e| e.key.as_str()).collect();
-                        let found = format!("{} together", all_of(&keys));
-                        self.report(last.key_span, path, found, "only one of them", None);
-                    }
-                }
-            }
-        }
-    }
-
     fn array(&mut self, view: &View, node: &Node, items: &[Node], path: &str) {
         let length = |word: &str| view.get(word).and_then(Json::as_u64).map(|n| n as usize);
         let (least, most) = (length("minItems").unwrap_or(0), length("maxItems"));
@@ -291,7 +243,7 @@ impl Checker<'_> {
         }
     }
 
-    fn report(
+    pub(super) fn report(
         &mut self,
         span: Span,
         path: &str,
@@ -329,21 +281,13 @@ pub(super) fn one_of(names: &[&str], quote: char) -> String {
     }
 }
 
-/// `a` and `b`, all in quotes.
-fn all_of(names: &[&str]) -> String {
-    match names {
-        [first @ .., last] if !first.is_empty() => format!("{} and `{last}`", quoted(first, '`')),
-        _ => quoted(names, '`'),
-    }
-}
-
 /// The last name of a path, without indices.
 fn last_key(path: &str) -> &str {
     let end = path.find('[').unwrap_or(path.len());
     path[..end].rsplit('.').next().unwrap_or(path)
 }
 
-fn quoted(names: &[&str], quote: char) -> String {
+pub(super) fn quoted(names: &[&str], quote: char) -> String {
     let each: Vec<String> = names.iter().map(|n| format!("{quote}{n}{quote}")).collect();
     each.join(", ")
 }

@@ -124,6 +124,36 @@ impl Node {
         }
     }
 
+    /// The same tree as if it had been read from another text.
+    pub(super) fn moved_to(&self, source: SourceId) -> Node {
+        let value = match &self.value {
+            Value::Array(items) => {
+                Value::Array(items.iter().map(|item| item.moved_to(source)).collect())
+            }
+            Value::Table(table) => Value::Table(Table(
+                table
+                    .iter()
+                    .map(|entry| Entry {
+                        key: entry.key.clone(),
+                        key_span: Span {
+                            source,
+                            ..entry.key_span
+                        },
+                        node: entry.node.moved_to(source),
+                    })
+                    .collect(),
+            )),
+            plain => plain.clone(),
+        };
+        Node {
+            span: Span {
+                source,
+                ..self.span
+            },
+            value,
+        }
+    }
+
     /// The same tree without places. A number that JSON cannot hold (`inf`, `nan`) becomes null.
     pub fn to_json(&self) -> serde_json::Value {
         use serde_json::Value as Json;

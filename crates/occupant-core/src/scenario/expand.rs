@@ -3,8 +3,10 @@
 //! Every value keeps the place it was written at. Later layers win: preset, then the scenario; within each `all`, then
 //! the pair, then the single name.
 
+use std::sync::OnceLock;
+
 use super::document::{Entry, Node, Table, Value};
-use super::source::{SourceId, Sources};
+use super::source::Sources;
 use super::toml_text;
 use crate::body::{SPHERE_NAMES, Segment};
 use crate::joint::Joint;
@@ -39,12 +41,26 @@ const JOINT_PAIRS: [[&str; 3]; 4] = [
 /// Two keys of which a later layer's one replaces an earlier layer's other.
 const RIVALS: [[&str; 2]; 2] = [["mass", "weight"], ["weight", "mass"]];
 
-/// The text of a preset.
-fn preset_text(name: &str) -> Option<&'static str> {
-    match name {
-        "male50" => Some(include_str!("presets/male50.toml")),
-        _ => None,
-    }
+/// A preset: a piece of scenario that comes with the program.
+struct Preset {
+    text: &'static str,
+    root: Node,
+}
+
+/// The preset with this name, read once.
+fn preset(name: &str) -> Option<&'static Preset> {
+    static MALE50: OnceLock<Option<Preset>> = OnceLock::new();
+    let (cell, text) = match name {
+        "male50" => (&MALE50, include_str!("presets/male50.toml")),
+        _ => return None,
+    };
+    let read = || {
+        let mut sources = Sources::new();
+        let id = sources.add(name, text);
+        let root = toml_text::parse(&sources, id).ok()?;
+        Some(Preset { text, root })
+    };
+    cell.get_or_init(read).as_ref()
 }
 
 /// The explicit form of a scenario tree that has passed the check.
@@ -85,19 +101,12 @@ fn section(
 }
 
 fn preset_section(sources: &mut Sources, name: &str, key: &str) -> Option<Node> {
-    let id = add_preset(sources, name)?;
-    let root = toml_text::parse(sources, id).ok()?;
-    root.get(key).cloned()
-}
-
-fn add_preset(sources: &mut Sources, name: &str) -> Option<SourceId> {
+    let preset = preset(name)?;
     let title = format!("preset {name}");
-    let text = preset_text(name)?;
-    Some(
-        sources
-            .named(&title)
-            .unwrap_or_else(|| sources.add(title, text)),
-    )
+    let id = sources
+        .named(&title)
+        .unwrap_or_else(|| sources.add(title, preset.text));
+    Some(preset.root.get(key)?.moved_to(id))
 }
 
 fn body(layers: &[Node]) -> Table {

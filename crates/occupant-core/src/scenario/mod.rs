@@ -1,11 +1,33 @@
 //! Scenarios: what a person writes, read with places, checked, and turned into the core's plain data.
 //!
 //! ```text
-//! text ─ Draft (overrides) ─ check against the schema ─ Loaded ─ build ─ Setup
+//! text ─ Draft (overrides) ─ check against the schema ─ Loaded ─ build ─ Setup ─ Model
+//! ```
+//!
+//! Problems never stop at the first: each stage reports everything it can find, with file, line and column.
+//!
+//! ```
+//! use occupant_core::scenario::{Draft, Format};
+//!
+//! let text = r#"
+//! title = "a scenario"
+//! units = "in-lbf-s"
+//! gravity = "9.81 m/s"
+//! "#;
+//! let mut draft = Draft::read(text, Format::Toml, "my.toml")?;
+//! draft.set("time.end=200 ms")?;
+//! let problems = draft.load(&|file| Err(format!("no file {file}"))).unwrap_err();
+//! assert!(problems.to_string().starts_with(
+//!     "error: `m/s` is not the unit of an acceleration
+//!  --> my.toml:4:17"
+//! ));
+//! # Ok::<(), occupant_core::scenario::Diagnostics>(())
 //! ```
 
 mod build;
 mod check;
+mod check_groups;
+mod csv_text;
 pub mod diagnostic;
 pub mod document;
 mod draft;
@@ -23,6 +45,7 @@ mod schema;
 pub mod source;
 mod toml_text;
 pub mod unit;
+pub mod unit_expression;
 mod view;
 
 pub use diagnostic::{Diagnostic, Diagnostics};

@@ -4,12 +4,13 @@
 //! column. Blank lines and lines that start with `#` are skipped.
 
 use super::check::one_of;
+use super::csv_text::{Cell, cells, lines, name_and_unit};
 use super::diagnostic::{Diagnostic, Diagnostics};
 use super::document::{Node, Value};
 use super::kind::{KINDS, Kind};
 use super::nearest::nearest;
 use super::source::{SourceId, Sources, Span};
-use super::unit;
+use super::unit_expression;
 use crate::problem::{Problem, Severity};
 
 /// A column that a table may have.
@@ -30,12 +31,6 @@ pub(super) struct NumberTable {
     pub rows: Vec<Vec<f64>>,
     /// Where each line stands.
     pub row_spans: Vec<Span>,
-}
-
-/// A cell: its words and place.
-struct Cell<'a> {
-    text: &'a str,
-    span: Span,
 }
 
 /// Reads a CSV text.
@@ -220,7 +215,7 @@ impl<'a> Reader<'a> {
             );
             return None;
         };
-        match unit::parse(unit_text, 0) {
+        match unit_expression::parse(unit_text, 0) {
             Ok(scale) if scale.dimension.serves_as(kind.dimension) => Some(scale.factor),
             Ok(_) => {
                 let found = format!("`{unit_text}` is not the unit of {}", kind.noun);
@@ -262,66 +257,4 @@ impl<'a> Reader<'a> {
         table.rows.push(row);
         table.row_spans.push(span);
     }
-}
-
-/// `x[m]` → `x` and `m`.
-fn name_and_unit(text: &str) -> (&str, Option<&str>) {
-    match text.split_once('[') {
-        Some((name, rest)) => (
-            name.trim(),
-            Some(rest.trim_end().strip_suffix(']').unwrap_or(rest).trim()),
-        ),
-        None => (text.trim(), None),
-    }
-}
-
-/// The lines of a text that hold something.
-fn lines(sources: &Sources, id: SourceId) -> impl Iterator<Item = Span> {
-    let mut start = 0;
-    sources
-        .text(id)
-        .split_inclusive('\n')
-        .map(move |line| {
-            let from = start;
-            start += line.len();
-            (line, from)
-        })
-        .filter(|(line, _)| {
-            let line = line.trim_start_matches('\u{feff}').trim();
-            !line.is_empty() && !line.starts_with('#')
-        })
-        .map(move |(line, from)| Span {
-            source: id,
-            start: from,
-            end: from + line.trim_end().len(),
-        })
-}
-
-/// The cells of a line, trimmed. A byte-order mark is no part of the first.
-fn cells(sources: &Sources, line: Span) -> Vec<Cell<'_>> {
-    let mut start = line.start;
-    sources
-        .slice(line)
-        .split(',')
-        .map(|raw| {
-            let from = start;
-            start += raw.len() + 1;
-            let blank = |c: char| c.is_whitespace() || c == '\u{feff}';
-            let text = raw.trim_matches(blank);
-            let lead = raw.len() - raw.trim_start_matches(blank).len();
-            let span = match text {
-                "" => Span {
-                    source: line.source,
-                    start: from,
-                    end: from + raw.len(),
-                },
-                _ => Span {
-                    source: line.source,
-                    start: from + lead,
-                    end: from + lead + text.len(),
-                },
-            };
-            Cell { text, span }
-        })
-        .collect()
 }

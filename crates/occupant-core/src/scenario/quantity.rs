@@ -6,7 +6,8 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Deserializer, Serialize, Serializer, de};
 
 use super::kind::{KINDS, Kind, UnitSystem};
-use super::unit::{self, Scale, UnitError};
+use super::unit::{Scale, UnitError};
+use super::unit_expression;
 
 /// A quantity of kind `KINDS[KIND]`, exactly as it was written.
 #[derive(Clone, Debug, PartialEq)]
@@ -81,7 +82,10 @@ fn bare_si(value: f64, kind: &Kind, units: UnitSystem) -> Result<f64, UnitError>
     if unit.is_empty() {
         return finite(value, &value.to_string());
     }
-    finite(value * unit::parse(unit, 0)?.factor, &value.to_string())
+    finite(
+        value * unit_expression::parse(unit, 0)?.factor,
+        &value.to_string(),
+    )
 }
 
 fn finite(value: f64, text: &str) -> Result<f64, UnitError> {
@@ -133,7 +137,7 @@ fn text_si(text: &str, kind: &Kind) -> Result<f64, UnitError> {
             ..whole(text, format!("a comma in the number `{text}`"), expected())
         });
     }
-    let scale = unit::parse(unit_text, unit_start)?;
+    let scale = unit_expression::parse(unit_text, unit_start)?;
     if !scale.dimension.serves_as(kind.dimension) {
         return Err(UnitError {
             start: unit_start,
@@ -203,7 +207,8 @@ fn pound_hint(number: f64, unit_text: &str, scale: Scale, kind: &Kind) -> Option
             })
             .collect();
         let swapped = swapped.concat();
-        let fits = unit::parse(&swapped, 0).is_ok_and(|s| s.dimension.serves_as(kind.dimension));
+        let fits = unit_expression::parse(&swapped, 0)
+            .is_ok_and(|s| s.dimension.serves_as(kind.dimension));
         fits.then(|| format!("the pound of {what} is `{right}`: \"{number} {swapped}\""))
     })
 }

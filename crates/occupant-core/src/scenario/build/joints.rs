@@ -2,49 +2,48 @@
 
 use super::builder::Builder;
 use crate::joint::{AngularSpring, BallJoint, HingeJoint, Joint, Joints, Stop};
+use crate::scenario::document::{Node, Table};
 use crate::scenario::model::{JointSection, JointsSection, StopSection};
 use crate::scenario::path_text::with_key;
 
 /// The eleven joints; `section` is explicit.
 pub(super) fn joints(b: &mut Builder, section: &JointsSection) -> Joints {
     report_undamped(b, section);
-    let s = section;
     Joints {
-        neck: ball(b, Joint::Neck, &s.neck),
-        right_shoulder: ball(b, Joint::RightShoulder, &s.right_shoulder),
-        left_shoulder: ball(b, Joint::LeftShoulder, &s.left_shoulder),
-        upper_back: ball(b, Joint::UpperBack, &s.upper_back),
-        left_elbow: hinge(b, Joint::LeftElbow, &s.left_elbow),
-        right_elbow: hinge(b, Joint::RightElbow, &s.right_elbow),
-        lower_back: ball(b, Joint::LowerBack, &s.lower_back),
-        right_hip: ball(b, Joint::RightHip, &s.right_hip),
-        left_hip: ball(b, Joint::LeftHip, &s.left_hip),
-        right_knee: hinge(b, Joint::RightKnee, &s.right_knee),
-        left_knee: hinge(b, Joint::LeftKnee, &s.left_knee),
-        epsilon: b.optional("joints.epsilon", &s.epsilon, Joints::default().epsilon),
+        neck: ball(b, Joint::Neck, section),
+        right_shoulder: ball(b, Joint::RightShoulder, section),
+        left_shoulder: ball(b, Joint::LeftShoulder, section),
+        upper_back: ball(b, Joint::UpperBack, section),
+        left_elbow: hinge(b, Joint::LeftElbow, section),
+        right_elbow: hinge(b, Joint::RightElbow, section),
+        lower_back: ball(b, Joint::LowerBack, section),
+        right_hip: ball(b, Joint::RightHip, section),
+        left_hip: ball(b, Joint::LeftHip, section),
+        right_knee: hinge(b, Joint::RightKnee, section),
+        left_knee: hinge(b, Joint::LeftKnee, section),
+        epsilon: b.optional(
+            "joints.epsilon",
+            &section.epsilon,
+            Joints::default().epsilon,
+        ),
     }
 }
 
-/// The section of a joint that must be spoken of somewhere.
-fn given<'s>(
-    b: &mut Builder,
-    joint: Joint,
-    section: &'s Option<JointSection>,
-) -> Option<&'s JointSection> {
-    if let Some(JointSection {
-        set: Some(name), ..
-    }) = section
-    {
+/// What is said of a joint; nothing where its damping is missing, which is reported for all joints at once.
+fn given<'s>(b: &mut Builder, joint: Joint, joints: &'s JointsSection) -> Option<&'s JointSection> {
+    let section = joints.of(joint)?;
+    if let Some(name) = &section.set {
+        // Sets that exist have been laid under the joint: this one does not.
         let path = format!("joints.{}.set", joint.name());
-        let sets = b.root.get("joint_sets").and_then(|n| n.as_table());
+        let sets = b.root.get("joint_sets").and_then(Node::as_table);
         let names: Vec<&str> = sets
             .into_iter()
-            .flat_map(|t| t.iter())
-            .map(|e| e.key.as_str())
+            .flat_map(Table::iter)
+            .map(|entry| entry.key.as_str())
             .collect();
         b.index_of(&path, "joint set", name, names.into_iter());
     }
-    section.as_ref().filter(|section| section.damping.is_some())
+    section.damping.is_some().then_some(section)
 }
 
 /// One message for all joints that nobody gave a damping.
@@ -52,8 +51,8 @@ fn report_undamped(b: &mut Builder, section: &JointsSection) {
     let undamped: Vec<&str> = Joint::ALL
         .into_iter()
         .filter(|joint| {
-            let section = section.of(*joint);
-            section.is_none_or(|section| section.damping.is_none())
+            let said = section.of(*joint);
+            said.is_none_or(|said| said.damping.is_none())
         })
         .map(Joint::name)
         .collect();
@@ -72,8 +71,8 @@ fn report_undamped(b: &mut Builder, section: &JointsSection) {
     );
 }
 
-fn ball(b: &mut Builder, joint: Joint, section: &Option<JointSection>) -> BallJoint {
-    let Some(section) = given(b, joint, section) else {
+fn ball(b: &mut Builder, joint: Joint, joints: &JointsSection) -> BallJoint {
+    let Some(section) = given(b, joint, joints) else {
         return BallJoint::default();
     };
     let path = format!("joints.{}", joint.name());
@@ -116,8 +115,8 @@ fn ball(b: &mut Builder, joint: Joint, section: &Option<JointSection>) -> BallJo
     }
 }
 
-fn hinge(b: &mut Builder, joint: Joint, section: &Option<JointSection>) -> HingeJoint {
-    let Some(section) = given(b, joint, section) else {
+fn hinge(b: &mut Builder, joint: Joint, joints: &JointsSection) -> HingeJoint {
+    let Some(section) = given(b, joint, joints) else {
         return HingeJoint::default();
     };
     let path = format!("joints.{}", joint.name());

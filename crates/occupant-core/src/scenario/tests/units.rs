@@ -5,7 +5,8 @@ use crate::scenario::kind::{
     ROTATIONAL_DAMPING, SPEED, STIFFNESS, TIME, UnitSystem,
 };
 use crate::scenario::quantity::{Written, si_value};
-use crate::scenario::unit::{UNITS, UnitError, parse};
+use crate::scenario::unit::{UNITS, UnitError};
+use crate::scenario::unit_expression::parse;
 
 fn read(text: &str, kind: usize) -> Result<f64, UnitError> {
     si_value(&Written::Text(text.into()), &KINDS[kind], UnitSystem::Si)

@@ -1,0 +1,309 @@
+//! Materials and surfaces → series 8 and 9.
+
+use std::collections::BTreeMap;
+
+use nalgebra::{Point3, Vector3};
+use occupant_core::material::{DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
+use occupant_core::setup::Setup;
+use occupant_core::surface::{Frame, Outline, Surface};
+
+use super::Back;
+use crate::compartment::{CompartmentLayout, Corner};
+use crate::layout::Unit;
+
+/// Places may differ by this much, m, and be the same: rounding of the wheel's place.
+const SAME_PLACE_M: f64 = 1e-9;
+
+pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
+    let numbers: Vec<Option<u32>> = back
+        .setup
+        .surfaces
+        .iter()
+        .map(|s| layout.number_of(&s.name))
+        .collect();
+    let mut polygons = Vec::new();
+    for (surface, number) in back.setup.surfaces.iter().zip(numbers) {
+        match number {
+            Some(number) => {
+                read_surface(back, layout, surface, number);
+                polygons.extend(polygon(back, layout, surface, number));
+            }
+            None => back.misfit(format!(
+                "surfaces.{}: it is none of the 25 surfaces of the cards",
+                surface.name
+            )),
+        }
+    }
+    place_points(back, polygons);
+    if let Some((surface, centre, axis)) = wheel(back.setup, layout) {
+        check_wheel(back, layout, &surface, centre, axis);
+    }
+    let there = |name: &str| back.setup.surfaces.iter().any(|s| s.name == name);
+    let kept = |number: u32| back.kept.contains_key(&format!("STIF1({number})"));
+    let numbered = (1..=25).zip(layout.names());
+    let missing: Vec<&str> = numbered
+        .filter(|(number, name)| !there(name) && !kept(*number))
+        .map(|(_, name)| name)
+        .collect();
+    if !missing.is_empty() {
+        back.misfit(format!(
+            "surfaces {} are missing: cards need all 25 surfaces",
+            missing.join(", ")
+        ));
+    }
+}
+
+fn read_surface(back: &mut Back<'_>, layout: &CompartmentLayout, surface: &Surface, number: u32) {
+    let name = &surface.name;
+    back.misfit_if(
+        surface.frame != Frame::Vehicle,
+        &format!("surfaces.{name}.frame: the cards' surfaces belong to the vehicle"),
+    );
+    back.misfit_if(
+        surface.spheres.is_some(),
+        &format!("surfaces.{name}.spheres: on cards all spheres touch all surfaces"),
+    );
+    if let Some(material) = back.setup.materials.get(surface.material) {
+        read_material(back, material, number);
+    }
+    match (&surface.outline, number == layout.wheel.number) {
+        (
+            Outline::Disc {
+                centre_m, radius_m, ..
+            },
+            true,
+        ) => {
+            back.set("DSW", 2.0 * radius_m, Unit::Inch);
+            back.set("SWP", -centre_m.y, Unit::Inch);
+        }
+        (Outline::Polygon(_), false) => {}
+        _ => back.misfit(format!(
+            "surfaces.{name}: cards have a disc for the wheel and polygons for the others"
+        )),
+    }
+}
+
+/// The wheel's name, centre and axis.
+fn wheel(setup: &Setup, layout: &CompartmentLayout) -> Option<(String, Point3<f64>, Vector3<f64>)> {
+    let surface = setup
+        .surfaces
+        .iter()
+        .find(|s| s.name == layout.wheel.name)?;
+    match &surface.outline {
+        Outline::Disc { centre_m, axis, .. } => Some((surface.name.clone(), *centre_m, *axis)),
+        _ => None,
+    }
+}
+
+fn read_material(back: &mut Back<'_>, material: &Material, number: u32) {
+    let spring = &material.spring;
+    back.misfit_if(
+        material.memory != Memory::Reset,
+        &format!(
+            "materials.{}.memory = \"retain\": cards forget",
+            material.name
+        ),
+    );
+    let usual = material.friction_speed_m_s == DEFAULT_FRICTION_SPEED_M_S;
+    back.misfit_if(
+        !usual,
+        &format!(
+            "materials.{}.friction_speed: cards cannot choose it",
+            material.name
+        ),
+    );
+    back.set(
+        &format!("STIF1({number})"),
+        spring.k1_n_per_m,
+        Unit::Stiffness,
+    );
+    back.set(
+        &format!("STIF2({number})"),
+        spring.k2_n_per_m,
+        Unit::Stiffness,
+    );
+    back.set(&format!("DELB({number})"), spring.break_m, Unit::Inch);
+    back.set(&format!("AMU1({number})"), spring.returned_1, Unit::One);
+    back.set(&format!("AMU2({number})"), spring.returned_2, Unit::One);
+    back.set(&format!("COFR({number})"), material.friction, Unit::One);
+}
+
+/// What a polygon says of the fields of series 8, in each way in which its corners can be the layout's.
+struct Polygon {
+    name: String,
+    readings: Vec<Vec<(String, String)>>,
+}
+
+fn polygon(
+    back: &mut Back<'_>,
+    layout: &CompartmentLayout,
+    surface: &Surface,
+    number: u32,
+) -> Option<Polygon> {
+    let Outline::Polygon(corners) = &surface.outline else {
+        return None;
+    };
+    let (name, wanted) = (&surface.name, layout.corners_of(number));
+    if wanted.len() != corners.len() {
+        back.misfit(format!(
+            "surfaces.{name} has {} corners; on cards it has {}",
+            corners.len(),
+            wanted.len()
+        ));
+        return None;
+    }
+    let count = corners.len();
+    let orders =
+        (0..count).flat_map(|start| [false, true].map(|turned| order(count, start, turned)));
+    let on_their_sides = orders.filter(|order| {
+        order
+            .iter()
+            .zip(&wanted)
+            .all(|(at, corner)| on_its_side(corner, &corners[*at]))
+    });
+    let reading = |order: Vec<usize>| {
+        order
+            .iter()
+            .zip(&wanted)
+            .flat_map(|(at, corner)| fields_at(corner, &corners[*at]))
+            .collect()
+    };
+    let readings: Vec<_> = on_their_sides.map(reading).collect();
+    if readings.is_empty() {
+        back.misfit(format!("surfaces.{name}: its corners do not lie left and right as those of the cards' surface {number}"));
+    }
+    Some(Polygon {
+        name: name.clone(),
+        readings,
+    })
+}
+
+fn order(count: usize, start: usize, turned: bool) -> Vec<usize> {
+    (0..count)
+        .map(|i| {
+            if turned {
+                (start + count - i) % count
+            } else {
+                (start + i) % count
+            }
+        })
+        .collect()
+}
+
+fn on_its_side(corner: &Corner, place: &Point3<f64>) -> bool {
+    corner.wall.half_width().1 == (place.y < 0.0)
+}
+
+/// A corner's place as the fields of series 8.
+fn fields_at(corner: &Corner, place: &Point3<f64>) -> [(String, String); 3] {
+    let inches = |si: f64| super::digits::digits(si, Unit::Inch).0;
+    [
+        (format!("XV({})", corner.x_of), inches(place.x)),
+        (format!("ZV({})", corner.z_of), inches(place.z)),
+        (corner.wall.half_width().0.to_owned(), inches(place.y.abs())),
+    ]
+}
+
+/// Which corner is which point shows only where surfaces meet: the choice is searched in which all surfaces agree.
+fn place_points(back: &mut Back<'_>, mut polygons: Vec<Polygon>) {
+    polygons.retain(|p| !p.readings.is_empty());
+    let mut search = Search {
+        known: BTreeMap::new(),
+        deepest: 0,
+        budget: SEARCH_BUDGET,
+    };
+    if search.from(&polygons, 0) {
+        for (name, digits) in search.known {
+            back.builder.set(&name, &digits);
+        }
+    } else {
+        let name = polygons.get(search.deepest).map_or("", |p| p.name.as_str());
+        back.misfit(format!("surfaces.{name} does not meet the surfaces before it at the points that they share on cards"));
+    }
+}
+
+/// Enough for any compartment whose surfaces meet; a bound for those that do not.
+const SEARCH_BUDGET: usize = 20_000;
+
+struct Search {
+    known: BTreeMap<String, String>,
+    deepest: usize,
+    budget: usize,
+}
+
+impl Search {
+    /// Finds readings of the polygons from `at` on that agree with what is known.
+    fn from(&mut self, polygons: &[Polygon], at: usize) -> bool {
+        self.deepest = self.deepest.max(at);
+        let Some(polygon) = polygons.get(at) else {
+            return true;
+        };
+        for reading in &polygon.readings {
+            if self.budget == 0 {
+                return false;
+            }
+            self.budget -= 1;
+            let Some(added) = self.add(reading) else {
+                continue;
+            };
+            if self.from(polygons, at + 1) {
+                return true;
+            }
+            added.iter().for_each(|name| drop(self.known.remove(name)));
+        }
+        false
+    }
+
+    /// Adds a reading; `None`, and nothing added, if it contradicts what is known.
+    fn add(&mut self, reading: &[(String, String)]) -> Option<Vec<String>> {
+        let mut added = Vec::new();
+        for (name, digits) in reading {
+            match self.known.get(name) {
+                Some(known) if known == digits => {}
+                Some(_) => {
+                    added.iter().for_each(|name| drop(self.known.remove(name)));
+                    return None;
+                }
+                None => {
+                    self.known.insert(name.clone(), digits.clone());
+                    added.push(name.clone());
+                }
+            }
+        }
+        Some(added)
+    }
+}
+
+/// Cards have no place for the wheel's; where it is not where a conversion puts it, that is lost.
+fn check_wheel(
+    back: &mut Back<'_>,
+    layout: &CompartmentLayout,
+    name: &str,
+    centre: Point3<f64>,
+    axis: Vector3<f64>,
+) {
+    let wheel = &layout.wheel;
+    let inch = super::digits::factor(Unit::Inch);
+    let known = |name: String| {
+        back.builder
+            .digits(&name)
+            .and_then(|d| d.parse::<f64>().ok())
+            .unwrap_or(f64::NAN)
+            * inch
+    };
+    let (x, z) = (
+        known(format!("XV({})", wheel.point)),
+        known(format!("ZV({})", wheel.point)),
+    );
+    let (sin, cos) = wheel.tilt_deg.to_radians().sin_cos();
+    let axis = axis / axis.norm();
+    let tilted = (axis - Vector3::new(-cos, 0.0, -sin)).norm() > SAME_PLACE_M;
+    let moved = (centre.x - (x - wheel.behind_in * inch)).abs() > SAME_PLACE_M
+        || (centre.z - z).abs() > SAME_PLACE_M;
+    if moved || tilted {
+        back.misfit(format!(
+            "surfaces.{}: no card places the wheel; a deck has it {} in behind point {}, level with it, tilted {} degrees",
+            name, wheel.behind_in, wheel.point, wheel.tilt_deg
+        ));
+    }
+}

@@ -1,0 +1,69 @@
+//! SI numbers as the digits of a card.
+//!
+//! A quantity of a scenario is its number times its unit's factor. The shortest decimal number that gives the same product
+//! is the number that was written, so a deck's digits come back however its scenario was read.
+
+use occupant_core::scenario::unit_expression;
+
+use crate::deck::Number;
+use crate::layout::Unit;
+use crate::write::punch_real;
+
+/// Columns of a number on most cards.
+const WIDTH: usize = 10;
+
+/// SI units in one unit of a card.
+pub(super) fn factor(unit: Unit) -> f64 {
+    let text = match unit {
+        Unit::One => return 1.0,
+        Unit::Second => "s",
+        Unit::Inch => "in",
+        Unit::InchPerSecond => "in/s",
+        Unit::InchPerSecondSquared => "in/s^2",
+        Unit::Radian => "rad",
+        Unit::RadianPerSecond => "rad/s",
+        Unit::Degree => "deg",
+        Unit::Mass => "lbf s^2/in",
+        Unit::Inertia => "lbf in s^2",
+        Unit::Stiffness => "lbf/in",
+        Unit::RotaryDamping => "in lbf s/rad",
+        Unit::RotaryStiffness => "in lbf/rad",
+    };
+    unit_expression::parse(text, 0).map_or(1.0, |scale| scale.factor)
+}
+
+/// The digits of `si` in a card's unit, and the number as it fits into ten columns where that is not the same.
+pub(super) fn digits(si: f64, unit: Unit) -> (String, Option<String>) {
+    let exact = shortest(si, factor(unit));
+    let Some(number) = Number::from_digits(&exact) else {
+        return ("0".to_owned(), None);
+    };
+    let punched = punch_real(&number, WIDTH);
+    match crate::field::read_real(format!("{punched:>WIDTH$}").as_bytes()) {
+        Ok(read) if read.value == number.value => (exact, None),
+        Ok(read) => (read.digits.clone(), Some(exact)),
+        Err(_) => (exact, None),
+    }
+}
+
+/// The shortest decimal number whose product with `factor` is `si`.
+fn shortest(si: f64, factor: f64) -> String {
+    let value = si / factor;
+    if value == 0.0 || !value.is_finite() {
+        return "0".to_owned();
+    }
+    let candidates = (0..17).map(|places| format!("{value:.places$e}"));
+    let found = candidates
+        .filter_map(|text| text.parse::<f64>().ok())
+        .find(|candidate| candidate * factor == si);
+    plain(found.unwrap_or(value))
+}
+
+/// A number without exponent, unless it is very small or large.
+fn plain(value: f64) -> String {
+    if (1e-5..1e9).contains(&value.abs()) {
+        format!("{value}")
+    } else {
+        format!("{value:e}")
+    }
+}

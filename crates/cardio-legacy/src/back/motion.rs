@@ -1,0 +1,177 @@
+//! Start of the occupant and belts → series 4 and 10, or 6, and 13.
+
+use occupant_core::belt::{Belt, RestLength};
+use occupant_core::report_coordinates::ReportCoordinates;
+use occupant_core::seating::{InitialPosture, InitialVelocity, Seating};
+
+use super::Back;
+use crate::compartment::CompartmentLayout;
+use crate::convert::{BELTS, POSTURE, SEATS};
+use crate::layout::Unit;
+
+pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
+    match &back.setup.posture {
+        InitialPosture::Seated(seating) => {
+            back.builder.set("NPOS", "0");
+            back.builder.with_series(4);
+            back.builder.with_series(10);
+            seated(back, layout, seating);
+            velocity(back);
+            let rest = [back.setup.joints.upper_back, back.setup.joints.lower_back]
+                .iter()
+                .any(|j| j.spring.is_some_and(|s| s.rest_rad.is_some()));
+            back.misfit_if(
+                rest,
+                "joints.*.rest_angle beside a posture: cards take β₀ from the posture if NPOS = 0",
+            );
+        }
+        InitialPosture::Coordinates(coordinates) => {
+            back.builder.set("NPOS", "1");
+            back.builder.with_series(6);
+            coordinates_on(back, coordinates);
+            for (joint, spring) in [
+                ("upper_back", back.setup.joints.upper_back.spring),
+                ("lower_back", back.setup.joints.lower_back.spring),
+            ] {
+                let open = spring.is_some_and(|s| s.rest_rad.is_none());
+                back.misfit_if(open, &format!("joints.{joint} without rest_angle: a deck with NPOS = 1 needs β₀ (BETA4, BETA7)"));
+            }
+        }
+    }
+    belts(back);
+}
+
+/// q and their rates, in inches and radians.
+fn coordinates_on(back: &mut Back<'_>, coordinates: &ReportCoordinates) {
+    for (at, (q, rate)) in coordinates.q.iter().zip(&coordinates.rates).enumerate() {
+        let (unit, rate_unit) = if at < 3 {
+            (Unit::Inch, Unit::InchPerSecond)
+        } else {
+            (Unit::Radian, Unit::RadianPerSecond)
+        };
+        back.set(&format!("Q0({})", at + 1), *q, unit);
+        back.set(&format!("QDO({})", at + 1), *rate, rate_unit);
+    }
+}
+
+fn seated(back: &mut Back<'_>, layout: &CompartmentLayout, seating: &Seating) {
+    back.misfit_if(seating.settle, "posture.settle: cards have no settling");
+    let name = |at: usize| {
+        back.setup
+            .surfaces
+            .get(at)
+            .and_then(|s| layout.number_of(&s.name))
+    };
+    let (cushion, rest) = (name(seating.cushion), name(seating.back));
+    let right_hand_drive = back
+        .builder
+        .digits("SWP")
+        .is_some_and(|d| d.starts_with('-'));
+    let left = (seating.lateral_m < 0.0) != right_hand_drive;
+    let seat = SEATS
+        .iter()
+        .position(|s| Some(s.1) == cushion && Some(s.2) == rest && s.3 == left);
+    match seat {
+        Some(at) => back.builder.set("NOPTSP", &(at + 1).to_string()),
+        None => back.misfit("posture.seat: cards have driver, right front, left rear and right rear on the front and rear seats"),
+    }
+    back.agree(
+        "SWP",
+        if left {
+            -seating.lateral_m
+        } else {
+            seating.lateral_m
+        },
+        Unit::Inch,
+        "the seat's place sideways",
+    );
+    let angles = seating
+        .lean_rad
+        .into_iter()
+        .chain([seating.upper_arms_rad, seating.elbows_rad]);
+    for ((_, field), angle) in POSTURE.into_iter().zip(angles) {
+        back.set(field, angle, Unit::Degree);
+    }
+    for (field, place) in ["XHPV", "ZHPV"].into_iter().zip(seating.heels_m) {
+        back.set(field, place, Unit::Inch);
+    }
+}
+
+fn velocity(back: &mut Back<'_>) {
+    match back.setup.velocity {
+        InitialVelocity::Given(v) => {
+            for (field, component) in ["VXVC", "VYVC", "VZVC"].into_iter().zip(v.iter()) {
+                back.set(field, *component, Unit::InchPerSecond);
+            }
+        }
+        InitialVelocity::WithVehicle | InitialVelocity::VehicleOrigin => {
+            back.misfit("posture.velocity is not given: cards need the occupant's velocity in vehicle axes (series 4)");
+        }
+    }
+}
+
+fn belts(back: &mut Back<'_>) {
+    let setup = back.setup;
+    let exact = matches!(setup.posture, InitialPosture::Coordinates(_));
+    let mut used = 0;
+    for belt in &setup.belts {
+        let sphere = setup
+            .body
+            .spheres
+            .get(belt.sphere)
+            .map_or("", |s| s.name.as_str());
+        match BELTS.iter().find(|b| b.2 == sphere) {
+            Some((number, ..)) if used & number == 0 => {
+                used |= number;
+                read_belt(back, belt, *number, exact);
+            }
+            Some((_, name, _)) => {
+                back.misfit(format!("belts.{}: cards have one {name} belt", belt.name))
+            }
+            None => back.misfit(format!(
+                "belts.{}: the cards' belts loop round pelvis and chest",
+                belt.name
+            )),
+        }
+    }
+    if used > 0 {
+        back.builder.with_series(13);
+        back.builder.set("NOPBLT", &used.to_string());
+    }
+}
+
+fn read_belt(back: &mut Back<'_>, belt: &Belt, number: u32, exact: bool) {
+    for (end, anchor) in [1, 2].into_iter().zip(&belt.anchors_m) {
+        for (axis, place) in [1, 2, 3].into_iter().zip(anchor.iter()) {
+            back.set(&format!("P{end}({number},{axis})"), *place, Unit::Inch);
+        }
+    }
+    let w = &belt.webbing;
+    back.set(&format!("SK1({number})"), w.k1_n_per_m, Unit::Stiffness);
+    back.set(&format!("SK2({number})"), w.k2_n_per_m, Unit::Stiffness);
+    back.set(&format!("DELC({number})"), w.break_m, Unit::Inch);
+    let returns_all = w.returned_1 == 1.0 && w.returned_2 == 1.0;
+    back.misfit_if(
+        !returns_all,
+        &format!(
+            "belts.{}.mu1, mu2: the cards' webbing gives all its energy back",
+            belt.name
+        ),
+    );
+    match (belt.rest, exact) {
+        (RestLength::Slack { slack_m }, false) => {
+            back.set(&format!("SLACK({number})"), slack_m, Unit::Inch)
+        }
+        (RestLength::Given { length_m }, true) => {
+            back.set(&format!("BLTLEO({number})"), length_m, Unit::Inch)
+        }
+        (RestLength::Given { .. }, false) => back.misfit(format!(
+            "belts.{}.length: with a posture cards take slack",
+            belt.name
+        )),
+        (RestLength::Slack { .. }, true) => back.misfit(format!(
+            "belts.{}: with an exact state cards take its length (BLTLEO)",
+            belt.name
+        )),
+    }
+}

@@ -1,0 +1,67 @@
+//! The vehicle's path → series 12.
+
+use occupant_core::path::{AfterEnd, Interpolation, Station, TablePath, VehiclePath};
+
+use super::Back;
+use crate::layout::Unit;
+
+pub(super) fn read(back: &mut Back<'_>) {
+    let setup = back.setup;
+    if let Some(stations) = back
+        .kept
+        .get("MREAD")
+        .filter(|d| d.parse::<f64>().is_ok_and(|v| v > 0.0))
+        .cloned()
+    {
+        back.builder.set("MREAD", &stations);
+        back.remarks.push(format!("MREAD = {stations} as in the deck that the scenario came from: the path stays outside the cards"));
+        return;
+    }
+    back.builder.set("MREAD", "0");
+    back.builder.with_series(12);
+    match &setup.path {
+        VehiclePath::Table(table) => read_table(back, table),
+        VehiclePath::Fixed(path) => {
+            let pose = path.pose();
+            let ends =
+                [setup.time.start_s, setup.time.end_s].map(|time_s| Station { time_s, pose });
+            stations(back, &ends);
+        }
+        _ => back.misfit("path.kind: cards take a table of stations, not a pulse"),
+    }
+}
+
+fn read_table(back: &mut Back<'_>, table: &TablePath) {
+    back.misfit_if(
+        table.interpolation() != Interpolation::Linear,
+        "path.interpolation = \"spline\": cards have straight lines between stations (\"linear\")",
+    );
+    let runs_past = table.span_s().1 < back.setup.time.end_s;
+    back.misfit_if(
+        runs_past && table.after() != AfterEnd::Error,
+        "path.after: a deck must have stations up to its final time",
+    );
+    stations(back, table.stations());
+}
+
+fn stations(back: &mut Back<'_>, stations: &[Station]) {
+    back.builder.set("NVPOS", &stations.len().to_string());
+    for (at, station) in stations.iter().enumerate() {
+        let n = at + 1;
+        back.set(&format!("CALT({n})"), station.time_s, Unit::Second);
+        for (axis, place) in ["CALX", "CALY", "CALZ"]
+            .into_iter()
+            .zip(station.pose.position_m.iter())
+        {
+            back.set(&format!("{axis}({n})"), *place, Unit::Inch);
+        }
+        let attitude = station.pose.attitude;
+        for (angle, rad) in [
+            ("CALPH", attitude.roll_rad),
+            ("CALTH", attitude.pitch_rad),
+            ("CALPS", attitude.yaw_rad),
+        ] {
+            back.set(&format!("{angle}({n})"), rad, Unit::Degree);
+        }
+    }
+}

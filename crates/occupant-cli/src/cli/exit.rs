@@ -1,0 +1,51 @@
+//! From the end of a command to its exit code.
+
+use std::process::ExitCode;
+
+use super::speak::say;
+
+/// A command that ran to its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Done {
+    /// All is well: exit code 0.
+    Well,
+    /// It ran, and what it found is not well: exit code 1. What it is has been said.
+    Unwell,
+}
+
+/// Why a command could not do its work.
+#[derive(Debug)]
+pub enum Failure {
+    /// It could not run: exit code 2.
+    CouldNotRun(String),
+    /// It ran and broke off: exit code 1.
+    BrokeOff(String),
+}
+
+impl Failure {
+    /// Could not run, in the words of every message: what is wrong, and how to mend it.
+    pub fn with_help(found: impl Into<String>, help: &str) -> Self {
+        Failure::CouldNotRun(format!("error: {}\n = help: {help}", found.into()))
+    }
+
+    /// Could not run.
+    pub fn plain(found: impl Into<String>) -> Self {
+        Failure::CouldNotRun(format!("error: {}", found.into()))
+    }
+}
+
+/// Says what went wrong, if anything, and gives the exit code.
+pub fn code(result: Result<Done, Failure>) -> ExitCode {
+    match result {
+        Ok(Done::Well) => ExitCode::SUCCESS,
+        Ok(Done::Unwell) => ExitCode::from(1),
+        Err(Failure::BrokeOff(message)) => {
+            say(&message);
+            ExitCode::from(1)
+        }
+        Err(Failure::CouldNotRun(message)) => {
+            say(&message);
+            ExitCode::from(2)
+        }
+    }
+}

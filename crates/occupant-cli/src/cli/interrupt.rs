@@ -1,0 +1,38 @@
+//! Ctrl-C and the polite signals end a run at its next output.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use occupant_core::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::sample::Sample;
+
+use super::speak::say;
+
+/// A recorder that stops the run once a signal has come.
+#[derive(Debug, Default)]
+pub struct Interrupt {
+    asked: Arc<AtomicBool>,
+}
+
+impl Interrupt {
+    /// Listens from now on. Where that is impossible a signal ends the process at once; what was written stays readable.
+    pub fn listen() -> Self {
+        let interrupt = Interrupt::default();
+        let asked = Arc::clone(&interrupt.asked);
+        if let Err(error) = ctrlc::set_handler(move || asked.store(true, Ordering::Relaxed)) {
+            say(&format!(
+                "warning: Ctrl-C will end the run at once: {error}"
+            ));
+        }
+        interrupt
+    }
+}
+
+impl Recorder for Interrupt {
+    fn record(&mut self, _sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        Ok(match self.asked.load(Ordering::Relaxed) {
+            true => Flow::Stop,
+            false => Flow::Continue,
+        })
+    }
+}

@@ -1,0 +1,63 @@
+//! The command line: flags, what they mean, and what the program answers.
+//!
+//! Results go to standard output, talk to standard error. Exit codes: 0 done; 1 it ran, and a check failed, the
+//! integration failed or it was interrupted; 2 it could not run (flags, files, the scenario). A reader that closes the pipe
+//! early has what it wanted: that is success.
+
+mod check;
+mod check_text;
+mod completions;
+mod exit;
+mod interrupt;
+mod new;
+mod output_file;
+mod progress;
+mod recording;
+mod run;
+mod scenario;
+mod schema;
+mod speak;
+mod summary_table;
+mod table;
+
+use std::process::ExitCode;
+
+use clap::{Parser, Subcommand};
+
+/// Simulates the occupant of a car in a crash or a violent manoeuvre.
+#[derive(Debug, Parser)]
+#[command(
+    name = "occupant",
+    version,
+    propagate_version = false,
+    max_term_width = 100
+)]
+#[command(
+    after_help = "Exit codes: 0 done; 1 ran, and a check failed, the integration failed or it was \
+interrupted; 2 could not run.\n\nStart with: occupant new my-case.toml && occupant run my-case.toml"
+)]
+pub struct Cli {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    Run(run::Args),
+    Check(check::Args),
+    New(new::Args),
+    Schema(schema::Args),
+    Completions(completions::Args),
+}
+
+/// Reads the command line and does what it says.
+pub fn main() -> ExitCode {
+    let result = match Cli::parse().command {
+        Command::Run(args) => run::run(&args),
+        Command::Check(args) => check::check(&args),
+        Command::New(args) => new::new(&args),
+        Command::Schema(args) => schema::print(&args),
+        Command::Completions(args) => completions::print(&args),
+    };
+    exit::code(result)
+}

@@ -1,0 +1,161 @@
+//! The MCAP file of a run, from its first byte to its name.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use occupant_core::model::Model;
+use occupant_core::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::sample::Sample;
+use occupant_core::simulate::Outcome;
+
+use super::exit::Failure;
+use super::output_file::{Existing, FileProblem, PartialFile};
+use super::run::program;
+use super::scenario::{Opened, ScenarioArgs};
+use crate::mcap::{About, Document, McapOptions, McapRecorder};
+
+/// A recorder that writes a file, or none.
+pub struct Recording(Option<Open>);
+
+struct Open {
+    partial: PathBuf,
+    recorder: McapRecorder<PartialFile>,
+}
+
+/// What became of the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Written {
+    /// None was asked for.
+    Nothing,
+    /// It is complete.
+    Complete(PathBuf),
+    /// The run did not complete; this is what there is.
+    Partial(PathBuf),
+}
+
+impl Written {
+    /// Its name, if there is one.
+    pub fn name(&self) -> Option<String> {
+        match self {
+            Written::Nothing => None,
+            Written::Complete(path) | Written::Partial(path) => Some(path.display().to_string()),
+        }
+    }
+}
+
+impl Recording {
+    /// Writes nothing.
+    pub fn none() -> Self {
+        Recording(None)
+    }
+
+    /// Begins the file.
+    ///
+    /// # Errors
+    /// A file that exists, without `force`; whatever the file system says.
+    pub fn begin(
+        name: &Path,
+        existing: Existing,
+        args: &ScenarioArgs,
+        opened: &Opened,
+    ) -> Result<Self, Failure> {
+        let about = about(args, opened)?;
+        let file = PartialFile::create(name, existing).map_err(|e| refused(&e))?;
+        let partial = file.partial_path().to_owned();
+        let recorder = McapRecorder::new(file, about, McapOptions::default());
+        let recorder = recorder
+            .map_err(|e| Failure::plain(format!("{} cannot be written: {e}", partial.display())))?;
+        Ok(Recording(Some(Open { partial, recorder })))
+    }
+
+    /// Words about what a run that broke off left behind.
+    pub fn left(&self) -> String {
+        match &self.0 {
+            Some(open) => format!(
+                "\n = done: what was written before is in {}",
+                open.partial.display()
+            ),
+            None => String::new(),
+        }
+    }
+
+    /// Closes the file; it gets its name only if the run is complete.
+    ///
+    /// # Errors
+    /// Whatever the file system says.
+    pub fn close(self, completed: bool) -> Result<Written, Failure> {
+        let Some(open) = self.0 else {
+            return Ok(Written::Nothing);
+        };
+        let file = open.recorder.into_inner();
+        let closed = match completed {
+            true => file.publish().map(Written::Complete),
+            false => file.keep().map(Written::Partial),
+        };
+        closed.map_err(|problem| {
+            let partial = open.partial.display();
+            Failure::BrokeOff(format!(
+                "error: {problem}\n = done: the run is in {partial}"
+            ))
+        })
+    }
+}
+
+/// A file that cannot be begun.
+fn refused(problem: &FileProblem) -> Failure {
+    Failure::plain(problem.to_string())
+}
+
+impl Recorder for Recording {
+    fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
+        match &mut self.0 {
+            Some(open) => open.recorder.begin(model),
+            None => Ok(()),
+        }
+    }
+
+    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        match &mut self.0 {
+            Some(open) => open.recorder.record(sample),
+            None => Ok(Flow::Continue),
+        }
+    }
+
+    fn end(&mut self, outcome: &Outcome) -> Result<(), RecorderError> {
+        match &mut self.0 {
+            Some(open) => open.recorder.end(outcome),
+            None => Ok(()),
+        }
+    }
+}
+
+/// What the file says of where it comes from. Nothing in it depends on the day or the machine.
+fn about(args: &ScenarioArgs, opened: &Opened) -> Result<About, Failure> {
+    let name = args.scenario.file_name().unwrap_or_default();
+    let name = name.to_string_lossy().into_owned();
+    let resolved = opened.loaded.explicit().to_toml();
+    let resolved = resolved
+        .map_err(|e| Failure::plain(format!("the scenario cannot be written down: {e}")))?;
+    let media_type = match args.scenario.extension() {
+        Some(e) if e.eq_ignore_ascii_case("json") => "application/json",
+        _ => "application/toml",
+    };
+    let mut notes = BTreeMap::new();
+    if !args.overrides.is_empty() {
+        notes.insert("overrides".to_owned(), args.overrides.join("\n"));
+    }
+    Ok(About {
+        program: program(),
+        scenario: Document {
+            name,
+            media_type: media_type.to_owned(),
+            content: opened.bytes.clone(),
+        },
+        resolved: Some(Document {
+            name: "resolved.toml".to_owned(),
+            media_type: "application/toml".to_owned(),
+            content: resolved.into_bytes(),
+        }),
+        notes,
+    })
+}

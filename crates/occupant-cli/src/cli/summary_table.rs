@@ -1,0 +1,190 @@
+//! The short table at the end of a run.
+
+use occupant_core::summary::{Acceleration, ContactBegin, FirstContact, RunStatus, Summary};
+
+use super::recording::Written;
+use super::table::Align::{Left, Right};
+use super::table::{NONE, Table, facts, number};
+
+/// The table: title, accelerations, belts, first contacts, and how far to trust the run.
+pub fn summary_table(summary: &Summary, written: &Written) -> String {
+    let mut parts = vec![title(summary), accelerations(summary)];
+    if !summary.belts.is_empty() {
+        parts.push(belts(summary));
+    }
+    if !summary.first_contacts.is_empty() {
+        parts.push(first_contacts(summary));
+    }
+    parts.push(trust(summary, written));
+    parts.join("\n")
+}
+
+fn title(summary: &Summary) -> String {
+    let reached = format!("{} to {} ms", ms(summary.start_s), ms(summary.reached_s));
+    let ending = match summary.status {
+        RunStatus::Completed => reached,
+        RunStatus::Interrupted => format!("INTERRUPTED: {reached} of {} ms", ms(summary.end_s)),
+        RunStatus::Failed => format!("FAILED: {reached} of {} ms", ms(summary.end_s)),
+    };
+    format!("{}\n{ending}\n", summary.title)
+}
+
+fn accelerations(summary: &Summary) -> String {
+    let mut table = Table::new(&[
+        ("acceleration", Left),
+        ("peak, g", Right),
+        ("at, ms", Right),
+        ("3 ms held, g", Right),
+        ("from–to, ms", Right),
+        ("3 ms in total, g", Right),
+    ]);
+    let a = &summary.accelerations;
+    for (name, part) in [
+        ("head", &a.head),
+        ("chest", &a.chest),
+        ("pelvis", &a.pelvis),
+    ] {
+        table.row(acceleration(name, part));
+    }
+    table.text()
+}
+
+fn acceleration(name: &str, part: &Acceleration) -> [String; 6] {
+    let held = part.three_ms_contiguous;
+    let total = part.three_ms_cumulative;
+    [
+        name.to_owned(),
+        number(part.peak_g, 1),
+        ms(part.peak_time_s),
+        held.map_or(NONE.to_owned(), |l| number(l.level_g, 1)),
+        held.map_or(NONE.to_owned(), |l| {
+            format!("{}–{}", ms(l.from_s), ms(l.to_s))
+        }),
+        total.map_or(NONE.to_owned(), |l| number(l.level_g, 1)),
+    ]
+}
+
+fn belts(summary: &Summary) -> String {
+    let mut table = Table::new(&[
+        ("belt", Left),
+        ("loop force, N", Right),
+        ("at, ms", Right),
+        ("stretch, mm", Right),
+        ("force on body, N", Right),
+    ]);
+    for belt in &summary.belts {
+        table.row([
+            belt.belt.clone(),
+            number(belt.loop_force_n, 0),
+            belt.time_s.map_or(NONE.to_owned(), ms),
+            number(belt.elongation_m * 1e3, 1),
+            number(belt.body_force_n, 0),
+        ]);
+    }
+    table.text()
+}
+
+fn first_contacts(summary: &Summary) -> String {
+    let mut table = Table::new(&[
+        ("new contact", Left),
+        ("surface", Left),
+        ("at, ms", Right),
+        ("speed, m/s", Right),
+        ("greatest force, N", Right),
+        ("at, ms", Right),
+        ("on", Left),
+    ]);
+    for first in &summary.first_contacts {
+        rows_of(summary, first)
+            .into_iter()
+            .for_each(|row| table.row(row));
+    }
+    table.text()
+}
+
+/// A row for each surface that a sphere touched after the start; the greatest force stands in the first.
+fn rows_of(summary: &Summary, first: &FirstContact) -> Vec<[String; 7]> {
+    let peak = summary
+        .sphere_forces
+        .iter()
+        .find(|p| p.sphere == first.sphere);
+    let none = || NONE.to_owned();
+    let force = match peak {
+        Some(p) => [number(p.force_n, 0), ms(p.time_s), p.surface.clone()],
+        None => [none(), none(), none()],
+    };
+    let new = |c: &&ContactBegin| c.sphere == first.sphere && !c.at_start;
+    let mut touches: Vec<[String; 3]> = summary
+        .contacts
+        .iter()
+        .filter(new)
+        .map(|c| [c.surface.clone(), ms(c.time_s), number(c.closing_m_s, 2)])
+        .collect();
+    if touches.is_empty() {
+        touches.push([none(), none(), none()]);
+    }
+    let row = |(i, [surface, at, speed]): (usize, [String; 3])| {
+        let (name, [n, when, on]) = match i {
+            0 => (first.sphere.clone(), force.clone()),
+            _ => (String::new(), [String::new(), String::new(), String::new()]),
+        };
+        [name, surface, at, speed, n, when, on]
+    };
+    touches.into_iter().enumerate().map(row).collect()
+}
+
+fn trust(summary: &Summary, written: &Written) -> String {
+    let mut lines = Vec::new();
+    if let Some(e) = &summary.head_excursion {
+        let mm = |way: &str, distance_m: f64| format!("{way} {} mm", number(distance_m * 1e3, 0));
+        let ways = [
+            format!(
+                "{} at {} ms",
+                mm("forward", e.forward_m),
+                ms(e.forward_time_s)
+            ),
+            mm("up", e.up_m),
+            mm("down", e.down_m),
+            mm("left", e.left_m),
+            mm("right", e.right_m),
+        ];
+        lines.push(("head excursion", ways.join(", ")));
+    }
+    lines.push((
+        "energy balance",
+        format!(
+            "error {:.1e} of the greatest kinetic energy in the vehicle, {} J",
+            summary.energy.balance_error,
+            number(summary.energy.greatest_kinetic_j, 0)
+        ),
+    ));
+    lines.push(("integration", integration(summary)));
+    match written {
+        Written::Nothing => {}
+        Written::Complete(path) => lines.push(("written", path.display().to_string())),
+        Written::Partial(path) => {
+            lines.push(("written", format!("{} (partial)", path.display())));
+        }
+    }
+    facts(&lines)
+}
+
+fn integration(summary: &Summary) -> String {
+    let s = &summary.solver;
+    let rejected = match s.rejected {
+        0 => String::new(),
+        n => format!(" ({n} rejected)"),
+    };
+    let time = s
+        .wall_time_s
+        .map_or(String::new(), |t| format!(", {t:.3} s of wall time"));
+    format!(
+        "{}, {} steps{rejected}, {} evaluations, {} outputs{time}",
+        s.integrator, s.steps, s.evaluations, s.outputs
+    )
+}
+
+/// Seconds as milliseconds.
+fn ms(time_s: f64) -> String {
+    format!("{:.1}", time_s * 1e3)
+}

@@ -1,0 +1,195 @@
+use std::process::Stdio;
+
+use super::{answer, code, err, folder_with_case, json, occupant, out, row};
+
+#[test]
+fn the_table_and_the_json_tell_the_same_numbers() {
+    let folder = folder_with_case();
+    let table = out(&answer(folder.path(), &["run", "case.toml", "--no-mcap"]));
+    let output = answer(folder.path(), &["run", "case.toml", "--no-mcap", "--json"]);
+    let json = json(&output);
+    assert_eq!((code(&output), err(&output)), (0, String::new()));
+    assert_eq!(json["status"], "completed");
+    for part in ["head", "chest", "pelvis"] {
+        let a = &json["accelerations"][part];
+        let cells = row(&table, part);
+        assert_eq!(
+            cells[1],
+            format!("{:.1}", a["peak_g"].as_f64().unwrap()),
+            "{table}"
+        );
+        assert_eq!(
+            cells[2],
+            format!("{:.1}", 1e3 * a["peak_time_s"].as_f64().unwrap())
+        );
+        let held = a["three_ms_contiguous"]["level_g"].as_f64().unwrap();
+        assert_eq!(cells[3], format!("{held:.1}"));
+        let total = a["three_ms_cumulative"]["level_g"].as_f64().unwrap();
+        assert_eq!(cells[5], format!("{total:.1}"));
+    }
+    for belt in json["belts"].as_array().unwrap() {
+        let cells = row(&table, belt["belt"].as_str().unwrap());
+        assert_eq!(
+            cells[1],
+            format!("{:.0}", belt["loop_force_n"].as_f64().unwrap())
+        );
+        assert_eq!(
+            cells[2],
+            format!("{:.1}", 1e3 * belt["time_s"].as_f64().unwrap())
+        );
+    }
+    for first in json["first_contacts"].as_array().unwrap() {
+        // "head" has a row among the accelerations too: the later one is meant
+        let name = first["sphere"].as_str().unwrap();
+        let rows = table
+            .lines()
+            .filter(|l| l.split_whitespace().next() == Some(name));
+        let cells: Vec<&str> = rows.last().unwrap().split_whitespace().collect();
+        match first["contact"].as_object() {
+            None => assert_eq!(cells[1], "–"),
+            Some(contact) => {
+                assert_eq!(cells[1], contact["surface"].as_str().unwrap());
+                assert_eq!(
+                    cells[2],
+                    format!("{:.1}", 1e3 * contact["time_s"].as_f64().unwrap())
+                );
+                assert_eq!(
+                    cells[3],
+                    format!("{:.2}", contact["closing_m_s"].as_f64().unwrap())
+                );
+            }
+        }
+    }
+    let solver = &json["solver"];
+    assert!(table.contains(&format!(
+        "{} steps, {} evaluations",
+        solver["steps"], solver["evaluations"]
+    )));
+    assert!(table.contains(&format!(
+        "{:.1e}",
+        json["energy"]["balance_error"].as_f64().unwrap()
+    )));
+}
+
+#[test]
+fn a_run_keeps_its_energy_balance() {
+    let folder = folder_with_case();
+    let output = answer(folder.path(), &["run", "case.toml", "--no-mcap", "--json"]);
+    let error = json(&output)["energy"]["balance_error"].as_f64().unwrap();
+    // measured: 2e-6
+    assert!(error < 1e-3, "{error}");
+}
+
+#[test]
+fn values_are_changed_from_the_command_line() {
+    let folder = folder_with_case();
+    let run = |words: &[&str]| {
+        let mut all = vec!["run", "case.toml", "--no-mcap", "--json"];
+        all.extend(words);
+        let output = answer(folder.path(), &all);
+        assert_eq!(code(&output), 0, "{}", err(&output));
+        json(&output)
+    };
+    let shorter = run(&[
+        "--set",
+        "time.end=50 ms",
+        "--set",
+        "path.speed=20 mph",
+        "--set",
+        "path.delta_v='20 mph'",
+    ]);
+    assert_eq!(shorter["reached_s"], 0.05);
+    assert_eq!(shorter["overrides"].as_array().unwrap().len(), 3);
+    let (as_it_is, slack) = (run(&[]), run(&["--set", "belts.*.slack='8 cm'"]));
+    let head = |json: &serde_json::Value| json["head_excursion"]["forward_m"].as_f64().unwrap();
+    assert!(
+        head(&slack) > head(&as_it_is),
+        "slack belts let the head go farther"
+    );
+}
+
+#[test]
+fn nothing_is_said_when_quiet() {
+    let folder = folder_with_case();
+    let output = answer(folder.path(), &["run", "case.toml", "-q"]);
+    assert_eq!(
+        (code(&output), out(&output), err(&output)),
+        (0, String::new(), String::new())
+    );
+    assert!(folder.path().join("case.mcap").exists());
+    let output = answer(
+        folder.path(),
+        &["run", "case.toml", "-q", "--json", "--no-mcap"],
+    );
+    assert_eq!(json(&output)["status"], "completed");
+}
+
+#[test]
+fn a_reader_that_goes_away_is_no_failure() {
+    let folder = folder_with_case();
+    for words in [
+        &["run", "case.toml", "--no-mcap"][..],
+        &["schema"],
+        &["check", "case.toml"],
+    ] {
+        let mut child = std::process::Command::new(assert_cmd::cargo::cargo_bin!("occupant"))
+            .args(words)
+            .current_dir(folder.path())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::null())
+            .spawn()
+            .unwrap();
+        drop(child.stdout.take());
+        assert_eq!(child.wait().unwrap().code(), Some(0), "{words:?}");
+    }
+}
+
+#[test]
+fn a_table_beside_the_scenario_is_found_from_anywhere() {
+    let folder = folder_with_case();
+    let inner = folder.path().join("inner");
+    std::fs::create_dir(&inner).unwrap();
+    let text = std::fs::read_to_string(folder.path().join("case.toml")).unwrap();
+    let (before, rest) = text.split_once("[path]").unwrap();
+    let (_, after) = rest.split_once("[body]").unwrap();
+    let path = "[path]\nkind = \"table\"\nfile = \"path.csv\"\n\n[body]";
+    std::fs::write(inner.join("case.toml"), format!("{before}{path}{after}")).unwrap();
+    let csv = "t,x,y,z,roll,pitch,yaw\n0,0,0,0,0,0,0\n0.1,1,0,0,0,0,0\n0.2,2,0,0,0,0,0\n0.3,3,0,0,0,0,0\n";
+    std::fs::write(inner.join("path.csv"), csv).unwrap();
+    let output = answer(folder.path(), &["run", "inner/case.toml", "--no-mcap"]);
+    assert_eq!(code(&output), 0, "{}", err(&output));
+    std::fs::remove_file(inner.join("path.csv")).unwrap();
+    let output = answer(folder.path(), &["run", "inner/case.toml", "--no-mcap"]);
+    assert_eq!(code(&output), 2);
+    assert!(err(&output).contains("path.csv"), "{}", err(&output));
+}
+
+#[test]
+fn a_run_that_fails_says_when_and_why_and_leaves_what_it_has() {
+    let folder = folder_with_case();
+    let words = [
+        "run",
+        "case.toml",
+        "--set",
+        "integrator.step=5 ms",
+        "--set",
+        "output.interval=5 ms",
+        "--set",
+        "materials.*.k1=\"100 MN/m\"",
+    ];
+    let output = occupant(folder.path()).args(words).output().unwrap();
+    assert_eq!(code(&output), 1);
+    assert!(
+        err(&output).contains("no longer a finite number"),
+        "{}",
+        err(&output)
+    );
+    assert!(
+        err(&output).contains("case.partial.mcap"),
+        "{}",
+        err(&output)
+    );
+    assert!(out(&output).contains("FAILED"), "{}", out(&output));
+    assert!(folder.path().join("case.partial.mcap").exists());
+    assert!(!folder.path().join("case.mcap").exists());
+}

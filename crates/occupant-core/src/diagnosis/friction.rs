@@ -1,0 +1,172 @@
+//! Stability of friction in an explicit step: step·f·wF/(v_s·m_eff) must stay below 2.
+//!
+//! Friction is −f·wF·v_t/√(v_t² + v_s²); at low slip it is a damper f·wF/v_s against the effective mass along the surface.
+//! Ours (model text, section 6); the masses are those of the posture at the start.
+
+use serde::Serialize;
+
+use super::mobility::Mobility;
+use super::rates::FrictionMasses;
+use crate::model::Model;
+use crate::problem::Problems;
+use crate::recorder::{Flow, Recorder, RecorderError};
+use crate::sample::Sample;
+use crate::setup::Integrator;
+
+/// Stability number above which a warning is due.
+pub const LIMIT: f64 = 2.0;
+
+/// A sphere's friction against one material that was too strong for the step.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct UnstableFriction {
+    /// Name of the sphere.
+    pub sphere: String,
+    /// Name of the surface.
+    pub surface: String,
+    /// Name of its material.
+    pub material: String,
+    /// When the number was greatest.
+    pub time_s: f64,
+    /// Normal force then.
+    pub normal_force_n: f64,
+    /// The number.
+    pub number: f64,
+    /// The step.
+    pub step_s: f64,
+}
+
+/// Watches the normal forces of a run at its output times; remembers the worst of each sphere and material.
+#[derive(Clone, Debug, Default)]
+pub struct FrictionWatch {
+    masses: Option<FrictionMasses>,
+    /// 0 under error control, which finds a stable step by itself.
+    step_s: f64,
+    /// By sphere and material.
+    worst: Vec<Worst>,
+}
+
+#[derive(Clone, Copy, Debug, Default)]
+struct Worst {
+    number: f64,
+    time_s: f64,
+    normal_force_n: f64,
+    surface: usize,
+}
+
+impl FrictionWatch {
+    /// Nothing seen yet.
+    pub fn new() -> Self {
+        FrictionWatch::default()
+    }
+
+    /// What was unstable in the run of `model`, once for each sphere and material, in the body's order.
+    pub fn found(&self, model: &Model) -> Vec<UnstableFriction> {
+        let setup = model.setup();
+        let materials = setup.materials.len().max(1);
+        let unstable = self.worst.iter().enumerate();
+        unstable
+            .filter(|(_, worst)| worst.number > LIMIT)
+            .map(|(i, worst)| UnstableFriction {
+                sphere: setup.body.spheres[i / materials].name.clone(),
+                surface: setup.surfaces[worst.surface].name.clone(),
+                material: setup.materials[i % materials].name.clone(),
+                time_s: worst.time_s,
+                normal_force_n: worst.normal_force_n,
+                number: worst.number,
+                step_s: self.step_s,
+            })
+            .collect()
+    }
+
+    /// The same as warnings, one for each material: the worst sphere in figures, the others by name.
+    pub fn warnings(&self, model: &Model) -> Problems {
+        let mut problems = Problems::new();
+        let found = self.found(model);
+        for material in &model.setup().materials {
+            let own = || found.iter().filter(|f| f.material == material.name);
+            if let Some(worst) = own().max_by(|a, b| a.number.total_cmp(&b.number)) {
+                let others: Vec<&str> = own()
+                    .filter(|f| f.sphere != worst.sphere)
+                    .map(|f| f.sphere.as_str())
+                    .collect();
+                warn(&mut problems, worst, &others);
+            }
+        }
+        problems
+    }
+
+    fn see(&mut self, model: &Model, sphere: usize, surface: usize, force_n: f64, time_s: f64) {
+        let Some(masses) = &self.masses else {
+            return;
+        };
+        let number = masses.number(model, sphere, surface, force_n, self.step_s);
+        let setup = model.setup();
+        let material = setup.surfaces[surface].material;
+        let worst = &mut self.worst[sphere * setup.materials.len() + material];
+        if number > worst.number {
+            *worst = Worst {
+                number,
+                time_s,
+                normal_force_n: force_n,
+                surface,
+            };
+        }
+    }
+}
+
+/// Words for the worst sphere on a material.
+fn warn(problems: &mut Problems, worst: &UnstableFriction, others: &[&str]) {
+    let step_ms = worst.step_s * 1e3;
+    let also = match others {
+        [] => String::new(),
+        names => format!(" (so may {})", names.join(", ")),
+    };
+    problems.warning(
+        format!("materials.{}.friction", worst.material),
+        format!(
+            "friction is too stiff for the step of {step_ms:.4} ms: {:.0} N of {} on {} at t = {:.1} ms make a stability number of {:.1}, and the sphere may chatter{also}",
+            worst.normal_force_n,
+            worst.sphere,
+            worst.surface,
+            worst.time_s * 1e3,
+            worst.number,
+        ),
+        format!(
+            "at most {LIMIT}: a step of {:.4} ms or less, or a `friction_speed` {:.1} times as large",
+            step_ms * LIMIT / worst.number,
+            worst.number / LIMIT
+        ),
+    );
+}
+
+impl Recorder for FrictionWatch {
+    fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
+        let setup = model.setup();
+        let step_s = match setup.integrator {
+            Integrator::Rk4 { step_s } => step_s,
+            Integrator::Adaptive { .. } => 0.0,
+        };
+        *self = FrictionWatch {
+            masses: Some(FrictionMasses::new(model, &Mobility::new(model))),
+            step_s,
+            worst: vec![Worst::default(); setup.materials.len() * setup.body.spheres.len()],
+        };
+        Ok(())
+    }
+
+    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        if self.step_s == 0.0 {
+            return Ok(Flow::Continue);
+        }
+        for contact in sample.contacts() {
+            self.see(
+                sample.model,
+                contact.sphere,
+                contact.surface,
+                contact.normal_force_n,
+                sample.time_s,
+            );
+        }
+        Ok(Flow::Continue)
+    }
+}

@@ -1,0 +1,167 @@
+//! How easily the body gives way: accelerations for unit loads in the posture at the start.
+//!
+//! The equations of motion are linear in the loads, so the difference of two solutions is the exact response; at rest
+//! no velocity term is in the way. Ours; the report has no such estimate.
+
+use nalgebra::{Matrix3, SymmetricEigen, Vector3};
+
+use crate::kernel::dynamics::{Accelerations, Wrench, solve};
+use crate::kernel::kinematics::{Kinematics, LIMBS};
+use crate::kernel::skeleton::Skeleton;
+use crate::kernel::state::State;
+use crate::kernel::vector::V3;
+use crate::model::Model;
+
+/// Responses of the body at the start of a run.
+#[derive(Clone, Debug)]
+pub struct Mobility<'a> {
+    skeleton: &'a Skeleton<f64>,
+    kinematics: Kinematics<f64>,
+    unloaded: Accelerations<f64>,
+}
+
+impl<'a> Mobility<'a> {
+    /// Of the body as it stands at the start.
+    pub fn new(model: &'a Model) -> Self {
+        let skeleton = &model.system().skeleton;
+        let start = &model.start().state;
+        let zero = State::zero();
+        let still = State {
+            velocity: zero.velocity,
+            omega: zero.omega,
+            hinge_rate: zero.hinge_rate,
+            ..*start
+        };
+        let kinematics = Kinematics::new(skeleton, &still);
+        let unloaded = solve(skeleton, &kinematics, &[0.0; 4], &[Wrench::zero(); 12]);
+        Mobility {
+            skeleton,
+            kinematics,
+            unloaded,
+        }
+    }
+
+    /// Places at the start.
+    pub fn kinematics(&self) -> &Kinematics<f64> {
+        &self.kinematics
+    }
+
+    /// Acceleration of a point of a segment for a unit force there, space axes, 1/kg.
+    pub fn of_point(&self, segment: usize, point: V3<f64>) -> Matrix3<f64> {
+        let arm = point - self.kinematics.joint[segment];
+        let column = |force: V3<f64>| {
+            let mut loads = [Wrench::zero(); 12];
+            loads[segment] = Wrench {
+                force,
+                moment: arm.cross(force),
+            };
+            let loaded = self.loaded(&loads);
+            let joint = loaded.joint[segment] - self.unloaded.joint[segment];
+            let alpha = loaded.alpha[segment] - self.unloaded.alpha[segment];
+            (joint + alpha.cross(arm)).to_vector()
+        };
+        symmetric(column)
+    }
+
+    /// Angular acceleration of `outer` relative to `inner` for a unit moment between them, space axes, 1/(kg·m²).
+    pub fn of_joint(&self, inner: usize, outer: usize) -> Matrix3<f64> {
+        let relative = |a: &Accelerations<f64>| a.alpha[outer] - a.alpha[inner];
+        let column = |moment: V3<f64>| {
+            let mut loads = [Wrench::zero(); 12];
+            loads[outer].moment = moment;
+            loads[inner].moment = -moment;
+            (relative(&self.loaded(&loads)) - relative(&self.unloaded)).to_vector()
+        };
+        symmetric(column)
+    }
+
+    /// α̈ of the hinge of a limb for a unit moment in it, 1/(kg·m²).
+    pub fn of_hinge(&self, limb: usize) -> f64 {
+        let (upper, lower) = LIMBS[limb];
+        let axis = self.kinematics.axes[upper].y;
+        let mut loads = [Wrench::zero(); 12];
+        loads[lower].moment = axis;
+        loads[upper].moment = -axis;
+        self.loaded(&loads).hinge[limb] - self.unloaded.hinge[limb]
+    }
+
+    fn loaded(&self, loads: &[Wrench<f64>; 12]) -> Accelerations<f64> {
+        solve(self.skeleton, &self.kinematics, &[0.0; 4], loads)
+    }
+}
+
+/// The matrix of a linear response, its rounding made symmetric.
+fn symmetric(column: impl Fn(V3<f64>) -> Vector3<f64>) -> Matrix3<f64> {
+    let unit = |i: usize| V3::of(&Vector3::ith(i, 1.0));
+    let matrix = Matrix3::from_columns(&[column(unit(0)), column(unit(1)), column(unit(2))]);
+    (matrix + matrix.transpose()) * 0.5
+}
+
+/// Greatest eigenvalue of a symmetric matrix.
+pub(super) fn greatest(matrix: Matrix3<f64>) -> f64 {
+    SymmetricEigen::new(matrix).eigenvalues.max()
+}
+
+/// The part of a mobility across `normal`.
+pub(super) fn across(mobility: &Matrix3<f64>, normal: &Vector3<f64>) -> Matrix3<f64> {
+    let plane = Matrix3::identity() - normal * normal.transpose();
+    plane * mobility * plane
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::body::Segment;
+    use crate::diagnosis::tests::free_body;
+
+    #[test]
+    fn a_point_responds_as_the_change_of_its_velocity_under_an_impulse_says() {
+        // reciprocity and positive work: the mobility is symmetric and positive for any point of any segment
+        let model = free_body();
+        let mobility = Mobility::new(&model);
+        for segment in Segment::ALL {
+            let n = segment.index();
+            let point = mobility.kinematics().joint[n]
+                + V3 {
+                    x: 0.03,
+                    y: -0.05,
+                    z: 0.1,
+                };
+            let raw = mobility.of_point(n, point);
+            let eigenvalues = SymmetricEigen::new(raw).eigenvalues;
+            assert!(eigenvalues.min() > 0.0, "{segment:?}: {eigenvalues}");
+            // no point can be lighter than nothing or heavier than the body
+            let lightest = 1.0 / greatest(raw);
+            assert!(lightest < model.body().mass_kg(), "{segment:?}");
+        }
+    }
+
+    #[test]
+    fn a_force_through_the_whole_body_moves_its_mass() {
+        // Σ over segments of the response to M_n·g is g itself: the tree falls as one
+        let model = free_body();
+        let mobility = Mobility::new(&model);
+        let k = mobility.kinematics();
+        let skeleton = &model.system().skeleton;
+        let mut loads = [Wrench::zero(); 12];
+        for (n, link) in skeleton.links.iter().enumerate() {
+            let force = V3 {
+                x: link.mass,
+                y: 0.0,
+                z: 0.0,
+            };
+            loads[n] = Wrench {
+                force,
+                moment: (k.cg(skeleton, n) - k.joint[n]).cross(force),
+            };
+        }
+        let a = mobility.loaded(&loads);
+        for segment in Segment::ALL {
+            let n = segment.index();
+            let change = a.joint[n] - mobility.unloaded.joint[n];
+            // measured: 2e-15
+            assert!((change.x - 1.0).abs() < 1e-12, "{segment:?}: {change:?}");
+            assert!(a.alpha[n].norm_squared().sqrt() < 1e-11, "{segment:?}");
+        }
+    }
+}

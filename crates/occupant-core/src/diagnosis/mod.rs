@@ -1,0 +1,208 @@
+//! What will be simulated and whether the step suits it: the answer of `occupant check`.
+//!
+//! All figures are those of the start of the run. Ours; the report prints the seating only.
+
+pub mod friction;
+pub mod mobility;
+pub mod rates;
+mod start;
+
+use nalgebra::Vector3;
+use serde::Serialize;
+
+pub use friction::{FrictionWatch, UnstableFriction};
+pub use rates::{RK4_STABILITY_LIMIT, Rate, SphereRate};
+pub use start::{BeltStart, ContactStart, SeatStart, SettleStart, SphereBehind};
+
+use crate::body::Segment;
+use crate::model::Model;
+use crate::path::{PathCursor, VehiclePath};
+use crate::setup::Integrator;
+use crate::simulate::output_count;
+use mobility::Mobility;
+use rates::FrictionMasses;
+
+/// Degrees of freedom of the body.
+pub const DEGREES_OF_FREEDOM: usize = 31;
+
+/// What will be simulated.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Diagnosis {
+    /// The scenario's title.
+    pub title: String,
+    /// The occupant.
+    pub body: BodyFigures,
+    /// Times and integrator.
+    pub run: RunFigures,
+    /// Motion of the vehicle.
+    pub vehicle: VehicleFigures,
+    /// How many surfaces there are.
+    pub surfaces: usize,
+    /// Seating, if the body was seated.
+    pub seat: Option<SeatStart>,
+    /// Pairs that exert a force at the start.
+    pub contacts: Vec<ContactStart>,
+    /// Spheres that start behind a surface and do not feel it until they have come out.
+    pub behind: Vec<SphereBehind>,
+    /// Belts.
+    pub belts: Vec<BeltStart>,
+    /// Contact springs, by sphere.
+    pub sphere_rates: Vec<SphereRate>,
+    /// Belt springs, joint dampers and joint springs.
+    pub other_rates: Vec<Rate>,
+    /// The fastest of all.
+    pub fastest: Option<Rate>,
+    /// step/time scale of the fastest; absent where the error control chooses the step.
+    pub step_by_time_scale: Option<f64>,
+}
+
+/// The occupant in figures.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BodyFigures {
+    /// Name of the body.
+    pub name: String,
+    /// Total mass.
+    pub mass_kg: f64,
+    /// Mass of each segment.
+    pub segments: Vec<SegmentFigures>,
+    /// Degrees of freedom.
+    pub degrees_of_freedom: usize,
+    /// Contact spheres.
+    pub spheres: usize,
+}
+
+/// A segment in figures.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SegmentFigures {
+    /// Name.
+    pub segment: &'static str,
+    /// Mass.
+    pub mass_kg: f64,
+    /// Length.
+    pub length_m: f64,
+}
+
+/// The run in figures.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct RunFigures {
+    /// Start.
+    pub start_s: f64,
+    /// End.
+    pub end_s: f64,
+    /// Output interval.
+    pub output_s: f64,
+    /// Outputs.
+    pub outputs: usize,
+    /// Which integrator.
+    pub integrator: &'static str,
+    /// Fixed step; absent under error control.
+    pub step_s: Option<f64>,
+    /// Gravity.
+    pub gravity_m_s2: f64,
+}
+
+/// The vehicle in figures.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct VehicleFigures {
+    /// Kind of path.
+    pub path: &'static str,
+    /// Speed at the start.
+    pub start_speed_m_s: f64,
+    /// Speed at the end.
+    pub end_speed_m_s: f64,
+    /// Magnitude of the change of velocity between them.
+    pub velocity_change_m_s: f64,
+}
+
+impl Diagnosis {
+    /// False if the fixed step is too long for the fastest rate; true where it is not known to be.
+    pub fn step_is_stable(&self) -> bool {
+        self.step_by_time_scale
+            .is_none_or(|number| number < RK4_STABILITY_LIMIT)
+    }
+}
+
+/// Looks at the start of a run.
+pub fn diagnose(model: &Model) -> Diagnosis {
+    let setup = model.setup();
+    let step_s = match setup.integrator {
+        Integrator::Rk4 { step_s } => Some(step_s),
+        Integrator::Adaptive { .. } => None,
+    };
+    let mobility = Mobility::new(model);
+    let masses = FrictionMasses::new(model, &mobility);
+    let sphere_rates = rates::of_spheres(model, &mobility, &masses, step_s);
+    let start = start::look(model, &mobility);
+    let mut other_rates = start.belt_rates;
+    other_rates.extend(rates::of_joints(model, &mobility));
+    let all = sphere_rates.iter().map(|s| &s.rate).chain(&other_rates);
+    let fastest = all
+        .min_by(|a, b| a.time_scale_s.total_cmp(&b.time_scale_s))
+        .cloned();
+    let step_by_time_scale = step_s
+        .zip(fastest.as_ref())
+        .map(|(h, r)| h / r.time_scale_s);
+    Diagnosis {
+        title: setup.title.clone(),
+        body: body(model),
+        run: RunFigures {
+            start_s: setup.time.start_s,
+            end_s: setup.time.end_s,
+            output_s: setup.time.output_s,
+            outputs: output_count(model),
+            integrator: match setup.integrator {
+                Integrator::Rk4 { .. } => "rk4",
+                Integrator::Adaptive { .. } => "adaptive",
+            },
+            step_s,
+            gravity_m_s2: setup.gravity_m_s2,
+        },
+        vehicle: vehicle(model),
+        surfaces: setup.surfaces.len(),
+        seat: start::seat(model),
+        contacts: start.contacts,
+        behind: start::behind(model, &mobility),
+        belts: start.belts,
+        sphere_rates,
+        other_rates,
+        fastest,
+        step_by_time_scale,
+    }
+}
+
+fn body(model: &Model) -> BodyFigures {
+    let body = model.body();
+    let segment = |s: Segment| SegmentFigures {
+        segment: s.name(),
+        mass_kg: body.segment(s).mass_kg,
+        length_m: body.segment(s).length_m,
+    };
+    BodyFigures {
+        name: body.name.clone(),
+        mass_kg: body.mass_kg(),
+        segments: Segment::ALL.map(segment).to_vec(),
+        degrees_of_freedom: DEGREES_OF_FREEDOM,
+        spheres: body.spheres.len(),
+    }
+}
+
+fn vehicle(model: &Model) -> VehicleFigures {
+    let setup = model.setup();
+    let mut cursor = PathCursor::default();
+    let mut velocity =
+        |t: f64| -> Vector3<f64> { setup.path.motion(t, t, &mut cursor).velocity_m_s };
+    let (first, last) = (velocity(setup.time.start_s), velocity(setup.time.end_s));
+    VehicleFigures {
+        path: match setup.path {
+            VehiclePath::Table(_) => "table",
+            VehiclePath::Pulse(_) => "pulse",
+            VehiclePath::Fixed(_) => "fixed",
+        },
+        start_speed_m_s: first.norm(),
+        end_speed_m_s: last.norm(),
+        velocity_change_m_s: (last - first).norm(),
+    }
+}
+
+#[cfg(test)]
+pub(crate) mod tests;

@@ -1,0 +1,236 @@
+//! Where things stand at the start: seat, contacts, belts.
+
+use serde::Serialize;
+
+use super::mobility::Mobility;
+use super::rates::{Rate, of_belts, vehicle_at_start};
+use crate::compartment::FlatFace;
+use crate::kernel::contact::PASSED;
+use crate::kernel::face;
+use crate::kernel::vector::V3;
+use crate::model::Model;
+use crate::recorder::{Flow, Recorder, RecorderError};
+use crate::sample::{Contact, Sample};
+use crate::seating::InitialPosture;
+use crate::simulate::simulate;
+use crate::surface::{Frame, Outline};
+
+/// Figures of the seating, vehicle axes.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SeatStart {
+    /// Name of the cushion.
+    pub cushion: String,
+    /// Name of the back.
+    pub back: String,
+    /// Depth to which the pelvis sinks into the cushion.
+    pub sink_m: f64,
+    /// Centre of the pelvis sphere.
+    pub pelvis_m: [f64; 3],
+    /// Left knee.
+    pub left_knee_m: [f64; 3],
+    /// Lean of the thighs; 90° is level, forward.
+    pub thighs_deg: f64,
+    /// Lean of the lower legs.
+    pub lower_legs_deg: f64,
+    /// Outcome of settling, if it was asked for.
+    pub settled: Option<SettleStart>,
+}
+
+/// How far settling moved the body, space axes, and what it left over.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct SettleStart {
+    /// Distance that T1 moved.
+    pub moved_m: f64,
+    /// Angle that the body turned.
+    pub turned_deg: f64,
+    /// Force left over.
+    pub residual_force_n: f64,
+    /// Moment left over.
+    pub residual_moment_n_m: f64,
+    /// Weight of the body.
+    pub weight_n: f64,
+}
+
+/// A pair that exerts a force at the start.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ContactStart {
+    /// Name of the sphere.
+    pub sphere: String,
+    /// Name of the surface.
+    pub surface: String,
+    /// Δ.
+    pub depth_m: f64,
+    /// Normal force.
+    pub normal_force_n: f64,
+}
+
+/// A sphere whose centre starts behind a surface, in front of which a user would look for it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SphereBehind {
+    /// Name of the sphere.
+    pub sphere: String,
+    /// Name of the surface.
+    pub surface: String,
+    /// Distance of the centre behind the plane.
+    pub behind_m: f64,
+}
+
+/// A belt at the start.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BeltStart {
+    /// Name of the belt.
+    pub belt: String,
+    /// Name of the sphere that it loops round.
+    pub sphere: String,
+    /// Length on the body.
+    pub length_m: f64,
+    /// Unstretched length.
+    pub rest_length_m: f64,
+    /// Angle of the sphere that it wraps.
+    pub wrap_deg: f64,
+    /// Loop force.
+    pub loop_force_n: f64,
+}
+
+/// What the first sample of a run tells.
+#[derive(Default)]
+pub(super) struct Look {
+    pub contacts: Vec<ContactStart>,
+    pub belts: Vec<BeltStart>,
+    pub belt_rates: Vec<Rate>,
+}
+
+/// Takes the first sample of a run and ends it there.
+pub(super) fn look(model: &Model, mobility: &Mobility<'_>) -> Look {
+    let mut first = First {
+        mobility,
+        look: Look::default(),
+    };
+    // the recorder never fails, so neither does the run
+    let _outcome = simulate(model, &mut first);
+    first.look
+}
+
+struct First<'a> {
+    mobility: &'a Mobility<'a>,
+    look: Look,
+}
+
+impl Recorder for First<'_> {
+    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        self.look = Look {
+            contacts: sample.contacts().map(|c| contact(sample, &c)).collect(),
+            belts: belts(sample),
+            belt_rates: of_belts(sample, self.mobility),
+        };
+        Ok(Flow::Stop)
+    }
+}
+
+fn contact(sample: &Sample<'_>, contact: &Contact) -> ContactStart {
+    let setup = sample.model.setup();
+    ContactStart {
+        sphere: setup.body.spheres[contact.sphere].name.clone(),
+        surface: setup.surfaces[contact.surface].name.clone(),
+        depth_m: contact.depth_m,
+        normal_force_n: contact.normal_force_n,
+    }
+}
+
+fn belts(sample: &Sample<'_>) -> Vec<BeltStart> {
+    let model = sample.model;
+    let setup = model.setup();
+    let laws = setup.belts.iter().zip(&model.system().belts);
+    let belts = laws.zip(sample.belts);
+    belts
+        .map(|((belt, law), action)| BeltStart {
+            belt: belt.name.clone(),
+            sphere: setup.body.spheres[belt.sphere].name.clone(),
+            length_m: action.length,
+            rest_length_m: law.rest_length,
+            wrap_deg: action.wrap.to_degrees(),
+            loop_force_n: action.loop_force,
+        })
+        .collect()
+}
+
+/// The seating's figures, if the body was seated.
+pub(super) fn seat(model: &Model) -> Option<SeatStart> {
+    let (setup, start) = (model.setup(), model.start());
+    let (InitialPosture::Seated(seating), Some(seated)) = (&setup.posture, &start.seated) else {
+        return None;
+    };
+    let settled = start.settled.map(|s| SettleStart {
+        moved_m: s.moved_m.norm(),
+        turned_deg: s.turned_rad.norm().to_degrees(),
+        residual_force_n: s.residual_force_n,
+        residual_moment_n_m: s.residual_moment_n_m,
+        weight_n: s.weight_n,
+    });
+    Some(SeatStart {
+        cushion: setup.surfaces[seating.cushion].name.clone(),
+        back: setup.surfaces[seating.back].name.clone(),
+        sink_m: seated.sink_m,
+        pelvis_m: seated.pelvis_m.into(),
+        left_knee_m: seated.knee_m.into(),
+        thighs_deg: seated.legs_rad[0].to_degrees(),
+        lower_legs_deg: seated.legs_rad[1].to_degrees(),
+        settled,
+    })
+}
+
+/// Passed pairs whose sphere overlaps the face itself, not only its plane.
+pub(super) fn behind(model: &Model, mobility: &Mobility<'_>) -> Vec<SphereBehind> {
+    let (setup, contacts) = (model.setup(), &model.system().contacts);
+    let vehicle = vehicle_at_start(model);
+    let mut found = Vec::new();
+    for group in contacts.groups() {
+        let (_, centre, _) = model.system().sphere(mobility.kinematics(), group.sphere);
+        let radius_m = setup.body.spheres[group.sphere].radius_m;
+        let passed = group
+            .pairs
+            .clone()
+            .filter(|&i| model.start().history.pairs[i].phase == PASSED);
+        for part in passed.flat_map(|i| &contacts.pairs()[i].parts) {
+            let plane = &model.faces()[part.surface];
+            let place = match plane.frame {
+                Frame::Space => centre.to_vector(),
+                Frame::Vehicle => vehicle.point_to_frame(centre.to_vector()),
+            };
+            let behind_m = plane.offset_m - plane.normal.dot(&place);
+            let overlaps = behind_m > 0.0 && behind_m < radius_m;
+            if overlaps && beside_m(plane, &V3::of(&place)) < radius_m {
+                found.push(SphereBehind {
+                    sphere: setup.body.spheres[group.sphere].name.clone(),
+                    surface: setup.surfaces[part.surface].name.clone(),
+                    behind_m,
+                });
+            }
+        }
+    }
+    found
+}
+
+/// Distance of a point's projection from the face, in the face's frame, m.
+fn beside_m(plane: &FlatFace, point: &V3<f64>) -> f64 {
+    let (u, v) = plane.plane_axes();
+    let flat = |p: &nalgebra::Vector3<f64>| [u.dot(p), v.dot(p)];
+    let outline = match &plane.outline {
+        Outline::Polygon(corners) => {
+            let corners: Vec<[f64; 2]> = corners.iter().map(|c| flat(&c.coords)).collect();
+            face::Outline::polygon(&corners)
+        }
+        Outline::Disc {
+            centre_m, radius_m, ..
+        } => {
+            let [u, v] = flat(&centre_m.coords);
+            face::Outline::Disc {
+                centre: face::V2 { u, v },
+                radius: *radius_m,
+            }
+        }
+        Outline::Unbounded { .. } => face::Outline::Unbounded,
+    };
+    let [u, v] = flat(&point.to_vector());
+    outline.offset(face::V2 { u, v }).distance
+}

@@ -1,0 +1,193 @@
+use nalgebra::Vector3;
+
+use super::*;
+use crate::energy::kinetic;
+use crate::kernel::dynamics::{Wrench, solve};
+use crate::kernel::frame::Moving;
+use crate::kernel::kinematics::Kinematics;
+use crate::kernel::state::{FREE, State};
+use crate::kernel::vector::V3;
+use crate::scenario::{Format, Scenario};
+use crate::simulate::simulate;
+
+/// A model from a scenario text.
+pub(crate) fn model_of(text: &str) -> Model {
+    let loaded = Scenario::from_text(text, Format::Toml, "test", &|_| Err("none".into()));
+    let loaded = loaded.unwrap_or_else(|problems| panic!("{problems}"));
+    loaded
+        .model()
+        .map(|(model, _)| model)
+        .unwrap_or_else(|problems| panic!("{problems}"))
+}
+
+/// A body in a crooked posture that nothing touches.
+pub(crate) fn free_body() -> Model {
+    let q: Vec<String> = (0..31)
+        .map(|i| format!("{:.2}", 0.3 + 0.07 * f64::from(i)))
+        .collect();
+    let rates = ["0.0"; 31].join(", ");
+    model_of(&format!(
+        "title = \"free\"\ntime = {{ end = 0.1 }}\npath = {{ kind = \"fixed\" }}\nbody = {{ preset = \"male50\" }}\n\
+         joints = {{ preset = \"male50\" }}\ninitial_state = {{ q = [{}], rates = [{rates}] }}\n",
+        q.join(", ")
+    ))
+}
+
+/// Height of the lowest point of the spheres of [`free_body`], m.
+pub(crate) fn lowest_m() -> f64 {
+    let model = free_body();
+    let mobility = Mobility::new(&model);
+    let spheres = model.body().spheres.iter().enumerate();
+    let bottom = spheres.map(|(i, sphere)| {
+        let (_, centre, _) = model.system().sphere(mobility.kinematics(), i);
+        centre.z - sphere.radius_m
+    });
+    bottom.fold(f64::INFINITY, f64::min)
+}
+
+/// The same body over a floor in space that its lowest spheres press by a little.
+fn standing_on(friction: f64, step: &str) -> Model {
+    let q: Vec<String> = (0..31)
+        .map(|i| format!("{:.2}", 0.3 + 0.07 * f64::from(i)))
+        .collect();
+    let rates = ["0.0"; 31].join(", ");
+    model_of(&format!(
+        "title = \"floor\"\ntime = {{ end = 0.02 }}\npath = {{ kind = \"fixed\" }}\nbody = {{ preset = \"male50\" }}\n\
+         joints = {{ preset = \"male50\" }}\ninitial_state = {{ q = [{}], rates = [{rates}] }}\n\
+         integrator = {{ kind = \"rk4\", step = \"{step}\" }}\n\
+         [materials]\nfloor = {{ k1 = \"50 kN/m\", mu1 = 0.5, friction = {friction} }}\n\
+         [surfaces.floor]\nmaterial = \"floor\"\nframe = \"space\"\nfacing = \"order\"\n\
+         plane = {{ point = [0, 0, {}], normal = [0, 0, 1] }}\n",
+        q.join(", "),
+        lowest_m() + 0.005
+    ))
+}
+
+#[test]
+fn an_impulse_at_a_point_gives_the_kinetic_energy_that_its_mobility_says() {
+    // u = D⁻¹JᵀF has ½uᵀDu = ½F·(JD⁻¹Jᵀ)F: energy and mobility come from different code
+    let model = free_body();
+    let mobility = Mobility::new(&model);
+    let k = mobility.kinematics();
+    let skeleton = &model.system().skeleton;
+    let force = Vector3::new(0.7, -1.1, 0.4);
+    for segment in Segment::ALL {
+        let n = segment.index();
+        let arm = V3 {
+            x: 0.05,
+            y: -0.02,
+            z: 0.11,
+        };
+        let mut loads = [Wrench::zero(); 12];
+        loads[n] = Wrench {
+            force: V3::of(&force),
+            moment: arm.cross(V3::of(&force)),
+        };
+        let still = State {
+            velocity: V3::zero(),
+            omega: [V3::zero(); 8],
+            hinge_rate: [0.0; 4],
+            ..model.start().state
+        };
+        let base = solve(skeleton, k, &[0.0; 4], &[Wrench::zero(); 12]);
+        let pushed = solve(skeleton, k, &[0.0; 4], &loads);
+        let moving = State {
+            velocity: pushed.joint[0] - base.joint[0],
+            omega: std::array::from_fn(|i| pushed.alpha[FREE[i]] - base.alpha[FREE[i]]),
+            hinge_rate: std::array::from_fn(|i| pushed.hinge[i] - base.hinge[i]),
+            ..still
+        };
+        let energy_j = kinetic(
+            skeleton,
+            &Kinematics::new(skeleton, &moving),
+            &Moving::space(),
+        );
+        let by_mobility = 0.5 * force.dot(&(mobility.of_point(n, k.joint[n] + arm) * force));
+        // measured: below 1e-13
+        assert!(
+            (energy_j / by_mobility - 1.0).abs() < 1e-11,
+            "{segment:?}: {energy_j} against {by_mobility}"
+        );
+    }
+}
+
+#[test]
+fn a_spring_rate_is_that_of_stiffness_and_mass() {
+    let d = diagnose(&standing_on(0.5, "0.1 ms"));
+    assert_eq!(d.sphere_rates.len(), 17);
+    for s in &d.sphere_rates {
+        // 50 kN/m at μ₁ = 0.5 unloads at 100 kN/m
+        assert_eq!(s.rate.coefficient, 1e5, "{}", s.rate.of);
+        let expected = (s.rate.effective / 1e5).sqrt();
+        assert_eq!(s.rate.time_scale_s, expected);
+        assert!(s.rate.effective > 0.05 && s.rate.effective < 40.0, "{s:?}");
+    }
+    let fastest = d.fastest.as_ref().unwrap();
+    let least = d.sphere_rates.iter().map(|s| s.rate.time_scale_s);
+    let least = least.chain(d.other_rates.iter().map(|r| r.time_scale_s));
+    assert_eq!(fastest.time_scale_s, least.fold(f64::INFINITY, f64::min));
+    assert!(d.step_is_stable());
+}
+
+#[test]
+fn a_step_beyond_the_stability_limit_is_found() {
+    let stable = diagnose(&standing_on(0.5, "0.1 ms"));
+    let number = stable.step_by_time_scale.unwrap();
+    let limit_ms = 0.1 * RK4_STABILITY_LIMIT / number;
+    let just = |factor: f64| diagnose(&standing_on(0.5, &format!("{} ms", limit_ms * factor)));
+    assert!(just(0.99).step_is_stable());
+    assert!(!just(1.01).step_is_stable());
+}
+
+#[test]
+fn friction_warns_where_its_stability_number_passes_two() {
+    // the watch and the limit of `check` are two ways to the same number
+    let model = standing_on(0.8, "0.1 ms");
+    let mut watch = FrictionWatch::new();
+    simulate(&model, &mut watch).unwrap();
+    assert!(watch.found(&model).is_empty(), "{:?}", watch.found(&model));
+    assert!(watch.warnings(&model).is_empty());
+
+    let slippery = standing_on(2000.0, "0.1 ms");
+    let mut watch = FrictionWatch::new();
+    simulate(&slippery, &mut watch).unwrap();
+    let found = watch.found(&slippery);
+    let d = diagnose(&slippery);
+    assert!(!found.is_empty());
+    for f in &found {
+        let sphere = d
+            .sphere_rates
+            .iter()
+            .find(|s| s.rate.of == f.sphere)
+            .unwrap();
+        let limit_n = sphere.friction_limit_n.unwrap();
+        let expected = friction::LIMIT * f.normal_force_n / limit_n;
+        assert!((f.number / expected - 1.0).abs() < 1e-12);
+        assert!(f.number > friction::LIMIT);
+    }
+    let spheres: std::collections::BTreeSet<&str> =
+        found.iter().map(|f| f.sphere.as_str()).collect();
+    assert_eq!(
+        spheres.len(),
+        found.len(),
+        "once for each sphere and material"
+    );
+}
+
+#[test]
+fn contacts_at_the_start_are_those_of_the_first_output() {
+    let d = diagnose(&standing_on(0.5, "0.1 ms"));
+    assert!(!d.contacts.is_empty());
+    for c in &d.contacts {
+        assert_eq!(c.surface, "floor");
+        // on the loading curve: F = K₁Δ
+        assert!(
+            (c.normal_force_n - 5e4 * c.depth_m).abs() < 1e-9 * c.normal_force_n,
+            "{c:?}"
+        );
+    }
+    assert_eq!(d.body.degrees_of_freedom, 31);
+    assert!(
+        (d.body.segments.iter().map(|s| s.mass_kg).sum::<f64>() - d.body.mass_kg).abs() < 1e-12
+    );
+}

@@ -1,0 +1,27 @@
+//! The greatest value so far and when it was.
+
+/// The greatest value so far and when it was; the first of equals.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Peak {
+    /// Greatest value; minus infinity before the first.
+    pub value: f64,
+    /// Its time.
+    pub time_s: f64,
+}
+
+impl Peak {
+    /// Nothing seen yet.
+    pub const NONE: Peak = Peak {
+        value: f64::NEG_INFINITY,
+        time_s: f64::NAN,
+    };
+
+    /// Looks at a value; true if it is the greatest so far.
+    pub fn see(&mut self, value: f64, time_s: f64) -> bool {
+        let greater = value > self.value;
+        if greater {
+            *self = Peak { value, time_s };
+        }
+        greater
+    }
+}

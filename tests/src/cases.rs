@@ -1,0 +1,195 @@
+//! Bodies, materials, surfaces and whole cases, built in code from published figures.
+
+use nalgebra::{Point3, Vector3};
+use occupant_core::belt::{Belt, RestLength};
+use occupant_core::body::{Body, SEGMENTS, SegmentProperties, standard_spheres};
+use occupant_core::joint::Joints;
+use occupant_core::material::{BilinearSpring, DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
+use occupant_core::path::{FixedPath, VehiclePath, VehiclePose};
+use occupant_core::report_coordinates::{DOF, ReportCoordinates};
+use occupant_core::seating::{InitialPosture, InitialVelocity};
+use occupant_core::setup::{EdgeForce, Integrator, OutputOptions, Setup, TimeSpan};
+use occupant_core::surface::{Facing, Frame, Outline, Surface};
+
+/// Metres in an inch.
+pub const INCH_M: f64 = 0.0254;
+/// Newtons in a pound-force.
+pub const LBF_N: f64 = 4.448_221_615_260_5;
+
+/// The 50th-percentile male of the United States Air Force's GEBOD generator, in 12 segments.
+pub fn male50() -> Body {
+    // length, ρ (in), weight (lb), I_x, I_y, I_z (lb·in·s²)
+    let figures = [
+        (3.08, 2.25, 5.10, 0.1448, 0.0809, 0.2189),
+        (11.34, 6.99, 52.87, 4.2574, 3.2111, 2.8241),
+        (13.71, 7.94, 11.55, 0.2728, 0.3336, 0.1892),
+        (3.76, 1.52, 24.87, 0.9202, 0.8451, 1.0672),
+        (10.26, 5.04, 4.21, 0.1141, 0.1213, 0.0236),
+        (10.26, 5.04, 4.21, 0.1141, 0.1213, 0.0236),
+        (16.28, 9.20, 4.05, 0.2667, 0.2654, 0.0154),
+        (16.28, 9.20, 4.05, 0.2667, 0.2654, 0.0154),
+        (17.35, 9.80, 21.03, 1.3844, 1.4593, 0.3829),
+        (17.35, 9.80, 21.03, 1.3844, 1.4593, 0.3829),
+        (19.45, 10.31, 10.29, 1.0495, 1.1301, 0.1420),
+        (19.45, 10.31, 10.29, 1.0495, 1.1301, 0.1420),
+    ];
+    let segments = figures.map(|(l, rho, weight, ix, iy, iz)| SegmentProperties {
+        length_m: l * INCH_M,
+        mass_kg: weight / 386.04 * LBF_N / INCH_M,
+        cg_from_lower_end_m: rho * INCH_M,
+        inertia_kg_m2: Vector3::new(ix, iy, iz) * (LBF_N * INCH_M),
+    });
+    let radius_m = [
+        3.9, 4.8, 4.7, 2.5, 2.5, 2.0, 2.0, 1.8, 1.8, 3.4, 3.4, 2.4, 2.4, 2.3, 2.3, 1.9, 1.9,
+    ]
+    .map(|r| r * INCH_M);
+    let shoulder_half_width_m = 6.57 * INCH_M;
+    Body {
+        name: "male50".into(),
+        segments,
+        shoulder_half_width_m,
+        hip_half_width_m: 3.35 * INCH_M,
+        spheres: standard_spheres(&segments, shoulder_half_width_m, &radius_m),
+    }
+}
+
+/// `male50` without width: standing straight, all its joints and centres of gravity lie on one vertical line, so that
+/// vertical forces on that line move it as one point mass, exactly.
+pub fn pillar() -> Body {
+    Body {
+        name: "pillar".into(),
+        shoulder_half_width_m: 0.0,
+        hip_half_width_m: 0.0,
+        ..male50()
+    }
+}
+
+/// Length of the bead's heavy segment, m; its centre of gravity is its upper end, T1.
+pub const BEAD_LENGTH_M: f64 = 0.2;
+
+/// One heavy segment, 10 kg with its centre of gravity at T1, and eleven that weigh a part in 10⁹ of it.
+pub fn bead(inertia_kg_m2: f64) -> Body {
+    let light = SegmentProperties {
+        length_m: 0.1,
+        mass_kg: 1e-8,
+        cg_from_lower_end_m: 0.05,
+        inertia_kg_m2: Vector3::repeat(1e-10),
+    };
+    let mut segments = [light; SEGMENTS];
+    segments[0] = SegmentProperties {
+        length_m: BEAD_LENGTH_M,
+        mass_kg: 10.0,
+        cg_from_lower_end_m: BEAD_LENGTH_M,
+        inertia_kg_m2: Vector3::repeat(inertia_kg_m2),
+    };
+    Body {
+        name: "bead".into(),
+        segments,
+        shoulder_half_width_m: 0.0,
+        hip_half_width_m: 0.0,
+        spheres: Vec::new(),
+    }
+}
+
+/// A vehicle at rest at the origin of space.
+pub fn parked() -> VehiclePath {
+    VehiclePath::Fixed(FixedPath::new(VehiclePose::default()).expect("a finite pose"))
+}
+
+/// A body afloat in space: straight, upright, at rest, T1 at the origin; free joints, no gravity, nothing to touch.
+pub fn afloat(body: Body, end_s: f64, step_s: f64) -> Setup {
+    Setup {
+        title: "afloat".into(),
+        body,
+        joints: Joints::default(),
+        gravity_m_s2: 0.0,
+        materials: Vec::new(),
+        surfaces: Vec::new(),
+        edge_force: EdgeForce::default(),
+        belts: Vec::new(),
+        path: parked(),
+        posture: straight(Vector3::zeros(), Vector3::zeros()),
+        velocity: InitialVelocity::WithVehicle,
+        time: TimeSpan {
+            start_s: 0.0,
+            end_s,
+            output_s: end_s,
+        },
+        integrator: Integrator::Rk4 { step_s },
+        output: OutputOptions::default(),
+    }
+}
+
+/// Upright, all segments in line, T1 at a place (m) with a velocity (m/s), space axes.
+pub fn straight(t1_m: Vector3<f64>, velocity_m_s: Vector3<f64>) -> InitialPosture {
+    let (mut q, mut rates) = ([0.0; DOF], [0.0; DOF]);
+    q[..3].copy_from_slice(t1_m.as_slice());
+    rates[..3].copy_from_slice(velocity_m_s.as_slice());
+    InitialPosture::Coordinates(Box::new(ReportCoordinates { q, rates }))
+}
+
+/// A bilinear spring.
+pub fn spring(k1: f64, break_m: f64, k2: f64, mu1: f64, mu2: f64) -> BilinearSpring {
+    BilinearSpring {
+        k1_n_per_m: k1,
+        k2_n_per_m: k2,
+        break_m,
+        returned_1: mu1,
+        returned_2: mu2,
+    }
+}
+
+/// A material of that spring, without friction, that forgets its crush.
+pub fn smooth(spring: BilinearSpring) -> Material {
+    Material {
+        name: "smooth".into(),
+        spring,
+        friction: 0.0,
+        friction_speed_m_s: DEFAULT_FRICTION_SPEED_M_S,
+        memory: Memory::Reset,
+    }
+}
+
+/// The whole plane through the origin of space with normal `axis`, of material 0.
+pub fn plane(axis: Vector3<f64>) -> Surface {
+    Surface {
+        name: "plane".into(),
+        frame: Frame::Space,
+        outline: Outline::Unbounded {
+            point_m: Point3::origin(),
+            axis,
+        },
+        facing: Facing::Order,
+        material: 0,
+        spheres: None,
+    }
+}
+
+/// A rectangle in the plane Z′ = 0 of space, facing up, of material 0.
+pub fn rectangle(name: &str, x_m: [f64; 2], y_m: [f64; 2]) -> Surface {
+    let corner = |x: f64, y: f64| Point3::new(x, y, 0.0);
+    Surface {
+        name: name.into(),
+        frame: Frame::Space,
+        outline: Outline::Polygon(vec![
+            corner(x_m[0], y_m[0]),
+            corner(x_m[1], y_m[0]),
+            corner(x_m[1], y_m[1]),
+            corner(x_m[0], y_m[1]),
+        ]),
+        facing: Facing::Order,
+        material: 0,
+        spheres: None,
+    }
+}
+
+/// A belt round sphere 0 with a straight-line webbing of stiffness `k`, N/m.
+pub fn belt(anchors_m: [Point3<f64>; 2], k: f64, slack_m: f64) -> Belt {
+    Belt {
+        name: "belt".into(),
+        sphere: 0,
+        anchors_m,
+        webbing: spring(k, 0.05, k, 1.0, 1.0),
+        rest: RestLength::Slack { slack_m },
+    }
+}
