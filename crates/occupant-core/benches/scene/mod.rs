@@ -25,6 +25,9 @@ pub const TEXT: &str = include_str!("../car.toml");
 /// Step of the integrator, s.
 pub const STEP_S: f64 = 1e-4;
 
+/// Instant of the crash that is timed, s: belts taut, seat, floor and wheel touched by seven pairs.
+pub const TOUCHING_S: f64 = 0.09;
+
 /// The scenario, read and checked.
 pub fn load() -> Loaded {
     let no_file = |name: &str| Err(format!("{name}: the scene has no file beside it"));
@@ -106,8 +109,12 @@ impl Instant {
     /// Number of pairs that exert a force.
     pub fn touches(&mut self) -> usize {
         let mut count = Count(0);
-        self.system
-            .rate_observed::<false>(&self.state, &self.frames, &mut self.history, &mut count);
+        self.system.rate_observed::<false>(
+            &self.state,
+            &self.frames,
+            &mut self.history,
+            &mut count,
+        );
         count.0
     }
 }
