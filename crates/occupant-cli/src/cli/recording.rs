@@ -63,8 +63,15 @@ impl Recording {
         let file = PartialFile::create(name, existing).map_err(|e| refused(&e))?;
         let partial = file.partial_path().to_owned();
         let recorder = McapRecorder::new(file, about, McapOptions::default());
-        let recorder = recorder
+        let mut recorder = recorder
             .map_err(|e| Failure::plain(format!("{} cannot be written: {e}", partial.display())))?;
+        if let Some((name, text)) = opened.loaded.table() {
+            recorder = recorder.with_table(Document {
+                name: name.to_owned(),
+                media_type: "text/csv".to_owned(),
+                content: text.as_bytes().to_vec(),
+            });
+        }
         Ok(Recording(Some(Open { partial, recorder })))
     }
 
