@@ -4,28 +4,35 @@ use super::positive;
 use crate::problem::Problems;
 use crate::setup::{Integrator, TimeSpan};
 
+/// More steps than this are a slip of the pen.
+const MOST_STEPS: f64 = 1e9;
+/// More outputs than this are, too.
+const MOST_OUTPUTS: f64 = 1e7;
+
 pub(super) fn check_time(time: &TimeSpan, integrator: &Integrator, problems: &mut Problems) {
-    if !time.start_s.is_finite() || !time.end_s.is_finite() || time.end_s <= time.start_s {
+    let span_s = time.end_s - time.start_s;
+    if !(span_s > 0.0 && span_s.is_finite()) {
         problems.error(
-            "time",
+            "time.end",
             format!("a run from {} s to {} s", time.start_s, time.end_s),
             "an end after the start",
         );
     }
-    positive(problems, "time.output", time.output_s, "s");
-    match *integrator {
-        Integrator::Rk4 { step_s } => {
-            if positive(problems, "integrator.step", step_s, "s") {
-                let steps = (time.end_s - time.start_s) / step_s;
-                if steps > 1e9 {
-                    problems.error(
-                        "integrator.step",
-                        format!("{step_s} s, {steps:.1e} steps"),
-                        "fewer than 1e9 steps",
-                    );
-                }
-            }
+    let mut at_most = |path: &str, interval_s: f64, most: f64, what: &str| {
+        if positive(problems, path, interval_s, "s") && span_s / interval_s > most {
+            problems.error(
+                path,
+                format!(
+                    "{interval_s} s, which makes {:.1e} {what}",
+                    span_s / interval_s
+                ),
+                format!("at most {most:.0e} {what}"),
+            );
         }
+    };
+    at_most("output.interval", time.output_s, MOST_OUTPUTS, "outputs");
+    match *integrator {
+        Integrator::Rk4 { step_s } => at_most("integrator.step", step_s, MOST_STEPS, "steps"),
         Integrator::Adaptive {
             relative,
             absolute_m,
@@ -33,12 +40,12 @@ pub(super) fn check_time(time: &TimeSpan, integrator: &Integrator, problems: &mu
             min_step_s,
             max_step_s,
         } => {
+            at_most("integrator.max_step", max_step_s, MOST_STEPS, "steps");
             positive(problems, "integrator.relative", relative, "");
-            positive(problems, "integrator.absolute", absolute_m, "m");
+            positive(problems, "integrator.absolute_length", absolute_m, "m");
             positive(problems, "integrator.absolute_speed", absolute_m_s, "m/s");
             positive(problems, "integrator.min_step", min_step_s, "s");
-            if positive(problems, "integrator.max_step", max_step_s, "s") && max_step_s < min_step_s
-            {
+            if max_step_s < min_step_s {
                 problems.error(
                     "integrator.max_step",
                     format!("{max_step_s} s, below the smallest step {min_step_s} s"),
