@@ -457,6 +457,15 @@ impl<'a> Run<'a> {
             } else {
                 t + wanted
             };
+            if end <= t {
+                // the clock no longer tells the step's ends apart
+                return Err(StepError::StepTooSmall {
+                    time_s: t,
+                    step_s: wanted,
+                    min_step_s,
+                    error: 0.0,
+                });
+            }
             let (h, middle) = (end - t, 0.5 * (t + end));
             let cursor = &mut self.cursor;
             let history = &mut self.history;
