@@ -162,7 +162,7 @@ fn a_run_is_extended_by_cards() {
     assert!(
         out.contains("start = \"0.2 s\"")
             && out.contains("end = \"0.25 s\"")
-            && out.contains("PASSED PAIR"),
+            && out.contains("passed = ["),
         "{out}"
     );
     assert_eq!(convert(folder.path(), &[deck, "--extend", "0.1"]).0, 2);
