@@ -13,6 +13,7 @@ mod extend;
 mod interrupt;
 mod new;
 mod output_file;
+mod print;
 mod progress;
 mod recording;
 mod run;
@@ -50,6 +51,7 @@ enum Command {
     New(new::Args),
     Schema(schema::Args),
     Convert(convert::Args),
+    Print(print::Args),
     Completions(completions::Args),
 }
 
@@ -61,6 +63,7 @@ pub fn main() -> ExitCode {
         Command::New(args) => new::new(&args),
         Command::Schema(args) => schema::print(&args),
         Command::Convert(args) => convert::convert(&args),
+        Command::Print(args) => print::print_run(&args),
         Command::Completions(args) => completions::print(&args),
     };
     exit::code(result)

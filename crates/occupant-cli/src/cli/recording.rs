@@ -65,6 +65,10 @@ impl Recording {
         let recorder = McapRecorder::new(file, about, McapOptions::default());
         let recorder = recorder
             .map_err(|e| Failure::plain(format!("{} cannot be written: {e}", partial.display())))?;
+        let recorder = match opened.loaded.table() {
+            Some((file, text)) => recorder.with_table(table(file, text)),
+            None => recorder,
+        };
         Ok(Recording(Some(Open { partial, recorder })))
     }
 
@@ -126,6 +130,16 @@ impl Recorder for Recording {
             Some(open) => open.recorder.end(outcome),
             None => Ok(()),
         }
+    }
+}
+
+/// The table that the scenario names, as an attachment.
+fn table(file: &str, text: &str) -> Document {
+    let name = Path::new(file).file_name().unwrap_or(file.as_ref());
+    Document {
+        name: name.to_string_lossy().into_owned(),
+        media_type: "text/csv".to_owned(),
+        content: text.as_bytes().to_vec(),
     }
 }
 
