@@ -69,10 +69,12 @@
 //! - before the first step: [`model`], [`compartment`], [`seat`], [`settle`];
 //! - every step: [`kernel`] (the rate of change of the state), [`integrate`], [`simulate`];
 //! - results: [`sample`], [`energy`], [`report_coordinates`], [`recorder`];
+//! - to go on with a run: [`checkpoint`];
 //! - of any time history: [`signal`], [`measure`], [`correlation`].
 
 pub mod belt;
 pub mod body;
+pub mod checkpoint;
 pub mod compartment;
 pub mod correlation;
 pub mod diagnosis;

@@ -3,6 +3,7 @@
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 
 use crate::body::Segment;
+use crate::checkpoint::{Checkpoint, Progress};
 use crate::energy::EnergyLedger;
 use crate::joint::Joint;
 use crate::kernel::belts::BeltAction;
@@ -16,6 +17,7 @@ use crate::kernel::{Evaluation, Frames, History};
 use crate::model::Model;
 use crate::path::{FrameMotion, VehiclePose};
 use crate::report_coordinates::ReportCoordinates;
+use crate::simulate::FirstTouch;
 
 /// Work of the integrator so far.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -59,6 +61,10 @@ pub struct Sample<'a> {
     pub energy: EnergyLedger,
     /// Work of the integrator so far.
     pub effort: Effort,
+    /// Sums and extremes so far, this output included.
+    pub progress: Progress,
+    /// First touches so far, in the order in which they happened.
+    pub first_touches: &'a [FirstTouch],
 }
 
 /// A touching pair for output.
@@ -83,6 +89,19 @@ pub struct Contact {
 }
 
 impl<'a> Sample<'a> {
+    /// All that the run carries on from here.
+    pub fn checkpoint(&self) -> Checkpoint {
+        Checkpoint {
+            index: self.index,
+            time_s: self.time_s,
+            state: *self.state,
+            pairs: self.history.pairs.clone(),
+            belts: self.history.belts.clone(),
+            first_touches: self.first_touches.to_vec(),
+            progress: self.progress,
+        }
+    }
+
     /// Upper and lower end of a segment, vehicle axes, m (item 1).
     pub fn end_points_m(&self, segment: Segment) -> [Point3<f64>; 2] {
         let k = &self.evaluation.kinematics;

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::body::Segment;
+use crate::checkpoint::{Checkpoint, CheckpointError, Progress};
 use crate::energy::{EnergyLedger, EnergyStart, Stored};
 use crate::integrate::dormand_prince::{self, Tolerance};
 use crate::integrate::rk4::{self, Stage};
@@ -135,38 +136,73 @@ impl std::error::Error for RecordingFailed {
     }
 }
 
+/// Why a run could not be resumed, or not recorded.
+#[derive(Debug)]
+pub enum ResumeError {
+    /// The checkpoint is none of the model's.
+    Refused(CheckpointError),
+    /// The recorder failed.
+    Recording(RecordingFailed),
+}
+
+impl fmt::Display for ResumeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ResumeError::Refused(error) => error.fmt(f),
+            ResumeError::Recording(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for ResumeError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            ResumeError::Refused(error) => Some(error),
+            ResumeError::Recording(error) => error.source(),
+        }
+    }
+}
+
 /// Runs `model` from its start to its end time.
 ///
 /// A step that fails is an [`Outcome`] of [`Status::Failed`]: what was recorded before stands.
 ///
 /// # Errors
 /// What the recorder reports.
-pub fn simulate(model: &Model, mut recorder: impl Recorder) -> Result<Outcome, RecordingFailed> {
-    let mut run = Run::new(model);
-    let failed = |time_s, source| RecordingFailed { time_s, source };
-    recorder.begin(model).map_err(|e| failed(run.time_s, e))?;
-    let mut status = Status::Completed;
-    for index in 0.. {
-        let flow = run
-            .record(index, &mut recorder)
-            .map_err(|e| failed(run.time_s, e))?;
-        if flow == Flow::Stop {
-            status = Status::Stopped;
-            break;
-        }
-        let Some(target_s) = output_time(model, index + 1) else {
-            break;
-        };
-        if let Err(error) = run.advance_to(target_s) {
-            status = Status::Failed(error);
-            break;
-        }
-    }
-    let outcome = run.outcome(status);
-    recorder
-        .end(&outcome)
-        .map_err(|e| failed(outcome.time_s, e))?;
-    Ok(outcome)
+pub fn simulate(model: &Model, recorder: impl Recorder) -> Result<Outcome, RecordingFailed> {
+    Run::new(model).go(0, recorder)
+}
+
+/// Runs `model` from one of its outputs to its end time. The first output recorded is that of the checkpoint; all outputs
+/// and the outcome are, to the bit, those of a run from the start, whose end time may have been another.
+///
+/// # Errors
+/// A checkpoint that does not fit the model; what the recorder reports.
+pub fn resume(
+    model: &Model,
+    checkpoint: &Checkpoint,
+    recorder: impl Recorder,
+) -> Result<Outcome, ResumeError> {
+    let run = Run::from_checkpoint(model, checkpoint).map_err(ResumeError::Refused)?;
+    run.go(checkpoint.index, recorder)
+        .map_err(ResumeError::Recording)
+}
+
+/// Records the output of a checkpoint once more, to the bit, without a step. The recorder neither begins nor ends here.
+///
+/// # Errors
+/// A checkpoint that does not fit the model; what the recorder reports.
+pub fn replay(
+    model: &Model,
+    checkpoint: &Checkpoint,
+    recorder: &mut impl Recorder,
+) -> Result<(), ResumeError> {
+    let mut run = Run::from_checkpoint(model, checkpoint).map_err(ResumeError::Refused)?;
+    let recorded = run.record(checkpoint.index, recorder).map_err(|source| {
+        let time_s = run.time_s;
+        ResumeError::Recording(RecordingFailed { time_s, source })
+    });
+    recorded.map(|_| ())
 }
 
 /// Time of output `index`, s; the last is the end of the run.
@@ -234,6 +270,53 @@ impl<'a> Run<'a> {
         }
     }
 
+    fn from_checkpoint(model: &'a Model, from: &Checkpoint) -> Result<Self, CheckpointError> {
+        from.check(model)?;
+        let mut run = Run::new(model);
+        let (pairs, belts) = (from.pairs.clone(), from.belts.clone());
+        let progress = from.progress;
+        run.time_s = from.time_s;
+        run.state = from.state;
+        run.history = History::new(&model.system().contacts, pairs, belts);
+        run.effort = progress.effort;
+        run.wanted_s = progress.wanted_s;
+        run.energy_start = Some(progress.energy_start);
+        run.greatest_kinetic_j = progress.greatest_kinetic_j;
+        run.greatest_imbalance_j = progress.greatest_imbalance_j;
+        run.seen.know(&from.first_touches);
+        Ok(run)
+    }
+
+    /// From the present output, number `first`, to the end.
+    fn go(mut self, first: usize, mut recorder: impl Recorder) -> Result<Outcome, RecordingFailed> {
+        let failed = |time_s, source| RecordingFailed { time_s, source };
+        recorder
+            .begin(self.model)
+            .map_err(|e| failed(self.time_s, e))?;
+        let mut status = Status::Completed;
+        for index in first.. {
+            let flow = self
+                .record(index, &mut recorder)
+                .map_err(|e| failed(self.time_s, e))?;
+            if flow == Flow::Stop {
+                status = Status::Stopped;
+                break;
+            }
+            let Some(target_s) = output_time(self.model, index + 1) else {
+                break;
+            };
+            if let Err(error) = self.advance_to(target_s) {
+                status = Status::Failed(error);
+                break;
+            }
+        }
+        let outcome = self.outcome(status);
+        recorder
+            .end(&outcome)
+            .map_err(|e| failed(outcome.time_s, e))?;
+        Ok(outcome)
+    }
+
     /// Evaluates the present state with all details and hands it to the recorder.
     fn record(
         &mut self,
@@ -267,10 +350,10 @@ impl<'a> Run<'a> {
                 start,
             )
         };
-        let start = self
+        let energy_start = *self
             .energy_start
             .get_or_insert_with(|| ledger(&EnergyStart::default()).as_start());
-        let energy = ledger(start);
+        let energy = ledger(&energy_start);
         self.greatest_kinetic_j = self.greatest_kinetic_j.max(energy.kinetic_relative_j);
         self.greatest_imbalance_j = self.greatest_imbalance_j.max(energy.balance_j.abs());
         recorder.record(&Sample {
@@ -287,6 +370,14 @@ impl<'a> Run<'a> {
             belts: &self.touches.belts,
             energy,
             effort: self.effort,
+            progress: Progress {
+                effort: self.effort,
+                wanted_s: self.wanted_s,
+                energy_start,
+                greatest_kinetic_j: self.greatest_kinetic_j,
+                greatest_imbalance_j: self.greatest_imbalance_j,
+            },
+            first_touches: &self.seen.touches,
         })
     }
 
@@ -366,6 +457,15 @@ impl<'a> Run<'a> {
             } else {
                 t + wanted
             };
+            if end <= t {
+                // the clock no longer tells the step's ends apart
+                return Err(StepError::StepTooSmall {
+                    time_s: t,
+                    step_s: wanted,
+                    min_step_s,
+                    error: 0.0,
+                });
+            }
             let (h, middle) = (end - t, 0.5 * (t + end));
             let cursor = &mut self.cursor;
             let history = &mut self.history;
@@ -528,6 +628,14 @@ impl<'a> Seen<'a> {
             known: vec![false; combinations],
             touches: Vec::with_capacity(combinations),
         }
+    }
+
+    /// Takes over what an earlier part of the run has seen; all of it is of the model.
+    fn know(&mut self, touches: &[FirstTouch]) {
+        for touch in touches {
+            self.known[touch.sphere * self.model.faces().len() + touch.surface] = true;
+        }
+        self.touches.extend_from_slice(touches);
     }
 
     fn note(&mut self, time_s: f64, touch: &Touch<f64>) {

@@ -179,7 +179,7 @@ impl Seek for PartialFile {
 }
 
 /// `dir/run.mcap` → `dir/run.partial.mcap`.
-fn partial_path(target: &Path) -> PathBuf {
+pub fn partial_path(target: &Path) -> PathBuf {
     let mut name = OsString::from(target.file_stem().unwrap_or_default());
     name.push(".partial");
     if let Some(extension) = target.extension() {

@@ -9,9 +9,11 @@ use occupant_core::sample::Sample;
 use occupant_core::simulate::Outcome;
 
 use super::exit::Failure;
-use super::output_file::{Existing, FileProblem, PartialFile};
+use super::output_file::{Existing, FileProblem, PartialFile, partial_path};
+use super::resume::Resumption;
 use super::run::program;
-use super::scenario::{Opened, ScenarioArgs};
+use super::scenario::{Opened, ScenarioArgs, file_name};
+use crate::mcap::about::RESOLVED;
 use crate::mcap::{About, Document, McapOptions, McapRecorder};
 
 /// A recorder that writes a file, or none.
@@ -52,21 +54,30 @@ impl Recording {
     /// Begins the file.
     ///
     /// # Errors
-    /// A file that exists, without `force`; whatever the file system says.
+    /// A file that exists, without `force`; the file that is being resumed; whatever the file system says.
     pub fn begin(
         name: &Path,
         existing: Existing,
         args: &ScenarioArgs,
         opened: &Opened,
+        from: Option<&Resumption>,
     ) -> Result<Self, Failure> {
-        let about = about(args, opened)?;
+        let mut about = about(args, opened)?;
+        if let Some(from) = from {
+            from.keep_from(name, &partial_path(name))?;
+            about.notes.extend(from.notes());
+        }
         let file = PartialFile::create(name, existing).map_err(|e| refused(&e))?;
         let partial = file.partial_path().to_owned();
         let recorder = McapRecorder::new(file, about, McapOptions::default());
         let recorder = recorder
             .map_err(|e| Failure::plain(format!("{} cannot be written: {e}", partial.display())))?;
         let recorder = match opened.loaded.table() {
-            Some((file, text)) => recorder.with_table(table(file, text)),
+            Some((name, text)) => recorder.with_table(Document {
+                name: file_name(Path::new(name)),
+                media_type: "text/csv".to_owned(),
+                content: text.as_bytes().to_vec(),
+            }),
             None => recorder,
         };
         Ok(Recording(Some(Open { partial, recorder })))
@@ -133,20 +144,9 @@ impl Recorder for Recording {
     }
 }
 
-/// The table that the scenario names, as an attachment.
-fn table(file: &str, text: &str) -> Document {
-    let name = Path::new(file).file_name().unwrap_or(file.as_ref());
-    Document {
-        name: name.to_string_lossy().into_owned(),
-        media_type: "text/csv".to_owned(),
-        content: text.as_bytes().to_vec(),
-    }
-}
-
 /// What the file says of where it comes from. Nothing in it depends on the day or the machine.
 fn about(args: &ScenarioArgs, opened: &Opened) -> Result<About, Failure> {
-    let name = args.scenario.file_name().unwrap_or_default();
-    let name = name.to_string_lossy().into_owned();
+    let name = file_name(&args.scenario);
     let resolved = opened.loaded.explicit().to_toml();
     let resolved = resolved
         .map_err(|e| Failure::plain(format!("the scenario cannot be written down: {e}")))?;
@@ -166,7 +166,7 @@ fn about(args: &ScenarioArgs, opened: &Opened) -> Result<About, Failure> {
             content: opened.bytes.clone(),
         },
         resolved: Some(Document {
-            name: "resolved.toml".to_owned(),
+            name: RESOLVED.to_owned(),
             media_type: "application/toml".to_owned(),
             content: resolved.into_bytes(),
         }),

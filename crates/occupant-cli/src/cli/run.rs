@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use occupant_core::diagnosis::{FrictionWatch, UnstableFriction};
 use occupant_core::scenario::Diagnostics;
-use occupant_core::simulate::{Status, simulate};
+use occupant_core::simulate::{ResumeError, Status, resume, simulate};
 use occupant_core::summary::{RunStatus, Summarizer, Summary};
 use serde::Serialize;
 
@@ -14,6 +14,7 @@ use super::interrupt::Interrupt;
 use super::output_file::Existing;
 use super::progress::Progress;
 use super::recording::{Recording, Written};
+use super::resume::{Resumed, Resumption, Retold};
 use super::scenario::{self, Opened, ScenarioArgs};
 use super::speak::{self, say};
 use super::summary_table::summary_table;
@@ -21,7 +22,8 @@ use super::summary_table::summary_table;
 /// Simulate the occupant and write what happened
 ///
 /// Writes an MCAP file (by default SCENARIO.mcap in the present folder) and ends with a short table. While the run goes
-/// on, and if it does not complete, the file is called SCENARIO.partial.mcap.
+/// on, and if it does not complete, the file is called SCENARIO.partial.mcap. With --resume it goes on from what another
+/// run has left, with the same states as one run to the new end, and writes SCENARIO.resumed.mcap.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     #[command(flatten)]
@@ -30,6 +32,14 @@ pub struct Args {
     /// The file to write
     #[arg(short, long, value_name = "FILE.mcap")]
     output: Option<PathBuf>,
+
+    /// End at this time instead of the scenario's time.end, such as 0.4 or '400 ms'
+    #[arg(long, value_name = "TIME")]
+    until: Option<String>,
+
+    /// Go on from the last checkpoint of this file, of a run of the same scenario that ended, was interrupted or killed
+    #[arg(long, value_name = "FILE.mcap")]
+    resume: Option<PathBuf>,
 
     /// Write no file, only the summary
     #[arg(long, conflicts_with_all = ["output", "force"])]
@@ -54,6 +64,9 @@ struct Answer<'a> {
     program: String,
     scenario: String,
     overrides: &'a [String],
+    /// What it goes on from; absent without `--resume`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    resumed: Option<Resumed>,
     /// The file written; absent with `--no-mcap`.
     file: Option<String>,
     #[serde(flatten)]
@@ -64,20 +77,33 @@ struct Answer<'a> {
 
 /// Runs a scenario.
 pub fn run(args: &Args) -> Result<Done, Failure> {
-    let opened = scenario::open(&args.scenario)?;
+    let chosen = chosen(args);
+    let opened = scenario::open(&chosen)?;
+    let from = args.resume.as_deref();
+    let from = from.map(|f| Resumption::find(f, &opened)).transpose()?;
     if !args.quiet && !opened.warnings.is_empty() {
         say(&format!("{}\n", opened.warnings));
     }
     let mut recording = match output_name(args)? {
-        Some(name) => Recording::begin(&name, existing(args), &args.scenario, &opened)?,
+        Some(name) => Recording::begin(&name, existing(args), &chosen, &opened, from.as_ref())?,
         None => Recording::none(),
     };
+    if let (Some(from), false) = (&from, args.quiet) {
+        from.announce();
+    }
     let mut summarizer = Summarizer::new();
     let mut friction = FrictionWatch::new();
     let watchers = (Interrupt::listen(), Progress::new(args.quiet));
-    let keepers = (&mut summarizer, (&mut friction, &mut recording));
+    let told = Retold {
+        earlier: from.as_ref().map(|f| f.earlier.clone()).unwrap_or_default(),
+        to: (&mut summarizer, &mut friction),
+    };
+    let recorders = (watchers, (told, &mut recording));
     let began = Instant::now();
-    let ended = simulate(&opened.model, (watchers, keepers));
+    let ended = match &from {
+        Some(from) => resume(&opened.model, &from.checkpoint, recorders),
+        None => simulate(&opened.model, recorders).map_err(ResumeError::Recording),
+    };
     let outcome = ended.map_err(|error| {
         let left = recording.left();
         Failure::BrokeOff(format!("error: {error}{left}"))
@@ -87,11 +113,29 @@ pub fn run(args: &Args) -> Result<Done, Failure> {
     let written = recording.close(completed)?;
     let summary = summarizer.summary(Some(wall_time_s));
     let summary = summary.ok_or_else(|| Failure::plain("the run left no summary"))?;
-    tell(args, &opened, &summary, &friction, &written)?;
+    let answer = Answer {
+        program: program(),
+        scenario: chosen.scenario.display().to_string(),
+        overrides: &chosen.overrides,
+        resumed: from.as_ref().map(Resumption::describe),
+        file: written.name(),
+        summary: &summary,
+        unstable_friction: friction.found(&opened.model),
+        warnings: Vec::new(),
+    };
+    tell(args, &opened, answer, &friction, &written)?;
     match completed {
         true => Ok(Done::Well),
         false => Err(Failure::BrokeOff(broke_off(&summary, &written))),
     }
+}
+
+/// The scenario with its end as `--until` has it.
+fn chosen(args: &Args) -> ScenarioArgs {
+    let mut chosen = args.scenario.clone();
+    let until = args.until.as_ref().map(|time| format!("time.end={time}"));
+    chosen.overrides.extend(until);
+    chosen
 }
 
 /// The file to write: as given, or the scenario's name in the present folder.
@@ -110,7 +154,10 @@ fn output_name(args: &Args) -> Result<Option<PathBuf>, Failure> {
         )
     })?;
     let mut name = stem.as_os_str().to_owned();
-    name.push(".mcap");
+    name.push(match args.resume {
+        Some(_) => ".resumed.mcap",
+        None => ".mcap",
+    });
     Ok(Some(PathBuf::from(name)))
 }
 
@@ -125,12 +172,12 @@ fn existing(args: &Args) -> Existing {
 fn tell(
     args: &Args,
     opened: &Opened,
-    summary: &Summary,
+    mut answer: Answer<'_>,
     friction: &FrictionWatch,
     written: &Written,
 ) -> Result<(), Failure> {
     // the forces of a run that has failed say nothing about its friction
-    let unstable = match summary.status {
+    let unstable = match answer.summary.status {
         RunStatus::Failed => Diagnostics::new(),
         _ => opened.loaded.diagnose(&friction.warnings(&opened.model)),
     };
@@ -139,21 +186,13 @@ fn tell(
     }
     if args.json {
         let warnings = opened.warnings.iter().chain(unstable.iter());
-        let answer = Answer {
-            program: program(),
-            scenario: args.scenario.scenario.display().to_string(),
-            overrides: &args.scenario.overrides,
-            file: written.name(),
-            summary,
-            unstable_friction: friction.found(&opened.model),
-            warnings: warnings.map(ToString::to_string).collect(),
-        };
+        answer.warnings = warnings.map(ToString::to_string).collect();
         return speak::print(&speak::json(&answer)?);
     }
     if args.quiet {
         return Ok(());
     }
-    speak::print(&summary_table(summary, written))
+    speak::print(&summary_table(answer.summary, written))
 }
 
 /// Name and version of this program.

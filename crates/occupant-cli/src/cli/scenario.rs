@@ -8,9 +8,11 @@ use occupant_core::problem::Severity;
 use occupant_core::scenario::{Diagnostics, Draft, Format, Loaded};
 
 use super::exit::Failure;
+use crate::mcap::StoredRun;
+use crate::mcap::about::RESOLVED;
 
 /// Which scenario, and what is changed in it.
-#[derive(Debug, Args)]
+#[derive(Clone, Debug, Args)]
 pub struct ScenarioArgs {
     /// The scenario, TOML or JSON
     #[arg(value_name = "SCENARIO")]
@@ -57,6 +59,35 @@ pub fn open(args: &ScenarioArgs) -> Result<Opened, Failure> {
         model,
         warnings,
     })
+}
+
+/// The scenario that a results file was made from, all that was changed in it included.
+///
+/// # Errors
+/// A file without it, or with one that this program cannot read.
+pub fn stored(file: &Path, run: &StoredRun) -> Result<Loaded, Failure> {
+    let name = file.display();
+    let bytes = run.attachments.get(RESOLVED);
+    let bytes = bytes.ok_or_else(|| Failure::plain(format!("{name} holds no scenario")))?;
+    let resolver = |table: &str| {
+        let found = run.attachments.get(&file_name(Path::new(table)));
+        found
+            .cloned()
+            .ok_or_else(|| format!("{name} does not hold it"))
+    };
+    Draft::read_bytes(bytes, Some(Format::Toml), RESOLVED)
+        .and_then(|draft| draft.load(&resolver))
+        .map_err(|problems| {
+            Failure::plain(format!(
+                "the scenario in {name} cannot be read:\n{problems}"
+            ))
+        })
+}
+
+/// The name of a file without its folder.
+pub fn file_name(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default();
+    name.to_string_lossy().into_owned()
 }
 
 /// The format that the file name tells, if it does.

@@ -16,6 +16,9 @@ pub const RUN: &str = "occupant.run";
 /// Name of the last metadata record.
 pub const RESULT: &str = "occupant.result";
 
+/// Name of the attachment that is the scenario with all that was resolved and overridden.
+pub const RESOLVED: &str = "resolved.toml";
+
 /// A text that travels with the results.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Document {

@@ -44,6 +44,10 @@ pub enum Value {
     Rotation(fn(&Sample<'_>, usize) -> UnitQuaternion<f64>),
     /// The report's coordinates or their rates.
     Coordinates(fn(&Sample<'_>) -> [f64; DOF]),
+    /// A list of numbers.
+    Numbers(fn(&Sample<'_>) -> Vec<f64>),
+    /// A list of indices.
+    Indices(fn(&Sample<'_>) -> Vec<u32>),
     /// The surfaces that the sphere touches, one by one.
     Touches,
 }
@@ -70,7 +74,8 @@ impl Column {
                 one(number, name, Kind::Message("foxglove.Vector3"))
             }
             Value::Rotation(_) => one(number, name, Kind::Message("foxglove.Quaternion")),
-            Value::Coordinates(_) => many(number, name, Kind::Number),
+            Value::Coordinates(_) | Value::Numbers(_) => many(number, name, Kind::Number),
+            Value::Indices(_) => many(number, name, Kind::Index),
             Value::Touches => many(number, name, Kind::Message("occupant.Touch")),
         }
     }
@@ -89,6 +94,8 @@ impl Column {
             }
             Value::Rotation(of) => wire.rotation(number, &of(sample, index)),
             Value::Coordinates(of) => wire.numbers(number, &of(sample)),
+            Value::Numbers(of) => wire.numbers(number, &of(sample)),
+            Value::Indices(of) => wire.indices(number, &of(sample)),
             Value::Touches => write_touches(number, sample, index, wire),
         }
     }

@@ -16,9 +16,11 @@ mod layout;
 mod log;
 mod recorder;
 pub mod scene;
+pub mod stored;
 pub mod topics;
 mod transforms;
 pub mod wire;
 
 pub use about::{About, Document};
 pub use recorder::{McapOptions, McapRecorder};
+pub use stored::StoredRun;

@@ -188,6 +188,7 @@ fn plan(model: &Model, belts: &[String]) -> Vec<(String, &'static Group, usize)>
         let topic = topics::REPORT_COORDINATES.to_owned();
         plan.push((topic, &groups::REPORT_COORDINATES, 0));
     }
+    plan.push((topics::CHECKPOINT.to_owned(), &groups::CHECKPOINT, 0));
     plan
 }
 
@@ -298,7 +299,8 @@ impl<W: Write + Seek> Recorder for McapRecorder<W> {
             .as_mut()
             .ok_or("an output before the run began")?;
         tracks.write_groups(writer, wire, sample)?;
-        if sample.index.is_multiple_of(tracks.stride) || sample.index == tracks.last {
+        let (first, last) = (self.outputs == 0, sample.index == tracks.last);
+        if first || last || sample.index.is_multiple_of(tracks.stride) {
             tracks.write_frame(writer, wire, sample, self.options.force_scale_m_per_n)?;
         }
         self.outputs += 1;

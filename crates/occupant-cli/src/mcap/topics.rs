@@ -37,6 +37,8 @@ pub const REPORT_COORDINATES: &str = "/occupant/report_coordinates";
 pub const ENERGY: &str = "/energy";
 /// Integrator.
 pub const SOLVER: &str = "/solver";
+/// All that a run carries on from an output.
+pub const CHECKPOINT: &str = "/checkpoint";
 /// Warnings, first touches, the end.
 pub const LOG: &str = "/log";
 

@@ -25,7 +25,7 @@ pub struct BeltLaw<S> {
 }
 
 /// What a belt remembers between steps.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BeltHistory<S> {
     /// Normal of the belt's plane, vehicle axes; keeps its sense when the centre crosses the anchors' line.
     pub normal: V3<S>,

@@ -12,6 +12,9 @@ pub const FREE: [usize; 8] = [0, 1, 2, 3, 4, 5, 8, 9];
 /// Hinged segments (indices), in the order of [`State::hinge`].
 pub const HINGED: [usize; 4] = [6, 7, 10, 11];
 
+/// Numbers in a [`State`].
+pub const NUMBERS: usize = 75;
+
 /// Place of a free segment in [`FREE`]; hinged segments are not in it.
 pub const fn free_slot(segment: usize) -> usize {
     if segment < 6 { segment } else { segment - 2 }
@@ -152,6 +155,60 @@ impl<S: Scalar> State<S> {
 }
 
 impl State<f64> {
+    /// All components in a row: T1, orientations (w, x, y, z), hinges, velocity, angular velocities, hinge rates, work sums.
+    pub fn to_numbers(&self) -> [f64; NUMBERS] {
+        let mut numbers = [0.0; NUMBERS];
+        let mut at = 0;
+        self.each(|x| {
+            numbers[at] = x;
+            at += 1;
+        });
+        numbers
+    }
+
+    /// The state whose [`State::to_numbers`] these are.
+    pub fn from_numbers(numbers: &[f64; NUMBERS]) -> Self {
+        let n = |i: usize| numbers[i];
+        let vector = |i: usize| v3(n(i), n(i + 1), n(i + 2));
+        State {
+            t1: vector(0),
+            orientation: std::array::from_fn(|k| Quat {
+                w: n(3 + 4 * k),
+                v: vector(4 + 4 * k),
+            }),
+            hinge: std::array::from_fn(|k| n(35 + k)),
+            velocity: vector(39),
+            omega: std::array::from_fn(|k| vector(42 + 3 * k)),
+            hinge_rate: std::array::from_fn(|k| n(66 + k)),
+            work: Work {
+                contact: n(70),
+                friction: n(71),
+                joints: n(72),
+                belts: n(73),
+                vehicle: n(74),
+            },
+        }
+    }
+
+    /// Every component in the order of [`State::to_numbers`].
+    fn each(&self, mut see: impl FnMut(f64)) {
+        let mut see_all = |numbers: &[f64]| numbers.iter().for_each(|x| see(*x));
+        let of = |v: &V3<f64>| [v.x, v.y, v.z];
+        see_all(&of(&self.t1));
+        for q in &self.orientation {
+            see_all(&[q.w]);
+            see_all(&of(&q.v));
+        }
+        see_all(&self.hinge);
+        see_all(&of(&self.velocity));
+        for w in &self.omega {
+            see_all(&of(w));
+        }
+        see_all(&self.hinge_rate);
+        let w = &self.work;
+        see_all(&[w.contact, w.friction, w.joints, w.belts, w.vehicle]);
+    }
+
     /// True if every component is a finite number.
     pub fn is_finite(&self) -> bool {
         let v = |a: &V3<f64>| a.x.is_finite() && a.y.is_finite() && a.z.is_finite();
@@ -164,5 +221,19 @@ impl State<f64> {
                 .iter()
                 .chain(&self.hinge_rate)
                 .all(|a| a.is_finite())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_state_is_its_numbers() {
+        let numbers: [f64; NUMBERS] = std::array::from_fn(|i| i as f64 + 0.5);
+        let state = State::from_numbers(&numbers);
+        assert_eq!(state.to_numbers(), numbers);
+        assert_eq!(state.orientation[7].v.z, 34.5);
+        assert_eq!(state.work.contact, 70.5);
     }
 }

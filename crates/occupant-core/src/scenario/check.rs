@@ -29,6 +29,10 @@ pub fn check(sources: &Sources, root: &Node) -> Diagnostics {
     if let Some(view) = View::of(checker.root, checker.root) {
         checker.node(&view, root, "");
     }
+    // where the words are right, the builder looks names up with full knowledge
+    if checker.problems.has_errors() {
+        checker.references(root);
+    }
     checker.problems
 }
 

@@ -27,6 +27,7 @@
 mod build;
 mod check;
 mod check_groups;
+mod check_references;
 mod csv_text;
 pub mod diagnostic;
 pub mod document;

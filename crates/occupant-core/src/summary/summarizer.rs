@@ -27,6 +27,8 @@ pub struct Summarizer {
     time: Option<TimeSpan>,
     head: Option<usize>,
     outputs: usize,
+    /// Time of the first output seen: the start, unless the run was resumed and its beginning is not at hand.
+    first_s: Option<f64>,
     /// Resultants at the regular output times, by [`MEASURED`], m/s².
     resultants_m_s2: [Vec<f64>; 3],
     accelerations: [Option<Peak>; 3],
@@ -114,11 +116,12 @@ impl Summarizer {
             value: 0.0,
             time_s: time.start_s,
         });
+        let first_s = self.first_s.unwrap_or(time.start_s);
         let level = |found: ThreeMs| Level {
             level_m_s2: found.level_mps2,
             level_g: in_g(found.level_mps2),
-            from_s: time.start_s + found.start_s,
-            to_s: time.start_s + found.end_s,
+            from_s: first_s + found.start_s,
+            to_s: first_s + found.end_s,
         };
         let values = &self.resultants_m_s2[i];
         let contiguous = three_ms_contiguous(values, time.output_s);
@@ -301,6 +304,7 @@ impl Recorder for Summarizer {
 
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
         self.outputs += 1;
+        self.first_s.get_or_insert(sample.time_s);
         self.see_accelerations(sample);
         self.see_contacts(sample);
         self.see_belts(sample);

@@ -4,6 +4,7 @@
 //! report's vehicle-space axes (forward, right, down).
 
 mod belt;
+mod checkpoint;
 mod energy;
 mod joints;
 mod report_coordinates;
@@ -13,6 +14,7 @@ mod sphere;
 mod vehicle;
 
 pub use belt::BELT;
+pub use checkpoint::CHECKPOINT;
 pub use energy::ENERGY;
 pub use joints::JOINTS;
 pub use report_coordinates::REPORT_COORDINATES;
@@ -24,7 +26,7 @@ pub use vehicle::VEHICLE;
 use super::column::Group;
 
 /// All groups.
-pub const ALL: [&Group; 8] = [
+pub const ALL: [&Group; 9] = [
     &VEHICLE,
     &SEGMENT,
     &SPHERE,
@@ -33,4 +35,5 @@ pub const ALL: [&Group; 8] = [
     &ENERGY,
     &SOLVER,
     &REPORT_COORDINATES,
+    &CHECKPOINT,
 ];

@@ -295,3 +295,24 @@ fn bytes_that_are_no_text_are_placed() {
         "error: byte 0xff in line 44 is not UTF-8\n --> s.toml\n  = expected: a text in UTF-8"
     );
 }
+
+#[test]
+fn names_that_lead_nowhere_are_told_beside_wrong_words() {
+    let text = short_with("\"70 kN/m\"", "\"70 kN\"")
+        .replace("seat = \"sled\"", "seat = \"sledge\"")
+        .replace("cushion = \"cushion\"", "cushion = \"cushon\"")
+        .replace("sphere = \"pelvis\"", "sphere = \"pelves\"")
+        .replacen("material = \"foam\"", "material = \"fome\"", 1);
+    let complaint = complaint(&text);
+    for found in [
+        "`kN` is not the unit of a stiffness",
+        "no seat is named \"sledge\"",
+        "no surface is named \"cushon\"",
+        "no sphere is named \"pelves\"",
+        "no material is named \"fome\"",
+        "did you mean \"pelvis\"?",
+    ] {
+        assert!(complaint.contains(found), "{found} is not in\n{complaint}");
+    }
+    assert_eq!(complaint.matches("error:").count(), 5, "{complaint}");
+}

@@ -1,0 +1,228 @@
+//! A run that goes on from a checkpoint is, to the bit, the run that was never interrupted.
+
+use occupant_core::checkpoint::{Checkpoint, CheckpointError};
+use occupant_core::kernel::contact::TOUCHING;
+use occupant_core::material::Memory;
+use occupant_core::model::Model;
+use occupant_core::recorder::{Flow, Recorder, RecorderError, Watch};
+use occupant_core::sample::Sample;
+use occupant_core::scenario::{Format, Scenario};
+use occupant_core::setup::{Integrator, Setup};
+use occupant_core::simulate::{Outcome, ResumeError, Status, replay, resume, simulate};
+use occupant_tests::cart::lap;
+
+const RK4: Integrator = Integrator::Rk4 { step_s: 3e-4 };
+const ADAPTIVE: Integrator = Integrator::Adaptive {
+    relative: 1e-4,
+    absolute_m: 1e-4,
+    absolute_m_s: 1e-4,
+    min_step_s: 1e-9,
+    max_step_s: 1e-3,
+};
+
+/// Outputs of a run: everything in them as text, which shows every bit, and their checkpoints.
+#[derive(Default)]
+struct Outputs {
+    texts: Vec<String>,
+    checkpoints: Vec<Checkpoint>,
+    /// The run stops after this output.
+    stop_at: Option<usize>,
+}
+
+impl Recorder for Outputs {
+    fn record(&mut self, s: &Sample<'_>) -> Result<Flow, RecorderError> {
+        let checkpoint = s.checkpoint();
+        let derived = (s.evaluation, s.touches, s.belts, s.energy, s.vehicle);
+        self.texts.push(format!("{checkpoint:?} {derived:?}"));
+        self.checkpoints.push(checkpoint);
+        Ok(match self.stop_at == Some(s.index) {
+            true => Flow::Stop,
+            false => Flow::Continue,
+        })
+    }
+}
+
+fn run(setup: &Setup) -> (Model, Outputs, Outcome) {
+    let model = Model::new(setup.clone()).unwrap();
+    let mut outputs = Outputs::default();
+    let outcome = simulate(&model, &mut outputs).unwrap();
+    (model, outputs, outcome)
+}
+
+/// Two belts, and crush that stays.
+fn lap_and_torso(integrator: Integrator) -> Setup {
+    let text = include_str!("../../scenarios/cart-lap-torso.toml");
+    let alone = |name: &str| Err(format!("no file beside the text: {name}"));
+    let loaded = Scenario::from_text(text, Format::Toml, "cart", &alone);
+    let mut setup = loaded.and_then(|s| s.build()).unwrap().0;
+    setup.integrator = integrator;
+    for material in &mut setup.materials {
+        material.memory = Memory::Retain;
+    }
+    setup
+}
+
+fn cases() -> [Setup; 4] {
+    [
+        lap(RK4),
+        lap(ADAPTIVE),
+        lap_and_torso(RK4),
+        lap_and_torso(ADAPTIVE),
+    ]
+}
+
+#[test]
+fn a_run_resumed_at_any_output_has_the_bits_of_the_whole_run() {
+    for setup in cases() {
+        let (model, whole, outcome) = run(&setup);
+        let last = whole.texts.len() - 1;
+        assert_eq!(outcome.status, Status::Completed);
+        assert!(!outcome.first_touches.is_empty());
+        for at in [0, 1, 57, 100, last - 1, last] {
+            let mut rest = Outputs::default();
+            let ended = resume(&model, &whole.checkpoints[at], &mut rest).unwrap();
+            assert!(rest.texts == whole.texts[at..], "from output {at}");
+            assert_eq!(ended, outcome);
+        }
+    }
+}
+
+#[test]
+fn a_finished_run_goes_on_to_a_later_end() {
+    for mut setup in cases() {
+        let (model, whole, outcome) = run(&setup);
+        setup.time.end_s = setup.time.start_s + 0.1;
+        let (_, first, _) = run(&setup);
+        let from = first.checkpoints.last().unwrap();
+        let mut rest = Outputs::default();
+        let ended = resume(&model, from, &mut rest).unwrap();
+        assert!(rest.texts == whole.texts[from.index..]);
+        assert_eq!(ended, outcome);
+    }
+}
+
+#[test]
+fn an_interrupted_run_goes_on() {
+    let (model, whole, outcome) = run(&lap(RK4));
+    let mut first = Outputs {
+        stop_at: Some(83),
+        ..Outputs::default()
+    };
+    assert_eq!(
+        simulate(&model, &mut first).unwrap().status,
+        Status::Stopped
+    );
+    let mut rest = Outputs::default();
+    let ended = resume(&model, first.checkpoints.last().unwrap(), &mut rest).unwrap();
+    assert!(first.texts[..83] == whole.texts[..83] && rest.texts == whole.texts[83..]);
+    assert_eq!(ended, outcome);
+}
+
+/// The end of a run that lies between two output times is no output of a longer run.
+#[test]
+fn an_end_between_outputs_is_refused_and_the_output_before_it_is_not() {
+    let mut setup = lap(RK4);
+    let (model, whole, _) = run(&setup);
+    setup.time.end_s = 0.0504;
+    let (_, first, _) = run(&setup);
+    let [.., before, last] = first.checkpoints.as_slice() else {
+        panic!("no outputs")
+    };
+    // 51 intervals of a millisecond are not 0.051 s to the last bit
+    let refused = CheckpointError::Time {
+        index: 51,
+        found_s: 0.0504,
+        expected_s: Some(51.0 * 1e-3),
+    };
+    assert_eq!(last.check(&model), Err(refused));
+    let mut rest = Outputs::default();
+    resume(&model, before, &mut rest).unwrap();
+    assert!(rest.texts == whole.texts[50..]);
+}
+
+#[test]
+fn every_output_can_be_replayed_from_its_checkpoint() {
+    let (model, whole, _) = run(&lap(ADAPTIVE));
+    let mut again = Outputs::default();
+    for checkpoint in &whole.checkpoints {
+        replay(&model, checkpoint, &mut again).unwrap();
+    }
+    assert!(again.texts == whole.texts);
+}
+
+#[test]
+fn a_checkpoint_of_another_scenario_is_refused() {
+    let (model, outputs, _) = run(&lap(RK4));
+    let sound = &outputs.checkpoints[90];
+    let refused = |change: &dyn Fn(&mut Checkpoint)| {
+        let mut checkpoint = sound.clone();
+        change(&mut checkpoint);
+        let watch = Watch(|_: &Sample<'_>| panic!("it ran"));
+        match resume(&model, &checkpoint, watch) {
+            Err(ResumeError::Refused(error)) => error,
+            other => panic!("{other:?}"),
+        }
+    };
+    let pairs = sound.pairs.len();
+    let cases: [(CheckpointError, &dyn Fn(&mut Checkpoint)); 8] = [
+        (
+            CheckpointError::Pairs {
+                found: pairs - 1,
+                expected: pairs,
+            },
+            &|c| drop(c.pairs.pop()),
+        ),
+        (
+            CheckpointError::Belts {
+                found: 0,
+                expected: 1,
+            },
+            &|c| c.belts.clear(),
+        ),
+        (
+            CheckpointError::Time {
+                index: 300,
+                found_s: sound.time_s,
+                expected_s: None,
+            },
+            &|c| c.index = 300,
+        ),
+        (CheckpointError::Pair { pair: 3 }, &|c| {
+            c.pairs[3].phase = 7.0
+        }),
+        (CheckpointError::Pair { pair: 4 }, &|c| {
+            c.pairs[4].greatest = -1.0
+        }),
+        (
+            CheckpointError::Touch {
+                sphere: 17,
+                surface: sound.first_touches[0].surface,
+            },
+            &|c| c.first_touches[0].sphere = 17,
+        ),
+        (CheckpointError::NotFinite, &|c| {
+            c.state.velocity.y = f64::NAN
+        }),
+        (CheckpointError::NotFinite, &|c| {
+            c.progress.energy_start.mechanical_j = f64::INFINITY
+        }),
+    ];
+    for (expected, change) in cases {
+        assert_eq!(refused(change), expected);
+    }
+}
+
+/// The proofs above mean something only if there is history to lose.
+#[test]
+fn without_its_history_a_run_goes_on_differently() {
+    let (model, whole, _) = run(&lap(RK4));
+    let mut from = whole.checkpoints[110].clone();
+    let greatest = |p: &occupant_core::kernel::contact::PairHistory<f64>| p.greatest;
+    assert!(from.pairs.iter().map(greatest).fold(0.0, f64::max) > 0.01);
+    for pair in from.pairs.iter_mut().filter(|p| p.phase == TOUCHING) {
+        pair.greatest = 0.0;
+    }
+    let mut rest = Outputs::default();
+    resume(&model, &from, &mut rest).unwrap();
+    assert!(rest.texts[1..] != whole.texts[111..]);
+}
