@@ -4,7 +4,7 @@ use occupant_core::body::Segment;
 use occupant_core::kernel::contact::{PASSED, PairHistory};
 use occupant_core::model::Model;
 use occupant_core::scenario::kind::UnitSystem;
-use occupant_core::scenario::{Draft, Format, Loaded};
+use occupant_core::scenario::{Draft, Loaded};
 
 use cardio_legacy::CompartmentLayout;
 
@@ -85,10 +85,10 @@ impl Case {
         ]
     }
 
-    /// Whether the run reached its end, and the file holds it to the end.
+    /// Whether the run reached its end.
     pub fn is_complete(&self) -> bool {
         let status = self.file.result.as_ref().and_then(|r| r.get("status"));
-        status.is_some_and(|s| s == "completed") && self.file.broken.is_none()
+        status.is_some_and(|s| s == "completed")
     }
 
     /// Number of outputs of which every group is in the file.
@@ -157,22 +157,18 @@ fn report_numbers(model: &Model) -> Option<Vec<usize>> {
 /// The scenario as it was run: the resolved one, else the one that was read.
 fn load(file: &RunFile) -> Result<Loaded, String> {
     let read = file.run.get("scenario").map(String::as_str);
-    let document = file
-        .attachment("resolved.toml")
-        .or_else(|| read.and_then(|name| file.attachment(name)))
+    let resolved = ["resolved.toml"].into_iter().chain(read);
+    let found = resolved.filter_map(|name| Some((name, file.attachments.get(name)?)));
+    let (name, content) = { found }
+        .next()
         .ok_or("the file holds no scenario, so nothing can be said of its numbers")?;
     let resolver = |name: &str| {
         let base = name.rsplit(['/', '\\']).next().unwrap_or(name);
-        let found = file.attachment(name).or_else(|| file.attachment(base));
-        found
-            .map(|d| d.content.clone())
-            .ok_or_else(|| "it is not attached to the results".to_owned())
+        let table = file.attachments.get(base);
+        let missing = || "it is not attached to the results".to_owned();
+        table.cloned().ok_or_else(missing)
     };
-    let format = match document.media_type.as_str() {
-        "application/json" => Format::Json,
-        _ => Format::Toml,
-    };
-    Draft::read_bytes(&document.content, Some(format), &document.name)
+    Draft::read_bytes(content, None, name)
         .and_then(|draft| draft.load(&resolver))
         .map_err(|d| format!("the scenario in the file is refused:\n{d}"))
 }

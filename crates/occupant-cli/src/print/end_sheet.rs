@@ -1,36 +1,44 @@
 //! The last sheet: how the run ended, and what an extension needs (series 6 and 14 of the cards): the pairs with
 //! NARRY(J,K) = 0, the coordinates, the rest angles of the spine and the belts' lengths.
 
+use occupant_core::body::Segment;
+use occupant_core::checkpoint::Checkpoint;
+use occupant_core::kernel::joints::BALLS;
+use occupant_core::kernel::kinematics::Kinematics;
+use occupant_core::report_coordinates::ReportCoordinates;
+
 use super::case::Case;
 use super::echo::coordinates;
-use super::last_state::LastState;
 use super::page::Pages;
 use super::table::Table;
 use super::unit::Units;
 
-/// A repeated run that ends farther than this from the recorded one is another run, m.
-const SAME_M: f64 = 1e-6;
-
 /// Writes the last sheet.
-pub fn write(pages: &mut Pages, case: &Case, units: &Units, times_s: &[f64]) -> Result<(), String> {
+pub fn write(pages: &mut Pages, case: &Case, units: &Units, times_s: &[f64]) {
     pages.begin("END OF SOLUTION");
     ending(pages, case, times_s);
-    let Some(last) = times_s.len().checked_sub(1) else {
-        return Ok(());
-    };
-    match LastState::repeated(case, last) {
-        Ok(state) if state.difference_m <= SAME_M => extension(pages, case, units, &state),
-        Ok(state) => withheld(
-            pages,
-            &format!(
-                "REPEATED, THE RUN ENDS {:.3E} M AWAY FROM THE RECORDED ONE (ANOTHER VERSION, OR A RUN THAT WAS RESUMED)",
-                state.difference_m
-            ),
-        ),
-        Err(reason) => withheld(pages, &reason),
+    if let Some(&last_s) = times_s.last() {
+        let at_last = |c: &&Checkpoint| c.time_s.to_bits() == last_s.to_bits();
+        let checkpoint = case.file.checkpoints.iter().rev().find(at_last);
+        match checkpoint.map(|c| (c, fits(c, case))) {
+            Some((checkpoint, Ok(()))) => extension(pages, case, units, checkpoint),
+            Some((_, Err(reason))) => withheld(pages, &reason),
+            None => withheld(pages, "THE FILE HOLDS NO CHECKPOINT OF ITS LAST OUTPUT."),
+        }
     }
     pages.block(&["END OF PRINTOUT".to_owned()], 0);
-    Ok(())
+}
+
+/// Whether the checkpoint has the model's pairs.
+fn fits(checkpoint: &Checkpoint, case: &Case) -> Result<(), String> {
+    let pairs = case.model.system().contacts.pairs().len();
+    match checkpoint.pairs.len() == pairs {
+        true => Ok(()),
+        false => Err(format!(
+            "THE CHECKPOINT HAS {} PAIRS, THE SCENARIO {pairs}.",
+            checkpoint.pairs.len()
+        )),
+    }
 }
 
 /// How far the run got, loudly where it is not complete.
@@ -59,9 +67,6 @@ fn ending(pages: &mut Pages, case: &Case, times_s: &[f64]) {
         )),
     }
     pages.say(&reached);
-    if let Some(broken) = &case.file.broken {
-        pages.say(&format!("*** THE FILE IS DAMAGED: {broken} ***"));
-    }
     pages.say(&format!(
         "GREATEST ENERGY IMBALANCE {} OF THE GREATEST KINETIC ENERGY; {} STEPS, {} REJECTED, {} EVALUATIONS",
         known("balance_error"),
@@ -77,18 +82,10 @@ fn withheld(pages: &mut Pages, reason: &str) {
     pages.say(reason);
 }
 
-fn extension(pages: &mut Pages, case: &Case, units: &Units, state: &LastState) {
+fn extension(pages: &mut Pages, case: &Case, units: &Units, checkpoint: &Checkpoint) {
     pages.say("");
-    pages.say("TO EXTEND THIS SOLUTION (CARDS OF SERIES 6 AND 14). THE PAIR STATES WERE FOUND BY REPEATING THE RUN;");
-    match state.difference_m == 0.0 {
-        true => pages.say("ITS END IS THE RECORDED ONE TO THE LAST BIT."),
-        false => pages.say(&format!(
-            "ITS END IS THE RECORDED ONE TO {:.1E} M.",
-            state.difference_m
-        )),
-    }
-    pages
-        .say("THESE PAIRS CARRY NO GREATEST DEFORMATION, SO AN EXTENSION BY CARDS IS APPROXIMATE.");
+    pages.say("TO EXTEND THIS SOLUTION BY CARDS (SERIES 6 AND 14), FROM THE CHECKPOINT OF THE LAST OUTPUT.");
+    pages.say("CARDS CARRY NO GREATEST DEFORMATION, SO AN EXTENSION BY CARDS IS APPROXIMATE; `occupant run --resume` IS EXACT.");
     let numbers = match case.numbers_of_report {
         true => "SURFACE NUMBERS ARE THOSE OF THE CARDS",
         false => "SURFACES ARE NUMBERED IN THE ORDER OF THE SCENARIO",
@@ -97,16 +94,12 @@ fn extension(pages: &mut Pages, case: &Case, units: &Units, state: &LastState) {
         pages,
         case,
         &format!("PAIRS WITH NARRY(J,K) = 0: THE SPHERE HAS PASSED THE SURFACE'S EDGE ({numbers})"),
-        &state.passed,
+        &case.passed(&checkpoint.pairs),
     );
-    coordinates(
-        pages,
-        units,
-        "GENERALIZED COORDINATES AT THE END",
-        &state.coordinates,
-    );
-    let [upper, lower] = state.spine_rest_rad;
+    let q = ReportCoordinates::from_state(&checkpoint.state);
+    coordinates(pages, units, "GENERALIZED COORDINATES AT THE END", &q);
     pages.say("");
+    let [upper, lower] = spine_rest_rad(case);
     pages.say(&format!(
         "REST ANGLES OF THE BACK JOINTS: BETA4 {upper:.6} RAD, BETA7 {lower:.6} RAD"
     ));
@@ -124,6 +117,21 @@ fn extension(pages: &mut Pages, case: &Case, units: &Units, state: &LastState) {
             units.length.name
         ));
     }
+}
+
+/// β₀ of the upper and the lower back joint, rad: the scenario's, or the angles at the start.
+fn spine_rest_rad(case: &Case) -> [f64; 2] {
+    let (system, joints) = (case.model.system(), &case.model.setup().joints);
+    let start = Kinematics::new(&system.skeleton, &case.model.start().state);
+    [
+        (joints.upper_back, Segment::UpperTorso),
+        (joints.lower_back, Segment::LowerTorso),
+    ]
+    .map(|(data, distal)| {
+        let ball = BALLS.iter().position(|&(_, n)| n == distal.index());
+        let at_start = ball.map_or(f64::NAN, |i| system.joints.beta(i, &start));
+        data.spring.and_then(|s| s.rest_rad).unwrap_or(at_start)
+    })
 }
 
 /// A list of pairs, three to a line.

@@ -7,7 +7,6 @@
 mod case;
 mod echo;
 mod end_sheet;
-mod last_state;
 mod loads;
 mod message;
 mod page;
@@ -45,7 +44,7 @@ pub fn printout(case: &Case, units: &Units, every_s: Option<f64>) -> Result<Stri
         segments::write(&mut pages, case, units, output)?;
         loads::write(&mut pages, case, units, output)?;
     }
-    end_sheet::write(&mut pages, case, units, &times_s)?;
+    end_sheet::write(&mut pages, case, units, &times_s);
     Ok(pages.text())
 }
 

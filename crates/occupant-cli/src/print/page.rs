@@ -117,6 +117,9 @@ pub fn cut(text: &str, width: usize) -> String {
 /// Words in lines that fit; those that go on are indented.
 fn folded(words: &str) -> Vec<String> {
     let mut lines: Vec<String> = Vec::new();
+    if words.is_empty() {
+        lines.push(String::new());
+    }
     for paragraph in words.lines() {
         let mut rest: Vec<char> = paragraph.chars().collect();
         while rest.len() > COLUMNS {
@@ -181,6 +184,11 @@ mod tests {
         let one = folded(&"x".repeat(300));
         assert!(one.iter().all(|l| l.chars().count() <= COLUMNS));
         assert_eq!(one.concat().matches('x').count(), 300);
+    }
+
+    #[test]
+    fn no_words_are_a_blank_line() {
+        assert_eq!(folded(""), [""]);
     }
 
     #[test]

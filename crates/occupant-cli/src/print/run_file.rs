@@ -1,14 +1,14 @@
-//! A run's MCAP file in memory: what it says of itself, its attachments, its messages by topic. A file that was cut off is
-//! read as far as it goes.
+//! A run's MCAP file in memory: what it says of itself, its attachments and checkpoints, its messages by topic. A file that
+//! was cut off is read as far as it goes; a chunk counts whole or not at all.
 
-use std::borrow::Cow;
 use std::collections::BTreeMap;
 
 use mcap::read::{ChunkFlattener, Options};
 use mcap::records::Record;
+use occupant_core::checkpoint::Checkpoint;
 
-use crate::mcap::Document;
-use crate::mcap::about::{RESULT, RUN};
+use crate::mcap::StoredRun;
+use crate::mcap::about::RUN;
 
 /// The file.
 #[derive(Debug, Default)]
@@ -17,10 +17,10 @@ pub struct RunFile {
     pub run: BTreeMap<String, String>,
     /// The record `occupant.result`; none in a file that was cut off.
     pub result: Option<BTreeMap<String, String>>,
-    /// Attachments.
-    pub attachments: Vec<Document>,
-    /// What ended the reading before the end of the file.
-    pub broken: Option<String>,
+    /// Attachments by name.
+    pub attachments: BTreeMap<String, Vec<u8>>,
+    /// Checkpoints, one an output.
+    pub checkpoints: Vec<Checkpoint>,
     topics: BTreeMap<String, Vec<Vec<u8>>>,
 }
 
@@ -30,67 +30,54 @@ impl RunFile {
     /// # Errors
     /// It is no MCAP file, or one that `occupant run` has not written.
     pub fn read(bytes: &[u8]) -> Result<Self, String> {
-        let options = Options::IgnoreEndMagic | Options::ValidateChunkCrcs;
-        let records = ChunkFlattener::new_with_options(bytes, options)
-            .map_err(|error| format!("it is not an MCAP file: {error}"))?;
-        let (mut file, mut names) = (RunFile::default(), BTreeMap::new());
-        let mut count = 0;
-        for record in records {
-            match record {
-                Ok(Record::DataEnd(_)) => break,
-                Ok(record) => file.take(record, &mut names),
-                Err(error) if count == 0 => {
-                    return Err(format!("it is not an MCAP file: {error}"));
-                }
-                Err(error) => {
-                    file.broken = Some(error.to_string());
-                    break;
-                }
-            }
-            count += 1;
-        }
-        match file.run.is_empty() {
-            true => Err(format!(
+        let stored = StoredRun::read(bytes)?;
+        if stored.run.is_empty() {
+            return Err(format!(
                 "it is an MCAP file without the record `{RUN}`: no result of `occupant run`"
-            )),
-            false => Ok(file),
+            ));
         }
-    }
-
-    fn take(&mut self, record: Record<'_>, names: &mut BTreeMap<u16, String>) {
-        match record {
-            Record::Metadata(metadata) if metadata.name == RUN => self.run = metadata.metadata,
-            Record::Metadata(metadata) if metadata.name == RESULT => {
-                self.result = Some(metadata.metadata);
-            }
-            Record::Attachment { header, data, .. } => self.attachments.push(Document {
-                name: header.name,
-                media_type: header.media_type,
-                content: data.into_owned(),
-            }),
-            Record::Channel(channel) if channel.message_encoding == "protobuf" => {
-                names.insert(channel.id, channel.topic);
-            }
-            Record::Message { header, data } => {
-                let wanted = names.get(&header.channel_id).filter(|name| is_group(name));
-                if let Some(name) = wanted {
-                    let messages = self.topics.entry(name.clone()).or_default();
-                    messages.push(Cow::into_owned(data));
-                }
-            }
-            _ => {}
-        }
+        Ok(RunFile {
+            run: stored.run,
+            result: stored.result,
+            attachments: stored.attachments,
+            checkpoints: stored.checkpoints,
+            topics: messages_by_topic(bytes)?,
+        })
     }
 
     /// Messages of a topic, one an output.
     pub fn messages(&self, topic: &str) -> &[Vec<u8>] {
         self.topics.get(topic).map_or(&[], Vec::as_slice)
     }
+}
 
-    /// An attachment by its name.
-    pub fn attachment(&self, name: &str) -> Option<&Document> {
-        self.attachments.iter().find(|d| d.name == name)
+fn messages_by_topic(bytes: &[u8]) -> Result<BTreeMap<String, Vec<Vec<u8>>>, String> {
+    let mut topics: BTreeMap<String, Vec<Vec<u8>>> = BTreeMap::new();
+    let (mut names, mut in_chunk) = (BTreeMap::new(), Vec::new());
+    let checked = Options::ValidateChunkCrcs.into();
+    let records = ChunkFlattener::new_with_options(bytes, checked).map_err(|e| e.to_string())?;
+    for record in records {
+        match record {
+            Ok(Record::Channel(channel)) if is_group(&channel.topic) => {
+                names.insert(channel.id, channel.topic);
+            }
+            Ok(Record::Message { header, data }) => {
+                if let Some(name) = names.get(&header.channel_id) {
+                    in_chunk.push((name.clone(), data.into_owned()));
+                }
+            }
+            // indices follow a chunk that is whole
+            Ok(Record::MessageIndex(_)) => {
+                for (name, message) in in_chunk.drain(..) {
+                    topics.entry(name).or_default().push(message);
+                }
+            }
+            Ok(_) => {}
+            // a file that was cut off ends with an error
+            Err(_) => break,
+        }
     }
+    Ok(topics)
 }
 
 /// Whether a topic holds results, not what viewers draw.

@@ -1,11 +1,14 @@
 //! The path of the vehicle.
 
-use occupant_core::path::{PulsePath, PulseShape, Strength, TablePath, VehiclePath, VehiclePose};
+use occupant_core::path::{
+    AfterEnd, Interpolation, PulsePath, PulseShape, Strength, TablePath, TravelDirection,
+    VehiclePath, VehiclePose,
+};
 
 use crate::print::case::Case;
 use crate::print::page::Pages;
 use crate::print::table::Table;
-use crate::print::unit::{DEGREE, G, Units};
+use crate::print::unit::{DEGREE, G, RATIO, Units};
 
 /// Writes the path.
 pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
@@ -39,7 +42,13 @@ fn pulse(pages: &mut Pages, path: &PulsePath, units: &Units) {
     pages.say("STRAIGHT TRAVEL, SLOWED BY A PULSE");
     pages.say(&format!("START          {}", pose(&d.initial, units)));
     pages.say(&format!("INITIAL SPEED  {}", speed(d.initial_speed_m_s)));
-    pages.say(&format!("DIRECTION      {:?}", d.direction));
+    let direction = match d.direction {
+        TravelDirection::Heading => "NOSE FIRST".to_owned(),
+        TravelDirection::Along(v) => {
+            format!("ALONG {} (FORWARD, RIGHT, DOWN)", RATIO.point(v.into()))
+        }
+    };
+    pages.say(&format!("DIRECTION      {direction}"));
     pages.say(&format!(
         "PULSE          {}, FROM {from_s:.6} TO {to_s:.6} SEC",
         shape(&d.shape, units)
@@ -106,12 +115,19 @@ fn shape(shape: &PulseShape, units: &Units) -> String {
 }
 
 fn stations(pages: &mut Pages, path: &TablePath, units: &Units) {
+    let between = match path.interpolation() {
+        Interpolation::Linear => "STRAIGHT LINES",
+        Interpolation::Spline => "NATURAL SPLINES",
+    };
+    let after = match path.after() {
+        AfterEnd::Error => "NO PATH",
+        AfterEnd::Coast => "THE LAST VELOCITY",
+        AfterEnd::Hold => "REST",
+    };
     let mut table = Table::new(
         format!(
-            "{} STATIONS, {:?} BETWEEN THEM, {:?} AFTER THE LAST ({}, DEG)",
+            "{} STATIONS, {between} BETWEEN THEM, {after} AFTER THE LAST ({}, DEG)",
             path.stations().len(),
-            path.interpolation(),
-            path.after(),
             units.length.name
         ),
         &[

@@ -1,6 +1,6 @@
 //! What the run is: its origin, times, integrator, and what was said about it.
 
-use occupant_core::setup::Integrator;
+use occupant_core::setup::{EdgeForce, Integrator};
 
 use crate::print::case::Case;
 use crate::print::page::Pages;
@@ -15,9 +15,14 @@ pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
     pages.say(&format!("PROGRAM        {}", known("program")));
     pages.say(&format!("SCENARIO       {}", known("scenario")));
     pages.say(&format!("SHA-256        {}", known("scenario_sha256")));
-    for document in &case.file.attachments {
-        let size = document.content.len();
-        pages.say(&format!("ATTACHED       {}, {size} BYTES", document.name));
+    for (name, content) in &case.file.attachments {
+        pages.say(&format!("ATTACHED       {name}, {} BYTES", content.len()));
+    }
+    if let (Some(from), Some(at)) = (
+        case.file.run.get("resumed_from"),
+        case.file.run.get("resumed_at_s"),
+    ) {
+        pages.say(&format!("RESUMED FROM   {from} AT {at} SEC"));
     }
     if let Some(overrides) = case.file.run.get("overrides") {
         for assignment in overrides.lines() {
@@ -35,7 +40,11 @@ pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
     pages.say(&format!("END            {} SEC", time.end_s));
     pages.say(&format!("RECORDED EVERY {} SEC", time.output_s));
     pages.say(&format!("INTEGRATION    {}", integrator(&setup.integrator)));
-    pages.say(&format!("EDGE FORCE     {:?}", setup.edge_force));
+    let edge_force = match setup.edge_force {
+        EdgeForce::AtContactPoint => "AT THE CONTACT POINT",
+        EdgeForce::AtCentre => "AT THE CENTER OF THE SPHERE",
+    };
+    pages.say(&format!("EDGE FORCE     {edge_force}"));
     pages.say("");
     pages.say("NOTATION       VEHICLE COORDINATES: X FORWARD, Y RIGHT, Z DOWN FROM THE C.G. OF THE VEHICLE");
     pages.say("               SEGMENT COORDINATES: X AHEAD, Y TO THE OCCUPANT'S LEFT, Z UP WHEN STANDING UPRIGHT, FROM THE C.G.");
