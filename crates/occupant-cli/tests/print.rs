@@ -9,7 +9,7 @@ use occupant_core::recorder::Watch;
 use occupant_core::sample::Sample;
 use occupant_core::scenario::{Format, Scenario};
 use occupant_core::simulate::simulate;
-use prost_reflect::{DescriptorPool, DynamicMessage, Value};
+use prost_reflect::{DescriptorPool, DynamicMessage, ReflectMessage, Value};
 
 /// Lap and torso belt, spheres that touch, in SI.
 const SCENARIO: &str = include_str!("recording/short.toml");

@@ -59,6 +59,7 @@ fn ending(pages: &mut Pages, case: &Case, times_s: &[f64]) {
         return;
     };
     let known = |key: &str| result.get(key).map_or("-", String::as_str);
+    let imbalance = known("balance_error").parse().unwrap_or(f64::NAN);
     match known("status") {
         "completed" => pages.say("THE RUN REACHED ITS END TIME"),
         status => pages.say(&format!(
@@ -68,8 +69,7 @@ fn ending(pages: &mut Pages, case: &Case, times_s: &[f64]) {
     }
     pages.say(&reached);
     pages.say(&format!(
-        "GREATEST ENERGY IMBALANCE {} OF THE GREATEST KINETIC ENERGY; {} STEPS, {} REJECTED, {} EVALUATIONS",
-        known("balance_error"),
+        "GREATEST ENERGY IMBALANCE {imbalance:.2E} OF THE GREATEST KINETIC ENERGY; {} STEPS, {} REJECTED, {} EVALUATIONS",
         known("steps"),
         known("rejected"),
         known("evaluations")
@@ -134,11 +134,11 @@ fn spine_rest_rad(case: &Case) -> [f64; 2] {
     })
 }
 
-/// A list of pairs, three to a line.
+/// A list of pairs, two to a line.
 pub fn pairs(pages: &mut Pages, case: &Case, title: &str, passed: &[(usize, usize)]) {
     let head = ["J", "<SPHERE", "<K  SURFACE"];
-    let mut table = Table::new(title, &[head, head, head].concat());
-    for row in passed.chunks(3) {
+    let mut table = Table::new(title, &[head, head].concat());
+    for row in passed.chunks(2) {
         let pair = |&(sphere, surface): &(usize, usize)| {
             let name = case
                 .model

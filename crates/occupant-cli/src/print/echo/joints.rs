@@ -18,7 +18,7 @@ fn balls(joints: &Joints, units: &Units) -> Table {
     let (d, k) = (units.joint_damping, units.joint_stiffness);
     let mut table = Table::new(
         format!(
-            "BALL JOINTS ({}, DEG, {}); BETA = {} EPSILON",
+            "BALL JOINTS ({}, DEG, {}); EPSILON OF BETA {}",
             d.name, k.name, joints.epsilon
         ),
         &[
