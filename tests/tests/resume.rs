@@ -1,12 +1,14 @@
 //! A run that goes on from a checkpoint is, to the bit, the run that was never interrupted.
 
 use occupant_core::checkpoint::{Checkpoint, CheckpointError};
-use occupant_core::kernel::contact::TOUCHING;
+use occupant_core::kernel::contact::{OPEN, PASSED, TOUCHING};
 use occupant_core::material::Memory;
 use occupant_core::model::Model;
 use occupant_core::recorder::{Flow, Recorder, RecorderError, Watch};
+use occupant_core::report_coordinates::ReportCoordinates;
 use occupant_core::sample::Sample;
 use occupant_core::scenario::{Format, Scenario};
+use occupant_core::seating::InitialPosture;
 use occupant_core::setup::{Integrator, Setup};
 use occupant_core::simulate::{Outcome, ResumeError, Status, replay, resume, simulate};
 use occupant_tests::cart::lap;
@@ -225,4 +227,45 @@ fn without_its_history_a_run_goes_on_differently() {
     let mut rest = Outputs::default();
     resume(&model, &from, &mut rest).unwrap();
     assert!(rest.texts[1..] != whole.texts[111..]);
+}
+
+/// Cards tell which pairs have passed; all others that overlap touch, from their present depth.
+#[test]
+fn where_cards_tell_the_pairs_these_have_passed_and_all_others_touch() {
+    let (model, outputs, _) = run(&lap(RK4));
+    let overlapping = |c: &Checkpoint| c.pairs.iter().filter(|p| p.phase != OPEN).count();
+    let from = outputs.checkpoints.iter().max_by_key(|c| overlapping(c));
+    let from = from.unwrap();
+    let groups = model.system().contacts.groups();
+    let named = groups.iter().flat_map(|group| {
+        let pairs = group.pairs.clone();
+        pairs.map(|i| (i, (group.sphere, surface_of(&model, i))))
+    });
+    let (one, other): (Vec<_>, Vec<_>) = named
+        .filter(|(i, _)| from.pairs[*i].phase != OPEN)
+        .partition(|(i, _)| i % 2 == 0);
+    assert!(one.len() > 5 && other.len() > 5);
+    let mut setup = model.setup().clone();
+    setup.time.start_s = from.time_s;
+    let coordinates = Box::new(ReportCoordinates::from_state(&from.state));
+    setup.posture = InitialPosture::Continued {
+        coordinates,
+        passed: one.iter().map(|(_, names)| *names).collect(),
+    };
+    let continued = Model::new(setup).unwrap();
+    let pairs = &continued.start().history.pairs;
+    for (i, _) in &one {
+        assert_eq!((pairs[*i].phase, pairs[*i].greatest), (PASSED, 0.0));
+    }
+    for (i, _) in &other {
+        assert_eq!(pairs[*i].phase, TOUCHING);
+        assert!(pairs[*i].greatest > 0.0);
+    }
+    let rest = pairs.iter().filter(|p| p.phase == OPEN).count();
+    assert_eq!(rest + one.len() + other.len(), pairs.len());
+}
+
+/// The first of a pair's surfaces.
+fn surface_of(model: &Model, pair: usize) -> usize {
+    model.system().contacts.pairs()[pair].parts[0].surface
 }

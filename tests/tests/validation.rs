@@ -261,7 +261,7 @@ const FAULTS: &[Fault] = &[
         "unstretched length",
     ),
     (|s| s.gravity_m_s2 = -9.81, "gravity", "-9.81"),
-    (|s| s.time.end_s = 0.0, "time", "after the start"),
+    (|s| s.time.end_s = 0.0, "time.end", "after the start"),
     (|s| s.time.output_s = 0.0, "output.interval", "positive"),
     (
         |s| s.integrator = Integrator::Rk4 { step_s: -1e-4 },

@@ -15,7 +15,7 @@ pub(crate) const MARKER: &str =
 pub(crate) const TITLE_2: &str = "TITLE 2";
 /// The plot option, STAN or NONE.
 pub(crate) const PLOT: &str = "PLOT";
-/// A pair of series 14, sphere and surface, numbered from 1 behind this name.
+/// A pair of series 14 that the scenario cannot name: sphere and surface; its place in the series, from 1, is behind this name.
 pub(crate) const PAIR: &str = "PASSED PAIR";
 
 /// Values by name, in the order of their names.
@@ -50,12 +50,6 @@ pub(crate) fn kept_of(deck: &Deck) -> Kept {
         if let Some(number) = deck.number(name) {
             keep(name, number.digits.clone());
         }
-    }
-    for (at, (sphere, surface)) in deck.passed_pairs().into_iter().enumerate() {
-        keep(
-            &format!("{PAIR} {:03}", at + 1),
-            format!("{sphere} {surface}"),
-        );
     }
     kept
 }

@@ -218,7 +218,7 @@ fn the_extension_starts_where_the_first_run_ended() {
     assert!(
         conversion
             .report
-            .ignored
+            .assumptions
             .iter()
             .any(|text| text.contains("series 14")),
         "{}",
@@ -226,9 +226,14 @@ fn the_extension_starts_where_the_first_run_ended() {
     );
     let setup = load(&conversion.toml).build().expect("builds").0;
     assert_eq!(setup.time.start_s, 0.2);
-    let occupant_core::seating::InitialPosture::Coordinates(start) = &setup.posture else {
-        panic!("an exact state")
+    let occupant_core::seating::InitialPosture::Continued {
+        coordinates: start,
+        passed,
+    } = &setup.posture
+    else {
+        panic!("an exact state with pair states")
     };
+    assert_eq!(passed.len(), deck(EXTENSION).passed_pairs().len());
     for (at, (ended, begins)) in first.coordinates.q.iter().zip(&start.q).enumerate() {
         // Ten columns hold six decimals of most coordinates; measured 4e-7.
         assert!(
@@ -237,8 +242,22 @@ fn the_extension_starts_where_the_first_run_ended() {
             at + 1
         );
     }
-    let outcome = simulate(&model(&conversion.toml), ()).expect("records nothing");
+    let model = model(&conversion.toml);
+    assert_eq!(run_passed(&model), first.passed);
+    let outcome = simulate(&model, ()).expect("records nothing");
     assert_eq!(outcome.status, Status::Completed);
+}
+
+/// The pairs that have passed at the start of a model, by the report's numbers.
+fn run_passed(model: &Model) -> Vec<(u32, u32)> {
+    let layout = CompartmentLayout::reconstruction().expect("sound");
+    let mut passed = None;
+    let first = Watch(|sample: &occupant_core::sample::Sample<'_>| {
+        let at_start = || RunEnd::after([0.0; 2], sample, &layout).passed;
+        passed.get_or_insert_with(at_start);
+    });
+    simulate(model, first).expect("a closure records");
+    passed.expect("samples")
 }
 
 /// The end of a run in the coordinates of the report, for comparison.

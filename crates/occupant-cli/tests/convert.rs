@@ -162,7 +162,7 @@ fn a_run_is_extended_by_cards() {
     assert!(
         out.contains("start = \"0.2 s\"")
             && out.contains("end = \"0.25 s\"")
-            && out.contains("PASSED PAIR"),
+            && out.contains("passed = ["),
         "{out}"
     );
     assert_eq!(convert(folder.path(), &[deck, "--extend", "0.1"]).0, 2);
@@ -182,4 +182,37 @@ fn several_decks_become_numbered_scenarios() {
     assert!(
         folder.path().join("case-1.toml").exists() && folder.path().join("case-2.toml").exists()
     );
+}
+
+#[test]
+fn a_recorded_run_is_extended_by_the_same_cards_as_the_deck() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let name = |file: &str| decks().join(file).to_str().expect("UTF-8").to_owned();
+    let run = Command::cargo_bin("occupant")
+        .expect("built")
+        .current_dir(folder.path())
+        .args([
+            "run",
+            &name("driver-exact-state.toml"),
+            "-q",
+            "-o",
+            "run.mcap",
+        ])
+        .output()
+        .expect("runs");
+    assert_eq!(run.status.code(), Some(0));
+    let deck = name("driver-exact-state.dat");
+    let (code, by_deck, said) = convert(folder.path(), &[&deck, "--extend", "0.25"]);
+    assert_eq!(code, 0, "{said}");
+    let (code, by_run, said) = convert(folder.path(), &["run.mcap", "--extend", "0.25"]);
+    assert_eq!(code, 0, "{said}");
+    assert!(said.contains("approximate"), "{said}");
+    assert_eq!(by_run, by_deck);
+    for (words, expected) in [
+        (&["run.mcap"][..], "--extend TIME"),
+        (&["run.mcap", "--extend", "0.1"], "not after the end"),
+    ] {
+        let (code, _, said) = convert(folder.path(), words);
+        assert!(code == 2 && said.contains(expected), "{said}");
+    }
 }

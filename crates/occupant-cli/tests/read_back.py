@@ -102,6 +102,26 @@ def check_numbers(topic, message):
                 expect(math.isfinite(v), f"{topic}.{field.name} is {v}")
 
 
+def check_checkpoint(message):
+    """Lists that belong together are as long as one another, and pairs are numbers of pairs."""
+    expect(len(message.state) == 75, f"a state of {len(message.state)} numbers")
+    expect(len(message.deformed) == len(message.greatest_deformation_m), "deformations")
+    expect(len(message.belt_normal_vehicle) == 3 * len(message.belt_greatest_elongation_m), "belts")
+    touches = {
+        len(values)
+        for values in (
+            message.first_touch_sphere,
+            message.first_touch_surface,
+            message.first_touch_time_s,
+            message.first_touch_closing_m_s,
+        )
+    }
+    expect(len(touches) == 1, "first touches")
+    pairs = [*message.passed, *message.touching]
+    expect(len(pairs) == len(set(pairs)), "a pair that touches and has passed")
+    expect(max([*pairs, *message.deformed], default=0) < message.pairs, "a pair that there is not")
+
+
 def main(path):
     with open(path, "rb") as stream:
         reader = make_reader(stream, validate_crcs=True, decoder_factories=[DecoderFactory()])
@@ -115,13 +135,18 @@ def main(path):
             expect(record.log_time == record.publish_time, topic)
             if topic == "/tf":
                 check_transforms(message, record.log_time)
-            if topic.startswith(("/vehicle", "/occupant", "/belt", "/energy", "/solver")):
+            if topic.startswith(("/vehicle", "/occupant", "/belt", "/energy", "/solver", "/checkpoint")):
                 check_numbers(topic, message)
                 t_s = message.time_s - float(run["start_s"])
                 expect(abs(t_s * 1e9 - record.log_time) <= 1, f"{topic}: time {message.time_s}")
+            if topic == "/checkpoint":
+                check_checkpoint(message)
             if topic.startswith("/occupant/segment/"):
                 largest[topic] = max(largest[topic], message.accelerometer_resultant_m_s2)
         outputs = int(result["outputs"])
+        # a resumed run begins where the one before it has been left
+        begin_ns = round((float(run.get("resumed_at_s", run["start_s"])) - float(run["start_s"])) * 1e9)
+        expect(times["/checkpoint"][0] == begin_ns, "the first output is not where the run begins")
         for topic, own in times.items():
             if topic == "/log":
                 continue
@@ -129,7 +154,7 @@ def main(path):
             wanted = {1} if topic in ONCE else range(1, outputs + 1) if topic in FRAMES else {outputs}
             expect(len(own) in wanted, f"{topic}: {len(own)} messages of {outputs} outputs")
         for topic in FRAMES:
-            expect(times[topic][0] == 0, f"{topic} does not begin at the start")
+            expect(times[topic][0] == begin_ns, f"{topic} does not begin at the first output")
             if result["status"] == "completed":
                 expect(times[topic][-1] == times["/energy"][-1], f"{topic} does not reach the end")
         for segment in SEGMENTS:

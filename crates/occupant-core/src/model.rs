@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 use crate::body::Body;
 use crate::compartment::FlatFace;
 use crate::kernel::belts::BeltLaw;
-use crate::kernel::contact::ContactSystem;
+use crate::kernel::contact::{ContactSystem, PairHistory};
 use crate::kernel::frame::{Moving, VEHICLE};
 use crate::kernel::joints::{BALLS, JointSystem};
 use crate::kernel::kinematics::Kinematics;
@@ -143,7 +143,9 @@ fn begin(
         belts: Vec::new(),
     };
     let (mut state, seated, settled) = match &setup.posture {
-        InitialPosture::Coordinates(q) => (q.to_state(), None, None),
+        InitialPosture::Coordinates(q) | InitialPosture::Continued { coordinates: q, .. } => {
+            (q.to_state(), None, None)
+        }
         InitialPosture::Seated(seating) => {
             let place = seat_of(setup, faces, seating, problems)?;
             let (state, seated) = seat(
@@ -179,7 +181,13 @@ fn begin(
     debug_assert_eq!(rest.len(), BALLS.len());
     system.joints = JointSystem::new(&setup.joints, &rest);
     system.belts = belts(setup, &system, &k, &vehicle, problems);
-    let history = initial_history(&system, &k, &frames(&vehicle));
+    let mut history = initial_history(&system, &k, &frames(&vehicle));
+    if let InitialPosture::Continued { passed, .. } = &setup.posture {
+        let pairs = |at: usize| continued_history(&system, &k, &frames(&vehicle), passed, at);
+        history.pairs = (0..system.contacts.groups().len())
+            .flat_map(pairs)
+            .collect();
+    }
     Some((
         system,
         Start {
@@ -279,6 +287,29 @@ fn centre_in(
     vehicle: &FrameMotion,
 ) -> Vector3<f64> {
     vehicle.point_to_frame(system.sphere(k, sphere).1.to_vector())
+}
+
+/// Pair states of group `at` where an earlier run ended: the listed pairs have passed, all others that overlap touch.
+fn continued_history(
+    system: &System<f64>,
+    k: &Kinematics<f64>,
+    frames: &Frames<f64>,
+    passed: &[(usize, usize)],
+    at: usize,
+) -> Vec<PairHistory<f64>> {
+    let group = &system.contacts.groups()[at];
+    let frame = &frames[group.frame];
+    let centre = frame
+        .axes
+        .into_frame(system.sphere(k, group.sphere).1 - frame.origin);
+    let history = |i: usize| {
+        let parts = &system.contacts.pairs()[i].parts;
+        let is_passed = parts
+            .iter()
+            .any(|part| passed.contains(&(group.sphere, part.surface)));
+        system.contacts.continued_history(i, centre, is_passed)
+    };
+    group.pairs.clone().map(history).collect()
 }
 
 /// Pair states and belt histories of a body that stands where it is.

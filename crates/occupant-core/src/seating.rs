@@ -34,6 +34,13 @@ pub enum InitialPosture {
     Seated(Seating),
     /// Given in the report's generalized coordinates; their rates replace [`InitialVelocity`].
     Coordinates(Box<ReportCoordinates>),
+    /// Where an earlier run ended, as far as cards tell it (series 6 and 14). They carry no greatest deformation.
+    Continued {
+        /// As in [`InitialPosture::Coordinates`].
+        coordinates: Box<ReportCoordinates>,
+        /// Spheres and surfaces (indices) that have passed each other; all others that overlap touch.
+        passed: Vec<(usize, usize)>,
+    },
 }
 
 /// Velocity of a seated body at the start.

@@ -92,6 +92,8 @@ struct Back<'a> {
     setup: &'a Setup,
     kept: Kept,
     builder: DeckBuilder,
+    /// Passed pairs (sphere, surface), by the report's numbers.
+    passed: Vec<(String, String)>,
     remarks: Vec<String>,
     misfits: Vec<String>,
 }
@@ -102,6 +104,7 @@ impl<'a> Back<'a> {
             setup,
             kept,
             builder: DeckBuilder::new(),
+            passed: Vec::new(),
             remarks: Vec::new(),
             misfits: Vec::new(),
         }
@@ -184,14 +187,15 @@ impl<'a> Back<'a> {
             .iter()
             .map(|(n, v)| (n.clone(), v.clone()))
             .collect();
-        let mut pairs = Vec::new();
+        let mut pairs = std::mem::take(&mut self.passed);
         for (name, value) in kept {
-            if name.starts_with(kept::PAIR) {
-                pairs.extend(
-                    value
-                        .split_once(' ')
-                        .map(|(j, k)| (j.to_owned(), k.to_owned())),
-                );
+            if let Some(place) = name.strip_prefix(kept::PAIR) {
+                // back to its place in the series
+                let place = place.trim().parse().unwrap_or(usize::MAX);
+                if let Some((j, k)) = value.split_once(' ') {
+                    let at = place.saturating_sub(1).min(pairs.len());
+                    pairs.insert(at, (j.to_owned(), k.to_owned()));
+                }
             } else if is_kept_field(&name) && !self.builder.has(&name) {
                 self.builder.set(&name, &value);
             }

@@ -25,7 +25,8 @@ pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
                 "joints.*.rest_angle beside a posture: cards take β₀ from the posture if NPOS = 0",
             );
         }
-        InitialPosture::Coordinates(coordinates) => {
+        InitialPosture::Coordinates(coordinates)
+        | InitialPosture::Continued { coordinates, .. } => {
             back.builder.set("NPOS", "1");
             back.builder.with_series(6);
             coordinates_on(back, coordinates);
@@ -38,7 +39,26 @@ pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
             }
         }
     }
+    if let InitialPosture::Continued { passed, .. } = &back.setup.posture {
+        passed_on(back, layout, passed);
+    }
     belts(back);
+}
+
+/// Passed pairs by the report's numbers.
+fn passed_on(back: &mut Back<'_>, layout: &CompartmentLayout, passed: &[(usize, usize)]) {
+    for &(sphere, surface) in passed {
+        let name = back.setup.surfaces.get(surface).map(|s| s.name.clone());
+        let name = name.unwrap_or_default();
+        match layout.number_of(&name) {
+            Some(number) => back
+                .passed
+                .push(((sphere + 1).to_string(), number.to_string())),
+            None => back.misfit(format!(
+                "initial_state.passed names {name}, which is none of the 25 surfaces"
+            )),
+        }
+    }
 }
 
 /// q and their rates, in inches and radians.
@@ -112,7 +132,7 @@ fn velocity(back: &mut Back<'_>) {
 
 fn belts(back: &mut Back<'_>) {
     let setup = back.setup;
-    let exact = matches!(setup.posture, InitialPosture::Coordinates(_));
+    let exact = !matches!(setup.posture, InitialPosture::Seated(_));
     let mut used = 0;
     for belt in &setup.belts {
         let sphere = setup

@@ -1,9 +1,11 @@
 //! Materials and surfaces (series 8 and 9).
 
+use occupant_core::body::SPHERE_NAMES;
+
 use super::ConversionError;
 use super::writer::{Writer, negated};
 use crate::compartment::{CompartmentLayout, Corner, Face};
-use crate::kept::Kept;
+use crate::kept::{Kept, PAIR};
 
 const FIELDS: [&str; 6] = ["STIF1", "STIF2", "DELB", "AMU1", "AMU2", "COFR"];
 
@@ -92,12 +94,8 @@ fn is_without_resistance(w: &mut Writer<'_>, number: u32) -> bool {
     w.value(&format!("STIF1({number})")) == 0.0
 }
 
-/// The numbers of surfaces that the scenario leaves out are kept for the way back.
-pub(super) fn keep_left_out(
-    w: &mut Writer<'_>,
-    layout: &CompartmentLayout,
-    kept: &mut Kept,
-) -> Result<(), ConversionError> {
+/// Surfaces that the scenario leaves out: number, name, why.
+fn left_out(w: &mut Writer<'_>, layout: &CompartmentLayout) -> Vec<(u32, String, &'static str)> {
     let mut left_out = Vec::new();
     for face in layout.faces(w.deck) {
         if face.corners.is_empty() {
@@ -113,8 +111,43 @@ pub(super) fn keep_left_out(
             "has no diameter"
         };
         left_out.push((layout.wheel.number, layout.wheel.name.clone(), why));
+    }
+    left_out
+}
+
+/// A passed pair of series 14 by the scenario's names; none if the scenario leaves the surface out, or if the occupant is
+/// seated (NPOS = 0) and there is nothing to extend.
+pub(super) fn passed_pair(
+    w: &mut Writer<'_>,
+    layout: &CompartmentLayout,
+    (sphere, surface): (u8, u8),
+) -> Option<(&'static str, String)> {
+    let surface = u32::from(surface);
+    let left_out = left_out(w, layout).iter().any(|l| l.0 == surface);
+    let name = layout.name_of(surface)?.to_owned();
+    let sphere = SPHERE_NAMES.get(usize::from(sphere).checked_sub(1)?)?;
+    (w.value("NPOS") == 1.0 && !left_out).then_some((*sphere, name))
+}
+
+/// The numbers of surfaces that the scenario leaves out, and their passed pairs, are kept for the way back.
+pub(super) fn keep_left_out(
+    w: &mut Writer<'_>,
+    layout: &CompartmentLayout,
+    kept: &mut Kept,
+) -> Result<(), ConversionError> {
+    if !has_wheel(w, layout) {
         for name in ["SWP", "DSW"] {
             kept.insert(name.into(), w.bare(name));
+        }
+    }
+    let left_out = left_out(w, layout);
+    for (at, pair) in w.deck.passed_pairs().into_iter().enumerate() {
+        if passed_pair(w, layout, pair).is_none() {
+            let (sphere, surface) = pair;
+            kept.insert(
+                format!("{PAIR} {:03}", at + 1),
+                format!("{sphere} {surface}"),
+            );
         }
     }
     for (number, name, why) in left_out {

@@ -121,11 +121,14 @@ fn switches(w: &mut Writer<'_>) {
             .push("series 12 (path): MREAD ≠ 0 takes it from the path file".into());
     }
     let pairs = w.deck.passed_pairs().len();
-    if w.deck.has_series(14) {
+    if w.deck.has_series(14) && npos == 1.0 {
+        w.report.assumptions.push(format!(
+            "series 14: its {pairs} pairs have passed each other, all others that overlap touch. Cards carry no greatest \
+             deformation, so an extension by cards is approximate; `occupant run --resume` of the recorded run is exact"
+        ));
+    } else if w.deck.has_series(14) {
         w.report.ignored.push(format!(
-            "series 14 ({pairs} passed pairs): a scenario has no pair states; at the start a sphere whose centre is through a \
-             plane has passed it, any other that is nearer than its radius touches. Cards carry no greatest deformation \
-             either, so an extension by cards is approximate; resuming the recorded run is exact"
+            "series 14 ({pairs} passed pairs): NPOS = 0 seats the occupant, and there is no run to extend"
         ));
     }
 }

@@ -1,5 +1,6 @@
 //! Where the occupant is at the start (series 4 and 10, or 6), and the belts (series 13).
 
+use super::compartment::passed_pair;
 use super::writer::{Writer, negated};
 use crate::compartment::CompartmentLayout;
 
@@ -25,6 +26,7 @@ pub(crate) const BELTS: [(u32, &str, &str); 2] = [(1, "lap", "pelvis"), (2, "tor
 pub(super) fn write(w: &mut Writer<'_>, layout: &CompartmentLayout) {
     if w.value("NPOS") == 1.0 {
         exact_state(w);
+        passed(w, layout);
     } else {
         seating(w, layout);
     }
@@ -47,6 +49,25 @@ fn exact_state(w: &mut Writer<'_>) {
             rows.concat()
         ));
     }
+}
+
+/// The pairs of series 14, a line for each sphere.
+fn passed(w: &mut Writer<'_>, layout: &CompartmentLayout) {
+    if !w.deck.has_series(14) {
+        return;
+    }
+    let (mut text, mut before) = (String::new(), "");
+    for pair in w.deck.passed_pairs() {
+        let Some((sphere, surface)) = passed_pair(w, layout, pair) else {
+            continue;
+        };
+        text.push_str(if sphere == before { " " } else { "\n    " });
+        text.push_str(&format!("[\"{sphere}\", \"{surface}\"],"));
+        before = sphere;
+    }
+    w.raw(&format!(
+        "passed = [                     # series 14: spheres that have passed a surface's edge{text}\n]\n"
+    ));
 }
 
 const ORDER: &str = "                          # T1; φ θ ψ of segments 1, 2, 3, 4, 5, 6; α₇ α₈; φ θ ψ of 9, 10; α₁₁ α₁₂";

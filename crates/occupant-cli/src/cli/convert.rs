@@ -12,12 +12,13 @@ use clap::ArgGroup;
 use occupant_core::scenario::{Draft, Format, Loaded};
 
 use super::exit::{Done, Failure};
-use super::extend::extend;
+use super::extend::{extend, extend_run};
 use super::speak::{print, say};
 
 /// Convert a card deck of 1970 to a scenario, or a scenario to a card deck
 ///
-/// A file named .toml or .json is a scenario and becomes a deck; any other is a deck and becomes a scenario. Diagnostics and
+/// A file named .toml or .json is a scenario and becomes a deck; .mcap is a run, of which --extend makes the deck that goes
+/// on from its end; any other is a deck and becomes a scenario. Diagnostics and
 /// the conversion's report go to standard error, the result to -o or to standard output.
 #[derive(Debug, clap::Args)]
 #[command(group = ArgGroup::new("strictness").args(["strict", "lenient"]))]
@@ -63,7 +64,8 @@ pub struct Args {
     #[arg(long, value_name = "FILE.toml")]
     compartment: Option<PathBuf>,
 
-    /// Run the deck to its end, and write the deck that extends the run to this time, s (series 6 and 14)
+    /// Run the deck to its end, or take the end of a run's .mcap, and write the deck that extends it to this time, s (series 6
+    /// and 14)
     #[arg(long, value_name = "TIME")]
     extend: Option<f64>,
 
@@ -80,6 +82,13 @@ pub struct Args {
 pub fn convert(args: &Args) -> Result<Done, Failure> {
     let bytes = read(&args.input)?;
     let layout = args.compartment.as_deref().map(compartment).transpose()?;
+    if args
+        .input
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("mcap"))
+    {
+        return run_to_deck(args, &bytes, layout.as_ref());
+    }
     match format_of(&args.input) {
         Some(format) => scenario_to_deck(args, &bytes, format, layout.as_ref()),
         None => decks_to_scenarios(args, &bytes, layout),
@@ -251,6 +260,25 @@ fn numbered(file: &Path, number: usize) -> PathBuf {
     file.with_file_name(format!("{stem}-{number}{extension}"))
 }
 
+/// The deck that goes on from a results file.
+fn run_to_deck(
+    args: &Args,
+    bytes: &[u8],
+    layout: Option<&CompartmentLayout>,
+) -> Result<Done, Failure> {
+    let Some(final_s) = args.extend else {
+        return Err(Failure::with_help(
+            format!(
+                "{} is a run, and a deck of its scenario would not go on from it",
+                args.input.display()
+            ),
+            "give the time to which the deck extends the run: --extend TIME",
+        ));
+    };
+    let cards = extend_run(&args.input, bytes, layout, final_s)?;
+    deliver_deck(args, cards)
+}
+
 fn scenario_to_deck(
     args: &Args,
     bytes: &[u8],
@@ -261,9 +289,15 @@ fn scenario_to_deck(
         return Err(Failure::plain("--extend takes a deck"));
     }
     let loaded = load(&args.input, bytes, format)?;
-    let FromScenario { deck, remarks } = Deck::from_scenario(&loaded, layout).map_err(|error| {
+    let cards = Deck::from_scenario(&loaded, layout).map_err(|error| {
         Failure::CouldNotRun(format!("error: {}: {error}", args.input.display()))
     })?;
+    deliver_deck(args, cards)
+}
+
+/// Writes a deck, and says what there is to say of it.
+fn deliver_deck(args: &Args, cards: FromScenario) -> Result<Done, Failure> {
+    let FromScenario { deck, remarks } = cards;
     deliver(args, args.output.as_deref(), &write_file(&[deck]))?;
     let remarks: String = remarks
         .iter()

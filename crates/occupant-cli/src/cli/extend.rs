@@ -1,16 +1,21 @@
 //! The procedure of 1970 for longer runs: run a deck to its end, then punch the deck that goes on from there.
 
+use std::path::Path;
+
 use cardio_legacy::{
-    CompartmentLayout, ConvertOptions, Deck, PathSource, RunEnd, spine_rest, write_file,
+    CompartmentLayout, ConvertOptions, Deck, FromScenario, PathSource, RunEnd, spine_rest,
+    write_file,
 };
 use occupant_core::model::Model;
-use occupant_core::recorder::Watch;
+use occupant_core::recorder::{Flow, Recorder, RecorderError, Watch};
 use occupant_core::sample::Sample;
 use occupant_core::scenario::{Draft, Format};
-use occupant_core::simulate::{Status, simulate};
+use occupant_core::simulate::{Status, replay, simulate};
 
 use super::exit::Failure;
+use super::scenario;
 use super::speak::say;
+use crate::mcap::StoredRun;
 
 /// Runs a deck's scenario and gives the file of the deck that goes on from there.
 ///
@@ -39,13 +44,7 @@ pub fn extend(
         .map_err(refused)?;
     let (model, _) = loaded.model().map_err(refused)?;
     let end = run_end(&model, &layout)?;
-    if final_s.is_nan() || final_s <= end.time_s {
-        let found = format!(
-            "--extend {final_s} s lies not after the end of the run, {} s",
-            end.time_s
-        );
-        return Err(Failure::with_help(found, "give a later time"));
-    }
+    refuse_early(final_s, end.time_s)?;
     if !quiet {
         say(&format!(
             "ran to {} s; cards carry no greatest deformations, so the extension is approximate",
@@ -53,6 +52,66 @@ pub fn extend(
         ));
     }
     Ok(write_file(&[deck.extended(&end, final_s)]))
+}
+
+/// The deck that goes on from the last checkpoint of a results file, and what there is to say of it.
+///
+/// # Errors
+/// A file without checkpoint or scenario, a scenario that does not fit on cards, a time before the file's end.
+pub fn extend_run(
+    file: &Path,
+    bytes: &[u8],
+    layout: Option<&CompartmentLayout>,
+    final_s: f64,
+) -> Result<FromScenario, Failure> {
+    let name = file.display();
+    let stored = StoredRun::read(bytes).map_err(|e| Failure::plain(format!("{name}: {e}")))?;
+    let last = stored.checkpoints.last();
+    let last = last.ok_or_else(|| Failure::plain(format!("{name} holds no checkpoint")))?;
+    refuse_early(final_s, last.time_s)?;
+    let loaded = scenario::stored(file, &stored)?;
+    let (model, _) = loaded
+        .model()
+        .map_err(|problems| Failure::CouldNotRun(problems.to_string()))?;
+    let cards = Deck::from_scenario(&loaded, layout);
+    let mut cards = cards.map_err(|e| Failure::CouldNotRun(format!("error: {name}: {e}")))?;
+    let layout = match layout {
+        Some(layout) => layout.clone(),
+        None => CompartmentLayout::reconstruction().map_err(Failure::plain)?,
+    };
+    let broke =
+        |error: &dyn std::error::Error| Failure::BrokeOff(format!("error: {name}: {error}"));
+    let mut first = First(None);
+    simulate(&model, &mut first).map_err(|e| broke(&e))?;
+    let rest = first.0.unwrap_or_default();
+    let mut end = None;
+    let mut watch = Watch(|s: &Sample<'_>| end = Some(RunEnd::after(rest, s, &layout)));
+    replay(&model, last, &mut watch).map_err(|e| broke(&e))?;
+    let end = end.ok_or_else(|| Failure::plain(format!("{name} holds no checkpoint")))?;
+    cards.deck = cards.deck.extended(&end, final_s);
+    cards.remarks.push(format!(
+        "goes on from t = {} s; cards carry no greatest deformations, so the extension is approximate, `occupant run --resume` is exact",
+        end.time_s
+    ));
+    Ok(cards)
+}
+
+/// Looks at the first output alone, for β₀ of the spine.
+struct First(Option<[f64; 2]>);
+
+impl Recorder for First {
+    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        self.0 = Some(spine_rest(sample));
+        Ok(Flow::Stop)
+    }
+}
+
+fn refuse_early(final_s: f64, end_s: f64) -> Result<(), Failure> {
+    if final_s.is_nan() || final_s <= end_s {
+        let found = format!("--extend {final_s} s lies not after the end of the run, {end_s} s");
+        return Err(Failure::with_help(found, "give a later time"));
+    }
+    Ok(())
 }
 
 fn run_end(model: &Model, layout: &CompartmentLayout) -> Result<RunEnd, Failure> {

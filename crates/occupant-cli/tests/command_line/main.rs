@@ -5,6 +5,7 @@ mod files;
 mod interrupt;
 mod new;
 mod problems;
+mod resume;
 mod run;
 mod words;
 

@@ -163,6 +163,21 @@ impl<S: Scalar> ContactSystem<S> {
         }
     }
 
+    /// The state of a pair where an earlier run ended, which tells whether it has passed but not how deep it was.
+    pub fn continued_history(&self, i: usize, centre: V3<S>, passed: bool) -> PairHistory<S> {
+        let o = S::zero();
+        let depth = self.planes[i].depth(centre);
+        let contact = depth.gt(o);
+        let (phase, greatest) = match passed {
+            true => (PASSED, o),
+            false => (TOUCHING, depth),
+        };
+        PairHistory {
+            phase: S::select(contact, S::of(phase), S::of(OPEN)),
+            greatest: S::select(contact, greatest, o),
+        }
+    }
+
     /// True if the pair can exert a force before the next commit: not passed, and within reach of a step.
     #[inline(always)]
     pub(super) fn is_near(&self, depth: S, history: &PairHistory<S>) -> bool {

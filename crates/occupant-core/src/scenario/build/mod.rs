@@ -38,7 +38,7 @@ pub(super) fn build(
     let surfaces = surfaces::surfaces(&mut b, explicit, &body);
     let belts = belts::belts(&mut b, explicit, &body);
     let path = path::path(&mut b, &explicit.path, path_table);
-    let (posture, velocity) = posture::posture(&mut b, explicit);
+    let (posture, velocity) = posture::posture(&mut b, explicit, &body);
     let time = run::time(&mut b, explicit);
     let integrator = run::integrator(&mut b, explicit);
     let output = run::output(explicit);

@@ -3,23 +3,25 @@
 use nalgebra::Vector3;
 
 use super::builder::Builder;
+use crate::body::Body;
 use crate::report_coordinates::{DOF, ReportCoordinates};
 use crate::scenario::kind::UnitSystem;
 use crate::scenario::model::{InitialStateSection, PostureSection, Scenario};
 use crate::seating::{InitialPosture, InitialVelocity, Seating};
 
 /// Position and velocity at the start.
-pub(super) fn posture(b: &mut Builder, s: &Scenario) -> (Option<InitialPosture>, InitialVelocity) {
+pub(super) fn posture(
+    b: &mut Builder,
+    s: &Scenario,
+    body: &Body,
+) -> (Option<InitialPosture>, InitialVelocity) {
     check_seats(b, s);
     match (&s.posture, &s.initial_state) {
         (Some(posture), _) => (
             seating(b, s, posture).map(InitialPosture::Seated),
             velocity(b, posture),
         ),
-        (None, Some(state)) => (
-            coordinates(b, state).map(|c| InitialPosture::Coordinates(Box::new(c))),
-            InitialVelocity::WithVehicle,
-        ),
+        (None, Some(state)) => (state_of(b, s, state, body), InitialVelocity::WithVehicle),
         (None, None) => (None, InitialVelocity::WithVehicle),
     }
 }
@@ -64,6 +66,33 @@ fn velocity(b: &mut Builder, p: &PostureSection) -> InitialVelocity {
         (None, Some(false)) => InitialVelocity::VehicleOrigin,
         (None, _) => InitialVelocity::WithVehicle,
     }
+}
+
+/// The exact state, with the pairs that have passed where they are told.
+fn state_of(
+    b: &mut Builder,
+    s: &Scenario,
+    state: &InitialStateSection,
+    body: &Body,
+) -> Option<InitialPosture> {
+    let coordinates = Box::new(coordinates(b, state)?);
+    let Some(pairs) = &state.passed else {
+        return Some(InitialPosture::Coordinates(coordinates));
+    };
+    let mut passed = Vec::with_capacity(pairs.len());
+    for (i, [sphere, surface]) in pairs.iter().enumerate() {
+        let path = |part: usize| format!("initial_state.passed[{i}][{part}]");
+        let spheres = body.spheres.iter().map(|s| s.name.as_str());
+        let surfaces = s.surfaces.keys().map(String::as_str);
+        passed.push((
+            b.index_of(&path(0), "sphere", sphere, spheres),
+            b.index_of(&path(1), "surface", surface, surfaces),
+        ));
+    }
+    Some(InitialPosture::Continued {
+        coordinates,
+        passed,
+    })
 }
 
 /// q₁–q₃ are lengths in the file's unit, all others radians.

@@ -64,4 +64,8 @@ pub struct InitialStateSection {
     /// Their rates.
     #[schemars(extend("minItems" = 31, "maxItems" = 31))]
     pub rates: Vec<f64>,
+    /// To extend a run from cards: [sphere, surface] of the pairs that have passed each other; all others that overlap
+    /// touch. If absent, a sphere whose centre is beyond the plane or beside the face has passed it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub passed: Option<Vec<[String; 2]>>,
 }

@@ -185,6 +185,21 @@ fn an_exact_state_replaces_the_posture() {
         (inches.q[0], inches.q[5], inches.rates[1]),
         (0.0127, 0.5, 0.0508)
     );
+    let with_passed = |pairs: &str| text.replace("rates =", &format!("passed = {pairs}\nrates ="));
+    let continued = build(&with_passed(r#"[["left_hand", "steering_wheel"]]"#));
+    let InitialPosture::Continued { passed, .. } = &continued.posture else {
+        panic!("no pairs")
+    };
+    let [(sphere, surface)] = passed.as_slice() else {
+        panic!("{passed:?}")
+    };
+    assert_eq!(continued.body.spheres[*sphere].name, "left_hand");
+    assert_eq!(continued.surfaces[*surface].name, "steering_wheel");
+    let wrong = super::complaint(&with_passed(r#"[["left_hand", "stering_wheel"]]"#));
+    assert!(
+        wrong.contains("no surface is named \"stering_wheel\""),
+        "{wrong}"
+    );
 }
 
 #[test]
