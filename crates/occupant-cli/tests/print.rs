@@ -167,6 +167,10 @@ fn the_echo_says_what_was_read_and_computed() {
     ] {
         assert!(text.contains(words), "{words}\n{text}");
     }
+    assert!(
+        !text.contains("DIFFERS"),
+        "the rebuilt model is the one that ran"
+    );
 }
 
 #[test]
@@ -337,6 +341,10 @@ fn a_deck_is_printed_in_inches_with_its_cards_numbers_and_both_titles() {
     );
     assert!(text.contains("SURFACE NUMBERS ARE THOSE OF THE CARDS"));
     assert!(text.contains("25 steering_wheel"));
+    assert!(
+        !text.contains("DIFFERS"),
+        "the rebuilt model is the one that ran"
+    );
     assert!(text.contains("PAIRS WITH NARRY(J,K) = 0: "));
 }
 

@@ -30,7 +30,7 @@ pub struct Args {
     force: bool,
 
     /// Print interval (DTPRNT), such as "10 ms" or 0.01; every recorded output if absent
-    #[arg(long, value_name = "TIME")]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
     every: Option<String>,
 
     /// Units; those of the scenario if absent

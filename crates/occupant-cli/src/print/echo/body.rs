@@ -11,12 +11,11 @@ use crate::print::unit::Units;
 /// Writes the body.
 pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
     let body = case.model.body();
+    // the resolved scenario writes a preset out, and calls it the scenario's own
+    let name = case.file.run.get("body").unwrap_or(&body.name);
     let (l, m, i) = (units.length, units.mass, units.inertia);
     let mut table = Table::new(
-        format!(
-            "BODY {}: SEGMENTS ({}, {}, {})",
-            body.name, l.name, m.name, i.name
-        ),
+        format!("BODY {name}: SEGMENTS ({}, {}, {})", l.name, m.name, i.name),
         &[
             "NO",
             "<SEGMENT",

@@ -26,6 +26,10 @@ pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
     if let Some(settled) = &start.settled {
         came_to_rest(pages, units, settled);
     }
+    let recorded = case.file.checkpoints.first().filter(|c| c.index == 0);
+    if recorded.is_some_and(|c| c.state.to_numbers() != start.state.to_numbers()) {
+        pages.say("*** THE RECORDED START DIFFERS FROM THE ONE COMPUTED HERE: ANOTHER VERSION OF THE PROGRAM ***");
+    }
     let laid = setup.belts.iter().zip(&case.model.system().belts);
     for (belt, law) in laid {
         pages.say(&format!(
