@@ -1,4 +1,4 @@
-//! Ctrl-C and the polite signals end a run at its next output.
+//! Ctrl-C and the polite signals end a run at its next output; a second one ends it at once.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -19,7 +19,14 @@ impl Interrupt {
     pub fn listen() -> Self {
         let interrupt = Interrupt::default();
         let asked = Arc::clone(&interrupt.asked);
-        if let Err(error) = ctrlc::set_handler(move || asked.store(true, Ordering::Relaxed)) {
+        let handler = move || {
+            if asked.swap(true, Ordering::Relaxed) {
+                // the next output is too far away; what was written stays readable under the partial name
+                std::process::exit(1);
+            }
+            say("stopping at the next output; once more to stop at once");
+        };
+        if let Err(error) = ctrlc::set_handler(handler) {
             say(&format!(
                 "warning: Ctrl-C will end the run at once: {error}"
             ));

@@ -14,6 +14,7 @@ mod extend;
 mod interrupt;
 mod new;
 mod output_file;
+mod print;
 mod progress;
 mod recording;
 mod resume;
@@ -52,6 +53,7 @@ enum Command {
     New(new::Args),
     Schema(schema::Args),
     Convert(convert::Args),
+    Print(print::Args),
     Completions(completions::Args),
 }
 
@@ -63,6 +65,7 @@ pub fn main() -> ExitCode {
         Command::New(args) => new::new(&args),
         Command::Schema(args) => schema::print(&args),
         Command::Convert(args) => convert::convert(&args),
+        Command::Print(args) => print::print_run(&args),
         Command::Completions(args) => completions::print(&args),
     };
     exit::code(result)
