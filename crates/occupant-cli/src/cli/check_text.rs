@@ -2,12 +2,13 @@
 
 use occupant_core::diagnosis::{Diagnosis, Rate, SeatStart};
 
+use super::summary_table::plain;
 use super::table::Align::{Left, Right};
 use super::table::{NONE, Table, facts};
 
 /// Everything that a user should see before a run.
 pub fn check_text(d: &Diagnosis) -> String {
-    let mut parts = vec![format!("{}\n", d.title), overview(d), segments(d)];
+    let mut parts = vec![format!("{}\n", plain(&d.title)), overview(d), segments(d)];
     if let Some(seat) = &d.seat {
         parts.push(seating(seat));
     }

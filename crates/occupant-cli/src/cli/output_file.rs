@@ -39,6 +39,16 @@ pub enum FileProblem {
         /// The file.
         path: PathBuf,
     },
+    /// Something that is no ordinary file has that name: a folder, a device.
+    NotAFile {
+        /// The place.
+        path: PathBuf,
+    },
+    /// The file would replace one that the run reads.
+    IsInput {
+        /// The file.
+        path: PathBuf,
+    },
     /// The operating system refuses.
     Io {
         /// What was being done, e.g. `create`.
@@ -63,6 +73,16 @@ impl fmt::Display for FileProblem {
                 "{} exists: a run that was interrupted or still goes on; --force replaces it, -o gives another name",
                 path.display()
             ),
+            FileProblem::NotAFile { path } => write!(
+                f,
+                "{} is not an ordinary file; -o gives another name",
+                path.display()
+            ),
+            FileProblem::IsInput { path } => write!(
+                f,
+                "{} is what the run reads and is not replaced; -o gives another name",
+                path.display()
+            ),
             FileProblem::Io {
                 doing,
                 path,
@@ -76,8 +96,49 @@ impl std::error::Error for FileProblem {
     fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
         match self {
             FileProblem::Io { source, .. } => Some(source),
-            FileProblem::Exists { .. } | FileProblem::PartialExists { .. } => None,
+            FileProblem::Exists { .. }
+            | FileProblem::PartialExists { .. }
+            | FileProblem::NotAFile { .. }
+            | FileProblem::IsInput { .. } => None,
         }
+    }
+}
+
+/// Refuses a target that is, under whatever name, a file that the run reads.
+///
+/// # Errors
+/// [`FileProblem::IsInput`].
+pub fn refuse_input(target: &Path, input: &Path) -> Result<(), FileProblem> {
+    let same = |a: &Path, b: &Path| match (fs::canonicalize(a), fs::canonicalize(b)) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => false,
+    };
+    for path in [target.to_owned(), partial_path(target)] {
+        if same(&path, input) {
+            return Err(FileProblem::IsInput { path });
+        }
+    }
+    Ok(())
+}
+
+/// Refuses what a rename would destroy although it is no file of results.
+fn refuse_irregular(target: &Path) -> Result<(), FileProblem> {
+    let path = target.to_owned();
+    match fs::metadata(target) {
+        Ok(found) if !found.is_file() => Err(FileProblem::NotAFile { path }),
+        _ if target.file_name().is_none() => Err(FileProblem::NotAFile { path }),
+        _ => Ok(()),
+    }
+}
+
+fn remove_if_there(partial: &Path) -> Result<(), FileProblem> {
+    match fs::remove_file(partial) {
+        Err(source) if source.kind() != io::ErrorKind::NotFound => Err(FileProblem::Io {
+            doing: "replace",
+            path: partial.to_owned(),
+            source,
+        }),
+        _ => Ok(()),
     }
 }
 
@@ -95,7 +156,12 @@ impl PartialFile {
                 refuse_existing(target)?;
                 options.create_new(true)
             }
-            Existing::Replace => options.create(true).truncate(true),
+            Existing::Replace => {
+                refuse_irregular(target)?;
+                // a run that still writes the old one keeps it, without its name
+                remove_if_there(&partial)?;
+                options.create_new(true)
+            }
         };
         let file = options.open(&partial).map_err(|source| {
             let path = partial.clone();

@@ -9,7 +9,7 @@ use occupant_core::sample::Sample;
 use occupant_core::simulate::Outcome;
 
 use super::exit::Failure;
-use super::output_file::{Existing, FileProblem, PartialFile, partial_path};
+use super::output_file::{Existing, FileProblem, PartialFile, partial_path, refuse_input};
 use super::resume::Resumption;
 use super::run::program;
 use super::scenario::{Opened, ScenarioArgs, file_name};
@@ -66,6 +66,11 @@ impl Recording {
         if let Some(from) = from {
             from.keep_from(name, &partial_path(name))?;
             about.notes.extend(from.notes());
+        }
+        refuse_input(name, &args.scenario).map_err(|e| refused(&e))?;
+        if let Some((table, _)) = opened.loaded.table() {
+            let folder = args.scenario.parent().unwrap_or(Path::new(""));
+            refuse_input(name, &folder.join(table)).map_err(|e| refused(&e))?;
         }
         let file = PartialFile::create(name, existing).map_err(|e| refused(&e))?;
         let partial = file.partial_path().to_owned();

@@ -124,9 +124,47 @@ pub fn run(args: &Args) -> Result<Done, Failure> {
         warnings: Vec::new(),
     };
     tell(args, &opened, answer, &friction, &written)?;
+    let energy = Balance::of(&summary);
+    if !args.quiet || energy == Balance::Broken {
+        energy.tell(&summary);
+    }
     match completed {
+        true if energy == Balance::Broken => Ok(Done::Unwell),
         true => Ok(Done::Well),
         false => Err(Failure::BrokeOff(broke_off(&summary, &written))),
+    }
+}
+
+/// How well a run kept its energy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Balance {
+    Kept,
+    /// The figures are doubtful.
+    Doubtful,
+    /// The figures mean nothing.
+    Broken,
+}
+
+impl Balance {
+    /// Doubtful above 1 % of the greatest kinetic energy, broken above 10 %.
+    fn of(summary: &Summary) -> Self {
+        match summary.energy.balance_error.abs() {
+            error if error > 0.1 => Balance::Broken,
+            error if error > 0.01 => Balance::Doubtful,
+            _ => Balance::Kept,
+        }
+    }
+
+    fn tell(self, summary: &Summary) {
+        let percent = 100.0 * summary.energy.balance_error.abs();
+        let (word, means) = match self {
+            Balance::Kept => return,
+            Balance::Doubtful => ("warning", "the figures are doubtful"),
+            Balance::Broken => ("error", "the figures mean nothing"),
+        };
+        say(&format!(
+            "{word}: the energy balance is off by {percent:.1} %: {means}\n = help: a smaller step or tolerance; `occupant check` shows the fastest time scale"
+        ));
     }
 }
 

@@ -26,7 +26,22 @@ fn title(summary: &Summary) -> String {
         RunStatus::Interrupted => format!("INTERRUPTED: {reached} of {} ms", ms(summary.end_s)),
         RunStatus::Failed => format!("FAILED: {reached} of {} ms", ms(summary.end_s)),
     };
-    format!("{}\n{ending}\n", summary.title)
+    let every = (summary.reached_s - summary.start_s)
+        / summary.solver.outputs.saturating_sub(1).max(1) as f64;
+    let peaks = format!(
+        "peaks are those of outputs every {} ms",
+        number(every * 1e3, 3)
+            .trim_end_matches('0')
+            .trim_end_matches('.')
+    );
+    format!("{}\n{ending}; {peaks}\n", plain(&summary.title))
+}
+
+/// A name without characters that would speak to the terminal instead of the reader.
+pub(super) fn plain(name: &str) -> String {
+    name.chars()
+        .map(|c| if c.is_control() { ' ' } else { c })
+        .collect()
 }
 
 fn accelerations(summary: &Summary) -> String {
