@@ -19,6 +19,9 @@ pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
         InitialPosture::Coordinates(_) => {
             pages.say("THE START IS GIVEN BY GENERALIZED COORDINATES; NOBODY WAS SEATED");
         }
+        InitialPosture::Continued { .. } => {
+            pages.say("THE START CONTINUES AN EARLIER RUN: COORDINATES AND PAIRS WITH NARRY = 0 ARE GIVEN");
+        }
     }
     if let Some(seated) = &start.seated {
         computed(pages, units, seated);
