@@ -3,6 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::{UnitQuaternion, Vector3};
+use occupant_cli::mcap::StoredRun;
 use occupant_core::body::Segment;
 use occupant_core::joint::Joint;
 use occupant_core::recorder::Watch;
@@ -235,9 +236,23 @@ fn every_number_comes_back_to_the_bit() {
     ];
     let scenes = scenes.map(|s| format!("/scene/{s}"));
     let mut known: Vec<&str> = scenes.iter().map(String::as_str).collect();
-    known.splice(0..0, ["/log"]);
+    known.splice(0..0, ["/checkpoint", "/log"]);
     known.push("/tf");
     assert_eq!(others, known);
+}
+
+/// The state, and the history of pairs and belts, with the signs of zeros: as text every bit shows.
+#[test]
+fn every_checkpoint_comes_back_to_the_bit() {
+    let mut checkpoints = Vec::new();
+    let watch = Watch(|s: &Sample<'_>| checkpoints.push(s.checkpoint()));
+    let (bytes, _) = record(&model(), watch);
+    let stored = StoredRun::read(&bytes).unwrap();
+    assert_eq!(stored.checkpoints.len(), 41);
+    assert_eq!(
+        format!("{:?}", stored.checkpoints),
+        format!("{checkpoints:?}")
+    );
 }
 
 /// Every field of the message is one that the test knows, apart from those with tests of their own.
