@@ -16,7 +16,7 @@ pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
     let (setup, start) = (case.model.setup(), case.model.start());
     match &setup.posture {
         InitialPosture::Seated(seating) => read(pages, case, units, seating),
-        InitialPosture::Coordinates(_) | InitialPosture::Continued { .. } => {
+        InitialPosture::Coordinates(_) => {
             pages.say("THE START IS GIVEN BY GENERALIZED COORDINATES; NOBODY WAS SEATED");
         }
         InitialPosture::Continued { .. } => {
