@@ -120,7 +120,7 @@ fn every_page_has_the_titles_its_number_and_at_most_60_lines_of_132_columns() {
     let text = printed(folder.path(), &["short.mcap", "--every", "10 ms"]);
     let pages = pages(&text);
     // five pages of echo at least, two a print time (0, 10, 20, 30 and the last, 39.5 ms), the last sheet
-    assert!(pages.len() >= 5 + 2 * 5 + 1, "{} pages", pages.len());
+    assert!(pages.len() > 5 + 2 * 5, "{} pages", pages.len());
     for (i, page) in pages.iter().enumerate() {
         let lines: Vec<&str> = page.lines().collect();
         assert!(

@@ -16,8 +16,11 @@ pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
     let (setup, start) = (case.model.setup(), case.model.start());
     match &setup.posture {
         InitialPosture::Seated(seating) => read(pages, case, units, seating),
-        InitialPosture::Coordinates(_) | InitialPosture::Continued { .. } => {
+        InitialPosture::Coordinates(_) => {
             pages.say("THE START IS GIVEN BY GENERALIZED COORDINATES; NOBODY WAS SEATED");
+        }
+        InitialPosture::Continued { .. } => {
+            pages.say("THE START CONTINUES AN EARLIER RUN: COORDINATES AND PAIRS WITH NARRY = 0 ARE GIVEN");
         }
     }
     if let Some(seated) = &start.seated {
