@@ -137,7 +137,7 @@ fn a_damaged_chunk_gives_no_checkpoint() {
     let middle = bytes.len() * 6 / 10;
     bytes[middle] ^= 0x10;
     let left = StoredRun::read(&bytes).map_or(0, |s| s.checkpoints.len());
-    assert!(left < sound && left % 50 == 0, "{left} of {sound}");
+    assert!(left < sound && left.is_multiple_of(50), "{left} of {sound}");
 }
 
 #[test]
