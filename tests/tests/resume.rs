@@ -166,7 +166,8 @@ fn a_checkpoint_of_another_scenario_is_refused() {
         }
     };
     let pairs = sound.pairs.len();
-    let cases: [(CheckpointError, &dyn Fn(&mut Checkpoint)); 8] = [
+    type Damage<'a> = &'a dyn Fn(&mut Checkpoint);
+    let cases: [(CheckpointError, Damage); 8] = [
         (
             CheckpointError::Pairs {
                 found: pairs - 1,
