@@ -10,8 +10,9 @@ use crate::kernel::belts::BeltHistory;
 use crate::kernel::contact::{OPEN, PASSED, PairHistory, TOUCHING};
 use crate::kernel::state::State;
 use crate::model::Model;
+use crate::outcome::FirstTouch;
 use crate::sample::Effort;
-use crate::simulate::{FirstTouch, output_time};
+use crate::simulate::output_time;
 
 /// A run at one of its outputs.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,8 +1,8 @@
 //! Where the results of a run go.
 
 use crate::model::Model;
+use crate::outcome::Outcome;
 use crate::sample::Sample;
-use crate::simulate::Outcome;
 
 /// Whatever went wrong in a recorder, e.g. a full disk.
 pub type RecorderError = Box<dyn std::error::Error + Send + Sync>;
