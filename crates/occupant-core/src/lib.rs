@@ -85,6 +85,7 @@ pub mod kernel;
 pub mod material;
 pub mod measure;
 pub mod model;
+mod observers;
 pub mod outcome;
 pub mod path;
 pub mod problem;

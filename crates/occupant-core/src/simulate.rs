@@ -5,12 +5,11 @@ use crate::checkpoint::{Checkpoint, CheckpointError, Progress};
 use crate::energy::{EnergyLedger, EnergyStart, Stored};
 use crate::integrate::dormand_prince::{self, Tolerance};
 use crate::integrate::rk4::{self, Stage};
-use crate::kernel::belts::BeltAction;
-use crate::kernel::contact::Touch;
+use crate::kernel::History;
 use crate::kernel::frame::VEHICLE;
 use crate::kernel::state::{FREE, HINGED, State};
-use crate::kernel::{History, Observer};
 use crate::model::{Model, frames};
+use crate::observers::{Seen, SeenAt, Touches};
 pub use crate::outcome::{FirstTouch, Outcome, RecordingFailed, ResumeError, Status, StepError};
 use crate::path::PathCursor;
 use crate::recorder::{Flow, Recorder, RecorderError};
@@ -443,82 +442,4 @@ fn broken_component(state: &State<f64>) -> String {
         }
     }
     "place or velocity of the reference point T1".to_owned()
-}
-
-/// Collects the details of one evaluation.
-struct Touches {
-    pairs: Vec<Touch<f64>>,
-    belts: Vec<BeltAction<f64>>,
-}
-
-impl Touches {
-    fn clear(&mut self) {
-        self.pairs.clear();
-        self.belts.clear();
-    }
-}
-
-impl Observer<f64> for Touches {
-    fn touch(&mut self, touch: &Touch<f64>) {
-        self.pairs.push(*touch);
-    }
-    fn belt(&mut self, _index: usize, action: &BeltAction<f64>) {
-        self.belts.push(*action);
-    }
-}
-
-/// Remembers which sphere has touched which surface.
-struct Seen<'a> {
-    model: &'a Model,
-    /// By sphere and surface.
-    known: Vec<bool>,
-    touches: Vec<FirstTouch>,
-}
-
-impl<'a> Seen<'a> {
-    fn new(model: &'a Model) -> Self {
-        let combinations = model.body().spheres.len() * model.faces().len();
-        Seen {
-            model,
-            known: vec![false; combinations],
-            touches: Vec::with_capacity(combinations),
-        }
-    }
-
-    /// Takes over what an earlier part of the run has seen; all of it is of the model.
-    fn know(&mut self, touches: &[FirstTouch]) {
-        for touch in touches {
-            self.known[touch.sphere * self.model.faces().len() + touch.surface] = true;
-        }
-        self.touches.extend_from_slice(touches);
-    }
-
-    fn note(&mut self, time_s: f64, touch: &Touch<f64>) {
-        let pair = &self.model.system().contacts.pairs()[touch.pair];
-        let surface = pair.parts[touch.part as usize].surface;
-        let known = &mut self.known[touch.sphere * self.model.faces().len() + surface];
-        if !*known {
-            *known = true;
-            let closing_m_s = touch.closing;
-            self.touches.push(FirstTouch {
-                sphere: touch.sphere,
-                surface,
-                time_s,
-                closing_m_s,
-            });
-        }
-    }
-}
-
-/// Watches the first evaluation of a step.
-struct SeenAt<'s, 'a> {
-    seen: &'s mut Seen<'a>,
-    time_s: f64,
-}
-
-impl Observer<f64> for SeenAt<'_, '_> {
-    #[inline(always)]
-    fn touch(&mut self, touch: &Touch<f64>) {
-        self.seen.note(self.time_s, touch);
-    }
 }
