@@ -195,7 +195,7 @@ fn an_exact_state_replaces_the_posture() {
     };
     assert_eq!(continued.body.spheres[*sphere].name, "left_hand");
     assert_eq!(continued.surfaces[*surface].name, "steering_wheel");
-    let wrong = super::complaint(&with_passed(r#"[["left_hand", "stering_wheel"]]"#));
+    let wrong = complaint(&with_passed(r#"[["left_hand", "stering_wheel"]]"#));
     assert!(
         wrong.contains("no surface is named \"stering_wheel\""),
         "{wrong}"
