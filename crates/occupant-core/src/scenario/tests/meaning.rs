@@ -196,10 +196,7 @@ fn an_exact_state_replaces_the_posture() {
     assert_eq!(continued.body.spheres[*sphere].name, "left_hand");
     assert_eq!(continued.surfaces[*surface].name, "cushion");
     let wrong = complaint(&with_passed(r#"[["left_hand", "cushon"]]"#));
-    assert!(
-        wrong.contains("no surface is named \"cushon\""),
-        "{wrong}"
-    );
+    assert!(wrong.contains("no surface is named \"cushon\""), "{wrong}");
 }
 
 #[test]
