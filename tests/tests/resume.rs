@@ -152,11 +152,14 @@ fn every_output_can_be_replayed_from_its_checkpoint() {
     assert!(again.texts == whole.texts);
 }
 
+/// What is done to a checkpoint.
+type Change<'a> = &'a dyn Fn(&mut Checkpoint);
+
 #[test]
 fn a_checkpoint_of_another_scenario_is_refused() {
     let (model, outputs, _) = run(&lap(RK4));
     let sound = &outputs.checkpoints[90];
-    let refused = |change: &dyn Fn(&mut Checkpoint)| {
+    let refused = |change: Change<'_>| {
         let mut checkpoint = sound.clone();
         change(&mut checkpoint);
         let watch = Watch(|_: &Sample<'_>| panic!("it ran"));
@@ -166,8 +169,7 @@ fn a_checkpoint_of_another_scenario_is_refused() {
         }
     };
     let pairs = sound.pairs.len();
-    type Damage<'a> = &'a dyn Fn(&mut Checkpoint);
-    let cases: [(CheckpointError, Damage); 8] = [
+    let cases: [(CheckpointError, Change<'_>); 8] = [
         (
             CheckpointError::Pairs {
                 found: pairs - 1,
