@@ -119,7 +119,7 @@ def check_checkpoint(message):
     expect(len(touches) == 1, "first touches")
     pairs = [*message.passed, *message.touching]
     expect(len(pairs) == len(set(pairs)), "a pair that touches and has passed")
-    expect(max([*pairs, *message.deformed], default=0) < message.pairs, "a pair that there is not")
+    expect(max([*pairs, *message.deformed], default=-1) < message.pairs, "a pair that there is not")
 
 
 def main(path):
