@@ -4,6 +4,9 @@ use super::{at_least_zero, positive};
 use crate::body::{Body, Segment, SegmentProperties};
 use crate::problem::Problems;
 
+/// A sphere may lie this far beside even a short segment, m.
+const WIDEST_M: f64 = 0.3;
+
 pub(super) fn check_body(body: &Body, problems: &mut Problems) {
     for segment in Segment::ALL {
         let path = format!("body.segments.{}", segment.name());
@@ -31,7 +34,7 @@ pub(super) fn check_body(body: &Body, problems: &mut Problems) {
         let z = centre.z;
         let reach = centre.coords.norm();
         let beside = centre.x.hypot(centre.y);
-        let widest = 0.5 * length + body.shoulder_half_width_m.max(body.hip_half_width_m);
+        let widest = length.max(WIDEST_M);
         if !reach.is_finite() {
             problems.error(
                 &path,
