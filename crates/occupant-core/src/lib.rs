@@ -68,12 +68,13 @@
 //!   [`setup`]; as text: [`scenario`];
 //! - before the first step: [`model`], [`compartment`], [`seat`], [`settle`];
 //! - every step: [`kernel`] (the rate of change of the state), [`integrate`], [`simulate`];
-//! - results: [`sample`], [`energy`], [`report_coordinates`], [`recorder`];
+//! - results: [`sample`], [`energy`], [`reaction`], [`report_coordinates`], [`channel`], [`recorder`], [`summary`];
 //! - to go on with a run: [`checkpoint`];
 //! - of any time history: [`signal`], [`measure`], [`correlation`].
 
 pub mod belt;
 pub mod body;
+pub mod channel;
 pub mod checkpoint;
 pub mod compartment;
 pub mod correlation;
@@ -89,6 +90,7 @@ mod observers;
 pub mod outcome;
 pub mod path;
 pub mod problem;
+pub mod reaction;
 pub mod recorder;
 pub mod report_coordinates;
 pub mod sample;

@@ -9,21 +9,21 @@ mod check_text;
 mod completions;
 mod convert;
 mod difference;
-mod exit;
+pub(crate) mod exit;
 mod extend;
 mod interrupt;
 mod new;
-mod output_file;
+pub(crate) mod output_file;
 mod print;
 mod progress;
 mod recording;
 mod resume;
-mod run;
-mod scenario;
+pub(crate) mod run;
+pub(crate) mod scenario;
 mod schema;
-mod speak;
+pub(crate) mod speak;
 mod summary_table;
-mod table;
+pub(crate) mod table;
 
 use std::process::ExitCode;
 

@@ -37,7 +37,7 @@ mod json;
 pub mod kind;
 mod loaded;
 pub mod model;
-mod nearest;
+pub(crate) mod nearest;
 mod number_table;
 mod overrides;
 pub mod path_text;
