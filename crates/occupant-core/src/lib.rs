@@ -80,6 +80,7 @@ pub mod compartment;
 pub mod correlation;
 pub mod diagnosis;
 pub mod energy;
+pub mod injury;
 pub mod integrate;
 pub mod joint;
 pub mod kernel;

@@ -12,6 +12,8 @@ mod difference;
 pub(crate) mod exit;
 mod extend;
 mod interrupt;
+mod measure_table;
+mod measures;
 mod new;
 pub(crate) mod output_file;
 mod print;
@@ -54,6 +56,7 @@ enum Command {
     Schema(schema::Args),
     Convert(convert::Args),
     Print(print::Args),
+    Measures(measures::Args),
     Completions(completions::Args),
 }
 
@@ -66,6 +69,7 @@ pub fn main() -> ExitCode {
         Command::Schema(args) => schema::print(&args),
         Command::Convert(args) => convert::convert(&args),
         Command::Print(args) => print::print_run(&args),
+        Command::Measures(args) => measures::measures(&args),
         Command::Completions(args) => completions::print(&args),
     };
     exit::code(result)

@@ -8,6 +8,8 @@ mod summarizer;
 
 use serde::Serialize;
 
+use crate::injury::Measure;
+
 pub use peak::Peak;
 pub use summarizer::Summarizer;
 
@@ -38,6 +40,8 @@ pub struct Summary {
     pub sphere_forces: Vec<SpherePeak>,
     /// How far the head's centre went from where it was at the start; absent without a sphere `head`.
     pub head_excursion: Option<Excursion>,
+    /// Injury measures for a Hybrid III 50M, unfiltered.
+    pub measures: Vec<Measure>,
     /// Energy balance.
     pub energy: EnergyCheck,
     /// Work of the integrator.
