@@ -70,6 +70,7 @@
 //! - every step: [`kernel`] (the rate of change of the state), [`integrate`], [`simulate`];
 //! - results: [`sample`], [`energy`], [`reaction`], [`report_coordinates`], [`channel`], [`recorder`], [`summary`];
 //! - to go on with a run: [`checkpoint`];
+//! - many runs: [`study`];
 //! - of any time history: [`signal`], [`measure`], [`correlation`].
 
 pub mod belt;
@@ -102,6 +103,7 @@ pub mod settle;
 pub mod setup;
 pub mod signal;
 pub mod simulate;
+pub mod study;
 pub mod summary;
 pub mod surface;
 mod trig;
