@@ -9,20 +9,21 @@ mod check_text;
 mod completions;
 mod convert;
 mod difference;
-mod exit;
+pub(crate) mod exit;
 mod extend;
 mod interrupt;
 mod new;
-mod output_file;
+pub(crate) mod output_file;
 mod print;
 mod progress;
-mod recording;
+pub(crate) mod recording;
 mod resume;
 mod run;
-mod scenario;
+pub(crate) mod scenario;
 mod schema;
-mod speak;
+pub(crate) mod speak;
 mod summary_table;
+mod sweep;
 mod table;
 
 use std::process::ExitCode;
@@ -49,6 +50,7 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Args),
+    Sweep(sweep::Args),
     Check(check::Args),
     New(new::Args),
     Schema(schema::Args),
@@ -61,6 +63,7 @@ enum Command {
 pub fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Run(args) => run::run(&args),
+        Command::Sweep(args) => sweep::sweep(&args),
         Command::Check(args) => check::check(&args),
         Command::New(args) => new::new(&args),
         Command::Schema(args) => schema::print(&args),
