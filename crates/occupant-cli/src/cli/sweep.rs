@@ -7,6 +7,7 @@ use std::sync::atomic::AtomicBool;
 use std::thread;
 
 use clap::Subcommand;
+use occupant_core::lanes::Kernel;
 use occupant_core::study::Keep;
 
 use super::exit::{Done, Failure};
@@ -225,12 +226,12 @@ impl Sweep {
             keep: &self.keep,
             folder: &self.folder,
             stop: self.interrupt.flag(),
+            kernel: Kernel::best(),
         };
         let job = Job {
             samples,
             finished,
             threads: self.threads,
-            batch: 1,
             stop: self.interrupt.flag(),
         };
         let ended = engine::run(job, &simulation, &mut |row| {

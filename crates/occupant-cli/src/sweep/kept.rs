@@ -4,14 +4,14 @@ use std::fs;
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
+use occupant_core::lanes::Kernel;
 use occupant_core::study::Keep;
 
-use super::engine::{Job, Worker, run};
+use super::engine::{HandOn, Job, Worker, run};
 use super::finished::Finished;
 use super::folder::Folder;
 use super::plan::Plan;
 use super::problem::Problem;
-use super::row::Row;
 use super::simulation::{Simulation, is_kept};
 use crate::cli::exit::Failure;
 use crate::cli::output_file::partial_path;
@@ -85,6 +85,7 @@ pub fn write(
             keep: &Keep::All,
             folder,
             stop,
+            kernel: Kernel::best(),
         },
     };
     let count = samples.len() as u64;
@@ -92,13 +93,12 @@ pub fn write(
         samples: &(0..count),
         finished: &Finished::none(count),
         threads,
-        batch: 1,
         stop,
     };
     run(job, &again, &mut |_row| Ok(()))
 }
 
-/// Samples of a list.
+/// Samples of a list, by their places in it.
 struct Again<'a> {
     samples: &'a [u64],
     simulation: Simulation<'a>,
@@ -107,10 +107,9 @@ struct Again<'a> {
 impl Worker for Again<'_> {
     type Error = Failure;
 
-    fn compute(&self, places: &[u64]) -> Result<Vec<Row>, Failure> {
-        let sample = |place: &u64| self.samples.get(*place as usize).copied();
-        let samples: Vec<u64> = places.iter().filter_map(sample).collect();
-        self.simulation.compute(&samples)
+    fn work(&self, next: &dyn Fn() -> Option<u64>, hand_on: HandOn<'_>) -> Result<(), Failure> {
+        let sample = |place: u64| self.samples.get(place as usize).copied();
+        self.simulation.work(&|| next().and_then(sample), hand_on)
     }
 }
 

@@ -1,19 +1,22 @@
 //! One sample: scenario, model, run, figures, row.
 
 use std::any::Any;
+use std::cell::{Cell as Slot, RefCell};
+use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
+use occupant_core::lanes::{Ended, Job, Kernel, simulate_many_with};
+use occupant_core::model::Model;
 use occupant_core::problem::Severity;
 use occupant_core::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::sample::Sample;
 use occupant_core::scenario::Diagnostics;
-use occupant_core::simulate::simulate;
 use occupant_core::study::Keep;
 use occupant_core::summary::{RunStatus, Summarizer, Summary};
 
-use super::engine::Worker;
+use super::engine::{HandOn, Worker};
 use super::folder::Folder;
 use super::manifest::Role;
 use super::plan::Plan;
@@ -21,10 +24,6 @@ use super::row::{Cell, Row, Status};
 use crate::cli::exit::Failure;
 use crate::cli::output_file::Existing;
 use crate::cli::recording::Recording;
-use crate::cli::scenario::Opened;
-
-/// The form of the kernel that runs samples.
-const KERNEL: &str = "scalar";
 
 /// Runs the samples of a plan.
 pub struct Simulation<'a> {
@@ -36,6 +35,8 @@ pub struct Simulation<'a> {
     pub folder: &'a Folder,
     /// Once true, runs end at their next output and leave no row.
     pub stop: &'a AtomicBool,
+    /// How many runs a thread computes side by side.
+    pub kernel: Kernel,
 }
 
 /// Whether a keep says, beforehand, that the run of a sample is written.
@@ -47,76 +48,142 @@ pub fn is_kept(keep: &Keep, index: u64) -> bool {
     }
 }
 
+/// What runs carry: the sample, and when it was begun.
+type Tag = (u64, Instant);
+type Recorders<'a> = (Stop<'a>, (Summarizer, Recording));
+
 impl Worker for Simulation<'_> {
     type Error = Failure;
 
-    fn compute(&self, samples: &[u64]) -> Result<Vec<Row>, Failure> {
-        let mut rows = Vec::with_capacity(samples.len());
-        for index in samples {
-            let began = Instant::now();
-            // a defect of the program costs one sample, not the sweep
-            let row = catch_unwind(AssertUnwindSafe(|| self.row(*index)));
-            let row = row.unwrap_or_else(|panic| {
-                let reason = format!("the program broke off: {}", words_of(&*panic));
-                Ok(Some(self.without_figures(*index, Status::Broken, reason)))
-            });
-            rows.extend(row?.map(|row| Row {
-                wall_time_s: began.elapsed().as_secs_f64(),
-                ..row
-            }));
+    fn work(&self, next: &dyn Fn() -> Option<u64>, hand_on: HandOn<'_>) -> Result<(), Failure> {
+        let under_way = RefCell::new(Vec::new());
+        let taken = || next().inspect(|index| under_way.borrow_mut().push(*index));
+        let done = |row: Row| {
+            under_way.borrow_mut().retain(|index| *index != row.index);
+            hand_on(row)
+        };
+        // a defect of the program costs one sample, not the sweep
+        let ended = catch_unwind(AssertUnwindSafe(|| self.run(self.kernel, &taken, &done)));
+        match ended {
+            Ok(ended) => ended,
+            Err(_) => {
+                self.one_by_one(under_way.into_inner(), hand_on)?;
+                self.work(next, hand_on)
+            }
         }
-        Ok(rows)
     }
 }
 
 impl Simulation<'_> {
-    /// The row of a sample, unless it was stopped.
-    fn row(&self, index: u64) -> Result<Option<Row>, Failure> {
+    /// Runs samples that were under way when the program broke off, each for itself, to find out which it was.
+    fn one_by_one(&self, samples: Vec<u64>, hand_on: HandOn<'_>) -> Result<(), Failure> {
+        for index in samples {
+            let only = Slot::new(Some(index));
+            let run = || self.run(Kernel::Scalar, &|| only.take(), hand_on);
+            match catch_unwind(AssertUnwindSafe(run)) {
+                Ok(ended) => ended?,
+                Err(panic) => {
+                    let reason = format!("the program broke off: {}", words_of(&*panic));
+                    let row = self.without_figures((index, Instant::now()), Status::Broken, reason);
+                    if hand_on(row).is_break() {
+                        return Ok(());
+                    }
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Runs the samples that `next` gives, as many side by side as the kernel can.
+    fn run(
+        &self,
+        kernel: Kernel,
+        next: &dyn Fn() -> Option<u64>,
+        hand_on: HandOn<'_>,
+    ) -> Result<(), Failure> {
+        let failure = RefCell::new(None);
+        let broken_off = Slot::new(false);
+        let jobs = std::iter::from_fn(|| {
+            while !broken_off.get() {
+                let begun = (next()?, Instant::now());
+                match self.begin(begun) {
+                    Ok(Begun::Job(job)) => return Some(*job),
+                    Ok(Begun::Row(row)) => broken_off.set(hand_on(row).is_break()),
+                    Err(error) => {
+                        failure.replace(Some(error));
+                        broken_off.set(true);
+                    }
+                }
+            }
+            None
+        });
+        simulate_many_with(kernel, jobs, |ended| {
+            match self.end(ended) {
+                Ok(None) => {}
+                Ok(Some(row)) => broken_off.set(hand_on(row).is_break()),
+                Err(error) => {
+                    failure.replace(Some(error));
+                    broken_off.set(true);
+                }
+            }
+            match broken_off.get() {
+                true => ControlFlow::Break(()),
+                false => ControlFlow::Continue(()),
+            }
+        });
+        failure.into_inner().map_or(Ok(()), Err)
+    }
+
+    /// The run of a sample, or its row where there is nothing to run.
+    fn begin(&self, tag: Tag) -> Result<Begun<'_>, Failure> {
+        let (index, _) = tag;
         let mut opened = match self.plan.open_sample(index) {
             Ok(opened) => opened,
             Err(problems) => {
-                let reason = reason(&problems);
-                return Ok(Some(self.without_figures(index, Status::Refused, reason)));
+                let row = self.without_figures(tag, Status::Refused, reason(&problems));
+                return Ok(Begun::Row(row));
             }
         };
-        let Some(summary) = self.run(index, &mut opened)? else {
+        let recording = match is_kept(self.keep, index) {
+            false => Recording::none(),
+            true => {
+                let (args, bytes) = self.plan.command(index);
+                opened.bytes = bytes;
+                let name = self.folder.run(index);
+                Recording::begin(&name, Existing::Replace, &args, &opened, None)?
+            }
+        };
+        Ok(Begun::Job(Box::new(Job {
+            tag,
+            model: opened.model,
+            recorder: (Stop(self.stop), (Summarizer::new(), recording)),
+        })))
+    }
+
+    /// The row of a run that has ended, unless it was stopped.
+    fn end(&self, ended: Ended<Tag, Recorders<'_>>) -> Result<Option<Row>, Failure> {
+        let (index, _) = ended.tag;
+        let (_, (summarizer, recording)) = ended.recorder;
+        ended
+            .outcome
+            .map_err(|e| Failure::BrokeOff(format!("error: sample {index}: {e}")))?;
+        let Some(summary) = summarizer.summary(None) else {
             return Ok(None);
         };
+        recording.close(summary.status == RunStatus::Completed)?;
         let status = match summary.status {
             RunStatus::Completed => Status::Completed,
             RunStatus::Failed => Status::Failed,
             RunStatus::Interrupted => return Ok(None),
         };
         let reason = summary.reason.clone().unwrap_or_default();
-        let mut row = self.without_figures(index, status, reason);
-        self.fill(&mut row, &summary, &opened);
+        let mut row = self.without_figures(ended.tag, status, reason);
+        row.kernel = ended.kernel.name().to_owned();
+        self.fill(&mut row, &summary, &ended.model);
         Ok(Some(row))
     }
 
-    /// Runs a sample, and writes the run where it is kept.
-    fn run(&self, index: u64, opened: &mut Opened) -> Result<Option<Summary>, Failure> {
-        let mut summarizer = Summarizer::new();
-        let stop = Stop(self.stop);
-        let failed = |error: &dyn std::fmt::Display| {
-            Failure::BrokeOff(format!("error: sample {index}: {error}"))
-        };
-        if !is_kept(self.keep, index) {
-            simulate(&opened.model, (stop, &mut summarizer)).map_err(|e| failed(&e))?;
-            return Ok(summarizer.summary(None));
-        }
-        let (args, bytes) = self.plan.command(index);
-        opened.bytes = bytes;
-        let name = self.folder.run(index);
-        let mut recording = Recording::begin(&name, Existing::Replace, &args, opened, None)?;
-        let outcome = simulate(&opened.model, (stop, (&mut summarizer, &mut recording)));
-        outcome.map_err(|e| failed(&e))?;
-        let summary = summarizer.summary(None);
-        let completed = |s: &Summary| s.status == RunStatus::Completed;
-        recording.close(summary.as_ref().is_some_and(completed))?;
-        Ok(summary)
-    }
-
-    fn without_figures(&self, index: u64, status: Status, reason: String) -> Row {
+    fn without_figures(&self, (index, begun): Tag, status: Status, reason: String) -> Row {
         let mut cells = self.plan.inputs(index);
         cells.resize(self.plan.manifest.columns.len(), Cell::Absent);
         Row {
@@ -124,38 +191,39 @@ impl Simulation<'_> {
             status,
             reason,
             cells,
-            wall_time_s: 0.0,
-            kernel: KERNEL.to_owned(),
+            wall_time_s: begun.elapsed().as_secs_f64(),
+            kernel: String::new(),
         }
     }
 
     /// Puts the figures into their columns. A run that failed has only those of its work: its peaks are those of numbers
     /// that ran away.
-    fn fill(&self, row: &mut Row, summary: &Summary, opened: &Opened) {
-        let figures = summary.figures(&opened.model);
+    fn fill(&self, row: &mut Row, summary: &Summary, model: &Model) {
         let columns = &self.plan.manifest.columns;
-        let first = columns
-            .iter()
-            .take_while(|c| c.role != Role::Figure)
-            .count();
-        for (i, figure) in figures.iter().enumerate() {
+        let first = columns.iter().take_while(|c| c.role != Role::Figure);
+        let first = first.count();
+        for (i, figure) in summary.figures(model).iter().enumerate() {
             let of_work = figure.name.starts_with("solver.") || figure.name.starts_with("run.");
             if row.status != Status::Completed && !of_work {
                 continue;
             }
+            let is_it = |at: &usize| columns.get(*at).is_some_and(|c| c.name == figure.name);
             // a sample whose belts or spheres are others has its figures in other places
-            let here = |at: &usize| columns.get(*at).is_some_and(|c| c.name == figure.name);
-            let anywhere = || {
-                columns
-                    .iter()
-                    .position(|c| c.role == Role::Figure && c.name == figure.name)
-            };
-            let at = Some(first + i).filter(here).or_else(anywhere);
+            let elsewhere = || (first..columns.len()).find(is_it);
+            let at = Some(first + i).filter(is_it).or_else(elsewhere);
             if let (Some(at), Some(value)) = (at, figure.value) {
                 row.cells[at] = Cell::Number(value);
             }
         }
     }
+}
+
+/// A sample that was taken.
+enum Begun<'a> {
+    /// It can be run.
+    Job(Box<Job<Tag, Recorders<'a>>>),
+    /// It cannot.
+    Row(Row),
 }
 
 /// Stops a run.
