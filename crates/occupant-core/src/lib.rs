@@ -70,6 +70,7 @@
 //! - every step: [`kernel`] (the rate of change of the state), [`integrate`], [`simulate`];
 //! - results: [`sample`], [`energy`], [`report_coordinates`], [`recorder`];
 //! - to go on with a run: [`checkpoint`];
+//! - many runs: [`study`];
 //! - of any time history: [`signal`], [`measure`], [`correlation`].
 
 pub mod belt;
@@ -101,6 +102,7 @@ pub mod settle;
 pub mod setup;
 pub mod signal;
 pub mod simulate;
+pub mod study;
 pub mod summary;
 pub mod surface;
 mod trig;
