@@ -4,3 +4,4 @@ pub mod cli;
 pub mod mcap;
 mod print;
 pub mod results;
+mod sweep;

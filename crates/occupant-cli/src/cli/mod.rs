@@ -18,13 +18,14 @@ mod new;
 pub(crate) mod output_file;
 mod print;
 mod progress;
-mod recording;
+pub(crate) mod recording;
 mod resume;
 pub(crate) mod run;
 pub(crate) mod scenario;
 mod schema;
 pub(crate) mod speak;
 mod summary_table;
+mod sweep;
 pub(crate) mod table;
 
 use std::process::ExitCode;
@@ -51,6 +52,7 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Args),
+    Sweep(sweep::Args),
     Check(check::Args),
     New(new::Args),
     Schema(schema::Args),
@@ -64,6 +66,7 @@ enum Command {
 pub fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Run(args) => run::run(&args),
+        Command::Sweep(args) => sweep::sweep(&args),
         Command::Check(args) => check::check(&args),
         Command::New(args) => new::new(&args),
         Command::Schema(args) => schema::print(&args),

@@ -3,6 +3,7 @@
 //! A [`Summarizer`] is a [`crate::recorder::Recorder`]; it looks at every output and keeps little. Peaks and levels are those of the
 //! output times, straight lines between them: an output interval of 1 ms or less does them justice. Nothing is filtered.
 
+mod figures;
 mod peak;
 mod summarizer;
 
@@ -10,6 +11,7 @@ use serde::Serialize;
 
 use crate::injury::Measure;
 
+pub use figures::Figure;
 pub use peak::Peak;
 pub use summarizer::Summarizer;
 
