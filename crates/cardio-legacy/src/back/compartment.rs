@@ -11,8 +11,8 @@ use super::Back;
 use crate::compartment::{CompartmentLayout, Corner};
 use crate::layout::Unit;
 
-/// Places may differ by this much, m, and be the same: rounding of the wheel's place.
-const SAME_PLACE_M: f64 = 1e-9;
+/// Places may differ by this much of 1 m and of themselves, and be the same: rounding of the wheel's place.
+const SAME_PLACE: f64 = 1e-9;
 
 pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
     let numbers: Vec<Option<u32>> = back
@@ -204,15 +204,18 @@ fn fields_at(corner: &Corner, place: &Point3<f64>) -> [(String, String); 3] {
     ]
 }
 
-/// Which corner is which point shows only where surfaces meet: the choice is searched in which all surfaces agree.
+/// Which corner is which point shows only where surfaces meet: the choice is searched in which all surfaces agree, with one
+/// another and, if there is one, with the points that the notes keep of surfaces left out.
 fn place_points(back: &mut Back<'_>, mut polygons: Vec<Polygon>) {
     polygons.retain(|p| !p.readings.is_empty());
-    let mut search = Search {
-        known: BTreeMap::new(),
-        deepest: 0,
-        budget: SEARCH_BUDGET,
-    };
-    if search.from(&polygons, 0) {
+    let mut search = Search::from_known(kept_places(back));
+    let mut found = search.from(&polygons, 0);
+    if !found {
+        // Somebody may have changed the surfaces and not the notes.
+        search = Search::from_known(BTreeMap::new());
+        found = search.from(&polygons, 0);
+    }
+    if found {
         for (name, digits) in search.known {
             back.builder.set(&name, &digits);
         }
@@ -220,6 +223,18 @@ fn place_points(back: &mut Back<'_>, mut polygons: Vec<Polygon>) {
         let name = polygons.get(search.deepest).map_or("", |p| p.name.as_str());
         back.misfit(format!("surfaces.{name} does not meet the surfaces before it at the points that they share on cards"));
     }
+}
+
+/// The fields of series 8 that the notes keep.
+fn kept_places(back: &Back<'_>) -> BTreeMap<String, String> {
+    let is_place = |name: &str| {
+        name.starts_with("XV(") || name.starts_with("ZV(") || name == "VCW" || name == "VRW"
+    };
+    back.kept
+        .iter()
+        .filter(|(name, _)| is_place(name))
+        .map(|(name, digits)| (name.clone(), digits.clone()))
+        .collect()
 }
 
 /// Enough for any compartment whose surfaces meet; a bound for those that do not.
@@ -232,6 +247,14 @@ struct Search {
 }
 
 impl Search {
+    fn from_known(known: BTreeMap<String, String>) -> Self {
+        Self {
+            known,
+            deepest: 0,
+            budget: SEARCH_BUDGET,
+        }
+    }
+
     /// Finds readings of the polygons from `at` on that agree with what is known.
     fn from(&mut self, polygons: &[Polygon], at: usize) -> bool {
         self.deepest = self.deepest.max(at);
@@ -259,7 +282,7 @@ impl Search {
         let mut added = Vec::new();
         for (name, digits) in reading {
             match self.known.get(name) {
-                Some(known) if known == digits => {}
+                Some(known) if is_same_number(known, digits) => {}
                 Some(_) => {
                     added.iter().for_each(|name| drop(self.known.remove(name)));
                     return None;
@@ -272,6 +295,10 @@ impl Search {
         }
         Some(added)
     }
+}
+
+fn is_same_number(one: &str, two: &str) -> bool {
+    one == two || matches!((one.parse::<f64>(), two.parse::<f64>()), (Ok(a), Ok(b)) if a == b)
 }
 
 /// Cards have no place for the wheel's; where it is not where a conversion puts it, that is lost.
@@ -297,9 +324,9 @@ fn check_wheel(
     );
     let (sin, cos) = wheel.tilt_deg.to_radians().sin_cos();
     let axis = axis / axis.norm();
-    let tilted = (axis - Vector3::new(-cos, 0.0, -sin)).norm() > SAME_PLACE_M;
-    let moved = (centre.x - (x - wheel.behind_in * inch)).abs() > SAME_PLACE_M
-        || (centre.z - z).abs() > SAME_PLACE_M;
+    let tilted = (axis - Vector3::new(-cos, 0.0, -sin)).norm() > SAME_PLACE;
+    let differ = |one: f64, two: f64| (one - two).abs() > SAME_PLACE * (1.0 + one.abs());
+    let moved = differ(x - wheel.behind_in * inch, centre.x) || differ(z, centre.z);
     if moved || tilted {
         back.misfit(format!(
             "surfaces.{}: no card places the wheel; a deck has it {} in behind point {}, level with it, tilted {} degrees",
