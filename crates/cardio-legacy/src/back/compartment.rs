@@ -1,13 +1,12 @@
 //! Materials and surfaces → series 8 and 9.
 
-use std::collections::BTreeMap;
-
 use nalgebra::{Point3, Vector3};
 use occupant_core::material::{DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
 use occupant_core::setup::Setup;
 use occupant_core::surface::{Frame, Outline, Surface};
 
 use super::Back;
+use super::points::{Polygon, place_points};
 use crate::compartment::{CompartmentLayout, Corner};
 use crate::layout::Unit;
 
@@ -128,12 +127,6 @@ fn read_material(back: &mut Back<'_>, material: &Material, number: u32) {
     back.set(&format!("COFR({number})"), material.friction, Unit::One);
 }
 
-/// What a polygon says of the fields of series 8, in each way in which its corners can be the layout's.
-struct Polygon {
-    name: String,
-    readings: Vec<Vec<(String, String)>>,
-}
-
 fn polygon(
     back: &mut Back<'_>,
     layout: &CompartmentLayout,
@@ -202,103 +195,6 @@ fn fields_at(corner: &Corner, place: &Point3<f64>) -> [(String, String); 3] {
         (format!("ZV({})", corner.z_of), inches(place.z)),
         (corner.wall.half_width().0.to_owned(), inches(place.y.abs())),
     ]
-}
-
-/// Which corner is which point shows only where surfaces meet: the choice is searched in which all surfaces agree, with one
-/// another and, if there is one, with the points that the notes keep of surfaces left out.
-fn place_points(back: &mut Back<'_>, mut polygons: Vec<Polygon>) {
-    polygons.retain(|p| !p.readings.is_empty());
-    let mut search = Search::from_known(kept_places(back));
-    let mut found = search.from(&polygons, 0);
-    if !found {
-        // Somebody may have changed the surfaces and not the notes.
-        search = Search::from_known(BTreeMap::new());
-        found = search.from(&polygons, 0);
-    }
-    if found {
-        for (name, digits) in search.known {
-            back.builder.set(&name, &digits);
-        }
-    } else {
-        let name = polygons.get(search.deepest).map_or("", |p| p.name.as_str());
-        back.misfit(format!("surfaces.{name} does not meet the surfaces before it at the points that they share on cards"));
-    }
-}
-
-/// The fields of series 8 that the notes keep.
-fn kept_places(back: &Back<'_>) -> BTreeMap<String, String> {
-    let is_place = |name: &str| {
-        name.starts_with("XV(") || name.starts_with("ZV(") || name == "VCW" || name == "VRW"
-    };
-    back.kept
-        .iter()
-        .filter(|(name, _)| is_place(name))
-        .map(|(name, digits)| (name.clone(), digits.clone()))
-        .collect()
-}
-
-/// Enough for any compartment whose surfaces meet; a bound for those that do not.
-const SEARCH_BUDGET: usize = 20_000;
-
-struct Search {
-    known: BTreeMap<String, String>,
-    deepest: usize,
-    budget: usize,
-}
-
-impl Search {
-    fn from_known(known: BTreeMap<String, String>) -> Self {
-        Self {
-            known,
-            deepest: 0,
-            budget: SEARCH_BUDGET,
-        }
-    }
-
-    /// Finds readings of the polygons from `at` on that agree with what is known.
-    fn from(&mut self, polygons: &[Polygon], at: usize) -> bool {
-        self.deepest = self.deepest.max(at);
-        let Some(polygon) = polygons.get(at) else {
-            return true;
-        };
-        for reading in &polygon.readings {
-            if self.budget == 0 {
-                return false;
-            }
-            self.budget -= 1;
-            let Some(added) = self.add(reading) else {
-                continue;
-            };
-            if self.from(polygons, at + 1) {
-                return true;
-            }
-            added.iter().for_each(|name| drop(self.known.remove(name)));
-        }
-        false
-    }
-
-    /// Adds a reading; `None`, and nothing added, if it contradicts what is known.
-    fn add(&mut self, reading: &[(String, String)]) -> Option<Vec<String>> {
-        let mut added = Vec::new();
-        for (name, digits) in reading {
-            match self.known.get(name) {
-                Some(known) if is_same_number(known, digits) => {}
-                Some(_) => {
-                    added.iter().for_each(|name| drop(self.known.remove(name)));
-                    return None;
-                }
-                None => {
-                    self.known.insert(name.clone(), digits.clone());
-                    added.push(name.clone());
-                }
-            }
-        }
-        Some(added)
-    }
-}
-
-fn is_same_number(one: &str, two: &str) -> bool {
-    one == two || matches!((one.parse::<f64>(), two.parse::<f64>()), (Ok(a), Ok(b)) if a == b)
 }
 
 /// Cards have no place for the wheel's; where it is not where a conversion puts it, that is lost.

@@ -7,6 +7,7 @@ mod extension;
 mod joints;
 mod motion;
 mod path;
+mod points;
 
 use std::fmt;
 
