@@ -3,3 +3,5 @@
 pub mod cli;
 pub mod mcap;
 mod print;
+pub mod results;
+mod sweep;

@@ -68,21 +68,24 @@
 //!   [`setup`]; as text: [`scenario`];
 //! - before the first step: [`model`], [`compartment`], [`seat`], [`settle`];
 //! - every step: [`kernel`] (the rate of change of the state), [`integrate`], [`simulate`];
-//! - results: [`sample`], [`energy`], [`report_coordinates`], [`recorder`];
+//! - results: [`sample`], [`energy`], [`reaction`], [`report_coordinates`], [`channel`], [`recorder`], [`summary`];
 //! - to go on with a run: [`checkpoint`];
 //! - many runs: [`study`];
 //! - of any time history: [`signal`], [`measure`], [`correlation`].
 
 pub mod belt;
 pub mod body;
+pub mod channel;
 pub mod checkpoint;
 pub mod compartment;
 pub mod correlation;
 pub mod diagnosis;
 pub mod energy;
+pub mod injury;
 pub mod integrate;
 pub mod joint;
 pub mod kernel;
+pub mod lanes;
 pub mod material;
 pub mod measure;
 pub mod model;
@@ -90,8 +93,10 @@ mod observers;
 pub mod outcome;
 pub mod path;
 pub mod problem;
+pub mod reaction;
 pub mod recorder;
 pub mod report_coordinates;
+mod run;
 pub mod sample;
 pub mod scenario;
 pub mod seat;
