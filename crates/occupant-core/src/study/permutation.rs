@@ -77,7 +77,7 @@ mod tests {
             .map(|c| (f64::from(*c) - mean).powi(2) / mean)
             .sum();
         assert_eq!(counts.len(), 120);
-        // 99.9 % of truly random tables are below 173.6
+        // 99.9 % of truly random tables are below 173.6; measured: 115.2
         assert!(chi2 < 173.6, "{chi2}");
     }
 

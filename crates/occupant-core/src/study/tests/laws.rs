@@ -66,10 +66,10 @@ fn distributions_have_their_moments() {
         ),
     ] {
         let [m, v] = moments(&law);
-        // measured: 2e-9 and, for the tails of the normal distribution, 2.1e-4
+        // measured: at most 5.8e-9 and 1.4e-5, the latter in the tails of the normal distribution
         assert!((m - mean).abs() < 1e-6, "{law:?}: mean {m}, not {mean}");
         assert!(
-            (v / variance - 1.0).abs() < 3e-4,
+            (v / variance - 1.0).abs() < 1e-4,
             "{law:?}: variance {v}, not {variance}"
         );
     }
@@ -183,7 +183,7 @@ fn correlations_are_reached_and_distributions_kept() {
             (1, 3, 0.0),
         ] {
             let found = rank_correlation(&columns[a], &columns[b]);
-            // standard error about 0.011 for random samples
+            // standard error about 0.011 for random samples; measured: at most 0.016, 0.017 and 3e-4 in the order of designs
             assert!((found - wanted).abs() < 0.03, "{design} {a} {b}: {found}");
         }
         // each fifth of the friction holds a fifth of the samples

@@ -87,8 +87,9 @@ fn saltelli_blocks_give_the_indices_of_a_linear_function() {
         let sum: f64 = (0..n)
             .map(|j| (f(5 * j + 4) - 3.5) * (f(5 * j + 1 + d as u64) - f(5 * j)))
             .sum();
+        // measured: at most 3.6e-4
         let index = sum / n as f64 / (21.0 / 12.0);
-        assert!((index - share / 21.0).abs() < 0.01, "{d}: {index}");
+        assert!((index - share / 21.0).abs() < 2e-3, "{d}: {index}");
     }
 }
 
