@@ -32,7 +32,7 @@ pub(crate) mod csv_text;
 pub mod diagnostic;
 pub mod document;
 pub(crate) mod draft;
-mod expand;
+pub(crate) mod expand;
 mod json;
 pub mod kind;
 pub(crate) mod loaded;

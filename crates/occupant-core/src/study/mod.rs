@@ -119,7 +119,7 @@ impl Study {
         seed: u64,
         tolerances: &Tolerances,
     ) -> Study {
-        let perturbations = ensemble::standard(&base, tolerances);
+        let perturbations = ensemble::standard(&base, &[], tolerances);
         Study {
             base,
             base_name: name.into(),

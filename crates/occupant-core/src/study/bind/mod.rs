@@ -39,7 +39,7 @@ impl StudyText {
         let mut parameters = binder.parameters();
         let design = binder.design(&mut parameters, resolver);
         let copula = binder.copula(&parameters, &design);
-        let ensemble = ensemble::bind(&mut binder, &base);
+        let ensemble = ensemble::bind(&mut binder, &base, &parameters);
         let keep = binder.keep();
         binder.sizes(&parameters, &design, ensemble.as_ref());
         extremes::check(&mut binder, &base, &parameters, overrides);

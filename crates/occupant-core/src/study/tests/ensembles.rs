@@ -131,3 +131,34 @@ fn a_tolerance_without_a_place_is_told() {
   = expected: a pulse with `peak` or `delta_v`"
     );
 }
+
+/// The members of a study of the peak change the peak, not the change of speed that it has taken away.
+#[test]
+fn members_change_the_peak_where_a_parameter_gives_it() {
+    let study = study(
+        "design.kind = \"one_at_a_time\"
+        [[parameters]]
+        path = \"path.peak\"
+        list = [\"10 g\", \"20 g\"]
+        [ensemble]
+        members = 3
+        path = \"1 %\"",
+    );
+    assert_eq!(study.len(), 9);
+    // the base scenario itself, by its change of speed
+    assert!(put(&study, 1, "path.delta_v").is_some() && put(&study, 1, "path.peak").is_none());
+    assert!(put(&study, 4, "path.delta_v").is_none());
+    let part = put(&study, 4, "path.peak").unwrap() / (10.0 * 9.806_65);
+    assert!(part != 1.0 && (part - 1.0).abs() <= 0.01, "{part}");
+    for index in 0..9 {
+        assert!(
+            study
+                .draft(index)
+                .unwrap()
+                .load(&super::no_files)
+                .unwrap()
+                .build()
+                .is_ok()
+        );
+    }
+}

@@ -186,3 +186,17 @@ fn json_says_the_same_as_toml() {
     let json = json.bind(base(), &[], &no_files).unwrap();
     assert_eq!(toml.unwrap().sample(4), json.sample(4));
 }
+
+/// The scenario gives the pulse by its change of speed; a study of its peak takes that away.
+#[test]
+fn a_peak_replaces_a_change_of_speed() {
+    let study = two("path.peak", "", "\"10 g\", \"20 g\"");
+    assert_eq!(study.parameters()[0].targets[0].base, Value::Base);
+    for (i, g) in [(0, 10.0), (1, 20.0)] {
+        let crate::path::VehiclePath::Pulse(pulse) = setup(&study, i).path else {
+            panic!();
+        };
+        let peak = pulse.peak_deceleration_m_s2();
+        assert!((peak / (g * 9.806_65) - 1.0).abs() < 1e-15, "{peak}");
+    }
+}
