@@ -5,6 +5,7 @@ mod ensembles;
 mod laws;
 mod messages;
 mod paths;
+mod robustness;
 mod screening;
 mod tables;
 
