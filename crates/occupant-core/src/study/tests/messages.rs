@@ -92,6 +92,7 @@ error: `joints.*.dampng` matches nothing in the base scenario
   |        ^^^^^^^^^^^^^^^^^
   = in: parameters[1].path
   = expected: a path to at least one value
+  = help: did you mean `damping`?
 
 error: `materials` has nothing named `seat`
   --> study.toml:10:8
@@ -109,6 +110,25 @@ error: `belts.lap` leads to a table or list, not to a single value
    = in: parameters[3].path
    = expected: a path to numbers or names"#,
     );
+}
+
+#[test]
+fn a_wildcard_that_matches_nothing_says_what_may_be_meant() {
+    for (path, meant) in [
+        ("material.*.k1", "did you mean `materials`?"),
+        ("belts.*.anchors[*][7]", "matches nothing"),
+        ("*.*.frction", "did you mean `friction`?"),
+        ("joints.nek.*", "did you mean `neck`?"),
+    ] {
+        let words = complaint(&format!(
+            "design = {{ kind = \"monte_carlo\", samples = 9 }}
+[[parameters]]
+path = \"{path}\"
+range = {{ from = 1, to = 2 }}
+"
+        ));
+        assert!(words.contains(meant), "{path}: {words}");
+    }
 }
 
 #[test]
