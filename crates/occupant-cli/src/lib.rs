@@ -3,3 +3,4 @@
 pub mod cli;
 pub mod mcap;
 mod print;
+mod risk;

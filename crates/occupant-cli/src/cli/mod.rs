@@ -18,12 +18,13 @@ mod print;
 mod progress;
 mod recording;
 mod resume;
+mod risk;
 mod run;
 mod scenario;
 mod schema;
 mod speak;
 mod summary_table;
-mod table;
+pub(crate) mod table;
 
 use std::process::ExitCode;
 
@@ -54,6 +55,7 @@ enum Command {
     Schema(schema::Args),
     Convert(convert::Args),
     Print(print::Args),
+    Risk(risk::Args),
     Completions(completions::Args),
 }
 
@@ -66,6 +68,7 @@ pub fn main() -> ExitCode {
         Command::Schema(args) => schema::print(&args),
         Command::Convert(args) => convert::convert(&args),
         Command::Print(args) => print::print_run(&args),
+        Command::Risk(args) => risk::risk(&args),
         Command::Completions(args) => completions::print(&args),
     };
     exit::code(result)

@@ -42,6 +42,7 @@ mod number_table;
 mod overrides;
 pub mod path_text;
 pub mod quantity;
+mod record_file;
 mod schema;
 pub mod source;
 mod toml_text;
@@ -54,6 +55,7 @@ pub use document::Format;
 pub use draft::Draft;
 pub use loaded::{Loaded, Resolver};
 pub use model::Scenario;
+pub use record_file::{RecordFile, read_record};
 pub use schema::schema;
 
 #[cfg(test)]
