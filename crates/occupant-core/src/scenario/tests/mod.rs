@@ -4,6 +4,7 @@ mod carts;
 mod meaning;
 mod messages;
 mod overrides;
+mod record_file;
 mod robustness;
 mod round_trip;
 mod schema;
