@@ -3,3 +3,6 @@
 pub mod cli;
 pub mod mcap;
 mod print;
+pub mod results;
+mod risk;
+mod sweep;

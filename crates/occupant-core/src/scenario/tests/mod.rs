@@ -7,6 +7,8 @@ mod overrides;
 mod robustness;
 mod round_trip;
 mod schema;
+mod sensors;
+mod side_slope;
 mod tables;
 mod units;
 

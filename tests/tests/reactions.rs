@@ -1,0 +1,153 @@
+//! Loads at the joints, against what a joint can and cannot carry.
+
+use approx::assert_relative_eq;
+use nalgebra::Vector3;
+use occupant_core::body::Segment;
+use occupant_core::channel::{channels, find, matching};
+use occupant_core::joint::Joint;
+use occupant_core::kernel::dynamics::Wrench;
+use occupant_core::kernel::joints::BALLS;
+use occupant_core::model::Model;
+use occupant_core::reaction::{femur_axial_n, reaction, reactions, segments};
+use occupant_core::recorder::Watch;
+use occupant_core::sample::Sample;
+use occupant_core::setup::Integrator;
+use occupant_core::simulate::simulate;
+use occupant_tests::cart::lap;
+
+fn cart() -> Model {
+    Model::new(lap(Integrator::Rk4 { step_s: 2e-4 })).unwrap()
+}
+
+/// Calls `look` at every output of the lap case, contacts, belt and stops at work.
+fn watch(model: &Model, mut look: impl FnMut(&Sample<'_>)) {
+    let mut outputs = 0;
+    let watched = Watch(|s: &Sample<'_>| {
+        outputs += 1;
+        look(s);
+    });
+    simulate(model, watched).unwrap();
+    assert_eq!(outputs, 201);
+}
+
+#[test]
+fn a_ball_joint_carries_no_moment_but_that_of_its_damper_stop_and_spring() {
+    let mut worst = 0.0_f64;
+    let mut greatest = 0.0_f64;
+    watch(&cart(), |s| {
+        let k = &s.evaluation.kinematics;
+        for (i, &(_, outer)) in BALLS.iter().enumerate() {
+            let joint = Joint::ALL
+                .into_iter()
+                .find(|j| !j.is_hinge() && segments(*j).1.index() == outer)
+                .unwrap();
+            let moment = s.model.system().joints.ball(i, k).moment;
+            let passive = k.axes[outer].into_frame(moment).to_vector();
+            let carried = reaction(s, joint).moment_n_m;
+            worst = worst.max((carried - passive).norm());
+            greatest = greatest.max(carried.norm());
+        }
+    });
+    // measured: 1.5e-12 of up to 1.1e3 N·m
+    assert!(greatest > 100.0, "{greatest}");
+}
+
+#[test]
+fn a_hinge_carries_its_torque_about_its_axis_and_more_across() {
+    let mut worst = 0.0_f64;
+    let mut across = 0.0_f64;
+    watch(&cart(), |s| {
+        let mut passive = [Wrench::zero(); 12];
+        let k = &s.evaluation.kinematics;
+        let joints = &s.model.system().joints;
+        joints.apply(k, s.state, &mut passive);
+        for joint in Joint::ALL.into_iter().filter(|j| j.is_hinge()) {
+            let n = segments(joint).1.index();
+            let torque = k.axes[n].y.dot(passive[n].moment);
+            let carried = reaction(s, joint).moment_n_m;
+            worst = worst.max((carried.y - torque).abs());
+            across = across.max(carried.xz().norm());
+        }
+    });
+    assert!(across > 1.0, "{across}");
+}
+
+#[test]
+fn the_halves_at_t1_pull_with_the_same_force_and_the_whole_body_obeys_newton() {
+    let mut worst = 0.0_f64;
+    watch(&cart(), |s| {
+        let skeleton = &s.model.system().skeleton;
+        let (k, a) = (&s.evaluation.kinematics, &s.evaluation.accelerations);
+        // all that the lower half needs, by Newton's law of its parts and the force at T1 alone
+        let mut needed = Vector3::zeros();
+        for n in [0, 3, 8, 9, 10, 11] {
+            let mut inertial = a.cg(skeleton, k, n).to_vector();
+            inertial.z += skeleton.gravity;
+            needed += inertial * skeleton.links[n].mass - s.evaluation.wrench[n].force.to_vector();
+        }
+        let at_t1 = reaction(s, Joint::UpperBack).force_n;
+        let at_t1 = k.axes[1].to_matrix() * at_t1;
+        worst = worst.max((at_t1 + needed).norm());
+    });
+    // measured: 6.7e-12 N
+}
+
+#[test]
+fn all_joints_at_once_and_one_by_one_agree_and_the_channels_say_the_same() {
+    let model = cart();
+    let neck = ["x", "y", "z"].map(|c| find(&model, &format!("neck.force.{c}")).unwrap());
+    let femur = find(&model, "left_femur.axial").unwrap();
+    watch(&model, |s| {
+        for (joint, all) in Joint::ALL.into_iter().zip(reactions(s)) {
+            assert_eq!(reaction(s, joint), all);
+        }
+        // J211 axes: right and down instead of left and up
+        let force = reaction(s, Joint::Neck).force_n;
+        let told = Vector3::from(neck.each_ref().map(|c| c.value(s)));
+        assert_eq!(told, Vector3::new(force.x, -force.y, -force.z));
+        assert_eq!(femur.value(s), femur_axial_n(s, Segment::LeftThigh));
+    });
+}
+
+#[test]
+fn a_hanging_head_pulls_at_the_neck_and_a_standing_one_presses() {
+    // at the start nothing has moved: with the vehicle at rest the neck carries what the head weighs and what it is given
+    let model = cart();
+    let mut first = None;
+    watch(&model, |s| {
+        first.get_or_insert_with(|| {
+            let r = reaction(s, Joint::Neck);
+            let a = s.specific_force_m_s2(Segment::Head);
+            (r, a)
+        });
+    });
+    let (neck, head_reading) = first.unwrap();
+    let mass_kg = model.body().segment(Segment::Head).mass_kg;
+    // nothing but the neck touches the head: its reading times its mass is the neck's force
+    assert_relative_eq!(neck.force_n, head_reading * mass_kg, epsilon = 1e-9);
+    // the head stands on the neck: pushed up, which is compression
+    assert!(neck.force_n.z > 0.0);
+    let tension = find(&model, "neck.force.z").unwrap();
+    watch(&model, |s| {
+        if s.index == 0 {
+            assert!(tension.value(s) < 0.0);
+        }
+    });
+}
+
+#[test]
+fn every_channel_has_its_own_name_and_a_finite_value() {
+    let model = cart();
+    let all = channels(&model);
+    let names: std::collections::BTreeSet<&str> = all.iter().map(|c| c.name.as_str()).collect();
+    assert_eq!(names.len(), all.len());
+    assert!(all.len() > 500, "{}", all.len());
+    assert_eq!(matching(&model, "belt.lap.*").len(), 6);
+    let near = find(&model, "head.aceleration.x").unwrap_err();
+    assert_eq!(near.as_deref(), Some("head.acceleration.x"));
+    watch(&model, |s| {
+        for channel in &all {
+            assert!(channel.value(s).is_finite(), "{}", channel.name);
+        }
+    });
+}
