@@ -20,6 +20,7 @@ mod print;
 mod progress;
 pub(crate) mod recording;
 mod resume;
+mod risk;
 pub(crate) mod run;
 pub(crate) mod scenario;
 mod schema;
@@ -59,6 +60,7 @@ enum Command {
     Convert(convert::Args),
     Print(print::Args),
     Measures(measures::Args),
+    Risk(risk::Args),
     Completions(completions::Args),
 }
 
@@ -73,6 +75,7 @@ pub fn main() -> ExitCode {
         Command::Convert(args) => convert::convert(&args),
         Command::Print(args) => print::print_run(&args),
         Command::Measures(args) => measures::measures(&args),
+        Command::Risk(args) => risk::risk(&args),
         Command::Completions(args) => completions::print(&args),
     };
     exit::code(result)
