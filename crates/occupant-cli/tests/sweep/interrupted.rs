@@ -41,8 +41,20 @@ fn killed_at_any_moment_it_goes_on_to_the_same_table_and_computes_no_sample_twic
     let study = STUDY.replace("samples = 24", "samples = 200");
     let folder = folder_with(&study);
     let at = folder.path();
-    done(at, &["sweep", "study.toml", "-o", "whole", "--csv", "--quiet"]);
-    let words = ["sweep", "study.toml", "-o", "out", "--csv", "--quiet", "--threads", "2"];
+    done(
+        at,
+        &["sweep", "study.toml", "-o", "whole", "--csv", "--quiet"],
+    );
+    let words = [
+        "sweep",
+        "study.toml",
+        "-o",
+        "out",
+        "--csv",
+        "--quiet",
+        "--threads",
+        "2",
+    ];
     let mut kills = 0;
     // moments that differ from each other: some before the first sample, some far in
     for (round, pause_ms) in (0..).zip([3_u64, 40, 11, 90, 60, 150, 25, 200]) {
@@ -59,7 +71,10 @@ fn killed_at_any_moment_it_goes_on_to_the_same_table_and_computes_no_sample_twic
             && computed(&at.join("out")).len() < before + 5
             && child.try_wait().unwrap().is_none()
         {
-            assert!(began.elapsed() < Duration::from_secs(120), "no row was written");
+            assert!(
+                began.elapsed() < Duration::from_secs(120),
+                "no row was written"
+            );
             sleep(Duration::from_millis(5));
         }
         sleep(Duration::from_millis(pause_ms));
@@ -82,7 +97,10 @@ fn killed_at_any_moment_it_goes_on_to_the_same_table_and_computes_no_sample_twic
 fn a_torn_row_is_cut_off_and_computed_again() {
     let folder = folder_with(STUDY);
     let at = folder.path();
-    done(at, &["sweep", "study.toml", "-o", "out", "--csv", "--quiet"]);
+    done(
+        at,
+        &["sweep", "study.toml", "-o", "out", "--csv", "--quiet"],
+    );
     let whole = rows(at, "out");
     let journal = at.join("out/journal");
     let piece = fs::read_dir(&journal)
@@ -93,7 +111,10 @@ fn a_torn_row_is_cut_off_and_computed_again() {
     let bytes = fs::read(&piece).unwrap();
     for cut in [1, bytes.len() / 2, bytes.len() - 3] {
         fs::write(&piece, &bytes[..bytes.len() - cut]).unwrap();
-        done(at, &["sweep", "study.toml", "-o", "out", "--csv", "--quiet"]);
+        done(
+            at,
+            &["sweep", "study.toml", "-o", "out", "--csv", "--quiet"],
+        );
         assert_eq!(rows(at, "out"), whole, "cut by {cut}");
         // what the next round cuts is the first piece alone
         for entry in fs::read_dir(&journal).unwrap() {
@@ -110,7 +131,10 @@ fn a_torn_row_is_cut_off_and_computed_again() {
 fn a_full_disk_is_told_with_its_reason_and_what_was_finished_stays() {
     let folder = folder_with(STUDY);
     let at = folder.path();
-    done(at, &["sweep", "study.toml", "-o", "whole", "--csv", "--quiet"]);
+    done(
+        at,
+        &["sweep", "study.toml", "-o", "whole", "--csv", "--quiet"],
+    );
     // a limit on the size of a file stands for a full disk: the journal cannot grow beyond it
     let binary = assert_cmd::cargo::cargo_bin!("occupant");
     let line = format!(
@@ -126,10 +150,19 @@ fn a_full_disk_is_told_with_its_reason_and_what_was_finished_stays() {
         .unwrap();
     let said = super::err(&limited);
     assert_eq!(limited.status.code(), Some(1), "{said}");
-    assert!(said.contains("cannot write") && said.contains("os error 27"), "{said}");
-    assert!(said.contains("of 24 samples are finished and kept"), "{said}");
+    assert!(
+        said.contains("cannot write") && said.contains("os error 27"),
+        "{said}"
+    );
+    assert!(
+        said.contains("of 24 samples are finished and kept"),
+        "{said}"
+    );
     let before = computed(&at.join("out"));
     assert!(!before.is_empty() && before.len() < 24, "{before:?}");
-    done(at, &["sweep", "study.toml", "-o", "out", "--csv", "--quiet"]);
+    done(
+        at,
+        &["sweep", "study.toml", "-o", "out", "--csv", "--quiet"],
+    );
     assert_eq!(rows(at, "out"), rows(at, "whole"));
 }
