@@ -51,15 +51,16 @@ def check(folder):
             same = [value or "" for value in there] == here
         expect(same, f"column {name} differs between Parquet and CSV")
 
+    connection = duckdb.connect()
     path = str(folder / "results.parquet").replace("'", "''")
-    counted = duckdb.sql(f"select status, count(*) from '{path}' group by status order by status").fetchall()
+    counted = connection.execute(f"select status, count(*) from '{path}' group by status order by status").fetchall()
     there = table["status"].to_pylist()
     expect(dict(counted) == {status: there.count(status) for status in set(there)}, "DuckDB counts otherwise")
-    peak = duckdb.sql(f"select max(\"head.peak\") from '{path}'").fetchone()[0]
+    peak = connection.execute(f"select max(\"head.peak\") from '{path}'").fetchall()[0][0]
     peaks = [value for value in table["head.peak"].to_pylist() if value is not None]
     expect(peak == max(peaks, default=None), "DuckDB reads another greatest head.peak")
-    stored = duckdb.sql(f"select decode(value) from parquet_kv_metadata('{path}') where decode(key) = 'occupant.units'")
-    expect(json.loads(stored.fetchone()[0]) == units, "DuckDB reads other units")
+    stored = connection.execute(f"select decode(value) from parquet_kv_metadata('{path}') where decode(key) = 'occupant.units'")
+    expect(json.loads(stored.fetchall()[0][0]) == units, "DuckDB reads other units")
     print(f"read_table: {table.num_rows} rows, {table.num_columns} columns, {dict(counted)}")
 
 

@@ -2,6 +2,7 @@
 
 use std::any::Any;
 use std::cell::{Cell as Slot, RefCell};
+use std::error::Error;
 use std::ops::ControlFlow;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -164,9 +165,12 @@ impl Simulation<'_> {
     fn end(&self, ended: Ended<Tag, Recorders<'_>>) -> Result<Option<Row>, Failure> {
         let (index, _) = ended.tag;
         let (_, (summarizer, recording)) = ended.recorder;
-        ended
-            .outcome
-            .map_err(|e| Failure::BrokeOff(format!("error: sample {index}: {e}")))?;
+        if let Err(error) = &ended.outcome {
+            let reason = with_causes(error);
+            return Err(Failure::BrokeOff(format!(
+                "error: sample {index}: {reason}"
+            )));
+        }
         let Some(summary) = summarizer.summary(None) else {
             return Ok(None);
         };
@@ -253,6 +257,20 @@ fn reason(problems: &Diagnostics) -> String {
     };
     let lines: Vec<String> = errors.map(line).collect();
     lines.join(" | ").replace(['\n', '\r'], " ")
+}
+
+/// An error with what has caused it: the reason of the operating system stands last.
+fn with_causes(error: &dyn Error) -> String {
+    let mut text = error.to_string();
+    let mut cause = error.source();
+    while let Some(deeper) = cause {
+        let words = deeper.to_string();
+        if !text.contains(&words) {
+            text.push_str(&format!(": {words}"));
+        }
+        cause = deeper.source();
+    }
+    text
 }
 
 /// What a panic said.
