@@ -2,6 +2,7 @@
 
 pub mod cli;
 pub mod mcap;
+pub mod picture;
 mod print;
 pub mod results;
 mod sweep;
