@@ -19,6 +19,7 @@ pub(crate) mod output_file;
 mod print;
 mod progress;
 pub(crate) mod recording;
+mod report;
 mod resume;
 pub(crate) mod run;
 pub(crate) mod scenario;
@@ -27,6 +28,7 @@ pub(crate) mod speak;
 mod summary_table;
 mod sweep;
 pub(crate) mod table;
+mod view;
 
 use std::process::ExitCode;
 
@@ -59,6 +61,8 @@ enum Command {
     Convert(convert::Args),
     Print(print::Args),
     Measures(measures::Args),
+    View(view::Args),
+    Report(report::Args),
     Completions(completions::Args),
 }
 
@@ -73,6 +77,8 @@ pub fn main() -> ExitCode {
         Command::Convert(args) => convert::convert(&args),
         Command::Print(args) => print::print_run(&args),
         Command::Measures(args) => measures::measures(&args),
+        Command::View(args) => view::view(&args),
+        Command::Report(args) => report::report(&args),
         Command::Completions(args) => completions::print(&args),
     };
     exit::code(result)
