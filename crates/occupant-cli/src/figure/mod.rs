@@ -99,6 +99,7 @@ fn head(body: &Body) -> Vec<[Lump; 2]> {
     };
     let skull = ball(centre, radius);
     let neck = NECK * radius;
+    let bridge = centre + Vector3::new(0.8 * radius, 0.0, 0.1 * radius);
     let nose = centre + Vector3::new(radius, 0.0, -0.1 * radius);
     vec![
         [
@@ -106,7 +107,7 @@ fn head(body: &Body) -> Vec<[Lump; 2]> {
             ball(centre, neck),
         ],
         [skull, skull],
-        [ball(centre, NOSE * radius), ball(nose, NOSE * radius)],
+        [ball(bridge, NOSE * radius), ball(nose, NOSE * radius)],
     ]
 }
 

@@ -3,7 +3,7 @@
 use occupant_core::channel::Unit;
 use occupant_core::injury;
 use occupant_core::setup::STANDARD_GRAVITY_M_S2;
-use occupant_core::summary::{Acceleration, Summary};
+use occupant_core::summary::Summary;
 use serde::Serialize;
 
 /// A row of the table.
@@ -49,15 +49,7 @@ impl Measure {
 
 /// All rows, group by group.
 pub fn measures(summary: &Summary) -> Vec<Measure> {
-    let a = &summary.accelerations;
     let mut rows: Vec<_> = summary.measures.iter().flat_map(injury_rows).collect();
-    for (part, acceleration) in [
-        ("Head", &a.head),
-        ("Chest", &a.chest),
-        ("Pelvis", &a.pelvis),
-    ] {
-        add_acceleration(&mut rows, part, acceleration);
-    }
     add_loads(&mut rows, summary);
     add_excursion(&mut rows, summary);
     let energy = &summary.energy;
@@ -113,26 +105,6 @@ fn scale(unit: Unit) -> (&'static str, f64) {
         Unit::Newton => ("kN", 1e-3),
         Unit::One => ("", 1.0),
         other => (other.symbol(), 1.0),
-    }
-}
-
-fn add_acceleration(rows: &mut Vec<Measure>, part: &str, a: &Acceleration) {
-    let group = "Resultant acceleration, unfiltered";
-    let mut add = |what: &str, value, time| {
-        rows.push(Measure::new(
-            group,
-            format!("{part}, {what}"),
-            value,
-            "g",
-            time,
-        ));
-    };
-    add("peak", Some(a.peak_g), Some(a.peak_time_s));
-    for (what, level) in [
-        ("3 ms contiguous", a.three_ms_contiguous),
-        ("3 ms cumulative", a.three_ms_cumulative),
-    ] {
-        add(what, level.map(|l| l.level_g), level.map(|l| l.from_s));
     }
 }
 

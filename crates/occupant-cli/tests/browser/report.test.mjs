@@ -112,7 +112,7 @@ async function followsSegments(open) {
 
 async function toggles(open) {
   const page = await open(report);
-  await seek(page, 0.1);
+  await seek(page, 0.08);
   for (const name of ["surfaces", "belts", "arrows", "trails", "labels", "spheres"]) {
     const shot = () => page.locator("#stage").screenshot();
     const before = await shot();

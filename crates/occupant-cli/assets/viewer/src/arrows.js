@@ -30,7 +30,8 @@ export class Arrows {
     }
     this.greatest = greatest;
     this.scale = greatest > 0 ? LONGEST_M / greatest : 0;
-    const material = new MeshBasicMaterial({ color: CONTACT });
+    // most contacts are behind or under the body: arrows show through it
+    const material = new MeshBasicMaterial({ color: CONTACT, depthTest: false, transparent: true });
     const shaft = new CylinderGeometry(THICK_M, THICK_M, 1, 6).translate(0, 0.5, 0);
     const head = new ConeGeometry(2.6 * THICK_M, 1, 10).translate(0, 0.5, 0);
     this.shafts = new InstancedMesh(shaft, material, Math.max(most, 1));
@@ -39,6 +40,7 @@ export class Arrows {
     for (const mesh of [this.shafts, this.heads]) {
       mesh.frustumCulled = false;
       mesh.count = 0;
+      mesh.renderOrder = 2;
       this.group.add(mesh);
     }
   }

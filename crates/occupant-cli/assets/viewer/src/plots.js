@@ -160,7 +160,9 @@ class Chart {
       const { index, fraction } = locate(curve.times, time);
       const here = curve.values[index];
       const next = fraction > 0 ? curve.values[index + 1] : here;
-      this.values[i].textContent = figures(here + fraction * (next - here), 3);
+      const value = here + fraction * (next - here);
+      // what rounds to nothing is nothing
+      this.values[i].textContent = figures(Number(value.toFixed(3)), 3);
     });
   }
 
