@@ -28,8 +28,7 @@ export class Arrows {
     for (let i = 0; i < force.length; i += 3) {
       greatest = Math.max(greatest, Math.hypot(force[i], force[i + 1], force[i + 2]));
     }
-    this.greatest = greatest;
-    this.scale = greatest > 0 ? LONGEST_M / greatest : 0;
+    this.setGreatest(greatest);
     // most contacts are behind or under the body: arrows show through it
     const material = new MeshBasicMaterial({ color: CONTACT, depthTest: false, transparent: true });
     const shaft = new CylinderGeometry(THICK_M, THICK_M, 1, 6).translate(0, 0.5, 0);
@@ -43,6 +42,12 @@ export class Arrows {
       mesh.renderOrder = 2;
       this.group.add(mesh);
     }
+  }
+
+  /** The force whose arrow is the longest, N: the same for all runs on the stage, so that arrows can be compared. */
+  setGreatest(greatest) {
+    this.greatest = greatest;
+    this.scale = greatest > 0 ? LONGEST_M / greatest : 0;
   }
 
   move({ index }) {

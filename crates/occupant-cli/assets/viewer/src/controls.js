@@ -101,9 +101,9 @@ function buildToggles(stage, runs) {
     other.addEventListener("change", () => stage.setOther(other.value));
     row.append(element("label", {}, "other run ", other));
   }
-  const greatest = Math.max(...stage.actors.map((actor) => actor.arrows.greatest));
+  const { greatest } = stage.actors[0].arrows;
   if (greatest > 0) {
-    const text = `longest arrow ${figures(stage.actors[0].arrows.greatest / 1e3, 3)} kN`;
+    const text = `longest arrow ${figures(greatest / 1e3, 3)} kN`;
     row.append(element("span", { class: "hint" }, text));
   }
   return row;

@@ -3,6 +3,9 @@
 import { Vector3 } from "three";
 import { element, figures } from "./dom.js";
 
+/** Contacts with less force have no label, N. */
+const LEAST_N = 5;
+
 export class Labels {
   constructor(place, actor, camera) {
     this.actor = actor;
@@ -56,6 +59,8 @@ export class Labels {
       if (label.hidden) return;
       const i = start[index] + n;
       const load = Math.hypot(force[3 * i], force[3 * i + 1], force[3 * i + 2]);
+      label.hidden = load < LEAST_N;
+      if (label.hidden) return;
       label.textContent = `${spheres[sphere[i]].name} – ${surfaces[surface[i]].name}: ${figures(load / 1e3, 3)} kN`;
       const at = new Vector3().fromArray(point, 3 * i).applyMatrix4(this.actor.car.matrixWorld);
       this.put(label, at, size);

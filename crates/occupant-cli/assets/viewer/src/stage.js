@@ -50,6 +50,8 @@ export class Stage {
     this.camera.up.set(0, 0, -1);
     this.actors = runs.map((run, number) => new Actor(run, number));
     this.actors.forEach((actor) => this.scene.add(actor.group));
+    const greatest = Math.max(...this.actors.map((actor) => actor.arrows.greatest));
+    this.actors.forEach((actor) => actor.arrows.setGreatest(greatest));
     this.eye = new Eye(this.camera, this.canvas, this.actors[0], () => this.draw());
     this.labels = new Labels(place, this.actors[0], this.camera);
     this.pending = false;
