@@ -91,7 +91,7 @@ fn cart(i: usize) -> Case {
     for material in &mut setup.materials {
         material.spring.k1_n_per_m *= scale;
         material.friction /= scale;
-        if i % 2 == 0 {
+        if i.is_multiple_of(2) {
             material.memory = Memory::Retain;
         }
     }
