@@ -80,7 +80,7 @@ fn take_baseline(
     };
     let until_s = record.time_s[0] + baseline_s;
     let count = record.time_s.partition_point(|&t| t <= until_s);
-    if !(baseline_s > 0.0) || count < 2 || count == record.time_s.len() {
+    if baseline_s.is_nan() || baseline_s <= 0.0 || count < 2 || count == record.time_s.len() {
         return Err(PathProblem::BaselineOutsideRecord {
             baseline_s,
             samples: count,

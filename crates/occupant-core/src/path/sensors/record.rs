@@ -101,7 +101,7 @@ impl SensorRecord {
             problems.extend(
                 std::iter::once(("t", here_s))
                     .chain(numbers)
-                    .filter(|(_, value)| !(value.abs() <= LARGEST))
+                    .filter(|(_, value)| value.is_nan() || value.abs() > LARGEST)
                     .map(|(quantity, value)| PathProblem::StationNotFinite {
                         station,
                         quantity,
