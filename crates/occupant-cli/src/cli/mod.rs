@@ -6,14 +6,18 @@
 
 mod check;
 mod check_text;
+mod compare;
 mod completions;
 mod convert;
 mod difference;
 pub(crate) mod exit;
+mod export;
 mod extend;
+mod history_args;
 mod interrupt;
 mod new;
 pub(crate) mod output_file;
+mod plot;
 mod print;
 mod progress;
 mod recording;
@@ -54,6 +58,9 @@ enum Command {
     Schema(schema::Args),
     Convert(convert::Args),
     Print(print::Args),
+    Plot(plot::Args),
+    Export(export::Args),
+    Compare(compare::Args),
     Completions(completions::Args),
 }
 
@@ -66,6 +73,9 @@ pub fn main() -> ExitCode {
         Command::Schema(args) => schema::print(&args),
         Command::Convert(args) => convert::convert(&args),
         Command::Print(args) => print::print_run(&args),
+        Command::Plot(args) => plot::plot(&args),
+        Command::Export(args) => export::export(&args),
+        Command::Compare(args) => compare::compare(&args),
         Command::Completions(args) => completions::print(&args),
     };
     exit::code(result)
