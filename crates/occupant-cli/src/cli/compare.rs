@@ -219,7 +219,9 @@ fn run_couples(
     let other = Results::open(&args.measured)?;
     let channels = match args.channel.is_empty() {
         true => {
-            let entries = standard(&results.model).into_iter().flat_map(|w| w.entries);
+            let entries = standard(&results.model, false)
+                .into_iter()
+                .flat_map(|w| w.entries);
             choose(
                 &results.model,
                 &entries.map(|e| e.channel).collect::<Vec<_>>(),

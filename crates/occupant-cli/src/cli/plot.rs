@@ -211,9 +211,9 @@ fn window(args: &Args) -> Result<[f64; 2], Failure> {
 /// The plots asked for, with channels that any of the runs has.
 fn wishes(args: &Args, runs: &[Results]) -> Result<Vec<Wish>, Failure> {
     if args.channel.is_empty() {
-        let mut wishes = standard(&runs[0].model);
+        let mut wishes = standard(&runs[0].model, runs.len() > 1);
         for other in &runs[1..] {
-            for (wish, more) in wishes.iter_mut().zip(standard(&other.model)) {
+            for (wish, more) in wishes.iter_mut().zip(standard(&other.model, true)) {
                 let new = more
                     .entries
                     .into_iter()

@@ -127,10 +127,12 @@ fn figure(wish: &Wish, material: &Material<'_>) -> Result<Figure, String> {
             let Some(column) = column(&run.histories, &entry.channel) else {
                 continue;
             };
-            // a colour for each run and a dash for each channel, as long as there are dashes enough
+            // a colour for each run and a dash for each channel, as long as there are enough
             let style = match (material.runs.len(), wish.entries.len()) {
                 (1, _) => Style::of(e, 0),
-                (_, channels) if channels <= Style::DASHES => Style::of(r, e),
+                (runs, channels) if runs <= Style::COLOURS && channels <= Style::DASHES => {
+                    Style::of(r, e)
+                }
                 _ => Style::of(curves.len(), 0),
             };
             curves.push(Curve {

@@ -70,6 +70,8 @@ pub const LIMIT: Style = Style {
 };
 
 impl Style {
+    /// Colours.
+    pub const COLOURS: usize = COLOURS.len();
     /// Dash patterns, the solid line counted.
     pub const DASHES: usize = DASHES.len();
     /// Styles that differ.

@@ -36,8 +36,21 @@ const ACCELERATIONS: [(&str, &str); 3] = [
     ("lower_torso", "Pelvis"),
 ];
 
-/// The plots, for the spheres and belts of a model.
-pub fn standard(model: &Model) -> Vec<Wish> {
+/// Energies, the first of them for several runs.
+const ENERGIES: [(&str, &str); 8] = [
+    ("kinetic_relative", "kinetic, in the vehicle"),
+    ("contacts", "contacts"),
+    ("belts", "belts"),
+    ("lost_contacts", "lost in contacts"),
+    ("lost_friction", "lost in friction"),
+    ("lost_joints", "lost in joints"),
+    ("lost_belts", "lost in belts"),
+    ("spine", "spine springs"),
+];
+const FEW_ENERGIES: usize = 4;
+
+/// The plots, for the spheres and belts of a model; of several runs over each other, the energies that matter most.
+pub fn standard(model: &Model, several: bool) -> Vec<Wish> {
     let mut wishes = Vec::with_capacity(14);
     for (segment, name) in ACCELERATIONS {
         for (component, words) in [
@@ -80,18 +93,12 @@ pub fn standard(model: &Model) -> Vec<Wish> {
         "angle between the segments",
         joints.map(angle),
     ));
-    let energies = [
-        ("kinetic_relative", "kinetic, in the vehicle"),
-        ("spine", "spine springs"),
-        ("contacts", "contacts"),
-        ("belts", "belts"),
-        ("lost_contacts", "lost in contacts"),
-        ("lost_friction", "lost in friction"),
-        ("lost_joints", "lost in joints"),
-        ("lost_belts", "lost in belts"),
-    ];
-    let energy = |(channel, label): (&str, &'static str)| (format!("energy.{channel}"), label);
-    wishes.push(wish("Energy", "energy", energies.map(energy)));
+    let shown = match several {
+        true => &ENERGIES[..FEW_ENERGIES],
+        false => &ENERGIES[..],
+    };
+    let energy = |(channel, label): &(&str, &'static str)| (format!("energy.{channel}"), *label);
+    wishes.push(wish("Energy", "energy", shown.iter().map(energy)));
     let axes =
         ["x", "y", "z"].map(|axis| (format!("vehicle.acceleration.{axis}"), axis.to_uppercase()));
     wishes.push(wish("Vehicle acceleration", "acceleration", axes));
