@@ -34,7 +34,7 @@ pub(crate) fn check_completeness(read: &SeriesRead, first_line: usize, sink: &mu
     sink.errors() == before
 }
 
-/// The report's rules: 4 and 10 or 6 by NPOS, 12 by MREAD, 13 and 14 as wanted.
+/// The report's rules: 4 and 10 or 6 by NPOS, 12 by MREAD, 13 as wanted, 14 to extend a run (NPOS = 1).
 fn need(number: u8, read: &SeriesRead) -> Need {
     let switch = |place: usize| {
         read.get(&3)
@@ -44,6 +44,7 @@ fn need(number: u8, read: &SeriesRead) -> Need {
     };
     let (mread, npos) = (switch(4), switch(5));
     match (number, mread, npos) {
+        (14, _, Some(0.0)) => Need::Unused,
         (13 | 14, ..) => Need::Optional,
         (4 | 10, _, Some(0.0)) | (6, _, Some(1.0)) | (12, Some(0.0), _) => Need::Needed,
         (4 | 10, _, Some(1.0)) | (6, _, Some(0.0)) => Need::Unused,
@@ -91,6 +92,7 @@ fn report_unused(series: &SeriesLayout, cards: &[DeckCard], sink: &mut Sink) {
     let why = match series.number {
         4 | 10 => "NPOS = 1 takes the initial state from series 6",
         6 => "NPOS = 0 seats the occupant by series 4 and 10",
+        14 => "NPOS = 0 seats the occupant, and there is no run to extend",
         _ => "MREAD ≠ 0 takes the path from elsewhere",
     };
     let finding = Finding::new(

@@ -40,7 +40,7 @@ pub enum Surprise {
     BareExponent,
     /// The exponent's letter is a small one, which no card punch had.
     SmallLetter,
-    /// The number is nearer to zero than the 360 could hold and was zero there.
+    /// The number is nearer to zero than the 360 could hold; it was zero there and is read as zero.
     Underflow,
 }
 
@@ -86,6 +86,12 @@ pub fn read_real(field: &[u8]) -> Result<Reading, FieldError> {
         .any(|b| b != b'0');
     if !zero && value.abs() < SMALLEST_REAL {
         surprises.push(Surprise::Underflow);
+        return Ok(Reading {
+            value: 0.0,
+            digits: "0".into(),
+            blank: false,
+            surprises,
+        });
     }
     Ok(Reading {
         value,

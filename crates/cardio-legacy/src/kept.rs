@@ -18,6 +18,17 @@ pub(crate) const PLOT: &str = "PLOT";
 /// A pair of series 14 that the scenario cannot name: sphere and surface; its place in the series, from 1, is behind this name.
 pub(crate) const PAIR: &str = "PASSED PAIR";
 
+/// Damping in a joint's stops, and the angles between which it grows.
+const STOPS: [(&str, &[&str]); 7] = [
+    ("XJSN", &["AGNN", "AGSN"]),
+    ("XJSS", &["AGNS", "AGSS"]),
+    ("XJSUB", &["AGNUB", "AGSUB"]),
+    ("XJSLB", &["AGNLB", "AGSLB"]),
+    ("XJSH", &["AGNH", "AGSH"]),
+    ("XJSE", &["AGNE(1)", "AGSE(1)", "AGNE(2)", "AGSE(2)"]),
+    ("XJSK", &["AGNK(1)", "AGSK(1)", "AGNK(2)", "AGSK(2)"]),
+];
+
 /// Values by name, in the order of their names.
 pub(crate) type Kept = BTreeMap<String, String>;
 
@@ -38,13 +49,13 @@ pub(crate) fn kept_of(deck: &Deck) -> Kept {
         .to_owned(),
     );
     let mut fields = vec!["NDISK", "MREAD", "XV(14)", "ZV(14)"];
+    fields.extend(unused_stop_dampings(deck));
+    if deck.value("NPOS") == Some(0.0) && deck.value("SWP").is_some_and(|v| v <= 0.0) {
+        // The place sideways does not tell the seats of left and right apart.
+        fields.push("NOPTSP");
+    }
     if deck.value("NPOS") == Some(1.0) {
         fields.extend(spring_angles(deck));
-        fields.extend(
-            ["SLACK(1)", "SLACK(2)"]
-                .into_iter()
-                .filter(|n| deck.value(n).is_some_and(|v| v != 0.0)),
-        );
     }
     for name in fields {
         if let Some(number) = deck.number(name) {
@@ -52,6 +63,15 @@ pub(crate) fn kept_of(deck: &Deck) -> Kept {
         }
     }
     kept
+}
+
+/// Dampings of stops that are none because their angles are zero.
+fn unused_stop_dampings(deck: &Deck) -> impl Iterator<Item = &'static str> {
+    let is_zero = |name: &&str| deck.value(name) == Some(0.0);
+    STOPS
+        .into_iter()
+        .filter(move |(damping, angles)| !is_zero(damping) && angles.iter().all(|a| is_zero(a)))
+        .map(|(damping, _)| damping)
 }
 
 /// β₀ of a back joint without a spring, which has no place beside it.
@@ -80,4 +100,10 @@ pub(crate) fn from_notes(notes: &str) -> Kept {
     lines
         .map(|(name, value)| (name.trim().to_owned(), value.to_owned()))
         .collect()
+}
+
+/// Whether a name of the notes is a field that scenarios may have to keep.
+pub(crate) fn is_kept_field(name: &str) -> bool {
+    let others = ["NDISK", "SWP", "DSW", "VCW", "VRW", "BETA4", "BETA7"];
+    name.ends_with(')') || others.contains(&name) || STOPS.iter().any(|(n, _)| *n == name)
 }

@@ -54,6 +54,7 @@ pub mod field;
 mod field_reader;
 mod kept;
 pub mod layout;
+mod left_out;
 mod plot_card;
 mod reader;
 mod rule;

@@ -149,6 +149,8 @@ pub enum Rule {
     CompartmentEquality,
     /// The path of the vehicle does not cover the run.
     PathTooShort,
+    /// A pair of series 14 whose surface a scenario leaves out, so that the pair has no effect.
+    PassedPairUnused,
     /// A field that has no effect in this deck.
     Ignored,
 }
@@ -192,7 +194,8 @@ impl Rule {
             | Self::Unlikely
             | Self::LooksLikeOtherUnit
             | Self::Inconsistent
-            | Self::CompartmentEquality => Grade::Doubtful,
+            | Self::CompartmentEquality
+            | Self::PassedPairUnused => Grade::Doubtful,
             Self::BareExponent
             | Self::CardNumberByFormat
             | Self::BlankIsZero
@@ -244,6 +247,7 @@ impl Rule {
             Self::Inconsistent => "inconsistent",
             Self::CompartmentEquality => "compartment-equality",
             Self::PathTooShort => "path-too-short",
+            Self::PassedPairUnused => "passed-pair-unused",
             Self::Ignored => "ignored",
         }
     }

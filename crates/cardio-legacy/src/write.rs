@@ -108,25 +108,39 @@ fn punch_integer(number: &Number) -> String {
 /// A number for an F field: with its point where there is room, with all its digits.
 ///
 /// A number read from a field of this width always fits, because each form below is at most as long as the one read;
-/// another one is rounded to as many digits as there is room for.
+/// another one is rounded to as many significant digits as there is room for.
 pub(crate) fn punch_real(number: &Number, width: usize) -> String {
     if number.value == 0.0 {
         return "0.".to_owned();
     }
-    if let Some(text) = fitting_form(&number.digits, width) {
-        return text;
-    }
-    (0..17)
-        .rev()
-        .flat_map(|digits| {
-            [
-                format!("{:.*}", digits, number.value),
-                format!("{:.*e}", digits, number.value),
-            ]
+    fitting_form(&number.digits, width)
+        .or_else(|| {
+            (0..17)
+                .rev()
+                .find_map(|places| rounded_form(number.value, places, width))
         })
-        .filter(|text| text.parse().is_ok_and(|value: f64| value != 0.0))
-        .find_map(|text| fitting_form(&text, width))
         .unwrap_or_else(|| "0.".to_owned())
+}
+
+/// A number rounded to one digit and `places` more, in the first of its notations that fits: without exponent, with one
+/// digit before the point, with all digits before it (`7000000002`, `1.234E-6`, `1234567-20`).
+fn rounded_form(value: f64, places: usize, width: usize) -> Option<String> {
+    let scientific = format!("{value:.places$e}");
+    let rounded: f64 = scientific.parse().ok()?;
+    let (mantissa, exponent) = scientific.split_once('e')?;
+    let (whole, fraction) = mantissa.split_once('.').unwrap_or((mantissa, ""));
+    let fraction = fraction.trim_end_matches('0');
+    let exponent: i32 = exponent.parse().ok()?;
+    let shifted = exponent - i32::try_from(fraction.len()).ok()?;
+    let notations = [
+        format!("{rounded}"),
+        format!("{whole}.{fraction}e{exponent}"),
+        format!("{whole}{fraction}e{shifted}"),
+    ];
+    notations
+        .iter()
+        .filter(|_| rounded != 0.0)
+        .find_map(|digits| fitting_form(digits, width))
 }
 
 /// The forms in which digits may be punched, the plainest first; the first one that fits.
@@ -163,4 +177,44 @@ fn fitting_form(digits: &str, width: usize) -> Option<String> {
         }
     };
     forms.into_iter().find(|form| form.len() <= width)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn punched(value: f64) -> String {
+        let number = Number {
+            value,
+            digits: format!("{value:e}"),
+            blank: false,
+        };
+        punch_real(&number, 10)
+    }
+
+    #[test]
+    fn numbers_that_fit_keep_all_their_digits() {
+        // The first was punched 7.0000E9: a rounded form was tried before the exact one without exponent.
+        for (value, text) in [
+            (7_000_000_002.0, "7000000002"),
+            (-123_456_789.0, "-123456789"),
+            (1.234567e-14, "1234567-20"),
+            (1.234_567_8e16, "12345678E9"),
+            (0.123_456_789, ".123456789"),
+            (1.234e-6, "1.234E-6"),
+        ] {
+            assert_eq!(punched(value), text);
+            let read = crate::field::read_real(format!("{text:>10}").as_bytes());
+            assert_eq!(read.map(|r| r.value), Ok(value));
+        }
+    }
+
+    #[test]
+    fn numbers_that_do_not_fit_keep_as_many_digits_as_do() {
+        assert_eq!(punched(1.0 / 3.0), ".333333333");
+        assert_eq!(punched(-1.0 / 3.0), "-.33333333");
+        assert_eq!(punched(7_000_000_002.5), "7000000002");
+        assert_eq!(punched(12_345_678_901.0), "12345679E3");
+        assert_eq!(punched(-1.0 / 3.0 * 1e-70), "-333333-76");
+    }
 }

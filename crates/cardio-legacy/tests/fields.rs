@@ -124,7 +124,9 @@ fn an_exponent_at_the_left_of_its_field_is_too_large() {
 
 #[test]
 fn numbers_too_small_for_the_machine_are_named() {
-    assert_eq!(real("    1.E-80").2, [Surprise::Underflow]);
+    let tiny = real("    1.E-80");
+    assert_eq!((tiny.0, tiny.1.as_str()), (0.0, "0"), "as the 360 had it");
+    assert_eq!(tiny.2, [Surprise::Underflow]);
     assert_eq!(
         real("   1.E-999").2,
         [Surprise::Underflow],

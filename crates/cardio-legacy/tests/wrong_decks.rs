@@ -363,3 +363,76 @@ fn no_deck_at_all_is_an_error() {
         );
     }
 }
+
+/// The deck that extends a run, after a change to its lines.
+fn extended(change: impl FnOnce(&mut Vec<String>)) -> String {
+    let mut lines = lines("driver-exact-state-extended.dat");
+    change(&mut lines);
+    lines.join("\n") + "\n"
+}
+
+#[test]
+fn a_passed_pair_whose_surface_is_left_out_is_named() {
+    assert_eq!(warnings(&extended(|_| {})), []);
+    let no_wheel = extended(|lines| {
+        let at = first_card(lines, "8");
+        punch(&mut lines[at], 31, "        0.");
+    });
+    let pairs_with_wheel: Vec<_> = no_wheel
+        .lines()
+        .enumerate()
+        .filter(|(_, line)| line.len() < 12 && line.get(2..4) == Some("25"))
+        .map(|(at, _)| at + 1)
+        .collect();
+    assert!(pairs_with_wheel.len() > 1, "{pairs_with_wheel:?}");
+    let named = |severity| {
+        let (_, diagnostics) = parse_as(&no_wheel, severity);
+        let unused = diagnostics
+            .iter()
+            .filter(|d| d.rule == Rule::PassedPairUnused);
+        let shown: Vec<_> = unused
+            .map(|d| (d.severity, d.line.unwrap_or_default()))
+            .collect();
+        shown
+    };
+    let expected = |severity| {
+        pairs_with_wheel
+            .iter()
+            .map(|line| (severity, *line))
+            .collect()
+    };
+    let warned: Vec<_> = expected(Severity::Warning);
+    assert_eq!(named(Strictness::Default), warned);
+    assert_eq!(named(Strictness::Lenient), warned);
+    let refused: Vec<_> = expected(Severity::Error);
+    assert_eq!(named(Strictness::Strict), refused);
+    let (decks, diagnostics) = parse(&no_wheel);
+    let text = diagnostics.to_string();
+    let message =
+        "the pair has no effect: surface 25, steering_wheel, has no diameter and is left out";
+    assert!(text.contains(message), "{text}");
+    let conversion = decks[0].to_scenario(&Default::default()).expect("converts");
+    let said = conversion.report.ignored.iter().filter(|text| {
+        text.starts_with("series 14, pair of sphere") && text.contains("has no diameter")
+    });
+    assert_eq!(said.count(), pairs_with_wheel.len());
+}
+
+#[test]
+fn passed_pairs_of_a_seated_occupant_are_noted() {
+    let series_14 = {
+        let lines = lines("driver-exact-state-extended.dat");
+        let at = first_card(&lines, "14");
+        let mut cards = lines[at..at + 2].to_vec();
+        punch(&mut cards[0], 1, "        1.");
+        cards
+    };
+    let text = driver(|lines| {
+        let at = first_card(lines, "1000");
+        lines.splice(at..at, series_14);
+    });
+    let (decks, diagnostics) = parse(&text);
+    assert_eq!(decks.len(), 1, "{diagnostics}");
+    let notes = rules(&diagnostics, Severity::Note);
+    assert!(notes.contains(&Rule::SeriesUnused), "{diagnostics}");
+}

@@ -11,3 +11,4 @@ pub mod picture;
 mod plot;
 mod print;
 pub mod results;
+mod sweep;

@@ -1,18 +1,17 @@
 //! Materials and surfaces → series 8 and 9.
 
-use std::collections::BTreeMap;
-
 use nalgebra::{Point3, Vector3};
 use occupant_core::material::{DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
 use occupant_core::setup::Setup;
 use occupant_core::surface::{Frame, Outline, Surface};
 
 use super::Back;
+use super::points::{Polygon, place_points};
 use crate::compartment::{CompartmentLayout, Corner};
 use crate::layout::Unit;
 
-/// Places may differ by this much, m, and be the same: rounding of the wheel's place.
-const SAME_PLACE_M: f64 = 1e-9;
+/// Places may differ by this much of 1 m and of themselves, and be the same: rounding of the wheel's place.
+const SAME_PLACE: f64 = 1e-9;
 
 pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
     let numbers: Vec<Option<u32>> = back
@@ -128,12 +127,6 @@ fn read_material(back: &mut Back<'_>, material: &Material, number: u32) {
     back.set(&format!("COFR({number})"), material.friction, Unit::One);
 }
 
-/// What a polygon says of the fields of series 8, in each way in which its corners can be the layout's.
-struct Polygon {
-    name: String,
-    readings: Vec<Vec<(String, String)>>,
-}
-
 fn polygon(
     back: &mut Back<'_>,
     layout: &CompartmentLayout,
@@ -204,76 +197,6 @@ fn fields_at(corner: &Corner, place: &Point3<f64>) -> [(String, String); 3] {
     ]
 }
 
-/// Which corner is which point shows only where surfaces meet: the choice is searched in which all surfaces agree.
-fn place_points(back: &mut Back<'_>, mut polygons: Vec<Polygon>) {
-    polygons.retain(|p| !p.readings.is_empty());
-    let mut search = Search {
-        known: BTreeMap::new(),
-        deepest: 0,
-        budget: SEARCH_BUDGET,
-    };
-    if search.from(&polygons, 0) {
-        for (name, digits) in search.known {
-            back.builder.set(&name, &digits);
-        }
-    } else {
-        let name = polygons.get(search.deepest).map_or("", |p| p.name.as_str());
-        back.misfit(format!("surfaces.{name} does not meet the surfaces before it at the points that they share on cards"));
-    }
-}
-
-/// Enough for any compartment whose surfaces meet; a bound for those that do not.
-const SEARCH_BUDGET: usize = 20_000;
-
-struct Search {
-    known: BTreeMap<String, String>,
-    deepest: usize,
-    budget: usize,
-}
-
-impl Search {
-    /// Finds readings of the polygons from `at` on that agree with what is known.
-    fn from(&mut self, polygons: &[Polygon], at: usize) -> bool {
-        self.deepest = self.deepest.max(at);
-        let Some(polygon) = polygons.get(at) else {
-            return true;
-        };
-        for reading in &polygon.readings {
-            if self.budget == 0 {
-                return false;
-            }
-            self.budget -= 1;
-            let Some(added) = self.add(reading) else {
-                continue;
-            };
-            if self.from(polygons, at + 1) {
-                return true;
-            }
-            added.iter().for_each(|name| drop(self.known.remove(name)));
-        }
-        false
-    }
-
-    /// Adds a reading; `None`, and nothing added, if it contradicts what is known.
-    fn add(&mut self, reading: &[(String, String)]) -> Option<Vec<String>> {
-        let mut added = Vec::new();
-        for (name, digits) in reading {
-            match self.known.get(name) {
-                Some(known) if known == digits => {}
-                Some(_) => {
-                    added.iter().for_each(|name| drop(self.known.remove(name)));
-                    return None;
-                }
-                None => {
-                    self.known.insert(name.clone(), digits.clone());
-                    added.push(name.clone());
-                }
-            }
-        }
-        Some(added)
-    }
-}
-
 /// Cards have no place for the wheel's; where it is not where a conversion puts it, that is lost.
 fn check_wheel(
     back: &mut Back<'_>,
@@ -297,9 +220,9 @@ fn check_wheel(
     );
     let (sin, cos) = wheel.tilt_deg.to_radians().sin_cos();
     let axis = axis / axis.norm();
-    let tilted = (axis - Vector3::new(-cos, 0.0, -sin)).norm() > SAME_PLACE_M;
-    let moved = (centre.x - (x - wheel.behind_in * inch)).abs() > SAME_PLACE_M
-        || (centre.z - z).abs() > SAME_PLACE_M;
+    let tilted = (axis - Vector3::new(-cos, 0.0, -sin)).norm() > SAME_PLACE;
+    let differ = |one: f64, two: f64| (one - two).abs() > SAME_PLACE * (1.0 + one.abs());
+    let moved = differ(x - wheel.behind_in * inch, centre.x) || differ(z, centre.z);
     if moved || tilted {
         back.misfit(format!(
             "surfaces.{}: no card places the wheel; a deck has it {} in behind point {}, level with it, tilted {} degrees",

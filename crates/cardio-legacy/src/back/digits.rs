@@ -61,7 +61,7 @@ fn shortest(si: f64, factor: f64) -> String {
 
 /// A number without exponent, unless it is very small or large.
 fn plain(value: f64) -> String {
-    if (1e-5..1e9).contains(&value.abs()) {
+    if (1e-5..1e10).contains(&value.abs()) {
         format!("{value}")
     } else {
         format!("{value:e}")

@@ -7,6 +7,7 @@ mod extension;
 mod joints;
 mod motion;
 mod path;
+mod points;
 
 use std::fmt;
 
@@ -175,7 +176,7 @@ impl<'a> Back<'a> {
                 .chars()
                 .take(CARD_WIDTH)
                 .collect::<String>()
-                .trim_end()
+                .trim_end_matches(' ')
                 .to_owned()
         })
     }
@@ -196,7 +197,7 @@ impl<'a> Back<'a> {
                     let at = place.saturating_sub(1).min(pairs.len());
                     pairs.insert(at, (j.to_owned(), k.to_owned()));
                 }
-            } else if is_kept_field(&name) && !self.builder.has(&name) {
+            } else if kept::is_kept_field(&name) && !self.builder.has(&name) {
                 self.builder.set(&name, &value);
             }
         }
@@ -218,15 +219,6 @@ impl<'a> Back<'a> {
             }
         }
     }
-}
-
-/// Whether a name of the notes is a field that scenarios may have to keep.
-fn is_kept_field(name: &str) -> bool {
-    name.ends_with(')')
-        || matches!(
-            name,
-            "NDISK" | "SWP" | "DSW" | "VCW" | "VRW" | "BETA4" | "BETA7"
-        )
 }
 
 /// Times, integrator, output, gravity (cards 3 and 11e).

@@ -88,9 +88,12 @@ fn seated(back: &mut Back<'_>, layout: &CompartmentLayout, seating: &Seating) {
         .digits("SWP")
         .is_some_and(|d| d.starts_with('-'));
     let left = (seating.lateral_m < 0.0) != right_hand_drive;
-    let seat = SEATS
-        .iter()
-        .position(|s| Some(s.1) == cushion && Some(s.2) == rest && s.3 == left);
+    let is_seat = |at: &usize| Some(SEATS[*at].1) == cushion && Some(SEATS[*at].2) == rest;
+    let mut seats = (0..SEATS.len()).filter(is_seat);
+    let seat = kept_seat(back)
+        .filter(is_seat)
+        .or_else(|| seats.find(|at| SEATS[*at].3 == left));
+    let left = seat.map_or(left, |at| SEATS[at].3);
     match seat {
         Some(at) => back.builder.set("NOPTSP", &(at + 1).to_string()),
         None => back.misfit("posture.seat: cards have driver, right front, left rear and right rear on the front and rear seats"),
@@ -115,6 +118,12 @@ fn seated(back: &mut Back<'_>, layout: &CompartmentLayout, seating: &Seating) {
     for (field, place) in ["XHPV", "ZHPV"].into_iter().zip(seating.heels_m) {
         back.set(field, place, Unit::Inch);
     }
+}
+
+/// The seat by the notes, where the place sideways does not tell it.
+fn kept_seat(back: &Back<'_>) -> Option<usize> {
+    let digits = back.kept.get("NOPTSP")?;
+    (0..SEATS.len()).find(|at| digits.parse() == Ok((at + 1) as f64))
 }
 
 fn velocity(back: &mut Back<'_>) {

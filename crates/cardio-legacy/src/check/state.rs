@@ -3,6 +3,9 @@
 use std::f64::consts::PI;
 
 use super::{Check, Complaint};
+use crate::compartment::CompartmentLayout;
+use crate::deck::DeckCard;
+use crate::left_out::{LeftOut, left_out};
 use crate::rule::Rule;
 
 pub(super) fn check(check: &mut Check<'_>) {
@@ -61,8 +64,9 @@ fn check_belt_length(check: &mut Check<'_>, belt: u32, name: &str) {
     }
 }
 
-/// The pairs of series 14: spheres 1–17, surfaces 1–25, each pair once, NARRY zero.
+/// The pairs of series 14: spheres 1–17, surfaces 1–25 that are there, each pair once, NARRY zero.
 pub(super) fn check_pairs(check: &mut Check<'_>) {
+    check_surfaces_of_pairs(check);
     let pairs: Vec<_> = check
         .deck
         .cards_of(14, 'b')
@@ -112,5 +116,36 @@ pub(super) fn check_pairs(check: &mut Check<'_>) {
             "0. or blank",
             "leave the pair out",
         );
+    }
+}
+
+/// With NPOS = 1, a pair whose surface is left out of the scenario changes nothing: the sphere cannot touch it anyway.
+fn check_surfaces_of_pairs(check: &mut Check<'_>) {
+    let Ok(layout) = CompartmentLayout::reconstruction() else {
+        return;
+    };
+    if check.value("NPOS") != 1.0 || !check.deck.has_series(14) {
+        return;
+    }
+    let missing = left_out(check.deck, &layout);
+    let surface_of = |card: &DeckCard| Some((card.id.number?, card.numbers.get(1)?.value));
+    let pairs: Vec<_> = check
+        .deck
+        .cards_of(14, 'b')
+        .filter_map(surface_of)
+        .collect();
+    for (card, surface) in pairs {
+        let unused = missing.iter().find(|l| f64::from(l.number) == surface);
+        if let Some(LeftOut { number, name, why }) = unused {
+            let complaint = Complaint {
+                rule: Rule::PassedPairUnused,
+                message: format!(
+                    "the pair has no effect: surface {number}, {name}, {why} and is left out"
+                ),
+                expected: "a surface that a sphere can touch",
+                remedy: "remove the pair and correct NOCRD, or give the surface its area and stiffness",
+            };
+            check.complain(&format!("K({card})"), complaint);
+        }
     }
 }

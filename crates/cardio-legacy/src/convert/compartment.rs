@@ -6,6 +6,7 @@ use super::ConversionError;
 use super::writer::{Writer, negated};
 use crate::compartment::{CompartmentLayout, Corner, Face};
 use crate::kept::{Kept, PAIR};
+use crate::left_out::{LeftOut, left_out};
 
 const FIELDS: [&str; 6] = ["STIF1", "STIF2", "DELB", "AMU1", "AMU2", "COFR"];
 
@@ -61,9 +62,11 @@ pub(super) fn write(w: &mut Writer<'_>, layout: &CompartmentLayout) -> Result<()
 
 /// The surfaces that a scenario can have, by number.
 fn surfaces(w: &mut Writer<'_>, layout: &CompartmentLayout) -> Vec<Written> {
+    let left_out = left_out(w.deck, layout);
+    let is_there = |number: u32| left_out.iter().all(|l| l.number != number);
     let mut written = Vec::new();
     for face in layout.faces(w.deck) {
-        if !face.corners.is_empty() && !is_without_resistance(w, face.number) {
+        if is_there(face.number) {
             let body = match strip(&face) {
                 Some(ends) => edge(w, ends),
                 None => points(w, &face),
@@ -75,7 +78,7 @@ fn surfaces(w: &mut Writer<'_>, layout: &CompartmentLayout) -> Vec<Written> {
             });
         }
     }
-    if has_wheel(w, layout) {
+    if is_there(layout.wheel.number) {
         let body = disc(w, layout);
         written.push(Written {
             number: layout.wheel.number,
@@ -86,35 +89,6 @@ fn surfaces(w: &mut Writer<'_>, layout: &CompartmentLayout) -> Vec<Written> {
     written
 }
 
-fn has_wheel(w: &mut Writer<'_>, layout: &CompartmentLayout) -> bool {
-    w.value("DSW") > 0.0 && !is_without_resistance(w, layout.wheel.number)
-}
-
-fn is_without_resistance(w: &mut Writer<'_>, number: u32) -> bool {
-    w.value(&format!("STIF1({number})")) == 0.0
-}
-
-/// Surfaces that the scenario leaves out: number, name, why.
-fn left_out(w: &mut Writer<'_>, layout: &CompartmentLayout) -> Vec<(u32, String, &'static str)> {
-    let mut left_out = Vec::new();
-    for face in layout.faces(w.deck) {
-        if face.corners.is_empty() {
-            left_out.push((face.number, face.name, "has no area"));
-        } else if is_without_resistance(w, face.number) {
-            left_out.push((face.number, face.name, "resists nothing (STIF1 = 0)"));
-        }
-    }
-    if !has_wheel(w, layout) {
-        let why = if w.value("DSW") > 0.0 {
-            "resists nothing (STIF1 = 0)"
-        } else {
-            "has no diameter"
-        };
-        left_out.push((layout.wheel.number, layout.wheel.name.clone(), why));
-    }
-    left_out
-}
-
 /// A passed pair of series 14 by the scenario's names; none if the scenario leaves the surface out, or if the occupant is
 /// seated (NPOS = 0) and there is nothing to extend.
 pub(super) fn passed_pair(
@@ -123,7 +97,7 @@ pub(super) fn passed_pair(
     (sphere, surface): (u8, u8),
 ) -> Option<(&'static str, String)> {
     let surface = u32::from(surface);
-    let left_out = left_out(w, layout).iter().any(|l| l.0 == surface);
+    let left_out = left_out(w.deck, layout).iter().any(|l| l.number == surface);
     let name = layout.name_of(surface)?.to_owned();
     let sphere = SPHERE_NAMES.get(usize::from(sphere).checked_sub(1)?)?;
     (w.value("NPOS") == 1.0 && !left_out).then_some((*sphere, name))
@@ -135,22 +109,14 @@ pub(super) fn keep_left_out(
     layout: &CompartmentLayout,
     kept: &mut Kept,
 ) -> Result<(), ConversionError> {
-    if !has_wheel(w, layout) {
+    let left_out = left_out(w.deck, layout);
+    if left_out.iter().any(|l| l.number == layout.wheel.number) {
         for name in ["SWP", "DSW"] {
             kept.insert(name.into(), w.bare(name));
         }
     }
-    let left_out = left_out(w, layout);
-    for (at, pair) in w.deck.passed_pairs().into_iter().enumerate() {
-        if passed_pair(w, layout, pair).is_none() {
-            let (sphere, surface) = pair;
-            kept.insert(
-                format!("{PAIR} {:03}", at + 1),
-                format!("{sphere} {surface}"),
-            );
-        }
-    }
-    for (number, name, why) in left_out {
+    keep_pairs(w, layout, &left_out, kept);
+    for LeftOut { number, name, why } in left_out {
         let (soft, stiff) = (
             w.value(&format!("STIF1({number})")),
             w.value(&format!("STIF2({number})")),
@@ -181,6 +147,31 @@ pub(super) fn keep_left_out(
         ));
     }
     Ok(())
+}
+
+/// Keeps the passed pairs that a scenario cannot name, and reports those whose surface it leaves out.
+fn keep_pairs(
+    w: &mut Writer<'_>,
+    layout: &CompartmentLayout,
+    left_out: &[LeftOut],
+    kept: &mut Kept,
+) {
+    for (at, pair) in w.deck.passed_pairs().into_iter().enumerate() {
+        if passed_pair(w, layout, pair).is_some() {
+            continue;
+        }
+        let (sphere, surface) = pair;
+        kept.insert(
+            format!("{PAIR} {:03}", at + 1),
+            format!("{sphere} {surface}"),
+        );
+        if let Some(l) = left_out.iter().find(|l| l.number == u32::from(surface)) {
+            w.report.ignored.push(format!(
+                "series 14, pair of sphere {sphere} and surface {surface} ({}): the surface {}",
+                l.name, l.why
+            ));
+        }
+    }
 }
 
 /// Surfaces with the same numbers share a material, named after the first.

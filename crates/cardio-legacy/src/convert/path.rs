@@ -1,7 +1,7 @@
 //! The vehicle's path: series 12, or a file where MREAD ≠ 0.
 
 use super::ConversionError;
-use super::writer::Writer;
+use super::writer::{Writer, quoted};
 use crate::card::Card;
 use crate::columns::Columns;
 use crate::deck::Deck;
@@ -203,7 +203,7 @@ impl Path {
         w.set("kind", "\"table\"");
         w.set("interpolation", "\"linear\"");
         match self {
-            Self::Beside { name, .. } => w.set("file", &format!("\"{name}\"")),
+            Self::Beside { name, .. } => w.set("file", &quoted(name)),
             Self::Rows { columns, rows, .. } => {
                 let names: Vec<String> = columns.iter().map(|c| format!("\"{c}\"")).collect();
                 w.set("columns", &format!("[{}]", names.join(", ")));

@@ -15,18 +15,21 @@ mod export;
 mod extend;
 mod history_args;
 mod interrupt;
+mod measure_table;
+mod measures;
 mod new;
 pub(crate) mod output_file;
 mod plot;
 mod print;
 mod progress;
-mod recording;
+pub(crate) mod recording;
 mod resume;
 pub(crate) mod run;
 pub(crate) mod scenario;
 mod schema;
 pub(crate) mod speak;
 mod summary_table;
+mod sweep;
 pub(crate) mod table;
 
 use std::process::ExitCode;
@@ -53,6 +56,7 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Args),
+    Sweep(sweep::Args),
     Check(check::Args),
     New(new::Args),
     Schema(schema::Args),
@@ -61,6 +65,7 @@ enum Command {
     Plot(plot::Args),
     Export(export::Args),
     Compare(compare::Args),
+    Measures(measures::Args),
     Completions(completions::Args),
 }
 
@@ -68,6 +73,7 @@ enum Command {
 pub fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Run(args) => run::run(&args),
+        Command::Sweep(args) => sweep::sweep(&args),
         Command::Check(args) => check::check(&args),
         Command::New(args) => new::new(&args),
         Command::Schema(args) => schema::print(&args),
@@ -76,6 +82,7 @@ pub fn main() -> ExitCode {
         Command::Plot(args) => plot::plot(&args),
         Command::Export(args) => export::export(&args),
         Command::Compare(args) => compare::compare(&args),
+        Command::Measures(args) => measures::measures(&args),
         Command::Completions(args) => completions::print(&args),
     };
     exit::code(result)

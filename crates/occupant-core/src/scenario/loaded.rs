@@ -150,7 +150,7 @@ impl Loaded {
 }
 
 /// Finds the words that a problem's path points at.
-pub(super) fn place(
+pub(crate) fn place(
     sources: &Sources,
     main: SourceId,
     root: &Node,

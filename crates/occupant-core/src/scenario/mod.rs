@@ -25,24 +25,25 @@
 //! ```
 
 mod build;
-mod check;
+pub(crate) mod check;
 mod check_groups;
 mod check_references;
-mod csv_text;
+pub(crate) mod csv_text;
 pub mod diagnostic;
 pub mod document;
-mod draft;
+pub(crate) mod draft;
 mod expand;
 mod json;
 pub mod kind;
-mod loaded;
+pub(crate) mod loaded;
 pub mod model;
 pub(crate) mod nearest;
 mod number_table;
 mod overrides;
 pub mod path_text;
+pub mod place;
 pub mod quantity;
-mod schema;
+pub(crate) mod schema;
 pub mod source;
 mod toml_text;
 pub mod unit;
