@@ -11,4 +11,5 @@ pub mod picture;
 mod plot;
 mod print;
 pub mod results;
+mod risk;
 mod sweep;

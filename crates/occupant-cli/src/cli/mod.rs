@@ -24,6 +24,7 @@ mod print;
 mod progress;
 pub(crate) mod recording;
 mod resume;
+mod risk;
 pub(crate) mod run;
 pub(crate) mod scenario;
 mod schema;
@@ -66,6 +67,7 @@ enum Command {
     Export(export::Args),
     Compare(compare::Args),
     Measures(measures::Args),
+    Risk(risk::Args),
     Completions(completions::Args),
 }
 
@@ -83,6 +85,7 @@ pub fn main() -> ExitCode {
         Command::Export(args) => export::export(&args),
         Command::Compare(args) => compare::compare(&args),
         Command::Measures(args) => measures::measures(&args),
+        Command::Risk(args) => risk::risk(&args),
         Command::Completions(args) => completions::print(&args),
     };
     exit::code(result)
