@@ -1,7 +1,14 @@
 //! The command `occupant`, as a library: its recorders for other programs, and the command line itself.
 
 pub mod cli;
+mod compare;
+mod export;
+mod history;
 pub mod mcap;
+mod measured;
+mod mme;
+pub mod picture;
+mod plot;
 mod print;
 pub mod results;
 mod risk;
