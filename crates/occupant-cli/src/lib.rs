@@ -4,3 +4,5 @@ pub mod cli;
 pub mod mcap;
 mod print;
 pub mod results;
+mod risk;
+mod sweep;

@@ -70,6 +70,7 @@
 //! - every step: [`kernel`] (the rate of change of the state), [`integrate`], [`simulate`];
 //! - results: [`sample`], [`energy`], [`reaction`], [`report_coordinates`], [`channel`], [`recorder`], [`summary`];
 //! - to go on with a run: [`checkpoint`];
+//! - many runs: [`study`];
 //! - of any time history: [`signal`], [`measure`], [`correlation`].
 
 pub mod belt;
@@ -80,9 +81,11 @@ pub mod compartment;
 pub mod correlation;
 pub mod diagnosis;
 pub mod energy;
+pub mod injury;
 pub mod integrate;
 pub mod joint;
 pub mod kernel;
+pub mod lanes;
 pub mod material;
 pub mod measure;
 pub mod model;
@@ -93,6 +96,7 @@ pub mod problem;
 pub mod reaction;
 pub mod recorder;
 pub mod report_coordinates;
+mod run;
 pub mod sample;
 pub mod scenario;
 pub mod seat;
@@ -101,7 +105,9 @@ pub mod settle;
 pub mod setup;
 pub mod signal;
 pub mod simulate;
+pub mod study;
 pub mod summary;
 pub mod surface;
 mod trig;
 mod validate;
+pub mod vehicle_risk;

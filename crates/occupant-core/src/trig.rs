@@ -36,6 +36,16 @@ pub(crate) fn pow(base: f64, exponent: f64) -> f64 {
     libm::pow(base, exponent)
 }
 
+/// Natural logarithm.
+pub(crate) fn ln(value: f64) -> f64 {
+    libm::log(value)
+}
+
+/// Complementary error function, 1 − erf.
+pub(crate) fn erfc(value: f64) -> f64 {
+    libm::erfc(value)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

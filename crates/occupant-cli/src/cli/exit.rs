@@ -28,6 +28,15 @@ impl Failure {
         Failure::CouldNotRun(format!("error: {}\n = help: {help}", found.into()))
     }
 
+    /// The same, and what was done before.
+    pub fn with_done(self, done: &str) -> Self {
+        let longer = |message| format!("{message}\n = done: {done}");
+        match self {
+            Failure::CouldNotRun(message) => Failure::CouldNotRun(longer(message)),
+            Failure::BrokeOff(message) => Failure::BrokeOff(longer(message)),
+        }
+    }
+
     /// Could not run.
     pub fn plain(found: impl Into<String>) -> Self {
         Failure::CouldNotRun(format!("error: {}", found.into()))

@@ -17,6 +17,11 @@ pub struct Interrupt {
 impl Interrupt {
     /// Listens from now on. Where that is impossible a signal ends the process at once; what was written stays readable.
     pub fn listen() -> Self {
+        Interrupt::listen_for("stopping at the next output; once more to stop at once")
+    }
+
+    /// Listens from now on, and answers a signal with these words.
+    pub fn listen_for(words: &'static str) -> Self {
         let interrupt = Interrupt::default();
         let asked = Arc::clone(&interrupt.asked);
         let handler = move || {
@@ -24,7 +29,7 @@ impl Interrupt {
                 // the next output is too far away; what was written stays readable under the partial name
                 std::process::exit(1);
             }
-            say("stopping at the next output; once more to stop at once");
+            say(words);
         };
         if let Err(error) = ctrlc::set_handler(handler) {
             say(&format!(
@@ -32,6 +37,16 @@ impl Interrupt {
             ));
         }
         interrupt
+    }
+
+    /// Whether a signal has come.
+    pub fn is_asked(&self) -> bool {
+        self.asked.load(Ordering::Relaxed)
+    }
+
+    /// What a signal sets.
+    pub fn flag(&self) -> &AtomicBool {
+        &self.asked
     }
 }
 

@@ -12,17 +12,21 @@ mod difference;
 pub(crate) mod exit;
 mod extend;
 mod interrupt;
+mod measure_table;
+mod measures;
 mod new;
 pub(crate) mod output_file;
 mod print;
 mod progress;
-mod recording;
+pub(crate) mod recording;
 mod resume;
+mod risk;
 pub(crate) mod run;
 pub(crate) mod scenario;
 mod schema;
 pub(crate) mod speak;
 mod summary_table;
+mod sweep;
 pub(crate) mod table;
 
 use std::process::ExitCode;
@@ -49,11 +53,14 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Run(run::Args),
+    Sweep(sweep::Args),
     Check(check::Args),
     New(new::Args),
     Schema(schema::Args),
     Convert(convert::Args),
     Print(print::Args),
+    Measures(measures::Args),
+    Risk(risk::Args),
     Completions(completions::Args),
 }
 
@@ -61,11 +68,14 @@ enum Command {
 pub fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Run(args) => run::run(&args),
+        Command::Sweep(args) => sweep::sweep(&args),
         Command::Check(args) => check::check(&args),
         Command::New(args) => new::new(&args),
         Command::Schema(args) => schema::print(&args),
         Command::Convert(args) => convert::convert(&args),
         Command::Print(args) => print::print_run(&args),
+        Command::Measures(args) => measures::measures(&args),
+        Command::Risk(args) => risk::risk(&args),
         Command::Completions(args) => completions::print(&args),
     };
     exit::code(result)

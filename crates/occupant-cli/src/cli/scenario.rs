@@ -91,7 +91,7 @@ pub fn file_name(path: &Path) -> String {
 }
 
 /// The format that the file name tells, if it does.
-fn format_of(path: &Path) -> Option<Format> {
+pub fn format_of(path: &Path) -> Option<Format> {
     let extension = path.extension()?.to_str()?.to_ascii_lowercase();
     match extension.as_str() {
         "toml" => Some(Format::Toml),

@@ -2,6 +2,7 @@
 
 use occupant_core::summary::{Acceleration, ContactBegin, FirstContact, RunStatus, Summary};
 
+use super::measure_table;
 use super::recording::Written;
 use super::table::Align::{Left, Right};
 use super::table::{NONE, Table, facts, number};
@@ -15,6 +16,7 @@ pub fn summary_table(summary: &Summary, written: &Written) -> String {
     if !summary.first_contacts.is_empty() {
         parts.push(first_contacts(summary));
     }
+    parts.push(measure_table::short(&summary.measures));
     parts.push(trust(summary, written));
     parts.join("\n")
 }
@@ -38,7 +40,7 @@ fn title(summary: &Summary) -> String {
 }
 
 /// A name without characters that would speak to the terminal instead of the reader.
-pub(super) fn plain(name: &str) -> String {
+pub(crate) fn plain(name: &str) -> String {
     name.chars()
         .map(|c| if c.is_control() { ' ' } else { c })
         .collect()
@@ -101,7 +103,7 @@ fn belts(summary: &Summary) -> String {
 
 fn first_contacts(summary: &Summary) -> String {
     let mut table = Table::new(&[
-        ("new contact", Left),
+        ("contact", Left),
         ("surface", Left),
         ("at, ms", Right),
         ("speed, m/s", Right),
@@ -117,7 +119,7 @@ fn first_contacts(summary: &Summary) -> String {
     table.text()
 }
 
-/// A row for each surface that a sphere touched after the start; the greatest force stands in the first.
+/// A row for each surface that a sphere touched; the greatest force of the whole run stands in the first.
 fn rows_of(summary: &Summary, first: &FirstContact) -> Vec<[String; 7]> {
     let peak = summary
         .sphere_forces
@@ -128,13 +130,8 @@ fn rows_of(summary: &Summary, first: &FirstContact) -> Vec<[String; 7]> {
         Some(p) => [number(p.force_n, 0), ms(p.time_s), p.surface.clone()],
         None => [none(), none(), none()],
     };
-    let new = |c: &&ContactBegin| c.sphere == first.sphere && !c.at_start;
-    let mut touches: Vec<[String; 3]> = summary
-        .contacts
-        .iter()
-        .filter(new)
-        .map(|c| [c.surface.clone(), ms(c.time_s), number(c.closing_m_s, 2)])
-        .collect();
+    let own = summary.contacts.iter().filter(|c| c.sphere == first.sphere);
+    let mut touches: Vec<[String; 3]> = own.map(touch).collect();
     if touches.is_empty() {
         touches.push([none(), none(), none()]);
     }
@@ -146,6 +143,15 @@ fn rows_of(summary: &Summary, first: &FirstContact) -> Vec<[String; 7]> {
         [name, surface, at, speed, n, when, on]
     };
     touches.into_iter().enumerate().map(row).collect()
+}
+
+/// Surface, time and closing speed; what touches at the start has not arrived.
+fn touch(contact: &ContactBegin) -> [String; 3] {
+    let [time, speed] = match contact.at_start {
+        true => ["at start".to_owned(), NONE.to_owned()],
+        false => [ms(contact.time_s), number(contact.closing_m_s, 2)],
+    };
+    [contact.surface.clone(), time, speed]
 }
 
 fn trust(summary: &Summary, written: &Written) -> String {

@@ -6,6 +6,7 @@ use std::num::NonZeroU32;
 
 use mcap::{Attachment, Compression, McapResult, WriteOptions, Writer};
 use occupant_core::body::Segment;
+use occupant_core::joint::Joint;
 use occupant_core::model::Model;
 use occupant_core::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::sample::Sample;
@@ -182,6 +183,10 @@ fn plan(model: &Model, belts: &[String]) -> Vec<(String, &'static Group, usize)>
         plan.push((topic.clone(), &groups::BELT, i));
     }
     plan.push((topics::JOINTS.to_owned(), &groups::JOINTS, 0));
+    for (i, joint) in Joint::ALL.into_iter().enumerate() {
+        plan.push((topics::joint_load(joint), &groups::JOINT_LOAD, i));
+    }
+    plan.push((topics::INSTRUMENTS.to_owned(), &groups::INSTRUMENTS, 0));
     plan.push((topics::ENERGY.to_owned(), &groups::ENERGY, 0));
     plan.push((topics::SOLVER.to_owned(), &groups::SOLVER, 0));
     if model.setup().output.report_coordinates {

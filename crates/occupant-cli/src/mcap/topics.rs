@@ -3,6 +3,7 @@
 use std::collections::BTreeSet;
 
 use occupant_core::body::Segment;
+use occupant_core::joint::Joint;
 
 /// Space: X forward, Y left, Z up; the root of all frames.
 pub const SPACE_FRAME: &str = "space";
@@ -27,6 +28,8 @@ pub const LABELS_SCENE: &str = "/scene/labels";
 pub const VEHICLE: &str = "/vehicle";
 /// Joint angles.
 pub const JOINTS: &str = "/occupant/joints";
+/// Load cells of a dummy.
+pub const INSTRUMENTS: &str = "/occupant/instruments";
 /// Parent of the topics of contact spheres.
 pub const SPHERES: &str = "/occupant/sphere";
 /// Parent of the topics of belts.
@@ -50,6 +53,11 @@ pub fn segment_frame(segment: Segment) -> String {
 /// The topic of a segment.
 pub fn segment(segment: Segment) -> String {
     format!("/occupant/segment/{}", segment.name())
+}
+
+/// The topic of what a joint carries.
+pub fn joint_load(joint: Joint) -> String {
+    format!("/occupant/joint/{}", joint.name())
 }
 
 /// Topics below `parent` for names that a user chose, one for each, all different.

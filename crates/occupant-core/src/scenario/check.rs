@@ -16,19 +16,8 @@ use crate::problem::{Problem, Severity};
 
 /// All that is wrong with the words of a scenario; what they mean together is checked when the model is built.
 pub fn check(sources: &Sources, root: &Node) -> Diagnostics {
-    let units = root.get("units").and_then(Node::as_str);
-    let mut checker = Checker {
-        sources,
-        root: schema(),
-        units: match units {
-            Some("in-lbf-s") => UnitSystem::InchPound,
-            _ => UnitSystem::Si,
-        },
-        problems: Diagnostics::new(),
-    };
-    if let Some(view) = View::of(checker.root, checker.root) {
-        checker.node(&view, root, "");
-    }
+    let mut checker = Checker::new(sources, schema(), "the scenario", units_of(root));
+    checker.document(root);
     // where the words are right, the builder looks names up with full knowledge
     if checker.problems.has_errors() {
         checker.references(root);
@@ -36,11 +25,55 @@ pub fn check(sources: &Sources, root: &Node) -> Diagnostics {
     checker.problems
 }
 
+/// All that is wrong with the words of another kind of document; `what` is what messages call it.
+pub(crate) fn check_words(
+    sources: &Sources,
+    root: &Node,
+    schema: &'static Json,
+    what: &'static str,
+) -> Diagnostics {
+    let mut checker = Checker::new(sources, schema, what, units_of(root));
+    checker.document(root);
+    checker.problems
+}
+
+/// The units of bare numbers in a document.
+pub(crate) fn units_of(root: &Node) -> UnitSystem {
+    match root.get("units").and_then(Node::as_str) {
+        Some("in-lbf-s") => UnitSystem::InchPound,
+        _ => UnitSystem::Si,
+    }
+}
+
 pub(super) struct Checker<'a> {
     sources: &'a Sources,
     root: &'static Json,
+    pub(super) what: &'static str,
     units: UnitSystem,
     problems: Diagnostics,
+}
+
+impl<'a> Checker<'a> {
+    fn new(
+        sources: &'a Sources,
+        root: &'static Json,
+        what: &'static str,
+        units: UnitSystem,
+    ) -> Self {
+        Checker {
+            sources,
+            root,
+            what,
+            units,
+            problems: Diagnostics::new(),
+        }
+    }
+
+    fn document(&mut self, root: &Node) {
+        if let Some(view) = View::of(self.root, self.root) {
+            self.node(&view, root, "");
+        }
+    }
 }
 
 impl Checker<'_> {
@@ -54,13 +87,42 @@ impl Checker<'_> {
         if let Some(cases) = view.cases(self.root) {
             return self.tagged(&cases, node, path);
         }
+        if view.is_open() {
+            return self.open(view, node, path);
+        }
         match (view.type_name(), &node.value) {
             ("object", Value::Table(table)) => self.table(view, node, table, path),
             ("array", Value::Array(items)) => self.array(view, node, items, path),
             ("string", Value::String(_)) | ("boolean", Value::Bool(_)) => {}
             ("number", Value::Integer(_)) => {}
             ("number", Value::Float(x)) if x.is_finite() => {}
+            ("integer", Value::Integer(i)) => self.count(view, *i, node, path),
             _ => self.wrong_type(view, node, path),
+        }
+    }
+
+    /// A whole number not below the least that makes sense.
+    fn count(&mut self, view: &View, number: i64, node: &Node, path: &str) {
+        let least = view.get("minimum").and_then(Json::as_i64);
+        if let Some(least) = least.filter(|least| number < *least) {
+            let found = format!("`{number}` is out of range");
+            let expected = format!("a whole number of at least {least}");
+            self.report(node.span, path, found, expected, None);
+        }
+    }
+
+    /// A value whose meaning another part of the document decides: here only its type is looked at.
+    fn open(&mut self, view: &View, node: &Node, path: &str) {
+        let fits = match &node.value {
+            Value::Integer(_) => view.may_be("number") || view.may_be("integer"),
+            Value::Float(x) => view.may_be("number") && x.is_finite(),
+            Value::String(_) => view.may_be("string"),
+            Value::Bool(_) => view.may_be("boolean"),
+            Value::Array(_) => view.may_be("array"),
+            Value::Null | Value::Table(_) => false,
+        };
+        if !fits {
+            self.wrong_type(view, node, path);
         }
     }
 
@@ -189,7 +251,7 @@ impl Checker<'_> {
     fn missing(&mut self, node: &Node, path: &str, key: &str, wanted: String) {
         let expected = format!("{key} = {wanted}");
         let found = match path {
-            "" => format!("the scenario has no key `{key}`"),
+            "" => format!("{} has no key `{key}`", self.what),
             _ => format!("`{path}` has no key `{key}`"),
         };
         self.report_table(node, path, found, expected, None);
@@ -277,7 +339,7 @@ pub(super) fn kind_named(name: &str) -> Option<&'static Kind> {
 }
 
 /// `"a", "b" or "c"`.
-pub(super) fn one_of(names: &[&str], quote: char) -> String {
+pub(crate) fn one_of(names: &[&str], quote: char) -> String {
     match names {
         [] => "no key at all".to_owned(),
         [only] => format!("{quote}{only}{quote}"),

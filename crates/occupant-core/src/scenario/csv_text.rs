@@ -3,15 +3,15 @@
 use super::source::{SourceId, Sources, Span};
 
 /// A cell: its words and place.
-pub(super) struct Cell<'a> {
+pub(crate) struct Cell<'a> {
     /// Its words, trimmed.
-    pub(super) text: &'a str,
+    pub(crate) text: &'a str,
     /// Their place.
-    pub(super) span: Span,
+    pub(crate) span: Span,
 }
 
 /// `x[m]` → `x` and `m`.
-pub(super) fn name_and_unit(text: &str) -> (&str, Option<&str>) {
+pub(crate) fn name_and_unit(text: &str) -> (&str, Option<&str>) {
     match text.split_once('[') {
         Some((name, rest)) => (
             name.trim(),
@@ -22,7 +22,7 @@ pub(super) fn name_and_unit(text: &str) -> (&str, Option<&str>) {
 }
 
 /// The lines of a text that hold something.
-pub(super) fn lines(sources: &Sources, id: SourceId) -> impl Iterator<Item = Span> {
+pub(crate) fn lines(sources: &Sources, id: SourceId) -> impl Iterator<Item = Span> {
     let mut start = 0;
     sources
         .text(id)
@@ -44,7 +44,7 @@ pub(super) fn lines(sources: &Sources, id: SourceId) -> impl Iterator<Item = Spa
 }
 
 /// The cells of a line, trimmed. A byte-order mark is no part of the first.
-pub(super) fn cells(sources: &Sources, line: Span) -> Vec<Cell<'_>> {
+pub(crate) fn cells(sources: &Sources, line: Span) -> Vec<Cell<'_>> {
     let mut start = line.start;
     sources
         .slice(line)

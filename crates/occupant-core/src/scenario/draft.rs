@@ -1,8 +1,10 @@
 //! A scenario text that has been read but not yet checked: the place to apply overrides.
 
+use super::check::{check, units_of};
 use super::diagnostic::{Diagnostic, Diagnostics};
 use super::document::{self, Format, Node, Value};
 use super::expand::expand;
+use super::kind::UnitSystem;
 use super::loaded::{Loaded, Resolver};
 use super::overrides::{needs_explicit, put, targets};
 use super::path_text::{self, to_text};
@@ -134,6 +136,16 @@ impl Draft {
         }
     }
 
+    /// The units of its bare numbers.
+    pub(crate) fn units(&self) -> UnitSystem {
+        units_of(&self.root)
+    }
+
+    /// All that is wrong with the words of the scenario as it stands.
+    pub(crate) fn check(&self) -> Diagnostics {
+        check(&self.sources, &self.root)
+    }
+
     /// Checks the scenario and reads the tables it refers to.
     ///
     /// # Errors
@@ -157,7 +169,7 @@ impl Draft {
 }
 
 /// Bytes as text.
-pub(super) fn text_of<'a>(bytes: &'a [u8], name: &str) -> Result<&'a str, Diagnostics> {
+pub(crate) fn text_of<'a>(bytes: &'a [u8], name: &str) -> Result<&'a str, Diagnostics> {
     std::str::from_utf8(bytes).map_err(|error| {
         let before = &bytes[..error.valid_up_to()];
         let line = before.iter().filter(|b| **b == b'\n').count() + 1;
@@ -168,7 +180,7 @@ pub(super) fn text_of<'a>(bytes: &'a [u8], name: &str) -> Result<&'a str, Diagno
 }
 
 /// One problem of a text as a whole.
-pub(super) fn refuse(source: &str, found: String, expected: &str) -> Diagnostics {
+pub(crate) fn refuse(source: &str, found: String, expected: &str) -> Diagnostics {
     let mut diagnostics = Diagnostics::new();
     diagnostics.push(Diagnostic::of(
         source,

@@ -25,24 +25,26 @@
 //! ```
 
 mod build;
-mod check;
+pub(crate) mod check;
 mod check_groups;
 mod check_references;
-mod csv_text;
+pub(crate) mod csv_text;
 pub mod diagnostic;
 pub mod document;
-mod draft;
-mod expand;
+pub(crate) mod draft;
+pub(crate) mod expand;
 mod json;
 pub mod kind;
-mod loaded;
+pub(crate) mod loaded;
 pub mod model;
 pub(crate) mod nearest;
 mod number_table;
 mod overrides;
 pub mod path_text;
+pub mod place;
 pub mod quantity;
-mod schema;
+mod record_file;
+pub(crate) mod schema;
 pub mod source;
 mod toml_text;
 pub mod unit;
@@ -54,6 +56,7 @@ pub use document::Format;
 pub use draft::Draft;
 pub use loaded::{Loaded, Resolver};
 pub use model::Scenario;
+pub use record_file::{RecordFile, read_record};
 pub use schema::schema;
 
 #[cfg(test)]

@@ -5,6 +5,7 @@
 
 use std::sync::OnceLock;
 
+use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use schemars::transform::{Transform, transform_subschemas};
 use serde_json::{Map, Value, json};
@@ -14,20 +15,23 @@ use super::model::Scenario;
 /// The schema.
 pub fn schema() -> &'static Value {
     static SCHEMA: OnceLock<Value> = OnceLock::new();
-    SCHEMA.get_or_init(|| {
-        let settings = SchemaSettings::draft2020_12().with(|s| {
-            s.transforms.push(Box::new(WithoutNull));
-            s.transforms.push(Box::new(StandardGroups));
-        });
-        let mut schema = settings
-            .into_generator()
-            .into_root_schema_for::<Scenario>()
-            .to_value();
-        if let Some(root) = schema.as_object_mut() {
-            root.insert("title".into(), json!("occupant scenario"));
-        }
-        schema
-    })
+    SCHEMA.get_or_init(|| schema_of::<Scenario>("occupant scenario"))
+}
+
+/// The schema of a kind of document.
+pub(crate) fn schema_of<T: JsonSchema>(title: &str) -> Value {
+    let settings = SchemaSettings::draft2020_12().with(|s| {
+        s.transforms.push(Box::new(WithoutNull));
+        s.transforms.push(Box::new(StandardGroups));
+    });
+    let mut schema = settings
+        .into_generator()
+        .into_root_schema_for::<T>()
+        .to_value();
+    if let Some(root) = schema.as_object_mut() {
+        root.insert("title".into(), json!(title));
+    }
+    schema
 }
 
 /// Optional keys may be left out, but not be null.

@@ -62,6 +62,17 @@ impl View {
         self.get("type").and_then(Json::as_str).unwrap_or("")
     }
 
+    /// Whether several types of value may stand here, among which another part of the document decides.
+    pub(super) fn is_open(&self) -> bool {
+        self.get("type").is_some_and(Json::is_array)
+    }
+
+    /// Whether an open place may hold this type of value.
+    pub(super) fn may_be(&self, name: &str) -> bool {
+        let types = self.get("type").and_then(Json::as_array);
+        types.is_some_and(|types| types.iter().any(|t| t.as_str() == Some(name)))
+    }
+
     /// What a table holds under a key.
     pub(super) fn property(&self, root: &'static Json, key: &str) -> Option<View> {
         let named = self.get("properties").and_then(|p| p.get(key));
@@ -109,6 +120,8 @@ impl View {
             (None, "string") => "a text",
             (None, "boolean") => "true or false",
             (None, "number") => "a number",
+            (None, "integer") => "a whole number",
+            _ if self.is_open() => "a value",
             _ => "a table",
         }
     }
@@ -129,7 +142,15 @@ impl View {
             ("string", ..) => "a text in quotes".to_owned(),
             ("boolean", ..) => "true or false".to_owned(),
             ("number", ..) => "a number".to_owned(),
+            ("integer", ..) => "a whole number".to_owned(),
+            _ if self.is_open() => self.open_example().to_owned(),
             _ => "a table".to_owned(),
         }
+    }
+
+    /// How a value of an open place may be written.
+    fn open_example(&self) -> &'static str {
+        let example = self.get("x-example").and_then(Json::as_str);
+        example.unwrap_or("a number, or a text in quotes")
     }
 }

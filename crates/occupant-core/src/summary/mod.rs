@@ -3,11 +3,15 @@
 //! A [`Summarizer`] is a [`crate::recorder::Recorder`]; it looks at every output and keeps little. Peaks and levels are those of the
 //! output times, straight lines between them: an output interval of 1 ms or less does them justice. Nothing is filtered.
 
+mod figures;
 mod peak;
 mod summarizer;
 
 use serde::Serialize;
 
+use crate::injury::Measure;
+
+pub use figures::Figure;
 pub use peak::Peak;
 pub use summarizer::Summarizer;
 
@@ -38,6 +42,8 @@ pub struct Summary {
     pub sphere_forces: Vec<SpherePeak>,
     /// How far the head's centre went from where it was at the start; absent without a sphere `head`.
     pub head_excursion: Option<Excursion>,
+    /// Injury measures for a Hybrid III 50M, unfiltered.
+    pub measures: Vec<Measure>,
     /// Energy balance.
     pub energy: EnergyCheck,
     /// Work of the integrator.

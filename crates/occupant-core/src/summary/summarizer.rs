@@ -7,6 +7,7 @@ use super::{
     Level, Peak, RunStatus, Solver, SpherePeak, Summary,
 };
 use crate::body::Segment;
+use crate::injury::{self, Signals, assess};
 use crate::measure::{ThreeMs, three_ms_contiguous, three_ms_cumulative};
 use crate::model::Model;
 use crate::recorder::{Flow, Recorder, RecorderError};
@@ -34,6 +35,7 @@ pub struct Summarizer {
     accelerations: [Option<Peak>; 3],
     belts: Vec<BeltTrack>,
     spheres: Vec<SphereTrack>,
+    signals: Signals,
     head_start: Option<Point3<f64>>,
     /// Greatest displacements along +X, +Y, +Z, −X, −Y, −Z.
     excursion: [Option<Peak>; 6],
@@ -90,6 +92,7 @@ impl Summarizer {
             contacts,
             sphere_forces: self.sphere_forces(),
             head_excursion: self.excursion(),
+            measures: assess(&self.signals, &injury::Options::default()),
             energy: EnergyCheck {
                 balance_error: outcome.balance_error,
                 greatest_kinetic_j: outcome.greatest_kinetic_j,
@@ -287,6 +290,7 @@ impl Recorder for Summarizer {
             surface: 0,
         };
         *self = Summarizer {
+            signals: begun(model)?,
             integrator: match setup.integrator {
                 Integrator::Rk4 { .. } => "rk4",
                 Integrator::Adaptive { .. } => "adaptive",
@@ -309,6 +313,7 @@ impl Recorder for Summarizer {
         self.see_contacts(sample);
         self.see_belts(sample);
         self.see_head(sample);
+        self.signals.record(sample)?;
         Ok(Flow::Continue)
     }
 
@@ -327,6 +332,13 @@ fn ending(status: &Status) -> (RunStatus, Option<String>) {
         ),
         Status::Failed(error) => (RunStatus::Failed, Some(error.to_string())),
     }
+}
+
+/// Instruments with room for a whole run.
+fn begun(model: &Model) -> Result<Signals, RecorderError> {
+    let mut signals = Signals::new();
+    signals.begin(model)?;
+    Ok(signals)
 }
 
 fn in_g(acceleration_m_s2: f64) -> f64 {

@@ -197,3 +197,44 @@ fn it_is_json_with_units_in_its_names() {
     assert!(json["contacts"][0]["closing_m_s"].is_f64());
     assert!(json["solver"]["wall_time_s"].is_null());
 }
+
+#[test]
+fn the_list_of_figures_holds_the_summary_under_the_same_names_for_every_run() {
+    let (free, floored) = (falling("", 0.02), falling(&floor(), 0.2));
+    let (touched_nothing, fell) = (summary_of(&free), summary_of(&floored));
+    let figures = fell.figures(&floored);
+    let names = |figures: &[Figure]| figures.iter().map(|f| f.name.clone()).collect::<Vec<_>>();
+    assert_eq!(names(&touched_nothing.figures(&free)), names(&figures));
+    let mut unique = names(&figures);
+    unique.sort();
+    unique.dedup();
+    assert_eq!(unique.len(), figures.len());
+    assert!(
+        figures
+            .iter()
+            .all(|f| !f.name.contains(char::is_whitespace) && !f.unit.is_empty())
+    );
+
+    let value = |name: &str| figures.iter().find(|f| f.name == name).unwrap().value;
+    assert_eq!(value("head.peak"), Some(fell.accelerations.head.peak_m_s2));
+    let level = fell.accelerations.chest.three_ms_cumulative.unwrap();
+    assert_eq!(value("chest.three_ms_cumulative"), Some(level.level_m_s2));
+    let down = fell.head_excursion.unwrap();
+    assert_eq!(value("head_excursion.down"), Some(down.down_m));
+    assert_eq!(
+        value("solver.evaluations"),
+        Some(fell.solver.evaluations as f64)
+    );
+    // every force of the summary stands in the list; a sphere that touched nothing has none
+    assert!(!fell.sphere_forces.is_empty());
+    for sphere in &floored.body().spheres {
+        let peak = fell.sphere_forces.iter().find(|p| p.sphere == sphere.name);
+        let name = format!("contacts.{}.peak", sphere.name);
+        assert_eq!(
+            value(&name),
+            Some(peak.map_or(0.0, |p| p.force_n)),
+            "{name}"
+        );
+        assert_eq!(value(&format!("{name}_time")), peak.map(|p| p.time_s));
+    }
+}

@@ -6,6 +6,8 @@
 mod belt;
 mod checkpoint;
 mod energy;
+mod instruments;
+mod joint_load;
 mod joints;
 mod report_coordinates;
 mod segment;
@@ -16,6 +18,8 @@ mod vehicle;
 pub use belt::BELT;
 pub use checkpoint::CHECKPOINT;
 pub use energy::ENERGY;
+pub use instruments::INSTRUMENTS;
+pub use joint_load::JOINT_LOAD;
 pub use joints::JOINTS;
 pub use report_coordinates::REPORT_COORDINATES;
 pub use segment::SEGMENT;
@@ -26,12 +30,14 @@ pub use vehicle::VEHICLE;
 use super::column::Group;
 
 /// All groups.
-pub const ALL: [&Group; 9] = [
+pub const ALL: [&Group; 11] = [
     &VEHICLE,
     &SEGMENT,
     &SPHERE,
     &BELT,
     &JOINTS,
+    &JOINT_LOAD,
+    &INSTRUMENTS,
     &ENERGY,
     &SOLVER,
     &REPORT_COORDINATES,

@@ -1,0 +1,141 @@
+//! Whole runs of chosen samples, written after the sweep: those of the worst, and those whose file is missing.
+
+use std::fs;
+use std::ops::Range;
+use std::sync::atomic::AtomicBool;
+
+use occupant_core::lanes::Kernel;
+use occupant_core::study::Keep;
+
+use super::engine::{HandOn, Job, Worker, run};
+use super::finished::Finished;
+use super::folder::Folder;
+use super::plan::Plan;
+use super::problem::Problem;
+use super::simulation::{Simulation, is_kept};
+use crate::cli::exit::Failure;
+use crate::cli::output_file::partial_path;
+
+/// Reads `none`, `all`, `3, 17` or `worst 5 by head.peak`.
+pub fn parse(text: &str) -> Option<Keep> {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    match words[..] {
+        ["none"] => Some(Keep::None),
+        ["all"] => Some(Keep::All),
+        ["worst", count, "by", measure] => Some(Keep::Worst {
+            count: count.parse().ok().filter(|n| *n > 0)?,
+            measure: measure.to_owned(),
+        }),
+        _ => {
+            let number = |word: &str| word.trim().parse::<u64>().ok();
+            let numbers: Option<Vec<u64>> = text.split(',').map(number).collect();
+            let mut numbers = numbers?;
+            numbers.sort_unstable();
+            numbers.dedup();
+            Some(Keep::Indices(numbers))
+        }
+    }
+}
+
+/// Makes the folder of the kept runs, where there will be any.
+///
+/// # Errors
+/// The operating system refuses.
+pub fn prepare(keep: &Keep, folder: &Folder) -> Result<(), Problem> {
+    if *keep == Keep::None {
+        return Ok(());
+    }
+    let runs = folder.runs();
+    fs::create_dir_all(&runs).map_err(Problem::io("create", &runs))
+}
+
+/// Of these samples those without a file; of a run that did not complete the partial file counts.
+pub fn missing(folder: &Folder, samples: impl Iterator<Item = u64>) -> Vec<u64> {
+    let there = |index: &u64| {
+        let file = folder.run(*index);
+        file.exists() || partial_path(&file).exists()
+    };
+    samples.filter(|index| !there(index)).collect()
+}
+
+/// Those of a range that are kept beforehand.
+pub fn wanted(keep: &Keep, samples: Range<u64>) -> Box<dyn Iterator<Item = u64> + '_> {
+    match keep {
+        Keep::All => Box::new(samples),
+        Keep::Indices(_) => Box::new(samples.filter(|i| is_kept(keep, *i))),
+        Keep::None | Keep::Worst { .. } => Box::new(std::iter::empty()),
+    }
+}
+
+/// Runs samples again and writes their files.
+///
+/// # Errors
+/// A file that cannot be written.
+pub fn write(
+    plan: &Plan,
+    folder: &Folder,
+    samples: &[u64],
+    threads: usize,
+    stop: &AtomicBool,
+) -> Result<(), Failure> {
+    let again = Again {
+        samples,
+        simulation: Simulation {
+            plan,
+            keep: &Keep::All,
+            folder,
+            stop,
+            kernel: Kernel::best(),
+        },
+    };
+    let count = samples.len() as u64;
+    let job = Job {
+        samples: &(0..count),
+        finished: &Finished::none(count),
+        threads,
+        stop,
+    };
+    run(job, &again, &mut |_row| Ok(()))
+}
+
+/// Samples of a list, by their places in it.
+struct Again<'a> {
+    samples: &'a [u64],
+    simulation: Simulation<'a>,
+}
+
+impl Worker for Again<'_> {
+    type Error = Failure;
+
+    fn work(&self, next: &dyn Fn() -> Option<u64>, hand_on: HandOn<'_>) -> Result<(), Failure> {
+        let sample = |place: u64| self.samples.get(place as usize).copied();
+        self.simulation.work(&|| next().and_then(sample), hand_on)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_words_of_a_command_line_are_read() {
+        assert_eq!(parse("none"), Some(Keep::None));
+        assert_eq!(parse(" all "), Some(Keep::All));
+        assert_eq!(parse("7,3, 7"), Some(Keep::Indices(vec![3, 7])));
+        let worst = Keep::Worst {
+            count: 5,
+            measure: "hic15".to_owned(),
+        };
+        assert_eq!(parse("worst 5 by hic15"), Some(worst));
+        for wrong in [
+            "",
+            "worst",
+            "worst 0 by hic15",
+            "worst five by hic15",
+            "-1",
+            "some",
+        ] {
+            assert_eq!(parse(wrong), None, "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,109 @@
+//! Whole steps from output to output.
+
+use super::Run;
+use crate::integrate::rk4::{self, Stage};
+use crate::kernel::Frames;
+use crate::model::Model;
+use crate::observers::SeenAt;
+use crate::outcome::StepError;
+use crate::path::PathCursor;
+
+/// The steps from one output to the next: all of one length but the last, which ends at the output.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Stretch {
+    from_s: f64,
+    target_s: f64,
+    step_s: f64,
+    count: f64,
+    done: f64,
+}
+
+/// One step.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct Step {
+    pub start_s: f64,
+    pub end_s: f64,
+}
+
+impl Stretch {
+    /// Steps of `step_s`, the last one shortened to end at the target.
+    pub fn new(from_s: f64, target_s: f64, step_s: f64) -> Self {
+        Stretch {
+            from_s,
+            target_s,
+            step_s,
+            count: (((target_s - from_s) / step_s) - 1e-9).ceil().max(1.0),
+            done: 0.0,
+        }
+    }
+}
+
+impl Stretch {
+    /// True after the last step.
+    #[inline]
+    pub fn is_over(&self) -> bool {
+        self.done >= self.count
+    }
+}
+
+impl Iterator for Stretch {
+    type Item = Step;
+
+    #[inline]
+    fn next(&mut self) -> Option<Step> {
+        let i = self.done;
+        if self.is_over() {
+            return None;
+        }
+        self.done = i + 1.0;
+        let end_s = if self.done < self.count {
+            self.from_s + self.done * self.step_s
+        } else {
+            self.target_s
+        };
+        let start_s = self.from_s + i * self.step_s;
+        Some(Step { start_s, end_s })
+    }
+}
+
+impl Step {
+    /// Its length, s.
+    #[inline]
+    pub fn length_s(self) -> f64 {
+        self.end_s - self.start_s
+    }
+
+    /// Frames at its start, middle and end.
+    #[inline]
+    pub fn frames(self, model: &Model, cursor: &mut PathCursor) -> [Frames<f64>; 3] {
+        let middle_s = 0.5 * (self.start_s + self.end_s);
+        [self.start_s, middle_s, self.end_s].map(|t| model.frames(t, middle_s, cursor))
+    }
+}
+
+impl Run {
+    /// All steps of `stretch`.
+    pub fn advance_rk4(&mut self, model: &Model, stretch: Stretch) -> Result<(), StepError> {
+        let system = model.system();
+        for step in stretch {
+            let [at_start, at_middle, at_end] = step.frames(model, &mut self.cursor);
+            let (history, seen) = (&mut self.history, &mut self.seen);
+            let time_s = step.start_s;
+            let mut observer = SeenAt {
+                model,
+                seen,
+                time_s,
+            };
+            let next = rk4::step(&self.state, step.length_s(), |stage, state| match stage {
+                Stage::Start => {
+                    system.rate_observed::<true>(state, &at_start, history, &mut observer)
+                }
+                Stage::Middle => system.rate::<false>(state, &at_middle, history),
+                Stage::End => system.rate::<false>(state, &at_end, history),
+            });
+            self.effort.evaluations += 4;
+            self.accept(next, step)?;
+        }
+        Ok(())
+    }
+}

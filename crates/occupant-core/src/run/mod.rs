@@ -1,0 +1,280 @@
+//! A run in progress: what it carries from step to step and from output to output, and how it ends.
+//!
+//! The model stands beside it, unchanged: every call gets the one that the run was made for.
+
+mod adaptive;
+mod fixed;
+
+pub(crate) use fixed::{Step, Stretch};
+
+use crate::body::Segment;
+use crate::checkpoint::{Checkpoint, CheckpointError, Progress};
+use crate::energy::{EnergyLedger, EnergyStart, Stored};
+use crate::integrate::dormand_prince::Tolerance;
+use crate::kernel::History;
+use crate::kernel::frame::VEHICLE;
+use crate::kernel::state::{FREE, HINGED, State};
+use crate::model::{Model, frames};
+use crate::observers::{Seen, Touches};
+use crate::outcome::{Outcome, RecordingFailed, Status, StepError};
+use crate::path::PathCursor;
+use crate::recorder::{Flow, Recorder, RecorderError};
+use crate::sample::{Effort, Sample};
+use crate::setup::Integrator;
+use crate::simulate::output_time;
+
+/// A run in progress.
+pub(crate) struct Run {
+    /// Number of the next output.
+    index: usize,
+    pub time_s: f64,
+    pub state: State<f64>,
+    pub history: History<f64>,
+    pub cursor: PathCursor,
+    pub seen: Seen,
+    pub effort: Effort,
+    /// Step that the error control wants next, s.
+    wanted_s: f64,
+    energy_start: Option<EnergyStart>,
+    greatest_kinetic_j: f64,
+    greatest_imbalance_j: f64,
+    touches: Touches,
+    breaks_s: Vec<f64>,
+}
+
+impl Run {
+    /// A run of `model` at its start.
+    pub fn new(model: &Model) -> Self {
+        let start = model.start();
+        let pairs = model.system().contacts.pairs();
+        Run {
+            index: 0,
+            time_s: model.setup().time.start_s,
+            state: start.state,
+            history: start.history.clone(),
+            cursor: PathCursor::default(),
+            effort: Effort::default(),
+            wanted_s: first_step(&model.setup().integrator),
+            energy_start: None,
+            greatest_kinetic_j: 0.0,
+            greatest_imbalance_j: 0.0,
+            touches: Touches {
+                pairs: Vec::with_capacity(pairs.len()),
+                belts: Vec::with_capacity(model.system().belts.len()),
+            },
+            seen: Seen::new(model),
+            breaks_s: model.setup().path.breaks_s(),
+        }
+    }
+
+    /// A run of `model` at one of its outputs.
+    pub fn from_checkpoint(model: &Model, from: &Checkpoint) -> Result<Self, CheckpointError> {
+        from.check(model)?;
+        let mut run = Run::new(model);
+        let (pairs, belts) = (from.pairs.clone(), from.belts.clone());
+        let progress = from.progress;
+        run.index = from.index;
+        run.time_s = from.time_s;
+        run.state = from.state;
+        run.history = History::new(&model.system().contacts, pairs, belts);
+        run.effort = progress.effort;
+        run.wanted_s = progress.wanted_s;
+        run.energy_start = Some(progress.energy_start);
+        run.greatest_kinetic_j = progress.greatest_kinetic_j;
+        run.greatest_imbalance_j = progress.greatest_imbalance_j;
+        run.seen.know(&from.first_touches);
+        Ok(run)
+    }
+
+    /// Tells `recorder` that the run begins.
+    pub fn begin(
+        &self,
+        model: &Model,
+        recorder: &mut impl Recorder,
+    ) -> Result<(), RecordingFailed> {
+        recorder.begin(model).map_err(|e| self.unrecorded(e))
+    }
+
+    /// Evaluates the present state with all details and hands it to the recorder as the next output.
+    pub fn record(
+        &mut self,
+        model: &Model,
+        recorder: &mut impl Recorder,
+    ) -> Result<Flow, RecordingFailed> {
+        let t = self.time_s;
+        let path = &model.setup().path;
+        let vehicle = path.motion(t, t, &mut self.cursor);
+        let vehicle_pose = path.attitude(t, &mut self.cursor);
+        let frames = frames(&vehicle);
+        let system = model.system();
+        self.touches.clear();
+        let evaluation =
+            system.evaluate::<true>(&self.state, &frames, &mut self.history, &mut self.touches);
+        for touch in &self.touches.pairs {
+            self.seen.note(model, t, touch.into());
+        }
+        let stored = Stored {
+            spine_j: system.joints.stored(&evaluation.kinematics),
+            contacts_j: self.touches.pairs.iter().map(|t| t.stored).sum(),
+            belts_j: self.touches.belts.iter().map(|b| b.stored).sum(),
+        };
+        let ledger = |start: &EnergyStart| {
+            EnergyLedger::new(
+                &system.skeleton,
+                &evaluation.kinematics,
+                &frames[VEHICLE],
+                stored,
+                &self.state.work,
+                start,
+            )
+        };
+        let energy_start = *self
+            .energy_start
+            .get_or_insert_with(|| ledger(&EnergyStart::default()).as_start());
+        let energy = ledger(&energy_start);
+        self.greatest_kinetic_j = self.greatest_kinetic_j.max(energy.kinetic_relative_j);
+        self.greatest_imbalance_j = self.greatest_imbalance_j.max(energy.balance_j.abs());
+        let index = self.index;
+        self.index += 1;
+        let recorded = recorder.record(&Sample {
+            time_s: t,
+            index,
+            model,
+            state: &self.state,
+            history: &self.history,
+            frames: &frames,
+            vehicle: &vehicle,
+            vehicle_pose,
+            evaluation: &evaluation,
+            touches: &self.touches.pairs,
+            belts: &self.touches.belts,
+            energy,
+            effort: self.effort,
+            progress: Progress {
+                effort: self.effort,
+                wanted_s: self.wanted_s,
+                energy_start,
+                greatest_kinetic_j: self.greatest_kinetic_j,
+                greatest_imbalance_j: self.greatest_imbalance_j,
+            },
+            first_touches: &self.seen.touches,
+        });
+        recorded.map_err(|e| self.unrecorded(e))
+    }
+
+    /// Time of the next output, s; none after the last.
+    pub fn next_output_s(&self, model: &Model) -> Option<f64> {
+        output_time(model, self.index)
+    }
+
+    /// Steps until `target_s`.
+    pub fn advance_to(&mut self, model: &Model, target_s: f64) -> Result<(), StepError> {
+        match model.setup().integrator {
+            Integrator::Rk4 { step_s } => {
+                let stretch = Stretch::new(self.time_s, target_s, step_s);
+                self.advance_rk4(model, stretch)
+            }
+            Integrator::Adaptive {
+                relative,
+                absolute_m,
+                absolute_m_s,
+                min_step_s,
+                max_step_s,
+            } => {
+                let tolerance = Tolerance {
+                    relative,
+                    absolute_m,
+                    absolute_m_s,
+                };
+                self.advance_adaptive(model, target_s, &tolerance, min_step_s, max_step_s)
+            }
+        }
+    }
+
+    /// Takes over the state after a step, if it is one of numbers.
+    pub fn accept(&mut self, next: State<f64>, step: Step) -> Result<(), StepError> {
+        if !next.is_finite() {
+            return Err(StepError::NotFinite {
+                time_s: step.start_s,
+                step_s: step.length_s(),
+                component: broken_component(&next),
+            });
+        }
+        self.state = next;
+        self.accept_time(step);
+        Ok(())
+    }
+
+    /// Counts an accepted step whose state is kept elsewhere.
+    pub fn accept_time(&mut self, step: Step) {
+        self.time_s = step.end_s;
+        self.effort.steps += 1;
+        self.effort.step_s = step.length_s();
+    }
+
+    /// Ends the run and tells `recorder` how.
+    pub fn end(
+        self,
+        status: Status,
+        recorder: &mut impl Recorder,
+    ) -> Result<Outcome, RecordingFailed> {
+        let time_s = self.time_s;
+        let outcome = self.outcome(status);
+        match recorder.end(&outcome) {
+            Ok(()) => Ok(outcome),
+            Err(source) => Err(RecordingFailed { time_s, source }),
+        }
+    }
+
+    fn outcome(self, status: Status) -> Outcome {
+        let greatest = self.greatest_kinetic_j;
+        Outcome {
+            status,
+            time_s: self.time_s,
+            effort: self.effort,
+            first_touches: self.seen.touches,
+            greatest_kinetic_j: greatest,
+            balance_error: if greatest > 0.0 {
+                self.greatest_imbalance_j / greatest
+            } else {
+                0.0
+            },
+        }
+    }
+
+    fn unrecorded(&self, source: RecorderError) -> RecordingFailed {
+        let time_s = self.time_s;
+        RecordingFailed { time_s, source }
+    }
+}
+
+fn first_step(integrator: &Integrator) -> f64 {
+    match *integrator {
+        Integrator::Rk4 { step_s } => step_s,
+        Integrator::Adaptive {
+            min_step_s,
+            max_step_s,
+            ..
+        } => (10.0 * min_step_s).min(max_step_s),
+    }
+}
+
+/// Name of the first component that is not finite.
+fn broken_component(state: &State<f64>) -> String {
+    let bad = |x: f64, y: f64, z: f64| !(x.is_finite() && y.is_finite() && z.is_finite());
+    for (slot, &n) in FREE.iter().enumerate() {
+        let (q, w) = (&state.orientation[slot], &state.omega[slot]);
+        if bad(q.v.x, q.v.y, q.v.z) || bad(w.x, w.y, w.z) || !q.w.is_finite() {
+            return format!(
+                "orientation or angular velocity of the {}",
+                Segment::ALL[n].name()
+            );
+        }
+    }
+    for (slot, &n) in HINGED.iter().enumerate() {
+        if !(state.hinge[slot].is_finite() && state.hinge_rate[slot].is_finite()) {
+            return format!("joint angle of the {}", Segment::ALL[n].name());
+        }
+    }
+    "place or velocity of the reference point T1".to_owned()
+}

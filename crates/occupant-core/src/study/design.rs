@@ -1,0 +1,258 @@
+//! Which samples a study has: for every index the coordinate of each parameter, computed from the index alone.
+
+use super::law::{Law, Value};
+use super::morris::{self, Trajectory};
+use super::permutation::permute;
+use super::random::{Purpose, unit};
+use super::saltelli::{self, Block};
+use super::sobol::Sobol;
+
+/// How the samples are chosen.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Design {
+    /// The scenario itself: one sample.
+    Single,
+    /// Every value with every other. The last parameter changes fastest, as in nested loops in the order written.
+    FullFactorial,
+    /// Strata of equal probability, each used once.
+    LatinHypercube {
+        /// How many.
+        samples: u64,
+    },
+    /// Sobol's sequence from its first point.
+    Sobol {
+        /// How many.
+        samples: u64,
+        /// Whether the seed scrambles it.
+        scramble: bool,
+    },
+    /// Independent random samples.
+    MonteCarlo {
+        /// How many.
+        samples: u64,
+    },
+    /// The base scenario, then each parameter alone at each of its levels, or low and high.
+    OneAtATime {
+        /// Where distributions without ends are cut.
+        tail: f64,
+    },
+    /// Given samples, one list of values for each.
+    Table {
+        /// The lists, one value for each parameter.
+        rows: Vec<Vec<Value>>,
+    },
+    /// Blocks for Sobol's indices.
+    Saltelli {
+        /// Points of A and of B.
+        samples: u64,
+        /// Whether B with one column of A is there, too.
+        second_order: bool,
+    },
+    /// Trajectories for Morris's screening.
+    Morris {
+        /// How many.
+        trajectories: u64,
+        /// Levels of a range, even.
+        levels: u64,
+        /// Where distributions without ends are cut.
+        tail: f64,
+    },
+}
+
+/// What a sample is in its design.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// One of many alike.
+    Sample,
+    /// The base scenario of a one-at-a-time design.
+    Nominal,
+    /// Only this parameter differs from the base scenario.
+    Varied {
+        /// Index of the parameter.
+        parameter: usize,
+    },
+    /// In a Saltelli design.
+    Saltelli {
+        /// Index of the point in A and B.
+        point: u64,
+        /// Which block.
+        block: Block,
+    },
+    /// In a Morris design.
+    Morris {
+        /// Index of the trajectory.
+        trajectory: u64,
+        /// Steps made so far, 0 at its start.
+        step: usize,
+        /// The parameter that the last step changed.
+        changed: Option<usize>,
+    },
+}
+
+/// Where a parameter stands in its law.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) enum Coordinate {
+    /// As the base scenario has it.
+    Nominal,
+    /// One of its levels.
+    Level(u64),
+    /// A probability.
+    Quantile(f64),
+    /// A probability, with distributions without ends cut off at a tail.
+    Bounded(f64, f64),
+    /// A value of the design's own.
+    Given(Value),
+}
+
+/// Everything that the coordinates of a sample hang on.
+pub(super) struct Context<'a> {
+    pub(super) seed: u64,
+    pub(super) laws: &'a [&'a Law],
+    pub(super) sobol: &'a Sobol,
+}
+
+impl Design {
+    /// How many samples, for parameters with these numbers of levels; none if more than 2⁵².
+    pub(super) fn len(&self, levels: &[Option<u64>]) -> Option<u64> {
+        let k = levels.len() as u64;
+        let len = match self {
+            Design::Single => Some(1),
+            Design::FullFactorial => levels
+                .iter()
+                .try_fold(1_u64, |n, l| n.checked_mul(l.unwrap_or(1))),
+            Design::LatinHypercube { samples }
+            | Design::Sobol { samples, .. }
+            | Design::MonteCarlo { samples } => Some(*samples),
+            Design::OneAtATime { .. } => levels
+                .iter()
+                .try_fold(1_u64, |n, l| n.checked_add(l.unwrap_or(2))),
+            Design::Table { rows } => Some(rows.len() as u64),
+            Design::Saltelli {
+                samples,
+                second_order,
+            } => samples.checked_mul(saltelli::block_len(k, *second_order)),
+            Design::Morris { trajectories, .. } => trajectories.checked_mul(k + 1),
+        };
+        len.filter(|n| *n <= 1 << 52)
+    }
+
+    /// What a sample is in its design.
+    pub(super) fn role(&self, index: u64, levels: &[Option<u64>], seed: u64) -> Role {
+        let k = levels.len();
+        match self {
+            Design::OneAtATime { .. } => match one_at_a_time(index, levels) {
+                None => Role::Nominal,
+                Some((parameter, _)) => Role::Varied { parameter },
+            },
+            Design::Saltelli { second_order, .. } => {
+                let (point, block) = saltelli::place(index, k, *second_order);
+                Role::Saltelli { point, block }
+            }
+            Design::Morris { levels, .. } => {
+                let (trajectory, step) = morris::place(index, k);
+                let path = Trajectory::new(trajectory, k, *levels, seed);
+                let changed = step.checked_sub(1).and_then(|last| path.parameter_at(last));
+                Role::Morris {
+                    trajectory,
+                    step,
+                    changed,
+                }
+            }
+            _ => Role::Sample,
+        }
+    }
+
+    /// The coordinates of a sample, one for each parameter.
+    pub(super) fn coordinates(&self, index: u64, of: &Context<'_>) -> Vec<Coordinate> {
+        let k = of.laws.len();
+        let dimensions = 0..k as u32;
+        match self {
+            Design::Single => vec![Coordinate::Nominal; k],
+            Design::FullFactorial => full_factorial(index, of.laws),
+            Design::LatinHypercube { samples } => dimensions
+                .map(|d| Coordinate::Quantile(stratified(index, *samples, d, of.seed)))
+                .collect(),
+            Design::MonteCarlo { .. } => dimensions
+                .map(|d| Coordinate::Quantile(unit(of.seed, Purpose::MonteCarlo, index, d)))
+                .collect(),
+            Design::Sobol { scramble, .. } => (0..k)
+                .map(|d| match scramble {
+                    true => of.sobol.scrambled(index, d, of.seed),
+                    false => of.sobol.plain(index, d),
+                })
+                .map(Coordinate::Quantile)
+                .collect(),
+            Design::OneAtATime { tail } => low_and_high(index, *tail, of.laws),
+            Design::Table { rows } => {
+                let row = usize::try_from(index).ok().and_then(|i| rows.get(i));
+                let row = row.cloned().unwrap_or_else(|| vec![Value::Base; k]);
+                row.into_iter().map(Coordinate::Given).collect()
+            }
+            Design::Saltelli { second_order, .. } => {
+                let (point, block) = saltelli::place(index, k, *second_order);
+                (0..k)
+                    .map(|d| block.column(d, k))
+                    .map(|column| Coordinate::Quantile(of.sobol.scrambled(point, column, of.seed)))
+                    .collect()
+            }
+            Design::Morris { levels, tail, .. } => {
+                let (trajectory, step) = morris::place(index, k);
+                let path = Trajectory::new(trajectory, k, *levels, of.seed);
+                (0..k)
+                    .map(|d| Coordinate::Bounded(path.coordinate(d, step), *tail))
+                    .collect()
+            }
+        }
+    }
+}
+
+/// The digits of the index in a number system whose digits have as many values as the parameters, last digit first.
+fn full_factorial(index: u64, laws: &[&Law]) -> Vec<Coordinate> {
+    let mut rest = index;
+    let mut digits: Vec<Coordinate> = laws
+        .iter()
+        .rev()
+        .map(|law| {
+            let n = law.levels().unwrap_or(1).max(1);
+            let digit = rest % n;
+            rest /= n;
+            Coordinate::Level(digit)
+        })
+        .collect();
+    digits.reverse();
+    digits
+}
+
+/// u = (π(i) + jitter)/n: the stratum by a permutation of its own for each dimension.
+fn stratified(index: u64, n: u64, dimension: u32, seed: u64) -> f64 {
+    let stratum = permute(index, n, seed, dimension);
+    let jitter = unit(seed, Purpose::Jitter, index, dimension);
+    // rounding must not carry a sample over the edge of its stratum
+    let u = (stratum as f64 + jitter) / n as f64;
+    u.clamp(f64::EPSILON / 2.0, 1.0 - f64::EPSILON / 2.0)
+}
+
+/// The parameter that sample `index` varies, and to which of its values; none for the base scenario.
+fn one_at_a_time(index: u64, levels: &[Option<u64>]) -> Option<(usize, u64)> {
+    let mut rest = index.checked_sub(1)?;
+    for (parameter, levels) in levels.iter().enumerate() {
+        let n = levels.unwrap_or(2);
+        if rest < n {
+            return Some((parameter, rest));
+        }
+        rest -= n;
+    }
+    None
+}
+
+fn low_and_high(index: u64, tail: f64, laws: &[&Law]) -> Vec<Coordinate> {
+    let levels: Vec<Option<u64>> = laws.iter().map(|l| l.levels()).collect();
+    let mut coordinates = vec![Coordinate::Nominal; laws.len()];
+    if let Some((parameter, value)) = one_at_a_time(index, &levels) {
+        coordinates[parameter] = match levels[parameter] {
+            Some(_) => Coordinate::Level(value),
+            None => Coordinate::Bounded(value as f64, tail),
+        };
+    }
+    coordinates
+}

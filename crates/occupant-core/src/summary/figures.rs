@@ -1,0 +1,150 @@
+//! All measures of a run as one flat list: for tables of many runs, for studies, for fits.
+
+use super::{Acceleration, Excursion, FirstContact, Level, Summary};
+use crate::model::Model;
+
+/// One measure of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Figure {
+    /// Dotted name without blanks, e.g. `head.peak`. Characters of a belt's or sphere's name that are neither letters,
+    /// digits, `_` nor `-` stand as `_`.
+    pub name: String,
+    /// Unit, `1` for a plain number.
+    pub unit: &'static str,
+    /// The value; absent where the run has none, such as the time of a contact that never came.
+    pub value: Option<f64>,
+}
+
+/// Measures that no run has, or that other figures give.
+const ELSEWHERE: [&str; 9] = [
+    "chest_deflection",
+    "head_peak",
+    "head_3ms_contiguous",
+    "head_3ms_cumulative",
+    "chest_peak",
+    "chest_3ms_contiguous",
+    "chest_3ms_cumulative",
+    "pelvis_peak",
+    "pelvis_3ms_cumulative",
+];
+
+impl Summary {
+    /// Every measure of this summary of a run of `model`. The names and their order depend only on which belts and spheres
+    /// the model has, so that they are the same for all runs of a study.
+    pub fn figures(&self, model: &Model) -> Vec<Figure> {
+        let mut list = List::default();
+        let a = &self.accelerations;
+        for (part, readings) in [
+            ("head", &a.head),
+            ("chest", &a.chest),
+            ("pelvis", &a.pelvis),
+        ] {
+            list.acceleration(part, readings);
+        }
+        self.list_belts(&mut list);
+        self.list_contacts(&mut list, model);
+        if model.body().sphere("head").is_some() {
+            list.excursion(self.head_excursion.as_ref());
+        }
+        for measure in self
+            .measures
+            .iter()
+            .filter(|m| !ELSEWHERE.contains(&m.name))
+        {
+            list.add(measure.name, measure.unit.symbol(), measure.value);
+        }
+        list.add("run.reached", "s", self.reached_s);
+        list.add("energy.balance_error", "1", self.energy.balance_error);
+        list.add(
+            "energy.greatest_kinetic",
+            "J",
+            self.energy.greatest_kinetic_j,
+        );
+        list.add("solver.steps", "1", self.solver.steps as f64);
+        list.add("solver.rejected", "1", self.solver.rejected as f64);
+        list.add("solver.evaluations", "1", self.solver.evaluations as f64);
+        list.add("solver.outputs", "1", self.solver.outputs as f64);
+        list.figures
+    }
+
+    fn list_belts(&self, list: &mut List) {
+        for belt in &self.belts {
+            let name = format!("belts.{}", word(&belt.belt));
+            list.add(format!("{name}.peak"), "N", belt.loop_force_n);
+            list.add(format!("{name}.peak_time"), "s", belt.time_s);
+            list.add(format!("{name}.stretch"), "m", belt.elongation_m);
+            list.add(format!("{name}.body_peak"), "N", belt.body_force_n);
+        }
+    }
+
+    /// The greatest force on every sphere, zero where it touched nothing; first contacts where the summary follows them.
+    fn list_contacts(&self, list: &mut List, model: &Model) {
+        for sphere in &model.body().spheres {
+            let name = format!("contacts.{}", word(&sphere.name));
+            let peak = self.sphere_forces.iter().find(|p| p.sphere == sphere.name);
+            list.add(format!("{name}.peak"), "N", peak.map_or(0.0, |p| p.force_n));
+            list.add(format!("{name}.peak_time"), "s", peak.map(|p| p.time_s));
+            let first = self.first_contacts.iter().find(|f| f.sphere == sphere.name);
+            if let Some(FirstContact { contact, .. }) = first {
+                let contact = contact.as_ref();
+                list.add(format!("{name}.first_time"), "s", contact.map(|c| c.time_s));
+                let speed_m_s = contact.map(|c| c.closing_m_s);
+                list.add(format!("{name}.first_speed"), "m/s", speed_m_s);
+            }
+        }
+    }
+}
+
+/// The list being made.
+#[derive(Default)]
+struct List {
+    figures: Vec<Figure>,
+}
+
+impl List {
+    fn add(&mut self, name: impl Into<String>, unit: &'static str, value: impl Into<Option<f64>>) {
+        let mut name = name.into();
+        // two names that differ only in characters that stand as `_`
+        while self.figures.iter().any(|f| f.name == name) {
+            name.push('_');
+        }
+        let value = value.into().filter(|x| x.is_finite());
+        self.figures.push(Figure { name, unit, value });
+    }
+
+    fn acceleration(&mut self, part: &str, readings: &Acceleration) {
+        let level = |level: Option<Level>| level.map(|l| l.level_m_s2);
+        self.add(format!("{part}.peak"), "m/s^2", readings.peak_m_s2);
+        self.add(format!("{part}.peak_time"), "s", readings.peak_time_s);
+        let held = level(readings.three_ms_contiguous);
+        self.add(format!("{part}.three_ms_contiguous"), "m/s^2", held);
+        let total = level(readings.three_ms_cumulative);
+        self.add(format!("{part}.three_ms_cumulative"), "m/s^2", total);
+    }
+
+    fn excursion(&mut self, found: Option<&Excursion>) {
+        type Way = (&'static str, fn(&Excursion) -> (f64, f64));
+        let ways: [Way; 6] = [
+            ("forward", |e| (e.forward_m, e.forward_time_s)),
+            ("rearward", |e| (e.rearward_m, e.rearward_time_s)),
+            ("left", |e| (e.left_m, e.left_time_s)),
+            ("right", |e| (e.right_m, e.right_time_s)),
+            ("up", |e| (e.up_m, e.up_time_s)),
+            ("down", |e| (e.down_m, e.down_time_s)),
+        ];
+        for (way, of) in ways {
+            let (distance_m, time_s) = found.map(of).unzip();
+            self.add(format!("head_excursion.{way}"), "m", distance_m);
+            self.add(format!("head_excursion.{way}_time"), "s", time_s);
+        }
+    }
+}
+
+/// A name as one word of a dotted name.
+fn word(name: &str) -> String {
+    let plain = |c: char| match c.is_alphanumeric() || c == '_' || c == '-' {
+        true => c,
+        false => '_',
+    };
+    name.chars().map(plain).collect()
+}
