@@ -70,7 +70,7 @@ fn unused_stop_dampings(deck: &Deck) -> impl Iterator<Item = &'static str> {
     let is_zero = |name: &&str| deck.value(name) == Some(0.0);
     STOPS
         .into_iter()
-        .filter(move |(damping, angles)| !is_zero(damping) && angles.iter().all(|a| is_zero(a)))
+        .filter(move |(damping, angles)| !is_zero(damping) && angles.iter().all(&is_zero))
         .map(|(damping, _)| damping)
 }
 

@@ -365,6 +365,16 @@ fn what_does_not_fit_on_cards_is_named() {
     let Err(NoDeck::Misfits(misfits)) = Deck::from_scenario(&load(&text), None) else {
         panic!("a pulse fits on no card")
     };
+    let (pulse, rest) = text.split_once("[path]").expect("a path");
+    let (_, rest) = rest.split_once("\n\n").expect("something after the path");
+    let sensors = "[path]\nkind = \"sensors\"\nspeed = 10\nafter = \"coast\"\ncolumns = [\"t[s]\", \"dvx[m/s]\"]
+rows = [[0, 0], [0.1, -1]]\n\n";
+    let sensors = load(&format!("{pulse}{sensors}{rest}"));
+    let Err(NoDeck::Misfits(of_sensors)) = Deck::from_scenario(&sensors, None) else {
+        panic!("what sensors recorded fits on no card")
+    };
+    let named = |m: &String| m.contains("not what sensors recorded");
+    assert!(of_sensors.iter().any(named), "{of_sensors:#?}");
     for expected in [
         "path.kind",
         "surfaces.panel_face",

@@ -369,6 +369,39 @@ fn a_path_beside_the_scenario_travels_with_the_results() {
 }
 
 #[test]
+fn a_record_of_sensors_travels_with_the_results_and_is_printed_and_gone_on_with() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let scenarios = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
+    for name in ["side-slope-sensors.toml", "side-slope-sensors.csv"] {
+        fs::copy(scenarios.join(name), folder.path().join(name)).expect("copied");
+    }
+    let scenario = "side-slope-sensors.toml";
+    let (code, out, said) = occupant(folder.path(), &["check", scenario]);
+    assert_eq!(code, 0, "{said}");
+    assert!(out.contains("sensors"), "{out}");
+    let run = [
+        "run",
+        scenario,
+        "-q",
+        "-o",
+        "run.mcap",
+        "--set",
+        "time.end='20 ms'",
+    ];
+    let (code, _, said) = occupant(folder.path(), &run);
+    assert_eq!(code, 0, "{said}");
+    fs::remove_file(folder.path().join("side-slope-sensors.csv")).expect("removed");
+    let text = printed(folder.path(), &["run.mcap", "--every", "10 ms"]);
+    for words in [
+        "RECORDED MOTION, INTEGRATED",
+        "GRAVITY        IN THE ACCELERATIONS",
+        "481 SAMPLES AS READ (A IN G, W IN DEG/SEC, DV IN IN/S)",
+    ] {
+        assert!(text.contains(words), "{words}");
+    }
+}
+
+#[test]
 fn a_file_that_was_cut_off_prints_what_it_has_and_says_so() {
     let folder = recorded_of(&SCENARIO.replace("interval = \"1 ms\"", "interval = \"0.25 ms\""));
     let whole = fs::read(folder.path().join("short.mcap")).expect("recorded");

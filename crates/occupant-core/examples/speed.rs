@@ -8,8 +8,10 @@
 mod scene;
 
 use std::hint::black_box;
+use std::ops::ControlFlow;
 use std::time::Instant as Clock;
 
+use occupant_core::lanes::{Job, Kernel, simulate_many_with};
 use occupant_core::model::Model;
 use occupant_core::recorder::Watch;
 use occupant_core::sample::Sample;
@@ -21,6 +23,10 @@ const ROUNDS: usize = 200;
 /// Calls of a batch, whose mean is one sample; nine samples make a median.
 const CALLS: usize = 50;
 
+/// Runs of a sweep, and sweeps with each kernel.
+const SWEEP: usize = 8;
+const SWEEPS: usize = 12;
+
 type Work<'a> = (&'static str, Box<dyn FnMut() + 'a>);
 
 fn main() {
@@ -30,6 +36,10 @@ fn main() {
     if let [mode, name, count] = &arguments[..]
         && mode == "count"
     {
+        if let Some(kernel) = Kernel::named(name) {
+            count_sweep(kernel, count.parse().expect("a number"));
+            return;
+        }
         let work = works.iter_mut().find(|w| w.0 == name);
         let (_, call) = work.expect("one of the names that the table shows");
         for _ in 0..count.parse().expect("a number") {
@@ -52,6 +62,9 @@ fn main() {
         report(name, best);
     }
     report("event_ms", event_ms(&model));
+    for (kernel, ms) in sweep_ms() {
+        report(&format!("sweep_{kernel}_event_ms"), ms);
+    }
 }
 
 #[allow(clippy::print_stdout, reason = "an example prints its result")]
@@ -117,6 +130,44 @@ fn median_ns(call: &mut impl FnMut()) -> f64 {
     });
     samples.sort_by(f64::total_cmp);
     samples[4]
+}
+
+/// A run of a sweep with each kernel, ms: the shortest of several sweeps, the kernels in turn.
+fn sweep_ms() -> Vec<(Kernel, f64)> {
+    let models = scene::models(SWEEP);
+    let all = [Kernel::Scalar, Kernel::Lanes4, Kernel::Lanes8];
+    let kernels = all.into_iter().filter(|kernel| kernel.is_available());
+    let mut best: Vec<_> = kernels.map(|kernel| (kernel, f64::INFINITY)).collect();
+    for _ in 0..SWEEPS {
+        for (kernel, best) in &mut best {
+            let jobs: Vec<_> = models.iter().map(job).collect();
+            let clock = Clock::now();
+            simulate_many_with(*kernel, jobs, |ended| {
+                black_box(ended.outcome.expect("nothing is written"));
+                ControlFlow::Continue(())
+            });
+            *best = best.min(clock.elapsed().as_secs_f64() * 1e3 / SWEEP as f64);
+        }
+    }
+    best
+}
+
+/// `count` runs of a sweep, for instruction counts.
+fn count_sweep(kernel: Kernel, count: usize) {
+    let models = scene::models(count);
+    simulate_many_with(
+        kernel,
+        models.iter().map(job),
+        |_| ControlFlow::Continue(()),
+    );
+}
+
+fn job(model: &Model) -> Job<(), ()> {
+    Job {
+        tag: (),
+        model: model.clone(),
+        recorder: (),
+    }
 }
 
 /// A whole run, ms: the shortest time of each output interval among twenty runs, summed up.

@@ -110,3 +110,4 @@ pub mod summary;
 pub mod surface;
 mod trig;
 mod validate;
+pub mod vehicle_risk;

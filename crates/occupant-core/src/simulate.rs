@@ -45,24 +45,33 @@ pub fn replay(
 }
 
 /// A whole run, from the present output of `run` on.
-pub(crate) fn go(
+fn go(
     model: &Model,
     mut run: Run,
     recorder: &mut impl Recorder,
 ) -> Result<Outcome, RecordingFailed> {
     run.begin(model, recorder)?;
-    let status = loop {
+    let status = go_on(model, &mut run, recorder)?;
+    run.end(status, recorder)
+}
+
+/// From the present output of `run`, the next to be recorded, to the end.
+pub(crate) fn go_on(
+    model: &Model,
+    run: &mut Run,
+    recorder: &mut impl Recorder,
+) -> Result<Status, RecordingFailed> {
+    loop {
         if run.record(model, recorder)? == Flow::Stop {
-            break Status::Stopped;
+            return Ok(Status::Stopped);
         }
         let Some(target_s) = run.next_output_s(model) else {
-            break Status::Completed;
+            return Ok(Status::Completed);
         };
         if let Err(error) = run.advance_to(model, target_s) {
-            break Status::Failed(error);
+            return Ok(Status::Failed(error));
         }
-    };
-    run.end(status, recorder)
+    }
 }
 
 /// Time of output `index`, s; the last is the end of the run.

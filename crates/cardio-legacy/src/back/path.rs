@@ -27,7 +27,10 @@ pub(super) fn read(back: &mut Back<'_>) {
                 [setup.time.start_s, setup.time.end_s].map(|time_s| Station { time_s, pose });
             stations(back, &ends);
         }
-        _ => back.misfit("path.kind: cards take a table of stations, not a pulse"),
+        VehiclePath::Pulse(_) => {
+            back.misfit("path.kind: cards take a table of stations, not a pulse");
+        }
+        _ => back.misfit("path.kind: cards take a table of stations, not what sensors recorded"),
     }
 }
 

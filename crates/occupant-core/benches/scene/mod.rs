@@ -39,6 +39,23 @@ pub fn model() -> Model {
     load().model().expect("the scene is valid").0
 }
 
+/// Models for a sweep: all different, all of one structure.
+pub fn models(count: usize) -> Vec<Model> {
+    let (setup, _) = load().build().expect("the scene is valid");
+    let model = |i: usize| {
+        let mut setup = setup.clone();
+        let scale = 1.0 + 0.02 * i as f64;
+        for material in &mut setup.materials {
+            material.spring.k1_n_per_m *= scale;
+        }
+        for belt in &mut setup.belts {
+            belt.webbing.k1_n_per_m /= scale;
+        }
+        Model::new(setup).expect("the scene is valid")
+    };
+    (0..count).map(model).collect()
+}
+
 /// A system with its occupant at one instant of the crash.
 #[derive(Clone)]
 pub struct Instant {

@@ -258,7 +258,8 @@ impl List {
     }
 
     fn energies(&mut self) {
-        let energies: [(&str, &str, fn(&EnergyLedger) -> f64); 12] = [
+        type Named = (&'static str, &'static str, fn(&EnergyLedger) -> f64);
+        let energies: [Named; 12] = [
             ("kinetic", "kinetic energy in space", |e| e.kinetic_j),
             (
                 "kinetic_relative",

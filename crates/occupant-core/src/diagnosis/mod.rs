@@ -196,6 +196,7 @@ fn vehicle(model: &Model) -> VehicleFigures {
         path: match setup.path {
             VehiclePath::Table(_) => "table",
             VehiclePath::Pulse(_) => "pulse",
+            VehiclePath::Sensors(_) => "sensors",
             VehiclePath::Fixed(_) => "fixed",
         },
         start_speed_m_s: first.norm(),

@@ -5,6 +5,7 @@
 //! on the sphere is −F_L times the gradient of the length: F_L times the sum of the unit vectors along the two free
 //! lengths, which lies along their bisector with magnitude 2F_L cos α (Eq. 103). It acts at the centre (our decision).
 
+use std::array::from_fn;
 use std::f64::consts::{PI, TAU};
 
 use super::scalar::Scalar;
@@ -54,6 +55,19 @@ pub struct BeltAction<S> {
     normal: V3<S>,
 }
 
+impl<S: Copy> BeltLaw<S> {
+    /// f applied to every number and the one in the same place of `other`, which goes round the same sphere.
+    pub fn zip<A: Copy, T>(&self, other: &BeltLaw<A>, f: &impl Fn(S, A) -> T) -> BeltLaw<T> {
+        BeltLaw {
+            sphere: self.sphere,
+            anchors: from_fn(|i| self.anchors[i].zip(&other.anchors[i], f)),
+            radius: f(self.radius, other.radius),
+            rest_length: f(self.rest_length, other.rest_length),
+            webbing: self.webbing.zip(&other.webbing, f),
+        }
+    }
+}
+
 impl<S: Scalar> BeltLaw<S> {
     /// Constants from data, for the sphere's radius and a known L₀.
     pub fn new(belt: &Belt, radius_m: f64, rest_length_m: f64) -> Self {
@@ -79,7 +93,7 @@ impl<S: Scalar> BeltLaw<S> {
     }
 
     /// Shape and force for the sphere's centre in vehicle axes.
-    #[inline]
+    #[inline(always)]
     pub fn act(&self, centre: V3<S>, history: &BeltHistory<S>) -> BeltAction<S> {
         let (to_1, to_2) = (self.anchors[0] - centre, self.anchors[1] - centre);
         let cross = to_1.cross(to_2);

@@ -76,7 +76,7 @@ impl<S: Scalar> Plane<S> {
 }
 
 /// Pairs of one sphere with faces of one frame.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Group {
     /// Index of the sphere.
     pub sphere: usize,
@@ -106,6 +106,8 @@ pub struct Touch<S> {
     pub pair: usize,
     /// Which of the pair's parts is nearest and gives the material (an index, as a number per lane).
     pub part: S,
+    /// w, greater than 0 where the pair exerts a force: in one lane at least.
+    pub weight: S,
     /// N̂.
     pub normal: V3<S>,
     /// Δ, m.
@@ -180,23 +182,24 @@ impl<S: Scalar> ContactSystem<S> {
 
     /// True if the pair can exert a force before the next commit: not passed, and within reach of a step.
     #[inline(always)]
-    pub(super) fn is_near(&self, depth: S, history: &PairHistory<S>) -> bool {
-        S::any((-self.reach_of_a_step).lt(depth) & history.phase.lt(S::of(PASSED)))
+    pub(super) fn is_near(&self, depth: S, history: &PairHistory<S>) -> S::Mask {
+        (-self.reach_of_a_step).lt(depth) & history.phase.lt(S::of(PASSED))
     }
 
-    /// Forces of pair `i`, which is live, on its sphere, or `None` if there are none in any lane. With `COMMIT` the pair's
-    /// history first takes over the present position, which must be that of an accepted step.
-    #[inline]
+    /// Forces of pair `i` on its sphere in the lanes where it is `live`: in contact and not passed; `None` if there are none
+    /// in any lane. With `COMMIT` the pair's history first takes over the present position, which must be that of an accepted
+    /// step.
+    #[inline(always)]
     pub(super) fn touch<const COMMIT: bool>(
         &self,
         group: &Group,
         i: usize,
         depth: S,
+        live: S::Mask,
         approach: &Approach<S>,
         history: &mut PairHistory<S>,
     ) -> Option<Touch<S>> {
         let (o, touching) = (S::zero(), S::of(TOUCHING));
-        let live = depth.gt(o) & history.phase.lt(S::of(PASSED));
         let pair = &self.pairs[i];
         let radius = self.sites[group.sphere].radius;
         let (offset, nearest) = pair.nearest(approach.centre);
@@ -296,6 +299,7 @@ impl<S: Scalar> Pair<S> {
             frame: group.frame,
             pair: index,
             part,
+            weight: w,
             normal: self.normal,
             depth,
             closing: -self.normal.dot(approach.velocity),

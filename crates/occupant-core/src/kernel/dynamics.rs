@@ -31,6 +31,12 @@ pub struct Wrench<S> {
 }
 
 impl<S: Scalar> Wrench<S> {
+    /// Force and moment along the axes of a frame.
+    #[inline(always)]
+    pub fn into_frame(self, axes: &M3<S>) -> (V3<S>, V3<S>) {
+        (axes.into_frame(self.force), axes.into_frame(self.moment))
+    }
+
     /// No load.
     #[inline(always)]
     pub fn zero() -> Self {
@@ -88,7 +94,7 @@ impl<S: Scalar> Trunk<S> {
 }
 
 /// Accelerations under the loads `wrench` (without gravity, which is added here).
-#[inline]
+#[inline(always)]
 pub fn solve<S: Scalar>(
     body: &Skeleton<S>,
     k: &Kinematics<S>,
@@ -96,8 +102,12 @@ pub fn solve<S: Scalar>(
     wrench: &[Wrench<S>; SEGMENTS],
 ) -> Accelerations<S> {
     // inward
-    let limbs: [Limb<S>; 4] =
-        std::array::from_fn(|i| limb::reduce(body, k, i, hinge_rate[i], wrench));
+    let limbs: [Limb<S>; 4] = [
+        limb::reduce(body, k, 0, hinge_rate[0], wrench),
+        limb::reduce(body, k, 1, hinge_rate[1], wrench),
+        limb::reduce(body, k, 2, hinge_rate[2], wrench),
+        limb::reduce(body, k, 3, hinge_rate[3], wrench),
+    ];
     let head = limb::reduce_head(&body.links[2], k, &wrench[2]);
     let hang = |n: usize, parent: usize| k.joint[n] - k.joint[parent];
     let pelvis = reduce(

@@ -47,6 +47,48 @@ pub struct Offset<S> {
     pub away: V2<S>,
 }
 
+impl<S: Copy> V2<S> {
+    fn zip<A: Copy, T>(&self, other: &V2<A>, f: &impl Fn(S, A) -> T) -> V2<T> {
+        V2 {
+            u: f(self.u, other.u),
+            v: f(self.v, other.v),
+        }
+    }
+}
+
+impl<S: Copy> Outline<S> {
+    /// f applied to every number and the one in the same place of `other`; none if that is of another kind or has another
+    /// number of sides.
+    pub fn zip<A: Copy, T>(
+        &self,
+        other: &Outline<A>,
+        f: &impl Fn(S, A) -> T,
+    ) -> Option<Outline<T>> {
+        match (self, other) {
+            (Outline::Polygon(a), Outline::Polygon(b)) if a.len() == b.len() => {
+                let edge = |(a, b): (&Edge<S>, &Edge<A>)| Edge {
+                    start: a.start.zip(&b.start, f),
+                    direction: a.direction.zip(&b.direction, f),
+                    length: f(a.length, b.length),
+                };
+                Some(Outline::Polygon(a.iter().zip(b).map(edge).collect()))
+            }
+            (
+                Outline::Disc { centre, radius },
+                Outline::Disc {
+                    centre: centre_b,
+                    radius: radius_b,
+                },
+            ) => Some(Outline::Disc {
+                centre: centre.zip(centre_b, f),
+                radius: f(*radius, *radius_b),
+            }),
+            (Outline::Unbounded, Outline::Unbounded) => Some(Outline::Unbounded),
+            _ => None,
+        }
+    }
+}
+
 impl<S: Scalar> Outline<S> {
     /// Polygon through corners given counter-clockwise in plane coordinates.
     pub fn polygon(corners: &[[f64; 2]]) -> Self {

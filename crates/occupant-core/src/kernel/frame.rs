@@ -24,6 +24,39 @@ pub const SPACE: usize = 0;
 /// Index of the vehicle among the frames.
 pub const VEHICLE: usize = 1;
 
+impl<S: Copy> Moving<S> {
+    /// f applied to every number and the one in the same place of `other`.
+    #[inline(always)]
+    pub fn zip<A: Copy, T>(&self, other: &Moving<A>, f: &impl Fn(S, A) -> T) -> Moving<T> {
+        Moving {
+            origin: self.origin.zip(&other.origin, f),
+            axes: self.axes.zip(&other.axes, f),
+            velocity: self.velocity.zip(&other.velocity, f),
+            omega: self.omega.zip(&other.omega, f),
+        }
+    }
+}
+
+impl<S> Moving<S> {
+    /// f called with every number and the one in the same place of `other`: to hand numbers over.
+    #[inline]
+    pub fn each<A: Copy>(&mut self, other: &Moving<A>, f: &mut impl FnMut(&mut S, A)) {
+        let axes = (&mut self.axes, &other.axes);
+        for (a, b) in [
+            (&mut self.origin, &other.origin),
+            (&mut axes.0.x, &axes.1.x),
+            (&mut axes.0.y, &axes.1.y),
+            (&mut axes.0.z, &axes.1.z),
+            (&mut self.velocity, &other.velocity),
+            (&mut self.omega, &other.omega),
+        ] {
+            f(&mut a.x, b.x);
+            f(&mut a.y, b.y);
+            f(&mut a.z, b.z);
+        }
+    }
+}
+
 impl<S: Scalar> Moving<S> {
     /// Space itself.
     pub fn space() -> Self {

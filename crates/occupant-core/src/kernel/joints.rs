@@ -4,6 +4,8 @@
 //! ω = ω_l − ω_k. Our decision: β = atan2(√(s² + ε²), Z_k·Z_l), which has no singular posture; then
 //! β̇ = n·ω/√(s² + ε²), exactly.
 
+use std::array::from_fn;
+
 use super::dynamics::Wrench;
 use super::kinematics::{Kinematics, LIMBS};
 use super::scalar::Scalar;
@@ -23,6 +25,16 @@ struct Limit<S> {
     begin: S,
     slope: S,
     rise: S,
+}
+
+impl<S: Copy> Limit<S> {
+    fn zip<A: Copy, T>(&self, other: &Limit<A>, f: &impl Fn(S, A) -> T) -> Limit<T> {
+        Limit {
+            begin: f(self.begin, other.begin),
+            slope: f(self.slope, other.slope),
+            rise: f(self.rise, other.rise),
+        }
+    }
 }
 
 impl<S: Scalar> Limit<S> {
@@ -90,6 +102,50 @@ pub struct BallAction<S> {
     pub dissipated: S,
 }
 
+impl<S: Copy> Ball<S> {
+    fn zip<A: Copy, T>(&self, other: &Ball<A>, f: &impl Fn(S, A) -> T) -> Ball<T> {
+        Ball {
+            damping: f(self.damping, other.damping),
+            twist: f(self.twist, other.twist),
+            stop: self.stop.zip(&other.stop, f),
+            stop_cosine: f(self.stop_cosine, other.stop_cosine),
+            stiffness: f(self.stiffness, other.stiffness),
+            rest: f(self.rest, other.rest),
+            has_spring: self.has_spring,
+        }
+    }
+}
+
+impl<S: Copy> Hinge<S> {
+    fn zip<A: Copy, T>(&self, other: &Hinge<A>, f: &impl Fn(S, A) -> T) -> Hinge<T> {
+        Hinge {
+            damping: f(self.damping, other.damping),
+            lower: self.lower.zip(&other.lower, f),
+            upper: self.upper.zip(&other.upper, f),
+        }
+    }
+}
+
+impl<S: Copy> JointSystem<S> {
+    /// f applied to every number and the one in the same place of `other`, which has springs in the same joints.
+    pub fn zip<A: Copy, T>(
+        &self,
+        other: &JointSystem<A>,
+        f: &impl Fn(S, A) -> T,
+    ) -> JointSystem<T> {
+        JointSystem {
+            balls: from_fn(|i| self.balls[i].zip(&other.balls[i], f)),
+            hinges: from_fn(|i| self.hinges[i].zip(&other.hinges[i], f)),
+            epsilon_squared: f(self.epsilon_squared, other.epsilon_squared),
+        }
+    }
+
+    /// Which ball joints have a spring.
+    pub fn springs(&self) -> [bool; 7] {
+        from_fn(|i| self.balls[i].has_spring)
+    }
+}
+
 impl<S: Scalar> JointSystem<S> {
     /// Constants from data; `rest_rad` are the β₀ of the ball joints that do not give their own.
     pub fn new(joints: &Joints, rest_rad: &[f64; 7]) -> Self {
@@ -105,14 +161,14 @@ impl<S: Scalar> JointSystem<S> {
         ];
         let hinges = [&j.left_elbow, &j.right_elbow, &j.left_knee, &j.right_knee];
         JointSystem {
-            balls: std::array::from_fn(|i| ball(balls[i], rest_rad[i], j.epsilon)),
+            balls: from_fn(|i| ball(balls[i], rest_rad[i], j.epsilon)),
             hinges: hinges.map(hinge),
             epsilon_squared: S::of(j.epsilon * j.epsilon),
         }
     }
 
     /// Adds all joint moments to `wrench`; returns the power that they dissipate, W.
-    #[inline]
+    #[inline(always)]
     pub fn apply(
         &self,
         k: &Kinematics<S>,
@@ -160,7 +216,7 @@ impl<S: Scalar> JointSystem<S> {
         };
         let mut damping = joint.damping;
         if near_stop {
-            damping += S::select(stopping, joint.stop.extra(beta), S::zero());
+            damping = S::select(stopping, damping + joint.stop.extra(beta), damping);
         }
         // T = −J [n (n·ω) + ε² ω_⊥]/(s² + ε²)
         let across = omega - z_k * z_k.dot(omega);

@@ -29,7 +29,7 @@ pub struct Kinematics<S> {
 
 impl<S: Scalar> Kinematics<S> {
     /// Kinematics of `state`.
-    #[inline]
+    #[inline(always)]
     pub fn new(body: &Skeleton<S>, state: &State<S>) -> Self {
         let mut k = Kinematics {
             axes: [M3::identity(); SEGMENTS],

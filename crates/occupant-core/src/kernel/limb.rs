@@ -72,14 +72,8 @@ pub fn reduce<S: Scalar>(
     let axes = &k.axes[upper];
     let (s, c) = k.hinge_sin_cos[i];
     let w = axes.into_frame(k.omega[upper]);
-    let load = |n: usize| {
-        (
-            axes.into_frame(wrench[n].force),
-            axes.into_frame(wrench[n].moment),
-        )
-    };
-    let (force_m, moment_m) = load(upper);
-    let (force_l, moment_l) = load(lower);
+    let (force_m, moment_m) = wrench[upper].into_frame(axes);
+    let (force_l, moment_l) = wrench[lower].into_frame(axes);
 
     // lower segment, in its own axes: what it needs when neither hinge nor elbow accelerates
     let into_lower = |v: V3<S>| v3(v.x * c - v.z * s, v.y, v.x * s + v.z * c);

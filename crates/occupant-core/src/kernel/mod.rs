@@ -13,20 +13,28 @@ pub mod dynamics;
 mod encounter;
 pub mod face;
 pub mod frame;
+mod history;
 pub mod joints;
 pub mod kinematics;
+#[cfg(any(target_arch = "x86_64", test))]
+pub(crate) mod lanes;
 pub mod limb;
 pub mod scalar;
 pub mod skeleton;
 pub mod spring;
 pub mod state;
 pub mod vector;
+mod zip;
 
-use belts::{BeltAction, BeltHistory, BeltLaw};
-use contact::{ContactSystem, PairHistory, Touch};
+pub use history::History;
+pub use zip::Unlike;
+
+use belts::{BeltAction, BeltLaw};
+use contact::{ContactSystem, Touch};
 use dynamics::{Accelerations, Wrench};
 use encounter::Sphere;
 use frame::{Moving, VEHICLE};
+use history::{Looking, Watched};
 use joints::JointSystem;
 use kinematics::Kinematics;
 use scalar::Scalar;
@@ -50,44 +58,6 @@ pub struct System<S> {
     pub contacts: ContactSystem<S>,
     /// Belts.
     pub belts: Vec<BeltLaw<S>>,
-}
-
-/// What pairs and belts remember between steps; changed only at accepted steps.
-#[derive(Clone, Debug)]
-pub struct History<S> {
-    /// By pair.
-    pub pairs: Vec<PairHistory<S>>,
-    /// By belt.
-    pub belts: Vec<BeltHistory<S>>,
-    /// Pairs that can exert a force before the next commit, in ascending order.
-    near: Vec<u32>,
-    /// By group of pairs: where its part of `near` ends.
-    near_end: Vec<u32>,
-}
-
-impl<S: Scalar> History<S> {
-    /// A history in which every pair counts as near until the first commit.
-    pub fn new(
-        contacts: &ContactSystem<S>,
-        pairs: Vec<PairHistory<S>>,
-        belts: Vec<BeltHistory<S>>,
-    ) -> Self {
-        let near = (0..pairs.len() as u32).collect();
-        let near_end = contacts.groups.iter().map(|g| g.pairs.end as u32).collect();
-        History {
-            pairs,
-            belts,
-            near,
-            near_end,
-        }
-    }
-
-    /// Places in `near` of the pairs of group `g`.
-    #[inline(always)]
-    fn near_of(&self, g: usize) -> std::ops::Range<usize> {
-        let start = if g == 0 { 0 } else { self.near_end[g - 1] };
-        start as usize..self.near_end[g] as usize
-    }
 }
 
 /// Receives what happens in an evaluation.
@@ -129,7 +99,7 @@ impl<S: Scalar> System<S> {
     }
 
     /// [`System::rate`] with an observer.
-    #[inline]
+    #[inline(always)]
     pub fn rate_observed<const COMMIT: bool>(
         &self,
         state: &State<S>,
@@ -137,18 +107,20 @@ impl<S: Scalar> System<S> {
         history: &mut History<S>,
         observer: &mut impl Observer<S>,
     ) -> State<S> {
-        let e = self.evaluate::<COMMIT>(state, frames, history, observer);
+        let k = Kinematics::new(&self.skeleton, state);
+        let (wrench, power) = self.loads::<COMMIT>(&k, state, frames, history, observer);
+        let accelerations = dynamics::solve(&self.skeleton, &k, &state.hinge_rate, &wrench);
         let mut rate = State {
             t1: state.velocity,
-            velocity: e.accelerations.joint[0],
+            velocity: accelerations.joint[0],
             hinge: state.hinge_rate,
-            hinge_rate: e.accelerations.hinge,
-            work: e.power,
+            hinge_rate: accelerations.hinge,
+            work: power,
             ..*state
         };
         for (slot, &n) in FREE.iter().enumerate() {
             rate.orientation[slot] = state.orientation[slot].rate(state.omega[slot]);
-            rate.omega[slot] = e.accelerations.alpha[n];
+            rate.omega[slot] = accelerations.alpha[n];
         }
         rate
     }
@@ -163,25 +135,7 @@ impl<S: Scalar> System<S> {
         observer: &mut impl Observer<S>,
     ) -> Evaluation<S> {
         let kinematics = Kinematics::new(&self.skeleton, state);
-        let mut wrench = [Wrench::zero(); SEGMENTS];
-        let mut power = State::zero().work;
-        self.add_contacts::<COMMIT>(
-            &kinematics,
-            frames,
-            history,
-            &mut wrench,
-            &mut power,
-            observer,
-        );
-        self.add_belts::<COMMIT>(
-            &kinematics,
-            frames,
-            history,
-            &mut wrench,
-            &mut power,
-            observer,
-        );
-        power.joints = self.joints.apply(&kinematics, state, &mut wrench);
+        let (wrench, power) = self.loads::<COMMIT>(&kinematics, state, frames, history, observer);
         let accelerations =
             dynamics::solve(&self.skeleton, &kinematics, &state.hinge_rate, &wrench);
         Evaluation {
@@ -190,6 +144,24 @@ impl<S: Scalar> System<S> {
             accelerations,
             power,
         }
+    }
+
+    /// All loads on the segments but gravity, and their powers.
+    #[inline(always)]
+    fn loads<const COMMIT: bool>(
+        &self,
+        k: &Kinematics<S>,
+        state: &State<S>,
+        frames: &Frames<S>,
+        history: &mut History<S>,
+        observer: &mut impl Observer<S>,
+    ) -> ([Wrench<S>; SEGMENTS], Work<S>) {
+        let mut wrench = [Wrench::zero(); SEGMENTS];
+        let mut power = Work::zero();
+        self.add_contacts::<COMMIT>(k, frames, history, &mut wrench, &mut power, observer);
+        self.add_belts::<COMMIT>(k, frames, history, &mut wrench, &mut power, observer);
+        power.joints = self.joints.apply(k, state, &mut wrench);
+        (wrench, power)
     }
 
     /// Takes over the position of an accepted step into the history.
@@ -203,7 +175,7 @@ impl<S: Scalar> System<S> {
     ) {
         let k = Kinematics::new(&self.skeleton, state);
         let mut wrench = [Wrench::zero(); SEGMENTS];
-        let mut power = State::zero().work;
+        let mut power = Work::zero();
         self.add_contacts::<true>(&k, frames, history, &mut wrench, &mut power, observer);
         self.add_belts::<true>(&k, frames, history, &mut wrench, &mut power, observer);
     }
@@ -220,31 +192,33 @@ impl<S: Scalar> System<S> {
         observer: &mut impl Observer<S>,
     ) {
         let contacts = &self.contacts;
-        if COMMIT {
-            history.near.clear();
-        }
         for (g, group) in contacts.groups.iter().enumerate() {
-            let near = if COMMIT { 0..0 } else { history.near_of(g) };
-            if !COMMIT && near.is_empty() {
+            let watched = history.watched_of(g, group);
+            if !COMMIT && watched.is_empty() {
                 continue;
             }
             let mut sphere = Sphere::new(contacts, group, k, &frames[group.frame]);
-            if COMMIT {
+            if COMMIT && history.must_look(g, sphere.centre_f) {
+                let mut look = Looking::new(group);
                 for i in group.pairs.clone() {
-                    let pair = &mut history.pairs[i];
-                    let depth = contacts.planes[i].depth(sphere.centre_f);
-                    contacts.open(i, depth, pair);
-                    sphere.meet::<COMMIT>(i, depth, pair, power, observer);
-                    if contacts.is_near(depth, pair) {
-                        history.near.push(i as u32);
-                    }
+                    let depth = sphere.commit(i, history, power, observer);
+                    look.at(i, depth, contacts, history);
                 }
-                history.near_end[g] = history.near.len() as u32;
+                look.end(g, &sphere, contacts, history);
+            } else if COMMIT {
+                for at in watched {
+                    let i = history.watched[at].pair as usize;
+                    let depth = sphere.commit(i, history, power, observer);
+                    history.watched[at].near = contacts.is_near(depth, &history.pairs[i]);
+                }
             } else {
-                for &i in &history.near[near] {
-                    let i = i as usize;
+                for at in watched {
+                    let Watched { pair, near } = history.watched[at];
+                    let i = pair as usize;
                     let depth = contacts.planes[i].depth(sphere.centre_f);
-                    sphere.meet::<COMMIT>(i, depth, &mut history.pairs[i], power, observer);
+                    let contact = depth.gt(S::zero()) & near;
+                    let pair = &mut history.pairs[i];
+                    sphere.meet::<false>(i, depth, contact, pair, power, observer);
                 }
             }
             sphere.load(wrench, power);

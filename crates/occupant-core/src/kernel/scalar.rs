@@ -23,6 +23,7 @@ pub trait Scalar:
 {
     /// One truth value per lane.
     type Mask: Copy
+        + Debug
         + BitAnd<Output = Self::Mask>
         + BitOr<Output = Self::Mask>
         + Not<Output = Self::Mask>;
@@ -54,6 +55,13 @@ pub trait Scalar:
     #[inline(always)]
     fn gt(self, other: Self) -> Self::Mask {
         other.lt(self)
+    }
+
+    /// The same truth value in every lane.
+    #[inline(always)]
+    fn truth(value: bool) -> Self::Mask {
+        let (left, right) = if value { (0.0, 1.0) } else { (0.0, 0.0) };
+        Self::of(left).lt(Self::of(right))
     }
 
     /// 0 in every lane.

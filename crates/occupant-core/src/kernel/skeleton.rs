@@ -3,6 +3,8 @@
 //! Report: Eqs 13–26 and 54. Seen from its proximal joint, the centre of gravity of a segment lies on its Z axis: at −ρ̄
 //! for the hanging segments, at +ρ for the upper torso and the head (Eq. 15 as printed has ρ₁ for ρ̄₁).
 
+use std::array::from_fn;
+
 use super::scalar::Scalar;
 use crate::body::{Body, SEGMENTS, Segment};
 
@@ -42,11 +44,40 @@ pub struct Skeleton<S> {
     pub gravity: S,
 }
 
+impl<S: Copy> Link<S> {
+    /// f applied to every number and the one in the same place of `other`.
+    pub fn zip<A: Copy, T>(&self, other: &Link<A>, f: &impl Fn(S, A) -> T) -> Link<T> {
+        Link {
+            mass: f(self.mass, other.mass),
+            cg: f(self.cg, other.cg),
+            far: f(self.far, other.far),
+            sigma: f(self.sigma, other.sigma),
+            ix: f(self.ix, other.ix),
+            iy: f(self.iy, other.iy),
+            iz: f(self.iz, other.iz),
+            inverse_iy: f(self.inverse_iy, other.inverse_iy),
+            central: from_fn(|i| f(self.central[i], other.central[i])),
+        }
+    }
+}
+
+impl<S: Copy> Skeleton<S> {
+    /// f applied to every number and the one in the same place of `other`.
+    pub fn zip<A: Copy, T>(&self, other: &Skeleton<A>, f: &impl Fn(S, A) -> T) -> Skeleton<T> {
+        Skeleton {
+            links: from_fn(|n| self.links[n].zip(&other.links[n], f)),
+            shoulder: f(self.shoulder, other.shoulder),
+            hip: f(self.hip, other.hip),
+            gravity: f(self.gravity, other.gravity),
+        }
+    }
+}
+
 impl<S: Scalar> Skeleton<S> {
     /// Constants of `body` under gravity `gravity_m_s2`.
     pub fn new(body: &Body, gravity_m_s2: f64) -> Self {
         Skeleton {
-            links: std::array::from_fn(|n| link(body, Segment::ALL[n])),
+            links: from_fn(|n| link(body, Segment::ALL[n])),
             shoulder: S::of(body.shoulder_half_width_m),
             hip: S::of(body.hip_half_width_m),
             gravity: S::of(gravity_m_s2),

@@ -26,6 +26,21 @@ pub struct Spring<S> {
     k2_back: S,
 }
 
+impl<S: Copy> Spring<S> {
+    /// f applied to every number and the one in the same place of `other`.
+    pub fn zip<A: Copy, T>(&self, other: &Spring<A>, f: &impl Fn(S, A) -> T) -> Spring<T> {
+        Spring {
+            k1: f(self.k1, other.k1),
+            k2: f(self.k2, other.k2),
+            limit: f(self.limit, other.limit),
+            mu1: f(self.mu1, other.mu1),
+            mu2: f(self.mu2, other.mu2),
+            k1_back: f(self.k1_back, other.k1_back),
+            k2_back: f(self.k2_back, other.k2_back),
+        }
+    }
+}
+
 impl<S: Scalar> Spring<S> {
     /// Constants from data; fractions below [`LEAST_FRACTION`] are raised to it.
     pub fn new(data: &BilinearSpring) -> Self {

@@ -3,6 +3,8 @@
 //! Report: Eqs 8, 13–26 for the place of a segment; the state itself is ours, because Euler angles are singular for an
 //! upright torso. A rate of change has the same shape, so that Runge–Kutta stages are sums of states.
 
+use std::array::from_fn;
+
 use super::scalar::Scalar;
 use super::vector::{V3, v3};
 
@@ -27,6 +29,17 @@ pub struct Quat<S> {
     pub w: S,
     /// Imaginary part.
     pub v: V3<S>,
+}
+
+impl<S: Copy> Quat<S> {
+    /// f applied to every number and the one in the same place of `other`.
+    #[inline(always)]
+    pub fn zip<A: Copy, T>(&self, other: &Quat<A>, f: &impl Fn(S, A) -> T) -> Quat<T> {
+        Quat {
+            w: f(self.w, other.w),
+            v: self.v.zip(&other.v, f),
+        }
+    }
 }
 
 impl<S: Scalar> Quat<S> {
@@ -81,6 +94,70 @@ pub struct State<S> {
     pub work: Work<S>,
 }
 
+#[inline(always)]
+fn zip_4<S: Copy, A: Copy, T>(a: &[S; 4], b: &[A; 4], f: &impl Fn(S, A) -> T) -> [T; 4] {
+    [f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2]), f(a[3], b[3])]
+}
+
+impl<S: Scalar> Work<S> {
+    /// None yet.
+    #[inline(always)]
+    pub fn zero() -> Self {
+        let o = S::zero();
+        Work {
+            contact: o,
+            friction: o,
+            joints: o,
+            belts: o,
+            vehicle: o,
+        }
+    }
+}
+
+impl<S: Copy> State<S> {
+    /// f applied to every number and the one in the same place of `other`.
+    #[inline(always)]
+    pub fn zip<A: Copy, T>(&self, other: &State<A>, f: impl Fn(S, A) -> T) -> State<T> {
+        // written out: every call in here must be inlined into code for the lanes' instructions
+        let (p, q) = (&self.orientation, &other.orientation);
+        let (u, v) = (&self.omega, &other.omega);
+        let (a, b) = (&self.work, &other.work);
+        State {
+            t1: self.t1.zip(&other.t1, &f),
+            orientation: [
+                p[0].zip(&q[0], &f),
+                p[1].zip(&q[1], &f),
+                p[2].zip(&q[2], &f),
+                p[3].zip(&q[3], &f),
+                p[4].zip(&q[4], &f),
+                p[5].zip(&q[5], &f),
+                p[6].zip(&q[6], &f),
+                p[7].zip(&q[7], &f),
+            ],
+            hinge: zip_4(&self.hinge, &other.hinge, &f),
+            velocity: self.velocity.zip(&other.velocity, &f),
+            omega: [
+                u[0].zip(&v[0], &f),
+                u[1].zip(&v[1], &f),
+                u[2].zip(&v[2], &f),
+                u[3].zip(&v[3], &f),
+                u[4].zip(&v[4], &f),
+                u[5].zip(&v[5], &f),
+                u[6].zip(&v[6], &f),
+                u[7].zip(&v[7], &f),
+            ],
+            hinge_rate: zip_4(&self.hinge_rate, &other.hinge_rate, &f),
+            work: Work {
+                contact: f(a.contact, b.contact),
+                friction: f(a.friction, b.friction),
+                joints: f(a.joints, b.joints),
+                belts: f(a.belts, b.belts),
+                vehicle: f(a.vehicle, b.vehicle),
+            },
+        }
+    }
+}
+
 impl<S: Scalar> State<S> {
     /// All zero: the neutral element of sums, not a posture.
     pub fn zero() -> Self {
@@ -95,50 +172,30 @@ impl<S: Scalar> State<S> {
             velocity: V3::zero(),
             omega: [V3::zero(); 8],
             hinge_rate: [o; 4],
-            work: Work {
-                contact: o,
-                friction: o,
-                joints: o,
-                belts: o,
-                vehicle: o,
-            },
+            work: Work::zero(),
         }
-    }
-
-    /// f applied to every pair of components.
-    #[inline(always)]
-    pub fn zip(&self, other: &Self, f: impl Fn(S, S) -> S) -> Self {
-        let vector = |a: V3<S>, b: V3<S>| v3(f(a.x, b.x), f(a.y, b.y), f(a.z, b.z));
-        let mut out = *self;
-        out.t1 = vector(self.t1, other.t1);
-        for i in 0..8 {
-            let (a, b) = (self.orientation[i], other.orientation[i]);
-            out.orientation[i] = Quat {
-                w: f(a.w, b.w),
-                v: vector(a.v, b.v),
-            };
-            out.omega[i] = vector(self.omega[i], other.omega[i]);
-        }
-        for i in 0..4 {
-            out.hinge[i] = f(self.hinge[i], other.hinge[i]);
-            out.hinge_rate[i] = f(self.hinge_rate[i], other.hinge_rate[i]);
-        }
-        out.velocity = vector(self.velocity, other.velocity);
-        let (a, b) = (&self.work, &other.work);
-        out.work = Work {
-            contact: f(a.contact, b.contact),
-            friction: f(a.friction, b.friction),
-            joints: f(a.joints, b.joints),
-            belts: f(a.belts, b.belts),
-            vehicle: f(a.vehicle, b.vehicle),
-        };
-        out
     }
 
     /// self + h·rate.
     #[inline(always)]
     pub fn advanced(&self, h: S, rate: &Self) -> Self {
         self.zip(rate, |a, b| a + h * b)
+    }
+
+    /// Where every component but the work sums is a finite number.
+    #[inline(always)]
+    pub fn finite(&self) -> S::Mask {
+        let mut all = finite(self.t1) & finite(self.velocity);
+        for q in &self.orientation {
+            all = all & finite(q.v) & q.w.abs().lt(S::of(f64::INFINITY));
+        }
+        for omega in &self.omega {
+            all = all & finite(*omega);
+        }
+        for angle in self.hinge.iter().chain(&self.hinge_rate) {
+            all = all & angle.abs().lt(S::of(f64::INFINITY));
+        }
+        all
     }
 
     /// Brings the quaternions back to unit length, which the integration keeps only to its order.
@@ -152,6 +209,12 @@ impl<S: Scalar> State<S> {
             };
         }
     }
+}
+
+#[inline(always)]
+fn finite<S: Scalar>(v: V3<S>) -> S::Mask {
+    let limit = S::of(f64::INFINITY);
+    v.x.abs().lt(limit) & v.y.abs().lt(limit) & v.z.abs().lt(limit)
 }
 
 impl State<f64> {
@@ -172,14 +235,14 @@ impl State<f64> {
         let vector = |i: usize| v3(n(i), n(i + 1), n(i + 2));
         State {
             t1: vector(0),
-            orientation: std::array::from_fn(|k| Quat {
+            orientation: from_fn(|k| Quat {
                 w: n(3 + 4 * k),
                 v: vector(4 + 4 * k),
             }),
-            hinge: std::array::from_fn(|k| n(35 + k)),
+            hinge: from_fn(|k| n(35 + k)),
             velocity: vector(39),
-            omega: std::array::from_fn(|k| vector(42 + 3 * k)),
-            hinge_rate: std::array::from_fn(|k| n(66 + k)),
+            omega: from_fn(|k| vector(42 + 3 * k)),
+            hinge_rate: from_fn(|k| n(66 + k)),
             work: Work {
                 contact: n(70),
                 friction: n(71),
@@ -209,18 +272,9 @@ impl State<f64> {
         see_all(&[w.contact, w.friction, w.joints, w.belts, w.vehicle]);
     }
 
-    /// True if every component is a finite number.
+    /// True if every component but the work sums is a finite number.
     pub fn is_finite(&self) -> bool {
-        let v = |a: &V3<f64>| a.x.is_finite() && a.y.is_finite() && a.z.is_finite();
-        v(&self.t1)
-            && v(&self.velocity)
-            && self.orientation.iter().all(|q| q.w.is_finite() && v(&q.v))
-            && self.omega.iter().all(v)
-            && self
-                .hinge
-                .iter()
-                .chain(&self.hinge_rate)
-                .all(|a| a.is_finite())
+        self.finite()
     }
 }
 
@@ -230,7 +284,7 @@ mod tests {
 
     #[test]
     fn a_state_is_its_numbers() {
-        let numbers: [f64; NUMBERS] = std::array::from_fn(|i| i as f64 + 0.5);
+        let numbers: [f64; NUMBERS] = from_fn(|i| i as f64 + 0.5);
         let state = State::from_numbers(&numbers);
         assert_eq!(state.to_numbers(), numbers);
         assert_eq!(state.orientation[7].v.z, 34.5);

@@ -23,6 +23,14 @@ pub fn v3<S>(x: S, y: S, z: S) -> V3<S> {
     V3 { x, y, z }
 }
 
+impl<S: Copy> V3<S> {
+    /// f applied to every number and the one in the same place of `other`.
+    #[inline(always)]
+    pub fn zip<A: Copy, T>(&self, other: &V3<A>, f: &impl Fn(S, A) -> T) -> V3<T> {
+        v3(f(self.x, other.x), f(self.y, other.y), f(self.z, other.z))
+    }
+}
+
 impl<S: Scalar> V3<S> {
     /// The null vector.
     #[inline(always)]
@@ -131,6 +139,18 @@ pub struct M3<S> {
     pub y: V3<S>,
     /// Third column.
     pub z: V3<S>,
+}
+
+impl<S: Copy> M3<S> {
+    /// f applied to every number and the one in the same place of `other`.
+    #[inline(always)]
+    pub fn zip<A: Copy, T>(&self, other: &M3<A>, f: &impl Fn(S, A) -> T) -> M3<T> {
+        M3 {
+            x: self.x.zip(&other.x, f),
+            y: self.y.zip(&other.y, f),
+            z: self.z.zip(&other.z, f),
+        }
+    }
 }
 
 impl<S: Scalar> M3<S> {

@@ -3,10 +3,26 @@
 //! [`simulate_many`] pulls its runs one by one, whenever one has ended, so that it holds a handful of models however long
 //! the list is. What every recorder sees, and every outcome, is to the bit what [`crate::simulate::simulate`] gives for
 //! that model alone, whichever [`Kernel`] computed it and whatever ran beside it.
+//!
+//! Side by side run models with the fixed-step integrator and the same structure: the same spheres on the same segments, the
+//! same surfaces by kind and corners, in the same seams and for the same spheres, belts round the same spheres, springs in the
+//! same joints ([`Unlike`] names what differs). All numbers may differ: masses, places, stiffnesses, paths, times,
+//! steps, outputs. A model that has no place beside those under way is run alone at once; one with error control always
+//! is.
+
+#[cfg(any(target_arch = "x86_64", test))]
+mod group;
+#[cfg(any(target_arch = "x86_64", test))]
+mod place;
 
 use std::fmt;
 use std::ops::ControlFlow;
 
+#[cfg(any(target_arch = "x86_64", test))]
+use group::Group;
+
+#[cfg(doc)]
+use crate::kernel::Unlike;
 use crate::model::Model;
 use crate::outcome::{Outcome, RecordingFailed};
 use crate::recorder::Recorder;
@@ -52,7 +68,28 @@ pub enum Kernel {
 impl Kernel {
     /// The fastest one that this processor has.
     pub fn best() -> Kernel {
-        Kernel::Scalar
+        let all = [Kernel::Lanes8, Kernel::Lanes4];
+        let found = all.into_iter().find(|kernel| kernel.is_available());
+        found.unwrap_or(Kernel::Scalar)
+    }
+
+    /// True if this processor has it.
+    pub fn is_available(self) -> bool {
+        match self {
+            Kernel::Scalar => true,
+            #[cfg(target_arch = "x86_64")]
+            Kernel::Lanes4 => crate::kernel::lanes::has_avx2(),
+            #[cfg(target_arch = "x86_64")]
+            Kernel::Lanes8 => crate::kernel::lanes::has_avx512(),
+            #[cfg(not(target_arch = "x86_64"))]
+            Kernel::Lanes4 | Kernel::Lanes8 => false,
+        }
+    }
+
+    /// The one of that name.
+    pub fn named(name: &str) -> Option<Kernel> {
+        let all = [Kernel::Scalar, Kernel::Lanes4, Kernel::Lanes8];
+        all.into_iter().find(|kernel| kernel.name() == name)
     }
 
     /// `scalar`, `lanes4` or `lanes8`.
@@ -83,28 +120,38 @@ pub fn simulate_many<T, R: Recorder>(
     simulate_many_with(Kernel::best(), jobs, on_end);
 }
 
-/// [`simulate_many`] with a kernel of the caller's choice, or the next smaller one that this processor has.
+/// [`simulate_many`] with a kernel of the caller's choice; with [`Kernel::Scalar`] if this processor has not got it.
 pub fn simulate_many_with<T, R: Recorder>(
-    _kernel: Kernel,
+    kernel: Kernel,
     jobs: impl IntoIterator<Item = Job<T, R>>,
     mut on_end: impl FnMut(Ended<T, R>) -> ControlFlow<()>,
 ) {
-    for job in jobs {
-        let Job {
-            tag,
-            model,
-            mut recorder,
-        } = job;
-        let outcome = simulate(&model, &mut recorder);
-        let ended = Ended {
-            tag,
-            model,
-            recorder,
-            outcome,
-            kernel: Kernel::Scalar,
-        };
-        if on_end(ended).is_break() {
-            return;
+    let mut jobs = jobs.into_iter();
+    // whether all were run or the caller broke off, there is nothing left to do
+    let _ = match kernel {
+        #[cfg(target_arch = "x86_64")]
+        Kernel::Lanes4 if kernel.is_available() => {
+            Group::<crate::kernel::lanes::Avx2, T, R>::new(kernel).run_all(jobs, &mut on_end)
         }
+        #[cfg(target_arch = "x86_64")]
+        Kernel::Lanes8 if kernel.is_available() => {
+            Group::<crate::kernel::lanes::Avx512, T, R>::new(kernel).run_all(jobs, &mut on_end)
+        }
+        _ => jobs.try_for_each(|job| on_end(run_alone(job))),
+    };
+}
+
+/// A run with the scalar kernel.
+fn run_alone<T, R: Recorder>(mut job: Job<T, R>) -> Ended<T, R> {
+    let outcome = simulate(&job.model, &mut job.recorder);
+    Ended {
+        tag: job.tag,
+        model: job.model,
+        recorder: job.recorder,
+        outcome,
+        kernel: Kernel::Scalar,
     }
 }
+
+#[cfg(test)]
+mod tests;

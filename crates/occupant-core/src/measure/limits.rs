@@ -24,6 +24,8 @@ pub enum Rule {
     Nchrp350,
     /// EN 1317-1:1998.
     En1317Edition1998,
+    /// EN 1317-1:2010, which has no PHD.
+    En1317Edition2010,
     /// Historical 1000 of the severity indices.
     SeverityIndex,
 }
@@ -40,6 +42,7 @@ impl Rule {
             Self::Mash2016Supports => "MASH 2016 (breakaway supports)",
             Self::Nchrp350 => "NCHRP 350",
             Self::En1317Edition1998 => "EN 1317-1:1998",
+            Self::En1317Edition2010 => "EN 1317-1:2010",
             Self::SeverityIndex => "severity index (historical)",
         }
     }
@@ -184,7 +187,10 @@ use Quantity::{
     HeadThreeMsCumulative, Hic15, Hic36, NeckCompression, NeckTension, OccupantImpactVelocity, Phd,
     RidedownAcceleration, Thiv, ViscousCriterion,
 };
-use Rule::{En1317Edition1998, Fmvss208, Mash2016, Mash2016Supports, Nchrp350, UnR94, UnR137};
+use Rule::{
+    En1317Edition1998, En1317Edition2010, Fmvss208, Mash2016, Mash2016Supports, Nchrp350, UnR94,
+    UnR137,
+};
 
 /// Every limit known here.
 #[rustfmt::skip] // a table: one limit a line
@@ -226,6 +232,10 @@ pub const LIMITS: &[Limit] = &[
     entry(En1317Edition1998, None, Asi, 1.9, ClassC, CommonKnowledge),
     entry(En1317Edition1998, None, Thiv, 33.0 / 3.6, Maximum, SecondarySource),
     entry(En1317Edition1998, None, Phd, 20.0 * G, Maximum, SecondarySource),
+    entry(En1317Edition2010, None, Asi, 1.0, ClassA, CommonKnowledge),
+    entry(En1317Edition2010, None, Asi, 1.4, ClassB, CommonKnowledge),
+    entry(En1317Edition2010, None, Asi, 1.9, ClassC, CommonKnowledge),
+    entry(En1317Edition2010, None, Thiv, 33.0 / 3.6, Maximum, CommonKnowledge),
     entry(Rule::SeverityIndex, None, Quantity::SeverityIndex, 1000.0, Maximum, SecondarySource),
 ];
 

@@ -8,6 +8,7 @@
 //!   splines (ours);
 //! - [`PulsePath`]: straight travel with fixed attitude, slowed by a deceleration pulse that is integrated in closed form
 //!   (ours);
+//! - [`SensorPath`]: recorded accelerations and turning rates, or velocity changes, integrated (ours);
 //! - [`FixedPath`]: a frame at rest, such as a vehicle in a free fall test (ours).
 //!
 //! Input is in the report's vehicle-space axes X′_v forward, Y′_v right, Z′_v down, with roll, pitch and yaw; output is in
@@ -23,6 +24,7 @@ mod fixed;
 mod frame;
 mod problem;
 mod pulse;
+mod sensors;
 mod spline;
 mod station;
 mod table;
@@ -36,6 +38,9 @@ pub use frame::FrameMotion;
 pub use problem::PathProblem;
 pub use pulse::{
     DecelerationPoint, PulseDefinition, PulsePath, PulseShape, Stop, Strength, TravelDirection,
+};
+pub use sensors::{
+    AccelerationRecord, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord,
 };
 pub use station::{Station, unwrap_angles};
 pub use table::{AfterEnd, Interpolation, TablePath};
@@ -67,6 +72,8 @@ pub enum VehiclePath {
     Table(TablePath),
     /// Straight travel slowed by a pulse.
     Pulse(PulsePath),
+    /// Recorded motion.
+    Sensors(Box<SensorPath>),
     /// At rest.
     Fixed(FixedPath),
 }
@@ -86,6 +93,7 @@ impl VehiclePath {
         match self {
             VehiclePath::Table(table) => table.motion(t_s, step_middle_s, cursor),
             VehiclePath::Pulse(pulse) => pulse.motion(t_s, cursor),
+            VehiclePath::Sensors(sensors) => sensors.motion(t_s, step_middle_s, cursor),
             VehiclePath::Fixed(fixed) => fixed.motion(),
         }
     }
@@ -95,6 +103,7 @@ impl VehiclePath {
         match self {
             VehiclePath::Table(table) => table.pose(t_s, cursor),
             VehiclePath::Pulse(pulse) => pulse.pose(t_s, cursor),
+            VehiclePath::Sensors(sensors) => sensors.pose(t_s, cursor),
             VehiclePath::Fixed(fixed) => fixed.pose(),
         }
     }
@@ -102,8 +111,8 @@ impl VehiclePath {
     /// Whether a run from `start_s` to `end_s` has a vehicle all along.
     ///
     /// # Errors
-    /// Times that are not finite; a start before the first station of a table; an end past its last station unless the
-    /// table says what comes after.
+    /// Times that are not finite; a start before the first station of a table or sample of a record; an end past its
+    /// last one unless the path says what comes after.
     pub fn check_span(&self, start_s: f64, end_s: f64) -> Result<(), PathProblem> {
         for (quantity, value) in [("start of the run", start_s), ("end of the run", end_s)] {
             if !value.is_finite() {
@@ -112,6 +121,7 @@ impl VehiclePath {
         }
         match self {
             VehiclePath::Table(table) => table.check_span(start_s, end_s),
+            VehiclePath::Sensors(sensors) => sensors.check_span(start_s, end_s),
             VehiclePath::Pulse(_) | VehiclePath::Fixed(_) => Ok(()),
         }
     }
@@ -120,6 +130,7 @@ impl VehiclePath {
     pub fn span_s(&self) -> (f64, f64) {
         match self {
             VehiclePath::Table(table) => table.span_s(),
+            VehiclePath::Sensors(sensors) => sensors.span_s(),
             VehiclePath::Pulse(_) | VehiclePath::Fixed(_) => (f64::NEG_INFINITY, f64::INFINITY),
         }
     }
@@ -130,6 +141,7 @@ impl VehiclePath {
         match self {
             VehiclePath::Table(table) => table.breaks_s(),
             VehiclePath::Pulse(pulse) => pulse.breaks_s(),
+            VehiclePath::Sensors(sensors) => sensors.breaks_s(),
             VehiclePath::Fixed(_) => Vec::new(),
         }
     }

@@ -90,6 +90,56 @@ pub enum PathProblem {
         /// When it is stopped for good, s.
         stop_s: f64,
     },
+    /// A record has none of the channels that move a vehicle.
+    NoSensorChannel,
+    /// A channel of a record is longer or shorter than its times.
+    ChannelLength {
+        /// Which channel.
+        quantity: &'static str,
+        /// Its length.
+        found: usize,
+        /// How many times there are.
+        expected: usize,
+    },
+    /// The vehicle turns so far from one sample to the next that they say little of the turning.
+    TurnsTooFar {
+        /// The later one of the two samples.
+        station: usize,
+        /// How far, rad.
+        turn_rad: f64,
+    },
+    /// A record that is to be filtered is not evenly sampled.
+    NotUniform {
+        /// The first sample off the grid.
+        station: usize,
+        /// Its time, s.
+        time_s: f64,
+        /// The time that an even grid has there, s.
+        expected_s: f64,
+    },
+    /// A record is sampled too coarsely for the filter.
+    FilterTooFast {
+        /// Corner of one pass of the filter, Hz.
+        corner_hz: f64,
+        /// Half the sample rate, Hz.
+        nyquist_hz: f64,
+    },
+    /// A path from a record starts outside of it.
+    StartOutsideRecord {
+        /// Where it starts, s.
+        start_s: f64,
+        /// First sample, s.
+        first_s: f64,
+        /// Last sample, s.
+        last_s: f64,
+    },
+    /// The rest at the beginning of a record has too few samples, or is all of it.
+    BaselineOutsideRecord {
+        /// Its length, s.
+        baseline_s: f64,
+        /// How many samples are in it.
+        samples: usize,
+    },
     /// A run starts before the first station.
     StartsBeforePath {
         /// Start of the run, s.
@@ -182,6 +232,58 @@ impl fmt::Display for PathProblem {
                 "the initial speed is 0 and the pulse decelerates before it has set the vehicle going, so that the \
                  vehicle stands still from {stop_s} s on; give an initial speed, or a negative deceleration for a \
                  vehicle that is accelerated, or a rebound for one that may move back"
+            ),
+            P::NoSensorChannel => write!(
+                f,
+                "found no channel that moves the vehicle, expected accelerations, rates or velocity changes"
+            ),
+            P::ChannelLength {
+                quantity,
+                found,
+                expected,
+            } => write!(
+                f,
+                "found {found} samples of {quantity}, expected {expected}, one for each time"
+            ),
+            P::TurnsTooFar { station, turn_rad } => write!(
+                f,
+                "station {}: the vehicle turns by {:.1}° since the sample before, expected at most 90°; give rates in \
+                 their true unit, or more samples",
+                station + 1,
+                turn_rad.to_degrees()
+            ),
+            P::NotUniform {
+                station,
+                time_s,
+                expected_s,
+            } => write!(
+                f,
+                "station {}: found t = {time_s} s, expected {expected_s} s, for a filter needs samples evenly spaced \
+                 in time; resample the record, or leave `filter` out",
+                station + 1
+            ),
+            P::FilterTooFast {
+                corner_hz,
+                nyquist_hz,
+            } => write!(
+                f,
+                "the filter's corner is {corner_hz:.1} Hz, expected less than half the sample rate, {nyquist_hz:.1} Hz; \
+                 use a lower class or a record with more samples a second, or leave `filter` out"
+            ),
+            P::StartOutsideRecord {
+                start_s,
+                first_s,
+                last_s,
+            } => write!(
+                f,
+                "the path starts at {start_s} s, expected a time of the record, from {first_s} s to before {last_s} s"
+            ),
+            P::BaselineOutsideRecord {
+                baseline_s,
+                samples,
+            } => write!(
+                f,
+                "the baseline of {baseline_s} s has {samples} samples, expected at least 2, and fewer than the record has"
             ),
             P::StartsBeforePath { start_s, first_s } => {
                 write!(

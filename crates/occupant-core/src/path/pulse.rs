@@ -264,7 +264,7 @@ fn holds_back(profile: &Profile, since_s: f64, distance_m: f64) -> bool {
 }
 
 /// `vector` at length one; a problem if it has no length.
-fn unit(vector: Vector3<f64>, problems: &mut Vec<PathProblem>) -> Vector3<f64> {
+pub(super) fn unit(vector: Vector3<f64>, problems: &mut Vec<PathProblem>) -> Vector3<f64> {
     let size = vector.amax();
     expect_finite(problems, "direction of travel", vector.sum());
     if size == 0.0 {

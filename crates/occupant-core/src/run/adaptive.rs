@@ -1,6 +1,6 @@
 //! Steps with error control.
 
-use super::Run;
+use super::{Run, Step};
 use crate::integrate::dormand_prince::{self, Tolerance};
 use crate::kernel::state::State;
 use crate::model::Model;
@@ -77,7 +77,11 @@ impl Run {
                 } else {
                     self.wanted_s.max(h * growth)
                 };
-                self.accept(trial.state, t, end)?;
+                let step = Step {
+                    start_s: t,
+                    end_s: end,
+                };
+                self.accept(trial.state, step)?;
                 if end < target_s {
                     let frames = model.frames(end, middle, &mut self.cursor);
                     let mut observer = SeenAt {

@@ -19,13 +19,14 @@ pub(crate) struct Stretch {
 }
 
 /// One step.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default)]
 pub(crate) struct Step {
     pub start_s: f64,
     pub end_s: f64,
 }
 
 impl Stretch {
+    /// Steps of `step_s`, the last one shortened to end at the target.
     pub fn new(from_s: f64, target_s: f64, step_s: f64) -> Self {
         Stretch {
             from_s,
@@ -37,13 +38,21 @@ impl Stretch {
     }
 }
 
+impl Stretch {
+    /// True after the last step.
+    #[inline]
+    pub fn is_over(&self) -> bool {
+        self.done >= self.count
+    }
+}
+
 impl Iterator for Stretch {
     type Item = Step;
 
     #[inline]
     fn next(&mut self) -> Option<Step> {
         let i = self.done;
-        if i >= self.count {
+        if self.is_over() {
             return None;
         }
         self.done = i + 1.0;
@@ -73,15 +82,10 @@ impl Step {
 }
 
 impl Run {
-    /// Steps of `step_s`, the last one shortened to end at the target.
-    pub(super) fn advance_rk4(
-        &mut self,
-        model: &Model,
-        target_s: f64,
-        step_s: f64,
-    ) -> Result<(), StepError> {
+    /// All steps of `stretch`.
+    pub fn advance_rk4(&mut self, model: &Model, stretch: Stretch) -> Result<(), StepError> {
         let system = model.system();
-        for step in Stretch::new(self.time_s, target_s, step_s) {
+        for step in stretch {
             let [at_start, at_middle, at_end] = step.frames(model, &mut self.cursor);
             let (history, seen) = (&mut self.history, &mut self.seen);
             let time_s = step.start_s;
@@ -98,7 +102,7 @@ impl Run {
                 Stage::End => system.rate::<false>(state, &at_end, history),
             });
             self.effort.evaluations += 4;
-            self.accept(next, step.start_s, step.end_s)?;
+            self.accept(next, step)?;
         }
         Ok(())
     }

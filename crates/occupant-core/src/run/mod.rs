@@ -5,6 +5,8 @@
 mod adaptive;
 mod fixed;
 
+pub(crate) use fixed::{Step, Stretch};
+
 use crate::body::Segment;
 use crate::checkpoint::{Checkpoint, CheckpointError, Progress};
 use crate::energy::{EnergyLedger, EnergyStart, Stored};
@@ -168,7 +170,10 @@ impl Run {
     /// Steps until `target_s`.
     pub fn advance_to(&mut self, model: &Model, target_s: f64) -> Result<(), StepError> {
         match model.setup().integrator {
-            Integrator::Rk4 { step_s } => self.advance_rk4(model, target_s, step_s),
+            Integrator::Rk4 { step_s } => {
+                let stretch = Stretch::new(self.time_s, target_s, step_s);
+                self.advance_rk4(model, stretch)
+            }
             Integrator::Adaptive {
                 relative,
                 absolute_m,
@@ -187,21 +192,24 @@ impl Run {
     }
 
     /// Takes over the state after a step, if it is one of numbers.
-    pub fn accept(&mut self, next: State<f64>, start_s: f64, end_s: f64) -> Result<(), StepError> {
-        let step_s = end_s - start_s;
+    pub fn accept(&mut self, next: State<f64>, step: Step) -> Result<(), StepError> {
         if !next.is_finite() {
-            let component = broken_component(&next);
             return Err(StepError::NotFinite {
-                time_s: start_s,
-                step_s,
-                component,
+                time_s: step.start_s,
+                step_s: step.length_s(),
+                component: broken_component(&next),
             });
         }
         self.state = next;
-        self.time_s = end_s;
-        self.effort.steps += 1;
-        self.effort.step_s = step_s;
+        self.accept_time(step);
         Ok(())
+    }
+
+    /// Counts an accepted step whose state is kept elsewhere.
+    pub fn accept_time(&mut self, step: Step) {
+        self.time_s = step.end_s;
+        self.effort.steps += 1;
+        self.effort.step_s = step.length_s();
     }
 
     /// Ends the run and tells `recorder` how.

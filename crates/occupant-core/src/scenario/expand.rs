@@ -38,8 +38,22 @@ const JOINT_PAIRS: [[&str; 3]; 4] = [
     ["knees", "left_knee", "right_knee"],
 ];
 
-/// Two keys of which a later layer's one replaces an earlier layer's other.
-const RIVALS: [[&str; 2]; 2] = [["mass", "weight"], ["weight", "mass"]];
+/// Two keys of which a later layer's one, or an override's, replaces an earlier layer's other.
+pub(super) const RIVALS: [[&str; 2]; 6] = [
+    ["mass", "weight"],
+    ["weight", "mass"],
+    ["peak", "delta_v"],
+    ["delta_v", "peak"],
+    ["slack", "length"],
+    ["length", "slack"],
+];
+
+/// The other key of two that say the same thing in two ways, as a path.
+pub(crate) fn rival_path(path: &str) -> Option<String> {
+    let (above, key) = path.rsplit_once('.')?;
+    let found = RIVALS.iter().find(|[given, _]| *given == key);
+    found.map(|[_, rival]| format!("{above}.{rival}"))
+}
 
 /// A preset: a piece of scenario that comes with the program.
 struct Preset {

@@ -183,6 +183,7 @@ fn read_path_table(
     let file = match &scenario.path {
         PathSection::Table(table) => table.file.as_ref(),
         PathSection::Pulse(pulse) => pulse.file.as_ref(),
+        PathSection::Sensors(sensors) => sensors.file.as_ref(),
         PathSection::Fixed(_) => None,
     };
     let Some(file) = file else {

@@ -32,7 +32,7 @@ pub(crate) mod csv_text;
 pub mod diagnostic;
 pub mod document;
 pub(crate) mod draft;
-mod expand;
+pub(crate) mod expand;
 mod json;
 pub mod kind;
 pub(crate) mod loaded;
@@ -43,6 +43,7 @@ mod overrides;
 pub mod path_text;
 pub mod place;
 pub mod quantity;
+mod record_file;
 pub(crate) mod schema;
 pub mod source;
 mod toml_text;
@@ -55,6 +56,7 @@ pub use document::Format;
 pub use draft::Draft;
 pub use loaded::{Loaded, Resolver};
 pub use model::Scenario;
+pub use record_file::{RecordFile, read_record};
 pub use schema::schema;
 
 #[cfg(test)]

@@ -18,6 +18,8 @@ use crate::problem::{Problem, Severity};
 pub(super) struct Column {
     /// Its name.
     pub name: &'static str,
+    /// Another name that means the same; empty if it has none.
+    pub alias: &'static str,
     /// Index of its kind of quantity.
     pub kind: usize,
     /// Whether it must be there; others are zero where they are not.
@@ -31,6 +33,26 @@ pub(super) struct NumberTable {
     pub rows: Vec<Vec<f64>>,
     /// Where each line stands.
     pub row_spans: Vec<Span>,
+    /// Where the names of the columns stand.
+    pub header: Span,
+    /// Which of the columns asked for are there.
+    pub present: Vec<bool>,
+}
+
+impl NumberTable {
+    fn new(header: Span) -> Self {
+        NumberTable {
+            rows: Vec::new(),
+            row_spans: Vec::new(),
+            header,
+            present: Vec::new(),
+        }
+    }
+
+    /// A column in SI, if it is there.
+    pub fn column(&self, i: usize) -> Option<Vec<f64>> {
+        self.present[i].then(|| self.rows.iter().map(|row| row[i]).collect())
+    }
 }
 
 /// Reads a CSV text.
@@ -54,10 +76,7 @@ pub(super) fn read_csv(
         return Err(reader.problems);
     };
     reader.header(&cells(sources, header), header);
-    let mut table = NumberTable {
-        rows: Vec::new(),
-        row_spans: Vec::new(),
-    };
+    let mut table = NumberTable::new(header);
     for line in lines {
         let cells = cells(sources, line);
         let numbers = cells.iter().map(|c| reader.number(c)).collect();
@@ -84,14 +103,9 @@ pub(super) fn read_inline(
         .iter()
         .filter_map(|n| n.as_str().map(|text| Cell { text, span: n.span }))
         .collect();
-    reader.header(
-        &header,
-        section.get("columns").map_or(section.span, |n| n.span),
-    );
-    let mut table = NumberTable {
-        rows: Vec::new(),
-        row_spans: Vec::new(),
-    };
+    let span = section.get("columns").map_or(section.span, |n| n.span);
+    reader.header(&header, span);
+    let mut table = NumberTable::new(span);
     for row in items("rows") {
         if let Value::Array(cells) = &row.value {
             let numbers = cells.iter().map(plain_number).collect();
@@ -127,7 +141,9 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn finish(self, table: NumberTable) -> Result<NumberTable, Diagnostics> {
+    fn finish(self, mut table: NumberTable) -> Result<NumberTable, Diagnostics> {
+        let there = |i| self.found.iter().flatten().any(|(at, _)| *at == i);
+        table.present = (0..self.wanted.len()).map(there).collect();
         match self.problems.is_empty() {
             true => Ok(table),
             false => Err(self.problems),
@@ -171,7 +187,8 @@ impl<'a> Reader<'a> {
     fn column(&mut self, cell: &Cell) -> Option<(usize, f64)> {
         let (name, unit_text) = name_and_unit(cell.text);
         let names: Vec<&str> = self.wanted.iter().map(|c| c.name).collect();
-        let Some(i) = names.iter().position(|n| *n == name) else {
+        let wanted = |c: &Column| c.name == name || (c.alias == name && !name.is_empty());
+        let Some(i) = self.wanted.iter().position(wanted) else {
             let hint = nearest(name, names.iter().copied()).map(|n| format!("did you mean `{n}`?"));
             self.error(
                 cell.span,

@@ -1,6 +1,7 @@
 //! `path.to.key=value`: changes to a scenario from a command line or a sweep, made before it is checked.
 
 use super::document::{Entry, Node, Table, Value};
+use super::expand::RIVALS;
 use super::path_text::{Step, child, child_of, with_key};
 use super::source::Span;
 
@@ -45,7 +46,8 @@ fn collect(node: &Node, rest: &[Step], path: &mut Vec<Step>, found: &mut Vec<Vec
     }
 }
 
-/// Puts `value` at a path without wildcards. Tables on the way are made where they are missing; a list on the way that
+/// Puts `value` at a path without wildcards. Of two keys that say the same thing in two ways, such as the `peak` and the
+/// `delta_v` of a pulse, the one that is put replaces the other. Tables on the way are made where they are missing; a list on the way that
 /// only the explicit form has (a preset's inertia, say) is copied from there first.
 ///
 /// # Errors
@@ -72,6 +74,9 @@ pub(super) fn put(
             && table.get(key).is_none()
         {
             table.insert(blank(key, value.span, steps.get(i + 1), shadow));
+            for [_, rival] in RIVALS.iter().filter(|[given, _]| last && key == given) {
+                table.remove(rival);
+            }
         }
         let below = below_mut(node, step);
         node = below.ok_or_else(|| match step {

@@ -12,7 +12,7 @@ use super::expand::expand;
 use super::kind::Kind;
 use super::nearest::nearest;
 use super::overrides::{put, targets};
-use super::path_text::{Step, child, parse, to_text};
+use super::path_text::{Step, child, child_of, parse, to_text};
 use super::quantity::{Written, si_value};
 use super::schema::schema;
 use super::view::View;
@@ -78,7 +78,7 @@ impl Draft {
         let explicit = expand(&mut self.sources.clone(), &self.root);
         let found = targets(&explicit, &steps);
         if found.is_empty() {
-            return Err(self.nowhere(&explicit, path, &steps));
+            return Err(nowhere(&explicit, path, &steps));
         }
         let mut places = Vec::new();
         for steps in found {
@@ -171,29 +171,37 @@ impl Draft {
         }
         found.iter().map(|s| self.place(explicit, s)).collect()
     }
+}
 
-    /// Why a path with wildcards matches nothing.
-    fn nowhere(&self, explicit: &Node, path: &str, steps: &[Step]) -> Misplaced {
-        let plain: Vec<Step> = steps
+/// Why a path with wildcards matches nothing: the first of its names that stands under none of what is before it.
+fn nowhere(explicit: &Node, path: &str, steps: &[Step]) -> Misplaced {
+    let reached = |n: usize| -> Vec<&Node> {
+        targets(explicit, &steps[..n])
             .iter()
-            .take_while(|s| **s != Step::Every)
-            .cloned()
-            .collect();
-        let broken = match plain.is_empty() {
-            true => None,
-            false => self
-                .place(explicit, &plain)
-                .err()
-                .filter(|e| e.hint.is_some() || !e.found.contains("not to a single value")),
-        };
-        broken.unwrap_or_else(|| {
-            Misplaced::new(
-                format!("`{path}` matches nothing in the base scenario"),
-                "a path to at least one value",
-                None,
-            )
-        })
-    }
+            .filter_map(|place| place.iter().try_fold(explicit, child_of))
+            .collect()
+    };
+    let good = (1..=steps.len())
+        .take_while(|n| !reached(*n).is_empty())
+        .last()
+        .unwrap_or(0);
+    let beside = reached(good);
+    let mut names: Vec<&str> = beside
+        .iter()
+        .filter_map(|node| node.as_table())
+        .flat_map(|table| table.iter().map(|e| e.key.as_str()))
+        .collect();
+    names.sort_unstable();
+    names.dedup();
+    let hint = match steps.get(good) {
+        Some(Step::Key(key)) => nearest(key, names.iter().copied()),
+        _ => None,
+    };
+    Misplaced::new(
+        format!("`{path}` matches nothing in the base scenario"),
+        "a path to at least one value",
+        hint.map(|n| format!("did you mean `{n}`?")),
+    )
 }
 
 /// The case of a table with a `kind` that its own `kind` names; else the view itself.

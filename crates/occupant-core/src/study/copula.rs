@@ -39,9 +39,9 @@ impl Copula {
         let mut rows: Vec<Vec<f64>> = Vec::with_capacity(n);
         for i in 0..n {
             let mut row: Vec<f64> = Vec::with_capacity(i + 1);
-            for j in 0..i {
-                let sum: f64 = row.iter().zip(&rows[j]).map(|(a, b)| a * b).sum();
-                row.push((entry(i, j) - sum) / rows[j][j]);
+            for (j, above) in rows.iter().enumerate() {
+                let sum: f64 = row.iter().zip(above).map(|(a, b)| a * b).sum();
+                row.push((entry(i, j) - sum) / above[j]);
             }
             let rest = 1.0 - row.iter().map(|x| x * x).sum::<f64>();
             if rest < 1e-12 {

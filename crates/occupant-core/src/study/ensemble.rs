@@ -5,9 +5,10 @@
 //! hang on seed, member and place alone: members of different samples are perturbed alike, so that samples are compared
 //! under the same changes, and an ensemble of 64 begins with that of 32.
 
-use super::parameter::{Assignment, Target, changed, place};
+use super::parameter::{Assignment, Parameter, Target, changed, place};
 use super::random::{Purpose, unit};
 use crate::scenario::Draft;
+use crate::scenario::expand::rival_path;
 use crate::scenario::kind::UnitSystem;
 use crate::scenario::place::Misplaced;
 
@@ -73,6 +74,11 @@ impl Ensemble {
             // −1 … 1
             let way = 2.0 * unit(seed, Purpose::Ensemble, member, i as u32) - 1.0;
             for target in &perturbation.targets {
+                // a sample that gives the peak of a pulse has taken its change of speed away
+                let rival = rival_path(&target.path);
+                if list.iter().any(|a| Some(&a.path) == rival.as_ref()) {
+                    continue;
+                }
                 let value = changed(target, list, |old| match perturbation.change {
                     Change::Offset(most) => old + way * most,
                     Change::Factor(most) => old * (1.0 + way * most),
@@ -138,10 +144,24 @@ pub(super) fn seat_place(base: &Draft, most_m: f64) -> Vec<Perturbation> {
     .concat()
 }
 
-/// A change of the strength of the pulse.
-pub(super) fn path(base: &Draft, most: f64) -> Vec<Perturbation> {
-    let paths = ["path.peak", "path.delta_v"].map(str::to_owned);
-    each(base, &paths, Change::Factor(most))
+/// A change of the strength of the pulse, whether the base scenario or a parameter says it.
+pub(super) fn path(base: &Draft, parameters: &[Parameter], most: f64) -> Vec<Perturbation> {
+    let paths = ["path.peak", "path.delta_v"];
+    let said = paths.iter().filter_map(|path| targets(base, path).ok());
+    let mut strengths: Vec<Target> = said.flatten().collect();
+    let varied = parameters.iter().flat_map(|p| &p.targets);
+    for target in varied.filter(|t| paths.contains(&t.path.as_str())) {
+        if !strengths.contains(target) {
+            strengths.push(target.clone());
+        }
+    }
+    match strengths.is_empty() {
+        true => Vec::new(),
+        false => vec![Perturbation {
+            change: Change::Factor(most),
+            targets: strengths,
+        }],
+    }
 }
 
 /// A change of each material and each belt, both straight lines of one together.
@@ -166,11 +186,15 @@ pub(super) fn stiffness(base: &Draft, most: f64) -> Vec<Perturbation> {
 }
 
 /// All standard changes that the scenario has a place for.
-pub(super) fn standard(base: &Draft, most: &Tolerances) -> Vec<Perturbation> {
+pub(super) fn standard(
+    base: &Draft,
+    parameters: &[Parameter],
+    most: &Tolerances,
+) -> Vec<Perturbation> {
     [
         posture(base, most.posture_rad),
         seat_place(base, most.place_m),
-        path(base, most.path),
+        path(base, parameters, most.path),
         stiffness(base, most.stiffness),
     ]
     .concat()

@@ -47,6 +47,7 @@
 //! # Ok::<(), occupant_core::scenario::Diagnostics>(())
 //! ```
 
+pub mod analysis;
 mod bind;
 mod copula;
 mod design;
@@ -62,6 +63,7 @@ mod permutation;
 mod random;
 mod saltelli;
 mod sobol;
+pub mod spread;
 mod text;
 
 pub use design::{Design, Role};
@@ -77,6 +79,9 @@ use self::copula::Copula;
 use self::design::{Context, Coordinate};
 use self::sobol::Sobol;
 use crate::scenario::{Diagnostics, Draft};
+
+#[cfg(test)]
+mod tests;
 
 /// A study that fits its base scenario.
 #[derive(Clone, Debug)]
@@ -115,7 +120,7 @@ impl Study {
         seed: u64,
         tolerances: &Tolerances,
     ) -> Study {
-        let perturbations = ensemble::standard(&base, tolerances);
+        let perturbations = ensemble::standard(&base, &[], tolerances);
         Study {
             base,
             base_name: name.into(),

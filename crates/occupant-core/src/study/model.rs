@@ -43,7 +43,7 @@ pub struct StudySection {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("minimum" = 0))]
     pub seed: Option<u64>,
-    /// Values of the base scenario that are different in all runs of this study, by path: `"time.end" = "0.25 s"`.
+    /// Values that the base scenario has in all runs of this study, by path: `"time.end" = "0.25 s"`.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub set: IndexMap<String, Free>,
     /// What is varied.

@@ -123,7 +123,8 @@ impl List {
     }
 
     fn excursion(&mut self, found: Option<&Excursion>) {
-        let ways: [(&str, fn(&Excursion) -> (f64, f64)); 6] = [
+        type Way = (&'static str, fn(&Excursion) -> (f64, f64));
+        let ways: [Way; 6] = [
             ("forward", |e| (e.forward_m, e.forward_time_s)),
             ("rearward", |e| (e.rearward_m, e.rearward_time_s)),
             ("left", |e| (e.left_m, e.left_time_s)),

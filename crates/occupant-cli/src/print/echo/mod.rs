@@ -7,6 +7,7 @@ mod joints;
 mod path;
 mod run;
 mod seating;
+mod sensors;
 
 pub use seating::coordinates;
 

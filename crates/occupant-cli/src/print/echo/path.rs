@@ -5,6 +5,7 @@ use occupant_core::path::{
     VehiclePath, VehiclePose,
 };
 
+use super::sensors;
 use crate::print::case::Case;
 use crate::print::page::Pages;
 use crate::print::table::Table;
@@ -18,11 +19,12 @@ pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
         }
         VehiclePath::Pulse(path) => pulse(pages, path, units),
         VehiclePath::Table(path) => stations(pages, path, units),
+        VehiclePath::Sensors(path) => sensors::write(pages, path, units),
         _ => pages.say("A PATH THAT THIS PRINTOUT DOES NOT KNOW"),
     }
 }
 
-fn pose(pose: &VehiclePose, units: &Units) -> String {
+pub(super) fn pose(pose: &VehiclePose, units: &Units) -> String {
     let a = &pose.attitude;
     let angles = [a.roll_rad, a.pitch_rad, a.yaw_rad].map(|x| DEGREE.show(x));
     format!(
@@ -42,13 +44,7 @@ fn pulse(pages: &mut Pages, path: &PulsePath, units: &Units) {
     pages.say("STRAIGHT TRAVEL, SLOWED BY A PULSE");
     pages.say(&format!("START          {}", pose(&d.initial, units)));
     pages.say(&format!("INITIAL SPEED  {}", speed(d.initial_speed_m_s)));
-    let direction = match d.direction {
-        TravelDirection::Heading => "NOSE FIRST".to_owned(),
-        TravelDirection::Along(v) => {
-            format!("ALONG {} (FORWARD, RIGHT, DOWN)", RATIO.point(v.into()))
-        }
-    };
-    pages.say(&format!("DIRECTION      {direction}"));
+    pages.say(&format!("DIRECTION      {}", direction(&d.direction)));
     pages.say(&format!(
         "PULSE          {}, FROM {from_s:.6} TO {to_s:.6} SEC",
         shape(&d.shape, units)
@@ -81,6 +77,23 @@ fn pulse(pages: &mut Pages, path: &PulsePath, units: &Units) {
             ]);
         }
         table.write(pages);
+    }
+}
+
+pub(super) fn direction(direction: &TravelDirection) -> String {
+    match *direction {
+        TravelDirection::Heading => "NOSE FIRST".to_owned(),
+        TravelDirection::Along(v) => {
+            format!("ALONG {} (FORWARD, RIGHT, DOWN)", RATIO.point(v.into()))
+        }
+    }
+}
+
+pub(super) fn after(after: AfterEnd) -> &'static str {
+    match after {
+        AfterEnd::Error => "NO PATH",
+        AfterEnd::Coast => "THE LAST VELOCITY",
+        AfterEnd::Hold => "REST",
     }
 }
 
@@ -119,11 +132,7 @@ fn stations(pages: &mut Pages, path: &TablePath, units: &Units) {
         Interpolation::Linear => "STRAIGHT LINES",
         Interpolation::Spline => "NATURAL SPLINES",
     };
-    let after = match path.after() {
-        AfterEnd::Error => "NO PATH",
-        AfterEnd::Coast => "THE LAST VELOCITY",
-        AfterEnd::Hold => "REST",
-    };
+    let after = after(path.after());
     let mut table = Table::new(
         format!(
             "{} STATIONS, {between} BETWEEN THEM, {after} AFTER THE LAST ({}, DEG)",

@@ -12,6 +12,7 @@ mod plausible;
 mod posture;
 mod pulse;
 mod run;
+pub(super) mod sensors;
 mod surfaces;
 
 use builder::Builder;
@@ -37,7 +38,6 @@ pub(super) fn build(
     let materials = surfaces::materials(&mut b, explicit);
     let surfaces = surfaces::surfaces(&mut b, explicit, &body);
     let belts = belts::belts(&mut b, explicit, &body);
-    let path = path::path(&mut b, &explicit.path, path_table);
     let (posture, velocity) = posture::posture(&mut b, explicit, &body);
     let time = run::time(&mut b, explicit);
     let integrator = run::integrator(&mut b, explicit);
@@ -47,6 +47,7 @@ pub(super) fn build(
         &explicit.gravity,
         crate::setup::STANDARD_GRAVITY_M_S2,
     );
+    let path = path::path(&mut b, &explicit.path, path_table, gravity_m_s2);
     b.check_provenance(written);
     let title = explicit.title.clone();
     let (Some(path), Some(posture), false) = (path, posture, b.problems.has_errors()) else {

@@ -11,11 +11,11 @@ use crate::problem::{Problem, Severity};
 use crate::scenario::diagnostic::Diagnostic;
 use crate::scenario::kind;
 use crate::scenario::model::{After, Interpolate, PathSection, PulseSection, TableSection};
-use crate::scenario::model::{Angle, Length};
+use crate::scenario::model::{Angle, Length, Ratio};
 use crate::scenario::number_table::{Column, NumberTable, read_csv, read_inline};
 use crate::scenario::source::SourceId;
 
-use super::pulse;
+use super::{pulse, sensors};
 
 /// Columns of a path table.
 const PATH_COLUMNS: [Column; 7] = [
@@ -34,19 +34,21 @@ const PULSE_COLUMNS: [Column; 2] = [
     column("a", kind::ACCELERATION, true),
 ];
 
-const fn column(name: &'static str, kind: usize, required: bool) -> Column {
+pub(super) const fn column(name: &'static str, kind: usize, required: bool) -> Column {
     Column {
         name,
+        alias: "",
         kind,
         required,
     }
 }
 
-/// The vehicle's path; `table` is the CSV text it names, if it names one.
+/// The vehicle's path; `table` is the CSV text it names, if it names one, and `gravity_m_s2` that of the scenario.
 pub(super) fn path(
     b: &mut Builder,
     section: &PathSection,
     table: Option<SourceId>,
+    gravity_m_s2: f64,
 ) -> Option<VehiclePath> {
     match section {
         PathSection::Fixed(s) => {
@@ -58,10 +60,14 @@ pub(super) fn path(
         }
         PathSection::Table(s) => table_path(b, s, table).map(VehiclePath::Table),
         PathSection::Pulse(s) => pulse_path(b, s, table).map(VehiclePath::Pulse),
+        PathSection::Sensors(s) => {
+            let path = sensors::path(b, s, table, gravity_m_s2)?;
+            Some(VehiclePath::Sensors(Box::new(path)))
+        }
     }
 }
 
-fn pose(
+pub(super) fn pose(
     b: &mut Builder,
     position: &Option<[Length; 3]>,
     angles: [&Option<Angle>; 3],
@@ -92,13 +98,16 @@ fn table_path(b: &mut Builder, s: &TableSection, file: Option<SourceId>) -> Opti
         Some(Interpolate::Linear) => Interpolation::Linear,
         Some(Interpolate::Spline) | None => Interpolation::Spline,
     };
-    let after = match s.after {
+    let path = TablePath::new(stations, interpolation, after(s.after));
+    path.map_err(|p| refuse(b, &p, Some(&table))).ok()
+}
+
+pub(super) fn after(word: Option<After>) -> AfterEnd {
+    match word {
         Some(After::Coast) => AfterEnd::Coast,
         Some(After::Hold) => AfterEnd::Hold,
         Some(After::Error) | None => AfterEnd::Error,
-    };
-    let path = TablePath::new(stations, interpolation, after);
-    path.map_err(|p| refuse(b, &p, Some(&table))).ok()
+    }
 }
 
 fn pulse_path(b: &mut Builder, s: &PulseSection, file: Option<SourceId>) -> Option<PulsePath> {
@@ -116,12 +125,7 @@ fn pulse_path(b: &mut Builder, s: &PulseSection, file: Option<SourceId>) -> Opti
         .collect()
     });
     let shape = pulse::shape(b, s, points)?;
-    let direction = match &s.direction {
-        Some(direction) => {
-            TravelDirection::Along(Vector3::from(b.triple("path.direction", direction)))
-        }
-        None => TravelDirection::Heading,
-    };
+    let direction = direction(b, &s.direction);
     let definition = PulseDefinition {
         initial: pose(b, &s.position, [&s.roll, &s.pitch, &s.yaw]),
         initial_speed_m_s: b.si("path.speed", &s.speed),
@@ -134,7 +138,11 @@ fn pulse_path(b: &mut Builder, s: &PulseSection, file: Option<SourceId>) -> Opti
     path.map_err(|p| refuse(b, &p, table.as_ref())).ok()
 }
 
-fn numbers(b: &mut Builder, file: Option<SourceId>, columns: &[Column]) -> Option<NumberTable> {
+pub(super) fn numbers(
+    b: &mut Builder,
+    file: Option<SourceId>,
+    columns: &[Column],
+) -> Option<NumberTable> {
     let table = match (file, b.root.get("path")) {
         (Some(id), _) => read_csv(b.sources, id, columns),
         (None, Some(section)) => read_inline(b.sources, section, columns),
@@ -143,8 +151,15 @@ fn numbers(b: &mut Builder, file: Option<SourceId>, columns: &[Column]) -> Optio
     table.map_err(|problems| b.problems.extend(problems)).ok()
 }
 
+pub(super) fn direction(b: &mut Builder, words: &Option<[Ratio; 3]>) -> TravelDirection {
+    match words {
+        Some(words) => TravelDirection::Along(Vector3::from(b.triple("path.direction", words))),
+        None => TravelDirection::Heading,
+    }
+}
+
 /// Reports what a path says is wrong with it, at the line of its table where it speaks of one.
-fn refuse(b: &mut Builder, problems: &[PathProblem], table: Option<&NumberTable>) {
+pub(super) fn refuse(b: &mut Builder, problems: &[PathProblem], table: Option<&NumberTable>) {
     for problem in problems {
         let span = station_of(problem).and_then(|i| table?.row_spans.get(i).copied());
         let text = problem.to_string();
@@ -174,7 +189,9 @@ fn station_of(problem: &PathProblem) -> Option<usize> {
         PathProblem::TimeNotIncreasing { station, .. }
         | PathProblem::StationNotFinite { station, .. }
         | PathProblem::AngleJump { station, .. }
-        | PathProblem::TooSteep { station, .. } => Some(*station),
+        | PathProblem::TooSteep { station, .. }
+        | PathProblem::NotUniform { station, .. }
+        | PathProblem::TurnsTooFar { station, .. } => Some(*station),
         _ => None,
     }
 }

@@ -4,9 +4,12 @@ mod carts;
 mod meaning;
 mod messages;
 mod overrides;
+mod record_file;
 mod robustness;
 mod round_trip;
 mod schema;
+mod sensors;
+mod side_slope;
 mod tables;
 mod units;
 

@@ -7,18 +7,22 @@ use crate::scenario::kind::{KINDS, RATIO, UnitSystem};
 use crate::scenario::place::Wanted;
 use crate::study::ensemble::{self, Change, Ensemble, Perturbation};
 use crate::study::model::{ApplyChoice, EnsembleSection, PerturbationSection};
-use crate::study::parameter::Target;
+use crate::study::parameter::{Parameter, Target};
 
 /// The ensemble of a study, if it has one. Without any tolerance it has the standard ones.
-pub(super) fn bind(binder: &mut Binder, base: &Draft) -> Option<Ensemble> {
+pub(super) fn bind(
+    binder: &mut Binder,
+    base: &Draft,
+    parameters: &[Parameter],
+) -> Option<Ensemble> {
     let section = binder.text.section.ensemble.as_ref()?;
-    let mut perturbations = tolerances(binder, base, section);
+    let mut perturbations = tolerances(binder, base, parameters, section);
     for (i, written) in section.perturbations.iter().enumerate() {
         let at = format!("ensemble.perturbations[{i}]");
         perturbations.extend(perturbation(binder, written, &at));
     }
     if !has_tolerances(section) {
-        perturbations = ensemble::standard(base, &ensemble::Tolerances::default());
+        perturbations = ensemble::standard(base, parameters, &ensemble::Tolerances::default());
     }
     Some(Ensemble {
         members: section.members,
@@ -34,7 +38,12 @@ fn has_tolerances(section: &EnsembleSection) -> bool {
         || !section.perturbations.is_empty()
 }
 
-fn tolerances(binder: &mut Binder, base: &Draft, section: &EnsembleSection) -> Vec<Perturbation> {
+fn tolerances(
+    binder: &mut Binder,
+    base: &Draft,
+    parameters: &[Parameter],
+    section: &EnsembleSection,
+) -> Vec<Perturbation> {
     let units = binder.units();
     let posture = section.posture.as_ref().and_then(|t| t.si(units).ok());
     let place = section.place.as_ref().and_then(|t| t.si(units).ok());
@@ -53,7 +62,7 @@ fn tolerances(binder: &mut Binder, base: &Draft, section: &EnsembleSection) -> V
         ),
         (
             "path",
-            path.map(|most| ensemble::path(base, most)),
+            path.map(|most| ensemble::path(base, parameters, most)),
             "a pulse with `peak` or `delta_v`",
         ),
         (

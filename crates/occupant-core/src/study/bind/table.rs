@@ -78,7 +78,17 @@ struct Reader<'s, 'b, 'a> {
 
 impl Reader<'_, '_, '_> {
     fn error(&mut self, span: Span, found: impl Into<String>, expected: impl Into<String>) {
-        let problem = problem(Severity::Error, "", found, expected, None);
+        self.error_with_hint(span, found, expected, None);
+    }
+
+    fn error_with_hint(
+        &mut self,
+        span: Span,
+        found: impl Into<String>,
+        expected: impl Into<String>,
+        hint: Option<String>,
+    ) {
+        let problem = problem(Severity::Error, "", found, expected, hint);
         let diagnostic = Diagnostic::at(self.sources, span, problem);
         self.binder.problems.push(diagnostic);
     }
@@ -97,8 +107,12 @@ impl Reader<'_, '_, '_> {
                 column => columns.push(column),
             }
         }
-        for (i, parameter) in parameters.iter().enumerate() {
-            if !columns.iter().flatten().any(|c| c.parameter == i) {
+        let cells = cells(self.sources, line);
+        for parameter in parameters.iter() {
+            if !cells
+                .iter()
+                .any(|c| name_and_unit(c.text).0 == parameter.name)
+            {
                 let found = format!("no column `{}`", parameter.name);
                 self.error(line, found, "a column for each parameter");
             }
@@ -144,7 +158,7 @@ impl Reader<'_, '_, '_> {
             Ok(places) => places,
             Err(error) => {
                 let expected = format!("the name of a parameter, or a path: {}", error.expected);
-                self.error(span, error.found, expected);
+                self.error_with_hint(span, error.found, expected, error.hint);
                 return None;
             }
         };
@@ -203,7 +217,7 @@ impl Reader<'_, '_, '_> {
                     None
                 }
                 Err(error) => {
-                    self.error(cell.span, error.found, error.expected);
+                    self.error_with_hint(cell.span, error.found, error.expected, error.hint);
                     None
                 }
             },

@@ -1,0 +1,58 @@
+//! What is measured: a file of recorded data, or the path of a scenario's vehicle.
+
+use occupant_core::path::{AccelerationRecord, Attitude, Interpolation, PathCursor, VehiclePath};
+use occupant_core::scenario::RecordFile;
+use occupant_core::setup::Setup;
+use occupant_core::vehicle_risk::sampled;
+
+/// Where the motion comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// Sensors.
+    Recorded,
+    /// The path of a scenario, sampled.
+    Path,
+    /// The path of a scenario that has straight lines between stations, sampled.
+    PathOfStraightLines,
+}
+
+/// What is measured.
+#[derive(Debug)]
+pub struct Subject {
+    /// Its name: the file's.
+    pub name: String,
+    /// Where it comes from.
+    pub source: Source,
+    /// The record.
+    pub record: AccelerationRecord,
+    /// Attitude of the vehicle at the first sample; level if it was not recorded.
+    pub initial: Attitude,
+}
+
+impl Subject {
+    /// Recorded data.
+    pub fn recorded(name: &str, file: &RecordFile) -> Self {
+        Subject {
+            name: name.to_owned(),
+            source: Source::Recorded,
+            record: file.record.clone(),
+            initial: Attitude::default(),
+        }
+    }
+
+    /// The path of a scenario's vehicle over its run; none if it cannot be sampled at this interval.
+    pub fn path(name: &str, setup: &Setup, interval_s: f64) -> Option<Self> {
+        let (path, time) = (&setup.path, setup.time);
+        let straight = matches!(path, VehiclePath::Table(table) if table.interpolation() == Interpolation::Linear);
+        let pose = path.attitude(time.start_s, &mut PathCursor::default());
+        Some(Subject {
+            name: name.to_owned(),
+            source: match straight {
+                true => Source::PathOfStraightLines,
+                false => Source::Path,
+            },
+            record: sampled(path, time.start_s, time.end_s, interval_s)?,
+            initial: pose.attitude,
+        })
+    }
+}

@@ -1,0 +1,243 @@
+//! Runs side by side: every recorder sees, to the bit, what it would see of its run alone.
+
+use std::ops::ControlFlow;
+
+use occupant_core::kernel::Unlike;
+use occupant_core::lanes::{Ended, Job, Kernel, simulate_many, simulate_many_with};
+use occupant_core::material::Memory;
+use occupant_core::model::Model;
+use occupant_core::outcome::{Outcome, Status};
+use occupant_core::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::sample::Sample;
+use occupant_core::scenario::{Format, Scenario};
+use occupant_core::setup::{Integrator, Setup};
+use occupant_core::simulate::simulate;
+use occupant_tests::cart::lap;
+
+/// Everything in the outputs of a run as text, which shows every bit.
+#[derive(Clone, Default)]
+struct Texts {
+    outputs: Vec<String>,
+    /// The run stops after this output.
+    stop_at: Option<usize>,
+    /// The recorder breaks at this output.
+    break_at: Option<usize>,
+}
+
+impl Recorder for Texts {
+    fn record(&mut self, s: &Sample<'_>) -> Result<Flow, RecorderError> {
+        if self.break_at == Some(s.index) {
+            return Err("the disk is full".into());
+        }
+        let derived = (s.evaluation, s.touches, s.belts, s.energy, s.vehicle);
+        let text = format!("{:?} {derived:?} {:?}", s.checkpoint(), s.frames);
+        self.outputs.push(text);
+        Ok(match self.stop_at == Some(s.index) {
+            true => Flow::Stop,
+            false => Flow::Continue,
+        })
+    }
+}
+
+/// A run to be done: a setup, and what its recorder is told.
+#[derive(Clone)]
+struct Case {
+    setup: Setup,
+    texts: Texts,
+}
+
+/// What a run came to.
+type Result_ = (Result<Outcome, String>, Vec<String>);
+
+fn alone(case: &Case) -> Result_ {
+    let model = Model::new(case.setup.clone()).unwrap();
+    let mut texts = case.texts.clone();
+    let outcome = simulate(&model, &mut texts);
+    (outcome.map_err(|e| e.to_string()), texts.outputs)
+}
+
+/// The cases side by side, in their order, with the kernels that computed them.
+fn together(kernel: Kernel, cases: &[Case]) -> Vec<(Result_, Kernel)> {
+    let jobs = cases.iter().enumerate().map(|(tag, case)| Job {
+        tag,
+        model: Model::new(case.setup.clone()).unwrap(),
+        recorder: case.texts.clone(),
+    });
+    let mut results: Vec<_> = cases.iter().map(|_| None).collect();
+    simulate_many_with(kernel, jobs, |ended: Ended<usize, Texts>| {
+        let outcome = ended.outcome.map_err(|e| e.to_string());
+        let result = ((outcome, ended.recorder.outputs), ended.kernel);
+        assert!(results[ended.tag].replace(result).is_none(), "ended twice");
+        ControlFlow::Continue(())
+    });
+    results.into_iter().map(Option::unwrap).collect()
+}
+
+fn kernels() -> Vec<Kernel> {
+    let all = [Kernel::Scalar, Kernel::Lanes4, Kernel::Lanes8];
+    all.into_iter().filter(|k| k.is_available()).collect()
+}
+
+/// A cart with lap and torso belt, every number of it its own.
+fn cart(i: usize) -> Case {
+    let text = include_str!("../../scenarios/cart-lap-torso.toml");
+    let (speed, old) = (14.0 + 1.5 * i as f64, "speed = \"20 mph\"");
+    assert!(text.contains(old));
+    let text = text.replace(old, &format!("speed = \"{speed} mph\""));
+    let none = |name: &str| Err(format!("no file beside the text: {name}"));
+    let loaded = Scenario::from_text(&text, Format::Toml, "cart", &none);
+    let mut setup = loaded.and_then(|s| s.build()).unwrap().0;
+    let scale = 1.0 + 0.07 * i as f64;
+    for material in &mut setup.materials {
+        material.spring.k1_n_per_m *= scale;
+        material.friction /= scale;
+        if i.is_multiple_of(2) {
+            material.memory = Memory::Retain;
+        }
+    }
+    for belt in &mut setup.belts {
+        belt.webbing.k1_n_per_m /= scale;
+        belt.anchors_m[0].x += 0.004 * i as f64;
+    }
+    setup.joints.neck.damping_n_m_s *= scale;
+    setup.joints.left_elbow.damping_n_m_s *= scale;
+    setup.integrator = Integrator::Rk4 {
+        step_s: 3e-4 + 2e-5 * (i % 3) as f64,
+    };
+    setup.time.end_s = 0.09 + 0.011 * (i % 4) as f64;
+    setup.time.output_s = 1e-3 * (1 + i % 3) as f64;
+    let texts = Texts::default();
+    Case { setup, texts }
+}
+
+fn carts(count: usize) -> Vec<Case> {
+    (0..count).map(cart).collect()
+}
+
+fn compare(cases: &[Case], kernel: Kernel) -> Vec<(Result_, Kernel)> {
+    let results = together(kernel, cases);
+    for (i, (case, (result, _))) in cases.iter().zip(&results).enumerate() {
+        let expected = alone(case);
+        let of = cases.len();
+        assert_eq!(result.0, expected.0, "outcome {i} of {of}, {kernel}");
+        assert!(result.1 == expected.1, "outputs of {i} of {of}, {kernel}");
+    }
+    results
+}
+
+#[test]
+fn carts_side_by_side_have_the_bits_of_each_alone() {
+    for kernel in kernels() {
+        for count in [1, 2, 3, 4, 5, 9] {
+            let results = compare(&carts(count), kernel);
+            for ((outcome, _), used) in results {
+                let outcome = outcome.unwrap();
+                assert_eq!(outcome.status, Status::Completed);
+                assert!(outcome.first_touches.len() > 5);
+                assert_eq!(used, kernel);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_run_that_fails_stops_or_breaks_leaves_its_neighbours_alone() {
+    for kernel in kernels() {
+        let mut cases = carts(9);
+        // too stiff for the step: after 24 ms, and at once
+        cases[1].setup.joints.right_shoulder.damping_n_m_s = 1e3;
+        cases[4].setup.joints.neck.damping_n_m_s = 1e4;
+        cases[2].texts.stop_at = Some(31);
+        cases[3].texts.stop_at = Some(0);
+        cases[5].texts.break_at = Some(17);
+        cases[6].texts.break_at = Some(0);
+        let results = compare(&cases, kernel);
+        let outcome = |i: usize| &results[i].0.0;
+        let failed =
+            |i: usize| matches!(outcome(i), Ok(o) if matches!(o.status, Status::Failed(_)));
+        assert!(failed(1) && failed(4), "{:?} {:?}", outcome(1), outcome(4));
+        let stopped = |i: usize| outcome(i).as_ref().unwrap().status == Status::Stopped;
+        assert!(stopped(2) && stopped(3));
+        assert!(outcome(5).is_err() && outcome(6).is_err());
+    }
+}
+
+#[test]
+fn a_model_of_another_structure_or_with_error_control_runs_alone() {
+    let adaptive = Integrator::Adaptive {
+        relative: 1e-3,
+        absolute_m: 1e-4,
+        absolute_m_s: 1e-3,
+        min_step_s: 1e-9,
+        max_step_s: 1e-3,
+    };
+    for kernel in kernels() {
+        let mut cases = carts(5);
+        cases[2].setup.belts.pop();
+        cases[3].setup.integrator = adaptive;
+        let results = compare(&cases, kernel);
+        let used: Vec<_> = results.into_iter().map(|(_, kernel)| kernel).collect();
+        let scalar = Kernel::Scalar;
+        assert_eq!(used, [kernel, kernel, scalar, scalar, kernel]);
+    }
+}
+
+#[test]
+fn runs_of_another_structure_get_the_lanes_when_these_are_free() {
+    let rk4 = Integrator::Rk4 { step_s: 4e-4 };
+    for kernel in kernels() {
+        let mut first = cart(0);
+        first.texts.stop_at = Some(0);
+        let lap = Case {
+            setup: lap(rk4),
+            texts: Texts::default(),
+        };
+        let results = compare(&[first, lap.clone(), lap], kernel);
+        assert!(results.iter().all(|(_, used)| *used == kernel));
+    }
+}
+
+#[test]
+fn jobs_are_taken_when_there_is_room_and_the_caller_may_break_off() {
+    let mut taken = 0;
+    let jobs = carts(12).into_iter().map(|case| {
+        taken += 1;
+        let (tag, recorder) = ((), case.texts);
+        let model = Model::new(case.setup).unwrap();
+        Job {
+            tag,
+            model,
+            recorder,
+        }
+    });
+    let mut ended = 0;
+    simulate_many(jobs, |_| {
+        ended += 1;
+        match ended < 2 {
+            true => ControlFlow::Continue(()),
+            false => ControlFlow::Break(()),
+        }
+    });
+    assert_eq!(ended, 2);
+    assert!(taken <= 9, "{taken} taken");
+}
+
+#[test]
+fn what_keeps_models_apart_has_a_name() {
+    let system = |change: &dyn Fn(&mut Setup)| {
+        let mut setup = cart(0).setup;
+        change(&mut setup);
+        Model::new(setup).unwrap().system().clone()
+    };
+    let base = system(&|_| {});
+    let unlike = |change: &dyn Fn(&mut Setup)| base.zip(&system(change), |a, _| a).err();
+    assert_eq!(unlike(&|s| s.gravity_m_s2 = 9.0), None);
+    let belts = unlike(&|s| s.belts.truncate(1));
+    assert_eq!(belts, Some(Unlike::Belts));
+    assert_eq!(
+        unlike(&|s| s.joints.upper_back.spring = None),
+        Some(Unlike::Springs)
+    );
+    let fewer = unlike(&|s| s.surfaces.truncate(s.surfaces.len() - 1));
+    assert_eq!(fewer, Some(Unlike::Pairs));
+}
