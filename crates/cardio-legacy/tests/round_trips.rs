@@ -158,7 +158,7 @@ fn with_fields(name: &str, fields: &[(&str, &str)]) -> String {
 fn what_was_lost_once_comes_back() {
     let (driver, exact) = ("driver-lap-torso.dat", "driver-exact-state.dat");
     let (zero, blank) = ("        0.", "          ");
-    let cases: [(&str, &[(&str, &str)]); 9] = [
+    let cases: [(&str, &[(&str, &str)]); 11] = [
         // Was rounded to 7000000000 (found by fuzzing).
         (driver, &[("ZV(12)", "7000000002")]),
         // Does not fit with its exponent behind one digit before the point.
@@ -177,14 +177,16 @@ fn what_was_lost_once_comes_back() {
         // In the middle of the car, or without wheel, y does not tell the seats of left and right apart.
         (driver, &[("SWP", zero)]),
         (driver, &[("SWP", "      -14."), ("DSW", zero)]),
-        // A surface that is left out leaves points of its neighbours open.
+        // Surfaces that are left out leave open which corner of their neighbours is which point.
+        (exact, &[("STIF1(15)", zero), ("STIF2(15)", zero)]),
+        (exact, &[("STIF1(13)", zero), ("STIF2(13)", zero)]),
         (
-            driver,
+            exact,
             &[
-                ("STIF1(8)", zero),
-                ("STIF2(8)", zero),
-                ("STIF1(7)", zero),
-                ("STIF2(7)", zero),
+                ("STIF1(12)", zero),
+                ("STIF2(12)", zero),
+                ("STIF1(14)", zero),
+                ("STIF2(14)", zero),
             ],
         ),
         // The normalised form leaves SLACK out, the notes kept it.
@@ -193,9 +195,9 @@ fn what_was_lost_once_comes_back() {
         (
             driver,
             &[
-                ("XV(6)", " 123456789"),
-                ("XV(7)", " 123456789"),
-                ("XV(22)", " 123456789"),
+                ("XV(6)", "7000000002"),
+                ("XV(7)", "7000000002"),
+                ("XV(22)", "7000000002"),
             ],
         ),
     ];
