@@ -6,19 +6,24 @@
 
 mod check;
 mod check_text;
+mod compare;
 mod completions;
 mod convert;
 mod difference;
 pub(crate) mod exit;
+mod export;
 mod extend;
+mod history_args;
 mod interrupt;
 mod measure_table;
 mod measures;
 mod new;
 pub(crate) mod output_file;
+mod plot;
 mod print;
 mod progress;
 pub(crate) mod recording;
+mod report;
 mod resume;
 mod risk;
 pub(crate) mod run;
@@ -28,6 +33,7 @@ pub(crate) mod speak;
 mod summary_table;
 mod sweep;
 pub(crate) mod table;
+mod view;
 
 use std::process::ExitCode;
 
@@ -59,7 +65,12 @@ enum Command {
     Schema(schema::Args),
     Convert(convert::Args),
     Print(print::Args),
+    Plot(plot::Args),
+    Export(export::Args),
+    Compare(compare::Args),
     Measures(measures::Args),
+    View(view::Args),
+    Report(report::Args),
     Risk(risk::Args),
     Completions(completions::Args),
 }
@@ -74,7 +85,12 @@ pub fn main() -> ExitCode {
         Command::Schema(args) => schema::print(&args),
         Command::Convert(args) => convert::convert(&args),
         Command::Print(args) => print::print_run(&args),
+        Command::Plot(args) => plot::plot(&args),
+        Command::Export(args) => export::export(&args),
+        Command::Compare(args) => compare::compare(&args),
         Command::Measures(args) => measures::measures(&args),
+        Command::View(args) => view::view(&args),
+        Command::Report(args) => report::report(&args),
         Command::Risk(args) => risk::risk(&args),
         Command::Completions(args) => completions::print(&args),
     };
