@@ -298,7 +298,6 @@ mod tests {
         };
         let found = rate(track(&ours), track(&theirs), window).unwrap();
         let r = found.iso18571.unwrap().overall;
-        // 1 − 3e−14
         assert!((r - 1.0).abs() < 1e-9, "{r}");
         assert!(
             rate(track(&ours), track(&theirs), Window::default())

@@ -232,7 +232,7 @@ fn two_runs_are_compared_by_names() {
         .iter()
         .find(|p| p["channel"] == "head.acceleration.resultant")
         .unwrap();
-    // the same motion seen at two rates (0.999)
+    // the same motion seen at two rates (0.996)
     assert!(
         head["iso18571"]["overall"].as_f64().unwrap() > 0.98,
         "{head}"

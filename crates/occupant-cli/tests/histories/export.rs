@@ -205,7 +205,7 @@ fn an_iso_mme_test_has_codes_units_and_j211_signs() {
         .iter()
         .find(|p| p["channel"] == "head.acceleration.z")
         .unwrap();
-    // the test is filtered twice, hence not 1 (0.99)
+    // the test is filtered twice, hence not 1 (0.9986)
     assert!(
         head["iso18571"]["overall"].as_f64().unwrap() > 0.97,
         "{head}"
@@ -288,7 +288,16 @@ fn what_cannot_be_exported_is_said() {
             "CFC60",
         ),
         (
-            vec!["export", run, "-o", "a.mme", "--channels", "energy.*"],
+            vec![
+                "export",
+                run,
+                "-o",
+                "a.mme",
+                "--channels",
+                "energy.*",
+                "--interval",
+                "1 ms",
+            ],
             "none of these channels",
         ),
         (vec!["export", run, "-o", "a.mme"], "equally spaced"),
