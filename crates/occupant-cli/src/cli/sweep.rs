@@ -15,6 +15,8 @@ use super::interrupt::Interrupt;
 use super::run::program;
 use super::speak::{self, say};
 use super::table::facts;
+use crate::ensemble::of_table::{self, Ensembles};
+use crate::ensemble::text::of_study;
 use crate::sweep::census::Census;
 use crate::sweep::engine::{self, Job};
 use crate::sweep::finished::Finished;
@@ -279,6 +281,7 @@ impl Sweep {
             self.interrupt.flag(),
         )?;
         self.refuse_interrupted()?;
+        let ensembles = ensembles(&self.folder, manifest, self.csv)?;
         if quiet {
             return Ok(Done::Well);
         }
@@ -288,7 +291,7 @@ impl Sweep {
             progress.elapsed_s(),
             self.threads
         );
-        tell(&census, &files, Some(work))
+        tell(&census, &files, Some(work), ensembles.as_ref())
     }
 }
 
@@ -321,9 +324,10 @@ fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     let lacking = kept::missing(&target, census.worst().into_iter());
     let stop = AtomicBool::new(false);
     kept::write(&plan, &target, &lacking, threads(args.threads), &stop)?;
+    let ensembles = ensembles(&target, &manifest, csv)?;
     match args.quiet {
         true => Ok(Done::Well),
-        false => tell(&census, &files, None),
+        false => tell(&census, &files, None, ensembles.as_ref()),
     }
 }
 
@@ -447,8 +451,28 @@ fn sha256_of(manifest: &Manifest) -> Result<String, Failure> {
     sha256.map_err(|error| Failure::plain(format!("the manifest cannot be written: {error}")))
 }
 
+/// What is stable, where the study has ensembles.
+fn ensembles(
+    folder: &Folder,
+    manifest: &Manifest,
+    csv: bool,
+) -> Result<Option<Ensembles>, Failure> {
+    if !of_table::has_ensembles(manifest) {
+        return Ok(None);
+    }
+    let found = of_table::write(&folder.parquet(), manifest, csv);
+    found
+        .map(Some)
+        .map_err(|reason| Failure::BrokeOff(format!("error: {reason}")))
+}
+
 /// What it came to.
-fn tell(census: &Census, files: &[PathBuf], work: Option<String>) -> Result<Done, Failure> {
+fn tell(
+    census: &Census,
+    files: &[PathBuf],
+    work: Option<String>,
+    ensembles: Option<&Ensembles>,
+) -> Result<Done, Failure> {
     let mut ended = vec![format!("{} completed", census.completed)];
     for (count, word) in [
         (census.failed, "failed"),
@@ -469,9 +493,15 @@ fn tell(census: &Census, files: &[PathBuf], work: Option<String>) -> Result<Done
         lines.push(("doubtful", format!("{} {found}", census.unbalanced)));
     }
     lines.extend(work.map(|work| ("computed", work)));
-    let names: Vec<String> = files.iter().map(|f| f.display().to_string()).collect();
+    let more = ensembles.iter().flat_map(|e| &e.files);
+    let names: Vec<String> = files
+        .iter()
+        .chain(more)
+        .map(|f| f.display().to_string())
+        .collect();
     lines.push(("written", names.join(", ")));
-    speak::print(&facts(&lines))?;
+    let stable = ensembles.map(|e| format!("\n{}", of_study(e)));
+    speak::print(&(facts(&lines) + &stable.unwrap_or_default()))?;
     Ok(Done::Well)
 }
 
