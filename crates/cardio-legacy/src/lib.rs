@@ -36,7 +36,20 @@
 //! | [`field`] | the field rules of FORTRAN IV |
 //! | [`CompartmentLayout`] | which points bound which surface, from `compartment.toml` |
 //!
-//! The crate reads no files and prints nothing; no bytes make it panic. `docs/cards.md` holds the tables of all cards, the
+//! # Rules that hold for any bytes
+//!
+//! Two fuzz targets (`fuzz/`, which says how to run them and what has been run) assert them; `tests/any_bytes.rs` and
+//! `tests/round_trips.rs` assert them for a fixed set of bytes.
+//!
+//! 1. In every strictness, [`Deck::parse`] comes to an end without a panic, and its diagnostics can be printed.
+//! 2. It hands out a deck, or its diagnostics hold an error, or both; it is never silent about a file without a deck.
+//! 3. A deck that it hands out can be written. [`write_file`]'s cards are read again without an error, and the deck read from
+//!    them has no [differences](Deck::differences) from the first one.
+//! 4. [`Deck::to_scenario`] gives a scenario or an error. The scenario is accepted and built by the scenario format.
+//! 5. [`Deck::from_scenario`] finds that such a scenario fits on cards, and gives a deck without differences from
+//!    [`Deck::normalised`]: every number of every field that has an effect comes back as the same number.
+//!
+//! The crate reads no files and prints nothing. `docs/cards.md` holds the tables of all cards, the
 //! decisions where the report is silent, and what becomes of each card in a scenario.
 
 mod back;

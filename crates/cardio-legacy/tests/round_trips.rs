@@ -141,3 +141,74 @@ fn cards_cut_short_come_back() {
     assert_eq!(failures, [] as [String; 0]);
     assert!(returned > 20, "{returned}");
 }
+
+/// A deck of the repository with texts punched into fields by their names.
+fn with_fields(name: &str, fields: &[(&str, &str)]) -> String {
+    let mut lines = lines(name);
+    let (decks, _) = Deck::parse(lines.join("\n"), &ParseOptions::default());
+    for (field, text) in fields {
+        let (card, place) = decks[0].place_of(field).expect("a field of the deck");
+        let line = &mut lines[card.line.expect("read from a file") - 1];
+        punch(line, usize::from(place.columns.first), text);
+    }
+    lines.join("\n") + "\n"
+}
+
+#[test]
+fn what_was_lost_once_comes_back() {
+    let (driver, exact) = ("driver-lap-torso.dat", "driver-exact-state.dat");
+    let (zero, blank) = ("        0.", "          ");
+    let cases: [(&str, &[(&str, &str)]); 11] = [
+        // Was rounded to 7000000000 (found by fuzzing).
+        (driver, &[("ZV(12)", "7000000002")]),
+        // Does not fit with its exponent behind one digit before the point.
+        (driver, &[("VXVC", "1234567-20")]),
+        // A stop without angles has no damping in a scenario.
+        (driver, &[("AGNN", zero), ("AGSN", zero)]),
+        (
+            driver,
+            &[
+                ("AGNK(1)", blank),
+                ("AGSK(1)", blank),
+                ("AGNK(2)", blank),
+                ("AGSK(2)", blank),
+            ],
+        ),
+        // In the middle of the car, or without wheel, y does not tell the seats of left and right apart.
+        (driver, &[("SWP", zero)]),
+        (driver, &[("SWP", "      -14."), ("DSW", zero)]),
+        // Surfaces that are left out leave open which corner of their neighbours is which point.
+        (exact, &[("STIF1(15)", zero), ("STIF2(15)", zero)]),
+        (exact, &[("STIF1(13)", zero), ("STIF2(13)", zero)]),
+        (
+            exact,
+            &[
+                ("STIF1(12)", zero),
+                ("STIF2(12)", zero),
+                ("STIF1(14)", zero),
+                ("STIF2(14)", zero),
+            ],
+        ),
+        // The normalised form leaves SLACK out, the notes kept it.
+        (exact, &[("SLACK(1)", "      0.25")]),
+        // The wheel's place rounds to more than a fixed bound.
+        (
+            driver,
+            &[
+                ("XV(6)", "7000000002"),
+                ("XV(7)", "7000000002"),
+                ("XV(22)", "7000000002"),
+            ],
+        ),
+    ];
+    for (deck, fields) in cases {
+        let text = with_fields(deck, fields);
+        assert_eq!(round_trip(&text), Ok(Fate::CameBack), "{fields:?}");
+    }
+    let titled = with_fields(driver, &[]).replacen("DRIVER", " D\\\"RIVER # = '''", 1);
+    assert_eq!(
+        round_trip(&titled),
+        Ok(Fate::CameBack),
+        "quotes in the title"
+    );
+}

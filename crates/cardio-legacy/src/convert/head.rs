@@ -75,10 +75,10 @@ fn times(w: &mut Writer<'_>) {
 fn switches(w: &mut Writer<'_>) {
     let plots = match w.deck.plot() {
         Plot::Standard => {
-            "STAN (card 16): 14 plots were drawn; every run records the histories that they showed"
+            "STAN (card 16): 14 plots were drawn, of variables that the report does not name; `occupant plot RUN.mcap -o plots.svg` draws fourteen of our choice from any run"
         }
         Plot::None => {
-            "NONE (card 16): no plots were drawn; every run records its histories nevertheless"
+            "NONE (card 16): no plots were drawn; `occupant plot` can draw them from any run nevertheless"
         }
     };
     let disk = if w.value("NDISK") == 0.0 {

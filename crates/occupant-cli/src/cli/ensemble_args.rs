@@ -26,6 +26,10 @@ use crate::ensemble::members::{Left, Member, Members};
 use crate::ensemble::report::Report;
 use crate::ensemble::table_file::Form;
 use crate::ensemble::{band_table, plot};
+use crate::picture::Format;
+
+/// Pixels of a PNG for each unit of the drawing (1/96 inch).
+const PIXELS: f64 = 2.0;
 
 /// Flags of an ensemble.
 #[derive(Clone, Debug, clap::Args)]
@@ -58,7 +62,7 @@ pub struct EnsembleArgs {
     )]
     stable_within: String,
 
-    /// Write the bands over time: NAME.csv or NAME.parquet for numbers, NAME.svg for a picture; may be repeated
+    /// Write the bands over time: NAME.csv or NAME.parquet for numbers, NAME.svg or NAME.png for a picture; may be repeated
     #[arg(long, value_name = "FILE", requires = "ensemble")]
     bands: Vec<PathBuf>,
 
@@ -85,7 +89,7 @@ pub struct Wanted {
 #[derive(Clone, Copy)]
 enum BandFile {
     Table(Form),
-    Svg,
+    Picture(Format),
 }
 
 /// An ensemble that has been run.
@@ -207,11 +211,13 @@ impl Wanted {
                 let about = format!("{}: {title}: {words}", program());
                 band_table::write(&report.bands, path, *form, self.existing, about)
             }
-            BandFile::Svg => write_text(
-                path,
-                self.existing,
-                &plot::svg(&report.bands, title, &words),
-            ),
+            BandFile::Picture(format) => {
+                let drawing = plot::svg(&report.bands, title, &words);
+                let bytes = format.encode(&drawing, PIXELS).map_err(|e| {
+                    Failure::BrokeOff(format!("error: {} cannot be made: {e}", path.display()))
+                })?;
+                write_bytes(path, self.existing, &bytes)
+            }
         };
         written
             .map(|path| path.display().to_string())
@@ -219,27 +225,24 @@ impl Wanted {
     }
 }
 
-fn write_text(path: &Path, existing: Existing, text: &str) -> Result<PathBuf, String> {
+fn write_bytes(path: &Path, existing: Existing, bytes: &[u8]) -> Result<PathBuf, String> {
     use std::io::Write;
     let mut file = PartialFile::create(path, existing).map_err(|e| e.to_string())?;
-    let written = file.write_all(text.as_bytes());
+    let written = file.write_all(bytes);
     written.map_err(|e| format!("{} cannot be written: {e}", path.display()))?;
     file.publish().map_err(|e| e.to_string())
 }
 
 fn band_file(path: &Path) -> Result<BandFile, Failure> {
-    let svg = path
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("svg"));
-    match (Form::of(path), svg) {
+    match (Form::of(path), Format::of(path)) {
         (Some(form), _) => Ok(BandFile::Table(form)),
-        (None, true) => Ok(BandFile::Svg),
-        (None, false) => Err(Failure::with_help(
+        (None, Some(format)) => Ok(BandFile::Picture(format)),
+        (None, None) => Err(Failure::with_help(
             format!(
                 "--bands {}: its ending says no kind of file",
                 path.display()
             ),
-            "give NAME.csv, NAME.parquet or NAME.svg",
+            "give NAME.csv, NAME.parquet, NAME.svg or NAME.png",
         )),
     }
 }

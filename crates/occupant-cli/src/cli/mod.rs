@@ -6,20 +6,25 @@
 
 mod check;
 mod check_text;
+mod compare;
 mod completions;
 mod convert;
 mod difference;
 mod ensemble_args;
 pub(crate) mod exit;
+mod export;
 mod extend;
+mod history_args;
 pub(crate) mod interrupt;
 mod measure_table;
 mod measures;
 mod new;
 pub(crate) mod output_file;
+mod plot;
 mod print;
 mod progress;
 pub(crate) mod recording;
+mod report;
 mod resume;
 mod risk;
 pub(crate) mod run;
@@ -29,6 +34,7 @@ pub(crate) mod speak;
 mod summary_table;
 mod sweep;
 pub(crate) mod table;
+mod view;
 
 use std::process::ExitCode;
 
@@ -60,7 +66,12 @@ enum Command {
     Schema(schema::Args),
     Convert(convert::Args),
     Print(print::Args),
+    Plot(plot::Args),
+    Export(export::Args),
+    Compare(compare::Args),
     Measures(measures::Args),
+    View(view::Args),
+    Report(report::Args),
     Risk(risk::Args),
     Completions(completions::Args),
 }
@@ -75,7 +86,12 @@ pub fn main() -> ExitCode {
         Command::Schema(args) => schema::print(&args),
         Command::Convert(args) => convert::convert(&args),
         Command::Print(args) => print::print_run(&args),
+        Command::Plot(args) => plot::plot(&args),
+        Command::Export(args) => export::export(&args),
+        Command::Compare(args) => compare::compare(&args),
         Command::Measures(args) => measures::measures(&args),
+        Command::View(args) => view::view(&args),
+        Command::Report(args) => report::report(&args),
         Command::Risk(args) => risk::risk(&args),
         Command::Completions(args) => completions::print(&args),
     };

@@ -47,7 +47,7 @@ pub struct Args {
     resume: Option<PathBuf>,
 
     /// Write no file, only the summary
-    #[arg(long, conflicts_with_all = ["output", "force"])]
+    #[arg(long, conflicts_with = "output")]
     no_mcap: bool,
 
     /// Replace files that exist

@@ -132,7 +132,9 @@ impl Bands {
                 .collect();
             let band = Band::of(&members);
             let unit = channel.unit.symbol();
-            let within = (tolerance.relative * range(&band.median)).max(smallest("", unit));
+            let within = (tolerance.relative * range(&band.median))
+                .max(smallest("", unit))
+                .max(put_in(&band, unit));
             ChannelBand {
                 name: channel.name.clone(),
                 unit,
@@ -158,6 +160,14 @@ fn widest(band: &Band, time_s: &[f64]) -> Option<(f64, f64)> {
         .filter(|(w, _)| w.is_finite());
     // the first of equal ones
     timed.reduce(|a, b| if b.0 > a.0 { b } else { a })
+}
+
+/// Twice the width at the start, of places and angles: that is what the changes have put in, and no growth.
+fn put_in(band: &Band, unit: &str) -> f64 {
+    match (unit, band.q95.first(), band.q05.first()) {
+        ("m" | "rad", Some(high), Some(low)) => 2.0 * (high - low),
+        _ => 0.0,
+    }
 }
 
 /// Greatest less least: a place has no zero that its size could be told from.

@@ -52,6 +52,22 @@ impl Judged {
     }
 }
 
+/// Judges figures (name, unit, a value for each member). Left out are those that no member has, and the times of peaks that
+/// are too small for anybody to act on: when nothing was greatest says nothing.
+pub fn judge<'a>(
+    figures: impl Iterator<Item = (&'a str, &'a str, Vec<f64>)>,
+    tolerance: Tolerance,
+) -> Vec<Judged> {
+    let mut judged: Vec<Judged> = figures
+        .filter_map(|(name, unit, values)| Judged::of(name, unit, &values, tolerance))
+        .collect();
+    let of_nothing = |f: &&Judged| f.spread.greatest.abs() <= smallest(&f.name, &f.unit);
+    let nothing = judged.iter().filter(of_nothing);
+    let times: Vec<String> = nothing.map(|f| format!("{}_time", f.name)).collect();
+    judged.retain(|f| !times.contains(&f.name));
+    judged
+}
+
 /// Whether a figure is one of the run's result, and not of the work that it took or of how well it was computed.
 pub fn is_result(name: &str) -> bool {
     !(name.starts_with("solver.") || name.starts_with("run.") || name == "energy.balance_error")
@@ -120,6 +136,16 @@ mod tests {
         assert_eq!(verdict("a", "s", 10.0, 0.0029), Some(Verdict::NotStable));
         assert_eq!(verdict("hic15", "1", 5.0, 5.0), Some(Verdict::Stable));
         assert_eq!(verdict("nij", "1", 0.5, 0.03), Some(Verdict::NotStable));
+    }
+
+    #[test]
+    fn when_nothing_was_greatest_is_no_figure() {
+        let of = |peak: f64| {
+            let times = (0..12).map(f64::from).collect();
+            let figures = [("a.peak", "N", vec![peak; 12]), ("a.peak_time", "s", times)];
+            judge(figures.into_iter(), Tolerance::default()).len()
+        };
+        assert_eq!((of(50.0), of(51.0)), (1, 2));
     }
 
     #[test]

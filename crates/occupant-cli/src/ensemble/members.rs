@@ -43,6 +43,12 @@ pub struct Left {
 }
 
 impl Left {
+    /// The value of a figure by its place in the list; NaN if there is none.
+    pub fn value(&self, figure: usize) -> f64 {
+        let value = self.figures.get(figure).and_then(|f| f.2);
+        value.unwrap_or(f64::NAN)
+    }
+
     /// What the summary of a run and the histories say.
     pub fn of(summary: &Summary, model: &Model, histories: Series) -> Left {
         let figures = summary.figures(model).into_iter();

@@ -13,7 +13,7 @@ use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType};
 use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 
-use super::judge::{Judged, Tolerance, is_result, rule, word};
+use super::judge::{Judged, Tolerance, is_result, judge, rule, word};
 use super::table_file::{Cell, Form, Kind, TableFile};
 use crate::cli::output_file::Existing;
 use crate::sweep::manifest::{Manifest, Role};
@@ -261,23 +261,27 @@ impl Writing {
     fn sample(&mut self, sample: &Sample, places: &Places) -> Result<(), String> {
         self.found.samples += 1;
         self.found.failed += sample.failed;
-        for (i, ((name, unit, _), values)) in places.figures.iter().zip(&sample.values).enumerate()
-        {
-            let judged = Judged::of(name, unit, values, self.tolerance);
-            *match judged.as_ref().map(|j| j.verdict) {
-                Some(Verdict::Stable) => &mut self.found.figures[i].stable,
-                Some(Verdict::NotStable) => &mut self.found.figures[i].unstable,
-                Some(Verdict::TooFew) => &mut self.found.figures[i].too_few,
-                None => &mut self.found.figures[i].absent,
+        let figures = places.figures.iter().zip(&sample.values);
+        let figures =
+            figures.map(|((name, unit, _), values)| (name.as_str(), unit.as_str(), values.clone()));
+        let judged = judge(figures, self.tolerance);
+        for counted in &mut self.found.figures {
+            let figure = judged.iter().find(|j| j.name == counted.name);
+            *match figure.map(|j| j.verdict) {
+                Some(Verdict::Stable) => &mut counted.stable,
+                Some(Verdict::NotStable) => &mut counted.unstable,
+                Some(Verdict::TooFew) => &mut counted.too_few,
+                None => &mut counted.absent,
             } += 1;
-            let Some(judged) = judged else { continue };
-            let row = row(sample, &judged, self.tolerance);
+        }
+        for figure in &judged {
+            let row = row(sample, figure, self.tolerance);
             for table in &mut self.tables {
                 table.row(row.clone())?;
             }
-            if self.found.samples == 1 {
-                self.found.first.push(judged);
-            }
+        }
+        if self.found.samples == 1 {
+            self.found.first = judged;
         }
         Ok(())
     }

@@ -6,6 +6,8 @@
 use std::fmt::Write as _;
 
 use super::bands::{Bands, ChannelBand};
+use crate::picture::font::FAMILY;
+use crate::picture::svg::escape;
 
 const PANEL: [f64; 2] = [440.0, 250.0];
 /// Room beside the axes: left, top, right, bottom.
@@ -24,7 +26,7 @@ pub fn svg(bands: &Bands, title: &str, words: &str) -> String {
         HEAD + rows as f64 * PANEL[1] + 10.0,
     );
     let mut out = format!(
-        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" viewBox=\"0 0 {width:.0} {height:.0}\" font-family=\"DejaVu Sans, Helvetica, Arial, sans-serif\" font-size=\"11\" fill=\"#222\">\n<title>{0}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n<text x=\"14\" y=\"24\" font-size=\"16\" font-weight=\"bold\">{0}</text>\n<text x=\"14\" y=\"42\">{1}</text>\n",
+        "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" viewBox=\"0 0 {width:.0} {height:.0}\" font-family=\"{FAMILY}\" font-size=\"11\" fill=\"#222\">\n<title>{0}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n<text x=\"14\" y=\"24\" font-size=\"16\" font-weight=\"bold\">{0}</text>\n<text x=\"14\" y=\"42\">{1}</text>\n",
         escape(title),
         escape(words)
     );
@@ -137,7 +139,7 @@ fn panel(out: &mut String, band: &ChannelBand, time_s: &[f64], [left, top]: [f64
         };
         let _ = writeln!(
             out,
-            "<path d=\"M{x:.2} {y:.2}V{bottom:.2}\" stroke=\"{RED}\"/><text x=\"{at:.2}\" y=\"{:.2}\" text-anchor=\"{anchor}\" fill=\"{RED}\">{:.1} ms</text>",
+            "<path d=\"M{x:.2} {y:.2}V{bottom:.2}\" stroke=\"{RED}\"/><text x=\"{at:.2}\" y=\"{:.2}\" text-anchor=\"{anchor}\" fill=\"{RED}\" stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\">{:.1} ms</text>",
             y + 12.0,
             lost_s * 1e3
         );
@@ -256,17 +258,6 @@ fn shown_unit(unit: &str) -> (f64, &str) {
         "m" => (1e-3, "mm"),
         unit => (1.0, unit),
     }
-}
-
-/// A text for XML.
-fn escape(text: &str) -> String {
-    let plain = text.chars().map(|c| if c.is_control() { ' ' } else { c });
-    let plain: String = plain.collect();
-    plain
-        .replace('&', "&amp;")
-        .replace('<', "&lt;")
-        .replace('>', "&gt;")
-        .replace('"', "&quot;")
 }
 
 #[cfg(test)]

@@ -4,7 +4,7 @@ use occupant_core::study::Tolerances;
 use serde::Serialize;
 
 use super::bands::{Bands, ChannelBand};
-use super::judge::{Judged, Tolerance, rule, word};
+use super::judge::{Judged, Tolerance, judge, rule, word};
 use super::members::{Left, Member};
 
 /// An ensemble that has been run.
@@ -40,28 +40,27 @@ impl Report {
                 Member::Failed(reason) => Some((number, reason.clone())),
                 Member::Completed(_) => None,
             });
-        let judge = |(i, (name, unit, value)): (usize, &(String, &'static str, Option<f64>))| {
-            let mut values = vec![value.unwrap_or(f64::NAN)];
-            values.extend(others.iter().map(|member| match member {
-                Member::Completed(left) => {
-                    left.figures.get(i).and_then(|f| f.2).unwrap_or(f64::NAN)
-                }
-                Member::Failed(_) => f64::NAN,
-            }));
-            Judged::of(name, unit, &values, tolerance)
+        let value = |i: usize, member: &Member| match member {
+            Member::Completed(left) => left.value(i),
+            Member::Failed(_) => f64::NAN,
         };
+        let figures = nominal
+            .figures
+            .iter()
+            .enumerate()
+            .map(|(i, (name, unit, _))| {
+                let first = std::iter::once(nominal.value(i));
+                let values = first.chain(others.iter().map(|m| value(i, m)));
+                (name.as_str(), *unit, values.collect())
+            });
+        let figures = judge(figures, tolerance);
         Report {
             members: others.len() as u64 + 1,
             seed,
             changes,
             tolerance,
             failed: failed.collect(),
-            figures: nominal
-                .figures
-                .iter()
-                .enumerate()
-                .filter_map(judge)
-                .collect(),
+            figures,
             bands,
         }
     }

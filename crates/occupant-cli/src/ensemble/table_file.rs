@@ -135,8 +135,8 @@ impl TableFile {
         let path = self.path;
         let file = match self.writer {
             Writer::Csv(file) => file,
-            Writer::Parquet(mut writer) => {
-                let finished = writer.finish().and_then(|_| writer.into_inner());
+            Writer::Parquet(writer) => {
+                let finished = writer.into_inner();
                 finished.map_err(|e| unwritten(&path, &words(&e)))?
             }
         };

@@ -33,6 +33,8 @@ const ALWAYS: [&str; 17] = [
 ];
 /// So many failed members are named.
 const NAMED: usize = 3;
+/// So many figures are named that the table does not show.
+const LISTED: usize = 12;
 /// Fewer members have no verdict.
 const ENOUGH: u64 = 10;
 
@@ -69,16 +71,20 @@ fn what(report: &Report) -> String {
 
 fn changes(most: &Tolerances, seed: u64) -> String {
     format!(
-        "{:.3}° of each angle, {:.3} mm of place, {} % of the pulse, {} % of each stiffness (seed {seed})",
-        most.posture_rad.to_degrees(),
-        most.place_m * 1e3,
+        "{}° of each angle, {} mm of place, {} % of the pulse, {} % of each stiffness (seed {seed})",
+        trimmed(most.posture_rad.to_degrees()),
+        trimmed(most.place_m * 1e3),
         percent(most.path),
         percent(most.stiffness)
     )
 }
 
 fn percent(part: f64) -> String {
-    let text = format!("{:.3}", 100.0 * part);
+    trimmed(100.0 * part)
+}
+
+fn trimmed(value: f64) -> String {
+    let text = format!("{value:.3}");
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
@@ -185,11 +191,23 @@ fn conclusion(report: &Report) -> String {
             )
         }
         [] => format!("all {all} figures are stable\n"),
-        some => format!(
-            "NOT STABLE, {} of {all} figures: {}\n",
-            some.len(),
-            some.join(", ")
-        ),
+        some => {
+            let more: Vec<&str> = some
+                .iter()
+                .copied()
+                .filter(|name| !is_shown(name))
+                .collect();
+            let named = more.iter().take(LISTED).copied();
+            let mut named: Vec<&str> = named.collect();
+            if more.len() > LISTED {
+                named.push("… (--json has all)");
+            }
+            let besides = match named.as_slice() {
+                [] => String::new(),
+                named => format!("; besides those above: {}", named.join(", ")),
+            };
+            format!("NOT STABLE: {} of {all} figures{besides}\n", some.len())
+        }
     }
 }
 

@@ -47,6 +47,7 @@
 //! # Ok::<(), occupant_core::scenario::Diagnostics>(())
 //! ```
 
+pub mod analysis;
 mod bind;
 mod copula;
 mod design;

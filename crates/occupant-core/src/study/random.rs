@@ -20,6 +20,8 @@ pub(super) enum Purpose {
     Morris = 5,
     /// Members of an ensemble.
     Ensemble = 6,
+    /// Rows of a resample.
+    Bootstrap = 7,
 }
 
 /// 64 random bits for an address; `round` tells apart several draws of one dimension.

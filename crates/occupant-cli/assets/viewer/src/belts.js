@@ -1,0 +1,88 @@
+// Belts: ribbons from anchor to anchor, as wide as webbing, upright on the plane in which the belt runs.
+
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DoubleSide,
+  Group,
+  Mesh,
+  MeshBasicMaterial,
+  Vector3,
+} from "three";
+import { SLACK, TAUT } from "./colors.js";
+
+const WIDTH_M = 0.046;
+/** How much of a belt shows through the body. */
+const THROUGH = 0.3;
+
+export class Belts {
+  constructor(run) {
+    this.group = new Group();
+    this.ribbons = run.belts.map((belt) => new Ribbon(belt));
+    for (const ribbon of this.ribbons) this.group.add(...ribbon.meshes);
+  }
+
+  move(at) {
+    for (const ribbon of this.ribbons) ribbon.move(at);
+  }
+}
+
+class Ribbon {
+  constructor(belt) {
+    this.belt = belt;
+    this.count = belt.count;
+    this.course = new Float32Array(3 * this.count);
+    this.geometry = new BufferGeometry();
+    this.places = new BufferAttribute(new Float32Array(6 * this.count), 3);
+    this.geometry.setAttribute("position", this.places);
+    this.geometry.setIndex(quads(this.count));
+    const look = { side: DoubleSide, color: SLACK };
+    this.solid = new MeshBasicMaterial(look);
+    this.through = new MeshBasicMaterial({
+      ...look,
+      depthTest: false,
+      transparent: true,
+      opacity: THROUGH,
+    });
+    this.meshes = [this.solid, this.through].map((material) => new Mesh(this.geometry, material));
+    for (const mesh of this.meshes) mesh.frustumCulled = false;
+  }
+
+  move({ index, fraction }) {
+    const size = this.course.length;
+    const here = this.belt.points.subarray(index * size, (index + 1) * size);
+    const next = fraction > 0 ? this.belt.points.subarray((index + 1) * size) : here;
+    for (let i = 0; i < size; i++) this.course[i] = here[i] + fraction * (next[i] - here[i]);
+    this.spread();
+    const color = this.belt.force[index] > 0 ? TAUT : SLACK;
+    this.solid.color.setHex(color);
+    this.through.color.setHex(color);
+  }
+
+  spread() {
+    const first = new Vector3().fromArray(this.course, 0);
+    const last = new Vector3().fromArray(this.course, 3 * (this.count - 1));
+    const middle = new Vector3().fromArray(this.course, 3 * (this.count >> 1));
+    const across = first.sub(middle).cross(last.sub(middle));
+    across.setLength(0.5 * WIDTH_M);
+    const out = this.places.array;
+    for (let i = 0; i < this.count; i++) {
+      for (let axis = 0; axis < 3; axis++) {
+        const aside = across.getComponent(axis);
+        out[6 * i + axis] = this.course[3 * i + axis] + aside;
+        out[6 * i + 3 + axis] = this.course[3 * i + axis] - aside;
+      }
+    }
+    this.places.needsUpdate = true;
+  }
+}
+
+/** Two triangles between each two points of the course. */
+function quads(count) {
+  const index = [];
+  for (let i = 0; i + 1 < count; i++) {
+    const a = 2 * i;
+    index.push(a, a + 1, a + 2, a + 1, a + 3, a + 2);
+  }
+  return index;
+}

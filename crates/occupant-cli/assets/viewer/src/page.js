@@ -1,0 +1,55 @@
+// The frame of the page: title, notes, and the places where the rest goes.
+
+import { element } from "./dom.js";
+
+export function buildPage(root, report) {
+  const runs = report.runs;
+  const stage = element("div", { class: "stage", id: "stage" });
+  const controls = element("div", { class: "controls", role: "group", "aria-label": "Playback" });
+  const plots = element("section", { class: "plots", "aria-label": "Time histories" });
+  const tables = element("section", { class: "tables", "aria-label": "Results in numbers" });
+  const scene = element("section", { class: "scene", "aria-label": "Motion" }, stage, controls);
+  root.append(
+    heading(runs),
+    ...runs.flatMap((run) => notes(run, runs.length > 1)),
+    element("main", {}, scene, plots),
+    tables,
+    footer(report),
+  );
+  return { stage, controls, plots, tables };
+}
+
+function footer(report) {
+  const licenses = element(
+    "pre",
+    { tabindex: "0" },
+    document.getElementById("licenses").textContent,
+  );
+  const libraries = element("summary", {}, "Licences of the libraries in this page");
+  return element(
+    "footer",
+    {},
+    element("p", {}, `Made by ${report.program}. This file loads nothing from the network.`),
+    element("details", {}, libraries, licenses),
+  );
+}
+
+function heading(runs) {
+  const [first, second] = runs;
+  const title = element("h1", {}, first.title || first.label);
+  const against =
+    second &&
+    element("p", { class: "against" }, swatch(1), `against ${second.label}: ${second.title}`);
+  const own = element("p", { class: "own" }, second ? swatch(0) : null, first.label);
+  return element("header", {}, title, own, against);
+}
+
+/** A patch of the colour of a run. */
+export function swatch(run) {
+  return element("span", { class: `swatch run-${run}`, "aria-hidden": "true" });
+}
+
+function notes(run, several) {
+  const said = run.notes.map((note) => (several ? `${run.label}: ${note}` : note));
+  return said.map((note) => element("p", { class: "note", role: "note" }, note));
+}

@@ -1,0 +1,157 @@
+// The 3-D stage. Scene axes are the vehicle's: X forward, Y right, Z down; metres.
+//
+// The stage draws only when something has changed.
+
+import {
+  Color,
+  DirectionalLight,
+  HemisphereLight,
+  Matrix4,
+  PerspectiveCamera,
+  Quaternion,
+  Scene,
+  Vector3,
+  WebGLRenderer,
+} from "three";
+import { Actor } from "./actor.js";
+import { Resolution, drawsInSoftware } from "./resolution.js";
+import { Eye } from "./eye.js";
+import { Labels } from "./labels.js";
+import { poseAt } from "./pose.js";
+
+/** How far behind the first run the second stands when it stands beside, m. */
+const BESIDE_M = 2;
+
+export class Stage {
+  constructor(place, runs, clock) {
+    this.place = place;
+    this.runs = runs;
+    this.clock = clock;
+    this.frames = 0;
+    this.shown = {
+      surfaces: true,
+      belts: true,
+      arrows: true,
+      trails: false,
+      labels: false,
+      spheres: false,
+    };
+    this.other = "ghost";
+    this.world = "vehicle";
+    this.renderer = new WebGLRenderer({ antialias: !drawsInSoftware() });
+    this.resolution = new Resolution(this.renderer, clock);
+    this.canvas = this.renderer.domElement;
+    this.canvas.setAttribute("role", "img");
+    this.canvas.setAttribute("aria-label", "The occupant in the compartment, in three dimensions");
+    place.append(this.canvas);
+    this.scene = new Scene();
+    this.light();
+    this.camera = new PerspectiveCamera(35, 1, 0.05, 200);
+    this.camera.up.set(0, 0, -1);
+    this.actors = runs.map((run, number) => new Actor(run, number));
+    this.actors.forEach((actor) => this.scene.add(actor.group));
+    const greatest = Math.max(...this.actors.map((actor) => actor.arrows.greatest));
+    this.actors.forEach((actor) => actor.arrows.setGreatest(greatest));
+    this.eye = new Eye(this.camera, this.canvas, this.actors[0], () => this.draw());
+    this.labels = new Labels(place, this.actors[0], this.camera);
+    this.pending = false;
+    new ResizeObserver(() => this.resize()).observe(place);
+    window
+      .matchMedia("(prefers-color-scheme: dark)")
+      .addEventListener("change", () => this.paint());
+    this.paint();
+    this.resize();
+    this.show({});
+    this.eye.look("oblique");
+    clock.listen(() => this.move());
+  }
+
+  light() {
+    const sky = new HemisphereLight(0xffffff, 0x9a9a9a, 2);
+    sky.position.set(0, 0, -1);
+    const sun = new DirectionalLight(0xffffff, 1.6);
+    sun.position.set(1.5, -2, -4);
+    this.scene.add(sky, sun);
+  }
+
+  paint() {
+    const ground = getComputedStyle(document.documentElement).getPropertyValue("--stage").trim();
+    this.scene.background = new Color(ground);
+    this.draw();
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.place;
+    if (width === 0 || height === 0) return;
+    this.renderer.setSize(width, height, false);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.draw();
+  }
+
+  /** Changes what is shown: {surfaces: false}. */
+  show(change) {
+    Object.assign(this.shown, change);
+    for (const actor of this.actors) actor.show(this.shown);
+    this.labels.show(this.shown.labels);
+    this.move();
+  }
+
+  /** Where the second run is: "ghost", "beside" or "hidden". */
+  setOther(other) {
+    this.other = other;
+    this.eye.behind = other === "beside" ? BESIDE_M : 0;
+    this.move();
+    this.eye.look(this.eye.preset);
+  }
+
+  /** What stands still: "vehicle" or "ground". */
+  setWorld(world) {
+    this.world = world;
+    this.move();
+  }
+
+  /** Puts everything where it is at the clock's time. */
+  move() {
+    for (const [number, actor] of this.actors.entries()) {
+      actor.move(this.clock.time);
+      this.putVehicle(actor);
+      if (number > 0) {
+        actor.group.visible = this.other !== "hidden";
+        actor.group.position.x = this.other === "beside" ? -BESIDE_M : 0;
+        actor.setGhost(this.other === "ghost");
+      }
+    }
+    this.eye.follow();
+    this.draw();
+  }
+
+  /** The vehicle in its world, or the world round the vehicle. */
+  putVehicle(actor) {
+    const at = new Vector3();
+    const turn = new Quaternion();
+    poseAt(actor.run.vehicle, 1, 0, actor.at, at, turn);
+    const pose = new Matrix4().compose(at, turn, new Vector3(1, 1, 1));
+    const still = new Matrix4();
+    const onGround = this.world === "ground";
+    setMatrix(actor.car, onGround ? pose : still);
+    setMatrix(actor.ground, onGround ? still : pose.invert());
+    actor.group.updateMatrixWorld(true);
+  }
+
+  draw() {
+    if (this.pending) return;
+    this.pending = true;
+    requestAnimationFrame((now) => {
+      this.pending = false;
+      this.resolution.drawn(now);
+      this.renderer.render(this.scene, this.camera);
+      this.labels.place();
+      this.frames += 1;
+    });
+  }
+}
+
+function setMatrix(group, matrix) {
+  matrix.decompose(group.position, group.quaternion, group.scale);
+}

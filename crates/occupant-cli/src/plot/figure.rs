@@ -1,0 +1,141 @@
+//! What a plot shows, before it has a place.
+
+/// One plot.
+#[derive(Clone, Debug)]
+pub struct Figure {
+    /// Heading.
+    pub title: String,
+    /// Across.
+    pub x: Axis,
+    /// Upward.
+    pub y: Axis,
+    /// Curves in the order of the legend.
+    pub curves: Vec<Curve>,
+    /// Limits on Y.
+    pub limits: Vec<Limit>,
+    /// What stands in the middle if there is no curve.
+    pub empty: String,
+}
+
+/// An axis.
+#[derive(Clone, Debug)]
+pub struct Axis {
+    /// What it measures.
+    pub name: String,
+    /// Symbol of the unit.
+    pub unit: String,
+}
+
+/// A curve: points in the units of the axes, a gap where a number is not finite.
+#[derive(Clone, Debug)]
+pub struct Curve {
+    /// For the legend.
+    pub label: String,
+    /// How it is drawn.
+    pub style: Style,
+    /// Points in their order.
+    pub points: Vec<[f64; 2]>,
+}
+
+/// How a line is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Style {
+    /// Colour.
+    pub colour: &'static str,
+    /// SVG dash pattern; solid if empty.
+    pub dash: &'static str,
+    /// Width.
+    pub width: f64,
+}
+
+/// A level that should not be passed.
+#[derive(Clone, Debug)]
+pub struct Limit {
+    /// For the legend.
+    pub label: String,
+    /// Level in the unit of Y.
+    pub level: f64,
+}
+
+/// Colours that most colour-blind people tell apart (Okabe and Ito, 2008), their yellow left out for white paper.
+const COLOURS: [&str; 7] = [
+    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#666666",
+];
+const DASHES: [&str; 4] = ["", "7 3", "2 2.5", "9 3 2 3"];
+/// Lines of limits.
+pub const LIMIT: Style = Style {
+    colour: "#c00000",
+    dash: "5 3",
+    width: 1.1,
+};
+
+impl Style {
+    /// Colours.
+    pub const COLOURS: usize = COLOURS.len();
+    /// Dash patterns, the solid line counted.
+    pub const DASHES: usize = DASHES.len();
+    /// Styles that differ.
+    pub const DISTINCT: usize = COLOURS.len() * DASHES.len();
+
+    /// The style of a curve: colours by `colour`, dashes by `dash`; colours that come round again bring the next dash.
+    pub fn of(colour: usize, dash: usize) -> Self {
+        let dash = dash + colour / COLOURS.len();
+        Style {
+            colour: COLOURS[colour % COLOURS.len()],
+            dash: DASHES[dash % DASHES.len()],
+            width: 1.5,
+        }
+    }
+
+    /// Measured curves: black.
+    pub fn measured(dash: usize) -> Self {
+        Style {
+            colour: "#000000",
+            dash: DASHES[dash % DASHES.len()],
+            width: 1.2,
+        }
+    }
+
+    /// As attributes of SVG.
+    pub fn attributes(&self) -> String {
+        let dash = match self.dash {
+            "" => String::new(),
+            dash => format!(" stroke-dasharray=\"{dash}\""),
+        };
+        format!(
+            "fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"{dash}",
+            self.colour, self.width
+        )
+    }
+}
+
+/// Room beyond a limit, over its level.
+const LIMIT_ROOM: f64 = 0.02;
+/// Largest magnitude that is drawn; greater numbers count as none.
+const GREATEST: f64 = 1e300;
+
+/// Whether a number can be drawn.
+pub fn drawable(value: f64) -> bool {
+    value.abs() <= GREATEST
+}
+
+impl Figure {
+    /// Least and greatest of X and of Y, limits included; none without a point.
+    pub fn extent(&self) -> Option<[[f64; 2]; 2]> {
+        let points = self.curves.iter().flat_map(|c| &c.points);
+        let mut extent: Option<[[f64; 2]; 2]> = None;
+        for point in points.filter(|[x, y]| drawable(*x) && drawable(*y)) {
+            let [x, y] = extent.get_or_insert([[point[0]; 2], [point[1]; 2]]);
+            *x = [x[0].min(point[0]), x[1].max(point[0])];
+            *y = [y[0].min(point[1]), y[1].max(point[1])];
+        }
+        if let Some([_, y]) = &mut extent {
+            for limit in self.limits.iter().filter(|l| drawable(l.level)) {
+                // room on both sides, so that no limit falls together with the frame
+                let room = LIMIT_ROOM * limit.level.abs();
+                *y = [y[0].min(limit.level - room), y[1].max(limit.level + room)];
+            }
+        }
+        extent
+    }
+}

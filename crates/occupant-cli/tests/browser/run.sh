@@ -1,0 +1,21 @@
+#!/usr/bin/env bash
+# Makes two reports and opens them in headless Chromium. Wants chromium, node and npm; the program as first argument.
+#
+#   crates/occupant-cli/tests/browser/run.sh target/release/occupant [folder for screenshots]
+set -euo pipefail
+occupant=$(realpath "$1")
+pictures=${2:+$(realpath -m "$2")}
+here=$(cd "$(dirname "$0")" && pwd)
+root=$(cd "$here/../../../.." && pwd)
+out=$(mktemp -d)
+trap 'rm -rf "$out"' EXIT
+
+for case in cart-lap-torso cart-unbelted; do
+  "$occupant" run "$root/scenarios/$case.toml" --quiet --output "$out/$case.mcap"
+done
+"$occupant" report "$out/cart-lap-torso.mcap" --output "$out/report.html"
+"$occupant" report "$out/cart-lap-torso.mcap" --against "$out/cart-unbelted.mcap" --output "$out/comparison.html"
+
+cd "$here"
+[ -d node_modules/playwright-core ] || npm ci --no-audit --no-fund --silent
+node report.test.mjs "$out/report.html" "$out/comparison.html" ${pictures:+"$pictures"}

@@ -1,0 +1,243 @@
+//! `occupant view` and `occupant report` as a user calls them.
+
+use std::fs;
+use std::path::Path;
+use std::process::Output;
+
+use assert_cmd::Command;
+
+const SHORT: &str = include_str!("recording/short.toml");
+
+fn answer(folder: &Path, words: &[&str]) -> Output {
+    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("occupant"));
+    let output = command.current_dir(folder).args(words).output();
+    output.expect("the command starts")
+}
+
+fn code(output: &Output) -> i32 {
+    output.status.code().expect("an exit code")
+}
+
+fn err(output: &Output) -> String {
+    String::from_utf8(output.stderr.clone()).expect("UTF-8")
+}
+
+/// A folder with the results of a short run whose title wants to be markup.
+fn folder_with_run() -> tempfile::TempDir {
+    let folder = tempfile::tempdir().expect("a folder");
+    let hostile = "title = \"</script><script>alert(1)</script> & <b>\"";
+    let lines = SHORT.lines().filter(|l| !l.starts_with("title"));
+    let text = lines.fold(hostile.to_owned(), |all, line| all + "\n" + line);
+    fs::write(folder.path().join("case.toml"), text).expect("written");
+    let run = answer(
+        folder.path(),
+        &["run", "case.toml", "--quiet", "-o", "run.mcap"],
+    );
+    assert_eq!(code(&run), 0, "{}", err(&run));
+    folder
+}
+
+fn read(folder: &Path, name: &str) -> String {
+    fs::read_to_string(folder.join(name)).expect("a text")
+}
+
+#[test]
+fn a_strip_has_a_panel_for_each_time_and_view() {
+    let folder = folder_with_run();
+    let words = [
+        "view",
+        "run.mcap",
+        "-o",
+        "v.svg",
+        "--times",
+        "0,2,4 ms",
+        "--views",
+        "side,front",
+    ];
+    let output = answer(folder.path(), &words);
+    assert_eq!((code(&output), err(&output)), (0, String::new()));
+    let svg = read(folder.path(), "v.svg");
+    assert_eq!(svg.matches("<clipPath").count(), 6);
+    for label in [
+        ">0 ms<",
+        ">2 ms<",
+        ">4 ms<",
+        ">side<",
+        ">front<",
+        "from the right",
+    ] {
+        assert!(svg.contains(label), "{label}");
+    }
+    assert!(!svg.contains(">top<"));
+    assert!(svg.contains("&lt;/script&gt;") && !svg.contains("<script"));
+    // the same file every time
+    let again = answer(folder.path(), &[&words[..], &["--force"]].concat());
+    assert_eq!(code(&again), 0, "{}", err(&again));
+    assert_eq!(read(folder.path(), "v.svg"), svg);
+}
+
+#[test]
+fn a_strip_becomes_a_png_of_twice_its_size() {
+    let folder = folder_with_run();
+    for name in ["v.svg", "v.png"] {
+        let output = answer(
+            folder.path(),
+            &["view", "run.mcap", "-o", name, "--times", "0"],
+        );
+        assert_eq!((code(&output), err(&output)), (0, String::new()));
+    }
+    let png = fs::read(folder.path().join("v.png")).expect("a picture");
+    assert!(png.starts_with(b"\x89PNG\r\n\x1a\n"));
+    let svg = read(folder.path(), "v.svg");
+    let number = |from: &str| -> f64 {
+        let rest = svg.split_once(from).expect("there").1;
+        rest.split('"')
+            .next()
+            .expect("a value")
+            .parse()
+            .expect("a number")
+    };
+    let size = |at: usize| {
+        f64::from(u32::from_be_bytes(
+            png[at..at + 4].try_into().expect("four"),
+        ))
+    };
+    assert!((size(16) - 2.0 * number("width=\"")).abs() <= 1.0);
+    assert!((size(20) - 2.0 * number("height=\"")).abs() <= 1.0);
+}
+
+#[test]
+fn wrong_words_for_a_view_are_answered() {
+    let folder = folder_with_run();
+    let cases: [(&[&str], &str); 7] = [
+        (
+            &["view", "run.mcap", "-o", "v.pdf"],
+            "ends with .svg or .png",
+        ),
+        (
+            &["view", "run.mcap", "-o", "v.svg", "--times", "9 s"],
+            "the outputs go from",
+        ),
+        (
+            &["view", "run.mcap", "-o", "v.svg", "--times", "soon"],
+            "is not a time",
+        ),
+        (
+            &["view", "run.mcap", "-o", "v.svg", "--views", "back"],
+            "possible values",
+        ),
+        (&["view", "case.toml", "-o", "v.svg"], "holds no results"),
+        (&["view", "none.mcap", "-o", "v.svg"], "cannot be read"),
+        (&["view", "run.mcap"], "--output"),
+    ];
+    for (words, said) in cases {
+        let output = answer(folder.path(), words);
+        assert_eq!(code(&output), 2, "{words:?}");
+        assert!(err(&output).contains(said), "{words:?}: {}", err(&output));
+        assert!(!folder.path().join("v.svg").exists());
+    }
+}
+
+#[test]
+fn nothing_is_replaced_unasked() {
+    let folder = folder_with_run();
+    fs::write(folder.path().join("v.svg"), "mine").expect("written");
+    fs::write(folder.path().join("r.html"), "mine").expect("written");
+    for (command, name) in [("view", "v.svg"), ("report", "r.html")] {
+        let output = answer(folder.path(), &[command, "run.mcap", "-o", name]);
+        assert_eq!(code(&output), 2);
+        assert!(err(&output).contains("exists; --force replaces it"));
+        assert_eq!(read(folder.path(), name), "mine");
+        let forced = answer(folder.path(), &[command, "run.mcap", "-o", name, "--force"]);
+        assert_eq!(code(&forced), 0, "{}", err(&forced));
+        assert_ne!(read(folder.path(), name), "mine");
+    }
+}
+
+#[test]
+fn a_report_is_one_file_whose_data_stay_data() {
+    let folder = folder_with_run();
+    let output = answer(folder.path(), &["report", "run.mcap", "-o", "r.html"]);
+    assert_eq!((code(&output), err(&output)), (0, String::new()));
+    let html = read(folder.path(), "r.html");
+    // the program of the page, the data and the licences: three elements, whatever the title says
+    assert_eq!(html.matches("</script>").count(), 3);
+    assert!(html.contains("Leon Sorokin") && html.contains("three.js authors"));
+    assert!(html.contains("<title>&lt;/script&gt;"));
+    let data = html.split_once("id=\"report-data\">").expect("data").1;
+    let data = data.split_once("</script>").expect("an end").0;
+    let data: serde_json::Value = serde_json::from_str(data).expect("JSON");
+    let run = &data["runs"][0];
+    assert_eq!(run["title"], "</script><script>alert(1)</script> & <b>");
+    assert_eq!(run["segments"].as_array().expect("a list").len(), 12);
+    assert!(run["measures"].as_array().expect("a list").len() > 10);
+    assert!(run["scenario"].as_str().expect("a text").contains("[body"));
+    for source in ["src=\"", "href=\"", "@import", "url(http"] {
+        assert!(!html.contains(source), "{source}");
+    }
+}
+
+#[test]
+fn a_report_against_another_run_holds_both() {
+    let folder = folder_with_run();
+    let words = [
+        "report",
+        "run.mcap",
+        "-o",
+        "r.html",
+        "--against",
+        "run.mcap",
+    ];
+    let output = answer(folder.path(), &words);
+    assert_eq!((code(&output), err(&output)), (0, String::new()));
+    assert_eq!(
+        read(folder.path(), "r.html").matches("\"poses\":").count(),
+        2
+    );
+    for (words, said) in [
+        (
+            &["report", "run.mcap", "-o", "r.txt"][..],
+            "ends with .html",
+        ),
+        (
+            &[
+                "report",
+                "run.mcap",
+                "-o",
+                "x.html",
+                "--against",
+                "case.toml",
+            ],
+            "holds no results",
+        ),
+    ] {
+        let output = answer(folder.path(), words);
+        assert_eq!(code(&output), 2, "{words:?}");
+        assert!(err(&output).contains(said), "{words:?}: {}", err(&output));
+    }
+}
+
+#[test]
+fn what_a_run_that_broke_off_has_left_can_be_drawn() {
+    let folder = folder_with_run();
+    let bytes = fs::read(folder.path().join("run.mcap")).expect("results");
+    let cut = &bytes[..bytes.len() * 9 / 10];
+    fs::write(folder.path().join("cut.mcap"), cut).expect("written");
+    for (command, name) in [("view", "v.svg"), ("report", "r.html")] {
+        let output = answer(folder.path(), &[command, "cut.mcap", "-o", name]);
+        match code(&output) {
+            0 => assert!(
+                err(&output).contains("did not complete"),
+                "{}",
+                err(&output)
+            ),
+            // a short run may fit into one chunk, which counts whole or not at all
+            2 => assert!(
+                err(&output).contains("holds no results"),
+                "{}",
+                err(&output)
+            ),
+            other => panic!("{other}: {}", err(&output)),
+        }
+    }
+}

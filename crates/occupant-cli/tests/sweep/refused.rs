@@ -1,0 +1,94 @@
+//! What a sweep does not do.
+
+use std::fs;
+
+use super::{STUDY, answer, done, err, folder_with};
+
+#[test]
+fn another_study_in_the_same_folder_is_refused_and_the_difference_named() {
+    let folder = folder_with(STUDY);
+    let at = folder.path();
+    let words = ["sweep", "study.toml", "-o", "out", "--quiet"];
+    done(at, &words);
+    let table = fs::read(at.join("out/results.parquet")).unwrap();
+    let refused = |words: &[&str]| {
+        let output = answer(at, words);
+        assert_eq!(output.status.code(), Some(2), "{words:?}");
+        err(&output)
+    };
+    let said = refused(&[&words[..], &["--set", "path.duration=70 ms"]].concat());
+    assert!(said.contains("--set: none → path.duration=70 ms"), "{said}");
+    fs::write(at.join("study.toml"), STUDY.replace("25 mph", "26 mph")).unwrap();
+    let said = refused(&words);
+    assert!(
+        said.contains("study.toml, line 18: ") && said.contains("26 mph"),
+        "{said}"
+    );
+    assert!(said.contains("--restart"), "{said}");
+    fs::write(at.join("study.toml"), STUDY).unwrap();
+    let case = fs::read_to_string(at.join("case.toml")).unwrap();
+    fs::write(at.join("case.toml"), format!("{case}\n# more")).unwrap();
+    assert!(refused(&words).contains("case.toml, line "));
+    // nothing of that has touched the results
+    assert_eq!(fs::read(at.join("out/results.parquet")).unwrap(), table);
+    done(at, &[&words[..], &["--restart"]].concat());
+}
+
+#[test]
+fn a_folder_with_other_files_is_left_alone() {
+    let folder = folder_with(STUDY);
+    let at = folder.path();
+    fs::create_dir(at.join("out")).unwrap();
+    fs::write(at.join("out/thesis.tex"), "years of work").unwrap();
+    for more in [&[][..], &["--restart"]] {
+        let words = [&["sweep", "study.toml", "-o", "out"][..], more].concat();
+        let output = answer(at, &words);
+        assert_eq!(output.status.code(), Some(2));
+        assert!(
+            err(&output).contains("holds files that are no sweep's"),
+            "{}",
+            err(&output)
+        );
+    }
+    assert_eq!(
+        fs::read_to_string(at.join("out/thesis.tex")).unwrap(),
+        "years of work"
+    );
+}
+
+#[test]
+fn flags_that_make_no_sense_are_refused_in_words() {
+    let folder = folder_with(STUDY);
+    let at = folder.path();
+    for (more, said) in [
+        (&["--shard", "0/3"][..], "shards are counted from 1"),
+        (&["--shard", "4/3"], "the last is 3/3"),
+        (&["--keep", "some"], "does not say which runs to write"),
+        (&["--keep", "24"], "there is no sample 24"),
+        (&["--keep", "worst 2 by hick"], "no measure is named `hick`"),
+        (&["--shard", "1/2", "--csv"], "a shard writes no table"),
+        (
+            &["--shard", "1/2", "--restart"],
+            "would remove the results of the others",
+        ),
+        (&["--threads", "0"], "invalid value '0'"),
+        (&["--set", "path.sped=3"], "sped"),
+    ] {
+        let output = answer(
+            at,
+            &[&["sweep", "study.toml", "-o", "out"][..], more].concat(),
+        );
+        assert_eq!(output.status.code(), Some(2), "{more:?}");
+        assert!(err(&output).contains(said), "{more:?}: {}", err(&output));
+    }
+    assert!(!at.join("out").exists());
+    let output = answer(at, &["sweep", "merge", "."]);
+    assert!(err(&output).contains("holds no sweep"), "{}", err(&output));
+    let output = answer(at, &["sweep", "nowhere.toml", "-o", "out"]);
+    assert_eq!(output.status.code(), Some(2));
+    assert!(
+        err(&output).contains("nowhere.toml cannot be read"),
+        "{}",
+        err(&output)
+    );
+}

@@ -1,0 +1,110 @@
+//! What a finished study says: which parameter matters, how much, and how sure that is.
+//!
+//! All functions take plain slices of one number for each run, NaN where a run has no such figure, and drop what is not
+//! complete, counted. Intervals are 95 % and by bootstrap unless said otherwise; the random numbers of a bootstrap follow
+//! from its seed.
+
+mod bootstrap;
+mod indices;
+mod regression;
+mod screening;
+
+pub use indices::{SobolIndices, sobol_indices};
+pub use regression::{RankCorrelation, Regression, rank_correlation, ranks, regression};
+pub use screening::{Effect, screening};
+
+/// A number with its 95 % interval.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Estimate {
+    /// The number.
+    pub value: f64,
+    /// 2.5 % of the resamples lie below.
+    pub low: f64,
+    /// 2.5 % of the resamples lie above.
+    pub high: f64,
+}
+
+impl Estimate {
+    /// Whether zero lies outside the interval: the sign is known.
+    pub fn is_clear(&self) -> bool {
+        self.low > 0.0 || self.high < 0.0
+    }
+
+    /// Width of the interval.
+    pub fn width(&self) -> f64 {
+        self.high - self.low
+    }
+}
+
+/// Why an analysis cannot be made.
+#[derive(Clone, Debug, PartialEq)]
+pub enum AnalysisError {
+    /// Columns of different length.
+    Length {
+        /// Rows found.
+        found: usize,
+        /// Rows of the first column.
+        expected: usize,
+    },
+    /// Fewer complete rows than the analysis needs to say anything.
+    TooFew {
+        /// Complete rows.
+        found: usize,
+        /// Rows needed.
+        needed: usize,
+    },
+    /// The figure, or a parameter, is the same in all rows.
+    Constant {
+        /// Index of the parameter; none for the figure.
+        parameter: Option<usize>,
+    },
+    /// Parameters that depend on one another, so that no part can be given to each.
+    Dependent,
+}
+
+impl std::fmt::Display for AnalysisError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            AnalysisError::Length { found, expected } => {
+                write!(f, "a column of {found} rows beside one of {expected}")
+            }
+            AnalysisError::TooFew { found, needed } => {
+                write!(f, "{found} complete rows; at least {needed} are needed")
+            }
+            AnalysisError::Constant { parameter: None } => {
+                write!(f, "the figure is the same in all rows")
+            }
+            AnalysisError::Constant { parameter: Some(i) } => {
+                write!(f, "parameter {} is the same in all rows", i + 1)
+            }
+            AnalysisError::Dependent => {
+                write!(
+                    f,
+                    "parameters that depend on one another cannot be told apart"
+                )
+            }
+        }
+    }
+}
+
+impl std::error::Error for AnalysisError {}
+
+/// Rows in which every column has a finite number.
+fn complete_rows<'a>(
+    columns: impl Iterator<Item = &'a [f64]> + Clone,
+) -> Result<Vec<usize>, AnalysisError> {
+    let expected = columns.clone().next().map_or(0, <[f64]>::len);
+    if let Some(odd) = columns.clone().find(|c| c.len() != expected) {
+        let found = odd.len();
+        return Err(AnalysisError::Length { found, expected });
+    }
+    let complete = |row: &usize| columns.clone().all(|c| c[*row].is_finite());
+    Ok((0..expected).filter(complete).collect())
+}
+
+fn mean(values: &[f64]) -> f64 {
+    values.iter().sum::<f64>() / values.len() as f64
+}
+
+#[cfg(test)]
+mod tests;
