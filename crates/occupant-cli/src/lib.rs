@@ -2,6 +2,7 @@
 
 pub mod cli;
 mod compare;
+mod ensemble;
 mod export;
 pub mod figure;
 mod history;

@@ -9,7 +9,7 @@ use occupant_core::sample::Sample;
 use super::speak::say;
 
 /// A recorder that stops the run once a signal has come.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Interrupt {
     asked: Arc<AtomicBool>,
 }

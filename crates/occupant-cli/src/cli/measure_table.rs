@@ -4,6 +4,7 @@ use occupant_core::channel::Unit;
 use occupant_core::injury::{Judgement, Measure};
 use occupant_core::setup::STANDARD_GRAVITY_M_S2;
 
+use super::summary_table::Marks;
 use super::table::Align::{Left, Right};
 use super::table::{NONE, Table, number};
 
@@ -20,14 +21,14 @@ const SHORT: [&str; 8] = [
 ];
 
 /// The table at the end of a run.
-pub fn short(measures: &[Measure]) -> String {
+pub fn short(measures: &[Measure], marks: &Marks) -> String {
     let chosen = measures.iter().filter(|m| SHORT.contains(&m.name));
-    table(chosen)
+    table(chosen, marks)
 }
 
 /// All measures; each limit on a line of its own.
 pub fn long(measures: &[Measure]) -> String {
-    table(measures.iter())
+    table(measures.iter(), &Marks::none())
 }
 
 /// What to know of measures, a line each.
@@ -51,7 +52,7 @@ pub fn risks(measures: &[Measure]) -> String {
     table.text()
 }
 
-fn table<'m>(measures: impl Iterator<Item = &'m Measure>) -> String {
+fn table<'m>(measures: impl Iterator<Item = &'m Measure>, marks: &Marks) -> String {
     let mut table = Table::new(&[
         ("injury measure", Left),
         ("value", Right),
@@ -67,7 +68,10 @@ fn table<'m>(measures: impl Iterator<Item = &'m Measure>) -> String {
         let [limit, of, margin, verdict] = verdict(m, limits.next());
         table.row([
             m.label.to_owned(),
-            m.value.map_or(NONE.to_owned(), |v| shown(m, v)),
+            marks.put(
+                figure_name(m.name),
+                m.value.map_or(NONE.to_owned(), |v| shown(m, v)),
+            ),
             unit(m).to_owned(),
             at(m),
             limit,
@@ -91,6 +95,14 @@ fn table<'m>(measures: impl Iterator<Item = &'m Measure>) -> String {
         }
     }
     table.text()
+}
+
+/// What the list of a run's figures calls a measure that is there under another name.
+fn figure_name(measure: &str) -> &str {
+    match measure {
+        "chest_3ms_cumulative" => "chest.three_ms_cumulative",
+        other => other,
+    }
 }
 
 fn verdict(m: &Measure, limit: Option<&Judgement>) -> [String; 4] {

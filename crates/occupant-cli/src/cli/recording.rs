@@ -45,6 +45,16 @@ impl Written {
     }
 }
 
+impl Written {
+    /// Words about what there is, for messages of what came after it.
+    pub fn left(&self) -> String {
+        match self.name() {
+            Some(name) => format!("the run itself is in {name}"),
+            None => "the run itself was completed; no file was asked for".to_owned(),
+        }
+    }
+}
+
 impl Recording {
     /// Writes nothing.
     pub fn none() -> Self {

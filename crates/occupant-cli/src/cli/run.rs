@@ -3,12 +3,14 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
+use occupant_core::channel::Series;
 use occupant_core::diagnosis::{FrictionWatch, UnstableFriction};
 use occupant_core::scenario::Diagnostics;
 use occupant_core::simulate::{ResumeError, Status, resume, simulate};
 use occupant_core::summary::{RunStatus, Summarizer, Summary};
 use serde::Serialize;
 
+use super::ensemble_args::{EnsembleArgs, Ran};
 use super::exit::{Done, Failure};
 use super::interrupt::Interrupt;
 use super::output_file::Existing;
@@ -17,13 +19,16 @@ use super::recording::{Recording, Written};
 use super::resume::{Resumed, Resumption, Retold};
 use super::scenario::{self, Opened, ScenarioArgs};
 use super::speak::{self, say};
-use super::summary_table::summary_table;
+use super::summary_table::{Marks, summary_table};
+use crate::ensemble::report::Description;
+use crate::ensemble::text::text as ensemble_text;
 
 /// Simulate the occupant and write what happened
 ///
 /// Writes an MCAP file (by default SCENARIO.mcap in the present folder) and ends with a short table. While the run goes
 /// on, and if it does not complete, the file is called SCENARIO.partial.mcap. With --resume it goes on from what another
-/// run has left, with the same states as one run to the new end, and writes SCENARIO.resumed.mcap.
+/// run has left, with the same states as one run to the new end, and writes SCENARIO.resumed.mcap. With --ensemble it is
+/// run many times with small changes, and the table says which of its figures are stable.
 #[derive(Debug, clap::Args)]
 pub struct Args {
     #[command(flatten)]
@@ -42,7 +47,7 @@ pub struct Args {
     resume: Option<PathBuf>,
 
     /// Write no file, only the summary
-    #[arg(long, conflicts_with_all = ["output", "force"])]
+    #[arg(long, conflicts_with = "output")]
     no_mcap: bool,
 
     /// Replace files that exist
@@ -56,6 +61,9 @@ pub struct Args {
     /// No table, no warnings, no progress bar; errors and --json remain
     #[arg(short, long)]
     quiet: bool,
+
+    #[command(flatten)]
+    ensemble: EnsembleArgs,
 }
 
 /// What `--json` prints.
@@ -72,20 +80,26 @@ struct Answer<'a> {
     #[serde(flatten)]
     summary: &'a Summary,
     unstable_friction: Vec<UnstableFriction>,
+    /// Absent without `--ensemble`, and where the run itself did not complete.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    ensemble: Option<Description<'a>>,
     warnings: Vec<String>,
 }
 
 /// Runs a scenario.
 pub fn run(args: &Args) -> Result<Done, Failure> {
     let chosen = chosen(args);
-    let opened = scenario::open(&chosen)?;
+    let (bytes, draft) = scenario::draft(&chosen)?;
+    let opened = scenario::open_draft(&chosen, bytes, draft.clone())?;
+    let existing = existing(args);
+    let ensemble = (args.ensemble).wanted(&draft, &opened, &chosen.scenario, existing)?;
     let from = args.resume.as_deref();
     let from = from.map(|f| Resumption::find(f, &opened)).transpose()?;
     if !args.quiet && !opened.warnings.is_empty() {
         say(&format!("{}\n", opened.warnings));
     }
     let mut recording = match output_name(args)? {
-        Some(name) => Recording::begin(&name, existing(args), &chosen, &opened, from.as_ref())?,
+        Some(name) => Recording::begin(&name, existing, &chosen, &opened, from.as_ref())?,
         None => Recording::none(),
     };
     if let (Some(from), false) = (&from, args.quiet) {
@@ -93,12 +107,15 @@ pub fn run(args: &Args) -> Result<Done, Failure> {
     }
     let mut summarizer = Summarizer::new();
     let mut friction = FrictionWatch::new();
-    let watchers = (Interrupt::listen(), Progress::new(args.quiet));
+    let followed = ensemble.as_ref().map(|e| e.channels.clone());
+    let mut histories = Series::new(followed.unwrap_or_default());
+    let interrupt = Interrupt::listen();
+    let watchers = (interrupt.clone(), Progress::new(args.quiet));
     let told = Retold {
         earlier: from.as_ref().map(|f| f.earlier.clone()).unwrap_or_default(),
         to: (&mut summarizer, &mut friction),
     };
-    let recorders = (watchers, (told, &mut recording));
+    let recorders = (watchers, (told, (&mut histories, &mut recording)));
     let began = Instant::now();
     let ended = match &from {
         Some(from) => resume(&opened.model, &from.checkpoint, recorders),
@@ -113,6 +130,15 @@ pub fn run(args: &Args) -> Result<Done, Failure> {
     let written = recording.close(completed)?;
     let summary = summarizer.summary(Some(wall_time_s));
     let summary = summary.ok_or_else(|| Failure::plain("the run left no summary"))?;
+    let energy = Balance::of(&summary);
+    let ran = match ensemble {
+        Some(wanted) if completed && energy != Balance::Broken => {
+            let left = written.left();
+            let ran = wanted.run(&opened, &summary, histories, &interrupt, args.quiet);
+            Some(ran.map_err(|failure| failure.with_done(&left))?)
+        }
+        _ => None,
+    };
     let answer = Answer {
         program: program(),
         scenario: chosen.scenario.display().to_string(),
@@ -121,10 +147,10 @@ pub fn run(args: &Args) -> Result<Done, Failure> {
         file: written.name(),
         summary: &summary,
         unstable_friction: friction.found(&opened.model),
+        ensemble: ran.as_ref().map(|r| r.report.describe(r.files.clone())),
         warnings: Vec::new(),
     };
-    tell(args, &opened, answer, &friction, &written)?;
-    let energy = Balance::of(&summary);
+    tell(args, &opened, answer, &friction, &written, ran.as_ref())?;
     if !args.quiet || energy == Balance::Broken {
         energy.tell(&summary);
     }
@@ -213,6 +239,7 @@ fn tell(
     mut answer: Answer<'_>,
     friction: &FrictionWatch,
     written: &Written,
+    ran: Option<&Ran>,
 ) -> Result<(), Failure> {
     // the forces of a run that has failed say nothing about its friction
     let unstable = match answer.summary.status {
@@ -230,7 +257,17 @@ fn tell(
     if args.quiet {
         return Ok(());
     }
-    speak::print(&summary_table(answer.summary, written))
+    let Some(ran) = ran else {
+        return speak::print(&summary_table(answer.summary, written, &Marks::none()));
+    };
+    let marks = Marks::of(ran.report.unstable());
+    let summary = summary_table(answer.summary, written, &marks);
+    let files: String = ran
+        .files
+        .iter()
+        .map(|f| format!("written   {f}\n"))
+        .collect();
+    speak::print(&format!("{summary}\n{}{files}", ensemble_text(&ran.report)))
 }
 
 /// Name and version of this program.

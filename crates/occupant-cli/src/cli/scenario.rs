@@ -40,6 +40,15 @@ pub struct Opened {
 /// # Errors
 /// A file that cannot be read; everything that is wrong with the scenario, at once.
 pub fn open(args: &ScenarioArgs) -> Result<Opened, Failure> {
+    let (bytes, draft) = draft(args)?;
+    open_draft(args, bytes, draft)
+}
+
+/// Reads the scenario's text and applies the changes.
+///
+/// # Errors
+/// A file that cannot be read; everything that is wrong with its words.
+pub fn draft(args: &ScenarioArgs) -> Result<(Vec<u8>, Draft), Failure> {
     let path = &args.scenario;
     let bytes = std::fs::read(path).map_err(|error| unreadable(path, &error))?;
     let name = path.display().to_string();
@@ -48,7 +57,17 @@ pub fn open(args: &ScenarioArgs) -> Result<Opened, Failure> {
     for assignment in &args.overrides {
         draft.set(assignment).map_err(refuse)?;
     }
-    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+    Ok((bytes, draft))
+}
+
+/// Makes the model of a draft of this scenario.
+///
+/// # Errors
+/// Everything that is wrong with the scenario, at once.
+pub fn open_draft(args: &ScenarioArgs, bytes: Vec<u8>, draft: Draft) -> Result<Opened, Failure> {
+    let name = args.scenario.display().to_string();
+    let refuse = |problems: Diagnostics| refused(&name, &problems);
+    let folder = args.scenario.parent().unwrap_or(Path::new("")).to_owned();
     let resolver =
         move |file: &str| std::fs::read(folder.join(file)).map_err(|error| error.to_string());
     let loaded = draft.load(&resolver).map_err(refuse)?;

@@ -1,23 +1,58 @@
 //! The short table at the end of a run.
 
-use occupant_core::summary::{Acceleration, ContactBegin, FirstContact, RunStatus, Summary};
+use std::collections::BTreeSet;
+
+use occupant_core::summary::{
+    Acceleration, ContactBegin, FirstContact, Level, RunStatus, Summary, word,
+};
 
 use super::measure_table;
 use super::recording::Written;
 use super::table::Align::{Left, Right};
 use super::table::{NONE, Table, facts, number};
 
+/// Figures that an ensemble has found not to be stable: they carry a star.
+#[derive(Clone, Debug, Default)]
+pub struct Marks(Option<BTreeSet<String>>);
+
+impl Marks {
+    /// No ensemble was run.
+    pub fn none() -> Self {
+        Marks(None)
+    }
+
+    /// These figures.
+    pub fn of<'a>(unstable: impl IntoIterator<Item = &'a str>) -> Self {
+        Marks(Some(unstable.into_iter().map(str::to_owned).collect()))
+    }
+
+    /// The text of a figure with its star, or with the room for one, so that columns stay in line.
+    pub fn put(&self, figure: &str, text: String) -> String {
+        match &self.0 {
+            None => text,
+            Some(marked) if marked.contains(figure) => text + "*",
+            Some(_) => text + " ",
+        }
+    }
+
+    fn explained(&self) -> Option<String> {
+        let marked = self.0.as_ref()?;
+        (!marked.is_empty()).then(|| "* NOT STABLE under small changes, see below\n".to_owned())
+    }
+}
+
 /// The table: title, accelerations, belts, first contacts, and how far to trust the run.
-pub fn summary_table(summary: &Summary, written: &Written) -> String {
-    let mut parts = vec![title(summary), accelerations(summary)];
+pub fn summary_table(summary: &Summary, written: &Written, marks: &Marks) -> String {
+    let mut parts = vec![title(summary), accelerations(summary, marks)];
     if !summary.belts.is_empty() {
-        parts.push(belts(summary));
+        parts.push(belts(summary, marks));
     }
     if !summary.first_contacts.is_empty() {
-        parts.push(first_contacts(summary));
+        parts.push(first_contacts(summary, marks));
     }
-    parts.push(measure_table::short(&summary.measures));
-    parts.push(trust(summary, written));
+    parts.push(measure_table::short(&summary.measures, marks));
+    parts.extend(marks.explained());
+    parts.push(trust(summary, written, marks));
     parts.join("\n")
 }
 
@@ -46,7 +81,7 @@ pub(crate) fn plain(name: &str) -> String {
         .collect()
 }
 
-fn accelerations(summary: &Summary) -> String {
+fn accelerations(summary: &Summary, marks: &Marks) -> String {
     let mut table = Table::new(&[
         ("acceleration", Left),
         ("peak, g", Right),
@@ -61,27 +96,29 @@ fn accelerations(summary: &Summary) -> String {
         ("chest", &a.chest),
         ("pelvis", &a.pelvis),
     ] {
-        table.row(acceleration(name, part));
+        table.row(acceleration(name, part, marks));
     }
     table.text()
 }
 
-fn acceleration(name: &str, part: &Acceleration) -> [String; 6] {
+fn acceleration(name: &str, part: &Acceleration, marks: &Marks) -> [String; 6] {
     let held = part.three_ms_contiguous;
     let total = part.three_ms_cumulative;
+    let level = |l: Option<Level>| l.map_or(NONE.to_owned(), |l| number(l.level_g, 1));
+    let mark = |figure: &str, text| marks.put(&format!("{name}.{figure}"), text);
     [
         name.to_owned(),
-        number(part.peak_g, 1),
-        ms(part.peak_time_s),
-        held.map_or(NONE.to_owned(), |l| number(l.level_g, 1)),
+        mark("peak", number(part.peak_g, 1)),
+        mark("peak_time", ms(part.peak_time_s)),
+        mark("three_ms_contiguous", level(held)),
         held.map_or(NONE.to_owned(), |l| {
             format!("{}–{}", ms(l.from_s), ms(l.to_s))
         }),
-        total.map_or(NONE.to_owned(), |l| number(l.level_g, 1)),
+        mark("three_ms_cumulative", level(total)),
     ]
 }
 
-fn belts(summary: &Summary) -> String {
+fn belts(summary: &Summary, marks: &Marks) -> String {
     let mut table = Table::new(&[
         ("belt", Left),
         ("loop force, N", Right),
@@ -90,18 +127,20 @@ fn belts(summary: &Summary) -> String {
         ("force on body, N", Right),
     ]);
     for belt in &summary.belts {
+        let name = word(&belt.belt);
+        let mark = |figure: &str, text| marks.put(&format!("belts.{name}.{figure}"), text);
         table.row([
             belt.belt.clone(),
-            number(belt.loop_force_n, 0),
-            belt.time_s.map_or(NONE.to_owned(), ms),
-            number(belt.elongation_m * 1e3, 1),
-            number(belt.body_force_n, 0),
+            mark("peak", number(belt.loop_force_n, 0)),
+            mark("peak_time", belt.time_s.map_or(NONE.to_owned(), ms)),
+            mark("stretch", number(belt.elongation_m * 1e3, 1)),
+            mark("body_peak", number(belt.body_force_n, 0)),
         ]);
     }
     table.text()
 }
 
-fn first_contacts(summary: &Summary) -> String {
+fn first_contacts(summary: &Summary, marks: &Marks) -> String {
     let mut table = Table::new(&[
         ("contact", Left),
         ("surface", Left),
@@ -112,7 +151,7 @@ fn first_contacts(summary: &Summary) -> String {
         ("on", Left),
     ]);
     for first in &summary.first_contacts {
-        rows_of(summary, first)
+        rows_of(summary, first, marks)
             .into_iter()
             .for_each(|row| table.row(row));
     }
@@ -120,18 +159,31 @@ fn first_contacts(summary: &Summary) -> String {
 }
 
 /// A row for each surface that a sphere touched; the greatest force of the whole run stands in the first.
-fn rows_of(summary: &Summary, first: &FirstContact) -> Vec<[String; 7]> {
+fn rows_of(summary: &Summary, first: &FirstContact, marks: &Marks) -> Vec<[String; 7]> {
     let peak = summary
         .sphere_forces
         .iter()
         .find(|p| p.sphere == first.sphere);
     let none = || NONE.to_owned();
+    let name = word(&first.sphere);
+    let mark = |figure: &str, text| marks.put(&format!("contacts.{name}.{figure}"), text);
     let force = match peak {
-        Some(p) => [number(p.force_n, 0), ms(p.time_s), p.surface.clone()],
+        Some(p) => [
+            mark("peak", number(p.force_n, 0)),
+            mark("peak_time", ms(p.time_s)),
+            p.surface.clone(),
+        ],
         None => [none(), none(), none()],
     };
     let own = summary.contacts.iter().filter(|c| c.sphere == first.sphere);
     let mut touches: Vec<[String; 3]> = own.map(touch).collect();
+    let is_first =
+        |t: &&[String; 3]| Some(&t[1]) == first.contact.as_ref().map(|c| ms(c.time_s)).as_ref();
+    let at = touches.iter().position(|t| is_first(&t));
+    if let Some([_, time, speed]) = at.and_then(|i| touches.get_mut(i)) {
+        *time = mark("first_time", std::mem::take(time));
+        *speed = mark("first_speed", std::mem::take(speed));
+    }
     if touches.is_empty() {
         touches.push([none(), none(), none()]);
     }
@@ -154,10 +206,14 @@ fn touch(contact: &ContactBegin) -> [String; 3] {
     [contact.surface.clone(), time, speed]
 }
 
-fn trust(summary: &Summary, written: &Written) -> String {
+fn trust(summary: &Summary, written: &Written, marks: &Marks) -> String {
     let mut lines = Vec::new();
     if let Some(e) = &summary.head_excursion {
-        let mm = |way: &str, distance_m: f64| format!("{way} {} mm", number(distance_m * 1e3, 0));
+        let mm = |way: &str, distance_m: f64| {
+            let text = format!("{way} {} mm", number(distance_m * 1e3, 0));
+            let marked = marks.put(&format!("head_excursion.{way}"), text);
+            marked.trim_end().to_owned()
+        };
         let ways = [
             format!(
                 "{} at {} ms",

@@ -26,7 +26,7 @@ use crate::sweep::shard::Shard;
 use crate::sweep::simulation::Simulation;
 use crate::sweep::texts::Texts;
 use crate::sweep::{kept, results};
-use words::{no_plan, read_journal, sha256_of, tell, told};
+use words::{ensembles, no_plan, read_journal, sha256_of, tell, told};
 
 /// Run every sample of a study and write one table
 ///
@@ -257,6 +257,7 @@ impl Sweep {
             results::write(&self.folder, journal, manifest, &self.keep, self.csv).map_err(told)?;
         let lacking = kept::missing(&self.folder, journal, census.worst()).map_err(told)?;
         self.write_kept(&lacking)?;
+        let ensembles = ensembles(&self.folder, manifest, self.csv)?;
         if quiet {
             return Ok(Done::Well);
         }
@@ -266,6 +267,6 @@ impl Sweep {
             progress.elapsed_s(),
             self.threads
         );
-        tell(&census, &files, Some(work))
+        tell(&census, &files, Some(work), ensembles.as_ref())
     }
 }

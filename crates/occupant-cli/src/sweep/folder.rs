@@ -22,13 +22,17 @@ const LOCK: &str = "sweep.lock";
 const INPUTS: &str = "inputs";
 const JOURNAL: &str = "journal";
 const RUNS: &str = "runs";
-const TABLES: [&str; 6] = [
+const TABLES: [&str; 10] = [
     "results.parquet",
     "results.partial.parquet",
     "results.csv",
     "results.partial.csv",
     "columns.csv",
     "columns.partial.csv",
+    "ensemble.parquet",
+    "ensemble.partial.parquet",
+    "ensemble.csv",
+    "ensemble.partial.csv",
 ];
 
 /// The folder of a sweep.

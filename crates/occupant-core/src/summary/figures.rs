@@ -140,8 +140,8 @@ impl List {
     }
 }
 
-/// A name as one word of a dotted name.
-fn word(name: &str) -> String {
+/// A name of a belt or sphere as one word of a dotted name.
+pub fn word(name: &str) -> String {
     let plain = |c: char| match c.is_alphanumeric() || c == '_' || c == '-' {
         true => c,
         false => '_',

@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use crate::injury::Measure;
 
-pub use figures::Figure;
+pub use figures::{Figure, word};
 pub use peak::Peak;
 pub use summarizer::Summarizer;
 

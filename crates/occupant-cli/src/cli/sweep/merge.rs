@@ -8,7 +8,7 @@ use occupant_core::lanes::Kernel;
 use occupant_core::study::Keep;
 
 use super::choices::{keep, threads};
-use super::words::{no_plan, read_journal, sha256_of, tell, told};
+use super::words::{ensembles, no_plan, read_journal, sha256_of, tell, told};
 use crate::cli::exit::{Done, Failure};
 use crate::cli::run::program;
 use crate::sweep::folder::Folder;
@@ -85,9 +85,10 @@ pub fn merge(args: &MergeArgs) -> Result<Done, Failure> {
         kernel,
         &stop,
     )?;
+    let ensembles = ensembles(&target, &manifest, csv)?;
     match args.quiet {
         true => Ok(Done::Well),
-        false => tell(&census, &files, None),
+        false => tell(&census, &files, None, ensembles.as_ref()),
     }
 }
 

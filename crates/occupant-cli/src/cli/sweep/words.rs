@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use crate::cli::exit::{Done, Failure};
 use crate::cli::speak;
 use crate::cli::table::facts;
+use crate::ensemble::of_table::{self, Ensembles};
+use crate::ensemble::text::of_study;
 use crate::sweep::census::Census;
 use crate::sweep::folder::Folder;
 use crate::sweep::journal::Journal;
@@ -27,8 +29,28 @@ pub fn sha256_of(manifest: &Manifest) -> Result<String, Failure> {
     sha256.map_err(|error| Failure::plain(format!("the manifest cannot be written: {error}")))
 }
 
+/// What is stable, where the study has ensembles.
+pub fn ensembles(
+    folder: &Folder,
+    manifest: &Manifest,
+    csv: bool,
+) -> Result<Option<Ensembles>, Failure> {
+    if !of_table::has_ensembles(manifest) {
+        return Ok(None);
+    }
+    let found = of_table::write(&folder.parquet(), manifest, csv);
+    found
+        .map(Some)
+        .map_err(|reason| Failure::BrokeOff(format!("error: {reason}")))
+}
+
 /// What it came to.
-pub fn tell(census: &Census, files: &[PathBuf], work: Option<String>) -> Result<Done, Failure> {
+pub fn tell(
+    census: &Census,
+    files: &[PathBuf],
+    work: Option<String>,
+    ensembles: Option<&Ensembles>,
+) -> Result<Done, Failure> {
     let mut ended = vec![format!("{} completed", census.completed)];
     for (count, word) in [
         (census.failed, "failed"),
@@ -49,9 +71,15 @@ pub fn tell(census: &Census, files: &[PathBuf], work: Option<String>) -> Result<
         lines.push(("doubtful", format!("{} {found}", census.unbalanced)));
     }
     lines.extend(work.map(|work| ("computed", work)));
-    let names: Vec<String> = files.iter().map(|f| f.display().to_string()).collect();
+    let more = ensembles.iter().flat_map(|e| &e.files);
+    let names: Vec<String> = files
+        .iter()
+        .chain(more)
+        .map(|f| f.display().to_string())
+        .collect();
     lines.push(("written", names.join(", ")));
-    speak::print(&facts(&lines))?;
+    let stable = ensembles.map(|e| format!("\n{}", of_study(e)));
+    speak::print(&(facts(&lines) + &stable.unwrap_or_default()))?;
     Ok(Done::Well)
 }
 

@@ -1,0 +1,244 @@
+//! `occupant run --ensemble`, and the ensembles of studies.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::Output;
+
+use assert_cmd::Command;
+use serde_json::Value;
+
+fn scenario(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR"))
+        .join("../../scenarios")
+        .join(name)
+}
+
+fn answer(folder: &Path, words: &[&str]) -> Output {
+    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("occupant"));
+    command.current_dir(folder).args(words);
+    command.output().expect("the command starts")
+}
+
+/// Runs a scenario's ensemble and gives its JSON.
+fn ensemble(folder: &Path, name: &str, words: &[&str]) -> Value {
+    let file = scenario(name);
+    let mut all = vec![
+        "run",
+        file.to_str().expect("UTF-8"),
+        "--no-mcap",
+        "--json",
+        "--ensemble",
+    ];
+    all.extend(words);
+    let output = answer(folder, &all);
+    let code = output.status.code();
+    assert_eq!(code, Some(0), "{}", String::from_utf8_lossy(&output.stderr));
+    serde_json::from_slice(&output.stdout).expect("JSON")
+}
+
+/// By name.
+fn named<'v>(list: &'v Value) -> BTreeMap<&'v str, &'v Value> {
+    let list = list.as_array().expect("a list").iter();
+    list.map(|v| (v["name"].as_str().expect("a name"), v))
+        .collect()
+}
+
+#[test]
+fn a_free_flight_is_stable_in_everything() {
+    let folder = tempfile::tempdir().unwrap();
+    let answer = ensemble(folder.path(), "free-fall.toml", &["12"]);
+    let e = &answer["ensemble"];
+    assert_eq!((&e["members"], &e["completed"]), (&12.into(), &12.into()));
+    let figures = named(&e["figures"]);
+    assert!(figures.len() > 30, "{}", figures.len());
+    for (name, figure) in figures {
+        assert_eq!(figure["verdict"], "stable", "{name}: {figure}");
+    }
+    for (name, channel) in named(&e["channels"]) {
+        assert_eq!(channel["lost_at_s"], Value::Null, "{name}: {channel}");
+    }
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_bytes() {
+    let folder = tempfile::tempdir().unwrap();
+    let bytes = |threads: &str| {
+        let table = format!("bands{threads}.csv");
+        let words = [
+            "10",
+            "--seed",
+            "3",
+            "--threads",
+            threads,
+            "--bands",
+            &table,
+            "--until",
+            "60 ms",
+        ];
+        let answer = ensemble(folder.path(), "cart-lap.toml", &words);
+        let mut e = answer["ensemble"].clone();
+        e["files"] = Value::Null;
+        (e.to_string(), fs::read(folder.path().join(table)).unwrap())
+    };
+    let one = bytes("1");
+    assert!(one.1.len() > 10_000);
+    assert!(one == bytes("2"));
+    assert!(one == bytes("5"));
+}
+
+#[test]
+fn without_changes_all_members_are_the_run_itself() {
+    let folder = tempfile::tempdir().unwrap();
+    let none = ["posture=0 deg", "place=0 mm", "path=0 %", "stiffness=0 %"];
+    let mut words = vec!["10", "--until", "60 ms"];
+    for change in none {
+        words.extend(["--change", change]);
+    }
+    let answer = ensemble(folder.path(), "cart-lap.toml", &words);
+    for (name, f) in named(&answer["ensemble"]["figures"]) {
+        assert_eq!(f["verdict"], "stable", "{name}");
+        for part in ["least", "median", "greatest"] {
+            assert_eq!(f[part], f["nominal"], "{name}");
+        }
+    }
+    let head = &named(&answer["ensemble"]["figures"])["head.peak"]["nominal"];
+    assert_eq!(head, &answer["accelerations"]["head"]["peak_m_s2"]);
+}
+
+#[test]
+fn what_can_not_be_is_refused_before_anything_is_run() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("there.csv"), "mine").unwrap();
+    let file = scenario("cart-lap.toml");
+    let file = file.to_str().unwrap();
+    let cases: [(&[&str], &str); 12] = [
+        (&["--ensemble", "1"], "2.."),
+        (&["--ensemble", "many"], "invalid value"),
+        (&["--seed", "3"], "--ensemble"),
+        (&["--ensemble", "10", "--threads", "0"], "invalid value"),
+        (&["--ensemble", "10", "--change", "posture"], "it has no ="),
+        (
+            &["--ensemble", "10", "--change", "posture=2 mm"],
+            "expected",
+        ),
+        (
+            &["--ensemble", "10", "--change", "belts=2 mm"],
+            "nothing is called `belts`",
+        ),
+        (&["--ensemble", "10", "--change", "path=-1 %"], "not from 0"),
+        (&["--ensemble", "10", "--stable-within", "0"], "not above 0"),
+        (
+            &["--ensemble", "10", "--channels", "head.aceleration.x"],
+            "head.acceleration.x",
+        ),
+        (&["--ensemble", "10", "--bands", "bands.pdf"], "NAME.csv"),
+        (&["--ensemble", "10", "--bands", "there.csv"], "--force"),
+    ];
+    for (words, expected) in cases {
+        let mut all = vec!["run", file];
+        all.extend(words);
+        let output = answer(folder.path(), &all);
+        let said = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{words:?}: {said}");
+        assert!(said.contains(expected), "{words:?}: {said}");
+    }
+    let much = ["run", file, "--ensemble", "100000", "--channels", "*"];
+    let output = answer(folder.path(), &much);
+    assert!(String::from_utf8_lossy(&output.stderr).contains("GiB"));
+    let left: Vec<_> = fs::read_dir(folder.path()).unwrap().flatten().collect();
+    assert_eq!(left.len(), 1, "{left:?}");
+    assert_eq!(fs::read(folder.path().join("there.csv")).unwrap(), b"mine");
+}
+
+/// A study of the cart case, 60 ms, twelve members a sample.
+fn study(folder: &Path, parameters: &str) {
+    fs::copy(scenario("cart-lap.toml"), folder.join("cart.toml")).unwrap();
+    let text = format!(
+        "base = \"cart.toml\"\nseed = 3\nset = {{ \"time.end\" = \"60 ms\" }}\n\n[ensemble]\nmembers = 12\n{parameters}"
+    );
+    fs::write(folder.join("study.toml"), text).unwrap();
+}
+
+/// The rows of a CSV without quotes, by column.
+fn rows(path: &Path) -> Vec<BTreeMap<String, String>> {
+    let text = fs::read_to_string(path).unwrap();
+    let mut lines = text
+        .lines()
+        .map(|l| l.split(',').map(str::to_owned).collect::<Vec<_>>());
+    let head = lines.next().unwrap();
+    lines
+        .map(|l| head.iter().cloned().zip(l).collect())
+        .collect()
+}
+
+#[test]
+fn a_study_and_a_run_say_the_same_of_the_same_ensemble() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    study(path, "");
+    let output = answer(
+        path,
+        &[
+            "sweep",
+            "study.toml",
+            "-o",
+            "out",
+            "--csv",
+            "--threads",
+            "2",
+        ],
+    );
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    assert!(
+        said.contains("ensemble.parquet") && said.contains("head.peak"),
+        "{said}"
+    );
+    let run = ensemble(
+        path,
+        "cart-lap.toml",
+        &["12", "--seed", "3", "--until", "60 ms"],
+    );
+    let figures = named(&run["ensemble"]["figures"]);
+    let table = rows(&path.join("out/ensemble.csv"));
+    assert_eq!(table.len(), figures.len());
+    for row in &table {
+        let figure = figures[row["figure"].as_str()];
+        assert_eq!((row["sample"].as_str(), row["failed"].as_str()), ("0", "0"));
+        assert_eq!(row["verdict"], figure["verdict"].as_str().unwrap());
+        for part in ["nominal", "q05", "median", "q95", "tolerance"] {
+            let number = row[part].parse::<f64>().ok();
+            assert_eq!(number, figure[part].as_f64(), "{} {part}", row["figure"]);
+        }
+    }
+}
+
+#[test]
+fn every_sample_of_a_study_has_its_own_verdicts_and_failures() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    // the second sample's step is too long for the integration
+    study(
+        path,
+        "\n[design]\nkind = \"full_factorial\"\n\n[[parameters]]\npath = \"integrator.step\"\nlist = [\"0.1 ms\", \"20 ms\", \"0.2 ms\"]\n",
+    );
+    let output = answer(path, &["sweep", "study.toml", "-o", "out", "--csv"]);
+    let said = String::from_utf8_lossy(&output.stdout);
+    assert_eq!(output.status.code(), Some(0), "{said}");
+    let table = rows(&path.join("out/ensemble.csv"));
+    let failed = |sample: &str| {
+        let mut of = table.iter().filter(|r| r["sample"] == sample);
+        of.next().map(|r| r["failed"].clone())
+    };
+    assert_eq!(failed("0").as_deref(), Some("0"));
+    // all members failed: there is no figure to judge
+    assert_eq!(failed("1"), None);
+    assert_eq!(failed("2").as_deref(), Some("0"));
+    assert!(said.contains("12 members did not complete"), "{said}");
+    // once more from the finished folder: the same bytes
+    let bytes = fs::read(path.join("out/ensemble.csv")).unwrap();
+    let merged = answer(path, &["sweep", "merge", "out", "--csv"]);
+    assert_eq!(merged.status.code(), Some(0));
+    assert_eq!(fs::read(path.join("out/ensemble.csv")).unwrap(), bytes);
+}
