@@ -246,7 +246,9 @@ impl RawChannel {
             ));
         }
         let time_s: Vec<f64> = times.values.iter().map(|t| t * factor).collect();
-        match (1..time_s.len()).find(|&i| !(time_s[i] > time_s[i - 1])) {
+        // a missing time is no greater than another
+        let greater = |i: usize| time_s[i] > time_s[i - 1];
+        match (1..time_s.len()).find(|&i| !greater(i)) {
             Some(i) => Err(Trouble::at(
                 &times.path,
                 times.first_line + i,

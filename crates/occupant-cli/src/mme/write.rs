@@ -28,6 +28,9 @@ pub struct Labels {
     pub remarks: Vec<String>,
 }
 
+/// A file's place in the test's folder, and its text.
+pub type NamedText = (PathBuf, String);
+
 /// The files of a test with their places in its folder, and the channels that the dictionary has no code for.
 ///
 /// # Errors
@@ -36,7 +39,7 @@ pub fn files(
     model: &Model,
     histories: &Histories,
     labels: &Labels,
-) -> Result<(Vec<(PathBuf, String)>, Vec<String>), String> {
+) -> Result<(Vec<NamedText>, Vec<String>), String> {
     let interval_s = uniform_interval(&histories.time_s).map_err(|e| {
         format!("ISO-MME channels need equally spaced samples ({e}); --interval makes them so")
     })?;
