@@ -52,11 +52,6 @@ impl Census {
         worst.map(|(_, worst)| worst.indices()).unwrap_or_default()
     }
 
-    /// Samples that did not complete.
-    pub fn incomplete(&self) -> u64 {
-        self.failed + self.refused + self.broken
-    }
-
     /// Counts a sample.
     pub fn see(&mut self, row: &Row) {
         *match row.status {

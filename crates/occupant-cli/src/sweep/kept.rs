@@ -10,8 +10,10 @@ use occupant_core::study::Keep;
 use super::engine::{HandOn, Job, Worker, run};
 use super::finished::Finished;
 use super::folder::Folder;
+use super::journal::Journal;
 use super::plan::Plan;
 use super::problem::Problem;
+use super::row::Status;
 use super::simulation::{Simulation, is_kept};
 use crate::cli::exit::Failure;
 use crate::cli::output_file::partial_path;
@@ -49,13 +51,33 @@ pub fn prepare(keep: &Keep, folder: &Folder) -> Result<(), Problem> {
     fs::create_dir_all(&runs).map_err(Problem::io("create", &runs))
 }
 
-/// Of these samples those without a file; of a run that did not complete the partial file counts.
-pub fn missing(folder: &Folder, samples: impl Iterator<Item = u64>) -> Vec<u64> {
-    let there = |index: &u64| {
-        let file = folder.run(*index);
-        file.exists() || partial_path(&file).exists()
-    };
-    samples.filter(|index| !there(index)).collect()
+/// Of these samples, all of them finished, those whose file is missing. A run that failed has a partial file, a sample that
+/// was refused none.
+///
+/// # Errors
+/// A journal that cannot be read.
+pub fn missing(
+    folder: &Folder,
+    journal: &Journal,
+    samples: impl IntoIterator<Item = u64>,
+) -> Result<Vec<u64>, Problem> {
+    let mut missing = Vec::new();
+    for index in samples {
+        let file = folder.run(index);
+        if file.exists() {
+            continue;
+        }
+        let rows = journal.rows(index..index + 1)?;
+        let lacks = match rows.first().map(|row| row.status) {
+            Some(Status::Completed) => true,
+            Some(Status::Failed) => !partial_path(&file).exists(),
+            Some(Status::Refused | Status::Broken) | None => false,
+        };
+        if lacks {
+            missing.push(index);
+        }
+    }
+    Ok(missing)
 }
 
 /// Those of a range that are kept beforehand.
@@ -76,6 +98,7 @@ pub fn write(
     folder: &Folder,
     samples: &[u64],
     threads: usize,
+    kernel: Kernel,
     stop: &AtomicBool,
 ) -> Result<(), Failure> {
     let again = Again {
@@ -85,7 +108,7 @@ pub fn write(
             keep: &Keep::All,
             folder,
             stop,
-            kernel: Kernel::best(),
+            kernel,
         },
     };
     let count = samples.len() as u64;

@@ -63,9 +63,10 @@ impl ParquetTable {
     ///
     /// # Errors
     /// The operating system refuses.
-    pub fn publish(mut self) -> Result<PathBuf, Problem> {
-        let finished = self.writer.finish().and_then(|_| self.writer.into_inner());
-        let file = finished.map_err(|e| unwritten(&self.path, &e))?;
+    pub fn publish(self) -> Result<PathBuf, Problem> {
+        // writes the end of the file, too
+        let file = self.writer.into_inner();
+        let file = file.map_err(|e| unwritten(&self.path, &e))?;
         file.publish().map_err(|e| refused(&self.path, &e))
     }
 }

@@ -1,0 +1,145 @@
+//! `occupant sweep merge`.
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+use std::sync::atomic::AtomicBool;
+
+use occupant_core::lanes::Kernel;
+use occupant_core::study::Keep;
+
+use super::choices::{keep, threads};
+use super::words::{ensembles, no_plan, read_journal, sha256_of, tell, told};
+use crate::cli::exit::{Done, Failure};
+use crate::cli::run::program;
+use crate::sweep::folder::Folder;
+use crate::sweep::manifest::{Manifest, Text};
+use crate::sweep::plan::Plan;
+use crate::sweep::problem::Problem;
+use crate::sweep::texts::Texts;
+use crate::sweep::{kept, results};
+
+/// Make one table of a sweep's shards
+///
+/// Says which samples are missing, if any are.
+#[derive(Debug, clap::Args)]
+pub struct MergeArgs {
+    /// The folder of the sweep, or several with parts of one sweep
+    #[arg(value_name = "FOLDER", required = true)]
+    folders: Vec<PathBuf>,
+
+    /// The folder that the table is written into; the first FOLDER if absent
+    #[arg(short, long, value_name = "FOLDER")]
+    output: Option<PathBuf>,
+
+    /// Which whole runs to write, if the sweep was given --keep 'worst 5 by head.peak'
+    #[arg(long, value_name = "WHICH")]
+    keep: Option<String>,
+
+    /// Number of threads for the worst runs; one for each core if absent
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+
+    /// Write the table as results.csv too, with the units in columns.csv
+    #[arg(long)]
+    csv: bool,
+
+    /// No table of what it came to
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// Makes one table of shards.
+pub fn merge(args: &MergeArgs) -> Result<Done, Failure> {
+    let folders: Vec<Folder> = args.folders.iter().map(|f| Folder::at(f)).collect();
+    let manifest = common_manifest(&folders)?;
+    let journal = read_journal(&folders, &sha256_of(&manifest)?, &manifest)?;
+    let gaps = journal.finished.gaps(0..manifest.samples);
+    if !gaps.is_empty() {
+        let shards = journal.lacking(manifest.samples);
+        return Err(told(Problem::Incomplete {
+            gaps,
+            samples: manifest.samples,
+            shards,
+        }));
+    }
+    let target = match (&args.output, folders.first()) {
+        (Some(output), _) => Folder::at(output),
+        (None, Some(first)) => first.clone(),
+        (None, None) => return Err(Failure::plain("no folder was given")),
+    };
+    std::fs::create_dir_all(target.path())
+        .map_err(Problem::io("create", target.path()))
+        .map_err(told)?;
+    let (plan, keep) = stored_plan(args, &folders, &manifest)?;
+    kept::prepare(&keep, &target).map_err(told)?;
+    let csv = args.csv || plan.study().csv();
+    let (census, files) = results::write(&target, &journal, &manifest, &keep, csv).map_err(told)?;
+    let lacking = kept::missing(&target, &journal, census.worst()).map_err(told)?;
+    let stop = AtomicBool::new(false);
+    let kernel = Kernel::best();
+    kept::write(
+        &plan,
+        &target,
+        &lacking,
+        threads(args.threads),
+        kernel,
+        &stop,
+    )?;
+    let ensembles = ensembles(&target, &manifest, csv)?;
+    match args.quiet {
+        true => Ok(Done::Well),
+        false => tell(&census, &files, None, ensembles.as_ref()),
+    }
+}
+
+/// The plan as the first folder holds it, and what is to be kept.
+fn stored_plan(
+    args: &MergeArgs,
+    folders: &[Folder],
+    manifest: &Manifest,
+) -> Result<(Plan, Keep), Failure> {
+    let (Some(folder), Some(study)) = (folders.first(), manifest.texts.first()) else {
+        return Err(Failure::plain("the folder holds no study"));
+    };
+    let texts = Texts::of_copies(folder, manifest);
+    let study = Path::new(&study.name);
+    let plan = Plan::open(study, &manifest.overrides, &texts, program()).map_err(no_plan)?;
+    if plan.manifest != *manifest {
+        return Err(told(Problem::Differs {
+            folder: folder.path().to_owned(),
+            differences: manifest.differences(&plan.manifest, |_| None, |_| None),
+        }));
+    }
+    let keep = keep(args.keep.as_deref(), &plan)?;
+    Ok((plan, keep))
+}
+
+/// The manifest that all folders share.
+fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
+    let mut common: Option<(&Folder, Manifest)> = None;
+    for folder in folders {
+        let found = folder.manifest().map_err(told)?;
+        let shown = folder.path().display();
+        let found = found.ok_or_else(|| {
+            Failure::with_help(
+                format!("{shown} holds no sweep"),
+                "give the folder that `occupant sweep STUDY -o FOLDER` has written",
+            )
+        })?;
+        match &common {
+            None => common = Some((folder, found)),
+            Some((_, first)) if *first == found => {}
+            Some((there, first)) => {
+                let text = |f: &Folder, t: &Text| f.copy_of(t).ok();
+                let lines = first.differences(&found, |t| text(there, t), |t| text(folder, t));
+                return Err(Failure::plain(format!(
+                    "{} and {shown} hold parts of different sweeps:\n   {}",
+                    there.path().display(),
+                    lines.join("\n   ")
+                )));
+            }
+        }
+    }
+    let common = common.map(|(_, manifest)| manifest);
+    common.ok_or_else(|| Failure::plain("no folder was given"))
+}
