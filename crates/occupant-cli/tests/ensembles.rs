@@ -242,3 +242,71 @@ fn every_sample_of_a_study_has_its_own_verdicts_and_failures() {
     assert_eq!(merged.status.code(), Some(0));
     assert_eq!(fs::read(path.join("out/ensemble.csv")).unwrap(), bytes);
 }
+
+#[test]
+fn members_part_when_chest_and_head_strike_the_wheel() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path();
+    let files = [
+        "--bands",
+        "b.parquet",
+        "--bands",
+        "b.svg",
+        "--bands",
+        "b.png",
+    ];
+    let words = [&["32", "--seed", "1"], &files[..]].concat();
+    let answer = ensemble(path, "cart-lap.toml", &words);
+    let verdict = |figure: &str| named(&answer["ensemble"]["figures"])[figure]["verdict"].clone();
+    assert_eq!(verdict("hic15"), "not_stable"); // measured: 1863 to 2649
+    assert_eq!(verdict("contacts.chest.peak"), "not_stable"); // 2880 to 4834 N
+    assert_eq!(verdict("head_excursion.forward"), "stable"); // 718 to 732 mm
+    let channels = named(&answer["ensemble"]["channels"]);
+    let lost = |name: &str| channels[name]["lost_at_s"].as_f64();
+    // the chest arrives after 90 ms, the head after 102 ms; measured: 98, 99, 107 ms
+    for (name, from, to) in [
+        ("belt.lap.force", 0.0905, 0.105),
+        ("sphere.chest.force.resultant", 0.0905, 0.105),
+        ("sphere.head.force.resultant", 0.102, 0.112),
+    ] {
+        let lost = lost(name).unwrap_or(f64::NAN);
+        assert!(lost > from && lost < to, "{name}: {lost}");
+    }
+    // the changes place the head some millimetres to the side: that is no growth
+    assert_ne!(lost("sphere.head.position.y"), Some(0.0));
+    let bytes = |name: &str| fs::read(path.join(name)).unwrap();
+    assert_eq!(&bytes("b.parquet")[..4], b"PAR1");
+    assert_eq!(&bytes("b.png")[1..4], b"PNG");
+    let svg = String::from_utf8(bytes("b.svg")).unwrap();
+    assert!(svg.contains("belt.lap.force, N") && svg.contains("90 % of the members"));
+    assert!(!svg.contains("NaN"));
+}
+
+#[test]
+fn the_table_marks_what_is_not_stable() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = scenario("cart-lap.toml");
+    let words = ["run", file.to_str().unwrap(), "--no-mcap", "--ensemble"];
+    let table = |members: &str| {
+        let output = answer(
+            folder.path(),
+            &[&words[..], &[members, "--seed", "1"]].concat(),
+        );
+        String::from_utf8(output.stdout).unwrap()
+    };
+    let text = table("16");
+    let hic = text.lines().find(|l| l.starts_with("HIC15")).unwrap();
+    assert!(hic.contains("2485.0*"), "{text}");
+    let excursion = text
+        .lines()
+        .find(|l| l.starts_with("head excursion"))
+        .unwrap();
+    assert!(excursion.contains("forward 726 mm at"), "{text}");
+    assert!(text.contains("* NOT STABLE under small changes"), "{text}");
+    // nine have no verdict, and nothing carries a star
+    let few = table("9");
+    assert!(
+        few.contains("too few members") && !few.contains('*'),
+        "{few}"
+    );
+}

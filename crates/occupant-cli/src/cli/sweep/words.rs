@@ -29,7 +29,7 @@ pub fn sha256_of(manifest: &Manifest) -> Result<String, Failure> {
     sha256.map_err(|error| Failure::plain(format!("the manifest cannot be written: {error}")))
 }
 
-/// What is stable, where the study has ensembles.
+/// What is stable, where the study has ensembles: read from the finished table and written beside it.
 pub fn ensembles(
     folder: &Folder,
     manifest: &Manifest,
@@ -71,12 +71,8 @@ pub fn tell(
         lines.push(("doubtful", format!("{} {found}", census.unbalanced)));
     }
     lines.extend(work.map(|work| ("computed", work)));
-    let more = ensembles.iter().flat_map(|e| &e.files);
-    let names: Vec<String> = files
-        .iter()
-        .chain(more)
-        .map(|f| f.display().to_string())
-        .collect();
+    let files = files.iter().chain(ensembles.iter().flat_map(|e| &e.files));
+    let names: Vec<String> = files.map(|f| f.display().to_string()).collect();
     lines.push(("written", names.join(", ")));
     let stable = ensembles.map(|e| format!("\n{}", of_study(e)));
     speak::print(&(facts(&lines) + &stable.unwrap_or_default()))?;
