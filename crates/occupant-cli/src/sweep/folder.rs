@@ -161,6 +161,23 @@ impl Folder {
         }
     }
 
+    /// Refuses a folder with tables or runs that are not those of this sweep.
+    ///
+    /// # Errors
+    /// What stands there.
+    pub fn refuse_other_results(&self, manifest: &Manifest) -> Result<(), Problem> {
+        if self.manifest()?.as_ref() == Some(manifest) {
+            return Ok(());
+        }
+        let mut results = TABLES.iter().chain([&RUNS, &MANIFEST]);
+        match results.find(|name| self.path.join(name).exists()) {
+            Some(name) => Err(Problem::Exists {
+                path: self.path.join(name),
+            }),
+            None => Ok(()),
+        }
+    }
+
     fn busy(&self, doing: String) -> Problem {
         Problem::Busy {
             folder: self.path.clone(),

@@ -8,7 +8,7 @@ use occupant_core::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::sample::Sample;
 use occupant_core::scenario::{Diagnostics, Draft, Loaded};
 use occupant_core::simulate::simulate;
-use occupant_core::study::{Free, Parameter, Study, StudyText, Value};
+use occupant_core::study::{Design, Free, Law, Parameter, Setting, Study, StudyText, Value};
 use occupant_core::summary::{Figure, Summarizer};
 
 use super::manifest::{Column, Manifest, Role};
@@ -98,14 +98,19 @@ impl Plan {
 
     /// The values of a sample, by the columns that are inputs.
     pub fn inputs(&self, index: u64) -> Vec<Cell> {
-        let cell = |value: &Value| match value {
-            Value::Number(x) => Cell::Number(*x),
-            Value::Text(text) => Cell::Text(text.as_str().into()),
-            Value::Truth(b) => Cell::Text(b.to_string().into()),
-            Value::Base => Cell::Absent,
+        let columns = &self.manifest.columns;
+        let cell = |(at, setting): (usize, &Setting)| {
+            let is_text = columns.get(at).is_some_and(|c| c.role == Role::InputText);
+            match &setting.value {
+                Value::Number(x) if is_text => Cell::Text(x.to_string().into()),
+                Value::Number(x) => Cell::Number(*x),
+                Value::Text(text) => Cell::Text(text.as_str().into()),
+                Value::Truth(b) => Cell::Text(b.to_string().into()),
+                Value::Base => Cell::Absent,
+            }
         };
         let settings = self.study.sample(index);
-        let mut cells: Vec<Cell> = settings.iter().map(|s| cell(&s.value)).collect();
+        let mut cells: Vec<Cell> = settings.iter().enumerate().map(cell).collect();
         if self.study.members() > 1 {
             let (sample, member) = self.study.sample_and_member(index);
             cells.extend([sample, member].map(|n| Cell::Number(n as f64)));
@@ -209,14 +214,13 @@ impl Plan {
             },
             role: Role::Input,
         };
-        let first = self.study.sample(0);
-        let input = |(i, parameter): (usize, &Parameter)| match first.get(i).map(|s| &s.value) {
-            Some(Value::Text(_) | Value::Truth(_)) => Column {
+        let input = |(at, parameter): (usize, &Parameter)| match has_texts(&self.study, at) {
+            true => Column {
                 name: format!("input.{}", parameter.name),
                 unit: String::new(),
                 role: Role::InputText,
             },
-            _ => number(&parameter.name, parameter.unit),
+            false => number(&parameter.name, parameter.unit),
         };
         let parameters = self.study.parameters().iter().enumerate();
         let mut columns: Vec<Column> = parameters.map(input).collect();
@@ -269,6 +273,18 @@ fn changes_of(text: &StudyText) -> Vec<String> {
         Free::Text(text) => format!("{path}={}", serde_json::Value::from(text.as_str())),
     };
     text.section.set.iter().map(change).collect()
+}
+
+/// Whether a parameter has values that are no numbers.
+fn has_texts(study: &Study, at: usize) -> bool {
+    let text = |value: &Value| matches!(value, Value::Text(_) | Value::Truth(_));
+    match (study.parameters().get(at).map(|p| &p.law), study.design()) {
+        (Some(Law::List(values)), _) => values.iter().any(text),
+        (Some(Law::Table), Design::Table { rows }) => {
+            rows.iter().any(|row| row.get(at).is_some_and(text))
+        }
+        _ => false,
+    }
 }
 
 /// Ends a run at its first output.

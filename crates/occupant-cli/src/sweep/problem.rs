@@ -23,6 +23,11 @@ pub enum Problem {
         /// Its reason.
         source: io::Error,
     },
+    /// Results of something else are there.
+    Exists {
+        /// What is there.
+        path: PathBuf,
+    },
     /// There are files, but no sweep.
     NoSweep {
         /// The folder.
@@ -90,7 +95,9 @@ impl Problem {
     /// How to go on, where there is something to say.
     pub fn help(&self) -> Option<&'static str> {
         match self {
-            Problem::NoSweep { .. } => Some("name a new folder, or an empty one"),
+            Problem::Exists { .. } | Problem::NoSweep { .. } => {
+                Some("name a new folder, or an empty one")
+            }
             Problem::Differs { .. } => Some(
                 "name another folder, or compute everything anew with --restart, which removes the results that are there",
             ),
@@ -117,6 +124,9 @@ impl fmt::Display for Problem {
                 path,
                 source,
             } => write!(f, "cannot {doing} {}: {source}", path.display()),
+            Problem::Exists { path } => {
+                write!(f, "{} exists and is not of this sweep", path.display())
+            }
             Problem::NoSweep { folder } => {
                 write!(f, "{} holds files that are no sweep's", folder.display())
             }

@@ -87,6 +87,14 @@ fn shards_in_folders_of_their_own_are_merged_too() {
     );
     done(at, &["sweep", "merge", "a", "b", "-o", "table", "--csv"]);
     assert_eq!(rows(at, "table"), rows(at, "whole"));
+    // a table of something else is not replaced
+    let again = answer(at, &["sweep", "merge", "a", "b", "-o", "table"]);
+    assert_eq!(again.status.code(), Some(2));
+    let said = err(&again);
+    assert!(
+        said.contains("results.parquet exists and is not of this sweep"),
+        "{said}"
+    );
     let other = [
         "sweep",
         "study.toml",

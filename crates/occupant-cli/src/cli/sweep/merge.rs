@@ -70,6 +70,7 @@ pub fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     std::fs::create_dir_all(target.path())
         .map_err(Problem::io("create", target.path()))
         .map_err(told)?;
+    target.refuse_other_results(&manifest).map_err(told)?;
     let (plan, keep) = stored_plan(args, &folders, &manifest)?;
     kept::prepare(&keep, &target).map_err(told)?;
     let csv = args.csv || plan.study().csv();
