@@ -38,7 +38,7 @@ fn ensemble(folder: &Path, name: &str, words: &[&str]) -> Value {
 }
 
 /// By name.
-fn named<'v>(list: &'v Value) -> BTreeMap<&'v str, &'v Value> {
+fn named(list: &Value) -> BTreeMap<&str, &Value> {
     let list = list.as_array().expect("a list").iter();
     list.map(|v| (v["name"].as_str().expect("a name"), v))
         .collect()
