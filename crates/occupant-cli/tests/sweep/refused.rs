@@ -21,7 +21,7 @@ fn another_study_in_the_same_folder_is_refused_and_the_difference_named() {
     fs::write(at.join("study.toml"), STUDY.replace("25 mph", "26 mph")).unwrap();
     let said = refused(&words);
     assert!(
-        said.contains("study.toml, line 18: ") && said.contains("26 mph"),
+        said.contains("study.toml, line 17: ") && said.contains("26 mph"),
         "{said}"
     );
     assert!(said.contains("--restart"), "{said}");

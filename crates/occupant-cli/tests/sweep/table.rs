@@ -122,7 +122,6 @@ fn a_sample_that_is_refused_or_fails_is_a_row_with_its_reason() {
         design.kind = "full_factorial"
         [set]
         "time.end" = "20 ms"
-        integrator = { kind = "adaptive", relative = 1e-10, min_step = 1e-8, max_step = 1e-3 }
         [[parameters]]
         path = "time.start"
         list = [0.0, 0.5]
@@ -130,19 +129,15 @@ fn a_sample_that_is_refused_or_fails_is_a_row_with_its_reason() {
         path = "integrator.min_step"
         list = [1e-8, 0.9e-3]
     "#;
-    let study = study.replace(
-        "integrator = { kind = \"adaptive\", relative = 1e-10, min_step = 1e-8, max_step = 1e-3 }",
-        "",
-    );
-    let folder = folder_with(&study);
+    let folder = folder_with(study);
     let at = folder.path();
     let case = at.join("case.toml");
     let text = fs::read_to_string(&case).unwrap();
     // the starter's own integrator goes
     let start = text.find("[integrator]").unwrap();
     let end = start + text[start..].find("\n\n").unwrap();
-    let adaptive =
-        "[integrator]\nkind = \"adaptive\"\nrelative = 1e-10\nmin_step = 1e-8\nmax_step = 1e-3";
+    let adaptive = "[integrator]\nkind = \"adaptive\"\nmin_step = 1e-8\nmax_step = 1e-3\n\
+        relative = 1e-9\nabsolute_length = 1e-12\nabsolute_speed = 1e-10";
     fs::write(
         &case,
         format!("{}{adaptive}{}", &text[..start], &text[end..]),
