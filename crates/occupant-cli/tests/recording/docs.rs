@@ -10,7 +10,12 @@ const DOCS: &str = include_str!("../../docs/mcap.md");
 fn every_topic_is_documented() {
     let (bytes, _) = record(&model(), ());
     for topic in read(&bytes).keys() {
-        let parents = ["/occupant/segment/", "/occupant/sphere/", "/belt/"];
+        let parents = [
+            "/occupant/segment/",
+            "/occupant/sphere/",
+            "/occupant/joint/",
+            "/belt/",
+        ];
         let parent = parents.iter().find(|p| topic.starts_with(*p));
         let name = parent.map_or(format!("`{topic}`"), |p| format!("`{p}<"));
         assert!(DOCS.contains(&name), "{name}");

@@ -44,12 +44,12 @@ fn near(measures: &[Measure], name: &str, expected: f64, relative: f64) {
 #[test]
 fn known_pulses_give_known_measures() {
     let found = assess(&dummy(), &Options::default());
-    // measured: 1.3e-5 for HIC, from sampling at 10 kHz
+    // measured: 1.3e-5 for HIC and GSI, from sampling at 10 kHz
     near(&found, "hic15", 361.3591, 5e-5);
     near(&found, "hic36", 462.5037, 5e-5);
     near(&found, "head_3ms_cumulative", 59.5841 * G, 1e-5);
     near(&found, "chest_3ms_contiguous", 59.5841 * G, 1e-5);
-    near(&found, "gsi", 510.478, 1e-5);
+    near(&found, "gsi", 510.478, 5e-5);
     near(&found, "pelvis_peak", 60.0 * G, 1e-9);
     near(&found, "bric", 0.654_202, 1e-5);
     near(&found, "nij", 0.664_229, 1e-5);
