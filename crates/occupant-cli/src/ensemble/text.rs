@@ -250,11 +250,17 @@ fn all_samples(found: &Ensembles) -> String {
         ("stable in", Right),
         ("NOT STABLE in", Right),
         ("too few members in", Right),
+        ("absent in", Right),
     ]);
     for figure in found.figures.iter().filter(|f| is_shown(&f.name)) {
-        let counts = [figure.stable, figure.unstable, figure.too_few];
-        let [stable, unstable, too_few] = counts.map(|n| n.to_string());
-        table.row([figure.name.clone(), stable, unstable, too_few]);
+        let counts = [
+            figure.stable,
+            figure.unstable,
+            figure.too_few,
+            figure.absent,
+        ];
+        let cells = counts.map(|n| n.to_string());
+        table.row(std::iter::once(figure.name.clone()).chain(cells));
     }
     table.text()
 }
