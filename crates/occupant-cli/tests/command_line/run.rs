@@ -64,7 +64,11 @@ fn the_table_and_the_json_tell_the_same_numbers() {
             assert!(rows.iter().any(has), "{told:?} in {rows:?}");
         } else {
             // what touched at the start, or nothing at all
-            assert!(rows.iter().all(|r| r.contains("at start") || r.contains('–')), "{rows:?}");
+            assert!(
+                rows.iter()
+                    .all(|r| r.contains("at start") || r.contains('–')),
+                "{rows:?}"
+            );
         }
     }
     let solver = &json["solver"];

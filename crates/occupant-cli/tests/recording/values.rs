@@ -6,6 +6,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use occupant_cli::mcap::StoredRun;
 use occupant_core::body::Segment;
 use occupant_core::joint::Joint;
+use occupant_core::reaction::{femur_axial_n, reaction};
 use occupant_core::recorder::Watch;
 use occupant_core::sample::Sample;
 use prost_reflect::{DynamicMessage, ReflectMessage};
@@ -124,6 +125,34 @@ fn joints(s: &Sample<'_>) -> Fields {
     ]
 }
 
+fn joint_load(s: &Sample<'_>, joint: Joint) -> Fields {
+    let load = reaction(s, joint);
+    vec![
+        ("time_s", vec![s.time_s]),
+        ("force_segment_n", v(load.force_n)),
+        ("moment_segment_n_m", v(load.moment_n_m)),
+    ]
+}
+
+fn instruments(s: &Sample<'_>) -> Fields {
+    let neck = reaction(s, Joint::Neck);
+    // J211 axes: right and down where the segment's are left and up
+    let j211 = |v: Vector3<f64>| vec![v.x, -v.y, -v.z];
+    vec![
+        ("time_s", vec![s.time_s]),
+        ("neck_force_j211_n", j211(neck.force_n)),
+        ("neck_moment_j211_n_m", j211(neck.moment_n_m)),
+        (
+            "right_femur_axial_n",
+            vec![femur_axial_n(s, Segment::RightThigh)],
+        ),
+        (
+            "left_femur_axial_n",
+            vec![femur_axial_n(s, Segment::LeftThigh)],
+        ),
+    ]
+}
+
 fn energy(s: &Sample<'_>) -> Fields {
     let e = &s.energy;
     vec![
@@ -167,12 +196,17 @@ fn expected(s: &Sample<'_>) -> BTreeMap<String, Fields> {
     let mut groups = BTreeMap::from([
         ("/vehicle".to_owned(), vehicle(s)),
         ("/occupant/joints".to_owned(), joints(s)),
+        ("/occupant/instruments".to_owned(), instruments(s)),
         ("/energy".to_owned(), energy(s)),
         ("/solver".to_owned(), solver(s)),
         ("/occupant/report_coordinates".to_owned(), coordinates(s)),
     ]);
     for n in Segment::ALL {
         groups.insert(format!("/occupant/segment/{}", n.name()), segment(s, n));
+    }
+    for joint in Joint::ALL {
+        let topic = format!("/occupant/joint/{}", joint.name());
+        groups.insert(topic, joint_load(s, joint));
     }
     for (i, own) in s.model.body().spheres.iter().enumerate() {
         groups.insert(format!("/occupant/sphere/{}", own.name), sphere(s, i));
