@@ -81,6 +81,20 @@ fn rows(folder: &Path, name: &str) -> Vec<String> {
 fn column(rows: &[String], name: &str) -> Vec<String> {
     let at = rows[0].split(',').position(|n| n == name);
     let at = at.unwrap_or_else(|| panic!("no column {name} in {}", rows[0]));
-    let value = |row: &String| row.split(',').nth(at).unwrap_or_default().to_owned();
+    let value = |row: &String| cells(row).into_iter().nth(at).unwrap_or_default();
     rows[1..].iter().map(value).collect()
+}
+
+/// Cells of a line of CSV; a comma between quotes parts nothing.
+fn cells(row: &str) -> Vec<String> {
+    let mut cells = vec![String::new()];
+    let mut quoted = false;
+    for c in row.chars() {
+        match c {
+            '"' => quoted = !quoted,
+            ',' if !quoted => cells.push(String::new()),
+            c => cells.last_mut().unwrap().push(c),
+        }
+    }
+    cells
 }
