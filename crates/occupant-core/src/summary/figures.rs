@@ -84,6 +84,8 @@ impl Summary {
             let peak = self.sphere_forces.iter().find(|p| p.sphere == sphere.name);
             list.add(format!("{name}.peak"), "N", peak.map_or(0.0, |p| p.force_n));
             list.add(format!("{name}.peak_time"), "s", peak.map(|p| p.time_s));
+            let depth_m = peak.map_or(0.0, |p| p.penetration_m);
+            list.add(format!("{name}.penetration"), "m", depth_m);
             let first = self.first_contacts.iter().find(|f| f.sphere == sphere.name);
             if let Some(FirstContact { contact, .. }) = first {
                 let contact = contact.as_ref();

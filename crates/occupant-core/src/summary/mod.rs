@@ -151,6 +151,10 @@ pub struct SpherePeak {
     pub time_s: f64,
     /// The surface with the greatest normal force then.
     pub surface: String,
+    /// Greatest contact penetration Δ, whenever it occurred. No deflection of the body: that is rigid.
+    pub penetration_m: f64,
+    /// Its time.
+    pub penetration_time_s: f64,
 }
 
 /// Greatest displacements of the centre of the head sphere from its place at the start, vehicle axes; never negative.

@@ -60,6 +60,7 @@ struct BeltTrack {
 #[derive(Clone, Copy, Debug)]
 struct SphereTrack {
     force: Peak,
+    penetration: Peak,
     surface: usize,
 }
 
@@ -185,6 +186,8 @@ impl Summarizer {
                 force_n: track.force.value,
                 time_s: track.force.time_s,
                 surface: self.names.surfaces[track.surface].clone(),
+                penetration_m: track.penetration.value.max(0.0),
+                penetration_time_s: track.penetration.time_s,
             })
             .collect()
     }
@@ -238,6 +241,7 @@ impl Summarizer {
             let mut surface = 0;
             for contact in sample.contacts().filter(|c| c.sphere == sphere) {
                 sum_n += contact.force_n;
+                track.penetration.see(contact.depth_m, sample.time_s);
                 if hardest.see(contact.normal_force_n, sample.time_s) {
                     surface = contact.surface;
                 }
@@ -287,6 +291,7 @@ impl Recorder for Summarizer {
         };
         let sphere = SphereTrack {
             force: Peak::NONE,
+            penetration: Peak::NONE,
             surface: 0,
         };
         *self = Summarizer {
