@@ -38,7 +38,7 @@ fn computed(out: &Path) -> BTreeMap<u64, u32> {
 
 #[test]
 fn killed_at_any_moment_it_goes_on_to_the_same_table_and_computes_no_sample_twice() {
-    let study = STUDY.replace("samples = 24", "samples = 200");
+    let study = STUDY.replace("samples = 24", "samples = 800");
     let folder = folder_with(&study);
     let at = folder.path();
     done(
@@ -57,7 +57,7 @@ fn killed_at_any_moment_it_goes_on_to_the_same_table_and_computes_no_sample_twic
     ];
     let mut kills = 0;
     // moments that differ from each other: some before the first sample, some far in
-    for (round, pause_ms) in (0..).zip([3_u64, 40, 11, 90, 60, 150, 25, 200]) {
+    for (round, pause_ms) in (0..).zip([3_u64, 10, 25, 40, 5, 60, 15, 30]) {
         let mut child = occupant(at)
             .args(words)
             .stdout(Stdio::null())
@@ -88,7 +88,7 @@ fn killed_at_any_moment_it_goes_on_to_the_same_table_and_computes_no_sample_twic
     done(at, &words);
     assert_eq!(rows(at, "out"), rows(at, "whole"));
     let times = computed(&at.join("out"));
-    assert_eq!(times.len(), 200);
+    assert_eq!(times.len(), 800);
     assert!(times.values().all(|n| *n == 1), "{times:?}");
     assert!(kept.len() >= 10, "the kills left {} rows", kept.len());
 }
