@@ -62,6 +62,7 @@ fn works(model: &Model) -> Vec<Work<'static>> {
     let held = full.held(model);
     let loads = scene::no_loads();
     let (bare, mut committed, mut within) = (full.clone(), full.clone(), full.clone());
+    let bare_step = full.clone();
     let (mut held_step, mut held_within, mut step) = (held.clone(), held, full);
     vec![
         (
@@ -86,6 +87,12 @@ fn works(model: &Model) -> Vec<Work<'static>> {
             "full_commit",
             Box::new(move || {
                 black_box(black_box(&mut committed).commit());
+            }),
+        ),
+        (
+            "bare_step",
+            Box::new(move || {
+                black_box(black_box(&bare_step).bare_step(black_box(&loads)));
             }),
         ),
         (

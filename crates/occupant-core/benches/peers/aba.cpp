@@ -5,8 +5,7 @@
 // medians, ns.
 
 #include <pinocchio/algorithm/aba.hpp>
-#include <pinocchio/multibody/data.hpp>
-#include <pinocchio/multibody/model.hpp>
+#include <pinocchio/multibody.hpp>
 
 #include <algorithm>
 #include <chrono>

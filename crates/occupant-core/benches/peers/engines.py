@@ -30,6 +30,7 @@ class Peer:
     def mujoco(self, parts, key):
         """MuJoCo's model of `parts` and its data at the keyframe `key`."""
         model = mujoco.MjModel.from_xml_string(self._ask("mjcf", parts))
+        model.qpos_spring[:] = model.key("start").qpos
         return model, self.at(model, key)
 
     @staticmethod
@@ -80,6 +81,16 @@ def check_mujoco(peer):
     print(f"MuJoCo: over {span:.2f} s the ends of all segments stay within {worst / size:.1e} of ours ({size:.2f} m = 1)")
     if not worst / size < SAME_PLACE:
         refuse("MuJoCo", "move", worst / size, SAME_PLACE)
+
+
+def check_belts(peer):
+    """At the start the tendons are as long as our belts, which have no slack there."""
+    model, data = peer.mujoco("held", "start")
+    mujoco.mj_forward(model, data)
+    error = np.abs(data.ten_length - np.array(peer.motion["belts"])).max()
+    print(f"MuJoCo: the tendons are as long as our belts to {error:.1e} m")
+    if not error < 1e-6:
+        refuse("MuJoCo", "belt", error, 1e-6)
 
 
 def pinocchio_model(pin, motion):

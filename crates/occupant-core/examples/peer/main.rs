@@ -1,7 +1,7 @@
 //! A scenario's occupant for other engines (`benches/peers`): as MJCF, and our own motion and accelerations of it as JSON.
 //!
 //! ```text
-//! peer mjcf SCENARIO SECONDS free|hinges|joints|contact    the model for MuJoCo
+//! peer mjcf SCENARIO SECONDS free|hinges|held|contact    the model for MuJoCo
 //! peer motion SCENARIO SECONDS                             what other engines are checked against
 //! ```
 //!
@@ -12,6 +12,7 @@
 #[path = "../../benches/scene/mod.rs"]
 mod scene;
 
+mod belts;
 mod coordinates;
 mod faces;
 mod mjcf;
@@ -24,7 +25,7 @@ use mjcf::Parts;
 use occupant_core::model::Model;
 use occupant_core::scenario::{Format, Scenario};
 
-const USAGE: &str = "peer mjcf SCENARIO SECONDS free|hinges|joints|contact, or peer motion SCENARIO SECONDS";
+const USAGE: &str = "peer mjcf SCENARIO SECONDS free|hinges|held|contact, or peer motion SCENARIO SECONDS";
 
 #[allow(clippy::print_stdout, reason = "an example prints its result")]
 fn main() {

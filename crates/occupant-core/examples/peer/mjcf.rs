@@ -1,12 +1,13 @@
-//! The model as MJCF. What MuJoCo cannot say is left out: dampers that resist bending only (it gets the same number for
-//! all three directions), stops that damp, springs in β, belts, and the force law of the contacts.
+//! The model as MJCF. What MuJoCo cannot say it gets in its own words, as much work of the same kind: a damper that resists
+//! bending resists all three turns, a spring in β holds the whole turn of its joint, a belt is a tendon round its sphere
+//! with one stiffness. Stops that damp and the force law of the contacts have no counterpart and are left out.
 
 use occupant_core::body::{SEGMENTS, Segment};
-use occupant_core::joint::Joints;
+use occupant_core::joint::{BallJoint, Joints};
 use occupant_core::model::Model;
 
 use crate::coordinates::{ORDER, PARENTS, Placed, limb, positions, speeds};
-use crate::faces;
+use crate::{belts, faces};
 use crate::scene::Instant;
 
 /// How much of the model is written.
@@ -16,8 +17,8 @@ pub enum Parts {
     Free,
     /// Also the hinges' dampers, which both engines know.
     Hinges,
-    /// Also the ball joints' dampers.
-    Joints,
+    /// Also dampers and springs of the ball joints, and belts.
+    Held,
     /// Also spheres and surfaces.
     Contact,
 }
@@ -28,7 +29,7 @@ impl Parts {
         Some(match name {
             "free" => Parts::Free,
             "hinges" => Parts::Hinges,
-            "joints" => Parts::Joints,
+            "held" => Parts::Held,
             "contact" => Parts::Contact,
             _ => return None,
         })
@@ -42,6 +43,10 @@ pub fn write(model: &Model, parts: Parts, instants: &Placed) -> String {
         Parts::Contact => surfaces(model, now),
         _ => String::new(),
     };
+    let (anchors, tendons) = match parts >= Parts::Held {
+        true => (belts::anchors(model, now), belts::tendons(model)),
+        false => (String::new(), String::new()),
+    };
     let key = |name: &str, now: &Instant| {
         let (q, v) = (positions(&now.state), speeds(&now.state));
         format!("<key name=\"{name}\" qpos=\"{}\" qvel=\"{}\"/>\n", list(&q), list(&v))
@@ -49,7 +54,8 @@ pub fn write(model: &Model, parts: Parts, instants: &Placed) -> String {
     format!(
         "<mujoco>\n<compiler angle=\"radian\" inertiafromgeom=\"false\"/>\n\
          <option gravity=\"0 0 {}\" timestep=\"0.0001\" integrator=\"RK4\"/>\n\
-         <worldbody>\n{surfaces}{}</worldbody>\n<keyframe>\n{}{}{}</keyframe>\n</mujoco>",
+         <worldbody>\n{surfaces}{anchors}{}</worldbody>\n<tendon>\n{tendons}</tendon>\n\
+         <keyframe>\n{}{}{}</keyframe>\n</mujoco>",
         -now.system.skeleton.gravity,
         body(model, now, parts, 0),
         key("start", &instants.start),
@@ -85,16 +91,16 @@ fn body(model: &Model, now: &Instant, parts: Parts, n: usize) -> String {
         link.mass,
         list(&link.central),
     );
-    if parts == Parts::Contact {
-        for site in &now.system.contacts.sites {
-            if site.segment == n {
-                let centre = [site.offset.x, site.offset.y, site.offset.z];
-                text += &format!(
-                    "<geom type=\"sphere\" size=\"{}\" pos=\"{}\" friction=\"0 0 0\" contype=\"1\" conaffinity=\"0\"/>\n",
-                    site.radius,
-                    list(&centre),
-                );
-            }
+    for (i, site) in now.system.contacts.sites.iter().enumerate() {
+        if site.segment == n && parts >= Parts::Held {
+            let centre = [site.offset.x, site.offset.y, site.offset.z];
+            text += &format!(
+                "<geom name=\"sphere {i}\" type=\"sphere\" size=\"{}\" pos=\"{}\" friction=\"0 0 0\" contype=\"{}\" conaffinity=\"0\"/>\n",
+                site.radius,
+                list(&centre),
+                u8::from(parts == Parts::Contact),
+            );
+            text += &belts::sides(model, now, i);
         }
     }
     let children = ORDER.iter().filter(|&&child| PARENTS[child] == Some(n));
@@ -123,7 +129,7 @@ pub fn place(now: &Instant, n: usize) -> [f64; 3] {
 
 fn joint(joints: &Joints, parts: Parts, n: usize) -> String {
     let of = |least: Parts, damping: f64| if parts >= least { damping } else { 0.0 };
-    let (hinge, ball) = (Parts::Hinges, Parts::Joints);
+    let (hinge, ball) = (Parts::Hinges, Parts::Held);
     let j = joints;
     let damping: [f64; SEGMENTS] = [
         0.0,
@@ -139,9 +145,19 @@ fn joint(joints: &Joints, parts: Parts, n: usize) -> String {
         of(hinge, j.left_knee.damping_n_m_s),
         of(hinge, j.right_knee.damping_n_m_s),
     ];
+    let spring = |joint: &BallJoint| joint.spring.map_or(0.0, |s| of(ball, s.stiffness_n_m));
+    let stiffness = |n: usize| match n {
+        1 => spring(&j.upper_back),
+        3 => spring(&j.lower_back),
+        _ => 0.0,
+    };
     match (PARENTS[n], limb(n)) {
         (None, _) => "<freejoint/>".to_owned(),
         (_, Some(_)) => format!("<joint type=\"hinge\" axis=\"0 1 0\" damping=\"{}\"/>", damping[n]),
-        (_, None) => format!("<joint type=\"ball\" damping=\"{}\"/>", damping[n]),
+        (_, None) => format!(
+            "<joint type=\"ball\" damping=\"{}\" stiffness=\"{}\"/>",
+            damping[n],
+            stiffness(n)
+        ),
     }
 }

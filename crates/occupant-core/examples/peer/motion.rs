@@ -37,6 +37,7 @@ pub fn describe(model: &Model, now: &Instant) -> Value {
         "interval": STEPS_PER_PLACE as f64 * STEP_S,
         "places": places(model, now),
         "vehicle": vehicle(model),
+        "belts": model.system().belts.iter().map(|belt| belt.rest_length).collect::<Vec<_>>(),
     })
 }
 
