@@ -38,8 +38,6 @@ struct ParameterAnswer {
     /// The same of the vehicle's motion, and when; absent if the parameter leaves it alone.
     path_doubt: Option<f64>,
     path_doubt_time_s: Option<f64>,
-    /// Change of the parameter by which the outputs were displaced.
-    output_step: f64,
     notes: Vec<String>,
 }
 
@@ -58,7 +56,7 @@ struct Sensitivity {
     unit: String,
     /// Parts of the measure per part of the parameter.
     relative: Option<f64>,
-    /// Distance of two extrapolations of the derivative.
+    /// Distance of two extrapolations of the derivative, and rounding.
     doubt: f64,
     changes: Vec<ChangeAnswer>,
     verdict: &'static str,
@@ -140,7 +138,6 @@ fn parameters(asked: &Asked<'_>, found: &Analysis) -> Vec<ParameterAnswer> {
             constants_doubt: built.doubt,
             path_doubt,
             path_doubt_time_s,
-            output_step: found.derivatives[k].step,
             notes: built.notes.clone(),
         }
     };
