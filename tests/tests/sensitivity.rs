@@ -6,7 +6,7 @@ use occupant_core::checkpoint::Checkpoint;
 use occupant_core::model::Model;
 use occupant_core::recorder::Watch;
 use occupant_core::scenario::{Draft, Format};
-use occupant_core::sensitivity::finite::{CHANGES, Verdict, compare, finite_changes};
+use occupant_core::sensitivity::finite::{CHANGES, HOLDS, Verdict, compare, finite_changes};
 use occupant_core::sensitivity::measures::{Wish, derivatives, plain_values};
 use occupant_core::sensitivity::{Built, Parameter, Slope, Trajectory, Trouble, follow, parameter};
 use occupant_core::setup::{Integrator, Setup};
@@ -319,8 +319,9 @@ fn heavier_and_stiffer_in_proportion_moves_alike_and_pushes_in_proportion() {
             }
         }
     }
-    assert_below("motion does not change", still, 1e-5);
-    assert_below("forces change in proportion", forces, 1e-5);
+    // Measured: 3.2e-11, 3.4e-11.
+    assert_below("motion does not change", still, 1e-8);
+    assert_below("forces change in proportion", forces, 1e-8);
 }
 
 #[test]
@@ -421,14 +422,11 @@ fn after_contacts_the_derivative_is_what_small_finite_changes_do() {
             for (i, figure) in figures.iter().enumerate() {
                 let slope = found.figures[i];
                 let c = compare(&slope, plain.figures[i], parameter.size, &finite, i);
-                println!(
-                    "{figure:28} by {:22} {:12.5e} doubt {:8.1e} off {:?} {:?}",
-                    parameter.name, slope.value, slope.doubt, c.off, c.verdict
-                );
-                let Verdict::Holds { off, .. } = c.verdict else {
-                    panic!("{figure} by {}: {c:?}", parameter.name);
-                };
-                assert!(off <= 0.1);
+                let what = format!("{figure} by {}, ±0.01 %", parameter.name);
+                // Measured: 3.4e-6 to 1.3e-2, in proportion to the change until a contact comes or goes.
+                assert_below(&what, c.off[0], 0.03);
+                let declared = matches!(c.verdict, Verdict::Holds { off, .. } if off <= HOLDS);
+                assert!(declared, "{what}: {c:?}");
             }
         }
     }
