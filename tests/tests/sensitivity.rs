@@ -43,15 +43,9 @@ fn tumbling() -> Draft {
     };
     let (upper, lower) = (far("upper_back"), far("lower_back"));
     let neck = far("neck");
-    let set = [
-        q,
-        rates,
-        "time.end=0.06",
-        "gravity=9.81",
-        &upper,
-        &lower,
-        &neck,
-    ];
+    let (right, left) = (far("right_hip"), far("left_hip"));
+    let stops = [&upper, &lower, &neck, &right, &left].map(String::as_str);
+    let set = [&[q, rates, "time.end=0.06", "gravity=9.81"], &stops[..]].concat();
     draft(FREE, &set)
 }
 
@@ -83,10 +77,10 @@ fn series(model: &Model) -> Vec<Vec<f64>> {
 
 /// Slopes of all channels by differences of whole runs, extrapolated: of several steps the one whose two extrapolations lie
 /// closest together, as rounding asks for long steps and the bends of the motion for short ones.
-fn by_runs(parameter: &Parameter<'_>) -> Vec<Vec<f64>> {
+fn by_runs(parameter: &Parameter<'_>, parts: &[f64]) -> Vec<Vec<f64>> {
     let at = |h: f64| series(&(parameter.model_at)(parameter.nominal + h).unwrap());
     let mut best: Vec<Vec<(f64, f64)>> = Vec::new();
-    for part in [1e-2, 1e-3, 1e-4] {
+    for part in parts {
         let h = part * parameter.size;
         let runs = [h, -h, 0.5 * h, -0.5 * h, 0.25 * h, -0.25 * h].map(at);
         let slope = |i: usize, j: usize| {
@@ -124,17 +118,22 @@ fn scale_of(all: &[Channel], plain: &[Vec<f64>], channel: &Channel) -> f64 {
     greatest(alike.flat_map(|(_, values)| values.iter().copied()))
 }
 
-/// Greatest distance between duals and differences of runs, as a part of the channel's greatest slope, or of a thousandth of
+/// Greatest distance between duals and differences of runs, as a part of the channel's greatest slope, or of a hundredth of
 /// what a channel of its unit comes to: channels that stand still hold nothing but rounding.
-fn distance(model: &Model, parameter: &Parameter<'_>, found: &[Vec<Slope>]) -> (f64, String) {
+fn distance(
+    model: &Model,
+    parameter: &Parameter<'_>,
+    found: &[Vec<Slope>],
+    parts: &[f64],
+) -> (f64, String) {
     let all = channels(model);
     let plain = series(model);
-    let expected = by_runs(parameter);
+    let expected = by_runs(parameter, parts);
     let mut worst = (0.0, String::new());
     for (i, channel) in all.iter().enumerate() {
         let name = &channel.name;
         let scale = greatest(expected[i].iter().copied())
-            .max(1e-3 * scale_of(&all, &plain, channel) / parameter.size);
+            .max(1e-2 * scale_of(&all, &plain, channel) / parameter.size);
         let far = found[i].iter().zip(&expected[i]);
         let far = greatest(far.map(|(a, b)| a.value - b));
         assert!(far.is_finite(), "{name}");
@@ -145,7 +144,7 @@ fn distance(model: &Model, parameter: &Parameter<'_>, found: &[Vec<Slope>]) -> (
     worst
 }
 
-fn against_runs(draft: &Draft, paths: &[&str], bound: f64) {
+fn against_runs(draft: &Draft, paths: &[&str], parts: &[f64], bound: f64) {
     let model = model_of(draft);
     let parameters: Vec<Parameter<'_>> = paths
         .iter()
@@ -153,7 +152,7 @@ fn against_runs(draft: &Draft, paths: &[&str], bound: f64) {
         .collect();
     let (_, found) = all_channels(&model, &parameters);
     for (parameter, found) in parameters.iter().zip(&found) {
-        let (far, channel) = distance(&model, parameter, found);
+        let (far, channel) = distance(&model, parameter, found, parts);
         assert_below(&format!("{}, worst {channel}", parameter.name), far, bound);
     }
 }
@@ -171,7 +170,7 @@ fn in_the_air_duals_are_the_limit_of_differences_of_runs() {
         "initial_state.q[4]",
         "initial_state.rates[2]",
     ];
-    against_runs(&tumbling(), &paths, 1e-6);
+    against_runs(&tumbling(), &paths, &[1e-3, 1e-4, 1e-5], 1e-6);
 }
 
 #[test]
@@ -182,7 +181,8 @@ fn with_error_control_too() {
     draft.set("integrator.relative=1e-11").unwrap();
     draft.set("integrator.absolute_length=1e-12").unwrap();
     draft.set("integrator.absolute_speed=1e-12").unwrap();
-    against_runs(&draft, &["joints.neck.damping", "gravity"], 1e-6);
+    let paths = ["joints.neck.damping", "gravity"];
+    against_runs(&draft, &paths, &[1e-2, 1e-3], 1e-6);
 }
 
 /// Every value of every checkpoint of the run in duals is that of the plain run; [`follow`] looks at each output.
@@ -391,7 +391,7 @@ fn on_the_cart_before_the_first_event() {
         "seats.driver.y",
         "body.segments.*.weight",
     ];
-    against_runs(&draft, &paths, 1e-6);
+    against_runs(&draft, &paths, &[1e-3, 1e-4, 1e-5], 1e-6);
 }
 
 #[test]
