@@ -48,13 +48,13 @@ impl Axis {
         self.from + share.clamp(0.0, 1.0) * (self.to - self.from)
     }
 
-    /// Powers of ten inside, or twos and fives too where there are few.
+    /// Powers of ten inside, and numbers between where there are few.
     fn ticks(&self) -> Vec<f64> {
         let decades = (self.low.floor() as i32)..=(self.high.ceil() as i32);
-        let steps: &[f64] = if self.high - self.low > 2.5 {
-            &[1.0]
-        } else {
-            &[1.0, 2.0, 5.0]
+        let steps: &[f64] = match self.high - self.low {
+            span if span > 2.5 => &[1.0],
+            span if span > 1.2 => &[1.0, 3.0],
+            _ => &[1.0, 2.0, 5.0],
         };
         let all = decades.flat_map(|d| steps.iter().map(move |s| s * 10f64.powi(d)));
         let inside = |v: &f64| (self.low..=self.high).contains(&v.log10());

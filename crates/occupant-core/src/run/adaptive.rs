@@ -105,9 +105,12 @@ impl Run {
             self.effort.evaluations += 1;
         }
         let mut was_rejected = false;
+        // the end of the step, where it is to end behind a corner
+        let mut behind_s = None;
         loop {
             let wanted_s = self.control.wanted_s.min(control.max_step_s);
-            let end_s = end_of_step(start_s, wanted_s, stop_s);
+            let located = behind_s.take();
+            let end_s = located.unwrap_or_else(|| end_of_step(start_s, wanted_s, stop_s));
             let step = Step { start_s, end_s };
             let h = step.length_s();
             if h <= 0.0 {
@@ -117,8 +120,18 @@ impl Run {
             front.look(model, step, &mut self.cursor);
             let trial = front.attempt(model, step, &control.tolerance, &mut self.cursor);
             self.effort.evaluations += EVALUATIONS;
+            if located.is_none() && trial.error.is_finite() {
+                behind_s = front.end_behind_corner(model, step, &control.tolerance);
+            }
+            if behind_s.is_some() {
+                self.effort.rejected += 1;
+                if trial.error > 1.0 {
+                    self.control.reject(h, trial.error);
+                }
+                continue;
+            }
             if trial.error <= 1.0 {
-                let is_full = h >= wanted_s * 0.99;
+                let is_full = located.is_none() && h >= wanted_s * 0.99;
                 self.control.accept(h, trial.error, is_full, was_rejected);
                 self.effort.steps += 1;
                 self.effort.step_s = h;

@@ -6,13 +6,14 @@
 use std::mem::swap;
 
 use super::Step;
+use super::corner::{Crossing, Touching};
 use crate::checkpoint::{StepStart, StepUnderWay};
 use crate::integrate::bogacki_shampine::{Stage, Tolerance, Trial, attempt, within};
 use crate::kernel::contact::Touch;
 use crate::kernel::state::State;
 use crate::kernel::{History, Observer};
 use crate::model::Model;
-use crate::observers::{Meeting, Seen};
+use crate::observers::Seen;
 use crate::path::PathCursor;
 
 /// The latest step of the integration, and where it stands.
@@ -33,7 +34,9 @@ pub(crate) struct Front {
     /// History of a trial.
     trial: History<f64>,
     /// What touches at `to`.
-    met: Vec<Meeting>,
+    met: Vec<Touching>,
+    /// What touches at the end of a trial.
+    met_in_trial: Vec<Touching>,
 }
 
 impl Front {
@@ -53,6 +56,7 @@ impl Front {
             after: history.clone(),
             trial: history.clone(),
             met: Vec::with_capacity(history.pairs.len()),
+            met_in_trial: Vec::with_capacity(history.pairs.len()),
         }
     }
 
@@ -92,7 +96,9 @@ impl Front {
         let middle_s = 0.5 * (step.start_s + step.end_s);
         let frames = model.frames(step.start_s, middle_s, cursor);
         let system = model.system();
-        self.rates[1] = system.rate::<true>(&self.to, &frames, &mut self.after);
+        self.met.clear();
+        let mut met = Met(&mut self.met);
+        self.rates[1] = system.rate_observed::<true>(&self.to, &frames, &mut self.after, &mut met);
     }
 
     /// Tries `step`, which begins where the front stands.
@@ -106,8 +112,8 @@ impl Front {
         let (system, h) = (model.system(), step.length_s());
         let middle_s = 0.5 * (step.start_s + step.end_s);
         self.trial.take_over(&self.after);
-        self.met.clear();
-        let (history, met) = (&mut self.trial, &mut self.met);
+        self.met_in_trial.clear();
+        let (history, met) = (&mut self.trial, &mut self.met_in_trial);
         attempt(
             &self.to,
             &self.rates[1],
@@ -135,12 +141,31 @@ impl Front {
         self.rate_is_known = !at_break;
         swap(&mut self.before, &mut self.after);
         swap(&mut self.after, &mut self.trial);
+        swap(&mut self.met, &mut self.met_in_trial);
+    }
+
+    /// Where to end `step` instead, which was just tried: just behind its first corner that matters, s.
+    pub fn end_behind_corner(
+        &self,
+        model: &Model,
+        step: Step,
+        tolerance: &Tolerance,
+    ) -> Option<f64> {
+        let crossing = Crossing {
+            model,
+            step,
+            at_start: &self.met,
+            at_end: &self.met_in_trial,
+            history: &self.after,
+            tolerance,
+        };
+        crossing.end_behind_corner()
     }
 
     /// Notes what touches at the end of the step, as all outputs before it are recorded.
     pub fn note(&mut self, model: &Model, seen: &mut Seen) {
-        for meeting in self.met.drain(..) {
-            seen.note(model, self.step.end_s, meeting);
+        for touching in &self.met {
+            seen.note(model, self.step.end_s, touching.meeting);
         }
     }
 
@@ -179,7 +204,7 @@ impl Front {
 }
 
 /// Collects what touches.
-struct Met<'a>(&'a mut Vec<Meeting>);
+struct Met<'a>(&'a mut Vec<Touching>);
 
 impl Observer<f64> for Met<'_> {
     #[inline(always)]

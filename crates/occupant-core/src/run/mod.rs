@@ -3,6 +3,7 @@
 //! The model stands beside it, unchanged: every call gets the one that the run was made for.
 
 mod adaptive;
+mod corner;
 mod fixed;
 mod front;
 

@@ -43,9 +43,9 @@ fn adaptive(b: &mut Builder, a: &AdaptiveSection) -> Integrator {
         b.error("integrator.max_step", found, "min_step ≤ max_step");
     }
     Integrator::Adaptive {
-        relative: b.optional("integrator.relative", &a.relative, 1e-5),
-        absolute_m: b.optional("integrator.absolute_length", &a.absolute_length, 1e-6),
-        absolute_m_s: b.optional("integrator.absolute_speed", &a.absolute_speed, 1e-4),
+        relative: b.optional("integrator.relative", &a.relative, 3e-6),
+        absolute_m: b.optional("integrator.absolute_length", &a.absolute_length, 3e-7),
+        absolute_m_s: b.optional("integrator.absolute_speed", &a.absolute_speed, 3e-5),
         min_step_s,
         max_step_s,
     }

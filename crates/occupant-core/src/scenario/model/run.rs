@@ -52,15 +52,15 @@ pub struct Rk4Section {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AdaptiveSection {
-    /// Relative tolerance of velocities; 1e-5 if absent.
+    /// Relative tolerance of velocities; 3e-6 if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("minimum" = 0))]
     pub relative: Option<Ratio>,
-    /// Absolute tolerance of positions; 1e-6 m if absent.
+    /// Absolute tolerance of positions; 3e-7 m if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub absolute_length: Option<Length>,
-    /// Absolute tolerance of velocities; 1e-4 m/s if absent.
+    /// Absolute tolerance of velocities; 3e-5 m/s if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub absolute_speed: Option<Speed>,

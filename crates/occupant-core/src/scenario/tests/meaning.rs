@@ -68,9 +68,9 @@ fn defaults_are_those_of_the_description() {
     let setup = build(super::SHORT);
     assert_eq!(setup.gravity_m_s2, STANDARD_GRAVITY_M_S2);
     let adaptive = Integrator::Adaptive {
-        relative: 1e-5,
-        absolute_m: 1e-6,
-        absolute_m_s: 1e-4,
+        relative: 3e-6,
+        absolute_m: 3e-7,
+        absolute_m_s: 3e-5,
         min_step_s: 1e-8,
         max_step_s: 2e-3,
     };
