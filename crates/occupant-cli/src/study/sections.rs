@@ -289,7 +289,7 @@ fn linear(html: &mut Html, report: &Report, analysis: &Analysis) {
                 let mark = caution::rank(found);
                 reading = match (found.rho.is_clear(), found.rho.value > 0.0) {
                     (false, _) => "sign not known",
-                    (true, true) => "rises",
+                    (true, true) => "rises with it",
                     (true, false) => "falls",
                 };
                 row.extend(cells(&found.rho, &part, mark));
@@ -323,7 +323,7 @@ fn linear(html: &mut Html, report: &Report, analysis: &Analysis) {
         "95 %",
         "coefficient",
         "95 %",
-        "with it the figure",
+        "reading",
     ];
     html.table(&head, &rows);
     html.text("p class=\"remark\"", &regression_words(linear));

@@ -23,9 +23,9 @@ fn cube(k: usize, design: &str, seed: u64) -> Study {
     "#;
     let mut text = format!("base = \"b\"\nseed = {seed}\ndesign = {{ {design} }}\n");
     for i in 0..k {
-        let (i, unit) = (i + 3, "rad");
+        let i = i + 3;
         text += &format!(
-            "[[parameters]]\nname = \"x{i}\"\npath = \"initial_state.q[{i}]\"\nrange = {{ from = \"0 {unit}\", to = \"1 {unit}\" }}\n"
+            "[[parameters]]\nname = \"x{i}\"\npath = \"initial_state.q[{i}]\"\nrange = {{ from = 0, to = 1 }}\n"
         );
     }
     let read = StudyText::read(&text, Format::Toml, "s").unwrap_or_else(|e| panic!("{e}"));

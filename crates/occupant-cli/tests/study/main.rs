@@ -2,6 +2,7 @@
 //! on functions whose answers are known.
 
 mod again;
+mod bands;
 mod known;
 mod page;
 mod refused;

@@ -99,6 +99,21 @@ fn a_finished_study_has_all_its_sections() {
 }
 
 #[test]
+fn parameters_that_go_together_are_named() {
+    let study = format!(
+        "{STUDY}\n[[correlations]]\nbetween = [\"joints.neck.damping\", \"speed\"]\nrank = 0.9\n"
+    );
+    let folder = swept(&study);
+    done(folder.path(), &["study", "report", "out"]);
+    let text = fs::read_to_string(folder.path().join("out/report.html")).unwrap();
+    assert!(
+        text.contains("joints.neck.damping and speed together (rank correlation 0.")
+            || text.contains("joints.neck.damping and speed together (rank correlation 1.")
+    );
+    assert!(!page(swept(STUDY).path()).contains("together (rank"));
+}
+
+#[test]
 fn figures_can_be_chosen_and_constant_ones_say_so() {
     let folder = swept(STUDY);
     let at = folder.path();
@@ -112,16 +127,16 @@ fn figures_can_be_chosen_and_constant_ones_say_so() {
         "contacts.head.peak,belts.*.peak",
     ];
     done(at, &words);
-    let text = fs::read_to_string(at.join("chosen.html")).unwrap();
-    sane(&text);
-    assert!(text.contains("belts.torso.peak") && !text.contains(">hic15<"));
+    let shown = fs::read_to_string(at.join("chosen.html")).unwrap();
+    sane(&shown);
+    assert!(shown.contains("belts.torso.peak") && !shown.contains(">hic15<"));
     // the head touches nothing in 30 ms
-    assert!(text.contains("The same in all 24 samples: 0 N."), "{text}");
-    let rows = rows(&at.join("chosen.parquet"));
     assert!(
-        rows.iter()
-            .all(|r| super::page::text(r, "response") != "hic15")
+        shown.contains("The same in all 24 samples: 0 N."),
+        "{shown}"
     );
+    let rows = rows(&at.join("chosen.parquet"));
+    assert!(rows.iter().all(|r| text(r, "response") != "hic15"));
 }
 
 #[test]
