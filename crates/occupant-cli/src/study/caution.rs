@@ -7,6 +7,7 @@ use occupant_core::study::Design;
 use occupant_core::study::analysis::{
     Effect, Estimate, RankCorrelation, Regression, SobolIndices, rank_correlation,
 };
+use occupant_core::study::spread::Spread;
 
 use super::gather::Gathered;
 use super::open::Opened;
@@ -91,8 +92,12 @@ pub fn effect(found: &Effect) -> Option<String> {
     wide.then(|| "interval wider than the effect".to_owned())
 }
 
-/// Why all numbers of a response are marked: rows without a value.
-pub fn missing(missing: usize, rows: usize) -> Option<String> {
+/// Why all numbers of a response are marked: samples without a value.
+pub fn lacking(spread: Option<&Spread>) -> Option<String> {
+    spread.and_then(|s| missing(s.missing, s.members + s.missing))
+}
+
+fn missing(missing: usize, rows: usize) -> Option<String> {
     let most = part(missing, rows) > MISSING;
     most.then(|| format!("{missing} of {rows} samples have no such figure: what is said holds for the others only"))
 }

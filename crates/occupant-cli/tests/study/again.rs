@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use super::{answer, done, figures, page, swept};
+use super::{answer, done, figures, folder_with, page, swept};
 
 /// The commands of a page, without those that stand there twice.
 fn commands(page: &str) -> Vec<String> {
@@ -103,7 +103,20 @@ fn factors_offsets_words_and_shared_changes_come_again_to_the_bit() {
         path = "path.speed"
         distribution = { kind = "triangular", from = "15 mph", mode = "20 mph", to = "25 mph" }
     "#;
-    let folder = swept(study);
+    let folder = folder_with(study);
+    let words = [
+        "sweep",
+        "study.toml",
+        "-o",
+        "out",
+        "--csv",
+        "--quiet",
+        "--set",
+    ];
+    done(
+        folder.path(),
+        &[&words[..], &["path.duration=70 ms"]].concat(),
+    );
     assert!(all_give_their_rows(folder.path()) >= 4);
 }
 
@@ -154,7 +167,7 @@ fn a_table_of_motions_is_found_beside_the_copy_of_the_scenario() {
 }
 
 #[test]
-fn a_command_is_refused_by_nobody_because_its_file_is_there() {
+fn a_run_made_in_the_folder_of_a_study_does_it_no_harm() {
     let folder = swept(super::STUDY);
     let at = folder.path();
     let text = page(at);

@@ -213,15 +213,13 @@ fn morris_s_own_function_is_screened_as_he_says() {
     let greatest = (10..20).map(magnitude).fold(0.0, f64::max);
     assert!(least > 2.0 * greatest, "{least} {greatest}");
     // inputs 8 to 10 act in proportion: 2 · 20, and a little company
-    for i in 7..10 {
-        assert!((found[i].mean.value - 40.0).abs() < 6.0, "{:?}", found[i]);
-        assert!(found[i].deviation < 0.35 * found[i].mean_magnitude.value);
+    for effect in &found[7..10] {
+        assert!((effect.mean.value - 40.0).abs() < 6.0, "{effect:?}");
+        assert!(effect.deviation < 0.35 * effect.mean_magnitude.value);
     }
-    for i in 0..7 {
-        assert!(
-            found[i].deviation > 0.35 * found[i].mean_magnitude.value,
-            "{i}"
-        );
+    for effect in &found[..7] {
+        let bent = effect.deviation > 0.35 * effect.mean_magnitude.value;
+        assert!(bent, "{effect:?}");
     }
     let mut first: Vec<usize> = Analysis::of(&samples, 0, &study).order[..10].to_vec();
     first.sort_unstable();

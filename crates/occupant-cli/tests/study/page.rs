@@ -176,7 +176,7 @@ fn a_growing_study_says_how_much_of_it_is_there() {
 }
 
 #[test]
-fn a_killed_sweep_can_be_reported_on_and_goes_on() {
+fn a_sweep_at_work_and_a_killed_one_can_be_reported_on() {
     let folder = folder_with(&STUDY.replace("samples = 24", "samples = 2000"));
     let at = folder.path();
     let mut sweep = occupant(at)
@@ -244,6 +244,9 @@ fn failed_and_refused_runs_are_counted_with_their_reasons() {
     // half of the runs are missing: what is said of the rest is marked
     let (median, marked) = counted(folder.path(), "median");
     assert!(median > 0 && marked == median);
+    assert!(
+        text.contains("samples have no such figure: what is said holds for the others only\">")
+    );
 }
 
 #[test]

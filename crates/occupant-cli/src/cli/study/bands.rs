@@ -67,10 +67,10 @@ pub fn bands(args: &BandsArgs) -> Result<Done, Failure> {
         interrupt: &interrupt,
     };
     let samples = study.samples();
-    if let (Some(sample), false) = (
-        (0..samples).find(|s| bands.there(*s) == There::Other),
-        args.force,
-    ) {
+    let mut all = 0..samples;
+    if !args.force
+        && let Some(sample) = all.find(|s| bands.there(*s) == There::Other)
+    {
         return Err(Failure::with_help(
             format!("{} holds other bands", bands.file(sample).display()),
             "--force replaces them; the same --channels go on",
