@@ -31,8 +31,9 @@ pub(crate) mod run;
 pub(crate) mod scenario;
 mod schema;
 pub(crate) mod speak;
+mod study;
 mod summary_table;
-mod sweep;
+pub(crate) mod sweep;
 pub(crate) mod table;
 mod view;
 
@@ -61,6 +62,7 @@ pub struct Cli {
 enum Command {
     Run(run::Args),
     Sweep(sweep::Args),
+    Study(study::Args),
     Check(check::Args),
     New(new::Args),
     Schema(schema::Args),
@@ -81,6 +83,7 @@ pub fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Run(args) => run::run(&args),
         Command::Sweep(args) => sweep::sweep(&args),
+        Command::Study(args) => study::study(&args),
         Command::Check(args) => check::check(&args),
         Command::New(args) => new::new(&args),
         Command::Schema(args) => schema::print(&args),
