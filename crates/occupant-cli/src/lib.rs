@@ -15,6 +15,6 @@ mod print;
 pub mod report;
 pub mod results;
 mod risk;
-mod study;
+pub mod study;
 mod sweep;
 pub mod view;

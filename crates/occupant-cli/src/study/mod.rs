@@ -4,8 +4,8 @@
 //! folder of a sweep ─ Opened ─ Samples (a table of inputs and responses) ─ Analysis of each response ─ page, Parquet
 //! ```
 
-mod analysis;
-mod caution;
+pub mod analysis;
+pub mod caution;
 mod command;
 mod describe;
 mod extremes;
@@ -16,7 +16,7 @@ mod open;
 mod page;
 mod plots;
 mod responses;
-mod samples;
+pub mod samples;
 mod sections;
 mod shown;
 mod tables;

@@ -46,6 +46,11 @@ pub fn study(html: &mut Html, report: &Report) {
     }
     html.text("h2", "The study");
     html.facts(&facts);
+}
+
+/// What is varied.
+pub fn varied(html: &mut Html, report: &Report) {
+    let study = report.opened.plan.study();
     if study.parameters().is_empty() {
         return;
     }
