@@ -14,6 +14,7 @@ mod ensemble_args;
 pub(crate) mod exit;
 mod export;
 mod extend;
+mod fit;
 mod history_args;
 pub(crate) mod interrupt;
 mod measure_table;
@@ -61,6 +62,7 @@ pub struct Cli {
 enum Command {
     Run(run::Args),
     Sweep(sweep::Args),
+    Fit(fit::Args),
     Check(check::Args),
     New(new::Args),
     Schema(schema::Args),
@@ -81,6 +83,7 @@ pub fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Run(args) => run::run(&args),
         Command::Sweep(args) => sweep::sweep(&args),
+        Command::Fit(args) => fit::fit(&args),
         Command::Check(args) => check::check(&args),
         Command::New(args) => new::new(&args),
         Command::Schema(args) => schema::print(&args),

@@ -1,6 +1,6 @@
 //! `occupant sweep`.
 
-mod choices;
+pub(crate) mod choices;
 mod merge;
 mod words;
 
