@@ -91,8 +91,7 @@ pub fn fit(args: &Args) -> Result<Done, Failure> {
         maps: &args.map,
         overrides: &args.overrides,
     };
-    let fitting =
-        Fitting::open(&args.study, &given, program()).map_err(Failure::CouldNotRun)?;
+    let fitting = Fitting::open(&args.study, &given, program()).map_err(Failure::CouldNotRun)?;
     if !args.quiet {
         fitting.warnings.iter().for_each(|w| say(&format!("{w}\n")));
     }
@@ -100,7 +99,12 @@ pub fn fit(args: &Args) -> Result<Done, Failure> {
     let sha256 = fitting.manifest.sha256();
     let sha256 =
         sha256.map_err(|e| Failure::plain(format!("the manifest cannot be written: {e}")))?;
-    let claimed = folder.claim(&fitting.manifest, &fitting.texts, Shard::WHOLE, args.restart);
+    let claimed = folder.claim(
+        &fitting.manifest,
+        &fitting.texts,
+        Shard::WHOLE,
+        args.restart,
+    );
     let held = claimed.map_err(told)?;
     if let (Some(reason), false) = (&held.unlocked, args.quiet) {
         say(&format!(
@@ -174,10 +178,11 @@ impl Output<'_> {
                 let set = draft.set_value(&number.path, &number.text);
                 set.map_err(|e| e.to_string())?;
             }
-            let (_, model, _) =
-                opened(draft, &experiment.tables).map_err(|e| e.to_string())?;
+            let (_, model, _) = opened(draft, &experiment.tables).map_err(|e| e.to_string())?;
             let after = run_model(experiment, &model)?;
-            fittings.parts.extend(experiment.misfits(self.fitting.fit.misfit, &after)?);
+            fittings
+                .parts
+                .extend(experiment.misfits(self.fitting.fit.misfit, &after)?);
             fittings.numbers.push(numbers);
             runs.push(Pair {
                 before: run(experiment, None).ok(),
@@ -204,9 +209,7 @@ impl Output<'_> {
     fn write_scenarios(&self, found: &Found, fittings: &Fittings) -> Result<(), Failure> {
         let each = self.fitting.experiments.iter().zip(&fittings.numbers);
         for ((experiment, numbers), name) in each.zip(&fittings.names) {
-            let words = |i: usize| {
-                report::provenance(self.fitting, found, &found.parameters[i], i)
-            };
+            let words = |i: usize| report::provenance(self.fitting, found, &found.parameters[i], i);
             let provenance: Vec<(String, String)> = numbers
                 .iter()
                 .map(|n| (n.path.clone(), words(n.parameter)))
@@ -217,12 +220,20 @@ impl Output<'_> {
                 found.study.file
             );
             let text = fitted(experiment, numbers, &provenance, &head).map_err(broke_off)?;
+            if !text.kept {
+                say(&format!(
+                    "note: {name} is written anew: its comments and order could not be kept"
+                ));
+            }
             self.put(name, text.text.as_bytes())?;
             let folder = Path::new(name).parent().unwrap_or(Path::new(""));
             for (table, bytes) in &experiment.tables {
                 // beside the scenario that names it, if that is a place below it
                 let below = Path::new(table).components();
-                if below.clone().all(|c| matches!(c, std::path::Component::Normal(_))) {
+                if below
+                    .clone()
+                    .all(|c| matches!(c, std::path::Component::Normal(_)))
+                {
                     let place = folder.join(table);
                     self.put(&place.display().to_string(), bytes)?;
                 }
@@ -249,7 +260,13 @@ impl Output<'_> {
 
 /// A name that can be that of a file.
 fn file_stem(name: &str) -> String {
-    let plain = |c: char| if c.is_alphanumeric() || "-_ .".contains(c) { c } else { '_' };
+    let plain = |c: char| {
+        if c.is_alphanumeric() || "-_ .".contains(c) {
+            c
+        } else {
+            '_'
+        }
+    };
     name.chars().map(plain).collect()
 }
 

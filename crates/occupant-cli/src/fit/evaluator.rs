@@ -157,7 +157,8 @@ impl<'a> Evaluator<'a> {
             let Some(rows) = rows else {
                 return Err(self.interrupted());
             };
-            self.records.push(record(self.fitting, stage, candidate, &rows)?);
+            self.records
+                .push(record(self.fitting, stage, candidate, &rows)?);
         }
         let new = &self.records[before..];
         self.progress.see(stage, new);

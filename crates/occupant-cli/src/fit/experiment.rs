@@ -147,7 +147,10 @@ impl Experiment {
         let histories = self.histories(series)?;
         let of = |(_, target): &(usize, Target)| {
             let computed = target.computed(in_group(&histories, target.filter)?)?;
-            let peak = target.reference.iter().fold(0.0, |g: f64, m| g.max(m.abs()));
+            let peak = target
+                .reference
+                .iter()
+                .fold(0.0, |g: f64, m| g.max(m.abs()));
             let pairs = computed.iter().zip(&target.reference);
             Ok(pairs.map(|(c, m)| (c - m) / peak).collect())
         };

@@ -148,7 +148,11 @@ impl Fitting {
 
     /// Values of the parameters, SI, at a point of the unit cube.
     pub fn values(&self, at: &[f64]) -> Vec<f64> {
-        self.bounds.iter().zip(at).map(|(b, u)| b.value(*u)).collect()
+        self.bounds
+            .iter()
+            .zip(at)
+            .map(|(b, u)| b.value(*u))
+            .collect()
     }
 
     /// The score of all targets, experiment by experiment.
@@ -171,7 +175,11 @@ impl Fitting {
             }
             _ => 0.5,
         };
-        self.parameters().iter().zip(&self.bounds).map(start).collect()
+        self.parameters()
+            .iter()
+            .zip(&self.bounds)
+            .map(start)
+            .collect()
     }
 }
 
@@ -190,7 +198,9 @@ struct Opening<'a> {
 
 impl Opening<'_> {
     fn complain(&mut self, at: &str, found: String, expected: &str, hint: Option<&str>) {
-        let told = self.text.complaint(at, found, expected, hint.map(str::to_owned));
+        let told = self
+            .text
+            .complaint(at, found, expected, hint.map(str::to_owned));
         self.problems.push(told.to_string());
     }
 
@@ -209,7 +219,9 @@ impl Opening<'_> {
                 self.complain("", "no test to fit to".to_owned(), "a test", Some(hint));
             }
             let each = files.iter();
-            return each.map(|f| of_command(f, FitTest::default(), String::new())).collect();
+            return each
+                .map(|f| of_command(f, FitTest::default(), String::new()))
+                .collect();
         }
         let open = fit.tests.iter().filter(|t| t.file.is_none()).count();
         if open != files.len() {
@@ -365,9 +377,11 @@ impl Opening<'_> {
                     self.warnings.push(format!("note: {note}"));
                 }
                 // a copy for the folder; of an ISO-MME test its checksum only
-                let copied = named.file.is_file() && self.texts.get(named.by.0, &named.by.1).is_ok();
+                let copied =
+                    named.file.is_file() && self.texts.get(named.by.0, &named.by.1).is_ok();
                 if !copied {
-                    self.texts.add(named.by.0, &named.by.1, recording.sha256.clone());
+                    self.texts
+                        .add(named.by.0, &named.by.1, recording.sha256.clone());
                 }
                 Some(recording)
             }
@@ -395,7 +409,8 @@ impl Opening<'_> {
         let names: Vec<Wanted> = wanted.iter().map(|(c, _)| Wanted::from(c)).collect();
         let mut notes = Vec::new();
         let found = pairs(recording, &names, &maps, named.test.seat, &mut notes);
-        self.warnings.extend(notes.into_iter().map(|n| format!("note: {n}")));
+        self.warnings
+            .extend(notes.into_iter().map(|n| format!("note: {n}")));
         let found = match found {
             Ok(found) => found,
             Err(failure) => {
@@ -420,7 +435,9 @@ impl Opening<'_> {
             let shifted = (pair, named.test.shift_s);
             let filter = filter_of(of.filter);
             let channel = channel.clone();
-            match Target::new(channel, filter, weight, shifted, window_s, run_s, fit.misfit) {
+            match Target::new(
+                channel, filter, weight, shifted, window_s, run_s, fit.misfit,
+            ) {
                 Ok(target) => targets.push((name, target)),
                 Err(reason) => {
                     let found = format!("{name} of {file} cannot be fitted to: {reason}");
@@ -500,5 +517,8 @@ fn ended(problems: Vec<String>, study: &str) -> String {
         1 => "1 error".to_owned(),
         n => format!("{n} errors"),
     };
-    format!("{}\n\n{study}: {count}, nothing was run", blocks.join("\n\n"))
+    format!(
+        "{}\n\n{study}: {count}, nothing was run",
+        blocks.join("\n\n")
+    )
 }

@@ -297,7 +297,7 @@ fn by(near: Near) -> &'static str {
     match near {
         Near::Study => "the study",
         Near::Likelihood { .. } => "95 % likelihood of the residuals",
-        Near::Peak => "0.1 % of the measured peaks: the residuals are smaller",
+        Near::Peak => "0.05 % of the measured peaks: the residuals are smaller",
         Near::Score => "scores that differ by less than 0.01",
     }
 }
@@ -413,7 +413,9 @@ fn remarks(
     let best = misfit.of_cost(answer.best.value);
     let limit = misfit.of_cost(answer.best.value + answer.rise);
     let descents = &answer.global.descents;
-    let same = descents.iter().filter(|d| d.best.value <= limit.max(best + fitting.fit.tolerance));
+    let same = descents
+        .iter()
+        .filter(|d| d.best.value <= limit.max(best + fitting.fit.tolerance));
     if descents.len() > 1 && same.count() < 2 {
         all.push(
             "only one descent has found this score: a greater budget may find a better one"

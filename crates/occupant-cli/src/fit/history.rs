@@ -43,15 +43,23 @@ fn manifest(fitting: &Fitting) -> Manifest {
     ];
     let parameters = fitting.parameters().iter();
     manifest.columns.extend(parameters.map(|p| {
-        column(format!("input.{}", p.name), one_if_empty(p.unit), Role::Input)
+        column(
+            format!("input.{}", p.name),
+            one_if_empty(p.unit),
+            Role::Input,
+        )
     }));
     for name in ["score", "best"] {
-        manifest.columns.push(column(name.to_owned(), "1", Role::Figure));
+        manifest
+            .columns
+            .push(column(name.to_owned(), "1", Role::Figure));
     }
-    manifest.columns.extend(fitting.targets().map(|(test, target)| {
-        let name = format!("{}.{}", fitting.tests[*test].name, target.channel.name);
-        column(name, "1", Role::Figure)
-    }));
+    manifest
+        .columns
+        .extend(fitting.targets().map(|(test, target)| {
+            let name = format!("{}.{}", fitting.tests[*test].name, target.channel.name);
+            column(name, "1", Role::Figure)
+        }));
     manifest
 }
 
@@ -64,14 +72,24 @@ fn rows(fitting: &Fitting, records: &[Record]) -> Vec<Row> {
             Some(Stage::Descent { number, generation }) => [number, generation].map(|n| n as f64),
             _ => [f64::NAN; 2],
         };
-        let number = |x: f64| if x.is_nan() { Cell::Absent } else { Cell::Number(x) };
+        let number = |x: f64| {
+            if x.is_nan() {
+                Cell::Absent
+            } else {
+                Cell::Number(x)
+            }
+        };
         let mut cells = vec![Cell::Text(stage.into())];
         cells.extend(counted.map(number));
         match &record.at {
             Some(at) => cells.extend(fitting.values(at).into_iter().map(Cell::Number)),
             None => cells.extend(vec![Cell::Absent; fitting.bounds.len()]),
         }
-        best = if record.at.is_some() { record.score.min(best) } else { best };
+        best = if record.at.is_some() {
+            record.score.min(best)
+        } else {
+            best
+        };
         cells.extend([record.score, best].map(|x| match x.is_finite() {
             true => Cell::Number(x),
             false => Cell::Absent,

@@ -18,7 +18,7 @@ use crate::cli::exit::Failure;
 /// Scores that differ by less are the same where a study says nothing, the likelihood of "rms" apart.
 const SAME: f64 = 0.01;
 /// Root mean square differences below this part of the peak are none.
-const NONE: f64 = 1e-3;
+const NONE: f64 = 5e-4;
 /// How often a lower point that was met on the way to an interval begins everything after the descents anew.
 const ANEW: usize = 3;
 /// A lower point counts as such by this part of the rise.
@@ -54,7 +54,7 @@ pub enum Near {
         /// How many.
         unrelated: f64,
     },
-    /// Differences below 0.1 % of the peak, because the residuals are smaller still.
+    /// Differences below 0.05 % of the peak, because the residuals are smaller still.
     Peak,
     /// Scores that differ by 0.01.
     Score,
@@ -100,14 +100,19 @@ pub fn search(fitting: &Fitting, evaluator: &mut Evaluator<'_>) -> Result<Answer
     loop {
         let (rise, _) = rise(fitting, &best)?;
         let (reaches, lowest) = scan(&best, rise, &mut costs)?;
-        let lengths: Vec<f64> = reaches.iter().map(|[a, b]| a.length.max(b.length)).collect();
+        let lengths: Vec<f64> = reaches
+            .iter()
+            .map(|[a, b]| a.length.max(b.length))
+            .collect();
         best = refine(lowest, &lengths, rise, &mut costs)?;
         let (rise, near) = self::rise(fitting, &best)?;
         let (reaches, scanned) = scan(&best, rise, &mut costs)?;
         let (shape, looked) = Shape::look(&best, &reaches, rise, &mut costs)?;
         let profiles = profile(&best, &reaches, &shape, rise, &mut costs)?;
         let lowest = [scanned, looked, profiles.lowest.clone()];
-        let lowest = lowest.into_iter().min_by(|a, b| a.value.total_cmp(&b.value));
+        let lowest = lowest
+            .into_iter()
+            .min_by(|a, b| a.value.total_cmp(&b.value));
         anew += 1;
         match lowest {
             Some(lower) if anew < ANEW && best.value - lower.value > LOWER * rise => best = lower,
@@ -143,7 +148,9 @@ fn rise(fitting: &Fitting, best: &Point) -> Result<(f64, Near), Failure> {
     for experiment in &fitting.experiments {
         let residuals = run(experiment, Some(&values)).and_then(|s| experiment.residuals(&s));
         let residuals = residuals.map_err(|reason| {
-            Failure::BrokeOff(format!("error: the best candidate cannot be run again: {reason}"))
+            Failure::BrokeOff(format!(
+                "error: the best candidate cannot be run again: {reason}"
+            ))
         })?;
         unrelated += residuals.iter().map(|r| unrelated_samples(r)).sum::<f64>();
     }
@@ -168,10 +175,7 @@ pub fn run(experiment: &Experiment, values: Option<&[f64]>) -> Result<Series, St
 ///
 /// # Errors
 /// An integration that fails.
-pub fn run_model(
-    experiment: &Experiment,
-    model: &Model,
-) -> Result<Series, String> {
+pub fn run_model(experiment: &Experiment, model: &Model) -> Result<Series, String> {
     let mut series = Series::new(experiment.recorded.clone());
     let outcome = simulate(model, &mut series).map_err(|e| e.to_string())?;
     match outcome.status {

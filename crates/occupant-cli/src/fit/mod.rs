@@ -9,8 +9,8 @@
 
 pub mod evaluator;
 pub mod experiment;
-pub mod found;
 pub mod fitting;
+pub mod found;
 pub mod history;
 pub mod identified;
 pub mod plots;

@@ -53,7 +53,8 @@ fn figures_of(
         None => None,
     };
     let own = experiment.targets.iter().filter(|(t, _)| *t == test);
-    own.map(|(_, target)| figure(target, file, before.as_ref(), &after)).collect()
+    own.map(|(_, target)| figure(target, file, before.as_ref(), &after))
+        .collect()
 }
 
 fn figure(
@@ -96,5 +97,8 @@ fn figure(
         window_s: target.window_s,
     };
     let drawn = figures(std::slice::from_ref(&wish), &material)?;
-    drawn.into_iter().next().ok_or_else(|| "no figure".to_owned())
+    drawn
+        .into_iter()
+        .next()
+        .ok_or_else(|| "no figure".to_owned())
 }

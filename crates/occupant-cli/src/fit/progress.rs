@@ -33,7 +33,8 @@ impl Progress {
         };
         let bar = ProgressBar::with_draw_target(Some(budget), target);
         // the words of the template are ours; should they not parse, the plain bar does
-        if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos} of {len} evaluations, {msg}")
+        if let Ok(style) =
+            ProgressStyle::with_template("{bar:30} {pos} of {len} evaluations, {msg}")
         {
             bar.set_style(style);
         }
@@ -52,7 +53,10 @@ impl Progress {
     /// What a batch came to.
     pub fn see(&mut self, stage: Option<Stage>, records: &[Record]) {
         self.evaluations += records.len() as u64;
-        let least = records.iter().map(|r| r.score).fold(f64::INFINITY, f64::min);
+        let least = records
+            .iter()
+            .map(|r| r.score)
+            .fold(f64::INFINITY, f64::min);
         if stage.is_some() {
             self.best = self.best.min(least);
         }
@@ -63,7 +67,8 @@ impl Progress {
         if !self.bar.is_hidden() {
             self.bar.set_length(self.budget.max(self.evaluations));
             self.bar.set_position(self.evaluations);
-            self.bar.set_message(format!("{words}: score {:.5}", self.best));
+            self.bar
+                .set_message(format!("{words}: score {:.5}", self.best));
             return;
         }
         match stage {

@@ -21,10 +21,16 @@ pub fn text(fitting: &Fitting, found: &Found) -> String {
 
 fn overview(found: &Found) -> String {
     let e = &found.evaluations;
-    let before = found.score.before.map_or(NONE.to_owned(), |b| format!("{b:.5}"));
+    let before = found
+        .score
+        .before
+        .map_or(NONE.to_owned(), |b| format!("{b:.5}"));
     let tests: Vec<&str> = found.tests.iter().map(|t| t.file.as_str()).collect();
     let mut lines = vec![
-        ("fit", format!("{} to {}", found.study.file, tests.join(", "))),
+        (
+            "fit",
+            format!("{} to {}", found.study.file, tests.join(", ")),
+        ),
         (
             "score",
             format!(
@@ -106,7 +112,11 @@ fn parameters(fitting: &Fitting, found: &Found) -> String {
 /// Pairs that make up for each other, and how far.
 fn compensating(fitting: &Fitting, found: &Found) -> String {
     let mut lines = Vec::new();
-    for pair in found.correlations.iter().filter(|c| c.correlation.abs() > COMPENSATING) {
+    for pair in found
+        .correlations
+        .iter()
+        .filter(|c| c.correlation.abs() > COMPENSATING)
+    {
         let [a, b] = &pair.between;
         let place = |name: &String| found.parameters.iter().position(|p| p.name == *name);
         let (Some(i), Some(j)) = (place(a), place(b)) else {
@@ -115,7 +125,9 @@ fn compensating(fitting: &Fitting, found: &Found) -> String {
         let [low, high] = &found.parameters[i].ends;
         let value = |end: &super::found::EndFound, at: usize| {
             let (unit, si) = unit_of(fitting, at);
-            format!("{} {unit}", short(end.values[at] / si)).trim().to_owned()
+            format!("{} {unit}", short(end.values[at] / si))
+                .trim()
+                .to_owned()
         };
         lines.push(format!(
             "{a} and {b} compensate each other (correlation {:.3}): {} with {} scores {:.5}, {} with {} scores {:.5}\n",
@@ -171,11 +183,16 @@ pub fn provenance(fitting: &Fitting, found: &Found, p: &ParameterFound, i: usize
             p.words,
             with_unit(format!("{low} to {high}"))
         ),
-        _ => format!("{}, interval {}", p.words, with_unit(format!("{low} to {high}"))),
+        _ => format!(
+            "{}, interval {}",
+            p.words,
+            with_unit(format!("{low} to {high}"))
+        ),
     };
     let tests = found.tests.iter();
-    let tests: Vec<String> =
-        tests.map(|t| format!("{} (SHA-256 {})", t.file, t.sha256)).collect();
+    let tests: Vec<String> = tests
+        .map(|t| format!("{} (SHA-256 {})", t.file, t.sha256))
+        .collect();
     format!(
         "fitted by {}{factor}: parameter {} of {} (SHA-256 {}) to {}; {} score {:.5}; {interval}",
         found.program,

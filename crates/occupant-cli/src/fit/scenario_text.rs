@@ -54,7 +54,8 @@ pub fn numbers(experiment: &Experiment, values: &[f64]) -> Result<Vec<Fitted>, S
                 return Err(format!("`{}` is no number", assignment.path));
             };
             let text = study.base().written(&assignment.path, si, DIGITS);
-            let text = text.ok_or_else(|| format!("no number can stand at `{}`", assignment.path))?;
+            let text =
+                text.ok_or_else(|| format!("no number can stand at `{}`", assignment.path))?;
             Ok(Fitted {
                 parameter: of(&assignment.path),
                 path: assignment.path,
@@ -86,7 +87,9 @@ pub fn fitted(
     }
     let format = format_of(&experiment.scenario);
     let is_toml = format.unwrap_or_else(|| Format::of_text(&experiment.text)) == Format::Toml;
-    let edited = is_toml.then(|| edited(experiment, numbers, provenance)).flatten();
+    let edited = is_toml
+        .then(|| edited(experiment, numbers, provenance))
+        .flatten();
     if let Some(text) = edited.filter(|text| says(experiment, text, &wanted)) {
         return Ok(FittedText {
             text: format!("{head}{text}"),
@@ -133,7 +136,9 @@ fn edited(
     }
     if !provenance.is_empty() {
         let table = document.entry("provenance");
-        let table = table.or_insert(Item::Table(Table::new())).as_table_like_mut()?;
+        let table = table
+            .or_insert(Item::Table(Table::new()))
+            .as_table_like_mut()?;
         for (path, words) in provenance {
             table.insert(path, value(words.as_str()));
         }

@@ -109,7 +109,13 @@ impl Target {
             time_s: &histories.time_s,
             values: &column.values,
         };
-        sampled(track, from_s, to_s, self.reference.len(), "the computed history")
+        sampled(
+            track,
+            from_s,
+            to_s,
+            self.reference.len(),
+            "the computed history",
+        )
     }
 
     /// How far computed values are from the measured ones.

@@ -39,7 +39,9 @@ pub enum Verdict {
 /// All parameters with their verdicts; `sets` are the evaluated ones that are as good as the best.
 pub fn verdicts(fitting: &Fitting, answer: &Answer, sets: &[&Record]) -> Vec<ParameterFound> {
     let parameters = 0..fitting.parameters().len();
-    parameters.map(|i| parameter(fitting, answer, sets, i)).collect()
+    parameters
+        .map(|i| parameter(fitting, answer, sets, i))
+        .collect()
 }
 
 fn parameter(fitting: &Fitting, answer: &Answer, sets: &[&Record], i: usize) -> ParameterFound {
@@ -91,7 +93,10 @@ fn alone(bounds: Bounds, u: f64, [down, up]: [f64; 2]) -> [f64; 2] {
 fn is_open(end: &End, best: &[f64]) -> bool {
     let at_bound = |u: f64| !(AT..=1.0 - AT).contains(&u);
     let others = end.point.at.iter().zip(best);
-    end.open || others.into_iter().any(|(there, here)| at_bound(*there) && !at_bound(*here))
+    end.open
+        || others
+            .into_iter()
+            .any(|(there, here)| at_bound(*there) && !at_bound(*here))
 }
 
 fn verdict(u: f64, ends: &[End; 2], open: [bool; 2]) -> Verdict {

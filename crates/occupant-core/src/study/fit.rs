@@ -2,11 +2,11 @@
 
 use indexmap::IndexMap;
 
+use super::Study;
 use super::fit_section::{FilterChoice, Misfit};
 use super::law::{Law, Value, between, log_between};
 use super::model::Free;
 use super::parameter::{Assignment, Parameter};
-use super::Study;
 use crate::trig::ln;
 
 /// A fit as a study says it.

@@ -50,9 +50,7 @@ pub struct FitSection {
 }
 
 /// What a fit makes small. Each is 0 where a run is the test.
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Misfit {
     /// 1 less the rating of ISO/TS 18571, weighted mean of the channels.

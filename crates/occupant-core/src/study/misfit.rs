@@ -113,10 +113,7 @@ fn vertex(values: &[f64], at: usize, half: usize) -> (f64, f64) {
         return there;
     }
     let shift = (0.5 * (a - c) / bend).clamp(-1.0, 1.0);
-    (
-        at as f64 + shift * half as f64,
-        b - 0.25 * (a - c) * shift,
-    )
+    (at as f64 + shift * half as f64, b - 0.25 * (a - c) * shift)
 }
 
 /// How many unrelated samples a history of residuals is worth: n/(1 + 2Σρ), summed until the autocorrelation ρ has died

@@ -1,7 +1,7 @@
 //! The `[[parameters]]` of a study find their places and their laws.
 
-use super::{Binder, Purpose};
 use super::law::Quantities;
+use super::{Binder, Purpose};
 use crate::scenario::kind::{KINDS, Kind, RATIO};
 use crate::scenario::place::{Place, Wanted};
 use crate::study::law::Law;

@@ -294,9 +294,8 @@ impl Cma {
             return Some(Ending::Steps);
         }
         let lengths = self.lengths.iter();
-        let [short, long] = lengths.fold([f64::INFINITY, 0.0_f64], |[s, l], d| {
-            [s.min(*d), l.max(*d)]
-        });
+        let [short, long] =
+            lengths.fold([f64::INFINITY, 0.0_f64], |[s, l], d| [s.min(*d), l.max(*d)]);
         let narrow = (long / short) * (long / short) >= 0.99 * WORST_CONDITION;
         (narrow || !self.step.is_finite()).then_some(Ending::Condition)
     }

@@ -83,7 +83,9 @@ pub fn profile<E>(
         .iter()
         .map(|c| c.best.clone())
         .fold(centre.clone(), Point::lower);
-    let ends = chains.chunks(2).map(|both| [both[0].end(centre), both[1].end(centre)]);
+    let ends = chains
+        .chunks(2)
+        .map(|both| [both[0].end(centre), both[1].end(centre)]);
     Ok(Profiles {
         ends: ends.collect(),
         lowest,
@@ -214,8 +216,7 @@ impl Chain {
         if slope.len() != n || n == 0 {
             return vec![0.0; n];
         }
-        let curvature =
-            DMatrix::from_fn(n, n, |a, b| shape.curvature[(others[a], others[b])]);
+        let curvature = DMatrix::from_fn(n, n, |a, b| shape.curvature[(others[a], others[b])]);
         let walls: Vec<[f64; 2]> = others
             .iter()
             .map(|k| {

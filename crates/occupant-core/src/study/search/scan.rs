@@ -52,7 +52,9 @@ pub fn scan<E>(
             lowest = lowest.lower(point);
         }
     }
-    let reaches = chains.chunks(2).map(|both| [both[0].reach(), both[1].reach()]);
+    let reaches = chains
+        .chunks(2)
+        .map(|both| [both[0].reach(), both[1].reach()]);
     Ok((reaches.collect(), lowest))
 }
 

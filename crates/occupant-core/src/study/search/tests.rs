@@ -63,9 +63,7 @@ fn rosenbrock(x: &[f64]) -> f64 {
 fn turned_rosenbrock(x: &[f64]) -> f64 {
     let n = x.len();
     let mut y = x.to_vec();
-    for plane in [|i: usize| i as f64 + 1.0, |i: usize| {
-        (3.0 * i as f64).cos()
-    }] {
+    for plane in [|i: usize| i as f64 + 1.0, |i: usize| (3.0 * i as f64).cos()] {
         let normal: Vec<f64> = (0..n).map(plane).collect();
         let square: f64 = sphere(&normal);
         let along: f64 = normal.iter().zip(&y).map(|(a, b)| a * b).sum();
@@ -87,13 +85,12 @@ fn smooth_bowls_take_as_many_evaluations_as_published_code() {
     // λ = 4 + ⌊3 ln 8⌋ = 10; (f, start, least and greatest median allowed, pycma)
     type Case = (fn(&[f64]) -> f64, f64, [u64; 2]);
     let cases: [Case; 3] = [
-        (sphere, 1.0, [1100, 1350]),            // pycma 1220
-        (ellipsoid, 1.0, [2650, 3300]),         // pycma 2970
+        (sphere, 1.0, [1100, 1350]),             // pycma 1220
+        (ellipsoid, 1.0, [2650, 3300]),          // pycma 2970
         (turned_rosenbrock, -1.0, [2500, 3500]), // pycma 2960
     ];
     for (f, start, [least, most]) in cases {
-        let (count, arrived) =
-            median(|seed| evaluations(f, &[start; 8], 0.3, 10, 1e-9, seed));
+        let (count, arrived) = median(|seed| evaluations(f, &[start; 8], 0.3, 10, 1e-9, seed));
         assert!(arrived >= 17, "{arrived}");
         assert!((least..=most).contains(&count), "{count}");
     }
@@ -124,7 +121,10 @@ fn growing_populations_reach_what_the_first_descent_misses() {
         arrived += usize::from(found.best.value < 1e-6);
         missed += usize::from(found.descents[0].best.value > 0.5);
         let populations: Vec<usize> = found.descents.iter().map(|d| d.population).collect();
-        assert!(populations.windows(2).all(|w| w[1] == 2 * w[0]), "{populations:?}");
+        assert!(
+            populations.windows(2).all(|w| w[1] == 2 * w[0]),
+            "{populations:?}"
+        );
         let used: u64 = found.descents.iter().map(|d| d.evaluations).sum();
         assert!(used <= 20_000);
     }
@@ -165,7 +165,10 @@ fn look(
         value: f(start),
     };
     let (reaches, lowest) = scan(&centre, rise, &mut evaluate).unwrap();
-    let lengths: Vec<f64> = reaches.iter().map(|[a, b]| 0.5 * (a.length + b.length)).collect();
+    let lengths: Vec<f64> = reaches
+        .iter()
+        .map(|[a, b]| 0.5 * (a.length + b.length))
+        .collect();
     let centre = refine(lowest, &lengths, rise, &mut evaluate).unwrap();
     let (reaches, _) = scan(&centre, rise, &mut evaluate).unwrap();
     let (shape, _) = Shape::look(&centre, &reaches, rise, &mut evaluate).unwrap();
@@ -175,7 +178,8 @@ fn look(
 
 #[test]
 fn intervals_and_correlations_of_a_bowl_are_those_of_its_inverse() {
-    let curvature = DMatrix::from_row_slice(3, 3, &[40.0, 30.0, 5.0, 30.0, 30.0, 0.0, 5.0, 0.0, 90.0]);
+    let curvature =
+        DMatrix::from_row_slice(3, 3, &[40.0, 30.0, 5.0, 30.0, 30.0, 0.0, 5.0, 0.0, 90.0]);
     let valley = Valley {
         bottom: vec![0.4, 0.55, 0.6],
         curvature: curvature.clone(),
@@ -193,7 +197,10 @@ fn intervals_and_correlations_of_a_bowl_are_those_of_its_inverse() {
             assert!((reaches[i][s].length / alone - 1.0).abs() < 0.15);
             let length = (profiles.ends[i][s].at - centre.at[i]).abs();
             // within the part that the profile allows for the rise: √1.1
-            assert!((length / following - 1.0).abs() < 0.055, "{length} {following}");
+            assert!(
+                (length / following - 1.0).abs() < 0.055,
+                "{length} {following}"
+            );
             assert!(!profiles.ends[i][s].open);
         }
         for j in 0..i {
