@@ -12,7 +12,7 @@ use super::target::{Target, filter_of};
 use super::words::of_failure;
 use crate::cli::scenario::{file_name, format_of};
 use crate::measured::{self, MapArgument, Recording, Wanted, pairs};
-use crate::sweep::manifest::Manifest;
+use crate::sweep::manifest::{Manifest, Text};
 use crate::sweep::texts::{NamedBy, Texts};
 
 /// So many evaluations may come on top of the budget.
@@ -123,9 +123,17 @@ impl Fitting {
         let words = given.overrides.iter().cloned();
         let words = words.chain(given.maps.iter().map(|m| format!("--map {m}")));
         let mut manifest = Manifest::new(program, title.clone(), samples, words.collect());
-        (manifest.texts, _) = texts.all();
-        let study_sha256 = manifest.texts[0].sha256.clone();
-        let (_, bytes) = texts.all();
+        let (texts, bytes) = texts.all();
+        let study_sha256 = texts[0].sha256.clone();
+        // where a test lies is no part of the fit
+        let named = |text: Text| match text.by {
+            NamedBy::CommandLineTest => Text {
+                name: file_name(Path::new(&text.name)),
+                ..text
+            },
+            _ => text,
+        };
+        manifest.texts = texts.into_iter().map(named).collect();
         Ok(Fitting {
             study_name: file_name(name),
             study_sha256,
@@ -277,7 +285,10 @@ impl Opening<'_> {
             }
             tests.push(Test {
                 name,
-                file: named.by.1.clone(),
+                file: match named.by.0 {
+                    NamedBy::CommandLineTest => file_name(&named.file),
+                    _ => named.by.1.clone(),
+                },
                 sha256: recording.sha256.clone(),
                 experiment,
             });
@@ -377,8 +388,9 @@ impl Opening<'_> {
                     self.warnings.push(format!("note: {note}"));
                 }
                 // a copy for the folder; of an ISO-MME test its checksum only
-                let copied =
-                    named.file.is_file() && self.texts.get(named.by.0, &named.by.1).is_ok();
+                let mme = named.file.extension().is_some_and(|e| e.eq_ignore_ascii_case("mme"));
+                let single = named.file.is_file() && !mme;
+                let copied = single && self.texts.get(named.by.0, &named.by.1).is_ok();
                 if !copied {
                     self.texts
                         .add(named.by.0, &named.by.1, recording.sha256.clone());

@@ -194,13 +194,18 @@ pub fn provenance(fitting: &Fitting, found: &Found, p: &ParameterFound, i: usize
         .map(|t| format!("{} (SHA-256 {})", t.file, t.sha256))
         .collect();
     format!(
-        "fitted by {}{factor}: parameter {} of {} (SHA-256 {}) to {}; {} score {:.5}; {interval}",
+        "fitted by {}{factor}: parameter {} of {} (SHA-256 {}…) to {}; {} score {:.5}; {interval}",
         found.program,
         p.name,
         found.study.file,
-        found.study.sha256,
+        start(&found.study.sha256),
         tests.join(", "),
         found.objective,
         found.score.after,
     )
+}
+
+/// So much of a checksum as tells files apart; fit.json has the whole.
+fn start(sha256: &str) -> &str {
+    sha256.get(..16).unwrap_or(sha256)
 }

@@ -31,7 +31,7 @@ fn the_fitted_scenario_keeps_its_authors_words_and_runs_to_the_score_that_is_tol
         assert!(provenance.contains(words), "{words} in {provenance}");
     }
     let found = found(at, "out");
-    assert!(provenance.contains(found["tests"][0]["sha256"].as_str().unwrap()));
+    assert!(provenance.contains(&found["tests"][0]["sha256"].as_str().unwrap()[..16]));
     // the rms of ours is not among the ratings of `compare`; that of ISO 18571 is
     let study = STUDY.replace("[fit]", "[fit]\nobjective = \"iso18571\"");
     fs::write(at.join("iso.toml"), study).unwrap();
