@@ -16,5 +16,6 @@ mod print;
 pub mod report;
 pub mod results;
 mod risk;
+mod study;
 mod sweep;
 pub mod view;

@@ -32,8 +32,9 @@ pub(crate) mod run;
 pub(crate) mod scenario;
 mod schema;
 pub(crate) mod speak;
+mod study;
 mod summary_table;
-mod sweep;
+pub(crate) mod sweep;
 pub(crate) mod table;
 mod view;
 
@@ -62,6 +63,7 @@ pub struct Cli {
 enum Command {
     Run(run::Args),
     Sweep(sweep::Args),
+    Study(study::Args),
     Fit(fit::Args),
     Check(check::Args),
     New(new::Args),
@@ -83,6 +85,7 @@ pub fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Run(args) => run::run(&args),
         Command::Sweep(args) => sweep::sweep(&args),
+        Command::Study(args) => study::study(&args),
         Command::Fit(args) => fit::fit(&args),
         Command::Check(args) => check::check(&args),
         Command::New(args) => new::new(&args),

@@ -22,7 +22,7 @@ use crate::cli::exit::Failure;
 use crate::cli::interrupt::Interrupt;
 
 /// The figures of a run mean nothing above this error of its energy balance.
-const BROKEN_BALANCE: f64 = 0.1;
+pub const BROKEN_BALANCE: f64 = 0.1;
 
 /// What a run of the ensemble left.
 #[derive(Clone, Debug, PartialEq)]

@@ -37,7 +37,7 @@ mod json;
 pub mod kind;
 pub(crate) mod loaded;
 pub mod model;
-pub(crate) mod nearest;
+pub mod nearest;
 mod number_table;
 mod overrides;
 pub mod path_text;

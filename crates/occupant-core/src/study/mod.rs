@@ -238,6 +238,14 @@ impl Study {
         self.design.role(sample, &self.levels(), self.seed)
     }
 
+    /// By how much the last step of a Morris trajectory moved its parameter, as a part of the range, with its sign. None
+    /// for a run that is no such step.
+    pub fn morris_step(&self, index: u64) -> Option<f64> {
+        let (sample, _) = self.sample_and_member(index);
+        self.design
+            .morris_step(sample, self.parameters.len(), self.seed)
+    }
+
     /// What is varied.
     pub fn parameters(&self) -> &[Parameter] {
         &self.parameters

@@ -117,7 +117,10 @@ fn stored_plan(
 }
 
 /// The manifest that all folders share.
-fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
+///
+/// # Errors
+/// A folder without one, or with another; the operating system refuses.
+pub fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
     let mut common: Option<(&Folder, Manifest)> = None;
     for folder in folders {
         let found = folder.manifest().map_err(told)?;

@@ -1,0 +1,26 @@
+//! `occupant study`.
+
+mod report;
+
+use clap::Subcommand;
+
+use super::exit::{Done, Failure};
+
+/// Work on the results of a study
+#[derive(Debug, clap::Args)]
+pub struct Args {
+    #[command(subcommand)]
+    command: Step,
+}
+
+#[derive(Debug, Subcommand)]
+enum Step {
+    Report(report::ReportArgs),
+}
+
+/// Does what is asked of a study.
+pub fn study(args: &Args) -> Result<Done, Failure> {
+    match &args.command {
+        Step::Report(args) => report::report(args),
+    }
+}
