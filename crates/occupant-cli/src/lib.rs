@@ -5,6 +5,7 @@ mod compare;
 mod ensemble;
 mod export;
 pub mod figure;
+mod fit;
 mod history;
 pub mod mcap;
 mod measured;

@@ -14,6 +14,7 @@ mod ensemble_args;
 pub(crate) mod exit;
 mod export;
 mod extend;
+mod fit;
 mod history_args;
 pub(crate) mod interrupt;
 mod measure_table;
@@ -63,6 +64,7 @@ enum Command {
     Run(run::Args),
     Sweep(sweep::Args),
     Study(study::Args),
+    Fit(fit::Args),
     Check(check::Args),
     New(new::Args),
     Schema(schema::Args),
@@ -84,6 +86,7 @@ pub fn main() -> ExitCode {
         Command::Run(args) => run::run(&args),
         Command::Sweep(args) => sweep::sweep(&args),
         Command::Study(args) => study::study(&args),
+        Command::Fit(args) => fit::fit(&args),
         Command::Check(args) => check::check(&args),
         Command::New(args) => new::new(&args),
         Command::Schema(args) => schema::print(&args),

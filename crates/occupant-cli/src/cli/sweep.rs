@@ -1,6 +1,6 @@
 //! `occupant sweep`.
 
-mod choices;
+pub(crate) mod choices;
 pub(crate) mod merge;
 pub(crate) mod words;
 

@@ -1,6 +1,7 @@
 //! How files begin and end: metadata, attachments, the same bytes twice, runs that were cut off.
 
 use std::collections::BTreeMap;
+use std::io::{Read, Seek};
 
 use mcap::records::Record;
 use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
@@ -189,16 +190,18 @@ fn first_touches_are_logged_at_their_times() {
 #[test]
 fn a_file_dropped_before_the_end_is_readable_and_has_no_result() {
     let model = model();
-    let mut file = std::io::Cursor::new(Vec::new());
+    let mut file = tempfile::tempfile().unwrap();
     {
-        let mut recorder = recorder_into(&mut file);
+        let mut recorder = recorder_into(file.try_clone().unwrap());
         let halt = Halt {
             at: 30,
             breaks: true,
         };
         assert!(simulate(&model, (&mut recorder, halt)).is_err());
     }
-    let bytes = file.into_inner();
+    let mut bytes = Vec::new();
+    file.rewind().unwrap();
+    file.read_to_end(&mut bytes).unwrap();
     assert_eq!(result_of(&bytes), None);
     assert_eq!(read(&bytes)["/energy"].len(), 31);
 }
@@ -214,7 +217,7 @@ fn what_a_killed_run_wrote_is_readable_to_the_last_chunk() {
     };
     assert!(simulate(&model, (&mut cut, halt)).is_err());
     // as the process left it: nothing is finished
-    let bytes = cut.into_inner().into_inner();
+    let bytes = cut.into_inner().unwrap().into_inner();
     assert!(bytes.len() < whole.len());
     assert_eq!(result_of(&bytes), None);
     let (_, messages) = scan(&bytes);

@@ -1,5 +1,6 @@
 //! The embedded 5(4) pair of Dormand and Prince, with the error of a step in units of the tolerance.
 
+use crate::kernel::scalar::Scalar;
 use crate::kernel::state::State;
 use crate::kernel::vector::V3;
 
@@ -73,22 +74,9 @@ pub fn attempt(
     first: &State<f64>,
     h: f64,
     tolerance: &Tolerance,
-    mut rate: impl FnMut(f64, &State<f64>) -> State<f64>,
+    rate: impl FnMut(f64, &State<f64>) -> State<f64>,
 ) -> Trial {
-    let mut k = [*first; 7];
-    let mut at = *state;
-    for (i, weights) in STAGES.iter().enumerate() {
-        at = *state;
-        for (weight, k) in weights.iter().zip(&k) {
-            if *weight != 0.0 {
-                at = at.advanced(h * weight, k);
-            }
-        }
-        if i == 5 {
-            at.normalize();
-        }
-        k[i + 1] = rate(NODES[i + 1], &at);
-    }
+    let (at, k) = stages(state, first, h, rate);
     let mut error = State::zero();
     for (weight, k) in ERROR.iter().zip(&k) {
         error = error.advanced(h * weight, k);
@@ -98,6 +86,31 @@ pub fn attempt(
         rate: k[6],
         error: norm(&error, state, &at, tolerance),
     }
+}
+
+/// The state after a step `h` (s) and the rates of all stages, the last of them at its end.
+#[inline(always)]
+pub fn stages<S: Scalar>(
+    state: &State<S>,
+    first: &State<S>,
+    h: f64,
+    mut rate: impl FnMut(f64, &State<S>) -> State<S>,
+) -> (State<S>, [State<S>; 7]) {
+    let mut k = [*first; 7];
+    let mut at = *state;
+    for (i, weights) in STAGES.iter().enumerate() {
+        at = *state;
+        for (weight, k) in weights.iter().zip(&k) {
+            if *weight != 0.0 {
+                at = at.advanced(S::of(h * weight), k);
+            }
+        }
+        if i == 5 {
+            at.normalize();
+        }
+        k[i + 1] = rate(NODES[i + 1], &at);
+    }
+    (at, k)
 }
 
 /// Root mean square of the components of `error` in units of their tolerance.

@@ -50,6 +50,7 @@ mod toml_text;
 pub mod unit;
 pub mod unit_expression;
 mod view;
+mod written;
 
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use document::Format;
