@@ -6,7 +6,7 @@ use crate::cli::exit::Failure;
 use crate::cli::run::program;
 use crate::cli::sweep::merge::common_manifest;
 use crate::cli::sweep::words::{no_plan, read_journal, sha256_of, told};
-use crate::sweep::folder::Folder;
+use crate::sweep::folder::{Folder, Holds};
 use crate::sweep::journal::Journal;
 use crate::sweep::manifest::{Manifest, Role};
 use crate::sweep::plan::Plan;
@@ -47,6 +47,7 @@ pub fn open(folders: &[PathBuf]) -> Result<Opened, Failure> {
     if plan.manifest.samples != manifest.samples || inputs(&plan.manifest) != inputs(&manifest) {
         return Err(told(Problem::Differs {
             folder: first.path().to_owned(),
+            holds: Holds::Sweep,
             differences: manifest.differences(&plan.manifest, |_| None, |_| None),
         }));
     }
