@@ -388,7 +388,10 @@ impl Opening<'_> {
                     self.warnings.push(format!("note: {note}"));
                 }
                 // a copy for the folder; of an ISO-MME test its checksum only
-                let mme = named.file.extension().is_some_and(|e| e.eq_ignore_ascii_case("mme"));
+                let mme = named
+                    .file
+                    .extension()
+                    .is_some_and(|e| e.eq_ignore_ascii_case("mme"));
                 let single = named.file.is_file() && !mme;
                 let copied = single && self.texts.get(named.by.0, &named.by.1).is_ok();
                 if !copied {

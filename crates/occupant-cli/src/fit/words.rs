@@ -5,14 +5,13 @@ use crate::sweep::problem::Problem;
 
 /// A problem with the folder, as the end of the command.
 pub fn told(problem: Problem) -> Failure {
-    let failure = match (&problem, problem.help()) {
+    match (&problem, problem.help()) {
         (Problem::Io { .. } | Problem::Table { .. }, _) => {
-            return Failure::BrokeOff(format!("error: {problem}"));
+            Failure::BrokeOff(format!("error: {problem}"))
         }
         (_, Some(help)) => Failure::with_help(problem.to_string(), help),
         (_, None) => Failure::plain(problem.to_string()),
-    };
-    failure
+    }
 }
 
 /// The words of a failure.

@@ -1,5 +1,6 @@
 //! Fits as sentences: planted numbers come back, what cannot be told is said, a killed fit ends at the same answer.
 
+mod example;
 mod killed;
 mod recovered;
 mod refused;

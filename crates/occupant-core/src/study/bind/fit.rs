@@ -17,6 +17,8 @@ use crate::trig::ln;
 const BUDGET: u64 = 400;
 const POPULATION: usize = 16;
 const TOLERANCE: f64 = 1e-4;
+const MOST_EVALUATIONS: u64 = 10_000_000;
+const MOST_CANDIDATES: u64 = 10_000;
 
 impl StudyText {
     /// What the study says of a fit; what stands there for none is the same as an empty `[fit]`.
@@ -32,6 +34,7 @@ impl StudyText {
             let found = "nothing to fit";
             binder.error("", found, "`parameters` with ranges", Some(hint));
         }
+        binder.limits_of(section);
         let window_s = binder.window([&section.from, &section.to], "fit");
         let channels = binder.fit_channels(section);
         let tests = section
@@ -52,7 +55,7 @@ impl StudyText {
             seed: self.section.seed.unwrap_or(0),
             budget: section.budget.unwrap_or(BUDGET * n.max(1) as u64),
             population: match section.population {
-                Some(p) => usize::try_from(p).unwrap_or(usize::MAX).min(1 << 16),
+                Some(p) => p.min(MOST_CANDIDATES) as usize,
                 None => wanted.max(POPULATION),
             },
             tolerance: section.tolerance.unwrap_or(TOLERANCE),
@@ -96,6 +99,26 @@ impl StudyText {
 }
 
 impl Binder<'_> {
+    /// Numbers that a search can work with.
+    fn limits_of(&mut self, section: &FitSection) {
+        let counts = [
+            ("budget", section.budget, MOST_EVALUATIONS),
+            ("population", section.population, MOST_CANDIDATES),
+        ];
+        for (key, count, most) in counts {
+            if let Some(count) = count.filter(|n| *n > most) {
+                let at = format!("fit.{key}");
+                self.error(&at, format!("`{count}`"), format!("at most {most}"), None);
+            }
+        }
+        for (key, number) in [("tolerance", section.tolerance), ("near", section.near)] {
+            if number.is_some_and(|x| !(x > 0.0 && x.is_finite())) {
+                let at = format!("fit.{key}");
+                self.error(&at, "no number above 0", "a number above 0", None);
+            }
+        }
+    }
+
     /// Tells of parameters that have no ends between which to look.
     pub(super) fn have_ends(&mut self, parameters: &[Parameter]) {
         // a broken parameter shifts the others, and has been told of
