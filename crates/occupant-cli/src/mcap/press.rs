@@ -23,7 +23,7 @@ pub struct Press<W: Write + Seek + Send + 'static> {
 }
 
 enum Place<W: Write + Seek> {
-    Here(Writer<W>),
+    Here(Box<Writer<W>>),
     Away(Away<W>),
     /// While it changes its place.
     Nowhere,
@@ -34,7 +34,7 @@ struct Away<W: Write + Seek> {
     batches: SyncSender<Batch>,
     /// Batches that were written, to be used again.
     written: Receiver<Batch>,
-    thread: JoinHandle<(Option<Writer<W>>, McapResult<()>)>,
+    thread: JoinHandle<(Option<Box<Writer<W>>>, McapResult<()>)>,
 }
 
 /// Messages in a row.
@@ -51,7 +51,7 @@ impl<W: Write + Seek + Send + 'static> Press<W> {
     /// With the writer here.
     pub fn new(writer: Writer<W>) -> Self {
         Press {
-            place: Place::Here(writer),
+            place: Place::Here(Box::new(writer)),
             batch: Batch::default(),
         }
     }
@@ -120,7 +120,7 @@ impl<W: Write + Seek + Send + 'static> Press<W> {
     /// Puts the writer on a thread, if there is one to be had.
     fn go_away(&mut self) {
         let Place::Here(_) = self.place else { return };
-        let (give, take) = sync_channel::<Writer<W>>(1);
+        let (give, take) = sync_channel::<Box<Writer<W>>>(1);
         let (batches, coming) = sync_channel::<Batch>(WAITING);
         let (done, written) = sync_channel::<Batch>(WAITING + 1);
         let work = move || {
