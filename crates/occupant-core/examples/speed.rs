@@ -1,8 +1,7 @@
 //! How long one derivative evaluation, one step and one event take on this machine, one thread.
 //!
 //! `cargo run --release --example speed` prints nanoseconds: the least of many medians of short batches, taken in turn, so
-//! that a disturbed moment spoils no figure and all figures alike. `speed count NAME N` runs one of them `N` times and
-//! measures nothing: for instruction counts under callgrind.
+//! that a disturbed moment spoils no figure and all figures alike. Instructions are counted with the example `count`.
 
 #[path = "../benches/scene/mod.rs"]
 mod scene;
@@ -32,21 +31,6 @@ type Work<'a> = (&'static str, Box<dyn FnMut() + 'a>);
 fn main() {
     let model = scene::model();
     let mut works = works(&model);
-    let arguments: Vec<String> = std::env::args().skip(1).collect();
-    if let [mode, name, count] = &arguments[..]
-        && mode == "count"
-    {
-        if let Some(kernel) = Kernel::named(name) {
-            count_sweep(kernel, count.parse().expect("a number"));
-            return;
-        }
-        let work = works.iter_mut().find(|w| w.0 == name);
-        let (_, call) = work.expect("one of the names that the table shows");
-        for _ in 0..count.parse().expect("a number") {
-            call();
-        }
-        return;
-    }
     let mut best = vec![f64::INFINITY; works.len()];
     for _ in 0..ROUNDS {
         for ((_, call), best) in works.iter_mut().zip(&mut best) {
@@ -78,6 +62,7 @@ fn works(model: &Model) -> Vec<Work<'static>> {
     let held = full.held(model);
     let loads = scene::no_loads();
     let (bare, mut committed, mut within) = (full.clone(), full.clone(), full.clone());
+    let bare_step = full.clone();
     let (mut held_step, mut held_within, mut step) = (held.clone(), held, full);
     vec![
         (
@@ -102,6 +87,12 @@ fn works(model: &Model) -> Vec<Work<'static>> {
             "full_commit",
             Box::new(move || {
                 black_box(black_box(&mut committed).commit());
+            }),
+        ),
+        (
+            "bare_step",
+            Box::new(move || {
+                black_box(black_box(&bare_step).bare_step(black_box(&loads)));
             }),
         ),
         (
@@ -150,16 +141,6 @@ fn sweep_ms() -> Vec<(Kernel, f64)> {
         }
     }
     best
-}
-
-/// `count` runs of a sweep, for instruction counts.
-fn count_sweep(kernel: Kernel, count: usize) {
-    let models = scene::models(count);
-    simulate_many_with(
-        kernel,
-        models.iter().map(job),
-        |_| ControlFlow::Continue(()),
-    );
 }
 
 fn job(model: &Model) -> Job<(), ()> {

@@ -1,15 +1,20 @@
-"""Times MuJoCo, Pinocchio and occupant on the same skeleton, after checking that all three move it alike.
+"""Times MuJoCo, Pinocchio and occupant on the same skeleton, after checking that all move it alike.
 
     python -m venv peers && peers/bin/pip install mujoco pin numpy
     cargo build --release --package occupant-core --examples
-    peers/bin/python crates/occupant-core/benches/peers/compare.py target/release/examples
+    peers/bin/python crates/occupant-core/benches/peers/compare.py target/release/examples [--write FILE.md ...]
 
-What can be compared with what stands in README.md beside this file.
+aba.cpp, Pinocchio's aba without Python, is built if a C++ compiler and Eigen are there (apt-get install clang
+libeigen3-dev; it takes minutes once). Times of the engines are processor time of the thread; ours and those of aba.cpp are
+of batches shorter than a time slice. --write puts the table between the lines `<!-- peers:begin -->` and
+`<!-- peers:end -->` of each file. What can be compared with what stands in README.md beside this file.
 """
 
-import json
+import argparse
+import shutil
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -17,163 +22,19 @@ import mujoco
 import numpy as np
 import pinocchio as pin
 
-# Largest difference of accelerations, as a fraction of the largest acceleration, before any time is printed.
-AGREEMENT = 1e-9
+from engines import Peer, check_acceleration, check_belts, check_mujoco, pinocchio_model
+
+HERE = Path(__file__).parent
+SCENARIO, INSTANT = HERE.parent / "car.toml", 0.09
 # Processes of ours and batches of the engines taken in turn.
-ROUNDS = 8
-CALLS = 200
-FACE_HALF_THICKNESS = 0.05
+ROUNDS = 5
+CALLS = 20
+EVENTS = 3
+STEP = 1e-4
 ONE_BODY = "Pinocchio aba of one free body"
-
-
-def rotation(quaternion):
-    """Matrix of a quaternion w, x, y, z; columns are the turned axes in space."""
-    matrix = np.zeros(9)
-    mujoco.mju_quat2Mat(matrix, np.asarray(quaternion) / np.linalg.norm(quaternion))
-    return matrix.reshape(3, 3)
-
-
-def text(values):
-    return " ".join(repr(float(v)) for v in values)
-
-
-class Motion:
-    """State and accelerations of ours in the coordinates of a tree of relative joints."""
-
-    def __init__(self, numbers):
-        state, ours = numbers["state"], numbers["accelerations"]
-        self.slot = {n: i for i, n in enumerate(numbers["free"])}
-        self.hinge_slot = {n: i for i, n in enumerate(numbers["hinged"])}
-        self.turn = {n: rotation(state["orientation"][i]) for n, i in self.slot.items()}
-        self.omega = {n: np.array(state["omega"][i]) for n, i in self.slot.items()}
-        self.alpha = {n: np.array(ours["alpha"][i]) for n, i in self.slot.items()}
-        self.place, self.velocity = np.array(state["t1"]), np.array(state["velocity"])
-        self.acceleration = np.array(ours["t1"])
-        self.state, self.ours = state, ours
-
-    def root(self):
-        """Rotation, angular velocity and angular acceleration in the root's own axes."""
-        turn = self.turn[0]
-        return turn, turn.T @ self.omega[0], turn.T @ self.alpha[0]
-
-    def ball(self, n, parent):
-        """The same of a ball joint, relative to the parent, in the child's axes."""
-        turn, w, w_parent = self.turn[n], self.omega[n], self.omega[parent]
-        # d/dt of Rᵀ(ω − ω_p) is Rᵀ(α − α_p + ω × ω_p)
-        rate = self.alpha[n] - self.alpha[parent] + np.cross(w, w_parent)
-        return self.turn[parent].T @ turn, turn.T @ (w - w_parent), turn.T @ rate
-
-    def hinge(self, n):
-        i = self.hinge_slot[n]
-        return self.state["hinge"][i], self.state["hinge_rate"][i], self.ours["hinge"][i]
-
-
-def quaternion(matrix):
-    """Quaternion w, x, y, z of a rotation."""
-    out = np.zeros(4)
-    mujoco.mju_mat2Quat(out, np.ascontiguousarray(matrix).flatten())
-    return out
-
-
-# --- MuJoCo ---------------------------------------------------------------------------------------------------------
-
-
-def mjcf(numbers, contact, damping):
-    """The model as MJCF; depth first, which is MuJoCo's order of coordinates too."""
-
-    def body(n):
-        b = numbers["bodies"][n]
-        joint = f'<joint type="ball" damping="{damping}"/>'
-        if b["parent"] is None:
-            joint = "<freejoint/>"
-        elif b["hinge"]:
-            joint = f'<joint type="hinge" axis="0 1 0" damping="{damping}"/>'
-        inertial = f'<inertial pos="0 0 {b["cg"]!r}" mass="{b["mass"]!r}" diaginertia="{text(b["inertia"])}"/>'
-        spheres = "".join(
-            f'<geom type="sphere" size="{s["radius"]!r}" pos="{text(s["place"])}" contype="1" conaffinity="0"/>'
-            for s in numbers["spheres"]
-            if contact and s["body"] == n
-        )
-        children = "".join(body(c) for c, other in enumerate(numbers["bodies"]) if other["parent"] == n)
-        return f'<body name="{n}" pos="{text(b["place"])}">{joint}{inertial}{spheres}{children}</body>'
-
-    def box(face):
-        u, v, normal = (np.array(axis) for axis in face["axes"])
-        behind = np.array(face["centre"]) - FACE_HALF_THICKNESS * normal
-        return (
-            f'<geom type="box" size="{text(face["half"])} {FACE_HALF_THICKNESS}" pos="{text(behind)}" '
-            f'quat="{text(quaternion(np.column_stack([u, v, normal])))}" contype="0" conaffinity="1"/>'
-        )
-
-    boxes = "".join(box(f) for f in numbers["faces"]) if contact else ""
-    return (
-        '<mujoco><compiler angle="radian" inertiafromgeom="false"/>'
-        f'<option gravity="0 0 {-numbers["gravity"]!r}" timestep="0.0001"/>'
-        f"<worldbody>{boxes}{body(0)}</worldbody></mujoco>"
-    )
-
-
-def with_mujoco(numbers, contact=False, damping=0.0):
-    """Model, data at the state, and the accelerations that ours would be in its coordinates."""
-    model = mujoco.MjModel.from_xml_string(mjcf(numbers, contact, damping))
-    data = mujoco.MjData(model)
-    motion, expected = Motion(numbers), np.zeros(model.nv)
-    for n, b in enumerate(numbers["bodies"]):
-        joint = model.body(str(n)).jntadr[0]
-        q, v = model.jnt_qposadr[joint], model.jnt_dofadr[joint]
-        if b["parent"] is None:
-            turn, rate, alpha = motion.root()
-            data.qpos[q : q + 7] = [*motion.place, *quaternion(turn)]
-            data.qvel[v : v + 6] = [*motion.velocity, *rate]
-            expected[v : v + 6] = [*motion.acceleration, *alpha]
-        elif b["hinge"]:
-            data.qpos[q], data.qvel[v], expected[v] = motion.hinge(n)
-        else:
-            turn, rate, alpha = motion.ball(n, b["parent"])
-            data.qpos[q : q + 4], data.qvel[v : v + 3], expected[v : v + 3] = quaternion(turn), rate, alpha
-    return model, data, expected
-
-
-# --- Pinocchio ------------------------------------------------------------------------------------------------------
-
-
-def with_pinocchio(numbers):
-    """Model, data, q, v and the accelerations that ours would be in its coordinates."""
-    model, ids = pin.Model(), {}
-    model.gravity.linear = np.array([0.0, 0.0, -numbers["gravity"]])
-    order = [0, 1, 2, 4, 6, 5, 7, 3, 8, 10, 9, 11]  # every parent before its children
-    for n in order:
-        b = numbers["bodies"][n]
-        if b["parent"] is None:
-            kind, parent = pin.JointModelFreeFlyer(), 0
-        else:
-            kind = pin.JointModelRY() if b["hinge"] else pin.JointModelSpherical()
-            parent = ids[b["parent"]]
-        ids[n] = model.addJoint(parent, kind, pin.SE3(np.eye(3), np.array(b["place"])), str(n))
-        inertia = pin.Inertia(b["mass"], np.array([0.0, 0.0, b["cg"]]), np.diag(b["inertia"]))
-        model.appendBodyToJoint(ids[n], inertia, pin.SE3.Identity())
-    motion = Motion(numbers)
-    q, v, expected = pin.neutral(model), np.zeros(model.nv), np.zeros(model.nv)
-    xyzw = lambda turn: np.roll(quaternion(turn), -1)
-    for n in order:
-        joint = model.joints[ids[n]]
-        i, k = joint.idx_q, joint.idx_v
-        if n == 0:
-            turn, rate, alpha = motion.root()
-            velocity = turn.T @ motion.velocity
-            q[i : i + 7] = [*motion.place, *xyzw(turn)]
-            v[k : k + 6] = [*velocity, *rate]
-            # d/dt of Rᵀv
-            expected[k : k + 6] = [*(turn.T @ motion.acceleration - np.cross(rate, velocity)), *alpha]
-        elif numbers["bodies"][n]["hinge"]:
-            q[i], v[k], expected[k] = motion.hinge(n)
-        else:
-            turn, rate, alpha = motion.ball(n, numbers["bodies"][n]["parent"])
-            q[i : i + 4], v[k : k + 3], expected[k : k + 3] = xyzw(turn), rate, alpha
-    return model, model.createData(), q, v, expected
-
-
-# --- times ----------------------------------------------------------------------------------------------------------
+# Pinocchio's joints are more than Boost's lists hold by default.
+BOOST = ["-DBOOST_MPL_CFG_NO_PREPROCESSED_HEADERS", "-DBOOST_MPL_LIMIT_LIST_SIZE=30", "-DBOOST_MPL_LIMIT_VECTOR_SIZE=30"]
+MARKERS = ("<!-- peers:begin -->", "<!-- peers:end -->")
 
 
 def one_free_body():
@@ -184,72 +45,187 @@ def one_free_body():
     return model, model.createData(), pin.neutral(model), np.zeros(6), np.zeros(6)
 
 
-def sample_ns(call, calls=CALLS):
-    start = time.perf_counter_ns()
-    for _ in range(calls):
+def sample_ns(call):
+    start = time.thread_time_ns()
+    for _ in range(CALLS):
         call()
-    return (time.perf_counter_ns() - start) / calls
+    return (time.thread_time_ns() - start) / CALLS
 
 
 def median_ns(call):
     return float(np.median([sample_ns(call) for _ in range(5)]))
 
 
-def ours_ns(folder):
+def ours_ns(examples):
     """One process of our timing example: name → ns."""
-    lines = subprocess.check_output([Path(folder) / "speed"], text=True).splitlines()
+    lines = subprocess.check_output([examples / "speed"], text=True).splitlines()
     return {name: float(value) for name, value in (line.split() for line in lines)}
 
 
-def check(name, found, expected):
-    error = np.abs(found - expected).max() / np.abs(expected).max()
-    print(f"{name}: accelerations differ from ours by {error:.1e} of the largest")
-    if not error < AGREEMENT:
-        sys.exit(f"{name} does not move the body as we do (limit {AGREEMENT:.0e}): no time is printed")
+class Stepper:
+    """Steps of MuJoCo from one state, so that every batch does the same work."""
+
+    def __init__(self, peer, parts):
+        self.model, self.data = peer.mujoco(parts, "then")
+        self.key = self.model.key("then").id
+
+    def ns(self, steps=5):
+        mujoco.mj_resetDataKeyframe(self.model, self.data, self.key)
+        start = time.thread_time_ns()
+        mujoco.mj_step(self.model, self.data, nstep=steps)
+        return (time.thread_time_ns() - start) / steps
 
 
-def main(folder):
-    numbers = json.loads(subprocess.check_output([Path(folder) / "peer_model"]))
-    bare, bare_data, expected = with_mujoco(numbers)
-    mujoco.mj_forward(bare, bare_data)
-    check("MuJoCo", bare_data.qacc, expected)
-    model, data, q, v, pin_expected = with_pinocchio(numbers)
-    tau = np.zeros(model.nv)
-    check("Pinocchio", pin.aba(model, data, q, v, tau), pin_expected)
+def event_ms(peer, model, data):
+    """Times of the pieces of one event, ms: the occupant from its seat on, in the vehicle's frame.
 
-    damped, damped_data, _ = with_mujoco(numbers, damping=1.0)
-    touching, touching_data, _ = with_mujoco(numbers, contact=True, damping=1.0)
-    mujoco.mj_forward(touching, touching_data)
-    single = one_free_body()
-    calls = {
-        "MuJoCo mj_forward, contact": lambda: mujoco.mj_forward(touching, touching_data),
-        "MuJoCo mj_forward, no contact": lambda: mujoco.mj_forward(damped, damped_data),
-        "MuJoCo mj_forward, bare": lambda: mujoco.mj_forward(bare, bare_data),
-        "Pinocchio aba": lambda: pin.aba(model, data, q, v, tau),
-        ONE_BODY: lambda: pin.aba(*single),
-    }
-    best, ours = dict.fromkeys(calls, np.inf), {}
-    for _ in range(ROUNDS):
+    The vehicle only slows down, so its frame is space with another gravity, which changes every millisecond.
+    """
+    vehicle = peer.motion["vehicle"]
+    if vehicle["greatest_turn"] > 0:
+        sys.exit("the vehicle turns: MuJoCo's event in its frame would be another")
+    gravity = np.array([0.0, 0.0, -peer.motion["gravity"]])
+    mujoco.mj_resetDataKeyframe(model, data, model.key("start").id)
+    pieces = []
+    for acceleration in vehicle["acceleration"]:
+        model.opt.gravity[:] = gravity - acceleration
+        start = time.thread_time_ns()
+        mujoco.mj_step(model, data, nstep=round(1e-3 / STEP))
+        pieces.append((time.thread_time_ns() - start) / 1e6)
+    return np.array(pieces)
+
+
+def compiled_aba(compiler):
+    """The program that times aba.cpp built with `compiler`, kept in the virtual environment; None with the reason said."""
+    program = Path(sys.prefix) / f"aba-{pin.__version__}-{compiler}"
+    if program.exists():
+        return program
+    if shutil.which(compiler) is None:
+        print(f"{compiler} is not installed: aba compiled with it is left out")
+        return None
+    prefix = Path(pin.__file__).parents[4] / "include"
+    eigen = [p for p in (prefix / "eigen3", Path("/usr/include/eigen3")) if p.is_dir()]
+    if not eigen:
+        print("Eigen's headers are not installed (libeigen3-dev): aba in C++ is left out")
+        return None
+    flags = ["-O3", "-DNDEBUG", "-std=c++17", "-w", *BOOST, f"-isystem{prefix}", f"-isystem{eigen[0]}"]
+    built = subprocess.run([compiler, *flags, HERE / "aba.cpp", "-o", program], capture_output=True, text=True)
+    if built.returncode != 0:
+        print(f"aba.cpp cannot be built with {compiler}, left out: {built.stderr.strip()[:400]}")
+        return None
+    return program
+
+
+def plain(motion):
+    """The body, its state and our accelerations, in the order in which aba.cpp reads them."""
+    _, _, q, v, acceleration = pinocchio_model(pin, motion)
+    words = [len(motion["bodies"]), motion["gravity"]]
+    for b in motion["bodies"]:
+        parent = -1 if b["parent"] is None else b["parent"]
+        words += [parent, int(b["hinge"]), *b["place"], b["mass"], b["cg"], *b["inertia"]]
+    return " ".join(repr(w) if isinstance(w, int) else repr(float(w)) for w in [*words, *q, *v, *acceleration])
+
+
+def aba_ns(program, numbers, name):
+    error, ns = map(float, subprocess.check_output([program, numbers], text=True).split())
+    if not error < 1e-9:
+        sys.exit(f"{name} does not accelerate the body as we do: {error:.1e}; no time is printed")
+    return ns
+
+
+def measure(peer, arguments, folder):
+    """Least time of everything, ns (events ms), all taken in turn: theirs and ours by name."""
+    model, data, q, v, _ = pinocchio_model(pin, peer.motion)
+    tau, single = np.zeros(model.nv), one_free_body()
+    forward = {parts: peer.mujoco(parts, "then") for parts in ("free", "held", "contact")}
+    calls = {f"mj_forward, {parts}": lambda m=m: mujoco.mj_forward(*m) for parts, m in forward.items()}
+    calls["aba, wheel"] = lambda: pin.aba(model, data, q, v, tau)
+    calls[ONE_BODY] = lambda: pin.aba(*single)
+    steppers = {f"mj_step, {parts}": Stepper(peer, parts) for parts in ("free", "held", "contact")}
+    compilers = {name: compiled_aba(name) for name in arguments.compiler}
+    numbers = folder / "body.txt"
+    numbers.write_text(plain(peer.motion))
+    crash = peer.mujoco("contact", "start")
+    theirs, ours, event = {}, {}, np.inf
+
+    def keep(best, name, value):
+        best[name] = min(best.get(name, np.inf), value)
+
+    for turn in range(ROUNDS):
         for name, call in calls.items():
-            best[name] = min([best[name]] + [median_ns(call) for _ in range(20)])
-        for name, value in ours_ns(folder).items():
-            ours[name] = min(ours.get(name, np.inf), value)
-    print(f"contacts: MuJoCo {touching_data.ncon}, ours {ours['touches']:.0f} of {ours['pairs']:.0f} pairs")
-    print(f"{ONE_BODY}: {best[ONE_BODY]:.0f} ns, taken off below: mostly the way through Python")
-    best["Pinocchio aba"] -= best[ONE_BODY]
+            keep(theirs, name, min(median_ns(call) for _ in range(60)))
+        for name, stepper in steppers.items():
+            keep(theirs, name, min(stepper.ns() for _ in range(100)))
+        for name, program in compilers.items():
+            if program:
+                keep(theirs, f"aba, {name}", aba_ns(program, numbers, name))
+        if turn < EVENTS:
+            event = np.minimum(event, event_ms(peer, *crash))
+        for name, value in ours_ns(arguments.examples).items():
+            keep(ours, name, value)
+    theirs["event"] = float(event.sum())
+    theirs["aba, wheel"] -= theirs.pop(ONE_BODY)
+    contacts = forward["contact"][1].ncon
+    print(f"contacts: MuJoCo {contacts}, ours {ours['touches']:.0f} of {ours['pairs']:.0f} pairs")
+    return theirs, ours
+
+
+def table(theirs, ours):
+    """The lines of the table."""
+    mj, pi = f"MuJoCo {mujoco.__version__}", f"Pinocchio {pin.__version__}"
     full = 0.25 * ours["full_commit"] + 0.75 * ours["full"]  # an rk4 step commits once in four evaluations
     rows = [
-        ("full", "MuJoCo mj_forward, contact", full),
-        ("joints and belts", "MuJoCo mj_forward, no contact", ours["held"]),
-        ("bare", "MuJoCo mj_forward, bare", ours["bare"]),
-        ("bare", "Pinocchio aba", ours["bare"]),
+        ("evaluation, full: joints, belts, contacts", full, f"{mj} `mj_forward` with contact", "mj_forward, contact"),
+        ("evaluation, joints and belts", ours["held"], f"{mj} `mj_forward`, dampers, springs, tendons", "mj_forward, held"),
+        ("evaluation, skeleton alone", ours["bare"], f"{mj} `mj_forward`", "mj_forward, free"),
+        ("the same", ours["bare"], f"{pi} `aba`, C++ built with clang", "aba, clang++"),
+        ("the same", ours["bare"], f"{pi} `aba`, C++ built with gcc", "aba, g++"),
+        ("the same", ours["bare"], f"{pi} `aba`, wheel, cost of the call taken off", "aba, wheel"),
+        ("rk4 step, full", ours["step"], f"{mj} RK4 step with contact", "mj_step, contact"),
+        ("rk4 step, joints and belts", ours["held_step"], f"{mj} RK4 step, dampers, springs, tendons", "mj_step, held"),
+        ("rk4 step, skeleton alone", ours["bare_step"], f"{mj} RK4 step", "mj_step, free"),
+        ("event, 0.25 s at 0.1 ms", ours["event_ms"], f"{mj} RK4 with contact, the same crash", "event"),
     ]
-    for label, name, own in rows:
-        print(f"{name:32} {best[name]:9.0f} ns   ours, {label:17} {own:7.0f} ns   ratio {best[name] / own:5.1f}")
+    lines = ["| | ours | the same skeleton elsewhere | theirs | ratio |", "|---|---|---|---|---|"]
+    for what, own, peer_name, key in rows:
+        if key in theirs:
+            unit, digits = ("ms", 1) if key == "event" else ("ns", 0)
+            their = theirs[key]
+            lines.append(
+                f"| {what} | {own:,.{digits}f} {unit} | {peer_name} | {their:,.{digits}f} {unit} | {their / own:.1f} |"
+            )
+    return lines
+
+
+def write(path, lines):
+    """Puts the table between the markers of a file."""
+    text = path.read_text()
+    begin, end = MARKERS
+    if text.count(begin) != 1 or text.count(end) != 1:
+        sys.exit(f"{path} has no place for the table: it needs one line {begin} and one line {end}")
+    before, rest = text.split(begin)
+    path.write_text(before + begin + "\n" + "\n".join(lines) + "\n" + end + rest.split(end)[1])
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("examples", type=Path)
+    parser.add_argument("--compiler", nargs="*", default=["clang++"], help="for aba in C++ (default: clang++)")
+    parser.add_argument("--write", type=Path, nargs="*", default=[])
+    arguments = parser.parse_args()
+    peer = Peer(arguments.examples, SCENARIO, INSTANT)
+    check_mujoco(peer)
+    check_belts(peer)
+    model, data, q, v, expected = pinocchio_model(pin, peer.motion)
+    check_acceleration("Pinocchio", pin.aba(model, data, q, v, np.zeros(model.nv)), expected)
+    with tempfile.TemporaryDirectory() as folder:
+        theirs, ours = measure(peer, arguments, Path(folder))
+    lines = table(theirs, ours)
+    print("\n".join(lines))
     print("ours: " + ", ".join(f"{name} {value:.1f}" for name, value in ours.items()))
+    for path in arguments.write:
+        write(path, lines)
 
 
 if __name__ == "__main__":
-    if len(sys.argv) != 2:
-        sys.exit(__doc__)
-    main(sys.argv[1])
+    main()

@@ -13,7 +13,7 @@ use occupant_core::integrate::rk4::{self, Stage};
 use occupant_core::kernel::contact::{ContactSystem, Touch};
 use occupant_core::kernel::dynamics::{self, Accelerations, Wrench};
 use occupant_core::kernel::kinematics::Kinematics;
-use occupant_core::kernel::state::State;
+use occupant_core::kernel::state::{FREE, State};
 use occupant_core::kernel::{Frames, History, Observer, System};
 use occupant_core::model::Model;
 use occupant_core::path::PathCursor;
@@ -120,6 +120,27 @@ impl Instant {
         rk4::step(&self.state, STEP_S, |stage, state| match stage {
             Stage::Start => system.rate::<true>(state, frames, history),
             Stage::Middle | Stage::End => system.rate::<false>(state, frames, history),
+        })
+    }
+
+    /// A step of the skeleton alone under given loads.
+    pub fn bare_step(&self, loads: &[Wrench<f64>; SEGMENTS]) -> State<f64> {
+        let skeleton = &self.system.skeleton;
+        rk4::step(&self.state, STEP_S, |_, state| {
+            let kinematics = Kinematics::new(skeleton, state);
+            let motion = dynamics::solve(skeleton, &kinematics, &state.hinge_rate, loads);
+            let mut rate = State {
+                t1: state.velocity,
+                velocity: motion.joint[0],
+                hinge: state.hinge_rate,
+                hinge_rate: motion.hinge,
+                ..*state
+            };
+            for (slot, &n) in FREE.iter().enumerate() {
+                rate.orientation[slot] = state.orientation[slot].rate(state.omega[slot]);
+                rate.omega[slot] = motion.alpha[n];
+            }
+            rate
         })
     }
 

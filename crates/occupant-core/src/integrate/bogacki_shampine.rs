@@ -5,6 +5,7 @@
 //! bounds the step of any explicit method. A pair of higher order spends its stages in vain there: at equal error the one of
 //! Dormand and Prince takes more evaluations at every tolerance (measured in `docs/accuracy.md`).
 
+use crate::kernel::scalar::Scalar;
 use crate::kernel::state::State;
 use crate::kernel::vector::V3;
 
@@ -51,14 +52,9 @@ pub fn attempt(
     k1: &State<f64>,
     h: f64,
     tolerance: &Tolerance,
-    mut rate: impl FnMut(Stage, &State<f64>) -> State<f64>,
+    rate: impl FnMut(Stage, &State<f64>) -> State<f64>,
 ) -> Trial {
-    let k2 = rate(Stage::Within(0.5), &state.advanced(0.5 * h, k1));
-    let k3 = rate(Stage::Within(0.75), &state.advanced(0.75 * h, &k2));
-    let sum = k1.advanced(1.5, &k2).advanced(2.0, &k3);
-    let mut end = state.advanced(h * (2.0 / 9.0), &sum);
-    end.normalize();
-    let k4 = rate(Stage::End, &end);
+    let (end, [k2, k3, k4]) = stages(state, k1, h, rate);
     // third-order weights 2/9, 1/3, 4/9, 0 less second-order weights 7/24, 1/4, 1/3, 1/8
     let error = State::zero()
         .advanced(h * (-5.0 / 72.0), k1)
@@ -72,15 +68,32 @@ pub fn attempt(
     }
 }
 
+/// The state after a step `h` (s) and the rates of the three later stages, the last of them at its end.
+#[inline(always)]
+pub fn stages<S: Scalar>(
+    state: &State<S>,
+    k1: &State<S>,
+    h: f64,
+    mut rate: impl FnMut(Stage, &State<S>) -> State<S>,
+) -> (State<S>, [State<S>; 3]) {
+    let k2 = rate(Stage::Within(0.5), &state.advanced(S::of(0.5 * h), k1));
+    let k3 = rate(Stage::Within(0.75), &state.advanced(S::of(0.75 * h), &k2));
+    let sum = k1.advanced(S::of(1.5), &k2).advanced(S::of(2.0), &k3);
+    let mut end = state.advanced(S::of(h * (2.0 / 9.0)), &sum);
+    end.normalize();
+    let k4 = rate(Stage::End, &end);
+    (end, [k2, k3, k4])
+}
+
 /// The state at fraction `s` of a step `h` (s), from states and rates at its ends: cubic in time, third order like the step.
-pub fn within(from: [&State<f64>; 2], to: [&State<f64>; 2], h: f64, s: f64) -> State<f64> {
+pub fn within<S: Scalar>(from: [&State<S>; 2], to: [&State<S>; 2], h: f64, s: f64) -> State<S> {
     let ([start, k1], [end, k4]) = (from, to);
     let r = 1.0 - s;
-    let way = end.advanced(-1.0, start);
+    let way = end.advanced(S::of(-1.0), start);
     let mut state = start
-        .advanced(s * s * (3.0 - 2.0 * s), &way)
-        .advanced(h * s * r * r, k1)
-        .advanced(-h * s * s * r, k4);
+        .advanced(S::of(s * s * (3.0 - 2.0 * s)), &way)
+        .advanced(S::of(h * s * r * r), k1)
+        .advanced(S::of(-h * s * s * r), k4);
     state.normalize();
     state
 }

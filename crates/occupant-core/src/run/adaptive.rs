@@ -133,8 +133,7 @@ impl Run {
             if trial.error <= 1.0 {
                 let is_full = located.is_none() && h >= wanted_s * 0.99;
                 self.control.accept(h, trial.error, is_full, was_rejected);
-                self.effort.steps += 1;
-                self.effort.step_s = h;
+                self.count(step);
                 front.take_over(trial, step, end_s >= stop_s);
                 return Ok(());
             }

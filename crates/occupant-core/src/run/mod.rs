@@ -45,7 +45,9 @@ pub(crate) struct Run {
     greatest_kinetic_j: f64,
     greatest_imbalance_j: f64,
     touches: Touches,
-    breaks_s: Vec<f64>,
+    pub breaks_s: Vec<f64>,
+    /// The accepted steps since it was last emptied, where somebody wants to follow them.
+    pub taken: Option<Vec<Step>>,
 }
 
 impl Run {
@@ -78,6 +80,7 @@ impl Run {
             },
             seen: Seen::new(model),
             breaks_s: model.setup().path.breaks_s(),
+            taken: None,
         }
     }
 
@@ -238,6 +241,14 @@ impl Run {
     /// Counts an accepted step whose state is kept elsewhere.
     pub fn accept_time(&mut self, step: Step) {
         self.time_s = step.end_s;
+        self.count(step);
+    }
+
+    /// Counts an accepted step.
+    fn count(&mut self, step: Step) {
+        if let Some(taken) = &mut self.taken {
+            taken.push(step);
+        }
         self.effort.steps += 1;
         self.effort.step_s = step.length_s();
     }

@@ -204,6 +204,13 @@ fn an_exact_state_replaces_the_posture() {
     assert_eq!(continued.surfaces[*surface].name, "cushion");
     let wrong = complaint(&with_passed(r#"[["left_hand", "cushon"]]"#));
     assert!(wrong.contains("no surface is named \"cushon\""), "{wrong}");
+    let never = with_passed(r#"[["left_hand", "cushion"]]"#)
+        .replace("cushion = {", "cushion = { spheres = [\"pelvis\"],");
+    let wrong = complaint(&never);
+    assert!(
+        wrong.contains("`cushion` cannot be passed by `left_hand`"),
+        "{wrong}"
+    );
 }
 
 #[test]
