@@ -6,7 +6,7 @@ use occupant_core::checkpoint::Checkpoint;
 use occupant_core::model::Model;
 use occupant_core::recorder::Watch;
 use occupant_core::scenario::{Draft, Format};
-use occupant_core::sensitivity::finite::{CHANGES, Verdict, compare, finite_changes};
+use occupant_core::sensitivity::finite::{CHANGES, HOLDS, Verdict, compare, finite_changes};
 use occupant_core::sensitivity::measures::{Wish, derivatives, plain_values};
 use occupant_core::sensitivity::{Built, Parameter, Slope, Trajectory, Trouble, follow, parameter};
 use occupant_core::setup::{Integrator, Setup};
@@ -36,9 +36,23 @@ fn model_of(draft: &Draft) -> Model {
 
 /// A body in the air that bends and turns: dampers and springs at work, no stop reached, nothing touched.
 fn tumbling() -> Draft {
-    let q = "initial_state.q=[0.1, 0, 2, 10, 12, 0, 5, 20, 5, 0, 10, 0, 15, 25, 10, -20, 40, 0, 40, 50, 0, -10, 30, 5, 0, -40, -70, 50, -15, 60, 60]";
-    let rates = "initial_state.rates=[1, 0.3, 0.5, 40, 40, 10, -20, 30, 20, 50, 60, 0, 40, -20, 20, -30, 40, 0, -60, 60, 30, 20, 50, 0, 30, 60, -60, 50, 0, 40, -60]";
-    draft(FREE, &[q, rates, "time.end=0.1", "gravity=9.81"])
+    let q = "initial_state.q=[0.1, 0, 2, 10, 12, 0, 5, 45, 5, 20, 15, 0, 150, 25, 10, -20, 50, 0, 40, 60, 0, -10, 30, 5, 0, -40, -70, 60, -15, 80, 60]";
+    let rates = "initial_state.rates=[1, 0.3, 0.5, 40, 40, 10, 10, 30, 20, 20, 60, 0, 40, 30, 20, -30, 40, 0, -60, 60, 30, 20, 50, 0, 30, 60, -60, 50, 0, 40, -60]";
+    let far = |joint: &str| {
+        format!("joints.{joint}.stop={{ begin = 170, full = 175, damping = \"1 in lbf s/rad\" }}")
+    };
+    let (upper, lower) = (far("upper_back"), far("lower_back"));
+    let neck = far("neck");
+    let set = [
+        q,
+        rates,
+        "time.end=0.06",
+        "gravity=9.81",
+        &upper,
+        &lower,
+        &neck,
+    ];
+    draft(FREE, &set)
 }
 
 /// Builds, follows and takes the derivatives of all channels by all parameters.
@@ -67,20 +81,34 @@ fn series(model: &Model) -> Vec<Vec<f64>> {
     series.values
 }
 
-/// Slopes of all channels by differences of whole runs over h and h/2, extrapolated.
-fn by_runs(parameter: &Parameter<'_>, part: f64) -> Vec<Vec<f64>> {
+/// Slopes of all channels by differences of whole runs, extrapolated: of several steps the one whose two extrapolations lie
+/// closest together, as rounding asks for long steps and the bends of the motion for short ones.
+fn by_runs(parameter: &Parameter<'_>) -> Vec<Vec<f64>> {
     let at = |h: f64| series(&(parameter.model_at)(parameter.nominal + h).unwrap());
-    let h = part * parameter.size;
-    let [a, b, c, d] = [h, -h, 0.5 * h, -0.5 * h].map(at);
-    let mut slopes = a.clone();
-    for (i, channel) in slopes.iter_mut().enumerate() {
-        for (j, slope) in channel.iter_mut().enumerate() {
-            let coarse = (a[i][j] - b[i][j]) / (2.0 * h);
-            let fine = (c[i][j] - d[i][j]) / h;
-            *slope = (4.0 * fine - coarse) / 3.0;
+    let mut best: Vec<Vec<(f64, f64)>> = Vec::new();
+    for part in [1e-2, 1e-3, 1e-4] {
+        let h = part * parameter.size;
+        let runs = [h, -h, 0.5 * h, -0.5 * h, 0.25 * h, -0.25 * h].map(at);
+        let slope = |i: usize, j: usize| {
+            let d = |n: usize, h: f64| (runs[n][i][j] - runs[n + 1][i][j]) / (2.0 * h);
+            let coarse = (4.0 * d(2, 0.5 * h) - d(0, h)) / 3.0;
+            let fine = (4.0 * d(4, 0.25 * h) - d(2, 0.5 * h)) / 3.0;
+            (fine, (fine - coarse).abs())
+        };
+        if best.is_empty() {
+            best = vec![vec![(0.0, f64::INFINITY); runs[0][0].len()]; runs[0].len()];
+        }
+        for (i, channel) in best.iter_mut().enumerate() {
+            for (j, known) in channel.iter_mut().enumerate() {
+                let found = slope(i, j);
+                if found.1 < known.1 {
+                    *known = found;
+                }
+            }
         }
     }
-    slopes
+    let slopes = |channel: &Vec<(f64, f64)>| channel.iter().map(|s| s.0).collect();
+    best.iter().map(slopes).collect()
 }
 
 fn greatest(values: impl Iterator<Item = f64>) -> f64 {
@@ -98,15 +126,10 @@ fn scale_of(all: &[Channel], plain: &[Vec<f64>], channel: &Channel) -> f64 {
 
 /// Greatest distance between duals and differences of runs, as a part of the channel's greatest slope, or of a thousandth of
 /// what a channel of its unit comes to: channels that stand still hold nothing but rounding.
-fn distance(
-    model: &Model,
-    parameter: &Parameter<'_>,
-    found: &[Vec<Slope>],
-    part: f64,
-) -> (f64, String) {
+fn distance(model: &Model, parameter: &Parameter<'_>, found: &[Vec<Slope>]) -> (f64, String) {
     let all = channels(model);
     let plain = series(model);
-    let expected = by_runs(parameter, part);
+    let expected = by_runs(parameter);
     let mut worst = (0.0, String::new());
     for (i, channel) in all.iter().enumerate() {
         let name = &channel.name;
@@ -122,18 +145,15 @@ fn distance(
     worst
 }
 
-fn against_runs(draft: &Draft, paths: &[&str], part: f64, bound: f64) {
+fn against_runs(draft: &Draft, paths: &[&str], bound: f64) {
     let model = model_of(draft);
     let parameters: Vec<Parameter<'_>> = paths
         .iter()
         .map(|p| parameter(draft, p, &no_files).unwrap())
         .collect();
-    let (trajectory, found) = all_channels(&model, &parameters);
-    for event in &trajectory.events {
-        println!("{:.6} {}", event.time_s, event.happening.words(&model));
-    }
+    let (_, found) = all_channels(&model, &parameters);
     for (parameter, found) in parameters.iter().zip(&found) {
-        let (far, channel) = distance(&model, parameter, found, part);
+        let (far, channel) = distance(&model, parameter, found);
         assert_below(&format!("{}, worst {channel}", parameter.name), far, bound);
     }
 }
@@ -151,7 +171,7 @@ fn in_the_air_duals_are_the_limit_of_differences_of_runs() {
         "initial_state.q[4]",
         "initial_state.rates[2]",
     ];
-    against_runs(&tumbling(), &paths, 1e-3, 1e-6);
+    against_runs(&tumbling(), &paths, 1e-6);
 }
 
 #[test]
@@ -162,7 +182,7 @@ fn with_error_control_too() {
     draft.set("integrator.relative=1e-11").unwrap();
     draft.set("integrator.absolute_length=1e-12").unwrap();
     draft.set("integrator.absolute_speed=1e-12").unwrap();
-    against_runs(&draft, &["joints.neck.damping", "gravity"], 1e-2, 1e-6);
+    against_runs(&draft, &["joints.neck.damping", "gravity"], 1e-6);
 }
 
 /// Every value of every checkpoint of the run in duals is that of the plain run; [`follow`] looks at each output.
@@ -299,8 +319,9 @@ fn heavier_and_stiffer_in_proportion_moves_alike_and_pushes_in_proportion() {
             }
         }
     }
-    assert_below("motion does not change", still, 1e-5);
-    assert_below("forces change in proportion", forces, 1e-5);
+    // Measured: 3.2e-11, 3.4e-11.
+    assert_below("motion does not change", still, 1e-8);
+    assert_below("forces change in proportion", forces, 1e-8);
 }
 
 #[test]
@@ -329,6 +350,29 @@ fn free_fall_in_closed_form() {
     assert_below("free fall", worst, 1e-11);
 }
 
+/// The feet fall onto the ground: t = √(2h/g) comes earlier by t/2g a unit of gravity and later by 1/gt a metre of height.
+#[test]
+fn the_instant_of_a_contact_shifts_as_in_free_fall() {
+    let ground = "\n[materials]\nsoil = { k1 = 20000, mu1 = 0.5, friction = 0.5 }\n[surfaces]\nground = { material = \"soil\", frame = \"space\", plane = { point = [0, 0, 0.95], normal = [0, 0, 1] }, facing = \"order\" }\n";
+    let text = format!("{FREE}{ground}");
+    let draft = draft(&text, &["gravity=9.81"]);
+    let model = model_of(&draft);
+    let parameters =
+        ["gravity", "initial_state.q[2]"].map(|p| parameter(&draft, p, &no_files).unwrap());
+    let mut built = parameters
+        .each_ref()
+        .map(|p| Built::new(&model, p).unwrap());
+    let trajectory = follow(&model, &mut built).unwrap();
+    let first = trajectory.events.first().expect("a contact");
+    let words = first.happening.words(&model);
+    assert!(words.ends_with("begins to touch ground"), "{words}");
+    // the shift is told at the accepted step, up to one step later, where the ground already pushes
+    let (t, g) = (first.time_s, 9.81);
+    // Measured: 5.8e-8, 1.2e-7.
+    assert_below("by gravity", first.shift[0] / (-t / (2.0 * g)) - 1.0, 1e-6);
+    assert_below("by height", first.shift[1] / (1.0 / (g * t)) - 1.0, 1e-6);
+}
+
 /// On the cart, belts tight and seat loaded, until the first kink.
 #[test]
 fn on_the_cart_before_the_first_event() {
@@ -347,7 +391,7 @@ fn on_the_cart_before_the_first_event() {
         "seats.driver.y",
         "body.segments.*.weight",
     ];
-    against_runs(&draft, &paths, 1e-4, 1e-6);
+    against_runs(&draft, &paths, 1e-6);
 }
 
 #[test]
@@ -378,14 +422,11 @@ fn after_contacts_the_derivative_is_what_small_finite_changes_do() {
             for (i, figure) in figures.iter().enumerate() {
                 let slope = found.figures[i];
                 let c = compare(&slope, plain.figures[i], parameter.size, &finite, i);
-                println!(
-                    "{figure:28} by {:22} {:12.5e} doubt {:8.1e} off {:?} {:?}",
-                    parameter.name, slope.value, slope.doubt, c.off, c.verdict
-                );
-                let Verdict::Holds { off, .. } = c.verdict else {
-                    panic!("{figure} by {}: {c:?}", parameter.name);
-                };
-                assert!(off <= 0.1);
+                let what = format!("{figure} by {}, ±0.01 %", parameter.name);
+                // Measured: 3.4e-6 to 1.3e-2, in proportion to the change until a contact comes or goes.
+                assert_below(&what, c.off[0], 0.03);
+                let declared = matches!(c.verdict, Verdict::Holds { off, .. } if off <= HOLDS);
+                assert!(declared, "{what}: {c:?}");
             }
         }
     }

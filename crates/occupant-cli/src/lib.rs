@@ -16,6 +16,7 @@ mod print;
 pub mod report;
 pub mod results;
 mod risk;
-mod study;
+mod sensitivity;
+pub mod study;
 mod sweep;
 pub mod view;

@@ -31,6 +31,7 @@ mod risk;
 pub(crate) mod run;
 pub(crate) mod scenario;
 mod schema;
+mod sensitivity;
 pub(crate) mod speak;
 mod study;
 mod summary_table;
@@ -77,6 +78,7 @@ enum Command {
     View(view::Args),
     Report(report::Args),
     Risk(risk::Args),
+    Sensitivity(sensitivity::Args),
     Completions(completions::Args),
 }
 
@@ -99,6 +101,7 @@ pub fn main() -> ExitCode {
         Command::View(args) => view::view(&args),
         Command::Report(args) => report::report(&args),
         Command::Risk(args) => risk::risk(&args),
+        Command::Sensitivity(args) => sensitivity::sensitivity(&args),
         Command::Completions(args) => completions::print(&args),
     };
     exit::code(result)

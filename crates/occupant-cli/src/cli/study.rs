@@ -1,5 +1,6 @@
 //! `occupant study`.
 
+mod bands;
 mod report;
 
 use clap::Subcommand;
@@ -16,11 +17,13 @@ pub struct Args {
 #[derive(Debug, Subcommand)]
 enum Step {
     Report(report::ReportArgs),
+    Bands(bands::BandsArgs),
 }
 
 /// Does what is asked of a study.
 pub fn study(args: &Args) -> Result<Done, Failure> {
     match &args.command {
         Step::Report(args) => report::report(args),
+        Step::Bands(args) => bands::bands(args),
     }
 }

@@ -4,10 +4,15 @@
 //! that is known, a linear model that explains most of what it is a model of.
 
 use occupant_core::study::Design;
-use occupant_core::study::analysis::{Effect, Estimate, RankCorrelation, Regression, SobolIndices};
+use occupant_core::study::analysis::{
+    Effect, Estimate, RankCorrelation, Regression, SobolIndices, rank_correlation,
+};
+use occupant_core::study::spread::Spread;
 
 use super::gather::Gathered;
 use super::open::Opened;
+use super::samples::Samples;
+use super::shown::part as shown_part;
 
 /// A Sobol index is marked if its 95 % interval is wider.
 pub const INDEX_WIDTH: f64 = 0.1;
@@ -21,6 +26,10 @@ pub const RANKED_ROWS: usize = 20;
 pub const TRAJECTORIES: usize = 10;
 /// Everything is marked where a greater part of the runs has no figure.
 pub const MISSING: f64 = 0.05;
+/// Parameters with a stronger rank correlation are named.
+pub const TOGETHER: f64 = 0.3;
+/// At most so many pairs of them.
+const NAMED: usize = 3;
 
 /// The rules, for the page and the documentation.
 pub fn rules() -> [String; 6] {
@@ -83,8 +92,12 @@ pub fn effect(found: &Effect) -> Option<String> {
     wide.then(|| "interval wider than the effect".to_owned())
 }
 
-/// Why all numbers of a response are marked: rows without a value.
-pub fn missing(missing: usize, rows: usize) -> Option<String> {
+/// Why all numbers of a response are marked: samples without a value.
+pub fn lacking(spread: Option<&Spread>) -> Option<String> {
+    spread.and_then(|s| missing(s.missing, s.members + s.missing))
+}
+
+fn missing(missing: usize, rows: usize) -> Option<String> {
     let most = part(missing, rows) > MISSING;
     most.then(|| format!("{missing} of {rows} samples have no such figure: what is said holds for the others only"))
 }
@@ -111,12 +124,42 @@ pub fn of_the_study(opened: &Opened, gathered: &Gathered) -> Vec<String> {
         ));
     }
     let study = opened.plan.study();
+    if !matches!(
+        study.design(),
+        Design::Saltelli { .. } | Design::Morris { .. } | Design::OneAtATime { .. }
+    ) {
+        notes.extend(together(&gathered.samples));
+    }
     if study.parameters().is_empty() && *study.design() == Design::Single {
         notes.push(
             "The study varies nothing but the small changes of its ensemble: there is no parameter to analyse.".to_owned(),
         );
     }
     notes
+}
+
+/// Parameters that go together, the strongest first: what one does cannot be told from what the other does.
+fn together(samples: &Samples) -> Vec<String> {
+    let numbers: Vec<_> = samples.inputs.iter().filter(|i| i.is_number()).collect();
+    let mut pairs = Vec::new();
+    for (i, a) in numbers.iter().enumerate() {
+        for b in &numbers[..i] {
+            match rank_correlation(&b.values, &a.values) {
+                Ok(found) if found.rho.value.abs() > TOGETHER && found.rho.is_clear() => {
+                    pairs.push((found.rho.value, &b.name, &a.name));
+                }
+                _ => {}
+            }
+        }
+    }
+    pairs.sort_by(|a, b| b.0.abs().total_cmp(&a.0.abs()));
+    let words = |(rho, a, b): &(f64, &String, &String)| {
+        format!(
+            "The samples vary {a} and {b} together (rank correlation {}): what one does is partly counted for the other.",
+            shown_part(*rho)
+        )
+    };
+    pairs.iter().take(NAMED).map(words).collect()
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use occupant_core::study::{ApplyChoice, Design, Law, Parameter, Study, Value};
 
-use super::shown::{shown, significant, with_unit};
+use super::shown::{given, given_with_unit};
 
 /// So many values of a list, or places of a parameter, are named.
 const NAMED: usize = 6;
@@ -44,7 +44,8 @@ pub fn design(study: &Study) -> String {
 /// How the values of a parameter are spread, in words.
 pub fn law(parameter: &Parameter) -> String {
     let unit = parameter.unit;
-    let range = |from: f64, to: f64| format!("{} to {}", shown(from, unit), with_unit(to, unit));
+    let range =
+        |from: f64, to: f64| format!("{} to {}", given(from, unit), given_with_unit(to, unit));
     let text = match &parameter.law {
         Law::List(values) => {
             let some: Vec<String> = values.iter().take(NAMED).map(|v| value(v, unit)).collect();
@@ -69,18 +70,22 @@ pub fn law(parameter: &Parameter) -> String {
         Law::Uniform { from, to } => format!("uniform: {}", range(*from, *to)),
         Law::LogUniform { from, to } => format!("log-uniform: {}", range(*from, *to)),
         Law::Normal { mean, sd } => {
-            format!("normal: {} ± {}", shown(*mean, unit), with_unit(*sd, unit))
+            format!(
+                "normal: {} ± {}",
+                given(*mean, unit),
+                given_with_unit(*sd, unit)
+            )
         }
         Law::TruncatedNormal { mean, sd, from, to } => format!(
             "normal: {} ± {}, cut to {}",
-            shown(*mean, unit),
-            with_unit(*sd, unit),
+            given(*mean, unit),
+            given_with_unit(*sd, unit),
             range(*from, *to)
         ),
         Law::Triangular { from, mode, to } => format!(
             "triangular: {}, likeliest {}",
             range(*from, *to),
-            with_unit(*mode, unit)
+            given_with_unit(*mode, unit)
         ),
         Law::Table => "as the table says".to_owned(),
     };
@@ -93,7 +98,7 @@ pub fn law(parameter: &Parameter) -> String {
 
 fn value(value: &Value, unit: &str) -> String {
     match value {
-        Value::Number(x) => with_unit(*x, unit),
+        Value::Number(x) => given_with_unit(*x, unit),
         Value::Text(text) => text.clone(),
         Value::Truth(b) => b.to_string(),
         Value::Base => "as in the base".to_owned(),
@@ -117,7 +122,7 @@ pub fn places(parameter: &Parameter) -> String {
 /// What the base scenario says of a parameter.
 pub fn nominal(parameter: &Parameter) -> String {
     match parameter.nominal() {
-        Value::Number(x) if parameter.unit.is_empty() => significant(x),
+        Value::Number(x) if parameter.unit.is_empty() => given(x, ""),
         nominal => value(&nominal, parameter.unit),
     }
 }

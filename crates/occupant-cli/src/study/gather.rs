@@ -184,7 +184,7 @@ impl Gathering<'_> {
 
     /// Ends the row of a sample: the median of its members, if at least half of them have the figure.
     fn close(&mut self) {
-        if self.found.samples.len() == 0 {
+        if self.found.samples.is_empty() {
             return;
         }
         for (response, members) in self

@@ -4,19 +4,21 @@
 //! folder of a sweep ─ Opened ─ Samples (a table of inputs and responses) ─ Analysis of each response ─ page, Parquet
 //! ```
 
-mod analysis;
-mod caution;
+pub mod analysis;
+pub mod caution;
 mod command;
 mod describe;
 mod extremes;
 mod gather;
 mod html;
+mod matters;
 mod numbers;
 mod open;
 mod page;
+mod pictures;
 mod plots;
 mod responses;
-mod samples;
+pub mod samples;
 mod sections;
 mod shown;
 mod tables;

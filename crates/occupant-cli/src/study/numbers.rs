@@ -56,12 +56,11 @@ struct List<'a> {
 
 impl<'a> List<'a> {
     fn of(report: &'a Report, analysis: &'a Analysis) -> Self {
-        let (there, missing) = analysis.spread.map_or((0, 0), |s| (s.members, s.missing));
         List {
             report,
             analysis,
-            rows: there,
-            mark: caution::missing(missing, there + missing),
+            rows: analysis.spread.map_or(0, |s| s.members),
+            mark: caution::lacking(analysis.spread.as_ref()),
             numbers: Vec::new(),
         }
     }

@@ -15,8 +15,6 @@ use crate::sweep::texts::Texts;
 
 /// A sweep, finished or not.
 pub struct Opened {
-    /// The folder with the copies of study and scenario.
-    pub folder: PathBuf,
     /// What it is the sweep of.
     pub manifest: Manifest,
     /// What names it.
@@ -62,7 +60,6 @@ pub fn open(folders: &[PathBuf]) -> Result<Opened, Failure> {
         ));
     }
     Ok(Opened {
-        folder: first.path().to_owned(),
         manifest_sha256,
         plan,
         journal,

@@ -52,6 +52,7 @@ pub fn page(report: &Report) -> String {
     html.raw("</div><div>\n");
     sections::ends(&mut html, report);
     html.raw("</div></div>\n");
+    sections::varied(&mut html, report);
     if ends.finished == 0 {
         html.text(
             "p class=\"note\"",

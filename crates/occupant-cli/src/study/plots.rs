@@ -330,5 +330,5 @@ fn words_figure(title: &str, x: Axis, words: Vec<String>, curves: Vec<Curve>) ->
         limits: Vec::new(),
         empty: "nothing to draw".to_owned(),
     };
-    inline(&figure, [1.2 * SIZE[0], height])
+    inline(&figure, [1.1 * SIZE[0], height])
 }

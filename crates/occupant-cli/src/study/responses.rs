@@ -85,17 +85,14 @@ pub fn keep_telling(gathered: &mut Gathered) {
     if kept.is_empty() {
         kept.extend((!responses.is_empty()).then_some(0));
     }
-    let mut at = 0;
-    let mut stays = || {
-        at += 1;
-        kept.contains(&(at - 1))
-    };
-    gathered.samples.responses.retain(|_| stays());
-    let mut at = 0;
-    gathered.extremes.retain(|_| {
-        at += 1;
-        kept.contains(&(at - 1))
-    });
+    keep(&mut gathered.samples.responses, &kept);
+    keep(&mut gathered.extremes, &kept);
+}
+
+/// Leaves the items at these places.
+fn keep<T>(list: &mut Vec<T>, places: &[usize]) {
+    let mut place = 0..;
+    list.retain(|_| place.next().is_some_and(|at: usize| places.contains(&at)));
 }
 
 #[cfg(test)]

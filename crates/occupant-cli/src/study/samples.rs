@@ -68,6 +68,11 @@ impl Samples {
         self.numbers.len()
     }
 
+    /// Whether there is none.
+    pub fn is_empty(&self) -> bool {
+        self.numbers.is_empty()
+    }
+
     /// The row of a sample, if it is there.
     pub fn row_of(&self, number: u64) -> Option<usize> {
         self.numbers.binary_search(&number).ok()

@@ -40,6 +40,24 @@ pub fn significant(value: f64) -> String {
     text.replace('-', "−")
 }
 
+/// The same without zeros at the end: of numbers that somebody gave.
+pub fn given(value: f64, unit: &str) -> String {
+    let text = shown(value, unit);
+    match text.contains('.') && !text.contains('e') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
+/// A given number with its shown unit.
+pub fn given_with_unit(value: f64, unit: &str) -> String {
+    match shown_unit(unit).1 {
+        "" => given(value, unit),
+        "°" => format!("{}°", given(value, unit)),
+        symbol => format!("{} {symbol}", given(value, unit)),
+    }
+}
+
 /// Three decimals: parts and correlations.
 pub fn part(value: f64) -> String {
     match value.is_finite() {
@@ -66,6 +84,11 @@ mod tests {
             assert_eq!(significant(value), text);
         }
         assert_eq!(with_unit(0.5, "m"), "500.0 mm");
+        assert_eq!(given_with_unit(0.5, "m"), "500 mm");
+        assert_eq!(
+            (given(100.0, ""), given(3e7, "")),
+            ("100".to_owned(), "3.000e7".to_owned())
+        );
         assert_eq!(with_unit(std::f64::consts::PI, "rad"), "180.0°");
         assert_eq!(
             (part(-0.25), part(f64::NAN)),

@@ -63,6 +63,10 @@ impl<const N: usize> Mul for Dual<N> {
     type Output = Self;
     /// (ab)′ = a′b + ab′.
     #[inline(always)]
+    #[expect(
+        clippy::suspicious_arithmetic_impl,
+        reason = "the product rule is a sum"
+    )]
     fn mul(self, b: Self) -> Self {
         Dual {
             value: self.value * b.value,
@@ -252,8 +256,8 @@ mod tests {
                 worst = worst.max((found - expected).abs());
             }
         }
-        // Measured: 5.6e-12.
-        assert!(worst < 1e-10, "{worst:e}");
+        // Measured: 4.4e-11.
+        assert!(worst < 4e-10, "{worst:e}");
     }
 
     #[test]

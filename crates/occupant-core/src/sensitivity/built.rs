@@ -94,7 +94,7 @@ impl Built {
                 STEP * 100.0
             ));
         }
-        if !(doubt <= ROUGH) {
+        if doubt.is_nan() || doubt > ROUGH {
             return Err(Trouble::Rough {
                 parameter: parameter.name.clone(),
                 doubt,

@@ -264,8 +264,9 @@ impl<const N: usize> Lookout<N> {
 
     fn note(&mut self, time_s: f64, happening: Happening, jump_n: Option<f64>, shift: [f64; N]) {
         let (change, jump_n) = match jump_n {
-            Some(jump_n) => (Change::Jump, jump_n),
-            None => (Change::Kink, 0.0),
+            // an edge beyond which an unloaded spring was, say
+            Some(jump_n) if jump_n > 0.0 => (Change::Jump, jump_n),
+            _ => (Change::Kink, 0.0),
         };
         match self.list.len() < MOST {
             true => self.list.push(((time_s, happening, change, jump_n), shift)),

@@ -3,7 +3,9 @@
 //! Not one of them is written anew. An output carries the state and all that is remembered, each with its derivative; so the
 //! outputs displaced to first order by ±h are known exactly, and so is the model at p ± h. The recorders of a plain run
 //! look at these outputs, and their answers are differenced and extrapolated ([`super::ladder`]). What is differenced
-//! is a closed function of the displaced outputs, not a motion: its noise is that of rounding. A peak, a window or a
+//! is a closed function of the displaced outputs, not a motion: its noise is that of rounding. Displacements of several
+//! sizes are tried, as rounding asks for large ones and the kinks of force laws for small ones; of each figure that slope is
+//! taken whose two extrapolations lie closest together. A peak, a window or a
 //! 3 ms level is that of the outputs as samples: the sample that carries it stays the same for a small enough step.
 
 use super::ladder::Slope;
@@ -20,9 +22,9 @@ use crate::scenario::place::Misplaced;
 use crate::simulate::replay;
 use crate::summary::{Figure, Summarizer};
 
-/// No output is displaced farther than this, m and rad: what is differenced stays on its branch.
-const FARTHEST: f64 = 3e-6;
-/// Nor the parameter by more than this part of its size.
+/// How far outputs are displaced at most, m and rad.
+const FARTHEST: [f64; 3] = [1e-6, 2e-5, 4e-4];
+/// The parameter is changed by no more than this part of its size.
 const LARGEST_PART: f64 = 1e-3;
 
 /// What the derivatives of a run are asked of.
@@ -50,8 +52,6 @@ pub struct Derivatives {
     pub figures: Vec<Slope>,
     /// By channel, then by output.
     pub channels: Vec<Vec<Slope>>,
-    /// Change of the parameter by which the outputs were displaced.
-    pub step: f64,
 }
 
 /// Derivatives by `parameter`, the one of number `k` of the trajectory.
@@ -72,31 +72,62 @@ pub fn derivatives(
             parameter.name
         )));
     }
-    let step = (FARTHEST / reach).min(LARGEST_PART * parameter.size);
-    let family = Family::new(model, parameter, step)?;
+    let at_base = plain_values(model, trajectory, wish)?;
+    let mut best: Option<Derivatives> = None;
+    for farthest in FARTHEST {
+        let step = (farthest / reach).min(LARGEST_PART * parameter.size);
+        let family = Family::new(model, parameter, step)?;
+        let found = displaced(&family, parameter, trajectory, k, wish, &at_base)?;
+        match &mut best {
+            None => best = Some(found),
+            Some(best) => best.take_over(&found),
+        }
+    }
+    best.ok_or_else(|| Trouble::Output("no displacement was tried".to_owned()))
+}
+
+/// Derivatives by outputs of the models of `family`.
+fn displaced(
+    family: &Family,
+    parameter: &Parameter<'_>,
+    trajectory: &Trajectory,
+    k: usize,
+    wish: &Wish,
+    at_base: &Values,
+) -> Result<Derivatives, Trouble> {
     let ladder = &family.ladder;
-    let at_base = values(model, trajectory, wish, |output| {
-        trajectory.checkpoints[output].clone()
-    })?;
     let models = family.models.iter().zip(&ladder.points);
-    let displaced = models.map(|(model, point)| {
+    let around = models.map(|(model, point)| {
         let by = point - parameter.nominal;
         values(model, trajectory, wish, |output| {
             trajectory.displaced(k, output, by)
         })
     });
-    let displaced: Vec<Values> = displaced.collect::<Result<_, _>>()?;
+    let around: Vec<Values> = around.collect::<Result<_, _>>()?;
     let slopes = |of: &dyn Fn(&Values) -> Vec<f64>| {
-        let around: Vec<Vec<f64>> = displaced.iter().map(of).collect();
-        ladder.slopes(&of(&at_base), &around)
+        let around: Vec<Vec<f64>> = around.iter().map(of).collect();
+        ladder.slopes(&of(at_base), &around)
     };
     Ok(Derivatives {
         figures: slopes(&|v| v.figures.clone()),
         channels: (0..wish.channels.len())
             .map(|c| slopes(&|v| v.channels[c].clone()))
             .collect(),
-        step,
     })
+}
+
+impl Derivatives {
+    /// Takes over what another size of displacement tells with less doubt.
+    fn take_over(&mut self, other: &Derivatives) {
+        let ours = self.channels.iter_mut().flatten();
+        let ours = self.figures.iter_mut().chain(ours);
+        let theirs = other.figures.iter().chain(other.channels.iter().flatten());
+        for (a, b) in ours.zip(theirs) {
+            if b.doubt < a.doubt {
+                *a = *b;
+            }
+        }
+    }
 }
 
 /// Values of the plain run.

@@ -33,7 +33,7 @@ pub struct ReportArgs {
 
 /// Makes the report of a study.
 pub fn report(args: &ReportArgs) -> Result<Done, Failure> {
-    let (Some(first), false) = (args.folders.first(), args.folders.is_empty()) else {
+    let Some(first) = args.folders.first() else {
         return Err(Failure::plain("no folder was given"));
     };
     let page_at = args
