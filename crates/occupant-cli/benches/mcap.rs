@@ -52,5 +52,6 @@ fn write(model: &Model) -> usize {
     let recorder = McapRecorder::new(file, about, McapOptions::default());
     let mut recorder = recorder.expect("memory takes everything");
     simulate(model, &mut recorder).expect("memory takes everything");
-    recorder.into_inner().into_inner().len()
+    let file = recorder.into_inner().expect("memory takes everything");
+    file.into_inner().len()
 }

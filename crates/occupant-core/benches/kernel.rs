@@ -1,12 +1,10 @@
-//! One derivative evaluation, one step, one event, and eight events side by side.
+//! One derivative evaluation, one step, one event.
 
 mod scene;
 
 use std::hint::black_box;
-use std::ops::ControlFlow;
 
-use criterion::{BatchSize, Criterion, SamplingMode};
-use occupant_core::lanes::{Job, Kernel, simulate_many_with};
+use criterion::{Criterion, SamplingMode};
 use occupant_core::recorder::Watch;
 use occupant_core::sample::Sample;
 use occupant_core::simulate::simulate;
@@ -17,7 +15,6 @@ fn main() {
     evaluation(&mut criterion);
     step(&mut criterion);
     event(&mut criterion);
-    sweep(&mut criterion);
     criterion.final_summary();
 }
 
@@ -53,32 +50,4 @@ fn event(criterion: &mut Criterion) {
     group.bench_function("0.25 s in steps of 0.1 ms", |b| {
         b.iter(|| simulate(&model, Watch(|s: &Sample<'_>| _ = black_box(s.time_s))));
     });
-}
-
-fn sweep(criterion: &mut Criterion) {
-    let models = scene::models(8);
-    let jobs = || {
-        let job = |model| Job {
-            tag: (),
-            model,
-            recorder: (),
-        };
-        models.clone().into_iter().map(job).collect::<Vec<_>>()
-    };
-    let mut group = criterion.benchmark_group("eight events");
-    group.sample_size(10).sampling_mode(SamplingMode::Flat);
-    for kernel in [Kernel::Scalar, Kernel::Lanes4, Kernel::Lanes8] {
-        if !kernel.is_available() {
-            continue;
-        }
-        let run = |jobs| {
-            simulate_many_with(kernel, jobs, |ended| {
-                black_box(ended.outcome.is_ok());
-                ControlFlow::Continue(())
-            });
-        };
-        group.bench_function(kernel.name(), |b| {
-            b.iter_batched(jobs, run, BatchSize::PerIteration);
-        });
-    }
 }

@@ -14,6 +14,7 @@ mod ensemble_args;
 pub(crate) mod exit;
 mod export;
 mod extend;
+mod fit;
 mod history_args;
 pub(crate) mod interrupt;
 mod measure_table;
@@ -32,8 +33,9 @@ pub(crate) mod scenario;
 mod schema;
 mod sensitivity;
 pub(crate) mod speak;
+mod study;
 mod summary_table;
-mod sweep;
+pub(crate) mod sweep;
 pub(crate) mod table;
 mod view;
 
@@ -62,6 +64,8 @@ pub struct Cli {
 enum Command {
     Run(run::Args),
     Sweep(sweep::Args),
+    Study(study::Args),
+    Fit(fit::Args),
     Check(check::Args),
     New(new::Args),
     Schema(schema::Args),
@@ -83,6 +87,8 @@ pub fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Run(args) => run::run(&args),
         Command::Sweep(args) => sweep::sweep(&args),
+        Command::Study(args) => study::study(&args),
+        Command::Fit(args) => fit::fit(&args),
         Command::Check(args) => check::check(&args),
         Command::New(args) => new::new(&args),
         Command::Schema(args) => schema::print(&args),

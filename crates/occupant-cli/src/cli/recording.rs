@@ -118,6 +118,10 @@ impl Recording {
             return Ok(Written::Nothing);
         };
         let file = open.recorder.into_inner();
+        let file = file.map_err(|e| {
+            let partial = open.partial.display();
+            Failure::BrokeOff(format!("error: {partial} cannot be closed: {e}"))
+        })?;
         let closed = match completed {
             true => file.publish().map(Written::Complete),
             false => file.keep().map(Written::Partial),

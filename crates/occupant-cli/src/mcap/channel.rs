@@ -10,7 +10,6 @@ use prost_types::FileDescriptorProto;
 use super::column::{Group, TOUCH};
 use super::descriptor;
 use super::foxglove;
-use super::wire::Wire;
 
 const PROTOBUF: &str = "protobuf";
 /// Package of our own messages.
@@ -24,13 +23,8 @@ pub struct Channel {
 }
 
 impl Channel {
-    /// Writes `wire` as the next message.
-    pub fn write(
-        &mut self,
-        writer: &mut Writer<impl Write + Seek>,
-        ns: u64,
-        wire: &Wire,
-    ) -> McapResult<()> {
+    /// Header of the next message.
+    pub fn next(&mut self, ns: u64) -> MessageHeader {
         let header = MessageHeader {
             channel_id: self.id,
             sequence: self.sequence,
@@ -38,7 +32,7 @@ impl Channel {
             publish_time: ns,
         };
         self.sequence = self.sequence.wrapping_add(1);
-        writer.write_to_known_channel(&header, wire.bytes())
+        header
     }
 }
 

@@ -14,6 +14,7 @@ pub mod foxglove;
 pub mod groups;
 mod layout;
 mod log;
+mod press;
 mod recorder;
 pub mod scene;
 pub mod stored;

@@ -18,6 +18,7 @@ use super::clock::{nanoseconds, stride};
 use super::column::Group;
 use super::foxglove::{FRAME_TRANSFORMS, LOG, Level, SCENE_UPDATE};
 use super::log::Names;
+use super::press::Press;
 use super::transforms::FrameNames;
 use super::wire::Wire;
 use super::{groups, layout, log, scene, topics, transforms};
@@ -47,9 +48,9 @@ impl Default for McapOptions {
 /// Writes every result of a run to `W`. The same scenario gives the same bytes.
 ///
 /// The file is complete when the run has ended and says how in its last metadata record. Dropped before, it is a readable
-/// file without that record.
-pub struct McapRecorder<W: Write + Seek> {
-    writer: Writer<W>,
+/// file without that record. Chunks are compressed and written on a thread of their own while the run goes on.
+pub struct McapRecorder<W: Write + Seek + Send + 'static> {
+    press: Press<W>,
     about: About,
     tables: Vec<Document>,
     options: McapOptions,
@@ -81,7 +82,7 @@ struct Track {
     channel: Channel,
 }
 
-impl<W: Write + Seek> McapRecorder<W> {
+impl<W: Write + Seek + Send + 'static> McapRecorder<W> {
     /// Begins a file in `target`, which should be buffered.
     ///
     /// # Errors
@@ -95,7 +96,7 @@ impl<W: Write + Seek> McapRecorder<W> {
             .disable_seeking(true)
             .create(target)?;
         Ok(McapRecorder {
-            writer,
+            press: Press::new(writer),
             about,
             tables: Vec::new(),
             options,
@@ -112,13 +113,16 @@ impl<W: Write + Seek> McapRecorder<W> {
     }
 
     /// The target, after the run's end. Before it, what was written so far is cut off.
-    pub fn into_inner(self) -> W {
-        self.writer.into_inner()
+    ///
+    /// # Errors
+    /// None is left.
+    pub fn into_inner(self) -> McapResult<W> {
+        self.press.into_inner()
     }
 
     fn write_documents(&mut self, model: &Model, belts: &[String]) -> Result<(), RecorderError> {
-        self.writer
-            .write_metadata(&about::run(&self.about, &self.tables, model))?;
+        let writer = self.press.home()?;
+        writer.write_metadata(&about::run(&self.about, &self.tables, model))?;
         let layout = Document {
             name: layout::NAME.to_owned(),
             media_type: "application/json".to_owned(),
@@ -126,7 +130,7 @@ impl<W: Write + Seek> McapRecorder<W> {
         };
         let scenario = [&self.about.scenario].into_iter().chain(&self.tables);
         for document in scenario.chain(&self.about.resolved).chain([&layout]) {
-            self.writer.attach(&Attachment {
+            writer.attach(&Attachment {
                 log_time: 0,
                 create_time: 0,
                 name: document.name.clone(),
@@ -157,10 +161,10 @@ impl<W: Write + Seek> McapRecorder<W> {
             (topics::LABELS_SCENE, &|w| scene::labels::write(w, model)),
         ];
         for (topic, draw) in scenes {
-            let mut channel = schemas.add_foxglove(&mut self.writer, topic, SCENE_UPDATE)?;
+            let mut channel = schemas.add_foxglove(self.press.home()?, topic, SCENE_UPDATE)?;
             self.wire.clear();
             draw(&mut self.wire);
-            channel.write(&mut self.writer, 0, &self.wire)?;
+            self.press.write(channel.next(0), self.wire.bytes());
         }
         Ok(())
     }
@@ -232,101 +236,103 @@ impl Tracks {
 
     fn write_groups(
         &mut self,
-        writer: &mut Writer<impl Write + Seek>,
+        press: &mut Press<impl Write + Seek + Send + 'static>,
         wire: &mut Wire,
         sample: &Sample<'_>,
-    ) -> McapResult<()> {
+    ) {
         let ns = nanoseconds(sample.time_s, self.start_s);
         for track in &mut self.groups {
             wire.clear();
             for column in track.group.columns {
                 column.write(sample, track.index, wire);
             }
-            track.channel.write(writer, ns, wire)?;
+            press.write(track.channel.next(ns), wire.bytes());
         }
-        Ok(())
     }
 
     fn write_frame(
         &mut self,
-        writer: &mut Writer<impl Write + Seek>,
+        press: &mut Press<impl Write + Seek + Send + 'static>,
         wire: &mut Wire,
         sample: &Sample<'_>,
         m_per_n: f64,
-    ) -> McapResult<()> {
+    ) {
         let ns = nanoseconds(sample.time_s, self.start_s);
         wire.clear();
         transforms::write(wire, ns, sample, &self.frames);
-        self.transforms.write(writer, ns, wire)?;
+        press.write(self.transforms.next(ns), wire.bytes());
         wire.clear();
         scene::belts::write(wire, ns, sample);
-        self.belts.write(writer, ns, wire)?;
+        press.write(self.belts.next(ns), wire.bytes());
         wire.clear();
         scene::forces::write(wire, ns, sample, m_per_n);
-        self.forces.write(writer, ns, wire)
+        press.write(self.forces.next(ns), wire.bytes());
     }
 
     fn write_log(
         &mut self,
-        writer: &mut Writer<impl Write + Seek>,
+        press: &mut Press<impl Write + Seek + Send + 'static>,
         wire: &mut Wire,
         time_s: f64,
         (level, words): (Level, &str),
-    ) -> McapResult<()> {
+    ) {
         let ns = nanoseconds(time_s, self.start_s);
         wire.clear();
         log::write(wire, ns, level, words);
-        self.log.write(writer, ns, wire)
+        press.write(self.log.next(ns), wire.bytes());
     }
 }
 
-impl<W: Write + Seek> Recorder for McapRecorder<W> {
+impl<W: Write + Seek + Send + 'static> Recorder for McapRecorder<W> {
     fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
         let names = model.setup().belts.iter().map(|b| b.name.as_str());
         let belts = topics::named(topics::BELTS, names);
         self.write_documents(model, &belts)?;
         let schemas = Schemas::default();
-        let mut tracks = Tracks::new(&mut self.writer, &schemas, model, &belts, &self.options)?;
+        let writer = self.press.home()?;
+        let mut tracks = Tracks::new(writer, &schemas, model, &belts, &self.options)?;
         self.write_still_scenes(model, &schemas, &tracks.frames)?;
         for problem in model.warnings().iter() {
             let words = problem.to_string();
             let line = (Level::Warning, words.as_str());
-            tracks.write_log(&mut self.writer, &mut self.wire, tracks.start_s, line)?;
+            tracks.write_log(&mut self.press, &mut self.wire, tracks.start_s, line);
         }
+        self.press.home()?;
         self.tracks = Some(tracks);
         Ok(())
     }
 
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
-        let (writer, wire) = (&mut self.writer, &mut self.wire);
+        let (press, wire) = (&mut self.press, &mut self.wire);
         let tracks = self
             .tracks
             .as_mut()
             .ok_or("an output before the run began")?;
-        tracks.write_groups(writer, wire, sample)?;
+        tracks.write_groups(press, wire, sample);
         let (first, last) = (self.outputs == 0, sample.index == tracks.last);
         if first || last || sample.index.is_multiple_of(tracks.stride) {
-            tracks.write_frame(writer, wire, sample, self.options.force_scale_m_per_n)?;
+            tracks.write_frame(press, wire, sample, self.options.force_scale_m_per_n);
         }
         self.outputs += 1;
         if self
             .outputs
             .is_multiple_of(self.options.outputs_per_chunk.get().into())
         {
-            writer.flush()?;
+            press.end_chunk()?;
         }
         Ok(Flow::Continue)
     }
 
     fn end(&mut self, outcome: &Outcome) -> Result<(), RecorderError> {
-        let (writer, wire) = (&mut self.writer, &mut self.wire);
+        let (press, wire) = (&mut self.press, &mut self.wire);
         let tracks = self.tracks.as_mut().ok_or("an end before the run began")?;
         for touch in &outcome.first_touches {
             let words = tracks.names.first_touch(touch);
-            tracks.write_log(writer, wire, touch.time_s, (Level::Info, &words))?;
+            tracks.write_log(press, wire, touch.time_s, (Level::Info, &words));
         }
         let (level, words) = log::end(outcome);
-        tracks.write_log(writer, wire, outcome.time_s, (level, &words))?;
+        tracks.write_log(press, wire, outcome.time_s, (level, &words));
+        let writer = press.home()?;
         writer.write_metadata(&about::result(outcome, self.outputs))?;
         writer.finish()?;
         Ok(())

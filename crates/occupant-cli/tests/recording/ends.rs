@@ -1,6 +1,7 @@
 //! How files begin and end: metadata, attachments, the same bytes twice, runs that were cut off.
 
 use std::collections::BTreeMap;
+use std::io::{Read, Seek, Write};
 
 use mcap::records::Record;
 use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
@@ -189,16 +190,18 @@ fn first_touches_are_logged_at_their_times() {
 #[test]
 fn a_file_dropped_before_the_end_is_readable_and_has_no_result() {
     let model = model();
-    let mut file = std::io::Cursor::new(Vec::new());
+    let mut file = tempfile::tempfile().unwrap();
     {
-        let mut recorder = recorder_into(&mut file);
+        let mut recorder = recorder_into(file.try_clone().unwrap());
         let halt = Halt {
             at: 30,
             breaks: true,
         };
         assert!(simulate(&model, (&mut recorder, halt)).is_err());
     }
-    let bytes = file.into_inner();
+    let mut bytes = Vec::new();
+    file.rewind().unwrap();
+    file.read_to_end(&mut bytes).unwrap();
     assert_eq!(result_of(&bytes), None);
     assert_eq!(read(&bytes)["/energy"].len(), 31);
 }
@@ -214,11 +217,54 @@ fn what_a_killed_run_wrote_is_readable_to_the_last_chunk() {
     };
     assert!(simulate(&model, (&mut cut, halt)).is_err());
     // as the process left it: nothing is finished
-    let bytes = cut.into_inner().into_inner();
+    let bytes = cut.into_inner().unwrap().into_inner();
     assert!(bytes.len() < whole.len());
     assert_eq!(result_of(&bytes), None);
     let (_, messages) = scan(&bytes);
     let (_, all) = scan(&whole);
     // 20 of 41 outputs, with the frames and shapes between them
     assert!(messages > all / 3, "{messages} of {all}");
+}
+
+/// A target with room for so many bytes.
+struct Narrow {
+    kept: std::io::Cursor<Vec<u8>>,
+    room: usize,
+}
+
+impl Write for Narrow {
+    fn write(&mut self, bytes: &[u8]) -> std::io::Result<usize> {
+        if self.kept.get_ref().len() + bytes.len() > self.room {
+            return Err(std::io::Error::other("the target is full"));
+        }
+        self.kept.write(bytes)
+    }
+
+    fn flush(&mut self) -> std::io::Result<()> {
+        Ok(())
+    }
+}
+
+impl Seek for Narrow {
+    fn seek(&mut self, to: std::io::SeekFrom) -> std::io::Result<u64> {
+        self.kept.seek(to)
+    }
+}
+
+#[test]
+fn a_target_that_is_full_ends_the_run_with_its_reason() {
+    let model = model();
+    let (whole, _) = record(&model, ());
+    // while the run goes on, and in what is left for its end
+    for room in [whole.len() / 2, whole.len() - 100] {
+        let kept = std::io::Cursor::new(Vec::new());
+        let mut recorder = recorder_into(Narrow { kept, room });
+        let error = simulate(&model, &mut recorder).unwrap_err();
+        assert!(error.source.to_string().contains("the target is full"));
+        // what was written before is that of the whole run
+        let kept = recorder.into_inner().unwrap().kept.into_inner();
+        assert!(kept.len() > 1000, "{}", kept.len());
+        assert!(whole.starts_with(&kept[..kept.len().min(1000)]));
+        assert!(kept.len() <= room);
+    }
 }

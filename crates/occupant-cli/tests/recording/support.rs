@@ -35,7 +35,7 @@ pub fn recorder() -> McapRecorder<Cursor<Vec<u8>>> {
 }
 
 /// The same into a given target.
-pub fn recorder_into<W: Write + Seek>(target: W) -> McapRecorder<W> {
+pub fn recorder_into<W: Write + Seek + Send + 'static>(target: W) -> McapRecorder<W> {
     let about = About {
         program: "occupant test".to_owned(),
         scenario: Document {
@@ -57,7 +57,7 @@ pub fn recorder_into<W: Write + Seek>(target: W) -> McapRecorder<W> {
 pub fn record(model: &Model, other: impl Recorder) -> (Vec<u8>, Outcome) {
     let mut file = recorder();
     let outcome = simulate(model, (&mut file, other)).unwrap();
-    (file.into_inner().into_inner(), outcome)
+    (file.into_inner().unwrap().into_inner(), outcome)
 }
 
 /// A decoded message.

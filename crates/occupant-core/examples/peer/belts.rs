@@ -34,7 +34,9 @@ pub fn sides(model: &Model, now: &Instant, sphere: usize) -> String {
         if belt.sphere != sphere {
             continue;
         }
-        let [a, b] = belt.anchors_m.map(|anchor| in_space(now, V3::of(&anchor.coords)));
+        let [a, b] = belt
+            .anchors_m
+            .map(|anchor| in_space(now, V3::of(&anchor.coords)));
         let away = centre - (a + b) * 0.5;
         let away = away * (2.0 * site.radius / away.norm_squared().sqrt());
         let place = site.offset + k.axes[site.segment].into_frame(away);
@@ -49,7 +51,13 @@ pub fn sides(model: &Model, now: &Instant, sphere: usize) -> String {
 /// The tendons.
 pub fn tendons(model: &Model) -> String {
     let mut text = String::new();
-    for (i, (belt, law)) in model.setup().belts.iter().zip(&model.system().belts).enumerate() {
+    for (i, (belt, law)) in model
+        .setup()
+        .belts
+        .iter()
+        .zip(&model.system().belts)
+        .enumerate()
+    {
         text += &format!(
             "<spatial name=\"belt {i}\" stiffness=\"{}\" springlength=\"0 {}\">\
              <site site=\"anchor {i} 0\"/><geom geom=\"sphere {}\" sidesite=\"side {i}\"/><site site=\"anchor {i} 1\"/>\

@@ -25,7 +25,8 @@ use mjcf::Parts;
 use occupant_core::model::Model;
 use occupant_core::scenario::{Format, Scenario};
 
-const USAGE: &str = "peer mjcf SCENARIO SECONDS free|hinges|held|contact, or peer motion SCENARIO SECONDS";
+const USAGE: &str =
+    "peer mjcf SCENARIO SECONDS free|hinges|held|contact, or peer motion SCENARIO SECONDS";
 
 #[allow(clippy::print_stdout, reason = "an example prints its result")]
 fn main() {

@@ -7,8 +7,8 @@ use occupant_core::joint::{BallJoint, Joints};
 use occupant_core::model::Model;
 
 use crate::coordinates::{ORDER, PARENTS, Placed, limb, positions, speeds};
-use crate::{belts, faces};
 use crate::scene::Instant;
+use crate::{belts, faces};
 
 /// How much of the model is written.
 #[derive(Clone, Copy, PartialEq, PartialOrd)]
@@ -49,7 +49,11 @@ pub fn write(model: &Model, parts: Parts, instants: &Placed) -> String {
     };
     let key = |name: &str, now: &Instant| {
         let (q, v) = (positions(&now.state), speeds(&now.state));
-        format!("<key name=\"{name}\" qpos=\"{}\" qvel=\"{}\"/>\n", list(&q), list(&v))
+        format!(
+            "<key name=\"{name}\" qpos=\"{}\" qvel=\"{}\"/>\n",
+            list(&q),
+            list(&v)
+        )
     };
     format!(
         "<mujoco>\n<compiler angle=\"radian\" inertiafromgeom=\"false\"/>\n\
@@ -74,7 +78,11 @@ fn surfaces(model: &Model, now: &Instant) -> String {
     let setup = model.setup();
     let faces = model.faces().iter().zip(&setup.surfaces);
     let geom = |(face, surface): (_, &occupant_core::surface::Surface)| {
-        faces::geom(face, setup.materials[surface.material].friction, &now.frames) + "\n"
+        faces::geom(
+            face,
+            setup.materials[surface.material].friction,
+            &now.frames,
+        ) + "\n"
     };
     faces.map(geom).collect()
 }
@@ -153,7 +161,10 @@ fn joint(joints: &Joints, parts: Parts, n: usize) -> String {
     };
     match (PARENTS[n], limb(n)) {
         (None, _) => "<freejoint/>".to_owned(),
-        (_, Some(_)) => format!("<joint type=\"hinge\" axis=\"0 1 0\" damping=\"{}\"/>", damping[n]),
+        (_, Some(_)) => format!(
+            "<joint type=\"hinge\" axis=\"0 1 0\" damping=\"{}\"/>",
+            damping[n]
+        ),
         (_, None) => format!(
             "<joint type=\"ball\" damping=\"{}\" stiffness=\"{}\"/>",
             damping[n],

@@ -4,13 +4,13 @@
 use occupant_core::body::SEGMENTS;
 use occupant_core::integrate::rk4;
 use occupant_core::joint::{BallJoint, HingeJoint, Joints};
+use occupant_core::kernel::History;
 use occupant_core::kernel::contact::ContactSystem;
 use occupant_core::kernel::frame::VEHICLE;
 use occupant_core::kernel::joints::JointSystem;
 use occupant_core::kernel::kinematics::Kinematics;
 use occupant_core::kernel::state::State;
 use occupant_core::kernel::vector::V3;
-use occupant_core::kernel::History;
 use occupant_core::model::Model;
 use occupant_core::path::PathCursor;
 use serde_json::{Value, json};

@@ -16,8 +16,6 @@ use crate::surface::{Frame, Outline as FaceOutline, Surface};
 
 /// No sphere approaches a face faster than this, m/s: several times any crash.
 const FASTEST_M_S: f64 = 100.0;
-/// Faces nearer than this are always looked at, m.
-const LEAST_REACH_M: f64 = 0.05;
 
 impl<S: Scalar> ContactSystem<S> {
     /// All pairs of `body` with `surfaces`, whose resolved planes are `faces`.
@@ -39,7 +37,7 @@ impl<S: Scalar> ContactSystem<S> {
                 EdgeForce::AtContactPoint => 1.0,
                 EdgeForce::AtCentre => 0.0,
             }),
-            reach_of_a_step: S::of((FASTEST_M_S * longest_step_s).max(LEAST_REACH_M)),
+            reach_of_a_step: S::of(FASTEST_M_S * longest_step_s),
         };
         for (sphere, data) in body.spheres.iter().enumerate() {
             for (frame, index) in [(Frame::Vehicle, VEHICLE), (Frame::Space, SPACE)] {

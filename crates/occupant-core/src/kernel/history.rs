@@ -1,17 +1,24 @@
 //! What pairs and belts remember between steps, and which pairs are worth looking at.
 //!
-//! Nearly all pairs of a sphere and a face are far apart. A commit looks at all pairs of a group, keeps in mind those that
-//! are near, in contact or passed, and how far the nearest of the others is. As long as the sphere has not moved as far
-//! as that, the others cannot have come near: later commits leave them alone. No result depends on it.
+//! Nearly all pairs of a sphere and a face are far apart, or have passed each other for good. A commit looks at all pairs
+//! of a group, keeps in mind those that touch or may soon come near or open, and how far the nearest of the others is from
+//! that. As long as the sphere has not moved as far, nothing can have happened to the others: later commits leave them
+//! alone. Among the watched pairs those that can exert a force before the next commit are near; evaluations within a step
+//! look at no others. No result depends on it.
+
+use std::ops::Range;
 
 use super::belts::BeltHistory;
-use super::contact::{ContactSystem, Group, OPEN, PairHistory};
+use super::contact::{ContactSystem, Group, OPEN, PASSED, PairHistory};
 use super::encounter::Sphere;
 use super::scalar::Scalar;
 use super::vector::{V3, v3};
 
 /// Distances are trusted to this, m.
 const MARGIN_M: f64 = 1e-9;
+/// How far a sphere goes at least before all its pairs are looked at again, m: a longer way costs more watched pairs, a
+/// shorter one more looks.
+const LEAST_WAY_M: f64 = 0.02;
 
 /// What pairs and belts remember between steps; changed only at accepted steps.
 #[derive(Clone, Debug)]
@@ -20,25 +27,29 @@ pub struct History<S: Scalar> {
     pub pairs: Vec<PairHistory<S>>,
     /// By belt.
     pub belts: Vec<BeltHistory<S>>,
-    /// The watched pairs of each group in ascending order, from the place of its first pair on.
-    pub(super) watched: Vec<Watched<S>>,
+    /// Pairs that a commit must look at: those of each group in ascending order, from the place of its first pair on.
+    pub(super) watched: Vec<u32>,
+    /// Pairs that an evaluation within a step must look at, in the same way.
+    pub(super) near: Vec<Near<S>>,
     /// By group of pairs.
     pub(super) looks: Vec<Look<S>>,
 }
 
-/// A pair that a commit must look at.
+/// A pair that can exert a force before the next commit.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Watched<S: Scalar> {
+pub(super) struct Near<S: Scalar> {
     pub pair: u32,
-    /// Where it can exert a force before the next commit.
-    pub near: S::Mask,
+    /// Where it can.
+    pub lanes: S::Mask,
 }
 
 /// The last look at all pairs of a group.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Look<S> {
     /// How many pairs are watched since.
-    pub count: usize,
+    watched: usize,
+    /// How many pairs were near at the last commit.
+    near: usize,
     /// Where the sphere was, axes of the frame, m.
     centre: V3<S>,
     /// Square of the way that the sphere may go before the next look, m²; negative if there must be one.
@@ -52,15 +63,17 @@ impl<S: Scalar> History<S> {
         pairs: Vec<PairHistory<S>>,
         belts: Vec<BeltHistory<S>>,
     ) -> Self {
-        let near = S::truth(true);
-        let watched = (0..pairs.len() as u32).map(|pair| Watched { pair, near });
+        let lanes = S::truth(true);
+        let all = 0..pairs.len() as u32;
         let looks = contacts.groups.iter().map(|group| Look {
-            count: group.pairs.len(),
+            watched: group.pairs.len(),
+            near: group.pairs.len(),
             centre: V3::zero(),
             reach_squared: -S::one(),
         });
         History {
-            watched: watched.collect(),
+            watched: all.clone().collect(),
+            near: all.map(|pair| Near { pair, lanes }).collect(),
             looks: looks.collect(),
             pairs,
             belts,
@@ -96,6 +109,15 @@ impl<S: Scalar> History<S> {
         }
     }
 
+    /// Becomes what `other`, a history of the same pairs and belts, is.
+    pub fn take_over(&mut self, other: &History<S>) {
+        self.pairs.copy_from_slice(&other.pairs);
+        self.belts.copy_from_slice(&other.belts);
+        self.watched.copy_from_slice(&other.watched);
+        self.near.copy_from_slice(&other.near);
+        self.looks.copy_from_slice(&other.looks);
+    }
+
     /// Lets the next commit look at every pair, as it must where the remembered numbers are those of another place.
     pub fn look_again(&mut self) {
         for look in &mut self.looks {
@@ -103,11 +125,18 @@ impl<S: Scalar> History<S> {
         }
     }
 
-    /// The watched pairs of `group`, number `g`.
+    /// Places of the watched pairs of `group`, number `g`.
     #[inline(always)]
-    pub(super) fn watched_of(&self, g: usize, group: &Group) -> std::ops::Range<usize> {
+    pub(super) fn watched_of(&self, g: usize, group: &Group) -> Range<usize> {
         let start = group.pairs.start;
-        start..start + self.looks[g].count
+        start..start + self.looks[g].watched
+    }
+
+    /// Places of the near pairs of `group`, number `g`.
+    #[inline(always)]
+    pub(super) fn near_of(&self, g: usize, group: &Group) -> Range<usize> {
+        let start = group.pairs.start;
+        start..start + self.looks[g].near
     }
 
     /// True if the sphere may have come near pairs of group `g` that are not watched.
@@ -119,12 +148,51 @@ impl<S: Scalar> History<S> {
     }
 }
 
+/// The near pairs of a group, being found.
+pub(super) struct Nearing {
+    first: usize,
+    count: usize,
+}
+
+impl Nearing {
+    #[inline(always)]
+    pub fn new(group: &Group) -> Self {
+        Nearing {
+            first: group.pairs.start,
+            count: 0,
+        }
+    }
+
+    /// Decides whether pair `i`, committed at deformation `depth`, is near.
+    #[inline(always)]
+    pub fn at<S: Scalar>(
+        &mut self,
+        i: usize,
+        depth: S,
+        contacts: &ContactSystem<S>,
+        history: &mut History<S>,
+    ) {
+        let lanes = contacts.is_near(depth, &history.pairs[i]);
+        if S::any(lanes) {
+            let pair = i as u32;
+            history.near[self.first + self.count] = Near { pair, lanes };
+            self.count += 1;
+        }
+    }
+
+    /// Remembers the near pairs of group `g`.
+    #[inline(always)]
+    pub fn end<S: Scalar>(self, g: usize, history: &mut History<S>) {
+        history.looks[g].near = self.count;
+    }
+}
+
 /// A look at all pairs of a group, under way.
 pub(super) struct Looking<S> {
     first: usize,
     count: usize,
-    /// Δ of the nearest pair that is not watched, negative.
-    nearest: S,
+    /// |Δ| of the pair that is not watched and has the least.
+    least: S,
 }
 
 impl<S: Scalar> Looking<S> {
@@ -133,11 +201,12 @@ impl<S: Scalar> Looking<S> {
         Looking {
             first: group.pairs.start,
             count: 0,
-            nearest: S::of(f64::NEG_INFINITY),
+            least: S::of(f64::INFINITY),
         }
     }
 
-    /// Decides whether pair `i`, committed at deformation `depth`, is watched.
+    /// Decides whether pair `i`, committed at deformation `depth`, is watched: an open one until the sphere comes near, a
+    /// passed one until the sphere comes back, one that touches always.
     #[inline(always)]
     pub fn at(
         &mut self,
@@ -146,16 +215,14 @@ impl<S: Scalar> Looking<S> {
         contacts: &ContactSystem<S>,
         history: &mut History<S>,
     ) {
-        let pair = &history.pairs[i];
-        let within = (-contacts.reach_of_a_step).lt(depth);
-        if S::any(within | pair.phase.gt(S::of(OPEN))) {
-            history.watched[self.first + self.count] = Watched {
-                pair: i as u32,
-                near: contacts.is_near(depth, pair),
-            };
+        let phase = history.pairs[i].phase;
+        let touches = phase.gt(S::of(OPEN)) & phase.lt(S::of(PASSED));
+        let (off, enough) = (depth.abs(), contacts.reach_of_a_step + S::of(LEAST_WAY_M));
+        if S::any(touches | off.lt(enough)) {
+            history.watched[self.first + self.count] = i as u32;
             self.count += 1;
         } else {
-            self.nearest = self.nearest.max(depth);
+            self.least = self.least.min(off);
         }
     }
 
@@ -168,12 +235,10 @@ impl<S: Scalar> Looking<S> {
         contacts: &ContactSystem<S>,
         history: &mut History<S>,
     ) {
-        let reach = -self.nearest - contacts.reach_of_a_step - S::of(MARGIN_M);
-        let reach = reach.max(S::zero());
-        history.looks[g] = Look {
-            count: self.count,
-            centre: sphere.centre_f,
-            reach_squared: reach * reach,
-        };
+        let way = (self.least - contacts.reach_of_a_step - S::of(MARGIN_M)).max(S::zero());
+        let look = &mut history.looks[g];
+        look.watched = self.count;
+        look.centre = sphere.centre_f;
+        look.reach_squared = way * way;
     }
 }

@@ -35,7 +35,7 @@ use contact::{ContactSystem, Touch};
 use dynamics::{Accelerations, Wrench};
 use encounter::Sphere;
 use frame::{Moving, VEHICLE};
-use history::{Looking, Watched};
+use history::{Looking, Near, Nearing};
 use joints::JointSystem;
 use kinematics::Kinematics;
 use scalar::Scalar;
@@ -194,33 +194,38 @@ impl<S: Scalar> System<S> {
     ) {
         let contacts = &self.contacts;
         for (g, group) in contacts.groups.iter().enumerate() {
-            let watched = history.watched_of(g, group);
-            if !COMMIT && watched.is_empty() {
+            let near = history.near_of(g, group);
+            if !COMMIT && near.is_empty() {
                 continue;
             }
             let mut sphere = Sphere::new(contacts, group, k, &frames[group.frame]);
-            if COMMIT && history.must_look(g, sphere.centre_f) {
-                let mut look = Looking::new(group);
-                for i in group.pairs.clone() {
-                    let depth = sphere.commit(i, history, power, observer);
-                    look.at(i, depth, contacts, history);
-                }
-                look.end(g, &sphere, contacts, history);
-            } else if COMMIT {
-                for at in watched {
-                    let i = history.watched[at].pair as usize;
-                    let depth = sphere.commit(i, history, power, observer);
-                    history.watched[at].near = contacts.is_near(depth, &history.pairs[i]);
-                }
-            } else {
-                for at in watched {
-                    let Watched { pair, near } = history.watched[at];
+            if !COMMIT {
+                for at in near {
+                    let Near { pair, lanes } = history.near[at];
                     let i = pair as usize;
                     let depth = contacts.planes[i].depth(sphere.centre_f);
-                    let contact = depth.gt(S::zero()) & near;
+                    let contact = depth.gt(S::zero()) & lanes;
                     let pair = &mut history.pairs[i];
                     sphere.meet::<false>(i, depth, contact, pair, power, observer);
                 }
+            } else {
+                let mut near = Nearing::new(group);
+                if history.must_look(g, sphere.centre_f) {
+                    let mut look = Looking::new(group);
+                    for i in group.pairs.clone() {
+                        let depth = sphere.commit(i, history, power, observer);
+                        look.at(i, depth, contacts, history);
+                        near.at(i, depth, contacts, history);
+                    }
+                    look.end(g, &sphere, contacts, history);
+                } else {
+                    for at in history.watched_of(g, group) {
+                        let i = history.watched[at] as usize;
+                        let depth = sphere.commit(i, history, power, observer);
+                        near.at(i, depth, contacts, history);
+                    }
+                }
+                near.end(g, history);
             }
             sphere.load(wrench, power);
         }

@@ -91,7 +91,6 @@ fn pass<const N: usize>(model: &Model, built: &mut [Built]) -> Result<Trajectory
     let failed = |e: &dyn std::fmt::Display| Trouble::Run(e.to_string());
     loop {
         run.record(model, &mut keeper).map_err(|e| failed(&e))?;
-        scene.begin(run.time_s, &tangent.state);
         tangent.output(run.time_s, &mut scene);
         compare(&tangent, &run)?;
         for (k, slopes) in slopes.iter_mut().enumerate() {
@@ -104,8 +103,8 @@ fn pass<const N: usize>(model: &Model, built: &mut [Built]) -> Result<Trajectory
         let mut taken: Vec<Step> = run.taken.take().unwrap_or_default();
         for step in taken.drain(..) {
             let stop_s = breaks_s.iter().copied().find(|&b| b > step.start_s);
-            tangent.step(step, target_s, stop_s.unwrap_or(f64::INFINITY), &mut scene);
-            lookout.look(model, &scene, &tangent.history);
+            tangent.step(step, stop_s.unwrap_or(f64::INFINITY), &mut scene);
+            lookout.look(model, &scene, tangent.latest());
         }
         run.taken = Some(taken);
     }
