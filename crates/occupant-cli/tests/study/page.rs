@@ -232,8 +232,8 @@ fn failed_and_refused_runs_are_counted_with_their_reasons() {
         path = "time.start"
         list = [0.0, 0.5]
         [[parameters]]
-        path = "path.speed"
-        grid = { from = "15 mph", to = "25 mph", steps = 12 }
+        path = "path.duration"
+        grid = { from = "60 ms", to = "100 ms", steps = 12 }
     "#;
     let folder = swept(study);
     let text = page(folder.path());
