@@ -114,6 +114,7 @@ impl<S: Scalar> History<S> {
         self.pairs.copy_from_slice(&other.pairs);
         self.belts.copy_from_slice(&other.belts);
         self.watched.copy_from_slice(&other.watched);
+        self.near.copy_from_slice(&other.near);
         self.looks.copy_from_slice(&other.looks);
     }
 
