@@ -80,8 +80,8 @@ pub fn search(fitting: &Fitting, evaluator: &mut Evaluator<'_>) -> Result<Answer
     };
     let global = descend(&how, &mut scores)?;
     if global.best.value >= WORST {
-        let reasons = evaluator.records.iter().filter_map(|r| r.reason.as_deref());
-        let reason = reasons.last().unwrap_or("no reason").to_owned();
+        let mut latest = evaluator.records.iter().rev();
+        let reason = latest.find_map(|r| r.reason.clone()).unwrap_or_default();
         return Err(Failure::BrokeOff(format!(
             "error: none of {} candidates could be run; the last: {reason}\n = help: narrow the ranges of the parameters, or try the base scenario with `occupant run`",
             evaluator.records.len()

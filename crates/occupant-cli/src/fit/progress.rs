@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use occupant_core::study::search::Stage;
 
-use super::evaluator::Record;
+use super::evaluator::{Record, WORST};
 use crate::cli::speak::say;
 
 /// At most a line so often where there is no terminal, stages apart.
@@ -72,13 +72,14 @@ impl Progress {
             return;
         }
         match stage {
-            None => say(&format!("base scenario: score {least:.5}")),
+            None => say(&format!("base scenario: {}", score(least))),
             Some(_) => {
                 let news = name != self.stage;
                 if news || (self.best < self.told && self.line.elapsed() > LINE_EVERY) {
                     say(&format!(
-                        "{} evaluations, {words}: score {:.5}",
-                        self.evaluations, self.best
+                        "{} evaluations, {words}: {}",
+                        self.evaluations,
+                        score(self.best)
                     ));
                     self.told = self.best;
                     self.line = Instant::now();
@@ -91,6 +92,14 @@ impl Progress {
     /// No more.
     pub fn end(&self) {
         self.bar.finish_and_clear();
+    }
+}
+
+/// A score in words.
+fn score(score: f64) -> String {
+    match score < WORST {
+        true => format!("score {score:.5}"),
+        false => "no run has completed".to_owned(),
     }
 }
 

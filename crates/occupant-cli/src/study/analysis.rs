@@ -65,6 +65,8 @@ pub struct Reach {
     pub levels: Vec<(f64, f64)>,
     /// Levels without a value.
     pub missing: usize,
+    /// Whether the values of the parameter have an order; words have none.
+    pub ordered: bool,
 }
 
 impl Reach {
@@ -77,8 +79,11 @@ impl Reach {
         ]
     }
 
-    /// The response at the least and at the greatest value of the parameter.
+    /// The response at the least and at the greatest value of the parameter, if its values have an order.
     pub fn ends(&self) -> Option<[f64; 2]> {
+        if !self.ordered {
+            return None;
+        }
         let by_value = |a: &&(f64, f64), b: &&(f64, f64)| a.0.total_cmp(&b.0);
         let least = self.levels.iter().min_by(by_value)?;
         let greatest = self.levels.iter().max_by(by_value)?;
@@ -280,12 +285,13 @@ fn reaches(samples: &Samples, values: &[f64]) -> Result<Vec<Reach>, String> {
     let base = samples.roles.iter().position(|r| *r == Role::Nominal);
     let nominal = base.map(|row| values[row]).filter(|x| x.is_finite());
     let nominal = nominal.ok_or("the run of the base has no such figure")?;
-    let none = Reach {
+    let none = |input: &Input| Reach {
         nominal,
         levels: Vec::new(),
         missing: 0,
+        ordered: input.is_number(),
     };
-    let mut reaches = vec![none; samples.inputs.len()];
+    let mut reaches: Vec<Reach> = samples.inputs.iter().map(none).collect();
     for (row, role) in samples.roles.iter().enumerate() {
         let Role::Varied { parameter } = role else {
             continue;

@@ -100,7 +100,7 @@ fn about(html: &mut Html, report: &Report) {
     html.text("h2", "How to read it");
     html.text(
         "p",
-        "A number with † should not be relied on; the reason stands in its tip, in report.parquet, and here. Marked are:",
+        "A number with † should not be relied on; the reason stands in its tip and in the table beside the page (.parquet). Marked are:",
     );
     html.raw("<ul>\n");
     for rule in caution::rules() {

@@ -3,7 +3,7 @@
 use occupant_core::study::spread::quantile;
 
 use super::Report;
-use super::analysis::Analysis;
+use super::analysis::{Analysis, ByDesign};
 use super::html::Html;
 use super::plots;
 use super::samples::{Input, Response};
@@ -44,7 +44,10 @@ pub fn pictures(html: &mut Html, report: &Report, analysis: &Analysis) {
         html.raw(&format!("<figure>{picture}</figure>\n"));
     }
     html.raw("</div>\n");
-    maps(html, &drawn, response);
+    // one parameter at a time, no two are ever varied together
+    if !matches!(analysis.by_design, ByDesign::OneAtATime(_)) {
+        maps(html, &drawn, response);
+    }
 }
 
 fn maps(html: &mut Html, drawn: &[&Input], response: &Response) {

@@ -53,7 +53,7 @@ fn everything_that_is_wrong_is_told_at_once_with_its_place() {
 fn wrong_words_of_the_fit_are_told_with_line_and_column() {
     let study = STUDY.replace(
         "budget = 160",
-        "budget = 0\nobjektive = \"rms\"\nobjective = \"best\"\nnear = -1",
+        "budget = 0\nobjektive = \"rms\"\nobjective = \"best\"",
     );
     let folder = folder_with(&study);
     let said = refusal(folder.path(), &FIT);
@@ -63,13 +63,19 @@ fn wrong_words_of_the_fit_are_told_with_line_and_column() {
         "\"best\" is not a value of `objective`",
         "\"iso18571\", \"rms\" or \"peak_and_time\"",
         "a whole number of at least 1",
-        "above 0",
     ] {
         assert!(said.contains(words), "{words} in\n{said}");
     }
     let study = STUDY.replace("to = \"75 ms\"", "to = \"4 ms\"");
     let said = refusal(folder_with(&study).path(), &FIT);
     assert!(said.contains("`to` is not after `from`"), "{said}");
+    let study = STUDY.replace("budget = 160", "budget = 99_000_000\nnear = -1");
+    let said = refusal(folder_with(&study).path(), &FIT);
+    assert!(said.contains("at most 10000000"), "{said}");
+    assert!(
+        said.contains("a number above 0") && said.contains("near = -1"),
+        "{said}"
+    );
 }
 
 #[test]
@@ -131,11 +137,12 @@ fn signals_that_do_not_fit_the_run_are_told() {
 
 #[test]
 fn a_fit_in_which_nothing_runs_says_why() {
-    // beyond any stable step
+    // damping beyond any stable step
     let study = STUDY
+        .replace("belts.lap.k1", "joints.neck.damping")
         .replace(
             "from = \"35 kN/m\", to = \"140 kN/m\"",
-            "from = \"1e12 N/m\", to = \"1e14 N/m\"",
+            "from = \"1e5 N m s/rad\", to = \"1e6 N m s/rad\"",
         )
         .replace("budget = 160", "budget = 16");
     let folder = folder_with(&study);

@@ -64,7 +64,9 @@ fn the_fitted_scenario_keeps_its_authors_words_and_runs_to_the_score_that_is_tol
             .find(|c| c["channel"] == pair["channel"])
             .unwrap();
         let theirs = 1.0 - number(&pair["iso18571"]["overall"]);
-        assert_eq!(number(&ours["after"]).to_bits(), theirs.to_bits(), "{pair}");
+        // both were read from JSON, which costs the last bit
+        let difference = number(&ours["after"]) - theirs;
+        assert!(difference.abs() < 1e-15, "{difference:e} {pair}");
     }
     assert!(said.contains("identified"), "{said}");
 }

@@ -71,9 +71,9 @@ pub fn explore<E>(
     for k in 0..n {
         for l in 0..k {
             let mut mixed = 0.0;
-            for s in 0..2 {
+            for (s, (a, b)) in offsets[k].iter().zip(&offsets[l]).enumerate() {
                 let alone = rise(2 * k + s) + rise(2 * l + s);
-                mixed += 0.5 * (rise(pair + s) - alone) / (offsets[k][s] * offsets[l][s]);
+                mixed += 0.5 * (rise(pair + s) - alone) / (a * b);
             }
             curvature[(k, l)] = mixed;
             curvature[(l, k)] = mixed;
