@@ -272,13 +272,13 @@ fn an_integrator_that_finds_the_kinks_agrees_with_short_steps_of_rk4() {
         max_step_s: 1e-4,
     });
     let rk4 = crash(Integrator::Rk4 { step_s: 1.25e-5 });
-    // Measured: 1.1e-6.
+    // Measured: 3.9e-8.
     assert_below(
         "paths until 0.08 s, m",
         apart(&adaptive.0, &rk4.0, 0.08),
         5e-6,
     );
-    // Measured: 9.2e-6.
+    // Measured: 1.1e-5.
     assert_below(
         "paths until 0.2 s, m",
         apart(&adaptive.0, &rk4.0, 0.2),
@@ -307,9 +307,12 @@ fn error_control_costs_a_third_of_rk4_at_a_tenth_of_a_millisecond_and_is_as_near
         min_step_s: 1e-8,
         max_step_s: 2e-3,
     });
+    // Measured: 8.2e-5.
     assert_below("head path of rk4, m", apart(&rk4, &exact, 0.2), 2e-4);
+    // Measured: 1.1e-5.
     assert_below("head path, m", apart(&adaptive, &exact, 0.2), 5e-5);
     let share = effort.evaluations as f64 / usual.evaluations as f64;
+    // Measured: 0.340.
     assert_within("share of the evaluations", share, [0.28, 0.4]);
     // three evaluations a trial, one at the start and one where the pulse ends
     let trials = effort.steps + effort.rejected;

@@ -56,7 +56,12 @@ impl Axis {
             span if span > 1.2 => &[1.0, 3.0],
             _ => &[1.0, 2.0, 5.0],
         };
-        let all = decades.flat_map(|d| steps.iter().map(move |s| s * 10f64.powi(d)));
+        // read from text, so that 3e-1 is 0.3
+        let all = decades.flat_map(|d| {
+            steps
+                .iter()
+                .filter_map(move |s| format!("{s}e{d}").parse().ok())
+        });
         let inside = |v: &f64| (self.low..=self.high).contains(&v.log10());
         all.filter(inside).collect()
     }
