@@ -217,6 +217,37 @@ fn a_checkpoint_of_another_scenario_is_refused() {
     }
 }
 
+/// With error control most outputs lie within a step, which the checkpoint tells the start of.
+#[test]
+fn a_checkpoint_with_an_impossible_step_is_refused() {
+    let (model, outputs, _) = run(&lap(ADAPTIVE));
+    let within = |c: &&Checkpoint| c.under_way.is_some();
+    assert!(outputs.checkpoints.iter().filter(within).count() > 150);
+    let sound = outputs.checkpoints.iter().rev().find(within).unwrap();
+    let refused = |change: Change<'_>| {
+        let mut checkpoint = sound.clone();
+        change(&mut checkpoint);
+        checkpoint.check(&model)
+    };
+    let step = sound.under_way.as_ref().unwrap();
+    let (start_s, time_s) = (step.start_s, sound.time_s);
+    assert_eq!(refused(&|_| {}), Ok(()));
+    let early = CheckpointError::Step {
+        start_s,
+        end_s: start_s,
+        time_s,
+    };
+    let ends_early: Change<'_> = &|c| c.under_way.as_mut().unwrap().end_s = start_s;
+    assert_eq!(refused(ends_early), Err(early));
+    let short: Change<'_> = &|c| c.under_way.as_mut().unwrap().pairs.truncate(1);
+    assert!(matches!(
+        refused(short),
+        Err(CheckpointError::Pairs { found: 1, .. })
+    ));
+    let broken: Change<'_> = &|c| c.under_way.as_mut().unwrap().state.t1.x = f64::NAN;
+    assert_eq!(refused(broken), Err(CheckpointError::NotFinite));
+}
+
 /// The proofs above mean something only if there is history to lose.
 #[test]
 fn without_its_history_a_run_goes_on_differently() {

@@ -6,6 +6,7 @@
 use std::fmt;
 
 use crate::energy::EnergyStart;
+use crate::kernel::History;
 use crate::kernel::belts::BeltHistory;
 use crate::kernel::contact::{OPEN, PASSED, PairHistory, TOUCHING};
 use crate::kernel::state::State;
@@ -31,6 +32,49 @@ pub struct Checkpoint {
     pub first_touches: Vec<FirstTouch>,
     /// Sums and extremes.
     pub progress: Progress,
+    /// The step of the error control in which the output lies, if it goes on beyond it.
+    pub under_way: Option<StepStart>,
+}
+
+/// A step that leads beyond an output, by its start: taking it again gives the same bits.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StepStart {
+    /// Its start, s.
+    pub start_s: f64,
+    /// Its end, s, after the output.
+    pub end_s: f64,
+    /// State at its start.
+    pub state: State<f64>,
+    /// Pair states there, in the model's order.
+    pub pairs: Vec<PairHistory<f64>>,
+    /// Belt histories there, in the model's order.
+    pub belts: Vec<BeltHistory<f64>>,
+}
+
+/// A [`StepStart`] that the run lends.
+#[derive(Clone, Copy, Debug)]
+pub struct StepUnderWay<'a> {
+    /// Start of the step, s.
+    pub start_s: f64,
+    /// Its end, s, after the output.
+    pub end_s: f64,
+    /// State at its start.
+    pub state: &'a State<f64>,
+    /// Pair states and belt histories there.
+    pub history: &'a History<f64>,
+}
+
+impl StepUnderWay<'_> {
+    /// All of it as plain data.
+    pub fn to_start(&self) -> StepStart {
+        StepStart {
+            start_s: self.start_s,
+            end_s: self.end_s,
+            state: *self.state,
+            pairs: self.history.pairs.clone(),
+            belts: self.history.belts.clone(),
+        }
+    }
 }
 
 /// Sums and extremes of a run so far.
@@ -40,6 +84,8 @@ pub struct Progress {
     pub effort: Effort,
     /// Step that the error control wants next, s.
     pub wanted_s: f64,
+    /// Error of its last accepted step in units of the tolerance.
+    pub step_error: f64,
     /// Energies from which the balance counts.
     pub energy_start: EnergyStart,
     /// Greatest kinetic energy relative to the vehicle among the outputs, J.
@@ -79,6 +125,15 @@ pub enum CheckpointError {
         /// Its number.
         pair: usize,
     },
+    /// A step under way that does not go from before the output to after it.
+    Step {
+        /// Its start, s.
+        start_s: f64,
+        /// Its end, s.
+        end_s: f64,
+        /// Time of the output, s.
+        time_s: f64,
+    },
     /// A first touch of a sphere or surface that the model does not have.
     Touch {
         /// Index of the sphere.
@@ -116,6 +171,14 @@ impl fmt::Display for CheckpointError {
             CheckpointError::Pair { pair } => {
                 write!(f, "the checkpoint's pair {pair} is in no possible state")
             }
+            CheckpointError::Step {
+                start_s,
+                end_s,
+                time_s,
+            } => write!(
+                f,
+                "the checkpoint of t = {time_s} s has a step under way from {start_s} s to {end_s} s"
+            ),
             CheckpointError::Touch { sphere, surface } => write!(
                 f,
                 "the checkpoint knows a touch of sphere {sphere} and surface {surface}, which the scenario does not have"
@@ -135,15 +198,7 @@ impl Checkpoint {
     /// # Errors
     /// The first thing that does not fit the model.
     pub fn check(&self, model: &Model) -> Result<(), CheckpointError> {
-        let system = model.system();
-        let (found, expected) = (self.pairs.len(), system.contacts.pairs().len());
-        if found != expected {
-            return Err(CheckpointError::Pairs { found, expected });
-        }
-        let (found, expected) = (self.belts.len(), system.belts.len());
-        if found != expected {
-            return Err(CheckpointError::Belts { found, expected });
-        }
+        check_lengths(model, &self.pairs, &self.belts)?;
         let expected_s = output_time(model, self.index);
         // to the bit: a step from another time is another step
         if expected_s.map(f64::to_bits) != Some(self.time_s.to_bits()) {
@@ -154,7 +209,24 @@ impl Checkpoint {
             });
         }
         self.check_touches(model)?;
+        if let Some(step) = &self.under_way {
+            check_lengths(model, &step.pairs, &step.belts)?;
+            self.check_step(step)?;
+        }
         self.check_numbers()
+    }
+
+    fn check_step(&self, step: &StepStart) -> Result<(), CheckpointError> {
+        let &StepStart { start_s, end_s, .. } = step;
+        let time_s = self.time_s;
+        match start_s <= time_s && time_s < end_s && end_s.is_finite() {
+            true => check_histories(&step.pairs, &step.belts, &step.state),
+            false => Err(CheckpointError::Step {
+                start_s,
+                end_s,
+                time_s,
+            }),
+        }
     }
 
     fn check_touches(&self, model: &Model) -> Result<(), CheckpointError> {
@@ -169,26 +241,58 @@ impl Checkpoint {
     }
 
     fn check_numbers(&self) -> Result<(), CheckpointError> {
-        let possible = |p: &PairHistory<f64>| {
-            [OPEN, TOUCHING, PASSED].contains(&p.phase)
-                && p.greatest.is_finite()
-                && p.greatest >= 0.0
-        };
-        if let Some(pair) = self.pairs.iter().position(|p| !possible(p)) {
-            return Err(CheckpointError::Pair { pair });
-        }
         let p = &self.progress;
-        let mut numbers = vec![p.wanted_s, p.greatest_kinetic_j, p.greatest_imbalance_j];
         let start = &p.energy_start;
-        numbers.extend([start.contacts_j, start.belts_j, start.mechanical_j]);
-        for belt in &self.belts {
-            let n = belt.normal;
-            numbers.extend([n.x, n.y, n.z, belt.greatest]);
-        }
-        let whole = self.state.to_numbers();
-        match numbers.iter().chain(&whole).all(|x| x.is_finite()) {
+        let numbers = [
+            p.wanted_s,
+            p.step_error,
+            p.greatest_kinetic_j,
+            p.greatest_imbalance_j,
+            start.contacts_j,
+            start.belts_j,
+            start.mechanical_j,
+        ];
+        check_histories(&self.pairs, &self.belts, &self.state)?;
+        match numbers.iter().all(|x| x.is_finite()) {
             true => Ok(()),
             false => Err(CheckpointError::NotFinite),
         }
+    }
+}
+
+fn check_lengths(
+    model: &Model,
+    pairs: &[PairHistory<f64>],
+    belts: &[BeltHistory<f64>],
+) -> Result<(), CheckpointError> {
+    let system = model.system();
+    let (found, expected) = (pairs.len(), system.contacts.pairs().len());
+    if found != expected {
+        return Err(CheckpointError::Pairs { found, expected });
+    }
+    let (found, expected) = (belts.len(), system.belts.len());
+    match found == expected {
+        true => Ok(()),
+        false => Err(CheckpointError::Belts { found, expected }),
+    }
+}
+
+fn check_histories(
+    pairs: &[PairHistory<f64>],
+    belts: &[BeltHistory<f64>],
+    state: &State<f64>,
+) -> Result<(), CheckpointError> {
+    let possible = |p: &PairHistory<f64>| {
+        [OPEN, TOUCHING, PASSED].contains(&p.phase) && p.greatest.is_finite() && p.greatest >= 0.0
+    };
+    if let Some(pair) = pairs.iter().position(|p| !possible(p)) {
+        return Err(CheckpointError::Pair { pair });
+    }
+    let belts = belts
+        .iter()
+        .flat_map(|b| [b.normal.x, b.normal.y, b.normal.z, b.greatest]);
+    match belts.chain(state.to_numbers()).all(f64::is_finite) {
+        true => Ok(()),
+        false => Err(CheckpointError::NotFinite),
     }
 }

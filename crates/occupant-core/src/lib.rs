@@ -70,7 +70,7 @@
 //! - every step: [`kernel`] (the rate of change of the state), [`integrate`], [`simulate`];
 //! - results: [`sample`], [`energy`], [`reaction`], [`report_coordinates`], [`channel`], [`recorder`], [`summary`];
 //! - to go on with a run: [`checkpoint`];
-//! - many runs: [`study`];
+//! - many runs: [`study`]; what a run changes by when a number changes: [`sensitivity`];
 //! - of any time history: [`signal`], [`measure`], [`correlation`].
 
 pub mod belt;
@@ -101,6 +101,7 @@ pub mod sample;
 pub mod scenario;
 pub mod seat;
 pub mod seating;
+pub mod sensitivity;
 pub mod settle;
 pub mod setup;
 pub mod signal;

@@ -3,7 +3,7 @@
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 
 use crate::body::Segment;
-use crate::checkpoint::{Checkpoint, Progress};
+use crate::checkpoint::{Checkpoint, Progress, StepUnderWay};
 use crate::energy::EnergyLedger;
 use crate::joint::Joint;
 use crate::kernel::belts::BeltAction;
@@ -65,6 +65,8 @@ pub struct Sample<'a> {
     pub progress: Progress,
     /// First touches so far, in the order in which they happened.
     pub first_touches: &'a [FirstTouch],
+    /// The step of the error control in which this output lies, if it goes on beyond it.
+    pub under_way: Option<StepUnderWay<'a>>,
 }
 
 /// A touching pair for output.
@@ -99,6 +101,7 @@ impl<'a> Sample<'a> {
             belts: self.history.belts.clone(),
             first_touches: self.first_touches.to_vec(),
             progress: self.progress,
+            under_way: self.under_way.map(|step| step.to_start()),
         }
     }
 

@@ -32,7 +32,7 @@ pub enum Integrator {
         /// Step.
         step_s: f64,
     },
-    /// Embedded 5(4) pair with error control.
+    /// Embedded 3(2) pair with error control.
     Adaptive {
         /// Relative tolerance on speeds; positions have an absolute one alone.
         relative: f64,

@@ -151,7 +151,7 @@ impl Wanted {
         self,
         opened: &Opened,
         summary: &Summary,
-        mut histories: Series,
+        histories: Series,
         interrupt: &Interrupt,
         quiet: bool,
     ) -> Result<Ran, Failure> {
@@ -168,6 +168,8 @@ impl Wanted {
         };
         let members = Members {
             study: &self.study,
+            // the unchanged run is done
+            runs: 1..self.study.len(),
             resolver: &resolver,
             channels: &self.channels,
             threads: self.threads,
@@ -175,7 +177,7 @@ impl Wanted {
             bar: &bar,
         };
         let others = members.run()?;
-        let time_s = std::mem::take(&mut histories.time_s);
+        let time_s = histories.time_s.clone();
         let nominal = Left::of(summary, &opened.model, histories);
         let completed = others.iter().filter_map(|member| match member {
             Member::Completed(left) => Some(left.values.as_slice()),

@@ -14,6 +14,7 @@ mod ensemble_args;
 pub(crate) mod exit;
 mod export;
 mod extend;
+mod fit;
 mod history_args;
 pub(crate) mod interrupt;
 mod measure_table;
@@ -30,9 +31,11 @@ mod risk;
 pub(crate) mod run;
 pub(crate) mod scenario;
 mod schema;
+mod sensitivity;
 pub(crate) mod speak;
+mod study;
 mod summary_table;
-mod sweep;
+pub(crate) mod sweep;
 pub(crate) mod table;
 mod view;
 
@@ -61,6 +64,8 @@ pub struct Cli {
 enum Command {
     Run(run::Args),
     Sweep(sweep::Args),
+    Study(study::Args),
+    Fit(fit::Args),
     Check(check::Args),
     New(new::Args),
     Schema(schema::Args),
@@ -73,6 +78,7 @@ enum Command {
     View(view::Args),
     Report(report::Args),
     Risk(risk::Args),
+    Sensitivity(sensitivity::Args),
     Completions(completions::Args),
 }
 
@@ -81,6 +87,8 @@ pub fn main() -> ExitCode {
     let result = match Cli::parse().command {
         Command::Run(args) => run::run(&args),
         Command::Sweep(args) => sweep::sweep(&args),
+        Command::Study(args) => study::study(&args),
+        Command::Fit(args) => fit::fit(&args),
         Command::Check(args) => check::check(&args),
         Command::New(args) => new::new(&args),
         Command::Schema(args) => schema::print(&args),
@@ -93,6 +101,7 @@ pub fn main() -> ExitCode {
         Command::View(args) => view::view(&args),
         Command::Report(args) => report::report(&args),
         Command::Risk(args) => risk::risk(&args),
+        Command::Sensitivity(args) => sensitivity::sensitivity(&args),
         Command::Completions(args) => completions::print(&args),
     };
     exit::code(result)

@@ -1,8 +1,8 @@
 //! `occupant sweep`.
 
-mod choices;
-mod merge;
-mod words;
+pub(crate) mod choices;
+pub(crate) mod merge;
+pub(crate) mod words;
 
 use std::num::NonZeroUsize;
 use std::ops::Range;

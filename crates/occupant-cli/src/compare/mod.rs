@@ -209,7 +209,10 @@ const fn grade(grade: Iso18571Grade) -> &'static str {
 }
 
 /// First and last time that both have and the window lets.
-fn overlap(a: Track<'_>, b: Track<'_>, window: Window) -> Result<[f64; 2], String> {
+///
+/// # Errors
+/// There is none.
+pub fn overlap(a: Track<'_>, b: Track<'_>, window: Window) -> Result<[f64; 2], String> {
     let ends = |t: &[f64]| t.first().copied().zip(t.last().copied());
     let (Some((a0, a1)), Some((b0, b1))) = (ends(a.time_s), ends(b.time_s)) else {
         return Err("a history without samples".to_owned());
@@ -232,8 +235,11 @@ fn overlap(a: Track<'_>, b: Track<'_>, window: Window) -> Result<[f64; 2], Strin
     }
 }
 
-/// Values on the common grid.
-fn sampled(
+/// Values on the common grid: so many at [`RATE_HZ`] from `from_s` on, by straight lines.
+///
+/// # Errors
+/// A value that is missing there.
+pub fn sampled(
     track: Track<'_>,
     from_s: f64,
     to_s: f64,

@@ -3,7 +3,7 @@
 //! What a member leaves depends on its number alone, and the members stand in the order of their numbers: the results are
 //! the same bits for any number of threads.
 
-use std::ops::ControlFlow;
+use std::ops::{ControlFlow, Range};
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
@@ -22,7 +22,7 @@ use crate::cli::exit::Failure;
 use crate::cli::interrupt::Interrupt;
 
 /// The figures of a run mean nothing above this error of its energy balance.
-const BROKEN_BALANCE: f64 = 0.1;
+pub const BROKEN_BALANCE: f64 = 0.1;
 
 /// What a run of the ensemble left.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,6 +40,8 @@ pub struct Left {
     pub figures: Vec<(String, &'static str, Option<f64>)>,
     /// By channel: a value for each output.
     pub values: Vec<Vec<f64>>,
+    /// Times of the outputs, s.
+    pub time_s: Vec<f64>,
 }
 
 impl Left {
@@ -58,14 +60,17 @@ impl Left {
                 .map(|f| (f.name, f.unit, f.value))
                 .collect(),
             values: histories.values,
+            time_s: histories.time_s,
         }
     }
 }
 
 /// What all members share.
 pub struct Members<'a> {
-    /// The ensemble; its sample 0 is the unchanged run, which is not run again here.
+    /// The ensemble.
     pub study: &'a Study,
+    /// Which runs of it.
+    pub runs: Range<u64>,
     /// The files that the scenario names.
     pub resolver: &'a (dyn Fn(&str) -> Result<Vec<u8>, String> + Sync),
     /// Whose histories are kept.
@@ -81,13 +86,13 @@ pub struct Members<'a> {
 type Recorders = (Interrupt, (Summarizer, Series));
 
 impl Members<'_> {
-    /// Runs members 1, 2, … and gives them in this order.
+    /// Runs the members and gives them in order.
     ///
     /// # Errors
     /// Interrupted.
     pub fn run(&self) -> Result<Vec<Member>, Failure> {
-        let count = self.study.len();
-        let next = AtomicU64::new(1);
+        let count = self.runs.end.saturating_sub(self.runs.start);
+        let next = AtomicU64::new(self.runs.start);
         let done: Mutex<Vec<(u64, Member)>> = Mutex::new(Vec::new());
         thread::scope(|scope| {
             for number in 1..self.threads {
@@ -102,7 +107,7 @@ impl Members<'_> {
         let mut done = done
             .into_inner()
             .unwrap_or_else(|broken| broken.into_inner());
-        match self.interrupt.is_asked() || done.len() as u64 + 1 < count {
+        match self.interrupt.is_asked() || (done.len() as u64) < count {
             true => Err(Failure::BrokeOff(
                 "error: the ensemble was interrupted".to_owned(),
             )),
@@ -123,7 +128,7 @@ impl Members<'_> {
         let jobs = std::iter::from_fn(|| {
             while !self.interrupt.is_asked() {
                 let number = next.fetch_add(1, Ordering::Relaxed);
-                if number >= self.study.len() {
+                if number >= self.runs.end {
                     return None;
                 }
                 match self.model(number) {

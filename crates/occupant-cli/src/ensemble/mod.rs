@@ -13,5 +13,6 @@ pub mod members;
 pub mod of_table;
 pub mod plot;
 pub mod report;
+pub mod study_bands;
 pub mod table_file;
 pub mod text;

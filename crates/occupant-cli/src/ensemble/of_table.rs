@@ -2,7 +2,7 @@
 //!
 //! The table stands in the order of the index and the members of a sample are neighbours, so it is read once from its begin
 //! to its end, a row group at a time: memory grows with columns and members, not with samples. Bands over time are not
-//! made here, for a sweep keeps no histories: `occupant run --ensemble` makes those of one scenario.
+//! made here, for a sweep keeps no histories: see [`super::study_bands`].
 
 use std::fs::File;
 use std::path::{Path, PathBuf};

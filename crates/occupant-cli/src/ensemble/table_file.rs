@@ -62,7 +62,7 @@ impl Form {
 /// A table under its provisional name.
 pub struct TableFile {
     path: PathBuf,
-    columns: Vec<(&'static str, Kind)>,
+    columns: Vec<(String, Kind)>,
     waiting: Vec<Vec<Cell>>,
     writer: Writer,
 }
@@ -81,25 +81,29 @@ impl TableFile {
         path: &Path,
         form: Form,
         existing: Existing,
-        columns: &[(&'static str, Kind)],
+        columns: &[(impl AsRef<str>, Kind)],
         about: &[(&str, String)],
     ) -> Result<Self, String> {
+        let columns: Vec<(String, Kind)> = columns
+            .iter()
+            .map(|(name, kind)| (name.as_ref().to_owned(), *kind))
+            .collect();
         let mut file = PartialFile::create(path, existing).map_err(|e| e.to_string())?;
         let writer = match form {
             Form::Csv => {
-                let names: Vec<&str> = columns.iter().map(|(name, _)| *name).collect();
+                let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
                 writeln!(file, "{}", names.join(","))
                     .map_err(|e| unwritten(path, &e.to_string()))?;
                 Writer::Csv(file)
             }
             Form::Parquet => {
-                let writer = begin(file, columns, about);
+                let writer = begin(file, &columns, about);
                 Writer::Parquet(Box::new(writer.map_err(|e| unwritten(path, &words(&e)))?))
             }
         };
         Ok(TableFile {
             path: path.to_owned(),
-            columns: columns.to_vec(),
+            columns,
             waiting: Vec::new(),
             writer,
         })
@@ -157,10 +161,10 @@ impl TableFile {
 
 fn begin(
     file: PartialFile,
-    columns: &[(&'static str, Kind)],
+    columns: &[(String, Kind)],
     about: &[(&str, String)],
 ) -> Result<SerializedFileWriter<PartialFile>, ParquetError> {
-    let column = |(name, kind): &(&'static str, Kind)| {
+    let column = |(name, kind): &(String, Kind)| {
         let (physical, logical, repetition) = match kind {
             Kind::Text => (
                 Physical::BYTE_ARRAY,
@@ -177,7 +181,7 @@ fn begin(
         column.build().map(Arc::new)
     };
     let fields = columns.iter().map(column).collect::<Result<Vec<_>, _>>()?;
-    let schema = Type::group_type_builder("occupant_ensemble")
+    let schema = Type::group_type_builder("occupant_table")
         .with_fields(fields)
         .build()?;
     let about = about
@@ -192,7 +196,7 @@ fn begin(
 
 fn write_group(
     writer: &mut SerializedFileWriter<PartialFile>,
-    columns: &[(&'static str, Kind)],
+    columns: &[(String, Kind)],
     rows: &[Vec<Cell>],
 ) -> Result<(), ParquetError> {
     let mut group = writer.next_row_group()?;

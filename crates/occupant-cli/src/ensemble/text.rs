@@ -132,7 +132,7 @@ pub fn figure_row(figure: &Judged) -> [String; 7] {
 }
 
 /// SI units in one unit of the tables, and its name there.
-fn shown_unit(unit: &str) -> (f64, &str) {
+pub fn shown_unit(unit: &str) -> (f64, &str) {
     match unit {
         "m/s^2" | "m/s²" => (STANDARD_GRAVITY_M_S2, "g"),
         "s" => (1e-3, "ms"),

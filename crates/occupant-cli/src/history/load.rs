@@ -30,17 +30,54 @@ pub fn load(
     channels: Vec<Channel>,
     treatment: Treatment,
 ) -> Result<Histories, Failure> {
-    let name = results.path.display();
-    let refused = |what: String| Failure::plain(format!("{name}: {what}"));
-    let mut asked = channels.clone();
-    if treatment.filter != Filter::None {
-        asked.extend(channels.iter().flat_map(|c| components(&results.model, c)));
+    let asked = asked(&results.model, &channels, treatment.filter);
+    let series = results.series(asked)?;
+    let treated = treated(&results.model, channels, series, treatment);
+    let mut histories = treated.map_err(|error| match error {
+        Untreated::Run(what) => Failure::plain(format!("{}: {what}", results.path.display())),
+        Untreated::Channel { name, reason } => too_coarse(results, &name, &reason),
+    })?;
+    histories.notes.splice(0..0, results.notes());
+    Ok(histories)
+}
+
+/// Why histories cannot be treated as asked.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Untreated {
+    /// None of them.
+    Run(String),
+    /// One of them.
+    Channel {
+        /// Its name.
+        name: String,
+        /// Why.
+        reason: String,
+    },
+}
+
+/// The channels whose values [`treated`] needs for these channels.
+pub fn asked(model: &Model, channels: &[Channel], filter: Filter) -> Vec<Channel> {
+    let mut asked = channels.to_vec();
+    if filter != Filter::None {
+        asked.extend(channels.iter().flat_map(|c| components(model, c)));
     }
-    let mut series = results.series(asked)?;
-    let mut notes = results.notes();
+    asked
+}
+
+/// Histories of channels of a model from their values at the outputs.
+///
+/// # Errors
+/// Outputs too far apart for the filter, or an interval that is none.
+pub fn treated(
+    model: &Model,
+    channels: Vec<Channel>,
+    mut series: Series,
+    treatment: Treatment,
+) -> Result<Histories, Untreated> {
+    let mut notes = Vec::new();
     let dt_s = match treatment.filter {
         Filter::None => None,
-        _ => Some(even(&mut series, &mut notes).map_err(refused)?),
+        _ => Some(even(&mut series, &mut notes).map_err(Untreated::Run)?),
     };
     let mut columns = Vec::with_capacity(channels.len());
     for channel in channels {
@@ -51,8 +88,11 @@ pub fn load(
                     let raw = series.of(name).unwrap_or_default();
                     filtered(raw, dt_s, class, treatment.family)
                 };
-                let found = filtered_channel(&results.model, &channel, &apply);
-                found.map_err(|reason| too_coarse(results, &channel.name, &reason))?
+                let found = filtered_channel(model, &channel, &apply);
+                found.map_err(|reason| Untreated::Channel {
+                    name: channel.name.clone(),
+                    reason,
+                })?
             }
             _ => series.of(&channel.name).unwrap_or_default().to_vec(),
         };
@@ -68,7 +108,7 @@ pub fn load(
         notes,
     };
     if let Some(interval_s) = treatment.interval_s {
-        resample(&mut histories, interval_s).map_err(refused)?;
+        resample(&mut histories, interval_s).map_err(Untreated::Run)?;
     }
     Ok(histories)
 }

@@ -12,7 +12,7 @@ use occupant_core::signal::ChannelClass;
 
 pub use choose::choose;
 pub use filter::{Family, Filter, filtered};
-pub use load::{Treatment, load};
+pub use load::{Treatment, Untreated, asked, load, treated};
 pub use unit::{Shown, UnitChoice, dimension, plotted, shown};
 
 /// Channels of one run over common times.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use mcap::read::ChunkFlattener;
 use mcap::records::{MessageHeader, Record};
-use occupant_core::checkpoint::{Checkpoint, Progress};
+use occupant_core::checkpoint::{Checkpoint, Progress, StepStart};
 use occupant_core::energy::EnergyStart;
 use occupant_core::kernel::belts::BeltHistory;
 use occupant_core::kernel::contact::{OPEN, PASSED, PairHistory, TOUCHING};
@@ -139,22 +139,41 @@ struct Message {
     greatest_kinetic_j: f64,
     #[prost(double, tag = "24")]
     greatest_imbalance_j: f64,
+    #[prost(double, tag = "25")]
+    step_error: f64,
+    #[prost(double, repeated, tag = "26")]
+    step_times_s: Vec<f64>,
+    #[prost(double, repeated, tag = "27")]
+    step_state: Vec<f64>,
+    #[prost(fixed32, repeated, tag = "28")]
+    step_passed: Vec<u32>,
+    #[prost(fixed32, repeated, tag = "29")]
+    step_touching: Vec<u32>,
+    #[prost(fixed32, repeated, tag = "30")]
+    step_deformed: Vec<u32>,
+    #[prost(double, repeated, tag = "31")]
+    step_greatest_deformation_m: Vec<f64>,
+    #[prost(double, repeated, tag = "32")]
+    step_belt_normal_vehicle: Vec<f64>,
+    #[prost(double, repeated, tag = "33")]
+    step_belt_greatest_elongation_m: Vec<f64>,
 }
 
 impl Message {
     fn checkpoint(&self) -> Result<Checkpoint, String> {
-        let state: &[f64; _] = self.state.as_slice().try_into().map_err(|_| {
-            format!(
-                "a checkpoint's state has {} numbers, not 75",
-                self.state.len()
-            )
-        })?;
         Ok(Checkpoint {
             index: usize::try_from(self.output).map_err(|e| e.to_string())?,
             time_s: self.time_s,
-            state: State::from_numbers(state),
-            pairs: self.pair_histories()?,
-            belts: self.belt_histories()?,
+            state: state(&self.state)?,
+            pairs: Pairs {
+                number: self.pairs,
+                passed: &self.passed,
+                touching: &self.touching,
+                deformed: &self.deformed,
+                greatest_m: &self.greatest_deformation_m,
+            }
+            .histories()?,
+            belts: belts(&self.belt_normal_vehicle, &self.belt_greatest_elongation_m)?,
             first_touches: self.first_touches()?,
             progress: Progress {
                 effort: Effort {
@@ -164,6 +183,7 @@ impl Message {
                     step_s: self.last_step_s,
                 },
                 wanted_s: self.wanted_step_s,
+                step_error: self.step_error,
                 energy_start: EnergyStart {
                     contacts_j: self.start_contacts_j,
                     belts_j: self.start_belts_j,
@@ -172,51 +192,33 @@ impl Message {
                 greatest_kinetic_j: self.greatest_kinetic_j,
                 greatest_imbalance_j: self.greatest_imbalance_j,
             },
+            under_way: self.step_start()?,
         })
     }
 
-    fn pair_histories(&self) -> Result<Vec<PairHistory<f64>>, String> {
-        if self.pairs > MOST_PAIRS {
-            return Err(format!("a checkpoint has {} pairs", self.pairs));
-        }
-        same_length(
-            "deformed pairs",
-            &self.deformed,
-            &self.greatest_deformation_m,
-        )?;
-        let open = PairHistory {
-            phase: OPEN,
-            greatest: 0.0,
+    /// The start of the step in which the output lies.
+    fn step_start(&self) -> Result<Option<StepStart>, String> {
+        let [start_s, end_s] = self.step_times_s[..] else {
+            same_length("times of a step", &self.step_times_s, &[(); 0])?;
+            return Ok(None);
         };
-        let mut pairs = vec![open; self.pairs as usize];
-        let mut change = |pair: u32, to: &dyn Fn(&mut PairHistory<f64>)| {
-            let found = pairs.get_mut(pair as usize);
-            found
-                .map(to)
-                .ok_or_else(|| format!("a checkpoint has no pair {pair}, it has {}", self.pairs))
-        };
-        for (list, phase) in [(&self.passed, PASSED), (&self.touching, TOUCHING)] {
-            for &pair in list {
-                change(pair, &|p| p.phase = phase)?;
+        Ok(Some(StepStart {
+            start_s,
+            end_s,
+            state: state(&self.step_state)?,
+            pairs: Pairs {
+                number: self.pairs,
+                passed: &self.step_passed,
+                touching: &self.step_touching,
+                deformed: &self.step_deformed,
+                greatest_m: &self.step_greatest_deformation_m,
             }
-        }
-        for (&pair, &greatest) in self.deformed.iter().zip(&self.greatest_deformation_m) {
-            change(pair, &|p| p.greatest = greatest)?;
-        }
-        Ok(pairs)
-    }
-
-    fn belt_histories(&self) -> Result<Vec<BeltHistory<f64>>, String> {
-        let (normals, odd) = self.belt_normal_vehicle.as_chunks::<3>();
-        same_length("belts", normals, &self.belt_greatest_elongation_m)?;
-        same_length("components of belts' normals", odd, &[(); 0])?;
-        let belts = normals.iter().zip(&self.belt_greatest_elongation_m);
-        Ok(belts
-            .map(|(&[x, y, z], &greatest)| BeltHistory {
-                normal: v3(x, y, z),
-                greatest,
-            })
-            .collect())
+            .histories()?,
+            belts: belts(
+                &self.step_belt_normal_vehicle,
+                &self.step_belt_greatest_elongation_m,
+            )?,
+        }))
     }
 
     fn first_touches(&self) -> Result<Vec<FirstTouch>, String> {
@@ -232,6 +234,65 @@ impl Message {
         };
         Ok(spheres.iter().enumerate().map(touch).collect())
     }
+}
+
+/// Pairs of a sphere and a face, by lists of those that are not open and whole.
+struct Pairs<'a> {
+    number: u64,
+    passed: &'a [u32],
+    touching: &'a [u32],
+    deformed: &'a [u32],
+    greatest_m: &'a [f64],
+}
+
+impl Pairs<'_> {
+    fn histories(&self) -> Result<Vec<PairHistory<f64>>, String> {
+        if self.number > MOST_PAIRS {
+            return Err(format!("a checkpoint has {} pairs", self.number));
+        }
+        same_length("deformed pairs", self.deformed, self.greatest_m)?;
+        let open = PairHistory {
+            phase: OPEN,
+            greatest: 0.0,
+        };
+        let mut pairs = vec![open; self.number as usize];
+        let mut change = |pair: u32, to: &dyn Fn(&mut PairHistory<f64>)| {
+            let found = pairs.get_mut(pair as usize);
+            found
+                .map(to)
+                .ok_or_else(|| format!("a checkpoint has no pair {pair}, it has {}", self.number))
+        };
+        for (list, phase) in [(self.passed, PASSED), (self.touching, TOUCHING)] {
+            for &pair in list {
+                change(pair, &|p| p.phase = phase)?;
+            }
+        }
+        for (&pair, &greatest) in self.deformed.iter().zip(self.greatest_m) {
+            change(pair, &|p| p.greatest = greatest)?;
+        }
+        Ok(pairs)
+    }
+}
+
+fn state(numbers: &[f64]) -> Result<State<f64>, String> {
+    let found = numbers.len();
+    let numbers = numbers
+        .try_into()
+        .map_err(|_| format!("a checkpoint's state has {found} numbers, not 75"))?;
+    Ok(State::from_numbers(numbers))
+}
+
+fn belts(normals: &[f64], greatest_m: &[f64]) -> Result<Vec<BeltHistory<f64>>, String> {
+    let (normals, odd) = normals.as_chunks::<3>();
+    same_length("belts", normals, greatest_m)?;
+    same_length("components of belts' normals", odd, &[(); 0])?;
+    let belts = normals.iter().zip(greatest_m);
+    Ok(belts
+        .map(|(&[x, y, z], &greatest)| BeltHistory {
+            normal: v3(x, y, z),
+            greatest,
+        })
+        .collect())
 }
 
 fn same_length<A, B>(what: &str, a: &[A], b: &[B]) -> Result<(), String> {

@@ -3,6 +3,7 @@
 //! By `--map column=channel`; else by the same name; else by the ISO-MME code. With a map for a channel nothing else is
 //! looked for.
 
+use std::fmt;
 use std::str::FromStr;
 
 use occupant_core::channel::Channel;
@@ -73,6 +74,15 @@ impl FromStr for MapArgument {
             channel: channel.to_owned(),
             sign,
         })
+    }
+}
+
+impl fmt::Display for MapArgument {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let unit = self.unit.as_ref().map(|u| format!("[{u}]"));
+        let sign = if self.sign < 0.0 { "-" } else { "" };
+        let unit = unit.unwrap_or_default();
+        write!(f, "{}{unit}={sign}{}", self.column, self.channel)
     }
 }
 

@@ -131,6 +131,15 @@ impl Svg {
         ));
     }
 
+    /// Dots as wide as their line, whose ends must be round: one element however many they are.
+    pub fn dots(&mut self, centres: &[[f64; 2]], attributes: &str) {
+        let mut data = String::with_capacity(14 * centres.len());
+        for [x, y] in centres {
+            let _ = write!(data, "M{} {}h.01", number(*x), number(*y));
+        }
+        self.path(&data, attributes);
+    }
+
     /// A path; `data` as in SVG.
     pub fn path(&mut self, data: &str, attributes: &str) {
         self.line(&format!("<path d=\"{data}\" {attributes}/>"));
@@ -170,14 +179,22 @@ impl Svg {
     }
 
     /// The whole file.
-    pub fn finish(mut self) -> String {
+    pub fn finish(self) -> String {
+        format!(
+            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{}",
+            self.inline()
+        )
+    }
+
+    /// The drawing as an element of an HTML page.
+    pub fn inline(mut self) -> String {
         while self.open > 0 {
             self.end();
         }
         let [width, height] = self.size.map(number);
         let title = escape(&self.title);
         format!(
-            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" \
+            "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width}\" \
              height=\"{height}\" viewBox=\"0 0 {width} {height}\" font-family=\"{family}\" role=\"img\">\n\
              <title>{title}</title>\n{body}</svg>\n",
             family = font::FAMILY,

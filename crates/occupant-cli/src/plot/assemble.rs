@@ -172,10 +172,7 @@ fn figure(wish: &Wish, material: &Material<'_>) -> Result<Figure, String> {
     Ok(Figure {
         title: wish.title.clone(),
         x: x_axis(material),
-        y: Axis {
-            name: wish.axis.clone(),
-            unit: symbol(shown),
-        },
+        y: Axis::of(&wish.axis, symbol(shown)),
         curves,
         limits,
         empty: wish.empty.clone(),
@@ -289,14 +286,8 @@ fn overlay(
 fn x_axis(material: &Material<'_>) -> Axis {
     let across = material.x.and_then(|x| channel_of(material.runs, x));
     match across {
-        Some(channel) => Axis {
-            name: channel.name.clone(),
-            unit: symbol(plotted(channel.unit, material.units)),
-        },
-        None => Axis {
-            name: "time".to_owned(),
-            unit: "ms".to_owned(),
-        },
+        Some(channel) => Axis::of(&channel.name, symbol(plotted(channel.unit, material.units))),
+        None => Axis::of("time", "ms"),
     }
 }
 

@@ -1,7 +1,7 @@
 //! One figure in a rectangle.
 
 use super::curve::strokes;
-use super::figure::{Figure, LIMIT, drawable};
+use super::figure::{Figure, LIMIT, Mark, drawable};
 use super::legend::{Legend, shortened};
 use super::scale::Scale;
 use crate::picture::font::{self, Weight};
@@ -15,6 +15,9 @@ const TICK_MARK: f64 = 4.0;
 const GRID: &str = "stroke=\"#e4e4e4\" stroke-width=\"1\"";
 const ZERO: &str = "stroke=\"#888888\" stroke-width=\"1\"";
 const FRAME: &str = "fill=\"none\" stroke=\"#444444\" stroke-width=\"1\"";
+
+/// Words at an axis upward take no more than this part of the figure's width.
+const WORDS: f64 = 0.42;
 
 /// Height of what stands below the axes of a figure this wide.
 pub fn legend_height(figure: &Figure, width: f64) -> f64 {
@@ -88,7 +91,10 @@ impl Page {
         [width, height]: [f64; 2],
     ) -> Self {
         let inner_height = height - TICK - LABEL - 16.0;
-        let y = Scale::new(y, ((inner_height / 36.0) as usize).clamp(2, 8));
+        let y = match figure.y.words.is_empty() {
+            true => Scale::new(y, ((inner_height / 36.0) as usize).clamp(2, 8)),
+            false => Scale::of_words(short_words(&figure.y.words, WORDS * width), true),
+        };
         let margin = EDGE + LABEL + 8.0 + widest(&y) + TICK_MARK + 3.0;
         let room = width - margin - EDGE;
         let x = across(figure, x, room);
@@ -119,16 +125,14 @@ impl Page {
         };
         for tick in &self.y.ticks {
             let [_, y] = self.place([self.x.range[0], *tick]);
-            let line = if *tick == 0.0 { ZERO } else { GRID };
-            svg.segment([left, y], [right, y], line);
+            svg.segment([left, y], [right, y], grid(&self.y, *tick));
             svg.segment([left - TICK_MARK, y], [left, y], "stroke=\"#444444\"");
             let at = [left - TICK_MARK - 3.0, y + 0.36 * TICK];
             svg.text(at, &self.y.figures(*tick), &figures(Anchor::End));
         }
         for tick in &self.x.ticks {
             let [x, _] = self.place([*tick, self.y.range[0]]);
-            let line = if *tick == 0.0 { ZERO } else { GRID };
-            svg.segment([x, top], [x, bottom], line);
+            svg.segment([x, top], [x, bottom], grid(&self.x, *tick));
             svg.segment([x, bottom], [x, bottom + TICK_MARK], "stroke=\"#444444\"");
             let at = [x, bottom + TICK_MARK + TICK + 1.0];
             svg.text(at, &self.x.figures(*tick), &figures(Anchor::Middle));
@@ -168,6 +172,14 @@ impl Page {
             svg.segment([left, y], [right, y], &LIMIT.attributes());
         }
         for curve in &figure.curves {
+            let look = curve.style.attributes();
+            if curve.style.mark == Mark::Dots {
+                let drawn = curve.points.iter();
+                let drawn = drawn.filter(|[x, y]| drawable(*x) && drawable(*y));
+                let centres: Vec<[f64; 2]> = drawn.map(|p| self.place(*p)).collect();
+                svg.dots(&centres, &look);
+                continue;
+            }
             let columns = (2.0 * self.size[0]) as usize;
             for stroke in strokes(&curve.points, columns, |p| self.place(p)) {
                 match stroke.as_slice() {
@@ -175,15 +187,34 @@ impl Page {
                         let fill = format!("fill=\"{}\"", curve.style.colour);
                         svg.circle(*alone, 2.2, &fill);
                     }
-                    line => svg.polyline(line, &curve.style.attributes()),
+                    line => svg.polyline(line, &look),
                 }
             }
         }
     }
 }
 
+/// The line of a tick across the figure.
+fn grid(scale: &Scale, tick: f64) -> &'static str {
+    match tick == 0.0 && !scale.has_words() {
+        true => ZERO,
+        false => GRID,
+    }
+}
+
+/// Words of an axis that fit into a width.
+fn short_words(words: &[String], width: f64) -> Vec<String> {
+    let short = |word: &String| shortened(word, TICK, Weight::Regular, width);
+    words.iter().map(short).collect()
+}
+
 /// The axis across, with as many ticks as have room beside each other.
 fn across(figure: &Figure, range: [f64; 2], room: f64) -> Scale {
+    let words = &figure.x.words;
+    if !words.is_empty() {
+        let each = room / words.len() as f64 - 6.0;
+        return Scale::of_words(short_words(words, each), false);
+    }
     let time = figure.x.unit == "ms";
     let scale = |count| match time {
         true => Scale::inside(range, count),

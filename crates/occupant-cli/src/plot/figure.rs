@@ -24,6 +24,38 @@ pub struct Axis {
     pub name: String,
     /// Symbol of the unit.
     pub unit: String,
+    /// Words that stand at 0, 1, 2, …, instead of figures; empty for an axis of numbers. Upward they go down the page.
+    pub words: Vec<String>,
+    /// Least and greatest value that an axis of numbers shows whatever the curves need.
+    pub includes: Option<[f64; 2]>,
+}
+
+impl Axis {
+    /// An axis of numbers.
+    pub fn of(name: impl Into<String>, unit: impl Into<String>) -> Self {
+        Axis {
+            name: name.into(),
+            unit: unit.into(),
+            words: Vec::new(),
+            includes: None,
+        }
+    }
+
+    /// A range that covers `range` and what is to be shown at any rate.
+    fn widened(&self, [low, high]: [f64; 2]) -> [f64; 2] {
+        match self.includes {
+            Some([from, to]) => [low.min(from), high.max(to)],
+            None => [low, high],
+        }
+    }
+
+    /// An axis of words.
+    pub fn of_words(name: impl Into<String>, words: Vec<String>) -> Self {
+        Axis {
+            words,
+            ..Axis::of(name, "")
+        }
+    }
 }
 
 /// A curve: points in the units of the axes, a gap where a number is not finite.
@@ -37,15 +69,27 @@ pub struct Curve {
     pub points: Vec<[f64; 2]>,
 }
 
-/// How a line is drawn.
+/// How a curve is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Style {
     /// Colour.
     pub colour: &'static str,
     /// SVG dash pattern; solid if empty.
     pub dash: &'static str,
-    /// Width.
+    /// Width of the line, or of a dot.
     pub width: f64,
+    /// Line or dots.
+    pub mark: Mark,
+}
+
+/// What stands at the points of a curve.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Mark {
+    /// A line through them.
+    #[default]
+    Line,
+    /// A dot at each.
+    Dots,
 }
 
 /// A level that should not be passed.
@@ -67,6 +111,7 @@ pub const LIMIT: Style = Style {
     colour: "#c00000",
     dash: "5 3",
     width: 1.1,
+    mark: Mark::Line,
 };
 
 impl Style {
@@ -84,6 +129,7 @@ impl Style {
             colour: COLOURS[colour % COLOURS.len()],
             dash: DASHES[dash % DASHES.len()],
             width: 1.5,
+            mark: Mark::Line,
         }
     }
 
@@ -93,6 +139,25 @@ impl Style {
             colour: "#000000",
             dash: DASHES[dash % DASHES.len()],
             width: 1.2,
+            mark: Mark::Line,
+        }
+    }
+
+    /// A solid line of any width: a bar, a whisker.
+    pub fn line(colour: &'static str, width: f64) -> Self {
+        Style {
+            colour,
+            dash: "",
+            width,
+            mark: Mark::Line,
+        }
+    }
+
+    /// Dots.
+    pub fn dots(colour: &'static str, diameter: f64) -> Self {
+        Style {
+            mark: Mark::Dots,
+            ..Style::line(colour, diameter)
         }
     }
 
@@ -102,8 +167,12 @@ impl Style {
             "" => String::new(),
             dash => format!(" stroke-dasharray=\"{dash}\""),
         };
+        let ends = match self.mark {
+            Mark::Line => "",
+            Mark::Dots => " stroke-linecap=\"round\"",
+        };
         format!(
-            "fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"{dash}",
+            "fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"{ends}{dash}",
             self.colour, self.width
         )
     }
@@ -136,6 +205,6 @@ impl Figure {
                 *y = [y[0].min(limit.level - room), y[1].max(limit.level + room)];
             }
         }
-        extent
+        extent.map(|[x, y]| [self.x.widened(x), self.y.widened(y)])
     }
 }

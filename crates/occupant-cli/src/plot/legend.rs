@@ -1,6 +1,6 @@
 //! The legend below a plot: entries in rows, none wider than the plot.
 
-use super::figure::{Figure, LIMIT, Style};
+use super::figure::{Figure, LIMIT, Mark, Style};
 use crate::picture::font::{self, Weight};
 use crate::picture::{Svg, Text};
 
@@ -66,7 +66,11 @@ impl Legend {
         for entry in &self.entries {
             let y = top + (entry.row as f64 + 0.5) * ROW;
             let x = left + entry.x;
-            svg.segment([x, y], [x + SAMPLE, y], &entry.style.attributes());
+            let look = entry.style.attributes();
+            match entry.style.mark {
+                Mark::Line => svg.segment([x, y], [x + SAMPLE, y], &look),
+                Mark::Dots => svg.dots(&[[x + 0.5 * SAMPLE, y]], &look),
+            }
             let style = Text {
                 size: SIZE,
                 ..Text::default()
@@ -102,10 +106,7 @@ mod tests {
     use crate::plot::figure::{Axis, Curve};
 
     fn figure(labels: &[&str]) -> Figure {
-        let axis = Axis {
-            name: String::new(),
-            unit: String::new(),
-        };
+        let axis = Axis::of("", "");
         let curve = |l: &&str| Curve {
             label: (*l).to_owned(),
             style: Style::of(0, 0),

@@ -13,6 +13,6 @@ mod sheet;
 mod standard;
 
 pub use assemble::{LimitArgument, Material, Overlay, RunCurves, figures};
-pub use figure::Figure;
-pub use sheet::{Sheet, sheet};
+pub use figure::{Axis, Curve, Figure, Style};
+pub use sheet::{Sheet, inline, sheet};
 pub use standard::{Entry, Wish, standard};

@@ -10,6 +10,8 @@ pub struct Scale {
     /// Power of ten that stands in the axis' label, for the ticks' sake.
     pub exponent: i32,
     decimals: usize,
+    /// What stands at the ticks 0, 1, 2, … instead of figures.
+    words: Vec<String>,
 }
 
 impl Scale {
@@ -45,6 +47,27 @@ impl Scale {
         scale
     }
 
+    /// A scale of words at 0, 1, 2, …; `downward` if the first is to stand at its end.
+    pub fn of_words(words: Vec<String>, downward: bool) -> Self {
+        let ticks: Vec<f64> = (0..words.len()).map(|i| i as f64).collect();
+        let beyond = words.len().max(1) as f64 - 0.5;
+        Scale {
+            range: match downward {
+                true => [beyond, -0.5],
+                false => [-0.5, beyond],
+            },
+            ticks,
+            exponent: 0,
+            decimals: 0,
+            words,
+        }
+    }
+
+    /// Whether words stand at its ticks.
+    pub fn has_words(&self) -> bool {
+        !self.words.is_empty()
+    }
+
     fn of_ticks(ticks: Vec<f64>, step: f64) -> Self {
         let greatest = ticks.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
         let exponent = match greatest {
@@ -60,11 +83,16 @@ impl Scale {
             decimals: (-digits).clamp(0.0, 12.0) as usize,
             ticks,
             exponent,
+            words: Vec::new(),
         }
     }
 
-    /// A tick in figures, without its power of ten.
+    /// A tick in figures, without its power of ten, or its word.
     pub fn figures(&self, tick: f64) -> String {
+        if self.has_words() {
+            // ticks of words are 0, 1, 2, …
+            return self.words.get(tick as usize).cloned().unwrap_or_default();
+        }
         // in two factors: the power alone may be beyond what a double holds
         let half = self.exponent / 2;
         let value = tick * 10_f64.powi(-half) * 10_f64.powi(half - self.exponent);
@@ -142,6 +170,16 @@ mod tests {
             assert!(low < value && value < high && high - low > 0.1 * value.abs());
         }
         assert_eq!(Scale::new([0.0, 0.0], 4).range, [-1.0, 1.0]);
+    }
+
+    #[test]
+    fn words_stand_at_their_numbers() {
+        let words = vec!["a".to_owned(), "b".to_owned()];
+        let down = Scale::of_words(words.clone(), true);
+        assert_eq!((down.place(0.0), down.place(1.0)), (0.75, 0.25));
+        let across = Scale::of_words(words, false);
+        assert_eq!((across.place(0.0), across.place(1.0)), (0.25, 0.75));
+        assert_eq!(across.figures(across.ticks[1]), "b");
     }
 
     #[test]

@@ -54,6 +54,15 @@ pub fn sheet(sheet: &Sheet, figures: &[Figure]) -> String {
     svg.finish()
 }
 
+/// One figure as an element of an HTML page, `size` without its legend.
+pub fn inline(figure: &Figure, size: [f64; 2]) -> String {
+    let below = legend_height(figure, size[0]);
+    let whole = [size[0], size[1] + below];
+    let mut svg = Svg::new(whole[0], whole[1], &figure.title);
+    draw(&mut svg, figure, [0.0, 0.0], whole, below);
+    svg.inline()
+}
+
 fn head_height(sheet: &Sheet) -> f64 {
     EDGE + TITLE + 6.0 + sheet.lines.len() as f64 * (SMALL + 4.0) + 4.0
 }

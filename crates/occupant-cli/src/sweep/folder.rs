@@ -16,8 +16,7 @@ use super::manifest::{Manifest, Text};
 use super::problem::Problem;
 use super::shard::Shard;
 
-/// The names of everything that a sweep writes.
-const MANIFEST: &str = "sweep.json";
+/// The names of everything that a sweep writes, its manifest aside.
 const LOCK: &str = "sweep.lock";
 const INPUTS: &str = "inputs";
 const JOURNAL: &str = "journal";
@@ -35,10 +34,52 @@ const TABLES: [&str; 10] = [
     "ensemble.partial.csv",
 ];
 
-/// The folder of a sweep.
+/// What a fit writes besides: files, and folders with files of one ending.
+const FIT_RESULTS: [&str; 8] = [
+    "fit.json",
+    "fit.partial.json",
+    "fitted.toml",
+    "fitted.partial.toml",
+    "history.parquet",
+    "history.partial.parquet",
+    "history.csv",
+    "history.partial.csv",
+];
+const FITTED: &str = "fitted";
+const PLOTS: &str = "plots";
+
+/// What a folder holds the results of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Holds {
+    /// A sweep.
+    Sweep,
+    /// A fit.
+    Fit,
+}
+
+impl Holds {
+    /// In a word.
+    pub fn word(self) -> &'static str {
+        match self {
+            Holds::Sweep => "sweep",
+            Holds::Fit => "fit",
+        }
+    }
+
+    /// The manifest and its provisional name.
+    fn manifest(self) -> [&'static str; 2] {
+        match self {
+            Holds::Sweep => ["sweep.json", "sweep.partial.json"],
+            Holds::Fit => ["search.json", "search.partial.json"],
+        }
+    }
+}
+
+/// The folder of a sweep, or of a fit.
 #[derive(Clone, Debug)]
 pub struct Folder {
     path: PathBuf,
+    holds: Holds,
 }
 
 /// A lock that a process holds until it ends, however it ends.
@@ -51,11 +92,24 @@ pub struct Held {
 }
 
 impl Folder {
-    /// The folder at this place, there or not.
+    /// The folder of a sweep at this place, there or not.
     pub fn at(path: &Path) -> Self {
         Folder {
             path: path.to_owned(),
+            holds: Holds::Sweep,
         }
+    }
+
+    /// The folder of a fit at this place, there or not.
+    pub fn of_fit(path: &Path) -> Self {
+        Folder {
+            path: path.to_owned(),
+            holds: Holds::Fit,
+        }
+    }
+
+    fn manifest_path(&self) -> PathBuf {
+        self.path.join(self.holds.manifest()[0])
     }
 
     /// Its path.
@@ -107,7 +161,7 @@ impl Folder {
     /// # Errors
     /// The operating system refuses; a file that is no manifest.
     pub fn manifest(&self) -> Result<Option<Manifest>, Problem> {
-        let path = self.path.join(MANIFEST);
+        let path = self.manifest_path();
         let bytes = match fs::read(&path) {
             Ok(bytes) => bytes,
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
@@ -115,7 +169,7 @@ impl Folder {
         };
         let read = serde_json::from_slice(&bytes);
         read.map(Some).map_err(|error| Problem::Damaged {
-            found: format!("is no manifest of a sweep: {error}"),
+            found: format!("is no manifest of a {}: {error}", self.holds.word()),
             path,
         })
     }
@@ -169,7 +223,8 @@ impl Folder {
         if self.manifest()?.as_ref() == Some(manifest) {
             return Ok(());
         }
-        let mut results = TABLES.iter().chain([&RUNS, &MANIFEST]);
+        let others = [RUNS, self.holds.manifest()[0]];
+        let mut results = TABLES.iter().chain(&others);
         match results.find(|name| self.path.join(name).exists()) {
             Some(name) => Err(Problem::Exists {
                 path: self.path.join(name),
@@ -192,6 +247,7 @@ impl Folder {
         };
         Problem::Differs {
             folder: self.path.clone(),
+            holds: self.holds,
             differences: there.differences(here, |t| self.copy_of(t).ok(), text_here),
         }
     }
@@ -206,14 +262,15 @@ impl Folder {
 
     /// Files without a manifest are not ours.
     fn refuse_other_files(&self) -> Result<(), Problem> {
-        if self.path.join(MANIFEST).exists() {
+        if self.manifest_path().exists() {
             return Ok(());
         }
         let ours = [LOCK, INPUTS, JOURNAL];
         for name in names_in(&self.path)? {
-            if !ours.contains(&name.as_str()) && !name.starts_with("sweep.partial") {
-                return Err(Problem::NoSweep {
+            if !ours.contains(&name.as_str()) && name != self.holds.manifest()[1] {
+                return Err(Problem::NotOurs {
                     folder: self.path.clone(),
+                    holds: self.holds,
                 });
             }
         }
@@ -261,12 +318,12 @@ impl Folder {
             let path = self.path.join(&text.copy);
             write_whole(&path, bytes)?;
         }
-        let path = self.path.join(MANIFEST);
+        let path = self.manifest_path();
         let bytes = manifest.to_bytes().map_err(|error| Problem::Damaged {
             path: path.clone(),
             found: format!("cannot be written: {error}"),
         })?;
-        let partial = self.path.join("sweep.partial.json");
+        let partial = self.path.join(self.holds.manifest()[1]);
         write_whole(&partial, &bytes)?;
         fs::rename(&partial, &path).map_err(Problem::io("rename to", &path))
     }
@@ -281,8 +338,13 @@ impl Folder {
 
     /// Removes what a sweep has written, and nothing else.
     fn clear(&self) -> Result<(), Problem> {
-        let mut files: Vec<PathBuf> = TABLES.iter().map(|name| self.path.join(name)).collect();
-        for (folder, ending) in [(JOURNAL, ".rows"), (RUNS, ".mcap"), (INPUTS, "")] {
+        let (results, folders): (&[&str], &[(&str, &str)]) = match self.holds {
+            Holds::Sweep => (&TABLES, &[(RUNS, ".mcap")]),
+            Holds::Fit => (&FIT_RESULTS, &[(FITTED, ".toml"), (PLOTS, ".svg")]),
+        };
+        let mut files: Vec<PathBuf> = results.iter().map(|name| self.path.join(name)).collect();
+        let always = [(JOURNAL, ".rows"), (INPUTS, "")];
+        for (folder, ending) in always.iter().chain(folders) {
             let folder = self.path.join(folder);
             if folder.exists() {
                 let names = names_in(&folder)?;
@@ -291,7 +353,7 @@ impl Folder {
             }
         }
         // the manifest goes last: without it the rest would be nobody's
-        files.push(self.path.join(MANIFEST));
+        files.push(self.manifest_path());
         for file in files {
             match fs::remove_file(&file) {
                 Err(error) if error.kind() != std::io::ErrorKind::NotFound => {

@@ -186,6 +186,24 @@ impl Journal {
     /// # Errors
     /// A sample that is not there; results that disagree; the operating system refuses.
     pub fn rows(&self, range: Range<u64>) -> Result<Vec<Row>, Problem> {
+        let rows: Option<Vec<Row>> = self.found(range.clone())?.into_iter().collect();
+        rows.ok_or_else(|| Problem::Incomplete {
+            gaps: self.finished.gaps(range.clone()),
+            samples: range.end - range.start,
+            shards: Vec::new(),
+        })
+    }
+
+    /// The rows of those of a range of samples that are finished, in order.
+    ///
+    /// # Errors
+    /// As [`Journal::rows`], samples that are missing apart.
+    pub fn rows_there(&self, range: Range<u64>) -> Result<Vec<Row>, Problem> {
+        Ok(self.found(range)?.into_iter().flatten().collect())
+    }
+
+    /// By sample of a range: its row, if it is finished.
+    fn found(&self, range: Range<u64>) -> Result<Vec<Option<Row>>, Problem> {
         let mut found: Vec<Option<(Row, &Path)>> = Vec::new();
         found.resize_with((range.end - range.start) as usize, || None);
         let overlapping = |p: &&Piece| p.samples.start < range.end && range.start < p.samples.end;
@@ -212,12 +230,7 @@ impl Journal {
                 }
             }
         }
-        let rows: Option<Vec<Row>> = found.into_iter().map(|f| f.map(|(row, _)| row)).collect();
-        rows.ok_or_else(|| Problem::Incomplete {
-            gaps: self.finished.gaps(range.clone()),
-            samples: range.end - range.start,
-            shards: Vec::new(),
-        })
+        Ok(found.into_iter().map(|f| f.map(|(row, _)| row)).collect())
     }
 }
 

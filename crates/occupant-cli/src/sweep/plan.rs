@@ -133,6 +133,14 @@ impl Plan {
         })
     }
 
+    /// The bytes of a table that a scenario of the study names.
+    pub fn table(&self, name: &str) -> Result<Vec<u8>, String> {
+        let found = self.tables.iter().find(|(table, _)| table == name);
+        found
+            .map(|(_, bytes)| bytes.clone())
+            .ok_or_else(|| "it was not there when the sweep began".to_owned())
+    }
+
     /// The words with which `occupant run` runs a sample, and the scenario's bytes.
     pub fn command(&self, index: u64) -> (ScenarioArgs, Vec<u8>) {
         let mut overrides = self.changes.clone();
@@ -156,13 +164,7 @@ impl Plan {
         if let Some(index) = index {
             self.study.apply(index, &mut draft)?;
         }
-        let tables = |name: &str| {
-            let found = self.tables.iter().find(|(table, _)| table == name);
-            found
-                .map(|(_, bytes)| bytes.clone())
-                .ok_or_else(|| "it was not there when the sweep began".to_owned())
-        };
-        let loaded = draft.load(&tables)?;
+        let loaded = draft.load(&|name| self.table(name))?;
         let (model, warnings) = loaded.model()?;
         Ok((loaded, model, warnings))
     }

@@ -6,6 +6,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use super::finished::ranges_text;
+use super::folder::Holds;
 use super::shard::Shard;
 
 /// So many ranges or shards are named.
@@ -28,15 +29,19 @@ pub enum Problem {
         /// What is there.
         path: PathBuf,
     },
-    /// There are files, but no sweep.
-    NoSweep {
+    /// There are files, but none of ours.
+    NotOurs {
         /// The folder.
         folder: PathBuf,
+        /// What was looked for.
+        holds: Holds,
     },
     /// The folder holds something else, or the same of another version.
     Differs {
         /// The folder.
         folder: PathBuf,
+        /// What it holds.
+        holds: Holds,
         /// What differs, a line each.
         differences: Vec<String>,
     },
@@ -95,7 +100,7 @@ impl Problem {
     /// How to go on, where there is something to say.
     pub fn help(&self) -> Option<&'static str> {
         match self {
-            Problem::Exists { .. } | Problem::NoSweep { .. } => {
+            Problem::Exists { .. } | Problem::NotOurs { .. } => {
                 Some("name a new folder, or an empty one")
             }
             Problem::Differs { .. } => Some(
@@ -127,18 +132,17 @@ impl fmt::Display for Problem {
             Problem::Exists { path } => {
                 write!(f, "{} exists and is not of this sweep", path.display())
             }
-            Problem::NoSweep { folder } => {
-                write!(f, "{} holds files that are no sweep's", folder.display())
+            Problem::NotOurs { folder, holds } => {
+                let (folder, word) = (folder.display(), holds.word());
+                write!(f, "{folder} holds files that are no {word}'s")
             }
             Problem::Differs {
                 folder,
+                holds,
                 differences,
             } => {
-                write!(
-                    f,
-                    "{} holds another sweep (there → here):",
-                    folder.display()
-                )?;
+                let (folder, word) = (folder.display(), holds.word());
+                write!(f, "{folder} holds another {word} (there → here):")?;
                 differences
                     .iter()
                     .try_for_each(|line| write!(f, "\n   {line}"))

@@ -19,10 +19,12 @@ pub enum NamedBy {
     CommandLine,
     /// The study, as the scenario to vary.
     StudyAsBase,
-    /// The study, as a table of samples.
+    /// The study, as a table of samples, a test or the scenario of a test.
     Study,
     /// The scenario.
     Scenario,
+    /// The command line, as a test.
+    CommandLineTest,
 }
 
 /// Where texts come from.
@@ -98,6 +100,7 @@ impl Texts {
                 let beside = study.parent().unwrap_or(Path::new(""));
                 let path = match by {
                     NamedBy::CommandLine => study.clone(),
+                    NamedBy::CommandLineTest => PathBuf::from(name),
                     NamedBy::Study => beside.join(name),
                     NamedBy::Scenario => self.base.borrow().join(name),
                     NamedBy::StudyAsBase => {
@@ -118,6 +121,15 @@ impl Texts {
                 }
             }
         }
+    }
+
+    /// Remembers what stands for something that is no single file.
+    pub fn add(&self, by: NamedBy, name: &str, text: String) {
+        self.read.borrow_mut().push(Read {
+            by,
+            name: name.to_owned(),
+            bytes: text.into_bytes(),
+        });
     }
 
     /// What was read, for the manifest, and the bytes.

@@ -88,7 +88,7 @@ pub fn matching(model: &Model, pattern: &str) -> Vec<Channel> {
 }
 
 /// Whether `name` is the pieces in order with anything between.
-fn matches(name: &str, pieces: &[&str]) -> bool {
+pub(crate) fn matches(name: &str, pieces: &[&str]) -> bool {
     let [first, rest @ ..] = pieces else {
         return false;
     };

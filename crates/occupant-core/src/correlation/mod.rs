@@ -20,7 +20,7 @@ use crate::signal::{SignalError, require_same_length, require_samples};
 
 /// Checks a pair of signals: equally long, at least `needed` samples, finite, a reference that is not
 /// zero throughout.
-fn require_pair(
+pub(crate) fn require_pair(
     reference: &[f64],
     computed: &[f64],
     dt_s: f64,

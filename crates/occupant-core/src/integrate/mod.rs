@@ -1,4 +1,4 @@
 //! Integrators: they know a rate of change, and nothing of bodies, contacts or belts.
 
-pub mod dormand_prince;
+pub mod bogacki_shampine;
 pub mod rk4;

@@ -109,6 +109,15 @@ impl<S: Scalar> History<S> {
         }
     }
 
+    /// Becomes what `other`, a history of the same pairs and belts, is.
+    pub fn take_over(&mut self, other: &History<S>) {
+        self.pairs.copy_from_slice(&other.pairs);
+        self.belts.copy_from_slice(&other.belts);
+        self.watched.copy_from_slice(&other.watched);
+        self.near.copy_from_slice(&other.near);
+        self.looks.copy_from_slice(&other.looks);
+    }
+
     /// Lets the next commit look at every pair, as it must where the remembered numbers are those of another place.
     pub fn look_again(&mut self) {
         for look in &mut self.looks {

@@ -9,6 +9,7 @@
 pub mod assembly;
 pub mod belts;
 pub mod contact;
+pub mod dual;
 pub mod dynamics;
 mod encounter;
 pub mod face;

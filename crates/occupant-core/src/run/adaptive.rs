@@ -1,112 +1,169 @@
 //! Steps with error control.
 
-use super::{Run, Step};
-use crate::integrate::dormand_prince::{self, Tolerance};
-use crate::kernel::state::State;
+use super::{Front, Run, Step};
+use crate::integrate::bogacki_shampine::{ERROR_ORDER, EVALUATIONS, Tolerance};
 use crate::model::Model;
-use crate::observers::SeenAt;
 use crate::outcome::StepError;
 use crate::trig;
 
+/// What bounds the steps.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Control {
+    pub tolerance: Tolerance,
+    pub min_step_s: f64,
+    pub max_step_s: f64,
+}
+
+/// What the error control remembers from step to step.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Memory {
+    /// Step that it wants next, s.
+    pub wanted_s: f64,
+    /// Error of the last accepted step in units of the tolerance.
+    pub error: f64,
+}
+
+impl Memory {
+    /// Before any step.
+    pub fn new(first_step_s: f64) -> Self {
+        Memory {
+            wanted_s: first_step_s,
+            error: 1.0,
+        }
+    }
+
+    /// After a step of length `h` was accepted; `is_full`: nothing but the error control bounded it.
+    ///
+    /// Proportional–integral control (Gustafsson 1991): a step on the verge of instability is approached, not overshot.
+    fn accept(&mut self, h: f64, error: f64, is_full: bool, was_rejected: bool) {
+        let error = error.max(1e-6);
+        let power = |x: f64, share: f64| trig::pow(x, share / ERROR_ORDER);
+        let growth = 0.9 * power(error, -0.7) * power(self.error, 0.4);
+        // what was just found too long is not tried at once again
+        let most = if was_rejected { 1.0 } else { 5.0 };
+        let next_s = h * growth.clamp(0.2, most);
+        self.wanted_s = if is_full {
+            next_s
+        } else {
+            self.wanted_s.max(next_s)
+        };
+        self.error = error.max(1e-4);
+    }
+
+    /// After a step of length `h` was rejected; a trial that is not a number asks for a tenth.
+    fn reject(&mut self, h: f64, error: f64) {
+        let shrink = if error.is_finite() {
+            (0.9 * trig::pow(error, -1.0 / ERROR_ORDER)).clamp(0.1, 0.9)
+        } else {
+            0.1
+        };
+        self.wanted_s = h * shrink;
+    }
+}
+
 impl Run {
-    /// Steps of the embedded pair until `target_s`, none across a break of the path.
+    /// Steps until one reaches `target_s`, none across a break of the path; then shows the state at `target_s`.
     pub(super) fn advance_adaptive(
         &mut self,
         model: &Model,
         target_s: f64,
-        tolerance: &Tolerance,
-        min_step_s: f64,
-        max_step_s: f64,
+        control: &Control,
     ) -> Result<(), StepError> {
-        let system = model.system();
-        let mut first: Option<State<f64>> = None;
-        while self.time_s < target_s {
-            let t = self.time_s;
-            let stop = self
-                .breaks_s
-                .iter()
-                .copied()
-                .find(|&b| b > t)
-                .unwrap_or(f64::INFINITY);
-            let limit = target_s.min(stop);
-            let wanted = self.wanted_s.min(max_step_s);
-            // a step that would leave a sliver takes it along
-            let end = if t + wanted * 1.01 >= limit {
-                limit
-            } else {
-                t + wanted
-            };
-            if end <= t {
-                // the clock no longer tells the step's ends apart
-                return Err(StepError::StepTooSmall {
-                    time_s: t,
-                    step_s: wanted,
-                    min_step_s,
-                    error: 0.0,
-                });
+        let Some(mut front) = self.front.take() else {
+            return Ok(());
+        };
+        let (breaks_s, cursor) = (&self.breaks_s, &mut self.cursor);
+        front.complete(model, &control.tolerance, breaks_s, cursor);
+        let mut failed = Ok(());
+        while failed.is_ok() && front.step.end_s < target_s {
+            front.note(model, &mut self.seen);
+            failed = self.step_on(model, &mut front, control);
+        }
+        self.time_s = match failed {
+            Ok(()) => {
+                front.show(target_s, &mut self.state, &mut self.history);
+                target_s
             }
-            let (h, middle) = (end - t, 0.5 * (t + end));
-            let cursor = &mut self.cursor;
-            let history = &mut self.history;
-            let start_rate = first.unwrap_or_else(|| {
-                self.effort.evaluations += 1;
-                let frames = model.frames(t, middle, cursor);
-                let mut observer = SeenAt {
-                    model,
-                    seen: &mut self.seen,
-                    time_s: t,
-                };
-                system.rate_observed::<true>(&self.state, &frames, history, &mut observer)
-            });
-            let trial =
-                dormand_prince::attempt(&self.state, &start_rate, h, tolerance, |c, state| {
-                    let frames = model.frames(t + c * h, middle, cursor);
-                    system.rate::<false>(state, &frames, history)
-                });
-            self.effort.evaluations += 6;
-            // fifth-order growth with a safety factor; a trial that is not a number asks for a tenth
-            let growth = if trial.error.is_finite() {
-                (0.9 * trig::pow(trial.error.max(1e-10), -0.2)).clamp(0.1, 5.0)
-            } else {
-                0.1
-            };
-            if trial.error <= 1.0 {
-                let full = h >= wanted * 0.99;
-                self.wanted_s = if full {
-                    h * growth
-                } else {
-                    self.wanted_s.max(h * growth)
-                };
-                let step = Step {
-                    start_s: t,
-                    end_s: end,
-                };
-                self.accept(trial.state, step)?;
-                if end < target_s {
-                    let frames = model.frames(end, middle, &mut self.cursor);
-                    let mut observer = SeenAt {
-                        model,
-                        seen: &mut self.seen,
-                        time_s: end,
-                    };
-                    system.commit(&self.state, &frames, &mut self.history, &mut observer);
-                }
-                // the velocity of the vehicle may jump at a break
-                first = (end < stop).then_some(trial.rate);
-            } else {
+            Err(_) => front.step.end_s,
+        };
+        self.front = Some(front);
+        failed
+    }
+
+    /// One accepted step of the front.
+    fn step_on(
+        &mut self,
+        model: &Model,
+        front: &mut Front,
+        control: &Control,
+    ) -> Result<(), StepError> {
+        let start_s = front.step.end_s;
+        let mut breaks = self.breaks_s.iter().copied();
+        let stop_s = breaks.find(|&b| b > start_s).unwrap_or(f64::INFINITY);
+        if self.effort.steps == 0 || self.breaks_s.contains(&start_s) {
+            // anywhere else the rate is that of the end of the step before
+            self.effort.evaluations += 1;
+        }
+        let mut was_rejected = false;
+        // the end of the step, where it is to end behind a corner
+        let mut behind_s = None;
+        loop {
+            let wanted_s = self.control.wanted_s.min(control.max_step_s);
+            let located = behind_s.take();
+            let end_s = located.unwrap_or_else(|| end_of_step(start_s, wanted_s, stop_s));
+            let step = Step { start_s, end_s };
+            let h = step.length_s();
+            if h <= 0.0 {
+                // the clock no longer tells the step's ends apart
+                return Err(too_small(start_s, wanted_s, control, 0.0));
+            }
+            front.look(model, step, &mut self.cursor);
+            let trial = front.attempt(model, step, &control.tolerance, &mut self.cursor);
+            self.effort.evaluations += EVALUATIONS;
+            if located.is_none() && trial.error.is_finite() {
+                behind_s = front.end_behind_corner(model, step, &control.tolerance);
+            }
+            if behind_s.is_some() {
                 self.effort.rejected += 1;
-                first = Some(start_rate);
-                self.wanted_s = h * growth.min(0.9);
-                if self.wanted_s < min_step_s {
-                    return Err(StepError::StepTooSmall {
-                        time_s: t,
-                        step_s: self.wanted_s,
-                        min_step_s,
-                        error: trial.error,
-                    });
+                if trial.error > 1.0 {
+                    self.control.reject(h, trial.error);
                 }
+                continue;
+            }
+            if trial.error <= 1.0 {
+                let is_full = located.is_none() && h >= wanted_s * 0.99;
+                self.control.accept(h, trial.error, is_full, was_rejected);
+                self.count(step);
+                front.take_over(trial, step, end_s >= stop_s);
+                return Ok(());
+            }
+            was_rejected = true;
+            self.effort.rejected += 1;
+            self.control.reject(h, trial.error);
+            let wanted_s = self.control.wanted_s;
+            if wanted_s < control.min_step_s {
+                return Err(too_small(start_s, wanted_s, control, trial.error));
             }
         }
-        Ok(())
+    }
+}
+
+/// A step that would leave a sliver before `stop_s` takes it along; one that would leave less than itself takes half.
+fn end_of_step(start_s: f64, wanted_s: f64, stop_s: f64) -> f64 {
+    if start_s + 1.01 * wanted_s >= stop_s {
+        stop_s
+    } else if start_s + 2.0 * wanted_s > stop_s {
+        0.5 * (start_s + stop_s)
+    } else {
+        start_s + wanted_s
+    }
+}
+
+fn too_small(time_s: f64, step_s: f64, control: &Control, error: f64) -> StepError {
+    StepError::StepTooSmall {
+        time_s,
+        step_s,
+        min_step_s: control.min_step_s,
+        error,
     }
 }

@@ -3,14 +3,19 @@
 //! The model stands beside it, unchanged: every call gets the one that the run was made for.
 
 mod adaptive;
+mod corner;
 mod fixed;
+mod front;
 
 pub(crate) use fixed::{Step, Stretch};
+
+use adaptive::{Control, Memory};
+use front::Front;
 
 use crate::body::Segment;
 use crate::checkpoint::{Checkpoint, CheckpointError, Progress};
 use crate::energy::{EnergyLedger, EnergyStart, Stored};
-use crate::integrate::dormand_prince::Tolerance;
+use crate::integrate::bogacki_shampine::Tolerance;
 use crate::kernel::History;
 use crate::kernel::frame::VEHICLE;
 use crate::kernel::state::{FREE, HINGED, State};
@@ -33,13 +38,16 @@ pub(crate) struct Run {
     pub cursor: PathCursor,
     pub seen: Seen,
     pub effort: Effort,
-    /// Step that the error control wants next, s.
-    wanted_s: f64,
+    /// The integration under error control; none at a fixed step.
+    front: Option<Box<Front>>,
+    control: Memory,
     energy_start: Option<EnergyStart>,
     greatest_kinetic_j: f64,
     greatest_imbalance_j: f64,
     touches: Touches,
-    breaks_s: Vec<f64>,
+    pub breaks_s: Vec<f64>,
+    /// The accepted steps since it was last emptied, where somebody wants to follow them.
+    pub taken: Option<Vec<Step>>,
 }
 
 impl Run {
@@ -47,14 +55,22 @@ impl Run {
     pub fn new(model: &Model) -> Self {
         let start = model.start();
         let pairs = model.system().contacts.pairs();
+        let (integrator, time_s) = (&model.setup().integrator, model.setup().time.start_s);
         Run {
             index: 0,
-            time_s: model.setup().time.start_s,
+            time_s,
             state: start.state,
             history: start.history.clone(),
             cursor: PathCursor::default(),
             effort: Effort::default(),
-            wanted_s: first_step(&model.setup().integrator),
+            front: match integrator {
+                Integrator::Rk4 { .. } => None,
+                Integrator::Adaptive { .. } => {
+                    let front = Front::new(time_s, &start.state, &start.history);
+                    Some(Box::new(front))
+                }
+            },
+            control: Memory::new(first_step(integrator)),
             energy_start: None,
             greatest_kinetic_j: 0.0,
             greatest_imbalance_j: 0.0,
@@ -64,6 +80,7 @@ impl Run {
             },
             seen: Seen::new(model),
             breaks_s: model.setup().path.breaks_s(),
+            taken: None,
         }
     }
 
@@ -78,7 +95,17 @@ impl Run {
         run.state = from.state;
         run.history = History::new(&model.system().contacts, pairs, belts);
         run.effort = progress.effort;
-        run.wanted_s = progress.wanted_s;
+        run.control = Memory {
+            wanted_s: progress.wanted_s,
+            error: progress.step_error,
+        };
+        run.front = run.front.map(|_| {
+            let step = from.under_way.as_ref();
+            Box::new(match step {
+                Some(start) => Front::within(model, start),
+                None => Front::new(run.time_s, &run.state, &run.history),
+            })
+        });
         run.energy_start = Some(progress.energy_start);
         run.greatest_kinetic_j = progress.greatest_kinetic_j;
         run.greatest_imbalance_j = progress.greatest_imbalance_j;
@@ -152,12 +179,14 @@ impl Run {
             effort: self.effort,
             progress: Progress {
                 effort: self.effort,
-                wanted_s: self.wanted_s,
+                wanted_s: self.control.wanted_s,
+                step_error: self.control.error,
                 energy_start,
                 greatest_kinetic_j: self.greatest_kinetic_j,
                 greatest_imbalance_j: self.greatest_imbalance_j,
             },
             first_touches: &self.seen.touches,
+            under_way: self.front.as_ref().and_then(|front| front.under_way(t)),
         });
         recorded.map_err(|e| self.unrecorded(e))
     }
@@ -181,12 +210,16 @@ impl Run {
                 min_step_s,
                 max_step_s,
             } => {
-                let tolerance = Tolerance {
-                    relative,
-                    absolute_m,
-                    absolute_m_s,
+                let control = Control {
+                    tolerance: Tolerance {
+                        relative,
+                        absolute_m,
+                        absolute_m_s,
+                    },
+                    min_step_s,
+                    max_step_s,
                 };
-                self.advance_adaptive(model, target_s, &tolerance, min_step_s, max_step_s)
+                self.advance_adaptive(model, target_s, &control)
             }
         }
     }
@@ -208,6 +241,14 @@ impl Run {
     /// Counts an accepted step whose state is kept elsewhere.
     pub fn accept_time(&mut self, step: Step) {
         self.time_s = step.end_s;
+        self.count(step);
+    }
+
+    /// Counts an accepted step.
+    fn count(&mut self, step: Step) {
+        if let Some(taken) = &mut self.taken {
+            taken.push(step);
+        }
         self.effort.steps += 1;
         self.effort.step_s = step.length_s();
     }

@@ -37,7 +37,7 @@ mod json;
 pub mod kind;
 pub(crate) mod loaded;
 pub mod model;
-pub(crate) mod nearest;
+pub mod nearest;
 mod number_table;
 mod overrides;
 pub mod path_text;
@@ -50,6 +50,7 @@ mod toml_text;
 pub mod unit;
 pub mod unit_expression;
 mod view;
+mod written;
 
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use document::Format;

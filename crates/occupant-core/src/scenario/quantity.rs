@@ -151,7 +151,7 @@ fn text_si(text: &str, kind: &Kind) -> Result<f64, UnitError> {
 }
 
 /// The number at the start of a text, and where its unit starts.
-fn split_number(text: &str) -> Option<(f64, usize)> {
+pub(super) fn split_number(text: &str) -> Option<(f64, usize)> {
     let start = text.len() - text.trim_start().len();
     let body = &text[start..];
     let (sign, body_start) = match body.chars().next()? {

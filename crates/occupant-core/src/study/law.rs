@@ -138,12 +138,12 @@ impl Law {
 }
 
 /// a + (b − a)·p, exact at both ends.
-fn between(a: f64, b: f64, p: f64) -> f64 {
+pub(super) fn between(a: f64, b: f64, p: f64) -> f64 {
     a * (1.0 - p) + b * p
 }
 
 /// a·(b/a)^p, exact at both ends.
-fn log_between(a: f64, b: f64, p: f64) -> f64 {
+pub(super) fn log_between(a: f64, b: f64, p: f64) -> f64 {
     match p {
         0.0 => a,
         1.0 => b,

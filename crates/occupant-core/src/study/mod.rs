@@ -53,8 +53,11 @@ mod copula;
 mod design;
 mod direction_numbers;
 mod ensemble;
+mod fit;
+mod fit_section;
 mod keep;
 mod law;
+pub mod misfit;
 mod model;
 mod morris;
 mod normal;
@@ -62,12 +65,15 @@ mod parameter;
 mod permutation;
 mod random;
 mod saltelli;
+pub mod search;
 mod sobol;
 pub mod spread;
 mod text;
 
 pub use design::{Design, Role};
 pub use ensemble::{Change, Ensemble, Perturbation, Tolerances};
+pub use fit::{Bounds, Fit, FitChannel, FitTest};
+pub use fit_section::{FilterChoice, FitSection, Misfit};
 pub use keep::Keep;
 pub use law::{Law, Value};
 pub use model::{ApplyChoice, Free, StudySection, schema_json};
@@ -88,6 +94,7 @@ mod tests;
 pub struct Study {
     base: Draft,
     base_name: String,
+    changes: Vec<(String, String)>,
     seed: u64,
     parameters: Vec<Parameter>,
     design: Design,
@@ -124,6 +131,7 @@ impl Study {
         Study {
             base,
             base_name: name.into(),
+            changes: Vec::new(),
             seed,
             parameters: Vec::new(),
             design: Design::Single,
@@ -230,6 +238,14 @@ impl Study {
         self.design.role(sample, &self.levels(), self.seed)
     }
 
+    /// By how much the last step of a Morris trajectory moved its parameter, as a part of the range, with its sign. None
+    /// for a run that is no such step.
+    pub fn morris_step(&self, index: u64) -> Option<f64> {
+        let (sample, _) = self.sample_and_member(index);
+        self.design
+            .morris_step(sample, self.parameters.len(), self.seed)
+    }
+
     /// What is varied.
     pub fn parameters(&self) -> &[Parameter] {
         &self.parameters
@@ -248,6 +264,12 @@ impl Study {
     /// The base scenario, with what the study and the command line say of all runs.
     pub fn base(&self) -> &Draft {
         &self.base
+    }
+
+    /// What the study and the command line have put into the base scenario, in order: paths and values as
+    /// [`Draft::set_value`] reads them.
+    pub fn changes(&self) -> &[(String, String)] {
+        &self.changes
     }
 
     /// The name of the base scenario as the study gives it.

@@ -10,6 +10,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
+use super::fit_section::FitSection;
 use crate::scenario::kind::UnitSystem;
 use crate::scenario::model::{Angle, Length, Ratio};
 use crate::scenario::quantity::Written;
@@ -58,6 +59,9 @@ pub struct StudySection {
     /// Repeats every sample with small changes, to see which figures are stable.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ensemble: Option<EnsembleSection>,
+    /// What `occupant fit` makes the parameters reproduce; a sweep does not look at it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fit: Option<FitSection>,
     /// Of which runs the whole motion is kept: "all", "none", a list of indices, or such as "worst 5 by hic15"; "none"
     /// if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]

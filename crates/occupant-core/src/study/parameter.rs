@@ -52,7 +52,7 @@ pub(super) fn si_unit(kind: &Kind) -> &'static str {
 }
 
 impl Target {
-    pub(super) fn of(place: &Place) -> Target {
+    pub(crate) fn of(place: &Place) -> Target {
         use crate::scenario::document::Value as Node;
         let base = match (&place.value, place.si) {
             (_, Some(x)) => Value::Number(x),

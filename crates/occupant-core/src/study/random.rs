@@ -22,6 +22,8 @@ pub(super) enum Purpose {
     Ensemble = 6,
     /// Rows of a resample.
     Bootstrap = 7,
+    /// Points of a search.
+    Search = 16,
 }
 
 /// 64 random bits for an address; `round` tells apart several draws of one dimension.

@@ -11,7 +11,7 @@ use super::choices::{keep, threads};
 use super::words::{ensembles, no_plan, read_journal, sha256_of, tell, told};
 use crate::cli::exit::{Done, Failure};
 use crate::cli::run::program;
-use crate::sweep::folder::Folder;
+use crate::sweep::folder::{Folder, Holds};
 use crate::sweep::manifest::{Manifest, Text};
 use crate::sweep::plan::Plan;
 use crate::sweep::problem::Problem;
@@ -108,6 +108,7 @@ fn stored_plan(
     if plan.manifest != *manifest {
         return Err(told(Problem::Differs {
             folder: folder.path().to_owned(),
+            holds: Holds::Sweep,
             differences: manifest.differences(&plan.manifest, |_| None, |_| None),
         }));
     }
@@ -116,7 +117,10 @@ fn stored_plan(
 }
 
 /// The manifest that all folders share.
-fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
+///
+/// # Errors
+/// A folder without one, or with another; the operating system refuses.
+pub fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
     let mut common: Option<(&Folder, Manifest)> = None;
     for folder in folders {
         let found = folder.manifest().map_err(told)?;

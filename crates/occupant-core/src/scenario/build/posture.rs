@@ -84,6 +84,17 @@ fn state_of(
         let path = |part: usize| format!("initial_state.passed[{i}][{part}]");
         let spheres = body.spheres.iter().map(|s| s.name.as_str());
         let surfaces = s.surfaces.keys().map(String::as_str);
+        let meeting = s.surfaces.get(surface).and_then(|f| f.spheres.as_ref());
+        if meeting.is_some_and(|spheres| !spheres.contains(sphere)) {
+            b.error_with_hint(
+                &path(0),
+                format!(
+                    "`{surface}` cannot be passed by `{sphere}`: it is not among its `spheres`"
+                ),
+                format!("one of the spheres of `surfaces.{surface}.spheres`"),
+                format!("add \"{sphere}\" to them, or leave this pair out"),
+            );
+        }
         passed.push((
             b.index_of(&path(0), "sphere", sphere, spheres),
             b.index_of(&path(1), "surface", surface, surfaces),

@@ -1,13 +1,11 @@
 //! `[time]`, `[integrator]`, `[output]` → [`TimeSpan`], [`Integrator`], [`OutputOptions`].
 
 use super::builder::Builder;
-use crate::scenario::model::{EdgeForceChoice, IntegratorSection, Scenario};
+use crate::scenario::model::{AdaptiveSection, EdgeForceChoice, IntegratorSection, Scenario};
 use crate::setup::{EdgeForce, Integrator, OutputOptions, TimeSpan};
 
 /// Time between records unless given: 1 ms.
 const DEFAULT_OUTPUT_S: f64 = 1e-3;
-/// Step of rk4 unless given: 0.1 ms.
-const DEFAULT_STEP_S: f64 = 1e-4;
 
 /// Start, end and output interval.
 pub(super) fn time(b: &mut Builder, s: &Scenario) -> TimeSpan {
@@ -24,33 +22,32 @@ pub(super) fn time(b: &mut Builder, s: &Scenario) -> TimeSpan {
     span
 }
 
-/// The integrator.
+/// The integrator; the defaults are chosen in `docs/accuracy.md`.
 pub(super) fn integrator(b: &mut Builder, s: &Scenario) -> Integrator {
     match &s.integrator {
-        None => Integrator::Rk4 {
-            step_s: DEFAULT_STEP_S,
-        },
+        None => adaptive(b, &AdaptiveSection::default()),
         Some(IntegratorSection::Rk4(rk4)) => Integrator::Rk4 {
             step_s: b.si("integrator.step", &rk4.step),
         },
-        Some(IntegratorSection::Adaptive(a)) => {
-            let (min_step_s, max_step_s) = (
-                b.optional("integrator.min_step", &a.min_step, 1e-8),
-                b.optional("integrator.max_step", &a.max_step, 1e-3),
-            );
-            if max_step_s < min_step_s {
-                let found =
-                    format!("a largest step of {max_step_s} s below the smallest, {min_step_s} s");
-                b.error("integrator.max_step", found, "min_step ≤ max_step");
-            }
-            Integrator::Adaptive {
-                relative: b.optional("integrator.relative", &a.relative, 1e-6),
-                absolute_m: b.optional("integrator.absolute_length", &a.absolute_length, 1e-6),
-                absolute_m_s: b.optional("integrator.absolute_speed", &a.absolute_speed, 1e-4),
-                min_step_s,
-                max_step_s,
-            }
-        }
+        Some(IntegratorSection::Adaptive(a)) => adaptive(b, a),
+    }
+}
+
+fn adaptive(b: &mut Builder, a: &AdaptiveSection) -> Integrator {
+    let (min_step_s, max_step_s) = (
+        b.optional("integrator.min_step", &a.min_step, 1e-8),
+        b.optional("integrator.max_step", &a.max_step, 2e-3),
+    );
+    if max_step_s < min_step_s {
+        let found = format!("a largest step of {max_step_s} s below the smallest, {min_step_s} s");
+        b.error("integrator.max_step", found, "min_step ≤ max_step");
+    }
+    Integrator::Adaptive {
+        relative: b.optional("integrator.relative", &a.relative, 3e-6),
+        absolute_m: b.optional("integrator.absolute_length", &a.absolute_length, 3e-7),
+        absolute_m_s: b.optional("integrator.absolute_speed", &a.absolute_speed, 3e-5),
+        min_step_s,
+        max_step_s,
     }
 }
 

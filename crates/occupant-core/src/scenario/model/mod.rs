@@ -90,7 +90,7 @@ pub struct Scenario {
     /// What is recorded.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub output: Option<OutputSection>,
-    /// How the equations of motion are integrated; rk4 with a step of 0.1 ms if absent.
+    /// How the equations of motion are integrated; "adaptive" with its own defaults if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub integrator: Option<IntegratorSection>,
     /// Motion of the vehicle.

@@ -35,7 +35,7 @@ pub struct OutputSection {
 pub enum IntegratorSection {
     /// The classical fourth-order Runge–Kutta method with a fixed step, as in the report.
     Rk4(Rk4Section),
-    /// An embedded 5(4) pair that chooses its step.
+    /// An embedded 3(2) pair that chooses its step.
     Adaptive(AdaptiveSection),
 }
 
@@ -52,15 +52,15 @@ pub struct Rk4Section {
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AdaptiveSection {
-    /// Relative tolerance; 1e-6 if absent.
+    /// Relative tolerance of velocities; 3e-6 if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("minimum" = 0))]
     pub relative: Option<Ratio>,
-    /// Absolute tolerance of positions; 1e-6 m if absent.
+    /// Absolute tolerance of positions; 3e-7 m if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub absolute_length: Option<Length>,
-    /// Absolute tolerance of velocities; 1e-4 m/s if absent.
+    /// Absolute tolerance of velocities; 3e-5 m/s if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub absolute_speed: Option<Speed>,
@@ -68,7 +68,7 @@ pub struct AdaptiveSection {
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub min_step: Option<Time>,
-    /// Largest step; 1 ms if absent.
+    /// Largest step; 2 ms if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub max_step: Option<Time>,

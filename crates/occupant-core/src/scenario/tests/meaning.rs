@@ -67,7 +67,14 @@ all = { damping = 1, twist_damping = 0.2, stop = { begin = 50, full = 60, dampin
 fn defaults_are_those_of_the_description() {
     let setup = build(super::SHORT);
     assert_eq!(setup.gravity_m_s2, STANDARD_GRAVITY_M_S2);
-    assert_eq!(setup.integrator, Integrator::Rk4 { step_s: 1e-4 });
+    let adaptive = Integrator::Adaptive {
+        relative: 3e-6,
+        absolute_m: 3e-7,
+        absolute_m_s: 3e-5,
+        min_step_s: 1e-8,
+        max_step_s: 2e-3,
+    };
+    assert_eq!(setup.integrator, adaptive);
     assert_eq!(
         (setup.time.start_s, setup.time.end_s, setup.time.output_s),
         (0.0, 0.15, 1e-3)
@@ -197,6 +204,13 @@ fn an_exact_state_replaces_the_posture() {
     assert_eq!(continued.surfaces[*surface].name, "cushion");
     let wrong = complaint(&with_passed(r#"[["left_hand", "cushon"]]"#));
     assert!(wrong.contains("no surface is named \"cushon\""), "{wrong}");
+    let never = with_passed(r#"[["left_hand", "cushion"]]"#)
+        .replace("cushion = {", "cushion = { spheres = [\"pelvis\"],");
+    let wrong = complaint(&never);
+    assert!(
+        wrong.contains("`cushion` cannot be passed by `left_hand`"),
+        "{wrong}"
+    );
 }
 
 #[test]

@@ -34,7 +34,10 @@ impl Binder<'_> {
     fn without_design(&mut self) -> Design {
         let section = &self.text.section;
         if !section.parameters.is_empty() {
-            let hint = "design = { kind = \"latin_hypercube\", samples = 100 }".to_owned();
+            let mut hint = "design = { kind = \"latin_hypercube\", samples = 100 }".to_owned();
+            if section.fit.is_some() {
+                hint.push_str(", or `occupant fit` for its [fit]");
+            }
             let expected = "how the samples are chosen";
             self.error("", "parameters without a `design`", expected, Some(hint));
         } else if section.ensemble.is_none() {

@@ -4,9 +4,12 @@ mod correlations;
 mod design;
 mod ensemble;
 mod extremes;
+mod fit;
 mod law;
 mod parameters;
 mod table;
+
+use indexmap::IndexMap;
 
 use self::parameters::noun;
 use super::Study;
@@ -29,24 +32,43 @@ impl StudyText {
     /// Everything that is wrong with the base's words; else everything that is wrong with the study.
     pub fn bind(
         &self,
+        base: Draft,
+        overrides: &[String],
+        resolver: Resolver,
+    ) -> Result<Study, Diagnostics> {
+        self.bind_for(Purpose::Sweep, base, overrides, resolver)
+    }
+
+    fn bind_for(
+        &self,
+        purpose: Purpose,
         mut base: Draft,
         overrides: &[String],
         resolver: Resolver,
     ) -> Result<Study, Diagnostics> {
-        let mut binder = Binder::new(self);
+        let mut binder = Binder::new(self, purpose);
         binder.prepare(&mut base, overrides)?;
         binder.base = Some(&base);
         let mut parameters = binder.parameters();
-        let design = binder.design(&mut parameters, resolver);
-        let copula = binder.copula(&parameters, &design);
-        let ensemble = ensemble::bind(&mut binder, &base, &parameters);
+        let (design, copula, ensemble) = match purpose {
+            Purpose::Sweep => {
+                let design = binder.design(&mut parameters, resolver);
+                let copula = binder.copula(&parameters, &design);
+                let ensemble = ensemble::bind(&mut binder, &base, &parameters);
+                (design, copula, ensemble)
+            }
+            Purpose::Fit { .. } => {
+                binder.have_ends(&parameters);
+                (Design::Single, None, None)
+            }
+        };
         let keep = binder.keep();
         binder.sizes(&parameters, &design, ensemble.as_ref());
         extremes::check(&mut binder, &base, &parameters, overrides);
         if binder.problems.has_errors() {
             return Err(binder.problems);
         }
-        let warnings = binder.problems;
+        let (warnings, changes) = (binder.problems, binder.changes);
         let dimensions = match design {
             Design::Saltelli { .. } => 2 * parameters.len(),
             _ => parameters.len(),
@@ -54,6 +76,7 @@ impl StudyText {
         Ok(Study {
             base,
             base_name: self.section.base.clone(),
+            changes,
             seed: self.section.seed.unwrap_or(0),
             parameters,
             design,
@@ -72,18 +95,36 @@ impl StudyText {
     }
 }
 
+/// What a study is bound for.
+#[derive(Clone, Copy)]
+pub(super) enum Purpose<'a> {
+    /// Its samples are run.
+    Sweep,
+    /// Its parameters are fitted to a test.
+    Fit {
+        /// What the scenario of that test has besides.
+        set: &'a IndexMap<String, Free>,
+        /// Where that stands in the study.
+        at: &'a str,
+    },
+}
+
 /// Work on a study text, with the problems found so far.
 pub(super) struct Binder<'a> {
     pub(super) text: &'a StudyText,
+    pub(super) purpose: Purpose<'a>,
     pub(super) base: Option<&'a Draft>,
+    pub(super) changes: Vec<(String, String)>,
     pub(super) problems: Diagnostics,
 }
 
 impl<'a> Binder<'a> {
-    fn new(text: &'a StudyText) -> Self {
+    fn new(text: &'a StudyText, purpose: Purpose<'a>) -> Self {
         Binder {
             text,
+            purpose,
             base: None,
+            changes: Vec::new(),
             problems: Diagnostics::new(),
         }
     }
@@ -110,22 +151,36 @@ impl<'a> Binder<'a> {
 
     /// Puts what is the same in all runs into the base.
     fn prepare(&mut self, base: &mut Draft, overrides: &[String]) -> Result<(), Diagnostics> {
-        for (path, value) in &self.text.section.set {
-            let value = self.written(base, path, value);
-            if let Err(problems) = base.set_value(path, &value) {
-                for d in problems.iter() {
-                    let at = with_key("set", path);
-                    self.error(&at, &d.problem.found, &d.problem.expected, None);
-                }
-            }
+        let text = self.text;
+        self.set(base, &text.section.set, "set");
+        if let Purpose::Fit { set, at } = self.purpose {
+            self.set(base, set, at);
         }
         for assignment in overrides {
             base.set(assignment)?;
+            if let Some((path, value)) = assignment.split_once('=') {
+                let change = (path.trim().to_owned(), value.trim().to_owned());
+                self.changes.push(change);
+            }
         }
         let wrong = base.check();
         match wrong.has_errors() {
             true => Err(wrong),
             false => Ok(()),
+        }
+    }
+
+    /// Puts the values of a `set` at `at` into the base.
+    fn set(&mut self, base: &mut Draft, set: &IndexMap<String, Free>, at: &str) {
+        for (path, value) in set {
+            let value = self.written(base, path, value);
+            self.changes.push((path.clone(), value.clone()));
+            if let Err(problems) = base.set_value(path, &value) {
+                for d in problems.iter() {
+                    let at = with_key(at, path);
+                    self.error(&at, &d.problem.found, &d.problem.expected, None);
+                }
+            }
         }
     }
 

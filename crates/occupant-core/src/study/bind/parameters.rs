@@ -1,7 +1,7 @@
 //! The `[[parameters]]` of a study find their places and their laws.
 
-use super::Binder;
 use super::law::Quantities;
+use super::{Binder, Purpose};
 use crate::scenario::kind::{KINDS, Kind, RATIO};
 use crate::scenario::place::{Place, Wanted};
 use crate::study::law::Law;
@@ -132,7 +132,8 @@ impl Binder<'_> {
         apply: ApplyChoice,
         wanted: &Wanted,
     ) -> Option<Law> {
-        let by_table = matches!(self.text.section.design, Some(DesignSection::Table(_)));
+        let by_table = matches!(self.purpose, Purpose::Sweep)
+            && matches!(self.text.section.design, Some(DesignSection::Table(_)));
         let given = section.grid.is_some()
             || section.list.is_some()
             || section.range.is_some()

@@ -21,7 +21,7 @@ list = []
   |
 2 | sed = 3
   | ^^^
-  = expected: `title`, `notes`, `units`, `base`, `seed`, `set`, `parameters`, `correlations`, `design`, `ensemble`, `keep` or `output`
+  = expected: `title`, `notes`, `units`, `base`, `seed`, `set`, `parameters`, `correlations`, `design`, `ensemble`, `fit`, `keep` or `output`
   = help: did you mean `seed`?
 
 error: "latin_hypercub" is not a value of `kind`

@@ -2,6 +2,7 @@
 
 mod designs;
 mod ensembles;
+mod fits;
 mod laws;
 mod messages;
 mod paths;

@@ -1,0 +1,127 @@
+//! Corners within a step: where a contact begins or ends, and where one turns from loading to unloading.
+//!
+//! The error control sees that a step has met a corner, not where: it shortens steps until one is short enough to pass over
+//! it. A trial tells more: what touches at its start and at its end, how deep and how fast. So the corner is located, the
+//! step ends just behind it, and the next one begins on the other side.
+
+use super::Step;
+use crate::integrate::bogacki_shampine::Tolerance;
+use crate::kernel::History;
+use crate::kernel::contact::Touch;
+use crate::model::Model;
+use crate::observers::Meeting;
+
+/// A corner that changes a speed by less than this part of the tolerance is passed over (measured in `docs/accuracy.md`).
+const LEAST_SHARE: f64 = 0.03;
+/// Corners nearer to the ends of a step than this part of it are at its ends.
+const MARGIN: f64 = 0.02;
+/// How far behind a corner the step ends, as a part of the trial's length.
+const BEHIND: f64 = 0.01;
+/// The error in speed of a step across the beginning of a force is about this part of the force's impulse.
+const BEGINNING: f64 = 0.1;
+
+/// A pair in touch.
+#[derive(Clone, Copy)]
+pub(super) struct Touching {
+    pub meeting: Meeting,
+    depth_m: f64,
+    force_n: f64,
+}
+
+impl From<&Touch<f64>> for Touching {
+    #[inline(always)]
+    fn from(touch: &Touch<f64>) -> Self {
+        Touching {
+            meeting: touch.into(),
+            depth_m: touch.depth,
+            force_n: touch.normal_force,
+        }
+    }
+}
+
+/// A trial step with what touches at its ends.
+pub(super) struct Crossing<'a> {
+    pub model: &'a Model,
+    pub step: Step,
+    pub at_start: &'a [Touching],
+    pub at_end: &'a [Touching],
+    /// History at the start.
+    pub history: &'a History<f64>,
+    pub tolerance: &'a Tolerance,
+}
+
+impl Crossing<'_> {
+    /// Where to end the step instead: just behind its first corner that matters, s.
+    pub fn end_behind_corner(&self) -> Option<f64> {
+        let begun = self.at_end.iter().filter_map(|end| {
+            let start = partner(self.at_start, end);
+            start.map_or_else(|| self.beginning(end), |start| self.turn(start, end))
+        });
+        let started = self.at_start.iter();
+        let ended = started
+            .filter(|start| partner(self.at_end, start).is_none())
+            .filter_map(|start| self.ending(start));
+        let first = begun.chain(ended).fold(f64::INFINITY, f64::min);
+        let end_s = self.step.start_s + (first + BEHIND) * self.step.length_s();
+        first.is_finite().then_some(end_s)
+    }
+
+    /// A contact that begins, as seen from the end.
+    fn beginning(&self, end: &Touching) -> Option<f64> {
+        let h = self.step.length_s();
+        let since_s = (end.depth_m / end.meeting.closing_m_s.max(1e-3)).min(h);
+        self.if_it_matters(1.0 - since_s / h, BEGINNING * end.force_n * since_s, end)
+    }
+
+    /// A contact that ends, as seen from the start.
+    fn ending(&self, start: &Touching) -> Option<f64> {
+        let h = self.step.length_s();
+        let left_s = (start.depth_m / (-start.meeting.closing_m_s).max(1e-3)).min(h);
+        self.if_it_matters(left_s / h, BEGINNING * start.force_n * left_s, start)
+    }
+
+    /// A contact that is deepest within the step: what comes behind still follows the loading line, as Δ_m is committed at
+    /// the ends of steps.
+    fn turn(&self, start: &Touching, end: &Touching) -> Option<f64> {
+        let h = self.step.length_s();
+        let (v0, v1) = (start.meeting.closing_m_s, end.meeting.closing_m_s);
+        if !(v0 > 0.0 && v1 < 0.0) {
+            return None;
+        }
+        // Δ(s) of the cubic through depths and closing speeds, s = 0…1
+        let (d0, way) = (start.depth_m, end.depth_m - start.depth_m);
+        let (square, cube) = (3.0 * way - h * (2.0 * v0 + v1), h * (v0 + v1) - 2.0 * way);
+        let speed = |s: f64| h * v0 + s * (2.0 * square + 3.0 * cube * s);
+        let (mut rising, mut falling) = (0.0, 1.0);
+        for _ in 0..30 {
+            let middle = 0.5 * (rising + falling);
+            match speed(middle) > 0.0 {
+                true => rising = middle,
+                false => falling = middle,
+            }
+        }
+        let s = falling;
+        let deepest_m = d0 + s * (h * v0 + s * (square + cube * s));
+        let greatest_m = self.history.pairs[end.meeting.pair].greatest;
+        let missed_m = deepest_m - end.depth_m.max(greatest_m);
+        let stiffness = end.force_n / end.depth_m.max(1e-6);
+        let impulse = stiffness * missed_m * (1.0 - s) * h / 3.0;
+        self.if_it_matters(s, impulse, end)
+    }
+
+    /// The corner at `share` of the step, if an error of `impulse` (N·s) there matters.
+    fn if_it_matters(&self, share: f64, impulse: f64, touching: &Touching) -> Option<f64> {
+        let system = self.model.system();
+        let segment = system.contacts.sites[touching.meeting.sphere].segment;
+        let error_m_s = impulse / system.skeleton.links[segment].mass;
+        let speed_m_s = touching.meeting.closing_m_s.abs();
+        let tolerance = self.tolerance.absolute_m_s + self.tolerance.relative * speed_m_s;
+        let inside = share > MARGIN && share < 1.0 - MARGIN;
+        (inside && error_m_s > LEAST_SHARE * tolerance).then_some(share)
+    }
+}
+
+/// The same pair in `list`.
+fn partner<'a>(list: &'a [Touching], of: &Touching) -> Option<&'a Touching> {
+    list.iter().find(|t| t.meeting.pair == of.meeting.pair)
+}

@@ -1,0 +1,214 @@
+//! The integration under error control, which runs ahead of the outputs.
+//!
+//! It stands at the end of its latest step. Outputs within that step are read off its course and change nothing: how often
+//! a run is recorded, and when it ends, makes no difference to its motion.
+
+use std::mem::swap;
+
+use super::Step;
+use super::corner::{Crossing, Touching};
+use crate::checkpoint::{StepStart, StepUnderWay};
+use crate::integrate::bogacki_shampine::{Stage, Tolerance, Trial, attempt, within};
+use crate::kernel::contact::Touch;
+use crate::kernel::state::State;
+use crate::kernel::{History, Observer};
+use crate::model::Model;
+use crate::observers::Seen;
+use crate::path::PathCursor;
+
+/// The latest step of the integration, and where it stands.
+pub(crate) struct Front {
+    pub step: Step,
+    from: State<f64>,
+    to: State<f64>,
+    /// Rates at `from` and `to`.
+    rates: [State<f64>; 2],
+    /// Whether the rate at `to` is that of the step to come; not at the start, nor at a break of the path.
+    rate_is_known: bool,
+    /// Whether the step is known by its start alone, as after a checkpoint.
+    is_half_known: bool,
+    /// History at `from`.
+    before: History<f64>,
+    /// History at `to`.
+    after: History<f64>,
+    /// History of a trial.
+    trial: History<f64>,
+    /// What touches at `to`.
+    met: Vec<Touching>,
+    /// What touches at the end of a trial.
+    met_in_trial: Vec<Touching>,
+}
+
+impl Front {
+    /// Standing at `state`, before any step.
+    pub fn new(time_s: f64, state: &State<f64>, history: &History<f64>) -> Self {
+        Front {
+            step: Step {
+                start_s: time_s,
+                end_s: time_s,
+            },
+            from: *state,
+            to: *state,
+            rates: [State::zero(); 2],
+            rate_is_known: false,
+            is_half_known: false,
+            before: history.clone(),
+            after: history.clone(),
+            trial: history.clone(),
+            met: Vec::with_capacity(history.pairs.len()),
+            met_in_trial: Vec::with_capacity(history.pairs.len()),
+        }
+    }
+
+    /// Within the step that a checkpoint tells the start of.
+    pub fn within(model: &Model, start: &StepStart) -> Self {
+        let (pairs, belts) = (start.pairs.clone(), start.belts.clone());
+        let history = History::new(&model.system().contacts, pairs, belts);
+        let mut front = Front::new(start.start_s, &start.state, &history);
+        front.step.end_s = start.end_s;
+        front.is_half_known = true;
+        front
+    }
+
+    /// Takes the step again of which only the start is known.
+    pub fn complete(
+        &mut self,
+        model: &Model,
+        tolerance: &Tolerance,
+        breaks_s: &[f64],
+        cursor: &mut PathCursor,
+    ) {
+        if self.is_half_known {
+            self.is_half_known = false;
+            let step = self.step;
+            self.look(model, step, cursor);
+            let trial = self.attempt(model, step, tolerance, cursor);
+            self.take_over(trial, step, breaks_s.contains(&step.end_s));
+        }
+    }
+
+    /// Evaluates the rate at the start of `step`, which begins where the front stands, unless it is known.
+    pub fn look(&mut self, model: &Model, step: Step, cursor: &mut PathCursor) {
+        if self.rate_is_known {
+            return;
+        }
+        self.rate_is_known = true;
+        let middle_s = 0.5 * (step.start_s + step.end_s);
+        let frames = model.frames(step.start_s, middle_s, cursor);
+        let system = model.system();
+        self.met.clear();
+        let mut met = Met(&mut self.met);
+        self.rates[1] = system.rate_observed::<true>(&self.to, &frames, &mut self.after, &mut met);
+    }
+
+    /// Tries `step`, which begins where the front stands.
+    pub fn attempt(
+        &mut self,
+        model: &Model,
+        step: Step,
+        tolerance: &Tolerance,
+        cursor: &mut PathCursor,
+    ) -> Trial {
+        let (system, h) = (model.system(), step.length_s());
+        let middle_s = 0.5 * (step.start_s + step.end_s);
+        self.trial.take_over(&self.after);
+        self.met_in_trial.clear();
+        let (history, met) = (&mut self.trial, &mut self.met_in_trial);
+        attempt(
+            &self.to,
+            &self.rates[1],
+            h,
+            tolerance,
+            |stage, state| match stage {
+                Stage::Within(s) => {
+                    let frames = model.frames(step.start_s + s * h, middle_s, cursor);
+                    system.rate::<false>(state, &frames, history)
+                }
+                Stage::End => {
+                    let frames = model.frames(step.end_s, middle_s, cursor);
+                    system.rate_observed::<true>(state, &frames, history, &mut Met(met))
+                }
+            },
+        )
+    }
+
+    /// Accepts `trial` of `step`; `at_break`: the velocity of the vehicle may jump at its end.
+    pub fn take_over(&mut self, trial: Trial, step: Step, at_break: bool) {
+        self.step = step;
+        self.from = self.to;
+        self.to = trial.state;
+        self.rates = [self.rates[1], trial.rate];
+        self.rate_is_known = !at_break;
+        swap(&mut self.before, &mut self.after);
+        swap(&mut self.after, &mut self.trial);
+        swap(&mut self.met, &mut self.met_in_trial);
+    }
+
+    /// Where to end `step` instead, which was just tried: just behind its first corner that matters, s.
+    pub fn end_behind_corner(
+        &self,
+        model: &Model,
+        step: Step,
+        tolerance: &Tolerance,
+    ) -> Option<f64> {
+        let crossing = Crossing {
+            model,
+            step,
+            at_start: &self.met,
+            at_end: &self.met_in_trial,
+            history: &self.after,
+            tolerance,
+        };
+        crossing.end_behind_corner()
+    }
+
+    /// Notes what touches at the end of the step, as all outputs before it are recorded.
+    pub fn note(&mut self, model: &Model, seen: &mut Seen) {
+        for touching in &self.met {
+            seen.note(model, self.step.end_s, touching.meeting);
+        }
+    }
+
+    /// State and history at `time_s` within the step; the history is that of the step's start, into which the present
+    /// position is not yet taken over.
+    pub fn show(&self, time_s: f64, state: &mut State<f64>, history: &mut History<f64>) {
+        let h = self.step.length_s();
+        *state = if time_s >= self.step.end_s {
+            self.to
+        } else {
+            let s = (time_s - self.step.start_s) / h;
+            within(
+                [&self.from, &self.rates[0]],
+                [&self.to, &self.rates[1]],
+                h,
+                s,
+            )
+        };
+        history.take_over(&self.before);
+    }
+
+    /// The start of the step, if it goes on beyond `time_s`.
+    pub fn under_way(&self, time_s: f64) -> Option<StepUnderWay<'_>> {
+        let at = if self.is_half_known {
+            &self.to
+        } else {
+            &self.from
+        };
+        (time_s < self.step.end_s).then_some(StepUnderWay {
+            start_s: self.step.start_s,
+            end_s: self.step.end_s,
+            state: at,
+            history: &self.before,
+        })
+    }
+}
+
+/// Collects what touches.
+struct Met<'a>(&'a mut Vec<Touching>);
+
+impl Observer<f64> for Met<'_> {
+    #[inline(always)]
+    fn touch(&mut self, touch: &Touch<f64>) {
+        self.0.push(touch.into());
+    }
+}

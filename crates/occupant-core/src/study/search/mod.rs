@@ -1,0 +1,93 @@
+//! Where a function on the unit cube is least, and how sharply: the work of a fit.
+//!
+//! ```text
+//! descend (global) ─ refine (local) ─ scan ─ Shape (curvature, correlations) ─ profile (intervals)
+//! ```
+//!
+//! Nothing here asks for a derivative. Each stage hands out whole batches of points, so that a caller can evaluate them side
+//! by side, and is deterministic: the same values bring the same points, whatever computed them and in whatever order. A
+//! caller that remembers values can therefore go through an interrupted search again without computing anything twice.
+
+mod bounds;
+mod cma;
+mod descents;
+mod profile;
+mod quadratic;
+mod refine;
+mod scan;
+mod shape;
+
+use nalgebra::{DMatrix, Dyn, SymmetricEigen};
+
+pub use bounds::{Side, fold};
+pub use cma::{Cma, Ending};
+pub use descents::{Descent, Descents, Global, descend};
+pub use profile::{End, Profiles, profile};
+pub use refine::refine;
+pub use scan::{Reach, scan};
+pub use shape::Shape;
+
+#[cfg(test)]
+mod tests;
+
+/// What a batch of points is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// A generation of a global descent, both counted from 0.
+    Descent {
+        /// Which descent.
+        number: usize,
+        /// Which generation of it.
+        generation: usize,
+    },
+    /// A round of the local refinement.
+    Refinement,
+    /// How far each coordinate can go alone.
+    Scan,
+    /// Curvature at the least value.
+    Shape,
+    /// How far each coordinate can go while the others follow.
+    Profile,
+}
+
+/// A point of the unit cube and the value there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Point {
+    /// Coordinates from 0 to 1.
+    pub at: Vec<f64>,
+    /// The value.
+    pub value: f64,
+}
+
+impl Point {
+    /// The lower of the two; of equals this one.
+    fn lower(self, other: Point) -> Point {
+        match other.value < self.value {
+            true => other,
+            false => self,
+        }
+    }
+}
+
+/// Eigenvalues and eigenvectors; those of the unit matrix for one that holds numbers that are none.
+fn eigen(matrix: DMatrix<f64>) -> SymmetricEigen<f64, Dyn> {
+    let n = matrix.nrows();
+    match matrix.iter().all(|x| x.is_finite()) {
+        true => matrix.symmetric_eigen(),
+        false => DMatrix::identity(n, n).symmetric_eigen(),
+    }
+}
+
+/// Values of points, kept with them.
+fn evaluated<E>(
+    stage: Stage,
+    points: Vec<Vec<f64>>,
+    evaluate: &mut impl FnMut(Stage, &[Vec<f64>]) -> Result<Vec<f64>, E>,
+) -> Result<Vec<Point>, E> {
+    if points.is_empty() {
+        return Ok(Vec::new());
+    }
+    let values = evaluate(stage, &points)?;
+    let pair = |(at, value)| Point { at, value };
+    Ok(points.into_iter().zip(values).map(pair).collect())
+}

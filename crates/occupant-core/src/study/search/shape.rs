@@ -1,0 +1,102 @@
+//! How sharply the least value is determined: curvature at the size of what matters, correlations, flat directions.
+
+use nalgebra::DMatrix;
+
+use super::quadratic::{Bowl, explore};
+use super::{Point, Reach, Stage, eigen};
+
+/// The bowl at the least value, over the coordinates that are not held by a wall.
+#[derive(Clone, Debug)]
+pub struct Shape {
+    /// The coordinates.
+    pub free: Vec<usize>,
+    /// How far each of all coordinates can go alone, the mean of down and up.
+    pub lengths: Vec<f64>,
+    /// Curvature in units of `lengths` and of the rise: 2 on its diagonal for a perfect bowl.
+    pub curvature: DMatrix<f64>,
+    /// Covariance: the square root of its diagonal is how far a coordinate can go while the others follow.
+    pub covariance: DMatrix<f64>,
+    /// For each direction of the bowl, flattest first: how far the coordinates go along it until the value has risen.
+    pub directions: Vec<Vec<f64>>,
+}
+
+/// The least eigenvalue that differences are trusted to show, where 2 is that of one coordinate alone.
+const FLATTEST: f64 = 1e-5;
+
+impl Shape {
+    /// Looks round `centre` at the distance at which the value rises by `rise`. A coordinate that stands at a wall, beyond
+    /// which the value would go on falling, is left out. Hands back the lowest point met, too.
+    ///
+    /// # Errors
+    /// What `evaluate` reports.
+    pub fn look<E>(
+        centre: &Point,
+        reaches: &[[Reach; 2]],
+        rise: f64,
+        evaluate: &mut impl FnMut(Stage, &[Vec<f64>]) -> Result<Vec<f64>, E>,
+    ) -> Result<(Shape, Point), E> {
+        let lengths: Vec<f64> = reaches.iter().map(length).collect();
+        let n = lengths.len();
+        let free: Vec<usize> = (0..n).filter(|i| !at_wall(centre.at[*i])).collect();
+        let (bowl, met) = explore(Stage::Shape, centre, &lengths, &free, evaluate)?;
+        let lowest = met.into_iter().fold(centre.clone(), Point::lower);
+        Ok((Shape::of(&bowl, lengths, rise), lowest))
+    }
+
+    fn of(bowl: &Bowl, lengths: Vec<f64>, rise: f64) -> Shape {
+        let n = bowl.free.len();
+        let curvature = bowl.rising(&lengths, FLATTEST * rise) / rise;
+        let eigen = eigen(curvature.clone());
+        let mut order: Vec<usize> = (0..n).collect();
+        order.sort_by(|a, b| eigen.eigenvalues[*a].total_cmp(&eigen.eigenvalues[*b]));
+        let length = |k: usize| lengths[bowl.free[k]];
+        // ½ λ s² = 1
+        let reach = |e: usize| (2.0 / eigen.eigenvalues[e].max(FLATTEST)).sqrt();
+        let along = |e: usize, k: usize| eigen.eigenvectors[(k, e)] * reach(e) * length(k);
+        let directions = order
+            .iter()
+            .map(|e| (0..n).map(|k| along(*e, k)).collect())
+            .collect();
+        let covariance = DMatrix::from_fn(n, n, |i, j| {
+            order
+                .iter()
+                .fold(0.0, |sum, e| sum + along(*e, i) * along(*e, j))
+        });
+        Shape {
+            free: bowl.free.clone(),
+            lengths,
+            curvature,
+            covariance,
+            directions,
+        }
+    }
+
+    /// The place of a coordinate among the free ones.
+    pub fn place(&self, coordinate: usize) -> Option<usize> {
+        self.free.iter().position(|f| *f == coordinate)
+    }
+
+    /// Correlation of two coordinates among near-optimal points; none where one is held by a wall.
+    pub fn correlation(&self, a: usize, b: usize) -> Option<f64> {
+        let (i, j) = (self.place(a)?, self.place(b)?);
+        let c = &self.covariance;
+        let r = c[(i, j)] / (c[(i, i)] * c[(j, j)]).sqrt();
+        r.is_finite().then(|| r.clamp(-1.0, 1.0))
+    }
+}
+
+/// Whether a coordinate stands at a wall.
+pub(super) fn at_wall(u: f64) -> bool {
+    !(1e-6..=1.0 - 1e-6).contains(&u)
+}
+
+/// Mean of the two reaches; a wall close by does not count.
+fn length(reaches: &[Reach; 2]) -> f64 {
+    let [down, up] = reaches;
+    let mean = match (down.open, up.open) {
+        (true, false) => up.length,
+        (false, true) => down.length,
+        _ => 0.5 * (down.length + up.length),
+    };
+    mean.clamp(1e-9, 1.0)
+}
