@@ -1,6 +1,7 @@
 //! How files begin and end: metadata, attachments, the same bytes twice, runs that were cut off.
 
 use std::collections::BTreeMap;
+use std::error::Error;
 use std::io::{Read, Seek, Write};
 
 use mcap::records::Record;
@@ -260,7 +261,12 @@ fn a_target_that_is_full_ends_the_run_with_its_reason() {
         let kept = std::io::Cursor::new(Vec::new());
         let mut recorder = recorder_into(Narrow { kept, room });
         let error = simulate(&model, &mut recorder).unwrap_err();
-        assert!(error.source.to_string().contains("the target is full"));
+        let mut deepest: &dyn Error = &*error.source;
+        while let Some(cause) = deepest.source() {
+            deepest = cause;
+        }
+        let reason = deepest.to_string();
+        assert_eq!(reason, "the target is full");
         // what was written before is that of the whole run
         let kept = recorder.into_inner().unwrap().kept.into_inner();
         assert!(kept.len() > 1000, "{}", kept.len());
