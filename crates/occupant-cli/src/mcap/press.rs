@@ -34,8 +34,11 @@ struct Away<W: Write + Seek> {
     batches: SyncSender<Batch>,
     /// Batches that were written, to be used again.
     written: Receiver<Batch>,
-    thread: JoinHandle<(Option<Box<Writer<W>>>, McapResult<()>)>,
+    thread: JoinHandle<Returned<W>>,
 }
+
+/// What the thread gives back: the writer, if it was handed one, and how the writing went.
+type Returned<W> = (Option<Box<Writer<W>>>, McapResult<()>);
 
 /// Messages in a row.
 #[derive(Default)]

@@ -192,16 +192,16 @@ fn intervals_and_correlations_of_a_bowl_are_those_of_its_inverse() {
         assert!((centre.at[i] - valley.bottom[i]).abs() < 1e-6, "{centre:?}");
         let alone = (2.0 * rise / curvature[(i, i)]).sqrt();
         let following = (2.0 * rise * inverse[(i, i)]).sqrt();
-        for s in 0..2 {
+        for (reach, end) in reaches[i].iter().zip(&profiles.ends[i]) {
             // within the factor that the scan allows for the rise: √1.3
-            assert!((reaches[i][s].length / alone - 1.0).abs() < 0.15);
-            let length = (profiles.ends[i][s].at - centre.at[i]).abs();
+            assert!((reach.length / alone - 1.0).abs() < 0.15);
+            let length = (end.at - centre.at[i]).abs();
             // within the part that the profile allows for the rise: √1.1
             assert!(
                 (length / following - 1.0).abs() < 0.055,
                 "{length} {following}"
             );
-            assert!(!profiles.ends[i][s].open);
+            assert!(!end.open);
         }
         for j in 0..i {
             let wanted = inverse[(i, j)] / (inverse[(i, i)] * inverse[(j, j)]).sqrt();
