@@ -2,7 +2,7 @@
 //!
 //! Not one of them is written anew. An output carries the state and all that is remembered, each with its derivative; so the
 //! outputs displaced to first order by ±h are known exactly, and so is the model at p ± h. The recorders of a plain run
-//! look at these outputs, and their answers are differenced and extrapolated ([`super::ladder`]). What is differenced
+//! look at these outputs, and their answers are differenced and extrapolated (`sensitivity::ladder`). What is differenced
 //! is a closed function of the displaced outputs, not a motion: its noise is that of rounding. Displacements of several
 //! sizes are tried, as rounding asks for large ones and the kinks of force laws for small ones; of each figure that slope is
 //! taken whose two extrapolations lie closest together. A peak, a window or a
