@@ -8,7 +8,7 @@ Only instructions of our own program count: what it calls in the C library (memc
 count of one call is (that of N2 calls - that of N1)/(N2 - N1). A difference of more than the file's tolerance, up or
 down, ends with status 1: --update writes the new counts, and the commit says why they moved. Another compiler or target
 than the file's counts other instructions, so then nothing is compared, and the script says so. A figure that this
-processor cannot run (lanes without AVX2) is left out with a word.
+processor cannot run as they were counted (those of a machine with AVX2 on one without) is left out with a word.
 """
 
 import re

@@ -98,13 +98,13 @@ impl Instant {
     /// The rate of change, the history committed.
     pub fn commit(&mut self) -> State<f64> {
         self.system
-            .rate::<true>(&self.state, &self.frames, &mut self.history)
+            .rate_alone::<true>(&self.state, &self.frames, &mut self.history, &mut ())
     }
 
     /// The rate of change within a step.
     pub fn rate(&mut self) -> State<f64> {
         self.system
-            .rate::<false>(&self.state, &self.frames, &mut self.history)
+            .rate_alone::<false>(&self.state, &self.frames, &mut self.history, &mut ())
     }
 
     /// The skeleton alone: accelerations under given loads, which is what an articulated-body algorithm answers.
@@ -118,8 +118,10 @@ impl Instant {
     pub fn step(&mut self) -> State<f64> {
         let (system, frames, history) = (&self.system, &self.frames, &mut self.history);
         rk4::step(&self.state, STEP_S, |stage, state| match stage {
-            Stage::Start => system.rate::<true>(state, frames, history),
-            Stage::Middle | Stage::End => system.rate::<false>(state, frames, history),
+            Stage::Start => system.rate_alone::<true>(state, frames, history, &mut ()),
+            Stage::Middle | Stage::End => {
+                system.rate_alone::<false>(state, frames, history, &mut ())
+            }
         })
     }
 

@@ -95,11 +95,9 @@ impl Run {
                 time_s,
             };
             let next = rk4::step(&self.state, step.length_s(), |stage, state| match stage {
-                Stage::Start => {
-                    system.rate_observed::<true>(state, &at_start, history, &mut observer)
-                }
-                Stage::Middle => system.rate::<false>(state, &at_middle, history),
-                Stage::End => system.rate::<false>(state, &at_end, history),
+                Stage::Start => system.rate_alone::<true>(state, &at_start, history, &mut observer),
+                Stage::Middle => system.rate_alone::<false>(state, &at_middle, history, &mut ()),
+                Stage::End => system.rate_alone::<false>(state, &at_end, history, &mut ()),
             });
             self.effort.evaluations += 4;
             self.accept(next, step)?;

@@ -98,7 +98,7 @@ impl Front {
         let system = model.system();
         self.met.clear();
         let mut met = Met(&mut self.met);
-        self.rates[1] = system.rate_observed::<true>(&self.to, &frames, &mut self.after, &mut met);
+        self.rates[1] = system.rate_alone::<true>(&self.to, &frames, &mut self.after, &mut met);
     }
 
     /// Tries `step`, which begins where the front stands.
@@ -122,11 +122,11 @@ impl Front {
             |stage, state| match stage {
                 Stage::Within(s) => {
                     let frames = model.frames(step.start_s + s * h, middle_s, cursor);
-                    system.rate::<false>(state, &frames, history)
+                    system.rate_alone::<false>(state, &frames, history, &mut ())
                 }
                 Stage::End => {
                     let frames = model.frames(step.end_s, middle_s, cursor);
-                    system.rate_observed::<true>(state, &frames, history, &mut Met(met))
+                    system.rate_alone::<true>(state, &frames, history, &mut Met(met))
                 }
             },
         )
