@@ -96,20 +96,19 @@ fn a_step_far_too_long_for_its_springs_ends_the_run_with_time_step_and_component
     let model = Model::new(far_too_stiff()).unwrap();
     let mut diary = Diary::default();
     let outcome = simulate(&model, &mut diary).unwrap();
-    let Status::Failed(StepError::NotFinite {
-        time_s,
-        step_s,
-        ref component,
-    }) = outcome.status
+    let Status::Failed(
+        ref error @ StepError::NotFinite {
+            time_s,
+            step_s,
+            ref component,
+        },
+    ) = outcome.status
     else {
         panic!("{:?}", outcome.status);
     };
     assert!(time_s > 0.0 && time_s < 0.2);
     assert!((step_s - 1e-3).abs() < 1e-12);
     assert!(!component.is_empty());
-    let Status::Failed(error) = &outcome.status else {
-        unreachable!()
-    };
     let text = error.to_string();
     for part in [
         &format!("t = {time_s:.6} s"),

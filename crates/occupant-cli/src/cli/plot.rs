@@ -5,7 +5,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use occupant_core::channel::{Axes, Channel, Unit, find};
+use occupant_core::channel::{Axes, Channel, find};
 
 use super::exit::{Done, Failure};
 use super::export::code_letter;
@@ -258,26 +258,12 @@ fn wish_of(names: &str, channels: &[Channel]) -> Wish {
     };
     Wish {
         title,
-        axis: channels.first().map_or("", |c| quantity(c.unit)).to_owned(),
+        axis: channels
+            .first()
+            .map_or("", |c| c.unit.quantity())
+            .to_owned(),
         entries: channels.iter().map(entry).collect(),
         empty: "no value in this time".to_owned(),
-    }
-}
-
-/// What a unit measures.
-const fn quantity(unit: Unit) -> &'static str {
-    match unit {
-        Unit::Metre => "length",
-        Unit::MetrePerSecond => "velocity",
-        Unit::MetrePerSecondSquared => "acceleration",
-        Unit::Radian => "angle",
-        Unit::RadianPerSecond => "angular velocity",
-        Unit::RadianPerSecondSquared => "angular acceleration",
-        Unit::Newton => "force",
-        Unit::NewtonMetre => "moment",
-        Unit::Joule => "energy",
-        Unit::Second => "time",
-        Unit::One => "number",
     }
 }
 

@@ -1,6 +1,6 @@
 //! Measured against computed before and after a fit: one sheet for each test, one figure for each channel.
 
-use occupant_core::channel::{Series, Unit};
+use occupant_core::channel::Series;
 
 use super::experiment::{Experiment, in_group};
 use super::fitting::Fitting;
@@ -37,23 +37,6 @@ pub fn sheets(
         sheets.push((test.name.clone(), sheet(&words, &drawn)));
     }
     Ok(sheets)
-}
-
-/// What a unit measures.
-fn measures(unit: Unit) -> &'static str {
-    match unit {
-        Unit::Metre => "length",
-        Unit::MetrePerSecond => "velocity",
-        Unit::MetrePerSecondSquared => "acceleration",
-        Unit::Radian => "angle",
-        Unit::RadianPerSecond => "angular velocity",
-        Unit::RadianPerSecondSquared => "angular acceleration",
-        Unit::Newton => "force",
-        Unit::NewtonMetre => "moment",
-        Unit::Joule => "energy",
-        Unit::Second => "time",
-        Unit::One => "value",
-    }
 }
 
 type Groups = Vec<(Filter, Histories)>;
@@ -98,7 +81,7 @@ fn figure(
     };
     let wish = Wish {
         title: target.channel.name.clone(),
-        axis: measures(target.channel.unit).to_owned(),
+        axis: target.channel.unit.quantity().to_owned(),
         entries: vec![Entry {
             channel: target.channel.name.clone(),
             label: target.channel.name.clone(),

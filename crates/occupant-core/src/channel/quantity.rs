@@ -36,6 +36,23 @@ pub enum Unit {
 }
 
 impl Unit {
+    /// What it measures, in words.
+    pub const fn quantity(self) -> &'static str {
+        match self {
+            Unit::Metre => "length",
+            Unit::MetrePerSecond => "velocity",
+            Unit::MetrePerSecondSquared => "acceleration",
+            Unit::Radian => "angle",
+            Unit::RadianPerSecond => "angular velocity",
+            Unit::RadianPerSecondSquared => "angular acceleration",
+            Unit::Newton => "force",
+            Unit::NewtonMetre => "moment",
+            Unit::Joule => "energy",
+            Unit::Second => "time",
+            Unit::One => "number",
+        }
+    }
+
     /// Its symbol.
     pub const fn symbol(self) -> &'static str {
         match self {
