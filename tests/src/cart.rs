@@ -32,11 +32,7 @@ pub fn lap(integrator: Integrator) -> Setup {
         path: path(),
         posture: InitialPosture::Seated(seating()),
         velocity: InitialVelocity::WithVehicle,
-        time: TimeSpan {
-            start_s: 0.0,
-            end_s: 0.2,
-            output_s: 1e-3,
-        },
+        time: TimeSpan { start_s: 0.0, end_s: 0.2, output_s: 1e-3 },
         integrator,
         output: OutputOptions::default(),
     }
@@ -67,13 +63,7 @@ fn materials() -> Vec<Material> {
     ]
     .map(|(name, k1, break_in, k2, mu, friction)| Material {
         name: name.into(),
-        spring: spring(
-            k1 * LBF_N / INCH_M,
-            break_in * INCH_M,
-            k2 * LBF_N / INCH_M,
-            mu,
-            mu,
-        ),
+        spring: spring(k1 * LBF_N / INCH_M, break_in * INCH_M, k2 * LBF_N / INCH_M, mu, mu),
         friction,
         friction_speed_m_s: DEFAULT_FRICTION_SPEED_M_S,
         memory: Memory::Reset,
@@ -91,12 +81,7 @@ fn panel(name: &str, [a, b]: [(f64, f64); 2], half: f64, middle: f64, material: 
     Surface {
         name: name.into(),
         frame: Frame::Vehicle,
-        outline: Outline::Polygon(vec![
-            corner(a, -1.0),
-            corner(b, -1.0),
-            corner(b, 1.0),
-            corner(a, 1.0),
-        ]),
+        outline: Outline::Polygon(vec![corner(a, -1.0), corner(b, -1.0), corner(b, 1.0), corner(a, 1.0)]),
         facing: Facing::Towards(inside()),
         material,
         spheres: None,
@@ -141,10 +126,7 @@ pub fn joints() -> Joints {
         damping_n_m_s: damping * unit,
         twist_damping_n_m_s: 0.0,
         stop: Some(limit),
-        spring: stiffness.map(|k| AngularSpring {
-            stiffness_n_m: k * unit,
-            rest_rad: None,
-        }),
+        spring: stiffness.map(|k| AngularSpring { stiffness_n_m: k * unit, rest_rad: None }),
     };
     let hinge = |lower: Stop, upper: Stop| HingeJoint {
         damping_n_m_s: 6.0 * unit,
@@ -177,13 +159,7 @@ fn lap_belt() -> Belt {
         name: "lap".into(),
         sphere: 2,
         anchors_m: [anchor(-1.0), anchor(1.0)],
-        webbing: spring(
-            400.0 * LBF_N / INCH_M,
-            INCH_M,
-            900.0 * LBF_N / INCH_M,
-            1.0,
-            1.0,
-        ),
+        webbing: spring(400.0 * LBF_N / INCH_M, INCH_M, 900.0 * LBF_N / INCH_M, 1.0, 1.0),
         rest: RestLength::Slack { slack_m: 0.0 },
     }
 }
@@ -195,10 +171,7 @@ fn path() -> VehiclePath {
         initial_speed_m_s: speed_m_s,
         direction: TravelDirection::Heading,
         starts_at_s: 0.0,
-        shape: PulseShape::HalfSine {
-            duration_s: 0.08,
-            strength: Strength::DeltaV(speed_m_s),
-        },
+        shape: PulseShape::HalfSine { duration_s: 0.08, strength: Strength::DeltaV(speed_m_s) },
         rebound_m_s: None,
     });
     VehiclePath::Pulse(pulse.expect("a pulse that stops the cart"))

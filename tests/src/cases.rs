@@ -39,10 +39,8 @@ pub fn male50() -> Body {
         cg_from_lower_end_m: rho * INCH_M,
         inertia_kg_m2: Vector3::new(ix, iy, iz) * (LBF_N * INCH_M),
     });
-    let radius_m = [
-        3.9, 4.8, 4.7, 2.5, 2.5, 2.0, 2.0, 1.8, 1.8, 3.4, 3.4, 2.4, 2.4, 2.3, 2.3, 1.9, 1.9,
-    ]
-    .map(|r| r * INCH_M);
+    let radius_m =
+        [3.9, 4.8, 4.7, 2.5, 2.5, 2.0, 2.0, 1.8, 1.8, 3.4, 3.4, 2.4, 2.4, 2.3, 2.3, 1.9, 1.9].map(|r| r * INCH_M);
     let shoulder_half_width_m = 6.57 * INCH_M;
     Body {
         name: "male50".into(),
@@ -56,12 +54,7 @@ pub fn male50() -> Body {
 /// `male50` without width: standing straight, all its joints and centres of gravity lie on one vertical line, so that
 /// vertical forces on that line move it as one point mass, exactly.
 pub fn pillar() -> Body {
-    Body {
-        name: "pillar".into(),
-        shoulder_half_width_m: 0.0,
-        hip_half_width_m: 0.0,
-        ..male50()
-    }
+    Body { name: "pillar".into(), shoulder_half_width_m: 0.0, hip_half_width_m: 0.0, ..male50() }
 }
 
 /// Length of the bead's heavy segment, m; its centre of gravity is its upper end, T1.
@@ -82,13 +75,7 @@ pub fn bead(inertia_kg_m2: f64) -> Body {
         cg_from_lower_end_m: BEAD_LENGTH_M,
         inertia_kg_m2: Vector3::repeat(inertia_kg_m2),
     };
-    Body {
-        name: "bead".into(),
-        segments,
-        shoulder_half_width_m: 0.0,
-        hip_half_width_m: 0.0,
-        spheres: Vec::new(),
-    }
+    Body { name: "bead".into(), segments, shoulder_half_width_m: 0.0, hip_half_width_m: 0.0, spheres: Vec::new() }
 }
 
 /// A vehicle at rest at the origin of space.
@@ -110,11 +97,7 @@ pub fn afloat(body: Body, end_s: f64, step_s: f64) -> Setup {
         path: parked(),
         posture: straight(Vector3::zeros(), Vector3::zeros()),
         velocity: InitialVelocity::WithVehicle,
-        time: TimeSpan {
-            start_s: 0.0,
-            end_s,
-            output_s: end_s,
-        },
+        time: TimeSpan { start_s: 0.0, end_s, output_s: end_s },
         integrator: Integrator::Rk4 { step_s },
         output: OutputOptions::default(),
     }
@@ -130,13 +113,7 @@ pub fn straight(t1_m: Vector3<f64>, velocity_m_s: Vector3<f64>) -> InitialPostur
 
 /// A bilinear spring.
 pub fn spring(k1: f64, break_m: f64, k2: f64, mu1: f64, mu2: f64) -> BilinearSpring {
-    BilinearSpring {
-        k1_n_per_m: k1,
-        k2_n_per_m: k2,
-        break_m,
-        returned_1: mu1,
-        returned_2: mu2,
-    }
+    BilinearSpring { k1_n_per_m: k1, k2_n_per_m: k2, break_m, returned_1: mu1, returned_2: mu2 }
 }
 
 /// A material of that spring, without friction, that forgets its crush.
@@ -155,10 +132,7 @@ pub fn plane(axis: Vector3<f64>) -> Surface {
     Surface {
         name: "plane".into(),
         frame: Frame::Space,
-        outline: Outline::Unbounded {
-            point_m: Point3::origin(),
-            axis,
-        },
+        outline: Outline::Unbounded { point_m: Point3::origin(), axis },
         facing: Facing::Order,
         material: 0,
         spheres: None,

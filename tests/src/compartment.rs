@@ -93,18 +93,8 @@ impl Compartment {
         let faces: Vec<_> = self.surfaces.iter().filter_map(face).collect();
         assert!(problems.is_empty(), "{problems}");
         let edge = EdgeForce::default();
-        let contacts = ContactSystem::new(
-            &system.body,
-            &self.surfaces,
-            &faces,
-            &self.materials,
-            edge,
-            1e-3,
-        );
-        let untouched = PairHistory {
-            phase: OPEN,
-            greatest: 0.0,
-        };
+        let contacts = ContactSystem::new(&system.body, &self.surfaces, &faces, &self.materials, edge, 1e-3);
+        let untouched = PairHistory { phase: OPEN, greatest: 0.0 };
         let pairs = vec![untouched; contacts.pairs().len()];
         let history = History::new(&contacts, pairs, Vec::new());
         let vehicle = Moving {
@@ -187,11 +177,7 @@ impl Compartment {
         let speed = slip.norm_squared() + material.friction_speed_m_s.powi(2);
         let force = normal * press - slip * (material.friction * press / speed.sqrt());
         Some(ContactForce {
-            force: PointForce {
-                segment: sphere.segment,
-                point: at,
-                force,
-            },
+            force: PointForce { segment: sphere.segment, point: at, force },
             power: force.dot(&velocity),
             friction_loss: -(force - normal * press).dot(&slip),
             carried_power: force.dot(&carried),

@@ -22,10 +22,7 @@ impl SpaceState {
     pub fn to_core(&self) -> State<f64> {
         State {
             t1: V3::of(&self.t1),
-            orientation: self.turn.map(|q| Quat {
-                w: q.w,
-                v: v3(q.i, q.j, q.k),
-            }),
+            orientation: self.turn.map(|q| Quat { w: q.w, v: v3(q.i, q.j, q.k) }),
             hinge: self.hinge,
             velocity: V3::of(&self.speed.t1),
             omega: self.speed.angular.map(|w| V3::of(&w)),
@@ -67,14 +64,7 @@ impl CoreSide {
             angular: FREE.map(|n| found.alpha[n].to_vector()),
             hinge: found.hinge,
         };
-        CoreSide {
-            skeleton,
-            joints,
-            kinematics,
-            dissipated,
-            accelerations,
-            segments: found,
-        }
+        CoreSide { skeleton, joints, kinematics, dissipated, accelerations, segments: found }
     }
 }
 
@@ -84,15 +74,8 @@ fn external(system: &System, kinematics: &Kinematics<f64>) -> [Wrench<f64>; SEGM
     for f in &system.forces {
         let n = f.segment.index();
         let upper_end = Vector3::z() * system.body.segment(f.segment).length_m;
-        let from_joint = if f.segment.hangs() {
-            f.point - upper_end
-        } else {
-            f.point
-        };
-        let (arm, force) = (
-            kinematics.axes[n].out(V3::of(&from_joint)),
-            V3::of(&f.force),
-        );
+        let from_joint = if f.segment.hangs() { f.point - upper_end } else { f.point };
+        let (arm, force) = (kinematics.axes[n].out(V3::of(&from_joint)), V3::of(&f.force));
         wrench[n].force += force;
         wrench[n].moment += arm.cross(force);
     }

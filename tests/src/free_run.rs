@@ -6,8 +6,8 @@ use occupant_core::{
     energy,
     integrate::rk4,
     kernel::{
-        self, Frames, History, contact::ContactSystem, frame::Moving, joints::JointSystem,
-        kinematics::Kinematics, skeleton::Skeleton, state::State, vector::V3,
+        self, Frames, History, contact::ContactSystem, frame::Moving, joints::JointSystem, kinematics::Kinematics,
+        skeleton::Skeleton, state::State, vector::V3,
     },
     setup::EdgeForce,
 };
@@ -41,20 +41,12 @@ impl FreeRun {
             belts: Vec::new(),
         };
         let history = History::new(&system.contacts, Vec::new(), Vec::new());
-        FreeRun {
-            system,
-            history,
-            frames: [Moving::space(), Moving::space()],
-        }
+        FreeRun { system, history, frames: [Moving::space(), Moving::space()] }
     }
 
     /// The state after `steps` steps of `h` seconds.
     pub fn run(&mut self, state: &State<f64>, h: f64, steps: usize) -> State<f64> {
-        let FreeRun {
-            system,
-            history,
-            frames,
-        } = self;
+        let FreeRun { system, history, frames } = self;
         let mut state = *state;
         for _ in 0..steps {
             state = rk4::step(&state, h, |_, s| system.rate::<false>(s, frames, history));
@@ -71,11 +63,7 @@ impl FreeRun {
             + energy::gravity(body, &k)
             + self.system.joints.stored(&k)
             + state.work.joints;
-        Conserved {
-            energy,
-            linear: linear.to_vector(),
-            angular: angular.to_vector(),
-        }
+        Conserved { energy, linear: linear.to_vector(), angular: angular.to_vector() }
     }
 
     /// Total mass and centre of gravity.

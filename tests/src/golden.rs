@@ -114,16 +114,11 @@ impl Golden {
     pub fn joints(&self) -> Joints {
         let ball = |number: usize, spring: Option<&GoldenSpring>| BallJoint {
             damping_n_m_s: self.joint_damping[number - 1],
-            spring: spring.map(|s| AngularSpring {
-                stiffness_n_m: s.stiffness,
-                rest_rad: Some(s.rest),
-            }),
+            spring: spring.map(|s| AngularSpring { stiffness_n_m: s.stiffness, rest_rad: Some(s.rest) }),
             ..BallJoint::default()
         };
-        let hinge = |number: usize| HingeJoint {
-            damping_n_m_s: self.joint_damping[number - 1],
-            ..HingeJoint::default()
-        };
+        let hinge =
+            |number: usize| HingeJoint { damping_n_m_s: self.joint_damping[number - 1], ..HingeJoint::default() };
         Joints {
             neck: ball(1, None),
             right_shoulder: ball(2, None),

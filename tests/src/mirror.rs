@@ -34,9 +34,7 @@ impl SpaceState {
     /// The mirror image.
     pub fn mirrored(&self) -> SpaceState {
         // R → S R S with S = diag(1, −1, 1)
-        let turn = |q: &UnitQuaternion<f64>| {
-            UnitQuaternion::new_unchecked(Quaternion::new(q.w, -q.i, q.j, -q.k))
-        };
+        let turn = |q: &UnitQuaternion<f64>| UnitQuaternion::new_unchecked(Quaternion::new(q.w, -q.i, q.j, -q.k));
         SpaceState {
             t1: mirrored_vector(&self.t1),
             turn: FREE_OTHER_SIDE.map(|i| turn(&self.turn[i])),
@@ -68,11 +66,7 @@ fn mirrored_body(body: &Body) -> Body {
         sphere.segment = Segment::ALL[other_side(sphere.segment.index())];
         sphere.centre_from_lower_end_m.y = -sphere.centre_from_lower_end_m.y;
     }
-    Body {
-        segments: std::array::from_fn(|i| body.segments[other_side(i)]),
-        spheres,
-        ..body.clone()
-    }
+    Body { segments: std::array::from_fn(|i| body.segments[other_side(i)]), spheres, ..body.clone() }
 }
 
 const fn other_side(segment: usize) -> usize {

@@ -37,11 +37,7 @@ pub struct Load {
 }
 
 /// A bead with one sphere of [`RADIUS_M`] round T1 (and its centre of gravity) among `surfaces`.
-pub fn bead_among(
-    materials: Vec<Material>,
-    surfaces: Vec<Surface>,
-    edge_force: EdgeForce,
-) -> Setup {
+pub fn bead_among(materials: Vec<Material>, surfaces: Vec<Surface>, edge_force: EdgeForce) -> Setup {
     let mut setup = afloat(bead(0.04), 1.0, 1e-3);
     setup.body.spheres = vec![sphere_round_t1()];
     setup.materials = materials;
@@ -85,12 +81,7 @@ impl Probe {
     }
 
     /// Takes the sphere to `centre_m` with a velocity and an angular velocity, as an accepted step.
-    pub fn moving(
-        &mut self,
-        centre_m: Vector3<f64>,
-        velocity_m_s: Vector3<f64>,
-        omega_rad_s: Vector3<f64>,
-    ) -> Load {
+    pub fn moving(&mut self, centre_m: Vector3<f64>, velocity_m_s: Vector3<f64>, omega_rad_s: Vector3<f64>) -> Load {
         self.place(centre_m, velocity_m_s, omega_rad_s);
         self.evaluate::<true>()
     }
@@ -124,18 +115,10 @@ impl Probe {
 
     fn evaluate<const COMMIT: bool>(&mut self) -> Load {
         let mut touches = Touches(Vec::new());
-        let evaluation = self.model.system().evaluate::<COMMIT>(
-            &self.state,
-            &self.frames,
-            &mut self.history,
-            &mut touches,
-        );
+        let evaluation =
+            self.model.system().evaluate::<COMMIT>(&self.state, &self.frames, &mut self.history, &mut touches);
         let wrench = &evaluation.wrench[Segment::MiddleTorso.index()];
-        Load {
-            force_n: wrench.force.to_vector(),
-            moment_n_m: wrench.moment.to_vector(),
-            touches: touches.0,
-        }
+        Load { force_n: wrench.force.to_vector(), moment_n_m: wrench.moment.to_vector(), touches: touches.0 }
     }
 }
 

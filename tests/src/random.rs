@@ -75,11 +75,7 @@ impl Random {
             length_m,
             mass_kg,
             cg_from_lower_end_m: length_m * self.between(0.2, 0.8),
-            inertia_kg_m2: Vector3::new(
-                spread.y + spread.z,
-                spread.z + spread.x,
-                spread.x + spread.y,
-            ),
+            inertia_kg_m2: Vector3::new(spread.y + spread.z, spread.z + spread.x, spread.x + spread.y),
         }
     }
 
@@ -103,11 +99,8 @@ impl Random {
 
     fn ball(&mut self) -> BallJoint {
         let begin_rad = self.between(0.3, 2.0);
-        let stop = Stop {
-            begin_rad,
-            full_rad: begin_rad + self.between(0.05, 1.0),
-            damping_n_m_s: self.between(5.0, 50.0),
-        };
+        let stop =
+            Stop { begin_rad, full_rad: begin_rad + self.between(0.05, 1.0), damping_n_m_s: self.between(5.0, 50.0) };
         BallJoint {
             damping_n_m_s: self.between(0.1, 5.0),
             twist_damping_n_m_s: self.between(0.0, 2.0),
@@ -117,14 +110,8 @@ impl Random {
     }
 
     fn spring_ball(&mut self) -> BallJoint {
-        let spring = AngularSpring {
-            stiffness_n_m: self.between(50.0, 400.0),
-            rest_rad: Some(self.between(0.0, 1.0)),
-        };
-        BallJoint {
-            spring: Some(spring),
-            ..self.ball()
-        }
+        let spring = AngularSpring { stiffness_n_m: self.between(50.0, 400.0), rest_rad: Some(self.between(0.0, 1.0)) };
+        BallJoint { spring: Some(spring), ..self.ball() }
     }
 
     fn hinge(&mut self) -> HingeJoint {
@@ -135,11 +122,7 @@ impl Random {
             damping_n_m_s: self.between(5.0, 50.0),
         };
         let (lower_stop, upper_stop) = (Some(stop(low, -1.0)), Some(stop(high, 1.0)));
-        HingeJoint {
-            damping_n_m_s: self.between(0.1, 5.0),
-            lower_stop,
-            upper_stop,
-        }
+        HingeJoint { damping_n_m_s: self.between(0.1, 5.0), lower_stop, upper_stop }
     }
 
     /// q and q̇ with every free segment at least 0.3 rad from vertical.
@@ -202,19 +185,12 @@ impl Random {
             force: self.vector(2000.0),
         };
         let spheres = body.spheres.iter();
-        spheres
-            .map(|s| force(s.segment, s.centre_from_lower_end_m.coords, s.radius_m))
-            .collect()
+        spheres.map(|s| force(s.segment, s.centre_from_lower_end_m.coords, s.radius_m)).collect()
     }
 
     /// Body, joints, forces and the earth's gravity.
     pub fn system(&mut self) -> System {
         let body = self.body();
-        System {
-            joints: self.joints(),
-            gravity: Vector3::new(0.0, 0.0, -9.806_65),
-            forces: self.forces(&body),
-            body,
-        }
+        System { joints: self.joints(), gravity: Vector3::new(0.0, 0.0, -9.806_65), forces: self.forces(&body), body }
     }
 }

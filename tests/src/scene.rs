@@ -12,15 +12,8 @@ use nalgebra::{UnitQuaternion, Vector3};
 impl System {
     /// The same system in a scene turned by `r` about the origin.
     pub fn turned(&self, r: &UnitQuaternion<f64>) -> System {
-        let force = |f: &PointForce| PointForce {
-            force: r * f.force,
-            ..f.clone()
-        };
-        System {
-            gravity: r * self.gravity,
-            forces: self.forces.iter().map(force).collect(),
-            ..self.clone()
-        }
+        let force = |f: &PointForce| PointForce { force: r * f.force, ..f.clone() };
+        System { gravity: r * self.gravity, forces: self.forces.iter().map(force).collect(), ..self.clone() }
     }
 
     /// Acceleration of T1, angular accelerations and α̈ of a state, by report coordinates in the scene as it stands.
@@ -33,9 +26,7 @@ impl System {
     /// The same for any posture.
     pub fn accelerations(&self, state: &SpaceState) -> SpaceMotion {
         let r = regular_turn(state);
-        let turned = self
-            .turned(&r)
-            .accelerations_as_it_stands(&state.turned(&r));
+        let turned = self.turned(&r).accelerations_as_it_stands(&state.turned(&r));
         turned.turned(&r.inverse())
     }
 }
@@ -44,16 +35,13 @@ impl System {
 fn regular_turn(state: &SpaceState) -> UnitQuaternion<f64> {
     let turns = (0..64).map(|i| {
         let (a, b) = (0.1 + 0.39 * f64::from(i % 8), 0.1 + 0.39 * f64::from(i / 8));
-        UnitQuaternion::from_scaled_axis(Vector3::x() * a)
-            * UnitQuaternion::from_scaled_axis(Vector3::y() * b)
+        UnitQuaternion::from_scaled_axis(Vector3::x() * a) * UnitQuaternion::from_scaled_axis(Vector3::y() * b)
     });
     let least_sine = |r: &UnitQuaternion<f64>| {
         let sines = state.turn.map(|turn| (r * turn * Vector3::z()).xy().norm());
         sines.into_iter().fold(1.0, f64::min)
     };
-    turns
-        .max_by(|a, b| least_sine(a).total_cmp(&least_sine(b)))
-        .unwrap_or_default()
+    turns.max_by(|a, b| least_sine(a).total_cmp(&least_sine(b))).unwrap_or_default()
 }
 
 impl SpaceMotion {
@@ -61,12 +49,8 @@ impl SpaceMotion {
     pub fn difference(&self, expected: &SpaceMotion) -> f64 {
         let (found, expected) = (self.numbers(), expected.numbers());
         let worst = |range: std::ops::Range<usize>| {
-            let size = expected[range.clone()]
-                .iter()
-                .fold(0.0_f64, |m, x| m.max(x.abs()));
-            let gap = range
-                .map(|i| (found[i] - expected[i]).abs())
-                .fold(0.0, f64::max);
+            let size = expected[range.clone()].iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            let gap = range.map(|i| (found[i] - expected[i]).abs()).fold(0.0, f64::max);
             gap / size
         };
         worst(0..3).max(worst(3..31))

@@ -62,22 +62,11 @@ fn matrix<T: Number>(pose: &Pose<T>, segment: usize, part: impl Fn(T) -> f64) ->
 
 /// ω of ω×.
 fn axial(m: &Matrix3<f64>) -> Vector3<f64> {
-    0.5 * Vector3::new(
-        m[(2, 1)] - m[(1, 2)],
-        m[(0, 2)] - m[(2, 0)],
-        m[(1, 0)] - m[(0, 1)],
-    )
+    0.5 * Vector3::new(m[(2, 1)] - m[(1, 2)], m[(0, 2)] - m[(2, 0)], m[(1, 0)] - m[(0, 1)])
 }
 
 /// The pose and its first and second time derivatives.
-fn moving_pose(
-    body: &Body,
-    q: &[f64; DOF],
-    rates: &[f64; DOF],
-    second: &[f64; DOF],
-) -> Pose<Dual<Dual<f64>>> {
-    let moving = std::array::from_fn(|j| {
-        Dual::new(Dual::new(q[j], rates[j]), Dual::new(rates[j], second[j]))
-    });
+fn moving_pose(body: &Body, q: &[f64; DOF], rates: &[f64; DOF], second: &[f64; DOF]) -> Pose<Dual<Dual<f64>>> {
+    let moving = std::array::from_fn(|j| Dual::new(Dual::new(q[j], rates[j]), Dual::new(rates[j], second[j])));
     pose(body, &moving)
 }

@@ -21,11 +21,7 @@ pub struct SpaceState {
 impl SpaceMotion {
     /// The same motion in a scene turned by `r`.
     pub fn turned(&self, r: &UnitQuaternion<f64>) -> SpaceMotion {
-        SpaceMotion {
-            t1: r * self.t1,
-            angular: self.angular.map(|w| r * w),
-            hinge: self.hinge,
-        }
+        SpaceMotion { t1: r * self.t1, angular: self.angular.map(|w| r * w), hinge: self.hinge }
     }
 
     /// 31 numbers.

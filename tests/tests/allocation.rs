@@ -25,10 +25,7 @@ fn twice_as_many_steps_of_rk4_allocate_no_more() {
     assert_eq!((steps, twice), (750, 1500));
     // the count is alive: the run itself allocates its buffers
     assert!(few.count_total > 0);
-    assert_eq!(
-        (few.count_total, few.bytes_total),
-        (many.count_total, many.bytes_total)
-    );
+    assert_eq!((few.count_total, few.bytes_total), (many.count_total, many.bytes_total));
 }
 
 #[test]
@@ -43,10 +40,7 @@ fn twice_as_many_adaptive_steps_allocate_no_more() {
     let (few, steps) = allocations(adaptive(1e-4));
     let (many, more) = allocations(adaptive(1e-7));
     assert!(more > 2 * steps, "{steps} {more}");
-    assert_eq!(
-        (few.count_total, few.bytes_total),
-        (many.count_total, many.bytes_total)
-    );
+    assert_eq!((few.count_total, few.bytes_total), (many.count_total, many.bytes_total));
 }
 
 #[test]

@@ -80,8 +80,7 @@ fn r_agrees() {
 #[test]
 fn accelerations_agree() {
     // Measured: 2.3e-13.
-    let worst =
-        worst_of(|equations, state| largest(&equations.accelerations, &state.q_acceleration));
+    let worst = worst_of(|equations, state| largest(&equations.accelerations, &state.q_acceleration));
     assert!(worst < BOUND, "{worst:e}");
 }
 
@@ -91,10 +90,7 @@ fn worst_of(error: impl Fn(&Equations, &GoldenState) -> f64) -> f64 {
     assert_eq!(golden.states.len(), 5);
     let errors = golden.states.iter().map(|state| {
         let (q, rates) = state.coordinates();
-        error(
-            &equations_of_motion(&golden.system(state), &q, &rates),
-            state,
-        )
+        error(&equations_of_motion(&golden.system(state), &q, &rates), state)
     });
     errors.fold(0.0, f64::max)
 }

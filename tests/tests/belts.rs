@@ -72,13 +72,7 @@ fn sides_that_spread_towards_the_anchors_pull_with_2_f_cos_alpha() {
     // 3-4-5 triangles: θ₁ = θ₂ = acos 3/5, θ₃ = 90°, cos α = 7/(5√2)
     let wrap = TAU - 2.0 * 0.6_f64.acos() - FRAC_PI_2;
     let length = R * (8.0 / 3.0 + wrap);
-    check(
-        [5.0 * R / 3.0; 2],
-        FRAC_PI_2,
-        wrap,
-        length,
-        1.4 * 2_f64.sqrt(),
-    );
+    check([5.0 * R / 3.0; 2], FRAC_PI_2, wrap, length, 1.4 * 2_f64.sqrt());
 }
 
 #[test]
@@ -160,10 +154,7 @@ fn when_the_wrap_vanishes_the_belt_is_straight_and_its_force_on_the_sphere_fades
         law.commit(&action, &mut history);
         if let Some(last) = last {
             // lengths change by less than 2 m per m, forces by their stiffness: no jump at z = 0 or at z = r
-            assert!(
-                (action.length - last.length).abs() <= 2.0 * step + 1e-15,
-                "{z}"
-            );
+            assert!((action.length - last.length).abs() <= 2.0 * step + 1e-15, "{z}");
             let jump = (action.force - last.force).to_vector().norm();
             assert!(jump < 2e5 * step, "{z}: {jump} N");
         }
@@ -171,17 +162,9 @@ fn when_the_wrap_vanishes_the_belt_is_straight_and_its_force_on_the_sphere_fades
             off = Some(z);
             // W and 2 cos α vanish together.
             // Measured: 1.6e-1.
-            assert_below(
-                "last force before, N",
-                last.unwrap().force.to_vector().norm(),
-                0.2,
-            );
+            assert_below("last force before, N", last.unwrap().force.to_vector().norm(), 0.2);
             // Measured: 1.1e-16.
-            assert_below(
-                "length less the anchors' distance, m",
-                action.length - 0.5,
-                1e-6,
-            );
+            assert_below("length less the anchors' distance, m", action.length - 0.5, 1e-6);
         }
         if action.wrap <= 0.0 {
             assert_eq!((action.loop_force, action.stored), (0.0, 0.0));
@@ -189,11 +172,7 @@ fn when_the_wrap_vanishes_the_belt_is_straight_and_its_force_on_the_sphere_fades
         last = Some(action);
     }
     // Measured: 0.
-    assert_below(
-        "place where it leaves less r, m",
-        off.unwrap() - R,
-        2.0 * step,
-    );
+    assert_below("place where it leaves less r, m", off.unwrap() - R, 2.0 * step);
 }
 
 #[test]
@@ -212,11 +191,7 @@ fn beyond_the_anchors_line_theta_3_exceeds_a_half_turn() {
     let anew = law.act(beyond, &law.initial_history(beyond));
     let other_way = TAU - 2.0 * (R / l).acos() - (TAU - theta_3);
     // Measured: 4.4e-16.
-    assert_below(
-        "wrap of a belt laid anew, rad",
-        anew.wrap - other_way,
-        1e-14,
-    );
+    assert_below("wrap of a belt laid anew, rad", anew.wrap - other_way, 1e-14);
 }
 
 #[test]
@@ -235,11 +210,7 @@ fn webbing_with_fractions_unloads_below_its_loading_curve_and_remembers_it_for_t
     let (top, force) = pull(0.02);
     assert!(top > 0.02);
     // Measured: 0.
-    assert_below(
-        "loading, N",
-        force - (K * 0.02 + 2.0 * K * (top - 0.02)),
-        1e-8,
-    );
+    assert_below("loading, N", force - (K * 0.02 + 2.0 * K * (top - 0.02)), 1e-8);
     let line = |e: f64| {
         let rest = e - (top - 0.5 * top);
         2.0 * K * rest.clamp(0.0, 0.01) + 4.0 * K * (rest - 0.01).max(0.0)
@@ -268,9 +239,7 @@ fn slack_delays_the_pull_and_preload_advances_it() {
     let preload = action(RestLength::Slack { slack_m: -0.02 });
     // Measured: 6.8e-13.
     assert_below("preload, N", preload.loop_force - K * 0.02, 1e-9);
-    let given = action(RestLength::Given {
-        length_m: slack.length - 0.005,
-    });
+    let given = action(RestLength::Given { length_m: slack.length - 0.005 });
     // Measured: 1.7e-13.
     assert_below("given length, N", given.loop_force - K * 0.005, 1e-9);
 }
@@ -289,16 +258,8 @@ fn an_anchor_inside_the_sphere_is_an_error_that_names_it_and_the_distance() {
     let setup = afloat(male50(), 0.1, 1e-3);
     let torso = setup.body.segments[0].length_m + setup.body.segments[3].length_m;
     // the pelvis sphere hangs `torso` below T1; Z_v points down
-    let text = belted(Point3::new(0.05, 0.0, torso))
-        .unwrap_err()
-        .to_string();
-    for part in [
-        "belts.belt.anchors",
-        "anchor 1",
-        "0.0500 m",
-        "pelvis",
-        "0.1194 m",
-    ] {
+    let text = belted(Point3::new(0.05, 0.0, torso)).unwrap_err().to_string();
+    for part in ["belts.belt.anchors", "anchor 1", "0.0500 m", "pelvis", "0.1194 m"] {
         assert!(text.contains(part), "{part} in {text}");
     }
     assert!(belted(Point3::new(0.2, 0.0, torso)).is_ok());
@@ -319,9 +280,7 @@ fn the_belt_force_acts_at_the_spheres_centre() {
     let model = Model::new(setup).unwrap();
     let frames = model.frames(0.0, 0.0, &mut Default::default());
     let mut history = model.start().history.clone();
-    let e = model
-        .system()
-        .evaluate::<false>(&model.start().state, &frames, &mut history, &mut ());
+    let e = model.system().evaluate::<false>(&model.start().state, &frames, &mut history, &mut ());
     let wrench = &e.wrench[Segment::UpperTorso.index()];
     let (force, moment) = (wrench.force.to_vector(), wrench.moment.to_vector());
     assert!(force.norm() > 100.0);

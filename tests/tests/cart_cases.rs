@@ -12,24 +12,16 @@ use occupant_tests::cart;
 use occupant_tests::measure::assert_below;
 
 const CARTS: [(&str, &str); 3] = [
-    (
-        "unbelted",
-        include_str!("../../scenarios/cart-unbelted.toml"),
-    ),
+    ("unbelted", include_str!("../../scenarios/cart-unbelted.toml")),
     ("lap", include_str!("../../scenarios/cart-lap.toml")),
-    (
-        "lap and torso",
-        include_str!("../../scenarios/cart-lap-torso.toml"),
-    ),
+    ("lap and torso", include_str!("../../scenarios/cart-lap-torso.toml")),
 ];
 
 /// The plain data of a scenario that names no other file.
 fn setup(text: &str) -> Setup {
     let alone = |name: &str| Err(format!("no file beside the text: {name}"));
     let loaded = Scenario::from_text(text, Format::Toml, "cart", &alone);
-    let built = loaded
-        .and_then(|s| s.build())
-        .unwrap_or_else(|d| panic!("{d}"));
+    let built = loaded.and_then(|s| s.build()).unwrap_or_else(|d| panic!("{d}"));
     built.0
 }
 
@@ -37,11 +29,7 @@ fn setup(text: &str) -> Setup {
 fn places(setup: Setup) -> Vec<Point3<f64>> {
     let model = Model::new(setup).unwrap_or_else(|p| panic!("{p}"));
     let mut places = Vec::new();
-    simulate(
-        &model,
-        Watch(|s: &Sample<'_>| places.extend((0..17).map(|i| s.sphere_centre_m(i)))),
-    )
-    .unwrap();
+    simulate(&model, Watch(|s: &Sample<'_>| places.extend((0..17).map(|i| s.sphere_centre_m(i))))).unwrap();
     places
 }
 
@@ -78,12 +66,7 @@ fn the_energy_balance_of_every_cart_case_closes_and_does_so_better_with_half_the
 
 /// Losses of contacts, friction, joints and belts, J.
 fn losses(e: &EnergyLedger) -> [f64; 4] {
-    [
-        e.lost_contacts_j,
-        e.lost_friction_j,
-        e.lost_joints_j,
-        e.lost_belts_j,
-    ]
+    [e.lost_contacts_j, e.lost_friction_j, e.lost_joints_j, e.lost_belts_j]
 }
 
 #[test]
@@ -104,10 +87,7 @@ fn what_is_lost_stays_lost() {
             }),
         )
         .unwrap();
-        assert!(
-            last[0] > 100.0 && last[1] > 10.0 && last[2] > 10.0,
-            "{last:?}"
-        );
+        assert!(last[0] > 100.0 && last[1] > 10.0 && last[2] > 10.0, "{last:?}");
         // elastic webbing loses nothing; edges met between two steps may err by a fraction of a millijoule
         // Measured: 2.8e-4.
         assert_below(&format!("{name}: energy that comes back, J"), gained, 2e-3);

@@ -85,11 +85,7 @@ fn faces_that_are_far_at_a_commit_are_not_missed_before_the_next() {
         let expected = kernel.rate_observed::<false>(&moved, &frames, &mut all, &mut every);
         assert_eq!(found, expected);
         assert_eq!(some.0, every.0);
-        new_touches += every
-            .0
-            .iter()
-            .filter(|pair| !before.0.contains(pair))
-            .count();
+        new_touches += every.0.iter().filter(|pair| !before.0.contains(pair)).count();
     }
     assert!(new_touches > 50, "{new_touches}"); // Measured: 87.
 }

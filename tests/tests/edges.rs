@@ -40,12 +40,7 @@ fn the_force_is_minus_the_gradient_of_the_stored_energy() {
     let stored = |probe: &mut Probe, at: Vector3<f64>| probe.at(at).touches[0].stored;
     let corner = v(0.5 + 0.03, 0.5 + 0.05, RADIUS_M - depth);
     let mut worst = 0.0_f64;
-    for at in [
-        beside(-0.2, depth),
-        beside(0.02, depth),
-        beside(0.09, depth),
-        corner,
-    ] {
+    for at in [beside(-0.2, depth), beside(0.02, depth), beside(0.09, depth), corner] {
         let gradient = Vector3::from_fn(|i, _| {
             let e = Vector3::ith(i, h);
             (stored(&mut probe, at + e) - stored(&mut probe, at - e)) / (2.0 * h)
@@ -123,10 +118,7 @@ fn without_a_turn_a_closed_path_over_an_edge_does_no_work_in_either_reading() {
             beside(0.04, 0.04),
             beside(0.04, 0.01),
         ];
-        let work: f64 = corners
-            .windows(2)
-            .map(|w| work_along(&mut probe, w[0], w[1]))
-            .sum();
+        let work: f64 = corners.windows(2).map(|w| work_along(&mut probe, w[0], w[1])).sum();
         // of 16 J stored at most
         // Measured: 1.8e-13.
         assert_below("net work, J", work, 1e-11);
@@ -196,11 +188,7 @@ fn a_pair_opens_touches_passes_and_opens_again() {
     assert_eq!(probe.phase(0), OPEN);
     let mut step = |at: Vector3<f64>, phase: f64, pushes: bool| {
         let force = probe.at(at).force_n;
-        assert_eq!(
-            (probe.phase(0), force.norm() > 0.0),
-            (phase, pushes),
-            "at {at:?}"
-        );
+        assert_eq!((probe.phase(0), force.norm() > 0.0), (phase, pushes), "at {at:?}");
     };
     step(beside(-0.2, 0.02), TOUCHING, true);
     step(beside(0.05, 0.02), TOUCHING, true);
@@ -260,9 +248,5 @@ fn a_bead_that_goes_round_an_edge_is_not_caught_by_the_planes_extension() {
     let outcome = simulate(&model, Watch(|s: &Sample<'_>| end = s.state.t1.to_vector())).unwrap();
     assert!(outcome.first_touches.is_empty());
     // Measured: 2.2e-16.
-    assert_below(
-        "place less free flight, m",
-        (end - v(0.25, 0.0, -0.8)).norm(),
-        1e-12,
-    );
+    assert_below("place less free flight, m", (end - v(0.25, 0.0, -0.8)).norm(), 1e-12);
 }

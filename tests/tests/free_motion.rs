@@ -17,12 +17,8 @@ use occupant_tests::{
 /// A random body with free joints in a random state, no force at all.
 fn loose(seed: u64) -> (System, State<f64>) {
     let mut random = Random::new(seed);
-    let system = System {
-        body: random.body(),
-        joints: Joints::default(),
-        gravity: Vector3::zeros(),
-        forces: Vec::new(),
-    };
+    let system =
+        System { body: random.body(), joints: Joints::default(), gravity: Vector3::zeros(), forces: Vec::new() };
     (system, random.space_state().to_core())
 }
 
@@ -106,19 +102,11 @@ fn a_body_dropped_at_rest_falls_without_moving_its_joints() {
         system.joints.upper_back.spring = None;
         system.joints.lower_back.spring = None;
         let mut start = random.space_state().to_core();
-        start = State {
-            velocity: State::zero().velocity,
-            omega: State::zero().omega,
-            ..start
-        };
+        start = State { velocity: State::zero().velocity, omega: State::zero().omega, ..start };
         start.hinge_rate = [0.0; 4];
         let end = FreeRun::new(&system).run(&start, 1e-2, 100);
         assert!((start.t1.z - end.t1.z - 0.5 * 9.806_65).abs() < 1e-11); // Measured: 4.5e-15.
-        let fall = State {
-            t1: start.t1,
-            velocity: start.velocity,
-            ..end
-        };
+        let fall = State { t1: start.t1, velocity: start.velocity, ..end };
         let moved = distance(&fall, &start);
         assert!(moved < 1e-11, "{moved:e}"); // Measured: 5.1e-17.
     }
@@ -128,18 +116,12 @@ fn a_body_dropped_at_rest_falls_without_moving_its_joints() {
 fn a_torque_free_symmetric_top_precesses_steadily() {
     // One heavy segment with I_x = I_y = A, I_z = C, all others 1e-12 of it: R(t) = exp(L t/A) R₀ exp(ω_z (A − C)/A t Z).
     let (system, start) = loose(3);
-    let mut system = System {
-        body: lightened(&system.body, &[0]),
-        ..system
-    };
+    let mut system = System { body: lightened(&system.body, &[0]), ..system };
     let (a, c) = (0.31, 0.12);
     system.body.segments[0].inertia_kg_m2 = Vector3::new(a, a, c);
     let space = Random::new(5).space_state();
     let (q, w) = (space.turn[0], space.speed.angular[0]);
-    let mut start = State {
-        orientation: start.orientation,
-        ..space.to_core()
-    };
+    let mut start = State { orientation: start.orientation, ..space.to_core() };
     start.orientation[0] = space.to_core().orientation[0];
     let (h, steps) = (1e-4, 5000);
     let t = h * steps as f64;
@@ -177,21 +159,13 @@ fn an_arm_on_a_heavy_trunk_is_a_double_pendulum() {
         };
         let forces = heavy.map(hold).to_vec();
         let gravity = Vector3::z() * -g;
-        let system = System {
-            body,
-            joints: Joints::default(),
-            gravity,
-            forces,
-        };
-        let [angles, rates] = [8.0, 8.0]
-            .map(|size| Vector2::new(random.between(-size, size), random.between(-size, size)));
+        let system = System { body, joints: Joints::default(), gravity, forces };
+        let [angles, rates] =
+            [8.0, 8.0].map(|size| Vector2::new(random.between(-size, size), random.between(-size, size)));
         let state = hanging_arm(&angles, &rates);
         let found = CoreSide::new(&system, &state).accelerations;
         let expected = double_pendulum(&system.body, g, &angles, &rates);
-        let gap = Vector2::new(
-            found.angular[4].y - expected.x,
-            found.angular[4].y + found.hinge[0] - expected.y,
-        );
+        let gap = Vector2::new(found.angular[4].y - expected.x, found.angular[4].y + found.hinge[0] - expected.y);
         worst = worst.max(gap.amax() / expected.amax());
         assert!(found.angular[4].xz().amax() < 1e-10 * expected.amax());
     }
@@ -216,22 +190,14 @@ fn hanging_arm(angles: &Vector2<f64>, rates: &Vector2<f64>) -> SpaceState {
 /// (I₁ + m₁a² + m₂l²) θ̈₁ + m₂lb cos(θ₁−θ₂) θ̈₂ = −m₂lb sin(θ₁−θ₂) θ̇₂² − (m₁a + m₂l) g sin θ₁,
 /// m₂lb cos(θ₁−θ₂) θ̈₁ + (I₂ + m₂b²) θ̈₂ = m₂lb sin(θ₁−θ₂) θ̇₁² − m₂bg sin θ₂.
 fn double_pendulum(body: &Body, g: f64, angle: &Vector2<f64>, rate: &Vector2<f64>) -> Vector2<f64> {
-    let (upper, lower) = (
-        body.segment(Segment::LeftUpperArm),
-        body.segment(Segment::LeftForearm),
-    );
+    let (upper, lower) = (body.segment(Segment::LeftUpperArm), body.segment(Segment::LeftForearm));
     let (m1, m2, l) = (upper.mass_kg, lower.mass_kg, upper.length_m);
     let a = upper.length_m - upper.cg_from_lower_end_m;
     let b = lower.length_m - lower.cg_from_lower_end_m;
     let (i1, i2) = (upper.inertia_kg_m2.y, lower.inertia_kg_m2.y);
     let (s, c) = (angle.x - angle.y).sin_cos();
     let coupling = m2 * l * b;
-    let mass = Matrix2::new(
-        i1 + m1 * a * a + m2 * l * l,
-        coupling * c,
-        coupling * c,
-        i2 + m2 * b * b,
-    );
+    let mass = Matrix2::new(i1 + m1 * a * a + m2 * l * l, coupling * c, coupling * c, i2 + m2 * b * b);
     let moment = Vector2::new(
         -coupling * s * rate.y.powi(2) - (m1 * a + m2 * l) * g * angle.x.sin(),
         coupling * s * rate.x.powi(2) - m2 * b * g * angle.y.sin(),
@@ -264,12 +230,7 @@ fn remove_stops(joints: &mut Joints) {
         &mut j.left_hip,
     ];
     balls.into_iter().for_each(|ball| ball.stop = None);
-    let hinges = [
-        &mut j.left_elbow,
-        &mut j.right_elbow,
-        &mut j.left_knee,
-        &mut j.right_knee,
-    ];
+    let hinges = [&mut j.left_elbow, &mut j.right_elbow, &mut j.left_knee, &mut j.right_knee];
     for hinge in hinges {
         (hinge.lower_stop, hinge.upper_stop) = (None, None);
     }

@@ -41,11 +41,7 @@ fn slide(setup: Setup, theta: f64) -> Vec<(f64, f64)> {
     let down = Vector3::new(theta.cos(), 0.0, -theta.sin());
     let model = Model::new(setup).unwrap();
     let mut out = Vec::new();
-    simulate(
-        &model,
-        Watch(|s: &Sample<'_>| out.push((s.time_s, s.state.velocity.to_vector().dot(&down)))),
-    )
-    .unwrap();
+    simulate(&model, Watch(|s: &Sample<'_>| out.push((s.time_s, s.state.velocity.to_vector().dot(&down))))).unwrap();
     out
 }
 
@@ -77,10 +73,7 @@ fn above_the_friction_angle_the_body_slides_as_the_closed_form_says() {
         }
         sum
     };
-    let worst = run
-        .iter()
-        .map(|&(t, v)| (time_to(v) - t).abs())
-        .fold(0.0, f64::max);
+    let worst = run.iter().map(|&(t, v)| (time_to(v) - t).abs()).fold(0.0, f64::max);
     // Measured: 3.4e-9.
     assert_below("time against ∫dv/a, s", worst, 1e-6);
     let (first, last) = (run[90], run[100]);
@@ -95,12 +88,7 @@ fn above_the_friction_angle_the_body_slides_as_the_closed_form_says() {
 fn friction_is_f_n_against_the_slip_of_the_contact_point() {
     let mut material = smooth(spring(K, 1.0, K, 1.0, 1.0));
     (material.friction, material.friction_speed_m_s) = (0.4, SLIP_M_S);
-    let mut probe = Probe::new(
-        vec![material],
-        vec![plane(Vector3::z())],
-        EdgeForce::AtContactPoint,
-        Vector3::z(),
-    );
+    let mut probe = Probe::new(vec![material], vec![plane(Vector3::z())], EdgeForce::AtContactPoint, Vector3::z());
     let at = Vector3::z() * (RADIUS_M - 0.01);
     let (velocity, omega) = (Vector3::new(0.3, -0.2, -0.5), Vector3::new(2.0, 3.0, -7.0));
     let load = probe.moving(at, velocity, omega);

@@ -21,15 +21,9 @@ fn supple() -> Joints {
         damping_n_m_s: 1.5,
         twist_damping_n_m_s: 0.3,
         stop: None,
-        spring: Some(AngularSpring {
-            stiffness_n_m: 120.0,
-            rest_rad: None,
-        }),
+        spring: Some(AngularSpring { stiffness_n_m: 120.0, rest_rad: None }),
     };
-    let hinge = HingeJoint {
-        damping_n_m_s: 1.0,
-        ..HingeJoint::default()
-    };
+    let hinge = HingeJoint { damping_n_m_s: 1.0, ..HingeJoint::default() };
     Joints {
         neck: ball,
         right_shoulder: ball,
@@ -67,17 +61,9 @@ fn smooth_case(integrator: Integrator) -> Setup {
     setup.joints = supple();
     setup.posture = tumbling();
     // vehicle axes: z down
-    let mut chest = belt(
-        [Point3::new(-0.9, -0.4, -1.2), Point3::new(-0.9, 0.4, -1.0)],
-        1.5e3,
-        -0.4,
-    );
+    let mut chest = belt([Point3::new(-0.9, -0.4, -1.2), Point3::new(-0.9, 0.4, -1.0)], 1.5e3, -0.4);
     (chest.name, chest.sphere) = ("chest".into(), 1);
-    let mut pelvis = belt(
-        [Point3::new(-0.9, -0.5, 0.3), Point3::new(-0.8, 0.5, 0.2)],
-        2e3,
-        -0.4,
-    );
+    let mut pelvis = belt([Point3::new(-0.9, -0.5, 0.3), Point3::new(-0.8, 0.5, 0.2)], 2e3, -0.4);
     (pelvis.name, pelvis.sphere) = ("pelvis".into(), 2);
     setup.belts = vec![chest, pelvis];
     setup.integrator = integrator;
@@ -125,10 +111,7 @@ fn halving_the_step_of_rk4_divides_every_error_by_sixteen() {
     let steps = [1e-3, 5e-4, 2.5e-4];
     let [coarse, middle, fine] = steps.map(|step_s| end(smooth_case(Integrator::Rk4 { step_s })).0);
     let (first, second) = (distances(&coarse, &middle), distances(&middle, &fine));
-    for (i, what) in ["places", "orientations", "speeds", "work sums"]
-        .iter()
-        .enumerate()
-    {
+    for (i, what) in ["places", "orientations", "speeds", "work sums"].iter().enumerate() {
         let order = (first[i] / second[i]).log2();
         // Measured: 3.927 to 4.001.
         assert_within(&format!("order of {what}"), order, [3.9, 4.1]);
@@ -175,11 +158,7 @@ fn the_adaptive_integrator_meets_its_tolerance_and_agrees_with_rk4() {
     }
     // an error estimate of third order: a hundredth of the tolerance costs 100^(1/3) = 4.6 times the work
     // Measured: 4.47.
-    assert_within(
-        "cost of two digits",
-        evaluations[2] / evaluations[1],
-        [4.0, 5.2],
-    );
+    assert_within("cost of two digits", evaluations[2] / evaluations[1], [4.0, 5.2]);
 }
 
 #[test]
@@ -233,31 +212,19 @@ fn a_whole_crash_converges_as_the_step_is_halved() {
     // Springs with kinks, met between the steps: second order.
     for (i, bound) in [8e-6, 2e-6, 5e-7].into_iter().enumerate() {
         // Measured: 2.8e-6.
-        assert_below(
-            "paths until 0.08 s against half the step, m",
-            change(i, 0.08),
-            bound,
-        );
+        assert_below("paths until 0.08 s against half the step, m", change(i, 0.08), bound);
     }
     // At 0.0816 s each hand leaves the edge band of the wheel, where the edge force U/r drops to zero: first order, and
     // the error depends on where in a step it happens. It is the hands that differ.
     for (i, bound) in [8e-3, 4e-3, 2e-3].into_iter().enumerate() {
         // Measured: 2.2e-3.
-        assert_below(
-            "paths until 0.2 s against half the step, m",
-            change(i, 0.2),
-            bound,
-        );
+        assert_below("paths until 0.2 s against half the step, m", change(i, 0.2), bound);
     }
     // Measured: 2.3e-6.
     assert_below("energy imbalance at 0.1 ms", runs[1].1, 1e-3);
     for pair in runs.windows(2) {
         // Measured: 2.3e-6.
-        assert_below(
-            "energy imbalance at half the step",
-            pair[1].1,
-            0.5 * pair[0].1,
-        );
+        assert_below("energy imbalance at half the step", pair[1].1, 0.5 * pair[0].1);
     }
 }
 
@@ -273,17 +240,9 @@ fn an_integrator_that_finds_the_kinks_agrees_with_short_steps_of_rk4() {
     });
     let rk4 = crash(Integrator::Rk4 { step_s: 1.25e-5 });
     // Measured: 3.9e-8.
-    assert_below(
-        "paths until 0.08 s, m",
-        apart(&adaptive.0, &rk4.0, 0.08),
-        5e-6,
-    );
+    assert_below("paths until 0.08 s, m", apart(&adaptive.0, &rk4.0, 0.08), 5e-6);
     // Measured: 1.1e-5.
-    assert_below(
-        "paths until 0.2 s, m",
-        apart(&adaptive.0, &rk4.0, 0.2),
-        1e-3,
-    );
+    assert_below("paths until 0.2 s, m", apart(&adaptive.0, &rk4.0, 0.2), 1e-3);
     // Measured: 6.6e-8.
     assert_below("energy imbalance", adaptive.1, 1e-3);
 }
@@ -362,11 +321,7 @@ fn motion_through_the_singular_posture_is_the_limit_of_motions_beside_it() {
 
 #[test]
 fn outputs_come_at_their_times_exactly_whatever_the_step() {
-    let integrators = [
-        Integrator::Rk4 { step_s: 3.7e-4 },
-        Integrator::Rk4 { step_s: 0.5 },
-        adaptive(1e-6),
-    ];
+    let integrators = [Integrator::Rk4 { step_s: 3.7e-4 }, Integrator::Rk4 { step_s: 0.5 }, adaptive(1e-6)];
     for integrator in integrators {
         let mut setup = smooth_case(integrator);
         setup.time.output_s = 0.03;

@@ -30,17 +30,13 @@ fn damping_and_springs_do_the_work_of_their_torques() {
         let (body, joints) = (random.body(), random.joints());
         let (q, rates) = random.report_state();
         let state = SpaceState::from_report(&body, &q, &rates);
-        let torques =
-            balls(&joints).map(|(ball, k, l)| (torque(&ball, &joints, &state, k, l), k, l));
+        let torques = balls(&joints).map(|(ball, k, l)| (torque(&ball, &joints, &state, k, l), k, l));
         let damping = damping_forces(&joints, &q, &rates);
         for (j, damping_j) in damping.iter().enumerate() {
             let column = space_velocities(&q, &unit(j));
             let spring = -spine_energy(&joints, &varied(&q, j)).slope;
             let found = damping_j + spring - hinge_part(&joints, &q, &rates, j);
-            let expected = torques
-                .iter()
-                .map(|(t, k, l)| work(t, &column, *k, *l))
-                .sum::<f64>();
+            let expected = torques.iter().map(|(t, k, l)| work(t, &column, *k, *l)).sum::<f64>();
             worst = worst.max((found - expected).abs() / 400.0);
         }
     }
@@ -48,13 +44,7 @@ fn damping_and_springs_do_the_work_of_their_torques() {
 }
 
 /// T = −J [n (n·ω) + ε² ω_⊥]/(s² + ε²) − J_t Z_l (Z_l·ω) − K (β − β₀) n/√(s² + ε²) on l.
-fn torque(
-    ball: &BallJoint,
-    joints: &Joints,
-    state: &SpaceState,
-    k: usize,
-    l: usize,
-) -> Vector3<f64> {
+fn torque(ball: &BallJoint, joints: &Joints, state: &SpaceState, k: usize, l: usize) -> Vector3<f64> {
     let z = |i: usize| state.turn[i] * Vector3::z();
     let (z_k, z_l) = (z(k), z(l));
     let n = z_k.cross(&z_l);
@@ -68,9 +58,7 @@ fn torque(
         let way = ((beta - s.begin_rad) / (s.full_rad - s.begin_rad)).clamp(0.0, 1.0);
         (1.0 - way) * ball.damping_n_m_s + way * s.damping_n_m_s
     });
-    let spring = ball.spring.map_or(0.0, |s| {
-        s.stiffness_n_m * (beta - s.rest_rad.unwrap_or(f64::NAN))
-    });
+    let spring = ball.spring.map_or(0.0, |s| s.stiffness_n_m * (beta - s.rest_rad.unwrap_or(f64::NAN)));
     -damping * (n * n.dot(&omega) + e2 * across) / (w * w)
         - ball.twist_damping_n_m_s * z_l * z_l.dot(&omega)
         - spring * n / w
@@ -99,22 +87,9 @@ fn hinge_part(joints: &Joints, q: &[f64; DOF], rates: &[f64; DOF], j: usize) -> 
 
 #[test]
 fn a_stop_works_only_while_the_joint_moves_into_it() {
-    let stop = |begin_rad, full_rad| {
-        Some(Stop {
-            begin_rad,
-            full_rad,
-            damping_n_m_s: 9.0,
-        })
-    };
-    let elbow = HingeJoint {
-        damping_n_m_s: 1.0,
-        lower_stop: stop(-1.0, -2.0),
-        upper_stop: stop(1.0, 2.0),
-    };
-    let joints = Joints {
-        left_elbow: elbow,
-        ..Joints::default()
-    };
+    let stop = |begin_rad, full_rad| Some(Stop { begin_rad, full_rad, damping_n_m_s: 9.0 });
+    let elbow = HingeJoint { damping_n_m_s: 1.0, lower_stop: stop(-1.0, -2.0), upper_stop: stop(1.0, 2.0) };
+    let joints = Joints { left_elbow: elbow, ..Joints::default() };
     let resistance = |alpha: f64, rate: f64| {
         let (mut q, mut rates) = ([1.0; DOF], [0.0; DOF]);
         (q[21], rates[21]) = (alpha, rate);

@@ -14,11 +14,7 @@ use occupant_tests::measure::assert_below;
 const NECK: usize = 0;
 
 fn system(neck: BallJoint, epsilon: f64) -> JointSystem<f64> {
-    let joints = Joints {
-        neck,
-        epsilon,
-        ..Joints::default()
-    };
+    let joints = Joints { neck, epsilon, ..Joints::default() };
     JointSystem::new(&joints, &[0.0; 7])
 }
 
@@ -36,19 +32,14 @@ fn tumbled(case: u32) -> State<f64> {
     let mut state = State::zero();
     for slot in 0..FREE.len() {
         let number = |i: u32| spread(1 + 61 * case + 7 * slot as u32 + i);
-        state.orientation[slot] = quat(&UnitQuaternion::new(
-            Vector3::new(number(0), number(1), number(2)) * 1.5,
-        ));
+        state.orientation[slot] = quat(&UnitQuaternion::new(Vector3::new(number(0), number(1), number(2)) * 1.5));
         state.omega[slot] = v3(number(3), number(4), number(5)) * 10.0;
     }
     state
 }
 
 fn quat(q: &UnitQuaternion<f64>) -> Quat<f64> {
-    Quat {
-        w: q.w,
-        v: v3(q.i, q.j, q.k),
-    }
+    Quat { w: q.w, v: v3(q.i, q.j, q.k) }
 }
 
 /// Upper torso upright; the head bent by `beta` about the axis at `azimuth` in its horizontal plane, turning relatively
@@ -82,12 +73,7 @@ fn bending(i: usize, state: &State<f64>, epsilon: f64) -> (f64, f64, Vector3<f64
     let (z_k, z_l) = (k.axes[inner].z.to_vector(), k.axes[outer].z.to_vector());
     let n = z_k.cross(&z_l);
     let omega = (k.omega[outer] - k.omega[inner]).to_vector();
-    (
-        n.dot(&omega),
-        n.norm_squared() + epsilon * epsilon,
-        omega,
-        n,
-    )
+    (n.dot(&omega), n.norm_squared() + epsilon * epsilon, omega, n)
 }
 
 #[test]
@@ -112,20 +98,9 @@ fn the_rate_of_beta_is_n_omega_over_the_root_of_s_squared_and_epsilon_squared() 
 
 #[test]
 fn the_springs_torque_derives_from_its_energy() {
-    let spring = AngularSpring {
-        stiffness_n_m: 113.0,
-        rest_rad: Some(0.4),
-    };
-    let data = BallJoint {
-        spring: Some(spring),
-        ..BallJoint::default()
-    };
-    let joints = Joints {
-        upper_back: data,
-        lower_back: data,
-        neck: data,
-        ..Joints::default()
-    };
+    let spring = AngularSpring { stiffness_n_m: 113.0, rest_rad: Some(0.4) };
+    let data = BallJoint { spring: Some(spring), ..BallJoint::default() };
+    let joints = Joints { upper_back: data, lower_back: data, neck: data, ..Joints::default() };
     let system = JointSystem::new(&joints, &[0.0; 7]);
     let mut worst = 0.0_f64;
     for case in 0..20 {
@@ -148,17 +123,9 @@ fn the_springs_torque_derives_from_its_energy() {
 
 #[test]
 fn the_spring_without_an_angle_of_its_own_rests_at_the_initial_one() {
-    let data = BallJoint {
-        spring: Some(AngularSpring {
-            stiffness_n_m: 100.0,
-            rest_rad: None,
-        }),
-        ..BallJoint::default()
-    };
-    let joints = Joints {
-        neck: data,
-        ..Joints::default()
-    };
+    let data =
+        BallJoint { spring: Some(AngularSpring { stiffness_n_m: 100.0, rest_rad: None }), ..BallJoint::default() };
+    let joints = Joints { neck: data, ..Joints::default() };
     let system = JointSystem::new(&joints, &[0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
     let stored = system.ball(NECK, &bent(0.8, 0.3, Vector3::zeros())).stored;
     // ε = 1e−3 moves β by less than 1e−6.
@@ -167,10 +134,7 @@ fn the_spring_without_an_angle_of_its_own_rests_at_the_initial_one() {
 }
 
 fn damped(epsilon: f64, k: &Kinematics<f64>) -> BallAction<f64> {
-    let data = BallJoint {
-        damping_n_m_s: 0.7,
-        ..BallJoint::default()
-    };
+    let data = BallJoint { damping_n_m_s: 0.7, ..BallJoint::default() };
     system(data, epsilon).ball(NECK, k)
 }
 
@@ -185,11 +149,7 @@ fn away_from_zero_the_damper_resists_the_rate_of_beta_alone() {
         let exact = damped(0.0, &k);
         let expected = hinge_axis * (-0.7 * rate);
         // Measured: 4.6e-16.
-        assert_below(
-            "ε = 0, N·m",
-            (exact.moment.to_vector() - expected).norm(),
-            1e-13,
-        );
+        assert_below("ε = 0, N·m", (exact.moment.to_vector() - expected).norm(), 1e-13);
         // Measured: 8.9e-16.
         assert_below("ε = 0, W", exact.dissipated - 0.7 * rate * rate, 1e-13);
         // (ε/s)² of |ω_⊥|² more, at most
@@ -232,11 +192,7 @@ fn the_damper_dissipates_what_its_moment_takes() {
 
 /// J that the neck shows at `beta` while it bends (`sign` +1) or straightens (−1), for a stop from 0.8 to 1.2 rad.
 fn resistance(beta: f64, sign: f64, stop: Option<Stop>) -> f64 {
-    let data = BallJoint {
-        damping_n_m_s: 2.0,
-        stop,
-        ..BallJoint::default()
-    };
+    let data = BallJoint { damping_n_m_s: 2.0, stop, ..BallJoint::default() };
     let k = bent(beta, 0.0, Vector3::x() * sign);
     let moment = system(data, 0.0).ball(NECK, &k).moment;
     -moment.x * sign
@@ -244,27 +200,12 @@ fn resistance(beta: f64, sign: f64, stop: Option<Stop>) -> f64 {
 
 #[test]
 fn a_stop_resists_only_while_the_joint_moves_into_it() {
-    let stop = Some(Stop {
-        begin_rad: 0.8,
-        full_rad: 1.2,
-        damping_n_m_s: 90.0,
-    });
-    for (beta, into) in [
-        (0.5, 2.0),
-        (0.8, 2.0),
-        (0.9, 24.0),
-        (1.0, 46.0),
-        (1.2, 90.0),
-        (2.5, 90.0),
-    ] {
+    let stop = Some(Stop { begin_rad: 0.8, full_rad: 1.2, damping_n_m_s: 90.0 });
+    for (beta, into) in [(0.5, 2.0), (0.8, 2.0), (0.9, 24.0), (1.0, 46.0), (1.2, 90.0), (2.5, 90.0)] {
         // Measured: 2.5e-14.
         assert_below("J into the stop", resistance(beta, 1.0, stop) - into, 1e-11);
         // Measured: 4.4e-16.
-        assert_below(
-            "J out of the stop",
-            resistance(beta, -1.0, stop) - 2.0,
-            1e-11,
-        );
+        assert_below("J out of the stop", resistance(beta, -1.0, stop) - 2.0, 1e-11);
     }
     // it begins without a jump
     let rise = resistance(0.8 + 1e-9, 1.0, stop) - resistance(0.8 - 1e-9, 1.0, stop);
@@ -276,11 +217,7 @@ fn a_stop_resists_only_while_the_joint_moves_into_it() {
 fn a_stop_that_is_left_out_never_resists_and_one_of_equal_angles_does_so_at_once() {
     // Measured: 2.2e-16.
     assert_below("no stop", resistance(3.1, 1.0, None) - 2.0, 1e-11);
-    let abrupt = Some(Stop {
-        begin_rad: 1.0,
-        full_rad: 1.0,
-        damping_n_m_s: 90.0,
-    });
+    let abrupt = Some(Stop { begin_rad: 1.0, full_rad: 1.0, damping_n_m_s: 90.0 });
     // Measured: 4.4e-16.
     assert_below("before", resistance(1.0 - 1e-6, 1.0, abrupt) - 2.0, 1e-11);
     // Measured: 1.4e-14.
@@ -289,10 +226,7 @@ fn a_stop_that_is_left_out_never_resists_and_one_of_equal_angles_does_so_at_once
 
 #[test]
 fn twist_damping_turns_against_the_twist_about_the_outer_segment() {
-    let data = BallJoint {
-        twist_damping_n_m_s: 0.4,
-        ..BallJoint::default()
-    };
+    let data = BallJoint { twist_damping_n_m_s: 0.4, ..BallJoint::default() };
     let system = system(data, 1e-3);
     for case in 0..10 {
         let state = tumbled(case);
@@ -303,17 +237,9 @@ fn twist_damping_turns_against_the_twist_about_the_outer_segment() {
         let twist = z.dot(&omega);
         let expected = z * (-0.4 * twist);
         // Measured: 0.
-        assert_below(
-            "moment, N·m",
-            (action.moment.to_vector() - expected).norm(),
-            1e-13,
-        );
+        assert_below("moment, N·m", (action.moment.to_vector() - expected).norm(), 1e-13);
         // Measured: 0.
-        assert_below(
-            "dissipated, W",
-            action.dissipated - 0.4 * twist * twist,
-            1e-12,
-        );
+        assert_below("dissipated, W", action.dissipated - 0.4 * twist * twist, 1e-12);
     }
 }
 
@@ -339,21 +265,10 @@ fn both_segments_of_a_joint_get_opposite_moments() {
 fn the_stops_of_a_hinge_resist_only_while_moving_into_them() {
     let hinge = HingeJoint {
         damping_n_m_s: 1.0,
-        lower_stop: Some(Stop {
-            begin_rad: 0.1,
-            full_rad: -0.1,
-            damping_n_m_s: 41.0,
-        }),
-        upper_stop: Some(Stop {
-            begin_rad: 2.0,
-            full_rad: 2.5,
-            damping_n_m_s: 61.0,
-        }),
+        lower_stop: Some(Stop { begin_rad: 0.1, full_rad: -0.1, damping_n_m_s: 41.0 }),
+        upper_stop: Some(Stop { begin_rad: 2.0, full_rad: 2.5, damping_n_m_s: 61.0 }),
     };
-    let joints = Joints {
-        left_knee: hinge,
-        ..Joints::default()
-    };
+    let joints = Joints { left_knee: hinge, ..Joints::default() };
     let system = JointSystem::<f64>::new(&joints, &[0.0; 7]);
     // left elbow, right elbow, left knee, right knee
     let knee = &system.hinges[2];

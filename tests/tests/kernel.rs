@@ -12,8 +12,8 @@ use occupant_tests::{
     golden::Golden,
     random::Random,
     reference::{
-        System, damping_forces, equations_of_motion, gravity_energy, joint_angle, kinetic_energy,
-        space_accelerations, spine_energy,
+        System, damping_forces, equations_of_motion, gravity_energy, joint_angle, kinetic_energy, space_accelerations,
+        spine_energy,
     },
     segment_motion::segment_motions,
     space_state::SpaceState,
@@ -104,16 +104,10 @@ fn places_velocities_and_accelerations_of_every_segment_agree() {
     for (system, q, rates, state) in report_scenes() {
         let solution = equations_of_motion(&system, &q, &rates).accelerations;
         let expected = segment_motions(&system.body, &q, &rates, &solution);
-        let CoreSide {
-            skeleton,
-            kinematics: k,
-            segments,
-            ..
-        } = CoreSide::new(&system, &state);
+        let CoreSide { skeleton, kinematics: k, segments, .. } = CoreSide::new(&system, &state);
         let size = expected.iter().fold(0.0_f64, |m, s| m.max(s.alpha.amax()));
         for (i, motion) in expected.iter().enumerate() {
-            let gap =
-                |found: V3<f64>, expected| (found.to_vector() - expected as Vector3<f64>).amax();
+            let gap = |found: V3<f64>, expected| (found.to_vector() - expected as Vector3<f64>).amax();
             place = place.max(gap(k.cg(&skeleton, i), motion.place));
             place = place.max((k.axes[i].to_matrix() - motion.turn).amax());
             speed = speed.max(gap(k.cg_velocity(&skeleton, i), motion.velocity));
@@ -131,11 +125,7 @@ fn places_velocities_and_accelerations_of_every_segment_agree() {
 fn energies_and_momenta_agree() {
     let mut worst: f64 = 0.0;
     for (system, q, rates, state) in report_scenes() {
-        let CoreSide {
-            skeleton,
-            kinematics: k,
-            ..
-        } = CoreSide::new(&system, &state);
+        let CoreSide { skeleton, kinematics: k, .. } = CoreSide::new(&system, &state);
         let found = energy::kinetic(&skeleton, &k, &Moving::space());
         let expected = kinetic_energy(&system.body, &q, &rates);
         worst = worst.max((found - expected).abs() / expected);
@@ -181,11 +171,7 @@ fn the_reference_solves_the_same_scenes_in_its_own_coordinates() {
     for (system, q, rates, state) in report_scenes() {
         let solution = equations_of_motion(&system, &q, &rates).accelerations;
         let expected = space_accelerations(&q, &rates, &solution);
-        worst = worst.max(
-            CoreSide::new(&system, &state)
-                .accelerations
-                .difference(&expected),
-        );
+        worst = worst.max(CoreSide::new(&system, &state).accelerations.difference(&expected));
     }
     assert!(worst < 1e-11, "{worst:e}"); // Measured: 2.2e-14.
 }

@@ -101,9 +101,7 @@ fn cart(i: usize) -> Case {
     }
     setup.joints.neck.damping_n_m_s *= scale;
     setup.joints.left_elbow.damping_n_m_s *= scale;
-    setup.integrator = Integrator::Rk4 {
-        step_s: 3e-4 + 2e-5 * (i % 3) as f64,
-    };
+    setup.integrator = Integrator::Rk4 { step_s: 3e-4 + 2e-5 * (i % 3) as f64 };
     setup.time.end_s = 0.09 + 0.011 * (i % 4) as f64;
     setup.time.output_s = 1e-3 * (1 + i % 3) as f64;
     let texts = Texts::default();
@@ -153,8 +151,7 @@ fn a_run_that_fails_stops_or_breaks_leaves_its_neighbours_alone() {
         cases[6].texts.break_at = Some(0);
         let results = compare(&cases, kernel);
         let outcome = |i: usize| &results[i].0.0;
-        let failed =
-            |i: usize| matches!(outcome(i), Ok(o) if matches!(o.status, Status::Failed(_)));
+        let failed = |i: usize| matches!(outcome(i), Ok(o) if matches!(o.status, Status::Failed(_)));
         assert!(failed(1) && failed(4), "{:?} {:?}", outcome(1), outcome(4));
         let stopped = |i: usize| outcome(i).as_ref().unwrap().status == Status::Stopped;
         assert!(stopped(2) && stopped(3));
@@ -188,10 +185,7 @@ fn runs_of_another_structure_get_the_lanes_when_these_are_free() {
     for kernel in kernels() {
         let mut first = cart(0);
         first.texts.stop_at = Some(0);
-        let lap = Case {
-            setup: lap(rk4),
-            texts: Texts::default(),
-        };
+        let lap = Case { setup: lap(rk4), texts: Texts::default() };
         let results = compare(&[first, lap.clone(), lap], kernel);
         assert!(results.iter().all(|(_, used)| *used == kernel));
     }
@@ -204,11 +198,7 @@ fn jobs_are_taken_when_there_is_room_and_the_caller_may_break_off() {
         taken += 1;
         let (tag, recorder) = ((), case.texts);
         let model = Model::new(case.setup).unwrap();
-        Job {
-            tag,
-            model,
-            recorder,
-        }
+        Job { tag, model, recorder }
     });
     let mut ended = 0;
     simulate_many(jobs, |_| {
@@ -234,10 +224,7 @@ fn what_keeps_models_apart_has_a_name() {
     assert_eq!(unlike(&|s| s.gravity_m_s2 = 9.0), None);
     let belts = unlike(&|s| s.belts.truncate(1));
     assert_eq!(belts, Some(Unlike::Belts));
-    assert_eq!(
-        unlike(&|s| s.joints.upper_back.spring = None),
-        Some(Unlike::Springs)
-    );
+    assert_eq!(unlike(&|s| s.joints.upper_back.spring = None), Some(Unlike::Springs));
     let fewer = unlike(&|s| s.surfaces.truncate(s.surfaces.len() - 1));
     assert_eq!(fewer, Some(Unlike::Pairs));
 }

@@ -50,9 +50,7 @@ fn compare(sample: &Sample<'_>, row: &Row, peak: &Peaks, worst: &mut Difference)
     for i in 0..17 {
         let [x, y, z] = row.sphere_centres[i];
         let place = Point3::new(x, y, z) * INCH_M;
-        worst.place_m = worst
-            .place_m
-            .max((sample.sphere_centre_m(i) - place).norm());
+        worst.place_m = worst.place_m.max((sample.sphere_centre_m(i) - place).norm());
         let force = (sample.sphere_force_n(i) + sample.sphere_belt_force_n(i)).norm();
         let expected = row.sphere_forces[i] * LBF_N;
         worst.force = worst.force.max((force - expected).abs() / peak.force_n);
@@ -121,11 +119,7 @@ fn at_its_own_step_the_independent_program_gives_the_same_motion_and_forces() {
         // Measured: 2.9e-8.
         assert_below(&format!("belt force {when}, of its peak"), d.belt, 1e-5);
         // Measured: 9.8e-9.
-        assert_below(
-            &format!("accelerations {when}, of the peak"),
-            d.acceleration,
-            1e-5,
-        );
+        assert_below(&format!("accelerations {when}, of the peak"), d.acceleration, 1e-5);
     }
 }
 

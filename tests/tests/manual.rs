@@ -37,10 +37,7 @@ fn chapter(name: &str) -> String {
 /// What stands between backticks in `text`, blocks of code apart.
 fn quoted(text: &str) -> Vec<&str> {
     let outside_blocks = text.split("```").step_by(2);
-    outside_blocks
-        .flat_map(|part| part.lines())
-        .flat_map(|line| line.split('`').skip(1).step_by(2))
-        .collect()
+    outside_blocks.flat_map(|part| part.lines()).flat_map(|line| line.split('`').skip(1).step_by(2)).collect()
 }
 
 /// Rows of all tables of `text`, cell by cell.
@@ -108,10 +105,7 @@ fn every_equation_of_the_report_has_its_line() {
         }
     }
     for (number, times) in times_named.iter().enumerate().skip(1) {
-        assert_eq!(
-            *times, 1,
-            "Eq. {number} stands in {times} lines of the index"
-        );
+        assert_eq!(*times, 1, "Eq. {number} stands in {times} lines of the index");
     }
 }
 
@@ -125,20 +119,13 @@ fn every_name_of_the_index_exists_in_its_file() {
         }
         let files = quoted(row[5]);
         assert!(!files.is_empty(), "Eq. {} names no file", row[0]);
-        let source: String = files
-            .iter()
-            .map(|file| read(&core().join("src").join(file)))
-            .collect();
+        let source: String = files.iter().map(|file| read(&core().join("src").join(file))).collect();
         let names = quoted(row[3]);
         assert!(!names.is_empty(), "Eq. {} names no Rust name", row[0]);
         for name in names {
             assert!(is_rust_path(name), "Eq. {}: `{name}` is no name", row[0]);
             for part in name.split("::") {
-                assert!(
-                    declares(&source, part),
-                    "Eq. {}: `{name}` is not declared in {files:?}",
-                    row[0]
-                );
+                assert!(declares(&source, part), "Eq. {}: `{name}` is not declared in {files:?}", row[0]);
                 checked += 1;
             }
         }
@@ -152,10 +139,7 @@ fn every_source_file_that_the_manual_names_exists() {
     let mut checked = 0;
     for (name, text) in chapters() {
         for file in quoted(&text).into_iter().filter(|q| q.ends_with(".rs")) {
-            assert!(
-                core().join("src").join(file).is_file(),
-                "{name} names `{file}`, which is not there"
-            );
+            assert!(core().join("src").join(file).is_file(), "{name} names `{file}`, which is not there");
             checked += 1;
         }
     }
@@ -168,15 +152,10 @@ fn every_rust_path_that_the_manual_names_exists() {
     let mut source = String::new();
     append_sources(&core().join("src"), &mut source);
     for (name, text) in chapters() {
-        let paths = quoted(&text)
-            .into_iter()
-            .filter(|q| q.contains("::") && is_rust_path(q));
+        let paths = quoted(&text).into_iter().filter(|q| q.contains("::") && is_rust_path(q));
         for path in paths {
             for part in path.split("::") {
-                assert!(
-                    declares(&source, part),
-                    "{name} names `{path}`, which is not declared anywhere"
-                );
+                assert!(declares(&source, part), "{name} names `{path}`, which is not declared anywhere");
             }
         }
     }
@@ -200,18 +179,12 @@ fn every_link_between_chapters_leads_somewhere() {
         for part in text.split("](").skip(1) {
             let target = part.split(')').next().unwrap_or_default();
             let file = target.split('#').next().unwrap_or_default();
-            assert!(
-                names.iter().any(|n| n == file),
-                "{name} links to {target}, which is not there"
-            );
+            assert!(names.iter().any(|n| n == file), "{name} links to {target}, which is not there");
         }
     }
     let contents = chapter("README.md");
     for name in names.iter().filter(|n| *n != "README.md") {
-        assert!(
-            contents.contains(&format!("]({name})")),
-            "{name} is not in the table of contents"
-        );
+        assert!(contents.contains(&format!("]({name})")), "{name} is not in the table of contents");
     }
 }
 

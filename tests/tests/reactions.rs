@@ -37,10 +37,7 @@ fn a_ball_joint_carries_no_moment_but_that_of_its_damper_stop_and_spring() {
     watch(&cart(), |s| {
         let k = &s.evaluation.kinematics;
         for (i, &(_, outer)) in BALLS.iter().enumerate() {
-            let joint = Joint::ALL
-                .into_iter()
-                .find(|j| !j.is_hinge() && segments(*j).1.index() == outer)
-                .unwrap();
+            let joint = Joint::ALL.into_iter().find(|j| !j.is_hinge() && segments(*j).1.index() == outer).unwrap();
             let moment = s.model.system().joints.ball(i, k).moment;
             let passive = k.axes[outer].into_frame(moment).to_vector();
             let carried = reaction(s, joint).moment_n_m;

@@ -3,9 +3,7 @@
 use nalgebra::{DMatrix, DVector, Vector3};
 use occupant_tests::{
     random::Random,
-    reference::{
-        DOF, Dual, System, equations_of_motion, gravity_energy, kinetic_energy, spine_energy,
-    },
+    reference::{DOF, Dual, System, equations_of_motion, gravity_energy, kinetic_energy, spine_energy},
     segment_motion::segment_motions,
     space_state::SpaceState,
 };
@@ -70,8 +68,7 @@ fn newton_euler(system: &System, q: &Point, rates: &Point) -> (DMatrix<f64>, DVe
             let (v, omega) = (column[i].velocity, column[i].omega);
             e[j] -= mass * v.dot(&motion[i].acceleration) + omega.dot(&motion[i].moment);
             for (k, other) in columns.iter().enumerate() {
-                d[(j, k)] +=
-                    mass * v.dot(&other[i].velocity) + omega.dot(&(inertia * other[i].omega));
+                d[(j, k)] += mass * v.dot(&other[i].velocity) + omega.dot(&(inertia * other[i].omega));
             }
         }
     }
@@ -108,12 +105,7 @@ fn kinetic_energy_grows_by_the_power_of_the_forces() {
     let mut worst: f64 = 0.0;
     for (system, q, rates) in scenes() {
         let s = equations_of_motion(&system, &q, &rates);
-        let growth = kinetic_energy(
-            &system.body,
-            &moving(&q, &rates),
-            &moving(&rates, &s.accelerations),
-        )
-        .slope;
+        let growth = kinetic_energy(&system.body, &moving(&q, &rates), &moving(&rates, &s.accelerations)).slope;
         let parts = [&s.f_p, &s.f_s, &s.q_f, &s.r].map(|f| dot(f, &rates));
         let power: f64 = parts.iter().sum();
         let size: f64 = parts.iter().map(|p| p.abs()).sum();
@@ -135,8 +127,7 @@ fn velocity_forces_balance_the_change_of_the_mass_matrix() {
             let d = equations_of_motion(&system, &there, &rates).d;
             0.5 * u.dot(&(d * &u))
         };
-        let change =
-            (8.0 * (energy(1.0) - energy(-1.0)) - (energy(2.0) - energy(-2.0))) / (12.0 * h);
+        let change = (8.0 * (energy(1.0) - energy(-1.0)) - (energy(2.0) - energy(-2.0))) / (12.0 * h);
         let power = dot(&equations_of_motion(&system, &q, &rates).e, &rates);
         worst = worst.max((power + change).abs() / change.abs());
     }
@@ -180,9 +171,7 @@ fn the_two_forms_of_a_state_convert_into_each_other() {
         let state = SpaceState::from_report(&system.body, &q, &rates);
         let (q2, rates2) = state.to_report();
         for j in 0..DOF {
-            worst = worst
-                .max((q[j] - q2[j]).abs())
-                .max((rates[j] - rates2[j]).abs());
+            worst = worst.max((q[j] - q2[j]).abs()).max((rates[j] - rates2[j]).abs());
         }
     }
     assert!(worst < 1e-12, "{worst:e}"); // Measured: 5.8e-15.

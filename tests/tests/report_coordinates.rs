@@ -25,11 +25,7 @@ fn coordinates_become_the_state_of_equations_6_and_44() {
         let (pose, speed) = (pose(&body, &q), space_velocities(&q, &rates));
         for (slot, segment) in FREE.into_iter().enumerate() {
             let (found, expected) = (axes(&state.orientation[slot]), pose.axes[segment.index()]);
-            for (f, e) in [
-                (found.x, expected.x),
-                (found.y, expected.y),
-                (found.z, expected.z),
-            ] {
+            for (f, e) in [(found.x, expected.x), (found.y, expected.y), (found.z, expected.z)] {
                 worst = worst.max((f.to_vector() - Vector3::from(e)).amax());
             }
             worst = worst.max((state.omega[slot].to_vector() - speed.angular[slot]).amax());
@@ -49,9 +45,7 @@ fn coordinates_come_back_from_the_state() {
         let (q, rates) = Random::new(seed).report_state();
         let back = ReportCoordinates::from_state(&ReportCoordinates { q, rates }.to_state());
         for j in 0..31 {
-            worst = worst
-                .max((back.q[j] - q[j]).abs())
-                .max((back.rates[j] - rates[j]).abs());
+            worst = worst.max((back.q[j] - q[j]).abs()).max((back.rates[j] - rates[j]).abs());
         }
     }
     assert!(worst < 1e-12, "{worst:e}"); // Measured: 5.4e-15.
@@ -93,10 +87,7 @@ fn a_vertical_segment_gets_the_angles_of_the_rule() {
 #[test]
 fn an_upright_segment_at_rest_has_its_yaw_in_psi() {
     let mut state = Random::new(1).vertical_state().to_core();
-    state.orientation[0] = Quat {
-        w: 0.3_f64.cos(),
-        v: v3(0.0, 0.0, 0.3_f64.sin()),
-    };
+    state.orientation[0] = Quat { w: 0.3_f64.cos(), v: v3(0.0, 0.0, 0.3_f64.sin()) };
     state.omega[0] = V3::zero();
     let coordinates = ReportCoordinates::from_state(&state);
     assert_eq!(coordinates.q[3..5], [0.0, 0.0]);
@@ -106,17 +97,10 @@ fn an_upright_segment_at_rest_has_its_yaw_in_psi() {
 
 /// Largest difference; orientations by their axes.
 fn difference(a: &State<f64>, b: &State<f64>) -> f64 {
-    let mut worst = (a.t1 - b.t1)
-        .norm_squared()
-        .max((a.velocity - b.velocity).norm_squared());
+    let mut worst = (a.t1 - b.t1).norm_squared().max((a.velocity - b.velocity).norm_squared());
     for slot in 0..8 {
         let (p, q) = (axes(&a.orientation[slot]), axes(&b.orientation[slot]));
-        for gap in [
-            p.x - q.x,
-            p.y - q.y,
-            p.z - q.z,
-            a.omega[slot] - b.omega[slot],
-        ] {
+        for gap in [p.x - q.x, p.y - q.y, p.z - q.z, a.omega[slot] - b.omega[slot]] {
             worst = worst.max(gap.norm_squared());
         }
     }

@@ -14,13 +14,8 @@ use occupant_core::simulate::{Outcome, ResumeError, Status, replay, resume, simu
 use occupant_tests::cart::lap;
 
 const RK4: Integrator = Integrator::Rk4 { step_s: 3e-4 };
-const ADAPTIVE: Integrator = Integrator::Adaptive {
-    relative: 1e-4,
-    absolute_m: 1e-4,
-    absolute_m_s: 1e-4,
-    min_step_s: 1e-9,
-    max_step_s: 1e-3,
-};
+const ADAPTIVE: Integrator =
+    Integrator::Adaptive { relative: 1e-4, absolute_m: 1e-4, absolute_m_s: 1e-4, min_step_s: 1e-9, max_step_s: 1e-3 };
 
 /// Outputs of a run: everything in them as text, which shows every bit, and their checkpoints.
 #[derive(Default)]
@@ -65,12 +60,7 @@ fn lap_and_torso(integrator: Integrator) -> Setup {
 }
 
 fn cases() -> [Setup; 4] {
-    [
-        lap(RK4),
-        lap(ADAPTIVE),
-        lap_and_torso(RK4),
-        lap_and_torso(ADAPTIVE),
-    ]
+    [lap(RK4), lap(ADAPTIVE), lap_and_torso(RK4), lap_and_torso(ADAPTIVE)]
 }
 
 #[test]
@@ -106,14 +96,8 @@ fn a_finished_run_goes_on_to_a_later_end() {
 #[test]
 fn an_interrupted_run_goes_on() {
     let (model, whole, outcome) = run(&lap(RK4));
-    let mut first = Outputs {
-        stop_at: Some(83),
-        ..Outputs::default()
-    };
-    assert_eq!(
-        simulate(&model, &mut first).unwrap().status,
-        Status::Stopped
-    );
+    let mut first = Outputs { stop_at: Some(83), ..Outputs::default() };
+    assert_eq!(simulate(&model, &mut first).unwrap().status, Status::Stopped);
     let mut rest = Outputs::default();
     let ended = resume(&model, first.checkpoints.last().unwrap(), &mut rest).unwrap();
     assert!(first.texts[..83] == whole.texts[..83] && rest.texts == whole.texts[83..]);
@@ -127,15 +111,9 @@ fn an_end_between_outputs_is_refused_and_the_output_before_it_is_not() {
     let (model, whole, _) = run(&setup);
     setup.time.end_s = 0.0504;
     let (_, first, _) = run(&setup);
-    let [.., before, last] = first.checkpoints.as_slice() else {
-        panic!("no outputs")
-    };
+    let [.., before, last] = first.checkpoints.as_slice() else { panic!("no outputs") };
     // 51 intervals of a millisecond are not 0.051 s to the last bit
-    let refused = CheckpointError::Time {
-        index: 51,
-        found_s: 0.0504,
-        expected_s: Some(51.0 * 1e-3),
-    };
+    let refused = CheckpointError::Time { index: 51, found_s: 0.0504, expected_s: Some(51.0 * 1e-3) };
     assert_eq!(last.check(&model), Err(refused));
     let mut rest = Outputs::default();
     resume(&model, before, &mut rest).unwrap();
@@ -170,47 +148,16 @@ fn a_checkpoint_of_another_scenario_is_refused() {
     };
     let pairs = sound.pairs.len();
     let cases: [(CheckpointError, Change<'_>); 8] = [
-        (
-            CheckpointError::Pairs {
-                found: pairs - 1,
-                expected: pairs,
-            },
-            &|c| c.pairs.truncate(pairs - 1),
-        ),
-        (
-            CheckpointError::Belts {
-                found: 0,
-                expected: 1,
-            },
-            &|c| c.belts.clear(),
-        ),
-        (
-            CheckpointError::Time {
-                index: 300,
-                found_s: sound.time_s,
-                expected_s: None,
-            },
-            &|c| c.index = 300,
-        ),
-        (CheckpointError::Pair { pair: 3 }, &|c| {
-            c.pairs[3].phase = 7.0
+        (CheckpointError::Pairs { found: pairs - 1, expected: pairs }, &|c| c.pairs.truncate(pairs - 1)),
+        (CheckpointError::Belts { found: 0, expected: 1 }, &|c| c.belts.clear()),
+        (CheckpointError::Time { index: 300, found_s: sound.time_s, expected_s: None }, &|c| c.index = 300),
+        (CheckpointError::Pair { pair: 3 }, &|c| c.pairs[3].phase = 7.0),
+        (CheckpointError::Pair { pair: 4 }, &|c| c.pairs[4].greatest = -1.0),
+        (CheckpointError::Touch { sphere: 17, surface: sound.first_touches[0].surface }, &|c| {
+            c.first_touches[0].sphere = 17
         }),
-        (CheckpointError::Pair { pair: 4 }, &|c| {
-            c.pairs[4].greatest = -1.0
-        }),
-        (
-            CheckpointError::Touch {
-                sphere: 17,
-                surface: sound.first_touches[0].surface,
-            },
-            &|c| c.first_touches[0].sphere = 17,
-        ),
-        (CheckpointError::NotFinite, &|c| {
-            c.state.velocity.y = f64::NAN
-        }),
-        (CheckpointError::NotFinite, &|c| {
-            c.progress.energy_start.mechanical_j = f64::INFINITY
-        }),
+        (CheckpointError::NotFinite, &|c| c.state.velocity.y = f64::NAN),
+        (CheckpointError::NotFinite, &|c| c.progress.energy_start.mechanical_j = f64::INFINITY),
     ];
     for (expected, change) in cases {
         assert_eq!(refused(change), expected);
@@ -232,18 +179,11 @@ fn a_checkpoint_with_an_impossible_step_is_refused() {
     let step = sound.under_way.as_ref().unwrap();
     let (start_s, time_s) = (step.start_s, sound.time_s);
     assert_eq!(refused(&|_| {}), Ok(()));
-    let early = CheckpointError::Step {
-        start_s,
-        end_s: start_s,
-        time_s,
-    };
+    let early = CheckpointError::Step { start_s, end_s: start_s, time_s };
     let ends_early: Change<'_> = &|c| c.under_way.as_mut().unwrap().end_s = start_s;
     assert_eq!(refused(ends_early), Err(early));
     let short: Change<'_> = &|c| c.under_way.as_mut().unwrap().pairs.truncate(1);
-    assert!(matches!(
-        refused(short),
-        Err(CheckpointError::Pairs { found: 1, .. })
-    ));
+    assert!(matches!(refused(short), Err(CheckpointError::Pairs { found: 1, .. })));
     let broken: Change<'_> = &|c| c.under_way.as_mut().unwrap().state.t1.x = f64::NAN;
     assert_eq!(refused(broken), Err(CheckpointError::NotFinite));
 }
@@ -275,17 +215,13 @@ fn where_cards_tell_the_pairs_these_have_passed_and_all_others_touch() {
         let pairs = group.pairs.clone();
         pairs.map(|i| (i, (group.sphere, surface_of(&model, i))))
     });
-    let (one, other): (Vec<_>, Vec<_>) = named
-        .filter(|(i, _)| from.pairs[*i].phase != OPEN)
-        .partition(|(i, _)| i % 2 == 0);
+    let (one, other): (Vec<_>, Vec<_>) =
+        named.filter(|(i, _)| from.pairs[*i].phase != OPEN).partition(|(i, _)| i % 2 == 0);
     assert!(one.len() > 5 && other.len() > 5);
     let mut setup = model.setup().clone();
     setup.time.start_s = from.time_s;
     let coordinates = Box::new(ReportCoordinates::from_state(&from.state));
-    setup.posture = InitialPosture::Continued {
-        coordinates,
-        passed: one.iter().map(|(_, names)| *names).collect(),
-    };
+    setup.posture = InitialPosture::Continued { coordinates, passed: one.iter().map(|(_, names)| *names).collect() };
     let continued = Model::new(setup).unwrap();
     let pairs = &continued.start().history.pairs;
     for (i, _) in &one {

@@ -53,9 +53,7 @@ fn several_threads_that_share_a_model_get_the_same_bits() {
     let model = Model::new(lap(Integrator::Rk4 { step_s: 2e-4 })).unwrap();
     let alone = fingerprint(&model);
     let together: Vec<Vec<u64>> = thread::scope(|scope| {
-        let runs: Vec<_> = (0..4)
-            .map(|_| scope.spawn(|| fingerprint(&model)))
-            .collect();
+        let runs: Vec<_> = (0..4).map(|_| scope.spawn(|| fingerprint(&model))).collect();
         runs.into_iter().map(|run| run.join().unwrap()).collect()
     });
     assert!(together.iter().all(|bits| *bits == alone));
@@ -96,25 +94,14 @@ fn a_step_far_too_long_for_its_springs_ends_the_run_with_time_step_and_component
     let model = Model::new(far_too_stiff()).unwrap();
     let mut diary = Diary::default();
     let outcome = simulate(&model, &mut diary).unwrap();
-    let Status::Failed(
-        ref error @ StepError::NotFinite {
-            time_s,
-            step_s,
-            ref component,
-        },
-    ) = outcome.status
-    else {
+    let Status::Failed(ref error @ StepError::NotFinite { time_s, step_s, ref component }) = outcome.status else {
         panic!("{:?}", outcome.status);
     };
     assert!(time_s > 0.0 && time_s < 0.2);
     assert!((step_s - 1e-3).abs() < 1e-12);
     assert!(!component.is_empty());
     let text = error.to_string();
-    for part in [
-        &format!("t = {time_s:.6} s"),
-        component,
-        "no longer a finite number",
-    ] {
+    for part in [&format!("t = {time_s:.6} s"), component, "no longer a finite number"] {
         assert!(text.contains(part), "{part} in {text}");
     }
     // what was recorded before stands, and the recorder is told
@@ -128,13 +115,7 @@ fn a_step_far_too_long_for_its_springs_ends_the_run_with_time_step_and_component
 fn an_error_control_that_asks_for_less_than_the_smallest_step_ends_the_run() {
     let model = Model::new(lap(adaptive(1e-9, 5e-4))).unwrap();
     let outcome = simulate(&model, ()).unwrap();
-    let Status::Failed(StepError::StepTooSmall {
-        time_s,
-        step_s,
-        min_step_s,
-        error,
-    }) = outcome.status
-    else {
+    let Status::Failed(StepError::StepTooSmall { time_s, step_s, min_step_s, error }) = outcome.status else {
         panic!("{:?}", outcome.status);
     };
     assert!(step_s < min_step_s && error > 1.0);
@@ -146,11 +127,7 @@ struct Stopper;
 
 impl Recorder for Stopper {
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
-        Ok(if sample.index < 10 {
-            Flow::Continue
-        } else {
-            Flow::Stop
-        })
+        Ok(if sample.index < 10 { Flow::Continue } else { Flow::Stop })
     }
 }
 
@@ -181,8 +158,7 @@ fn a_summary_of_the_lap_case_says_what_touches_what_and_in_which_order() {
     let outcome = simulate(&model, ()).unwrap();
     let touched = |sphere: &str, surface: &str| {
         outcome.first_touches.iter().position(|t| {
-            model.body().spheres[t.sphere].name == sphere
-                && model.setup().surfaces[t.surface].name == surface
+            model.body().spheres[t.sphere].name == sphere && model.setup().surfaces[t.surface].name == surface
         })
     };
     let at = |sphere, surface| {

@@ -38,10 +38,7 @@ fn difference(one: Vec<Surface>, other: Vec<Surface>) -> f64 {
     let slide = Vector3::new(0.8, 0.1, 0.0);
     let mut worst = 0.0_f64;
     for at in walk() {
-        let (p, q) = (
-            a.moving(at, slide, Vector3::y()),
-            b.moving(at, slide, Vector3::y()),
-        );
+        let (p, q) = (a.moving(at, slide, Vector3::y()), b.moving(at, slide, Vector3::y()));
         assert_eq!((a.phase(0), b.phase(0)), (TOUCHING, TOUCHING));
         worst = worst
             .max((p.force_n - q.force_n).norm())
@@ -53,10 +50,7 @@ fn difference(one: Vec<Surface>, other: Vec<Surface>) -> f64 {
 
 #[test]
 fn a_knee_that_slides_over_a_seam_feels_one_face() {
-    let halves = vec![
-        rectangle("left", [-0.5, 0.0], [-0.5, 0.5]),
-        rectangle("right", [0.0, 0.5], [-0.5, 0.5]),
-    ];
+    let halves = vec![rectangle("left", [-0.5, 0.0], [-0.5, 0.5]), rectangle("right", [0.0, 0.5], [-0.5, 0.5])];
     assert_eq!(probe(halves.clone()).pairs(), 1);
     let whole = vec![rectangle("whole", [-0.5, 0.5], [-0.5, 0.5])];
     assert_eq!(difference(halves, whole), 0.0);
@@ -66,11 +60,7 @@ fn a_knee_that_slides_over_a_seam_feels_one_face() {
 fn a_chain_of_three_faces_is_one_face_in_any_order() {
     let [left, middle, right] = [[-0.5, -0.1], [-0.1, 0.15], [0.15, 0.5]];
     let face = |name: &str, x: [f64; 2]| rectangle(name, x, [-0.5, 0.5]);
-    let parts = vec![
-        face("left", left),
-        face("right", right),
-        face("middle", middle),
-    ];
+    let parts = vec![face("left", left), face("right", right), face("middle", middle)];
     assert_eq!(probe(parts.clone()).pairs(), 1);
     let whole = vec![face("whole", [-0.5, 0.5])];
     assert_eq!(difference(parts, whole), 0.0);
@@ -126,15 +116,9 @@ fn the_part_that_is_nearest_gives_the_material_and_the_name() {
 
 #[test]
 fn faces_that_only_touch_at_a_corner_or_leave_a_gap_stay_apart() {
-    let corner = vec![
-        rectangle("a", [-0.5, 0.0], [-0.5, 0.0]),
-        rectangle("b", [0.0, 0.5], [0.0, 0.5]),
-    ];
+    let corner = vec![rectangle("a", [-0.5, 0.0], [-0.5, 0.0]), rectangle("b", [0.0, 0.5], [0.0, 0.5])];
     assert_eq!(probe(corner).pairs(), 2);
-    let gap = vec![
-        rectangle("a", [-0.5, 0.0], [-0.5, 0.5]),
-        rectangle("b", [0.001, 0.5], [-0.5, 0.5]),
-    ];
+    let gap = vec![rectangle("a", [-0.5, 0.0], [-0.5, 0.5]), rectangle("b", [0.001, 0.5], [-0.5, 0.5])];
     assert_eq!(probe(gap).pairs(), 2);
 }
 
@@ -170,8 +154,7 @@ fn faces_that_meet_at_an_angle_act_separately_and_their_forces_add() {
     for i in -10..=10 {
         let at = Vector3::new(0.004 * f64::from(i), 0.0, 0.11);
         let slide = Vector3::new(0.3, 0.5, 0.0);
-        let sum = left.moving(at, slide, Vector3::zeros()).force_n
-            + right.moving(at, slide, Vector3::zeros()).force_n;
+        let sum = left.moving(at, slide, Vector3::zeros()).force_n + right.moving(at, slide, Vector3::zeros()).force_n;
         let force = both.moving(at, slide, Vector3::zeros()).force_n;
         assert!(force.norm() > 100.0);
         worst = worst.max((force - sum).norm());
@@ -182,18 +165,10 @@ fn faces_that_meet_at_an_angle_act_separately_and_their_forces_add() {
 
 #[test]
 fn a_joined_pair_passes_only_beyond_the_union() {
-    let halves = vec![
-        rectangle("left", [-0.5, 0.0], [-0.5, 0.5]),
-        rectangle("right", [0.0, 0.5], [-0.5, 0.5]),
-    ];
+    let halves = vec![rectangle("left", [-0.5, 0.0], [-0.5, 0.5]), rectangle("right", [0.0, 0.5], [-0.5, 0.5])];
     let mut probe = probe(halves);
     let at = |x: f64| Vector3::new(x, 0.0, RADIUS_M - 0.01);
-    for (x, phase) in [
-        (-0.3, TOUCHING),
-        (0.3, TOUCHING),
-        (0.55, TOUCHING),
-        (0.61, PASSED),
-    ] {
+    for (x, phase) in [(-0.3, TOUCHING), (0.3, TOUCHING), (0.55, TOUCHING), (0.61, PASSED)] {
         probe.at(at(x));
         assert_eq!(probe.phase(0), phase, "x = {x}");
     }

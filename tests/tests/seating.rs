@@ -45,22 +45,13 @@ fn start(mut setup: Setup) -> Start {
         Watch(|s: &Sample<'_>| {
             seen.get_or_insert_with(|| {
                 let ends = Segment::ALL.map(|n| s.end_points_m(n).map(|p| p.coords));
-                (
-                    s.contacts().collect(),
-                    s.sphere_centre_m(PELVIS).coords,
-                    ends.to_vec(),
-                )
+                (s.contacts().collect(), s.sphere_centre_m(PELVIS).coords, ends.to_vec())
             });
         }),
     )
     .unwrap();
     let (contacts, pelvis_m, joints_m) = seen.unwrap();
-    Start {
-        contacts,
-        pelvis_m,
-        joints_m,
-        model,
-    }
+    Start { contacts, pelvis_m, joints_m, model }
 }
 
 /// g·(M₁+…+M₈ + ½(M₉+M₁₀)), N.
@@ -72,19 +63,11 @@ fn carried(body: &Body) -> f64 {
 /// Weight that the cushion carries, from its normal force on the pelvis, less what it should, as a fraction.
 fn imbalance(start: &Start) -> f64 {
     let on = |surface: usize| move |c: &&Contact| c.sphere == PELVIS && c.surface == surface;
-    let cushion = start
-        .contacts
-        .iter()
-        .find(on(0))
-        .expect("the pelvis on the cushion");
+    let cushion = start.contacts.iter().find(on(0)).expect("the pelvis on the cushion");
     let back = start.contacts.iter().find(on(1));
     // tangent to the back: its force there is rounding
     assert!(back.is_none_or(|c| c.normal_force_n < 1e-6), "{back:?}");
-    let vehicle = start
-        .model
-        .setup()
-        .path
-        .motion(0.0, 0.0, &mut Default::default());
+    let vehicle = start.model.setup().path.motion(0.0, 0.0, &mut Default::default());
     let normal = vehicle.rotation * start.model.faces()[0].normal;
     cushion.normal_force_n * normal.z / carried(start.model.body()) - 1.0
 }
@@ -110,11 +93,7 @@ fn in_a_pitched_and_rolled_vehicle_the_cushion_carries_the_weight_along_gravity(
     let mut setup = seated(|_| {});
     let pose = VehiclePose {
         position_m: Vector3::new(3.0, -2.0, 1.0),
-        attitude: Attitude {
-            roll_rad: 0.15,
-            pitch_rad: 0.2,
-            yaw_rad: 1.1,
-        },
+        attitude: Attitude { roll_rad: 0.15, pitch_rad: 0.2, yaw_rad: 1.1 },
     };
     setup.path = VehiclePath::Fixed(FixedPath::new(pose).unwrap());
     // Measured: 8.7e-15.
@@ -138,10 +117,7 @@ fn without_gravity_the_pelvis_is_tangent_to_cushion_and_back() {
 fn the_heels_stand_where_they_should_with_the_knees_above_and_the_posture_as_given() {
     let start = start(seated(|_| {}));
     let ends = |n: Segment| start.joints_m[n.index()];
-    for (thigh, shank) in [
-        (Segment::LeftThigh, Segment::LeftLowerLeg),
-        (Segment::RightThigh, Segment::RightLowerLeg),
-    ] {
+    for (thigh, shank) in [(Segment::LeftThigh, Segment::LeftLowerLeg), (Segment::RightThigh, Segment::RightLowerLeg)] {
         let ([hip, knee], [_, heel]) = (ends(thigh), ends(shank));
         // Measured: 1.1e-16.
         assert_below("heel x, m", heel.x - 27.0 * INCH_M, 1e-14);
@@ -177,10 +153,9 @@ fn the_occupants_left_is_the_vehicles_left_and_the_body_is_symmetric() {
     let start = start(seated(|_| {}));
     let ends = |n: Segment| start.joints_m[n.index()][1];
     let middle = -14.0 * INCH_M;
-    for (left, right) in [
-        (Segment::LeftForearm, Segment::RightForearm),
-        (Segment::LeftLowerLeg, Segment::RightLowerLeg),
-    ] {
+    for (left, right) in
+        [(Segment::LeftForearm, Segment::RightForearm), (Segment::LeftLowerLeg, Segment::RightLowerLeg)]
+    {
         let (l, r) = (ends(left), ends(right));
         // Y_v points to the right
         assert!(l.y < middle && r.y > middle);
@@ -221,17 +196,8 @@ fn all_four_seats_seat_the_body_alike() {
     let first = four_seats(false, false);
     for (rear, right) in [(false, true), (true, false), (true, true)] {
         let other = four_seats(rear, right);
-        let shift = Vector3::new(
-            if rear { -0.9 } else { 0.0 },
-            if right { 0.7 } else { 0.0 },
-            0.0,
-        );
-        for (a, b) in first
-            .joints_m
-            .iter()
-            .flatten()
-            .zip(other.joints_m.iter().flatten())
-        {
+        let shift = Vector3::new(if rear { -0.9 } else { 0.0 }, if right { 0.7 } else { 0.0 }, 0.0);
+        for (a, b) in first.joints_m.iter().flatten().zip(other.joints_m.iter().flatten()) {
             // Measured: 3.5e-16.
             assert_below("place less the shift, m", (b - a - shift).norm(), 1e-14);
         }
@@ -240,27 +206,18 @@ fn all_four_seats_seat_the_body_alike() {
 
 /// The error text of a seating that cannot be.
 fn refused(setup: Setup) -> String {
-    Model::new(setup)
-        .expect_err("a seat that cannot be")
-        .to_string()
+    Model::new(setup).expect_err("a seat that cannot be").to_string()
 }
 
 #[test]
 fn heels_out_of_reach_are_an_error_that_says_by_how_much() {
     let far = refused(seated(|s| s.heels_m = [1.5, 0.3]));
     let body = male50();
-    let leg: f64 = [8, 10]
-        .map(|n: usize| body.segments[n].length_m)
-        .iter()
-        .sum();
+    let leg: f64 = [8, 10].map(|n: usize| body.segments[n].length_m).iter().sum();
     // the hip is the pelvis sphere's centre: at (−3.973, 1.020) in
     let hip = start(seated(|_| {})).pelvis_m;
     let by = (1.5 - hip.x).hypot(0.3 - hip.z) - leg;
-    for part in [
-        "posture.heels",
-        &format!("{by:.4} m out of reach"),
-        "nearer to the seat",
-    ] {
+    for part in ["posture.heels", &format!("{by:.4} m out of reach"), "nearer to the seat"] {
         assert!(far.contains(part), "{part} in {far}");
     }
     // both legs are told of
@@ -275,10 +232,7 @@ fn a_cushion_that_faces_down_is_an_error() {
     let below = nalgebra::Point3::new(0.0, -0.35, 2.0);
     setup.surfaces[0].facing = occupant_core::surface::Facing::Towards(below);
     let text = refused(setup);
-    assert!(
-        text.contains("seat.cushion") && text.contains("faces up"),
-        "{text}"
-    );
+    assert!(text.contains("seat.cushion") && text.contains("faces up"), "{text}");
 }
 
 #[test]
@@ -292,36 +246,20 @@ fn the_body_starts_as_part_of_the_vehicle_or_with_a_velocity_of_its_own() {
     let moving = |velocity: InitialVelocity| {
         let mut setup = lap(Integrator::Rk4 { step_s: 1e-4 });
         setup.velocity = velocity;
-        Model::new(setup)
-            .unwrap()
-            .start()
-            .state
-            .velocity
-            .to_vector()
+        Model::new(setup).unwrap().start().state.velocity.to_vector()
     };
     let speed = 352.0 * INCH_M;
     let with = moving(InitialVelocity::WithVehicle);
     // Measured: 0.
-    assert_below(
-        "with the vehicle, m/s",
-        (with - Vector3::x() * speed).norm(),
-        1e-14,
-    );
+    assert_below("with the vehicle, m/s", (with - Vector3::x() * speed).norm(), 1e-14);
     let given = moving(InitialVelocity::Given(Vector3::new(1.0, 2.0, 3.0)));
     assert_eq!(given, Vector3::new(1.0, -2.0, -3.0));
 }
 
 /// All joints damped by `damping` N·m·s against bending, turning and twisting.
 fn stiff(damping: f64) -> Joints {
-    let ball = BallJoint {
-        damping_n_m_s: damping,
-        twist_damping_n_m_s: damping,
-        ..BallJoint::default()
-    };
-    let hinge = HingeJoint {
-        damping_n_m_s: damping,
-        ..HingeJoint::default()
-    };
+    let ball = BallJoint { damping_n_m_s: damping, twist_damping_n_m_s: damping, ..BallJoint::default() };
+    let hinge = HingeJoint { damping_n_m_s: damping, ..HingeJoint::default() };
     Joints {
         neck: ball,
         right_shoulder: ball,
@@ -362,11 +300,7 @@ fn a_settled_body_with_locked_joints_leaves_no_residual_and_stays_where_it_is() 
     let model = Model::new(seated(|s| s.settle = true)).unwrap();
     let settled = model.start().settled.unwrap();
     // Measured: 1.5e-12.
-    assert_below(
-        "residual, of the weight",
-        settled.residual_force_n / settled.weight_n,
-        1e-8,
-    );
+    assert_below("residual, of the weight", settled.residual_force_n / settled.weight_n, 1e-8);
     // Measured: 7.9e-11.
     assert_below("residual moment, N·m", settled.residual_moment_n_m, 1e-6);
     assert!(model.warnings().is_empty());
@@ -375,27 +309,16 @@ fn a_settled_body_with_locked_joints_leaves_no_residual_and_stays_where_it_is() 
     // joints that give way slowly let it creep in proportion to 1/J
     let (soft, hard) = (drift(true, 250.0), drift(true, 500.0));
     // Measured: 2.7e-5.
-    assert_below(
-        "drift of rigid joints by extrapolation, m",
-        2.0 * hard - soft,
-        1e-4,
-    );
+    assert_below("drift of rigid joints by extrapolation, m", 2.0 * hard - soft, 1e-4);
     // Measured: 0.00397.
-    assert_within(
-        "drift of an unsettled body, m",
-        drift(false, 500.0),
-        [1e-3, 0.1],
-    );
+    assert_within("drift of an unsettled body, m", drift(false, 500.0), [1e-3, 0.1]);
 }
 
 #[test]
 fn settling_keeps_the_posture() {
     let states = [false, true].map(|settle| {
         let model = Model::new(seated(|s| s.settle = settle)).unwrap();
-        let k = occupant_core::kernel::kinematics::Kinematics::new(
-            &model.system().skeleton,
-            &model.start().state,
-        );
+        let k = occupant_core::kernel::kinematics::Kinematics::new(&model.system().skeleton, &model.start().state);
         k.axes.map(|a| a.to_matrix())
     });
     let [before, after] = states;

@@ -38,34 +38,22 @@ fn model_of(draft: &Draft) -> Model {
 fn tumbling() -> Draft {
     let q = "initial_state.q=[0.1, 0, 2, 10, 12, 0, 5, 45, 5, 20, 15, 0, 150, 25, 10, -20, 50, 0, 40, 60, 0, -10, 30, 5, 0, -40, -70, 60, -15, 80, 60]";
     let rates = "initial_state.rates=[1, 0.3, 0.5, 40, 40, 10, 10, 30, 20, 20, 60, 0, 40, 30, 20, -30, 40, 0, -60, 60, 30, 20, 50, 0, 30, 60, -60, 50, 0, 40, -60]";
-    let far = |joint: &str| {
-        format!("joints.{joint}.stop={{ begin = 170, full = 175, damping = \"1 in lbf s/rad\" }}")
-    };
+    let far = |joint: &str| format!("joints.{joint}.stop={{ begin = 170, full = 175, damping = \"1 in lbf s/rad\" }}");
     let (upper, lower) = (far("upper_back"), far("lower_back"));
     let neck = far("neck");
     let (right, left) = (far("right_hip"), far("left_hip"));
     let stops = [&upper, &lower, &neck, &right, &left].map(String::as_str);
     // runs beside each other on the same steps: their differences hold no errors of the integration
     let steps = "integrator={ kind = \"rk4\", step = \"0.1 ms\" }";
-    let set = [
-        &[q, rates, "time.end=0.06", "gravity=9.81", steps],
-        &stops[..],
-    ]
-    .concat();
+    let set = [&[q, rates, "time.end=0.06", "gravity=9.81", steps], &stops[..]].concat();
     draft(FREE, &set)
 }
 
 /// Builds, follows and takes the derivatives of all channels by all parameters.
 fn all_channels(model: &Model, parameters: &[Parameter<'_>]) -> (Trajectory, Vec<Vec<Vec<Slope>>>) {
-    let mut built: Vec<Built> = parameters
-        .iter()
-        .map(|p| Built::new(model, p).unwrap())
-        .collect();
+    let mut built: Vec<Built> = parameters.iter().map(|p| Built::new(model, p).unwrap()).collect();
     let trajectory = follow(model, &mut built).unwrap();
-    let wish = Wish {
-        figures: Vec::new(),
-        channels: channels(model),
-    };
+    let wish = Wish { figures: Vec::new(), channels: channels(model) };
     let each = parameters.iter().enumerate().map(|(k, p)| {
         let found = derivatives(model, p, &trajectory, k, &wish).unwrap();
         found.channels
@@ -117,29 +105,20 @@ fn greatest(values: impl Iterator<Item = f64>) -> f64 {
 
 /// The greatest value of all channels of this one's unit.
 fn scale_of(all: &[Channel], plain: &[Vec<f64>], channel: &Channel) -> f64 {
-    let alike = all
-        .iter()
-        .zip(plain)
-        .filter(|(c, _)| c.unit == channel.unit);
+    let alike = all.iter().zip(plain).filter(|(c, _)| c.unit == channel.unit);
     greatest(alike.flat_map(|(_, values)| values.iter().copied()))
 }
 
 /// Greatest distance between duals and differences of runs, as a part of the channel's greatest slope, or of a hundredth of
 /// what a channel of its unit comes to: channels that stand still hold nothing but rounding.
-fn distance(
-    model: &Model,
-    parameter: &Parameter<'_>,
-    found: &[Vec<Slope>],
-    parts: &[f64],
-) -> (f64, String) {
+fn distance(model: &Model, parameter: &Parameter<'_>, found: &[Vec<Slope>], parts: &[f64]) -> (f64, String) {
     let all = channels(model);
     let plain = series(model);
     let expected = by_runs(parameter, parts);
     let mut worst = (0.0, String::new());
     for (i, channel) in all.iter().enumerate() {
         let name = &channel.name;
-        let scale = greatest(expected[i].iter().copied())
-            .max(1e-2 * scale_of(&all, &plain, channel) / parameter.size);
+        let scale = greatest(expected[i].iter().copied()).max(1e-2 * scale_of(&all, &plain, channel) / parameter.size);
         let far = found[i].iter().zip(&expected[i]);
         let far = greatest(far.map(|(a, b)| a.value - b));
         assert!(far.is_finite(), "{name}");
@@ -152,10 +131,7 @@ fn distance(
 
 fn against_runs(draft: &Draft, paths: &[&str], parts: &[f64], bound: f64) {
     let model = model_of(draft);
-    let parameters: Vec<Parameter<'_>> = paths
-        .iter()
-        .map(|p| parameter(draft, p, &no_files).unwrap())
-        .collect();
+    let parameters: Vec<Parameter<'_>> = paths.iter().map(|p| parameter(draft, p, &no_files).unwrap()).collect();
     let (_, found) = all_channels(&model, &parameters);
     for (parameter, found) in parameters.iter().zip(&found) {
         let (far, channel) = distance(&model, parameter, found, parts);
@@ -209,8 +185,7 @@ fn with_error_control_the_derivative_is_the_same() {
             if channel.name == "energy.balance" {
                 continue;
             }
-            let scale = greatest(fixed[i].iter().map(|s| s.value))
-                .max(1e-2 * scale_of(&all, &plain, channel));
+            let scale = greatest(fixed[i].iter().map(|s| s.value)).max(1e-2 * scale_of(&all, &plain, channel));
             let far = fixed[i].iter().zip(&chosen[i]);
             let far = greatest(far.map(|(a, b)| a.value - b.value)) / scale;
             worst = worst.max(far);
@@ -233,18 +208,12 @@ fn the_values_of_a_run_in_duals_are_those_of_the_plain_run_to_the_bit() {
     for integrator in [Integrator::Rk4 { step_s: 2e-4 }, adaptive] {
         let model = Model::new(lap(integrator)).unwrap();
         let mut plain: Vec<Checkpoint> = Vec::new();
-        let outcome = simulate(
-            &model,
-            Watch(|s: &occupant_core::sample::Sample<'_>| plain.push(s.checkpoint())),
-        )
-        .unwrap();
+        let outcome =
+            simulate(&model, Watch(|s: &occupant_core::sample::Sample<'_>| plain.push(s.checkpoint()))).unwrap();
         let scaled = scaled_by(integrator);
         for count in [1, 2, 5] {
             let parameters: Vec<Parameter<'_>> = (0..count).map(|_| scaled.parameter()).collect();
-            let mut built: Vec<Built> = parameters
-                .iter()
-                .map(|p| Built::new(&model, p).unwrap())
-                .collect();
+            let mut built: Vec<Built> = parameters.iter().map(|p| Built::new(&model, p).unwrap()).collect();
             let trajectory = follow(&model, &mut built).unwrap();
             assert_eq!(trajectory.checkpoints, plain);
             assert_eq!(trajectory.outcome, outcome);
@@ -258,9 +227,7 @@ struct Scaled {
 }
 
 fn scaled_by(integrator: Integrator) -> Scaled {
-    Scaled {
-        setup: lap(integrator),
-    }
+    Scaled { setup: lap(integrator) }
 }
 
 impl Scaled {
@@ -307,17 +274,9 @@ impl Scaled {
                 spring.stiffness_n_m *= lambda;
             }
         }
-        for hinge in [
-            &mut j.left_elbow,
-            &mut j.right_elbow,
-            &mut j.left_knee,
-            &mut j.right_knee,
-        ] {
+        for hinge in [&mut j.left_elbow, &mut j.right_elbow, &mut j.left_knee, &mut j.right_knee] {
             hinge.damping_n_m_s *= lambda;
-            for stop in [&mut hinge.lower_stop, &mut hinge.upper_stop]
-                .into_iter()
-                .flatten()
-            {
+            for stop in [&mut hinge.lower_stop, &mut hinge.upper_stop].into_iter().flatten() {
                 stop.damping_n_m_s *= lambda;
             }
         }
@@ -365,9 +324,7 @@ fn free_fall_in_closed_form() {
     let model = model_of(&draft);
     let paths = ["gravity", "initial_state.q[0]", "initial_state.rates[2]"];
     let parameters = paths.map(|p| parameter(&draft, p, &no_files).unwrap());
-    let mut built = parameters
-        .each_ref()
-        .map(|p| Built::new(&model, p).unwrap());
+    let mut built = parameters.each_ref().map(|p| Built::new(&model, p).unwrap());
     let trajectory = follow(&model, &mut built).unwrap();
     let mut worst = 0.0_f64;
     for (i, checkpoint) in trajectory.checkpoints.iter().enumerate() {
@@ -392,11 +349,8 @@ fn the_instant_of_a_contact_shifts_as_in_free_fall() {
     let text = format!("{FREE}{ground}");
     let draft = draft(&text, &["gravity=9.81"]);
     let model = model_of(&draft);
-    let parameters =
-        ["gravity", "initial_state.q[2]"].map(|p| parameter(&draft, p, &no_files).unwrap());
-    let mut built = parameters
-        .each_ref()
-        .map(|p| Built::new(&model, p).unwrap());
+    let parameters = ["gravity", "initial_state.q[2]"].map(|p| parameter(&draft, p, &no_files).unwrap());
+    let mut built = parameters.each_ref().map(|p| Built::new(&model, p).unwrap());
     let trajectory = follow(&model, &mut built).unwrap();
     let first = trajectory.events.first().expect("a contact");
     let words = first.happening.words(&model);
@@ -436,20 +390,10 @@ fn after_contacts_the_derivative_is_what_small_finite_changes_do() {
         let model = model_of(&draft);
         let paths = ["joints.neck.damping", "materials.seat.k1", "path.duration"];
         let parameters = paths.map(|p| parameter(&draft, p, &no_files).unwrap());
-        let mut built = parameters
-            .each_ref()
-            .map(|p| Built::new(&model, p).unwrap());
+        let mut built = parameters.each_ref().map(|p| Built::new(&model, p).unwrap());
         let trajectory = follow(&model, &mut built).unwrap();
-        let figures = [
-            "hic15",
-            "head.peak",
-            "chest.three_ms_contiguous",
-            "contacts.pelvis.peak",
-        ];
-        let wish = Wish {
-            figures: figures.map(str::to_owned).to_vec(),
-            channels: Vec::new(),
-        };
+        let figures = ["hic15", "head.peak", "chest.three_ms_contiguous", "contacts.pelvis.peak"];
+        let wish = Wish { figures: figures.map(str::to_owned).to_vec(), channels: Vec::new() };
         let plain = plain_values(&model, &trajectory, &wish).unwrap();
         for (k, parameter) in parameters.iter().enumerate() {
             let found = derivatives(&model, parameter, &trajectory, k, &wish).unwrap();

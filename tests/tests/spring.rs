@@ -116,11 +116,7 @@ fn a_spring_that_returns_all_retraces_its_loading_curve() {
         worst = worst.max((loading - unloading).abs() / law.respond(0.15, 0.0).0);
     }
     // Measured: 8.9e-17.
-    assert_below(
-        "loading against unloading, of the greatest force",
-        worst,
-        1e-13,
-    );
+    assert_below("loading against unloading, of the greatest force", worst, 1e-13);
 }
 
 /// Leads a probe on the plane Z′ = 0 through deformations (m) and returns the forces, N.
@@ -142,21 +138,10 @@ fn reloading_runs_along_the_unloading_line_and_then_along_the_loading_curve() {
         (8e3 / 0.4 * e.clamp(0.0, 0.004)) + 47e3 / 0.6 * (e - 0.004).max(0.0)
     };
     let curve = |depth: f64| 80.0 + 47e3 * (depth - 0.01);
-    let expected = [
-        curve(0.02),
-        line(0.017),
-        line(0.012),
-        line(0.017),
-        curve(0.02),
-        curve(0.03),
-    ];
+    let expected = [curve(0.02), line(0.017), line(0.012), line(0.017), curve(0.02), curve(0.03)];
     let worst = forces.iter().zip(expected).map(|(f, e)| (f - e).abs() / e);
     // Measured: 2.7e-15.
-    assert_below(
-        "force along the walk, relative",
-        worst.fold(0.0, f64::max),
-        1e-12,
-    );
+    assert_below("force along the walk, relative", worst.fold(0.0, f64::max), 1e-12);
     assert_eq!(forces[1].to_bits(), forces[3].to_bits());
 }
 
@@ -165,10 +150,7 @@ fn padding_forgets_its_crush_when_the_pair_opens_and_crushed_metal_does_not() {
     let s = spring(8e3, 0.05, 47e3, 0.5, 0.5);
     let depths = [0.02, -0.01, 0.015];
     let padding = pressed(&smooth(s), &depths);
-    let metal = Material {
-        memory: Memory::Retain,
-        ..smooth(s)
-    };
+    let metal = Material { memory: Memory::Retain, ..smooth(s) };
     let metal = pressed(&metal, &depths);
     let tiny = 1e-10;
     assert!((padding[2] - 8e3 * 0.015).abs() < tiny);
@@ -195,10 +177,7 @@ fn a_fraction_of_zero_counts_as_a_hundredth_and_is_reported_once() {
 /// Drops the pillar on its feet without gravity: fraction of its kinetic energy after the rebound, and greatest Δ, m.
 fn drop(s: BilinearSpring, speed_m_s: f64, step_s: f64) -> (f64, f64) {
     let mut setup = afloat(pillar(), 0.4, step_s);
-    let legs: f64 = [0, 3, 8, 10]
-        .map(|n| setup.body.segments[n].length_m)
-        .iter()
-        .sum();
+    let legs: f64 = [0, 3, 8, 10].map(|n| setup.body.segments[n].length_m).iter().sum();
     let foot = setup.body.sphere("left_foot").unwrap();
     let r = setup.body.spheres[foot].radius_m;
     setup.materials = vec![smooth(s)];

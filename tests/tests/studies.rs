@@ -21,18 +21,13 @@ fn bind(name: &str) -> Study {
     let text = StudyText::read_bytes(&bytes, None, name).unwrap_or_else(|d| panic!("{d}"));
     let base = Draft::read_bytes(&beside(text.base()).unwrap(), None, text.base());
     let base = base.unwrap_or_else(|d| panic!("{d}"));
-    text.bind(base, &[], &beside)
-        .unwrap_or_else(|d| panic!("{d}"))
+    text.bind(base, &[], &beside).unwrap_or_else(|d| panic!("{d}"))
 }
 
 fn examples() -> Vec<String> {
-    let entries = fs::read_dir(folder())
-        .unwrap()
-        .map(|e| e.unwrap().file_name());
-    let mut names: Vec<String> = entries
-        .filter_map(|n| n.into_string().ok())
-        .filter(|n| n.ends_with(".toml"))
-        .collect();
+    let entries = fs::read_dir(folder()).unwrap().map(|e| e.unwrap().file_name());
+    let mut names: Vec<String> =
+        entries.filter_map(|n| n.into_string().ok()).filter(|n| n.ends_with(".toml")).collect();
     names.sort();
     names
 }
@@ -45,19 +40,12 @@ fn every_example_study_fits_its_base_and_its_samples_become_models() {
         let study = bind(&name);
         assert!(study.warnings().is_empty(), "{name}: {}", study.warnings());
         let n = study.len();
-        assert!(
-            (2..=100).contains(&n),
-            "{name} has {n} runs, too many for an example"
-        );
+        assert!((2..=100).contains(&n), "{name} has {n} runs, too many for an example");
         for index in [0, 1, n / 2, n - 1] {
-            let draft = study
-                .draft(index)
-                .unwrap_or_else(|d| panic!("{name} {index}: {d}"));
+            let draft = study.draft(index).unwrap_or_else(|d| panic!("{name} {index}: {d}"));
             let loaded = draft.load(&|file| Err(format!("no file {file}")));
             let loaded = loaded.unwrap_or_else(|d| panic!("{name} {index}: {d}"));
-            loaded
-                .model()
-                .unwrap_or_else(|d| panic!("{name} {index}: {d}"));
+            loaded.model().unwrap_or_else(|d| panic!("{name} {index}: {d}"));
         }
     }
 }
@@ -91,10 +79,7 @@ fn the_pulses_of_the_study_of_shapes_have_one_change_of_speed() {
         let VehiclePath::Pulse(pulse) = &setup.path else {
             panic!("{:?}", setup.path);
         };
-        assert!(
-            (pulse.pulse_delta_v_m_s() / speed_m_s - 1.0).abs() < 1e-12,
-            "{index}"
-        );
+        assert!((pulse.pulse_delta_v_m_s() / speed_m_s - 1.0).abs() < 1e-12, "{index}");
         let duration = study.sample(index)[1].value.clone();
         let [start_s, end_s] = <[f64; 2]>::from(pulse.pulse_span_s());
         assert!(matches!(duration, Value::Number(s) if (s - (end_s - start_s)).abs() < 1e-15));
@@ -110,9 +95,6 @@ fn the_pulses_of_the_study_of_shapes_have_one_change_of_speed() {
             _ => 2.0,
         };
         let peak = pulse.peak_deceleration_m_s2();
-        assert!(
-            (peak / (mean * peak_over_mean) - 1.0).abs() < 1e-12,
-            "{shape}: {peak}"
-        );
+        assert!((peak / (mean * peak_over_mean) - 1.0).abs() < 1e-12, "{shape}: {peak}");
     }
 }

@@ -25,138 +25,45 @@ fn errors(change: impl FnOnce(&mut Setup)) -> Problems {
 type Fault = (fn(&mut Setup), &'static str, &'static str);
 
 fn polygon(points: &[[f64; 3]]) -> Outline {
-    Outline::Polygon(
-        points
-            .iter()
-            .map(|&[x, y, z]| Point3::new(x, y, z))
-            .collect(),
-    )
+    Outline::Polygon(points.iter().map(|&[x, y, z]| Point3::new(x, y, z)).collect())
 }
 
 const FAULTS: &[Fault] = &[
-    (
-        |s| s.body.segments[2].mass_kg = -1.0,
-        "body.segments.head.mass",
-        "-1 kg",
-    ),
-    (
-        |s| s.body.segments[2].mass_kg = f64::NAN,
-        "body.segments.head.mass",
-        "NaN",
-    ),
-    (
-        |s| s.body.segments[8].length_m = 0.0,
-        "body.segments.left_thigh.length",
-        "0 m",
-    ),
-    (
-        |s| s.body.segments[0].inertia_kg_m2 = Vector3::new(0.1, 0.1, 0.21),
-        "body.segments.middle_torso.inertia",
-        "I_z",
-    ),
-    (
-        |s| s.body.segments[0].inertia_kg_m2.x = -0.1,
-        "body.segments.middle_torso.inertia",
-        "about x",
-    ),
-    (
-        |s| s.body.segments[11].cg_from_lower_end_m = 0.9,
-        "body.segments.right_lower_leg.cg",
-        "0.9 m",
-    ),
-    (
-        |s| s.body.hip_half_width_m = -0.1,
-        "body.hip_half_width",
-        "-0.1 m",
-    ),
-    (
-        |s| s.body.spheres[0].radius_m = 0.0,
-        "body.spheres.head.radius",
-        "0 m",
-    ),
-    (
-        |s| s.body.spheres[0].centre_from_lower_end_m.z = 1.0,
-        "body.spheres.head",
-        "on its segment",
-    ),
-    (
-        |s| s.body.spheres[1].name = "head".into(),
-        "body.spheres.head",
-        "a second sphere",
-    ),
-    (
-        |s| s.body.spheres[2].name = "bottom".into(),
-        "body.spheres",
-        "`pelvis`",
-    ),
-    (
-        |s| s.joints.neck.damping_n_m_s = -2.0,
-        "joints.neck.damping",
-        "-2 N·m·s",
-    ),
+    (|s| s.body.segments[2].mass_kg = -1.0, "body.segments.head.mass", "-1 kg"),
+    (|s| s.body.segments[2].mass_kg = f64::NAN, "body.segments.head.mass", "NaN"),
+    (|s| s.body.segments[8].length_m = 0.0, "body.segments.left_thigh.length", "0 m"),
+    (|s| s.body.segments[0].inertia_kg_m2 = Vector3::new(0.1, 0.1, 0.21), "body.segments.middle_torso.inertia", "I_z"),
+    (|s| s.body.segments[0].inertia_kg_m2.x = -0.1, "body.segments.middle_torso.inertia", "about x"),
+    (|s| s.body.segments[11].cg_from_lower_end_m = 0.9, "body.segments.right_lower_leg.cg", "0.9 m"),
+    (|s| s.body.hip_half_width_m = -0.1, "body.hip_half_width", "-0.1 m"),
+    (|s| s.body.spheres[0].radius_m = 0.0, "body.spheres.head.radius", "0 m"),
+    (|s| s.body.spheres[0].centre_from_lower_end_m.z = 1.0, "body.spheres.head", "on its segment"),
+    (|s| s.body.spheres[1].name = "head".into(), "body.spheres.head", "a second sphere"),
+    (|s| s.body.spheres[2].name = "bottom".into(), "body.spheres", "`pelvis`"),
+    (|s| s.joints.neck.damping_n_m_s = -2.0, "joints.neck.damping", "-2 N·m·s"),
     (
         |s| {
-            s.joints.neck.stop = Some(Stop {
-                begin_rad: 1.0,
-                full_rad: 0.5,
-                damping_n_m_s: 100.0,
-            });
+            s.joints.neck.stop = Some(Stop { begin_rad: 1.0, full_rad: 0.5, damping_n_m_s: 100.0 });
         },
         "joints.neck.stop",
         "interchange",
     ),
     (
         |s| {
-            s.joints.left_knee.lower_stop = Some(Stop {
-                begin_rad: 0.0,
-                full_rad: 0.1,
-                damping_n_m_s: 100.0,
-            });
+            s.joints.left_knee.lower_stop = Some(Stop { begin_rad: 0.0, full_rad: 0.1, damping_n_m_s: 100.0 });
         },
         "joints.left_knee.lower_stop",
         "lower stop",
     ),
     (|s| s.joints.epsilon = 0.5, "joints.epsilon", "0.5"),
-    (
-        |s| s.materials[0].spring.k1_n_per_m = -5.0,
-        "materials.seat.k1",
-        "-5 N/m",
-    ),
-    (
-        |s| s.materials[0].spring.returned_1 = 1.2,
-        "materials.seat.mu1",
-        "1.2",
-    ),
-    (
-        |s| s.materials[0].friction = -0.1,
-        "materials.seat.friction",
-        "-0.1",
-    ),
-    (
-        |s| s.materials[0].friction_speed_m_s = 0.0,
-        "materials.seat.friction_speed",
-        "0 m/s",
-    ),
-    (
-        |s| s.surfaces[1].name = "cushion".into(),
-        "surfaces.cushion",
-        "a second surface",
-    ),
-    (
-        |s| s.surfaces[2].material = 77,
-        "surfaces.floor.material",
-        "no such material",
-    ),
-    (
-        |s| s.surfaces[2].spheres = Some(vec![0, 17]),
-        "surfaces.floor.spheres",
-        "no such sphere",
-    ),
-    (
-        |s| s.surfaces[2].outline = polygon(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]),
-        "surfaces.floor",
-        "at least three",
-    ),
+    (|s| s.materials[0].spring.k1_n_per_m = -5.0, "materials.seat.k1", "-5 N/m"),
+    (|s| s.materials[0].spring.returned_1 = 1.2, "materials.seat.mu1", "1.2"),
+    (|s| s.materials[0].friction = -0.1, "materials.seat.friction", "-0.1"),
+    (|s| s.materials[0].friction_speed_m_s = 0.0, "materials.seat.friction_speed", "0 m/s"),
+    (|s| s.surfaces[1].name = "cushion".into(), "surfaces.cushion", "a second surface"),
+    (|s| s.surfaces[2].material = 77, "surfaces.floor.material", "no such material"),
+    (|s| s.surfaces[2].spheres = Some(vec![0, 17]), "surfaces.floor.spheres", "no such sphere"),
+    (|s| s.surfaces[2].outline = polygon(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]]), "surfaces.floor", "at least three"),
     (
         |s| {
             s.surfaces[2].outline = polygon(&[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]]);
@@ -167,12 +74,7 @@ const FAULTS: &[Fault] = &[
     (
         // an arrow head
         |s| {
-            s.surfaces[2].outline = polygon(&[
-                [0.0, 0.0, 0.5],
-                [1.0, 0.0, 0.5],
-                [0.2, 0.2, 0.5],
-                [0.0, 1.0, 0.5],
-            ]);
+            s.surfaces[2].outline = polygon(&[[0.0, 0.0, 0.5], [1.0, 0.0, 0.5], [0.2, 0.2, 0.5], [0.0, 1.0, 0.5]]);
         },
         "surfaces.floor",
         "convex",
@@ -180,12 +82,7 @@ const FAULTS: &[Fault] = &[
     (
         // a bow tie
         |s| {
-            s.surfaces[2].outline = polygon(&[
-                [0.0, 0.0, 0.5],
-                [1.0, 1.0, 0.5],
-                [1.0, 0.0, 0.5],
-                [0.0, 1.1, 0.5],
-            ]);
+            s.surfaces[2].outline = polygon(&[[0.0, 0.0, 0.5], [1.0, 1.0, 0.5], [1.0, 0.0, 0.5], [0.0, 1.1, 0.5]]);
         },
         "surfaces.floor",
         "convex",
@@ -204,57 +101,29 @@ const FAULTS: &[Fault] = &[
     ),
     (
         |s| {
-            s.surfaces[2].outline = polygon(&[
-                [0.0, 0.0, 0.5],
-                [1.0, 0.0, 0.5],
-                [1.0, 1.0, 0.6],
-                [0.0, 1.0, 0.5],
-            ]);
+            s.surfaces[2].outline = polygon(&[[0.0, 0.0, 0.5], [1.0, 0.0, 0.5], [1.0, 1.0, 0.6], [0.0, 1.0, 0.5]]);
         },
         "surfaces.floor",
         "plane",
     ),
-    (
-        |s| s.surfaces[2].facing = Facing::Towards(Point3::new(0.0, 0.0, 14.0 * 0.0254)),
-        "surfaces.floor",
-        "open side",
-    ),
+    (|s| s.surfaces[2].facing = Facing::Towards(Point3::new(0.0, 0.0, 14.0 * 0.0254)), "surfaces.floor", "open side"),
     (
         |s| {
-            s.surfaces[8].outline = Outline::Disc {
-                centre_m: Point3::origin(),
-                radius_m: -0.2,
-                axis: Vector3::z(),
-            };
+            s.surfaces[8].outline = Outline::Disc { centre_m: Point3::origin(), radius_m: -0.2, axis: Vector3::z() };
         },
         "surfaces.wheel",
         "radius",
     ),
     (
         |s| {
-            s.surfaces[8].outline = Outline::Unbounded {
-                point_m: Point3::origin(),
-                axis: Vector3::zeros(),
-            };
+            s.surfaces[8].outline = Outline::Unbounded { point_m: Point3::origin(), axis: Vector3::zeros() };
         },
         "surfaces.wheel",
         "direction",
     ),
-    (
-        |s| s.belts[0].sphere = 99,
-        "belts.lap.sphere",
-        "no such sphere",
-    ),
-    (
-        |s| s.belts[0].anchors_m[1] = s.belts[0].anchors_m[0],
-        "belts.lap.anchors",
-        "one place",
-    ),
-    (
-        |s| s.belts[0].anchors_m[1].x = f64::NAN,
-        "belts.lap.anchors",
-        "finite",
-    ),
+    (|s| s.belts[0].sphere = 99, "belts.lap.sphere", "no such sphere"),
+    (|s| s.belts[0].anchors_m[1] = s.belts[0].anchors_m[0], "belts.lap.anchors", "one place"),
+    (|s| s.belts[0].anchors_m[1].x = f64::NAN, "belts.lap.anchors", "finite"),
     (
         |s| s.belts[0].rest = occupant_core::belt::RestLength::Given { length_m: -0.1 },
         "belts.lap",
@@ -263,11 +132,7 @@ const FAULTS: &[Fault] = &[
     (|s| s.gravity_m_s2 = -9.81, "gravity", "-9.81"),
     (|s| s.time.end_s = 0.0, "time.end", "after the start"),
     (|s| s.time.output_s = 0.0, "output.interval", "positive"),
-    (
-        |s| s.integrator = Integrator::Rk4 { step_s: -1e-4 },
-        "integrator.step",
-        "-0.0001 s",
-    ),
+    (|s| s.integrator = Integrator::Rk4 { step_s: -1e-4 }, "integrator.step", "-0.0001 s"),
     (
         |s| {
             s.integrator = Integrator::Adaptive {
@@ -324,9 +189,8 @@ fn each_fault_is_reported_at_its_place_with_what_was_found_and_expected() {
             }
             Err(problems) => problems,
         };
-        let told = problems.iter().any(|p| {
-            p.severity == Severity::Error && p.path == *path && p.to_string().contains(text)
-        });
+        let told =
+            problems.iter().any(|p| p.severity == Severity::Error && p.path == *path && p.to_string().contains(text));
         if !told {
             wrong.push(format!("{i}: {path} ({text}): got {problems}"));
         }
@@ -344,10 +208,7 @@ fn all_faults_of_numbers_and_surfaces_are_reported_at_once() {
     });
     for i in independent {
         let (_, path, _) = FAULTS[i];
-        assert!(
-            problems.iter().any(|p| p.path == path),
-            "{path} in {problems}"
-        );
+        assert!(problems.iter().any(|p| p.path == path), "{path} in {problems}");
     }
     assert_eq!(problems.iter().count(), independent.len(), "{problems}");
 }
@@ -362,11 +223,7 @@ fn the_case_without_faults_is_accepted_without_a_warning() {
 fn what_is_odd_but_usable_is_a_warning() {
     let mut setup = sound();
     setup.materials[0].spring.returned_2 = 0.0;
-    setup.joints.neck.stop = Some(Stop {
-        begin_rad: 0.5,
-        full_rad: 1.0,
-        damping_n_m_s: 0.1,
-    });
+    setup.joints.neck.stop = Some(Stop { begin_rad: 0.5, full_rad: 1.0, damping_n_m_s: 0.1 });
     let model = Model::new(setup).unwrap();
     let paths: Vec<_> = model.warnings().iter().map(|p| p.path.as_str()).collect();
     assert_eq!(paths, ["joints.neck.stop", "materials.seat.mu2"]);
@@ -385,9 +242,7 @@ fn polygons_may_name_their_corners_in_either_order_when_a_point_tells_the_open_s
     assert_eq!(a.frame, Frame::Vehicle);
     // seen from the open side both run counter-clockwise
     for face in [a, b] {
-        let Outline::Polygon(c) = &face.outline else {
-            panic!("a polygon")
-        };
+        let Outline::Polygon(c) = &face.outline else { panic!("a polygon") };
         let turn = (c[1] - c[0]).cross(&(c[2] - c[1]));
         assert!(turn.dot(&face.normal) > 0.0);
     }

@@ -15,10 +15,7 @@ pub(crate) struct DeckBuilder {
 impl DeckBuilder {
     /// A builder for the series that every deck has.
     pub(crate) fn new() -> Self {
-        Self {
-            numbers: BTreeMap::new(),
-            series: vec![3, 5, 7, 8, 9, 11, 15],
-        }
+        Self { numbers: BTreeMap::new(), series: vec![3, 5, 7, 8, 9, 11, 15] }
     }
 
     /// All numbers and series of a deck, to be changed.
@@ -29,9 +26,7 @@ impl DeckBuilder {
                 builder.series.push(card.id.series);
             }
             for (field, number) in crate::deck::fields_of(card).zip(&card.numbers) {
-                builder
-                    .numbers
-                    .insert(crate::deck::name_of(card, field), number.clone());
+                builder.numbers.insert(crate::deck::name_of(card, field), number.clone());
             }
         }
         builder
@@ -91,11 +86,7 @@ impl DeckBuilder {
         let mut cards = Vec::new();
         for layout in series.cards {
             for number in numbered(layout) {
-                let id = CardId {
-                    series: series.number,
-                    letter: layout.letter,
-                    number,
-                };
+                let id = CardId { series: series.number, letter: layout.letter, number };
                 cards.push(self.card(series, layout, id));
             }
         }
@@ -108,22 +99,11 @@ impl DeckBuilder {
 
     fn card(&self, series: &SeriesLayout, layout: &CardLayout, id: CardId) -> DeckCard {
         let is_index = |place: usize| place == 0 && matches!(layout.repeat, Repeat::Each { .. });
-        let numbers = layout.fields.iter().enumerate().map(|(place, field)| {
-            match (field.variable, id.number) {
-                ("NCARD", _) => Number::whole(series.ncard.unwrap_or_default()),
-                (_, Some(number)) if is_index(place) => Number::whole(number),
-                _ => self
-                    .numbers
-                    .get(&layout.name_of(field, id.number))
-                    .cloned()
-                    .unwrap_or_else(Number::blank),
-            }
+        let numbers = layout.fields.iter().enumerate().map(|(place, field)| match (field.variable, id.number) {
+            ("NCARD", _) => Number::whole(series.ncard.unwrap_or_default()),
+            (_, Some(number)) if is_index(place) => Number::whole(number),
+            _ => self.numbers.get(&layout.name_of(field, id.number)).cloned().unwrap_or_else(Number::blank),
         });
-        DeckCard {
-            id,
-            line: None,
-            raw: None,
-            numbers: numbers.collect(),
-        }
+        DeckCard { id, line: None, raw: None, numbers: numbers.collect() }
     }
 }

@@ -57,10 +57,7 @@ impl Card {
 
 /// Bytes of Latin-1 as text; control characters are shown as `·`, so that a column stays a column.
 pub fn latin1(bytes: &[u8]) -> String {
-    bytes
-        .iter()
-        .map(|b| if is_control(*b) { '·' } else { char::from(*b) })
-        .collect()
+    bytes.iter().map(|b| if is_control(*b) { '·' } else { char::from(*b) }).collect()
 }
 
 fn is_control(byte: u8) -> bool {
@@ -71,21 +68,14 @@ fn is_control(byte: u8) -> bool {
 pub(crate) fn read_cards(bytes: &[u8], sink: &mut Sink) -> Vec<Card> {
     let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
     let bytes = until_end_mark(bytes, sink);
-    lines(bytes)
-        .into_iter()
-        .enumerate()
-        .map(|(index, line)| read_card(index + 1, line, sink))
-        .collect()
+    lines(bytes).into_iter().enumerate().map(|(index, line)| read_card(index + 1, line, sink)).collect()
 }
 
 fn until_end_mark<'a>(bytes: &'a [u8], sink: &mut Sink) -> &'a [u8] {
     let Some(end) = bytes.iter().position(|b| *b == END_MARK) else {
         return bytes;
     };
-    if bytes[end..]
-        .iter()
-        .any(|b| !matches!(*b, END_MARK | b' ' | b'\r' | b'\n'))
-    {
+    if bytes[end..].iter().any(|b| !matches!(*b, END_MARK | b' ' | b'\r' | b'\n')) {
         let line = lines(&bytes[..end]).len().max(1);
         sink.report(
             Finding::new(
@@ -131,9 +121,7 @@ fn read_card(line: usize, bytes: &[u8], sink: &mut Sink) -> Card {
             Finding::new(Rule::Tab, "the line contains a tab, which has no columns")
                 .on(&card)
                 .expected("blanks only, so that every character has its column")
-                .remedy(
-                    "replace tabs by blanks; it was read as if tab stops stood every 8 columns",
-                ),
+                .remedy("replace tabs by blanks; it was read as if tab stops stood every 8 columns"),
         );
     }
     let behind = expanded.get(CARD_WIDTH..).unwrap_or_default();
@@ -157,11 +145,7 @@ fn read_card(line: usize, bytes: &[u8], sink: &mut Sink) -> Card {
         sink.report(
             Finding::new(
                 Rule::ControlCharacter,
-                format!(
-                    "control character 0x{:02x} at column {}",
-                    bytes[offset],
-                    offset + 1
-                ),
+                format!("control character 0x{:02x} at column {}", bytes[offset], offset + 1),
             )
             .on(&card)
             .expected("printable characters")

@@ -18,10 +18,7 @@ pub(crate) enum CardNumber {
     /// The series, by a number that ends in column 78, where the format I8 reads it.
     ByFormat(&'static SeriesLayout),
     /// The series, by a number that is not right-justified; `read_as` is what I10 makes of it.
-    Misplaced {
-        series: &'static SeriesLayout,
-        read_as: String,
-    },
+    Misplaced { series: &'static SeriesLayout, read_as: String },
     /// Nothing.
     Blank,
     /// Something else.
@@ -47,10 +44,7 @@ pub(crate) fn card_number(card: &Card) -> CardNumber {
         }
     }
     match text.trim().parse::<u32>().ok().and_then(series_with_ncard) {
-        Some(series) => CardNumber::Misplaced {
-            series,
-            read_as: reading.digits,
-        },
+        Some(series) => CardNumber::Misplaced { series, read_as: reading.digits },
         None => CardNumber::Other(text),
     }
 }
@@ -58,19 +52,15 @@ pub(crate) fn card_number(card: &Card) -> CardNumber {
 /// The series that a card's number names, wherever in its columns it stands.
 pub(crate) fn series_by_number(card: &Card) -> Option<&'static SeriesLayout> {
     match card_number(card) {
-        CardNumber::Series(series)
-        | CardNumber::ByFormat(series)
-        | CardNumber::Misplaced { series, .. } => Some(series),
+        CardNumber::Series(series) | CardNumber::ByFormat(series) | CardNumber::Misplaced { series, .. } => {
+            Some(series)
+        }
         CardNumber::Blank | CardNumber::Other(_) => None,
     }
 }
 
 fn with_number(value: f64) -> Option<&'static SeriesLayout> {
-    if (1.0..=9999.0).contains(&value) {
-        series_with_ncard(value as u32)
-    } else {
-        None
-    }
+    if (1.0..=9999.0).contains(&value) { series_with_ncard(value as u32) } else { None }
 }
 
 /// Whether a card is beyond doubt the first one of a series: a known card number, right-justified, numbers or blanks in
@@ -85,11 +75,7 @@ pub(crate) fn looks_like_first_card(card: &Card) -> Option<&'static SeriesLayout
 
 fn fits(card: &Card, layout: &CardLayout) -> bool {
     let mut next = 1;
-    for field in layout
-        .fields
-        .iter()
-        .filter(|f| f.variable != "NCARD" && f.format == Format::Real)
-    {
+    for field in layout.fields.iter().filter(|f| f.variable != "NCARD" && f.format == Format::Real) {
         if read_real(card.field(field.columns)).is_err() {
             return false;
         }

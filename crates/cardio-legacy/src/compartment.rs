@@ -134,19 +134,13 @@ impl CompartmentLayout {
 
     /// The number of a surface by its name.
     pub fn number_of(&self, name: &str) -> Option<u32> {
-        let surface = self
-            .surfaces
-            .iter()
-            .find(|s| s.name == name)
-            .map(|s| s.number);
+        let surface = self.surfaces.iter().find(|s| s.name == name).map(|s| s.number);
         surface.or_else(|| (self.wheel.name == name).then_some(self.wheel.number))
     }
 
     /// The names of all surfaces, by number.
     pub fn names(&self) -> Vec<&str> {
-        (1..=SURFACES)
-            .filter_map(|number| self.name_of(number))
-            .collect()
+        (1..=SURFACES).filter_map(|number| self.name_of(number)).collect()
     }
 
     /// The corners of a surface in the order of the data file, whatever its open side; none for the wheel.
@@ -161,79 +155,46 @@ impl CompartmentLayout {
             return vec![self.wheel.point];
         };
         let corners = surface.corners.iter().flatten().flat_map(|c| [c.x, c.z]);
-        let mut points: Vec<u32> = surface
-            .edge
-            .iter()
-            .flatten()
-            .copied()
-            .chain(corners)
-            .collect();
+        let mut points: Vec<u32> = surface.edge.iter().flatten().copied().chain(corners).collect();
         points.sort_unstable();
         points.dedup();
         points
     }
 
     fn check(&self) -> Result<(), String> {
-        let mut numbers: Vec<u32> = self
-            .surfaces
-            .iter()
-            .map(|s| s.number)
-            .chain([self.wheel.number])
-            .collect();
+        let mut numbers: Vec<u32> = self.surfaces.iter().map(|s| s.number).chain([self.wheel.number]).collect();
         numbers.sort_unstable();
         if !numbers.iter().copied().eq(1..=SURFACES) {
-            return Err(format!(
-                "the surfaces must be numbered 1 to {SURFACES}, each once; found {numbers:?}"
-            ));
+            return Err(format!("the surfaces must be numbered 1 to {SURFACES}, each once; found {numbers:?}"));
         }
         for surface in &self.surfaces {
             let points = match (&surface.edge, &surface.corners) {
                 (Some(edge), None) => edge.to_vec(),
-                (None, Some(corners)) if corners.len() >= 3 => {
-                    corners.iter().flat_map(|c| [c.x, c.z]).collect()
-                }
+                (None, Some(corners)) if corners.len() >= 3 => corners.iter().flat_map(|c| [c.x, c.z]).collect(),
                 _ => {
-                    return Err(format!(
-                        "surface {} needs either an edge or at least three corners",
-                        surface.number
-                    ));
+                    return Err(format!("surface {} needs either an edge or at least three corners", surface.number));
                 }
             };
             if let Some(point) = points.iter().find(|p| !(1..=POINTS).contains(*p)) {
-                return Err(format!(
-                    "surface {} names point {point}; there are {POINTS}",
-                    surface.number
-                ));
+                return Err(format!("surface {} names point {point}; there are {POINTS}", surface.number));
             }
         }
         if !(1..=POINTS).contains(&self.wheel.point) {
-            return Err(format!(
-                "the wheel names point {}; there are {POINTS}",
-                self.wheel.point
-            ));
+            return Err(format!("the wheel names point {}; there are {POINTS}", self.wheel.point));
         }
         Ok(())
     }
 
     /// The planar surfaces of a deck, by number; the wheel is not among them.
     pub fn faces(&self, deck: &Deck) -> Vec<Face> {
-        let mut faces: Vec<_> = self
-            .surfaces
-            .iter()
-            .map(|surface| self.face(surface, deck))
-            .collect();
+        let mut faces: Vec<_> = self.surfaces.iter().map(|surface| self.face(surface, deck)).collect();
         faces.sort_by_key(|face| face.number);
         faces
     }
 
     fn face(&self, surface: &SurfaceLayout, deck: &Deck) -> Face {
         let mut corners = self.corners(surface);
-        let normal = area_vector(
-            &corners
-                .iter()
-                .map(|c| position(c, deck))
-                .collect::<Vec<_>>(),
-        );
+        let normal = area_vector(&corners.iter().map(|c| position(c, deck)).collect::<Vec<_>>());
         let towards: f64 = normal.iter().zip(surface.faces).map(|(n, f)| n * f).sum();
         if towards < 0.0 {
             corners.reverse();
@@ -241,31 +202,17 @@ impl CompartmentLayout {
         if normal.iter().map(|n| n * n).sum::<f64>() < SMALLEST_AREA_IN2 * SMALLEST_AREA_IN2 {
             corners.clear();
         }
-        Face {
-            number: surface.number,
-            name: surface.name.clone(),
-            corners,
-        }
+        Face { number: surface.number, name: surface.name.clone(), corners }
     }
 
     fn corners(&self, surface: &SurfaceLayout) -> Vec<Corner> {
         if let Some([one, two]) = surface.edge {
             return [(one, false), (two, false), (two, true), (one, true)]
-                .map(|(point, right)| Corner {
-                    x_of: point,
-                    z_of: point,
-                    wall: self.wall_at(point, right),
-                })
+                .map(|(point, right)| Corner { x_of: point, z_of: point, wall: self.wall_at(point, right) })
                 .to_vec();
         }
         let corners = surface.corners.iter().flatten();
-        corners
-            .map(|c| Corner {
-                x_of: c.x,
-                z_of: c.z,
-                wall: c.wall,
-            })
-            .collect()
+        corners.map(|c| Corner { x_of: c.x, z_of: c.z, wall: c.wall }).collect()
     }
 
     fn wall_at(&self, point: u32, right: bool) -> Wall {
@@ -286,11 +233,7 @@ fn position(corner: &Corner, deck: &Deck) -> [f64; 3] {
     let value = |name: &str| deck.value(name).unwrap_or(f64::NAN);
     let (width, left) = corner.wall.half_width();
     let y = if left { -value(width) } else { value(width) };
-    [
-        value(&format!("XV({})", corner.x_of)),
-        y,
-        value(&format!("ZV({})", corner.z_of)),
-    ]
+    [value(&format!("XV({})", corner.x_of)), y, value(&format!("ZV({})", corner.z_of))]
 }
 
 /// Half the sum of the cross products of neighbouring corners: normal times area, in².

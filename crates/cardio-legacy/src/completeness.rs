@@ -25,8 +25,7 @@ pub(crate) fn check_completeness(read: &SeriesRead, first_line: usize, sink: &mu
             _ => {}
         }
         for layout in series.cards {
-            if let (Repeat::Each { count }, Some(cards)) = (layout.repeat, read.get(&series.number))
-            {
+            if let (Repeat::Each { count }, Some(cards)) = (layout.repeat, read.get(&series.number)) {
                 check_each_once(series, layout, count, cards, sink);
             }
         }
@@ -36,12 +35,8 @@ pub(crate) fn check_completeness(read: &SeriesRead, first_line: usize, sink: &mu
 
 /// The report's rules: 4 and 10 or 6 by NPOS, 12 by MREAD, 13 as wanted, 14 to extend a run (NPOS = 1).
 fn need(number: u8, read: &SeriesRead) -> Need {
-    let switch = |place: usize| {
-        read.get(&3)
-            .and_then(|c| c.first())
-            .and_then(|c| c.numbers.get(place))
-            .map(|n| n.value)
-    };
+    let switch =
+        |place: usize| read.get(&3).and_then(|c| c.first()).and_then(|c| c.numbers.get(place)).map(|n| n.value);
     let (mread, npos) = (switch(4), switch(5));
     match (number, mread, npos) {
         (14, _, Some(0.0)) => Need::Unused,
@@ -56,10 +51,7 @@ fn need(number: u8, read: &SeriesRead) -> Need {
 
 fn report_missing(series: &SeriesLayout, read: &SeriesRead, first_line: usize, sink: &mut Sink) {
     let before = read.range(..series.number).next_back();
-    let line = before
-        .and_then(|(_, cards)| cards.last())
-        .and_then(|c| c.line)
-        .unwrap_or(first_line);
+    let line = before.and_then(|(_, cards)| cards.last()).and_then(|c| c.line).unwrap_or(first_line);
     let why = match series.number {
         4 | 10 => ", which NPOS = 0 on card 3 asks for",
         6 => ", which NPOS = 1 on card 3 asks for",
@@ -72,19 +64,11 @@ fn report_missing(series: &SeriesLayout, read: &SeriesRead, first_line: usize, s
     };
     let ncard = series.ncard.unwrap_or_default();
     sink.report(
-        Finding::new(
-            Rule::SeriesMissing,
-            format!(
-                "series {} ({}) is missing{why}",
-                series.number, series.title
-            ),
-        )
-        .at_line(line)
-        .in_card(CardId::first_of(series))
-        .expected(format!(
-            "{place} and begin with a card that has {ncard} at the end of columns 71–80"
-        ))
-        .remedy("add the cards, or punch the card number if they are there"),
+        Finding::new(Rule::SeriesMissing, format!("series {} ({}) is missing{why}", series.number, series.title))
+            .at_line(line)
+            .in_card(CardId::first_of(series))
+            .expected(format!("{place} and begin with a card that has {ncard} at the end of columns 71–80"))
+            .remedy("add the cards, or punch the card number if they are there"),
     );
 }
 
@@ -95,28 +79,14 @@ fn report_unused(series: &SeriesLayout, cards: &[DeckCard], sink: &mut Sink) {
         14 => "NPOS = 0 seats the occupant, and there is no run to extend",
         _ => "MREAD ≠ 0 takes the path from elsewhere",
     };
-    let finding = Finding::new(
-        Rule::SeriesUnused,
-        format!(
-            "series {} ({}) is not used: {why}",
-            series.number, series.title
-        ),
-    );
+    let finding =
+        Finding::new(Rule::SeriesUnused, format!("series {} ({}) is not used: {why}", series.number, series.title));
     sink.report(place(finding, cards.first()));
 }
 
-fn check_each_once(
-    series: &SeriesLayout,
-    layout: &CardLayout,
-    count: u32,
-    cards: &[DeckCard],
-    sink: &mut Sink,
-) {
+fn check_each_once(series: &SeriesLayout, layout: &CardLayout, count: u32, cards: &[DeckCard], sink: &mut Sink) {
     let variable = layout.fields.first().map_or("", |f| f.variable);
-    let columns = layout
-        .fields
-        .first()
-        .map_or(Columns::new(1, 2), |f| f.columns);
+    let columns = layout.fields.first().map_or(Columns::new(1, 2), |f| f.columns);
     let mut missing = Vec::new();
     for number in 1..=count {
         let mut found = cards.iter().filter(|c| c.id.number == Some(number));
@@ -126,29 +96,19 @@ fn check_each_once(
         }
         for again in found {
             let line = first.and_then(|c| c.line).unwrap_or_default();
-            let finding = Finding::new(
-                Rule::IndexTwice,
-                format!("{variable} = {number} has been read at line {line}"),
-            )
-            .at(columns)
-            .variable(variable)
-            .expected("each number once")
-            .remedy("correct the number of one of the two cards");
+            let finding = Finding::new(Rule::IndexTwice, format!("{variable} = {number} has been read at line {line}"))
+                .at(columns)
+                .variable(variable)
+                .expected("each number once")
+                .remedy("correct the number of one of the two cards");
             sink.report(place(finding, Some(again)));
         }
     }
     if !missing.is_empty() {
-        let id = CardId {
-            series: series.number,
-            letter: layout.letter,
-            number: None,
-        };
-        let finding = Finding::new(
-            Rule::IndexMissing,
-            format!("no card for {variable} = {}", missing.join(", ")),
-        )
-        .expected(format!("a card for each number from 1 to {count}"))
-        .remedy("add the cards, or correct their numbers");
+        let id = CardId { series: series.number, letter: layout.letter, number: None };
+        let finding = Finding::new(Rule::IndexMissing, format!("no card for {variable} = {}", missing.join(", ")))
+            .expected(format!("a card for each number from 1 to {count}"))
+            .remedy("add the cards, or correct their numbers");
         sink.report(place(finding, cards.first()).in_card(id));
     }
 }
@@ -157,16 +117,8 @@ fn place(finding: Finding, card: Option<&DeckCard>) -> Finding {
     match card {
         Some(card) => {
             let finding = finding.in_card(card.id);
-            let finding = if let Some(line) = card.line {
-                finding.at_line(line)
-            } else {
-                finding
-            };
-            if let Some(raw) = &card.raw {
-                finding.raw(raw.clone())
-            } else {
-                finding
-            }
+            let finding = if let Some(line) = card.line { finding.at_line(line) } else { finding };
+            if let Some(raw) = &card.raw { finding.raw(raw.clone()) } else { finding }
         }
         None => finding,
     }

@@ -18,10 +18,7 @@ pub struct ParseOptions {
 
 impl Default for ParseOptions {
     fn default() -> Self {
-        Self {
-            file: "deck".into(),
-            strictness: Strictness::Default,
-        }
+        Self { file: "deck".into(), strictness: Strictness::Default }
     }
 }
 
@@ -39,39 +36,23 @@ pub struct Number {
 impl Number {
     /// A blank field.
     pub(crate) fn blank() -> Self {
-        Self {
-            value: 0.0,
-            digits: "0".into(),
-            blank: true,
-        }
+        Self { value: 0.0, digits: "0".into(), blank: true }
     }
 
     /// A number by its digits; `None` if they are no finite number.
     pub(crate) fn from_digits(digits: &str) -> Option<Self> {
         let value: f64 = digits.parse().ok()?;
-        value.is_finite().then(|| Self {
-            value,
-            digits: digits.to_owned(),
-            blank: false,
-        })
+        value.is_finite().then(|| Self { value, digits: digits.to_owned(), blank: false })
     }
 
     /// A whole number, as counts and switches are.
     pub(crate) fn whole(value: u32) -> Self {
-        Self {
-            value: f64::from(value),
-            digits: value.to_string(),
-            blank: false,
-        }
+        Self { value: f64::from(value), digits: value.to_string(), blank: false }
     }
 
     /// Stands where a field could not be read; such a deck is never handed out.
     pub(crate) fn unreadable() -> Self {
-        Self {
-            value: f64::NAN,
-            digits: String::new(),
-            blank: false,
-        }
+        Self { value: f64::NAN, digits: String::new(), blank: false }
     }
 }
 
@@ -133,12 +114,7 @@ impl Deck {
         if let Some(series) = terminator.filter(|s| cards.iter().all(|c| c.id.series != s.number)) {
             // In lenient reading the card may have been missing.
             let numbers = vec![Number::whole(TERMINATOR)];
-            cards.push(DeckCard {
-                id: CardId::first_of(series),
-                line: None,
-                raw: None,
-                numbers,
-            });
+            cards.push(DeckCard { id: CardId::first_of(series), line: None, raw: None, numbers });
         }
         cards.sort_by_key(|card| card.id);
         let mut places = HashMap::new();
@@ -147,12 +123,7 @@ impl Deck {
                 places.entry(name_of(card, field)).or_insert((at, place));
             }
         }
-        Self {
-            titles,
-            cards,
-            plot,
-            places,
-        }
+        Self { titles, cards, plot, places }
     }
 
     /// The two title cards, without trailing blanks.
@@ -172,9 +143,7 @@ impl Deck {
 
     /// The cards of one series and letter: `cards_of(12, 'b')` are the stations of the path.
     pub fn cards_of(&self, series: u8, letter: char) -> impl Iterator<Item = &DeckCard> {
-        self.cards
-            .iter()
-            .filter(move |c| c.id.series == series && c.id.letter == Some(letter))
+        self.cards.iter().filter(move |c| c.id.series == series && c.id.letter == Some(letter))
     }
 
     /// Whether a series is there.
@@ -221,24 +190,8 @@ impl Deck {
         let lap = belts == 1.0 || belts == 3.0;
         let torso = belts == 2.0 || belts == 3.0;
         let exact = self.value("NPOS") == Some(1.0);
-        let of_lap = [
-            "P1(1,",
-            "P2(1,",
-            "SK1(1)",
-            "SK2(1)",
-            "DELC(1)",
-            "SLACK(1)",
-            "BLTLEO(1)",
-        ];
-        let of_torso = [
-            "P1(2,",
-            "P2(2,",
-            "SK1(2)",
-            "SK2(2)",
-            "DELC(2)",
-            "SLACK(2)",
-            "BLTLEO(2)",
-        ];
+        let of_lap = ["P1(1,", "P2(1,", "SK1(1)", "SK2(1)", "DELC(1)", "SLACK(1)", "BLTLEO(1)"];
+        let of_torso = ["P1(2,", "P2(2,", "SK1(2)", "SK2(2)", "DELC(2)", "SLACK(2)", "BLTLEO(2)"];
         (!lap && of_lap.iter().any(|p| name.starts_with(p)))
             || (!torso && of_torso.iter().any(|p| name.starts_with(p)))
             || (exact && name.starts_with("SLACK("))
@@ -254,17 +207,9 @@ impl Deck {
             }
         };
         for (at, (left, right)) in self.titles.iter().zip(&other.titles).enumerate() {
-            compare(
-                format!("title card {}", at + 1),
-                Some(left.clone()),
-                Some(right.clone()),
-            );
+            compare(format!("title card {}", at + 1), Some(left.clone()), Some(right.clone()));
         }
-        compare(
-            "plot option".into(),
-            Some(format!("{:?}", self.plot)),
-            Some(format!("{:?}", other.plot)),
-        );
+        compare("plot option".into(), Some(format!("{:?}", self.plot)), Some(format!("{:?}", other.plot)));
         for name in self.names_with(other) {
             let shown = |deck: &Self| deck.number(&name).map(|n| format!("{:?}", n.value + 0.0));
             compare(name.clone(), shown(self), shown(other));
@@ -276,12 +221,7 @@ impl Deck {
 
     /// The pairs (sphere, surface) of series 14 that have passed the surface's edge.
     pub fn passed_pairs(&self) -> Vec<(u8, u8)> {
-        let pair = |card: &DeckCard| {
-            Some((
-                card.numbers.first()?.value as u8,
-                card.numbers.get(1)?.value as u8,
-            ))
-        };
+        let pair = |card: &DeckCard| Some((card.numbers.first()?.value as u8, card.numbers.get(1)?.value as u8));
         let mut pairs: Vec<_> = self.cards_of(14, 'b').filter_map(pair).collect();
         pairs.sort_unstable();
         pairs
@@ -290,17 +230,8 @@ impl Deck {
     /// The names of all fields of both decks, those of the pairs left out: their order is free.
     fn names_with(&self, other: &Self) -> Vec<String> {
         let mut names: Vec<String> = Vec::new();
-        for card in self
-            .cards
-            .iter()
-            .chain(&other.cards)
-            .filter(|c| !(c.id.series == 14 && c.id.letter == Some('b')))
-        {
-            names.extend(
-                fields_of(card)
-                    .map(|field| name_of(card, field))
-                    .filter(|n| n != "NCARD"),
-            );
+        for card in self.cards.iter().chain(&other.cards).filter(|c| !(c.id.series == 14 && c.id.letter == Some('b'))) {
+            names.extend(fields_of(card).map(|field| name_of(card, field)).filter(|n| n != "NCARD"));
         }
         names.sort_unstable();
         names.dedup();
@@ -310,28 +241,16 @@ impl Deck {
 
 /// The layout of a deck's card.
 pub(crate) fn layout_of(card: &DeckCard) -> Option<&'static CardLayout> {
-    series(card.id.series)?
-        .cards
-        .iter()
-        .find(|c| c.letter == card.id.letter)
+    series(card.id.series)?.cards.iter().find(|c| c.letter == card.id.letter)
 }
 
 /// The fields of a deck's card.
 pub(crate) fn fields_of(card: &DeckCard) -> impl Iterator<Item = &'static Field> + use<> {
-    layout_of(card)
-        .map(|layout| layout.fields)
-        .unwrap_or_default()
-        .iter()
+    layout_of(card).map(|layout| layout.fields).unwrap_or_default().iter()
 }
 
 /// The full name of a field on a deck's card.
 pub(crate) fn name_of(card: &DeckCard, field: &Field) -> String {
-    let number = card
-        .id
-        .number
-        .filter(|_| layout_of(card).is_some_and(|l| l.repeat != Repeat::Once));
-    layout_of(card).map_or_else(
-        || field.variable.to_owned(),
-        |layout| layout.name_of(field, number),
-    )
+    let number = card.id.number.filter(|_| layout_of(card).is_some_and(|l| l.repeat != Repeat::Once));
+    layout_of(card).map_or_else(|| field.variable.to_owned(), |layout| layout.name_of(field, number))
 }

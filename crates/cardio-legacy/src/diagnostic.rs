@@ -36,13 +36,7 @@ pub struct Diagnostic {
 
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        writeln!(
-            f,
-            "{}[{}]: {}",
-            self.severity,
-            self.rule.name(),
-            self.message
-        )?;
+        writeln!(f, "{}[{}]: {}", self.severity, self.rule.name(), self.message)?;
         write!(f, "  --> {}", self.file)?;
         if let Some(line) = self.line {
             write!(f, ":{line}")?;
@@ -205,11 +199,7 @@ pub(crate) struct Sink {
 
 impl Sink {
     pub(crate) fn new(file: &str, strictness: Strictness) -> Self {
-        Self {
-            file: file.into(),
-            strictness,
-            found: Diagnostics::default(),
-        }
+        Self { file: file.into(), strictness, found: Diagnostics::default() }
     }
 
     pub(crate) fn report(&mut self, finding: Finding) {
@@ -234,14 +224,8 @@ impl Sink {
 
     /// Whether an error has been found on one of these lines, as the reading of lines does before decks are read.
     pub(crate) fn has_error_in(&self, first: usize, last: usize) -> bool {
-        let errors = self
-            .found
-            .items
-            .iter()
-            .filter(|d| d.severity == Severity::Error);
-        errors
-            .filter_map(|d| d.line)
-            .any(|line| (first..=last).contains(&line))
+        let errors = self.found.items.iter().filter(|d| d.severity == Severity::Error);
+        errors.filter_map(|d| d.line).any(|line| (first..=last).contains(&line))
     }
 
     pub(crate) fn into_diagnostics(mut self) -> Diagnostics {

@@ -79,26 +79,12 @@ pub fn read_real(field: &[u8]) -> Result<Reading, FieldError> {
     if value.abs() > LARGEST_REAL {
         return Err(FieldError::TooLarge { digits: text });
     }
-    let zero = !parts
-        .whole
-        .bytes()
-        .chain(parts.fraction.iter().flat_map(|f| f.bytes()))
-        .any(|b| b != b'0');
+    let zero = !parts.whole.bytes().chain(parts.fraction.iter().flat_map(|f| f.bytes())).any(|b| b != b'0');
     if !zero && value.abs() < SMALLEST_REAL {
         surprises.push(Surprise::Underflow);
-        return Ok(Reading {
-            value: 0.0,
-            digits: "0".into(),
-            blank: false,
-            surprises,
-        });
+        return Ok(Reading { value: 0.0, digits: "0".into(), blank: false, surprises });
     }
-    Ok(Reading {
-        value,
-        digits: text,
-        blank: false,
-        surprises,
-    })
+    Ok(Reading { value, digits: text, blank: false, surprises })
 }
 
 /// Reads an I field (I2, I8, I10), any width.
@@ -106,25 +92,14 @@ pub fn read_real(field: &[u8]) -> Result<Reading, FieldError> {
 /// # Errors
 /// [`FieldError`] when the field is neither blank nor an integer of FORTRAN IV.
 pub fn read_integer(field: &[u8]) -> Result<Reading, FieldError> {
-    if let Some(offset) = field
-        .iter()
-        .position(|b| !matches!(b, b' ' | b'+' | b'-' | b'0'..=b'9'))
-    {
-        return Err(FieldError::Character {
-            offset,
-            found: field[offset],
-        });
+    if let Some(offset) = field.iter().position(|b| !matches!(b, b' ' | b'+' | b'-' | b'0'..=b'9')) {
+        return Err(FieldError::Character { offset, found: field[offset] });
     }
     read_real(field)
 }
 
 fn blank() -> Reading {
-    Reading {
-        value: 0.0,
-        digits: "0".into(),
-        blank: true,
-        surprises: Vec::new(),
-    }
+    Reading { value: 0.0, digits: "0".into(), blank: true, surprises: Vec::new() }
 }
 
 /// A number taken apart: sign, digits before and after the point, exponent.
@@ -189,10 +164,7 @@ fn split(field: &[u8]) -> Result<Option<Parts>, FieldError> {
             }
             b'+' | b'-' | b'E' | b'D' | b'e' | b'd' if punched => break,
             _ => {
-                return Err(FieldError::Character {
-                    offset: at,
-                    found: byte,
-                });
+                return Err(FieldError::Character { offset: at, found: byte });
             }
         }
         if byte == b' ' && at > last {
@@ -264,26 +236,16 @@ fn read_exponent(rest: &[u8], offset: usize, parts: &mut Parts) -> Result<(), Fi
                 digits.push('0');
                 if digits.bytes().any(|d| d != b'0') {
                     let trailing = rest[index..].iter().all(|b| *b == b' ');
-                    let surprise = if trailing {
-                        Surprise::TrailingBlanks
-                    } else {
-                        Surprise::EmbeddedBlanks
-                    };
+                    let surprise = if trailing { Surprise::TrailingBlanks } else { Surprise::EmbeddedBlanks };
                     note(&mut parts.surprises, surprise);
                 }
             }
             _ => {
-                return Err(FieldError::Character {
-                    offset: offset + index,
-                    found: *byte,
-                });
+                return Err(FieldError::Character { offset: offset + index, found: *byte });
             }
         }
     }
-    if !rest[digits_from.min(rest.len())..]
-        .iter()
-        .any(u8::is_ascii_digit)
-    {
+    if !rest[digits_from.min(rest.len())..].iter().any(u8::is_ascii_digit) {
         return Err(FieldError::EmptyExponent);
     }
     parts.exponent = Some((negative, digits));

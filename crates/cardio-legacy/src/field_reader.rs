@@ -12,12 +12,7 @@ use crate::rule::Rule;
 const SEQUENCE: Columns = Columns::new(73, 80);
 
 /// Reads every field of a card but NCARD, which [`crate::series_reader`] reads, and looks at the columns in between.
-pub(crate) fn read_fields(
-    card: &Card,
-    layout: &CardLayout,
-    id: CardId,
-    sink: &mut Sink,
-) -> Vec<Number> {
+pub(crate) fn read_fields(card: &Card, layout: &CardLayout, id: CardId, sink: &mut Sink) -> Vec<Number> {
     check_free_columns(card, layout, id, sink);
     layout
         .fields
@@ -30,13 +25,7 @@ pub(crate) fn read_fields(
 }
 
 /// Reads one numeric field.
-pub(crate) fn read_field(
-    card: &Card,
-    layout: &CardLayout,
-    field: &Field,
-    id: CardId,
-    sink: &mut Sink,
-) -> Number {
+pub(crate) fn read_field(card: &Card, layout: &CardLayout, field: &Field, id: CardId, sink: &mut Sink) -> Number {
     let bytes = card.field(field.columns);
     let reading = match field.format {
         Format::Real => read_real(bytes),
@@ -44,22 +33,13 @@ pub(crate) fn read_field(
         Format::Text => return Number::blank(),
     };
     let name = layout.name_of(field, id.number);
-    let finding = |rule, message: String| {
-        Finding::new(rule, message)
-            .on(card)
-            .in_card(id)
-            .variable(name.clone())
-    };
+    let finding = |rule, message: String| Finding::new(rule, message).on(card).in_card(id).variable(name.clone());
     match reading {
         Ok(reading) => {
             for surprise in &reading.surprises {
                 sink.report(surprise_finding(*surprise, bytes, &reading, field, finding));
             }
-            Number {
-                value: reading.value,
-                digits: reading.digits,
-                blank: reading.blank,
-            }
+            Number { value: reading.value, digits: reading.digits, blank: reading.blank }
         }
         Err(error) => {
             sink.report(error_finding(&error, bytes, field, finding));
@@ -79,30 +59,14 @@ fn error_finding(
     let expected = expectation(field);
     let (rule, message, columns, remedy) = match error {
         FieldError::Character { offset, found } => {
-            let column = field
-                .columns
-                .first
-                .saturating_add(u8::try_from(*offset).unwrap_or(0));
-            let message = format!(
-                "`{shown}` is no number: {} in column {column}; {what}",
-                character(*found)
-            );
+            let column = field.columns.first.saturating_add(u8::try_from(*offset).unwrap_or(0));
+            let message = format!("`{shown}` is no number: {} in column {column}; {what}", character(*found));
             let remedy = "punch the number again; look whether a neighbouring field has slipped into these columns";
-            (
-                Rule::NotANumber,
-                message,
-                Columns::new(column, column),
-                remedy,
-            )
+            (Rule::NotANumber, message, Columns::new(column, column), remedy)
         }
         FieldError::NoDigits => {
             let message = format!("`{shown}` has no digit; {what}");
-            (
-                Rule::NotANumber,
-                message,
-                field.columns,
-                "punch the number, or leave the field blank for zero",
-            )
+            (Rule::NotANumber, message, field.columns, "punch the number, or leave the field blank for zero")
         }
         FieldError::EmptyExponent => {
             let message = format!("`{shown}` has an exponent without digits; {what}");
@@ -110,16 +74,12 @@ fn error_finding(
             (Rule::NotANumber, message, field.columns, remedy)
         }
         FieldError::TooLarge { digits } => {
-            let message =
-                format!("`{shown}` reads as {digits}, more than the 360 could hold; {what}");
+            let message = format!("`{shown}` reads as {digits}, more than the 360 could hold; {what}");
             let remedy = "an exponent must end in the last column of the field, because blanks behind it are zeros";
             (Rule::OutOfRange, message, field.columns, remedy)
         }
     };
-    finding(rule, message)
-        .at(columns)
-        .expected(expected)
-        .remedy(remedy)
+    finding(rule, message).at(columns).expected(expected).remedy(remedy)
 }
 
 fn character(byte: u8) -> String {
@@ -153,27 +113,21 @@ fn surprise_finding(
     let (rule, message, remedy) = match surprise {
         Surprise::EmbeddedBlanks => (
             Rule::EmbeddedBlanks,
-            format!(
-                "`{shown}` reads as {digits}: FORTRAN IV takes blanks inside a number as zeros"
-            ),
+            format!("`{shown}` reads as {digits}: FORTRAN IV takes blanks inside a number as zeros"),
             "close the gap, or punch the zeros",
         ),
         Surprise::TrailingBlanks => (
             Rule::LeftJustified,
-            format!(
-                "`{shown}` reads as {digits}: FORTRAN IV takes the blanks behind the last digit as zeros"
-            ),
+            format!("`{shown}` reads as {digits}: FORTRAN IV takes the blanks behind the last digit as zeros"),
             if field.format == Format::Integer {
                 "punch the integer at the right end of its field"
             } else {
                 "punch a decimal point, or move the number to the right end of its field"
             },
         ),
-        Surprise::BareExponent => (
-            Rule::BareExponent,
-            format!("`{shown}` reads as {digits}: an exponent without its letter"),
-            "punch the E",
-        ),
+        Surprise::BareExponent => {
+            (Rule::BareExponent, format!("`{shown}` reads as {digits}: an exponent without its letter"), "punch the E")
+        }
         Surprise::SmallLetter => (
             Rule::SmallLetter,
             format!("`{shown}` has a small exponent letter, which no card punch had"),
@@ -185,10 +139,7 @@ fn surprise_finding(
             "punch 0.",
         ),
     };
-    finding(rule, message)
-        .at(field.columns)
-        .expected(expectation(field))
-        .remedy(remedy)
+    finding(rule, message).at(field.columns).expected(expectation(field)).remedy(remedy)
 }
 
 /// Reports what stands in columns that no field covers, sequence numbers excepted.
@@ -205,10 +156,7 @@ fn check_free_columns(card: &Card, layout: &CardLayout, id: CardId, sink: &mut S
         sink.report(
             Finding::new(
                 Rule::NotBlank,
-                format!(
-                    "`{}` stands where the card is blank; it is not read",
-                    card.text_of(punched)
-                ),
+                format!("`{}` stands where the card is blank; it is not read", card.text_of(punched)),
             )
             .on(card)
             .in_card(id)

@@ -8,8 +8,7 @@ use std::collections::BTreeMap;
 use crate::deck::{Deck, Plot};
 
 /// The line before the kept values.
-pub(crate) const MARKER: &str =
-    "Card values without a place in a scenario, kept for the way back to cards:";
+pub(crate) const MARKER: &str = "Card values without a place in a scenario, kept for the way back to cards:";
 
 /// The second title card.
 pub(crate) const TITLE_2: &str = "TITLE 2";
@@ -39,15 +38,7 @@ pub(crate) fn kept_of(deck: &Deck) -> Kept {
     if !deck.titles()[1].is_empty() {
         keep(TITLE_2, deck.titles()[1].clone());
     }
-    keep(
-        PLOT,
-        if deck.plot() == Plot::Standard {
-            "STAN"
-        } else {
-            "NONE"
-        }
-        .to_owned(),
-    );
+    keep(PLOT, if deck.plot() == Plot::Standard { "STAN" } else { "NONE" }.to_owned());
     let mut fields = vec!["NDISK", "MREAD", "XV(14)", "ZV(14)"];
     fields.extend(unused_stop_dampings(deck));
     if deck.value("NPOS") == Some(0.0) && deck.value("SWP").is_some_and(|v| v <= 0.0) {
@@ -84,10 +75,7 @@ fn spring_angles(deck: &Deck) -> impl Iterator<Item = &'static str> {
 
 /// The block for the notes.
 pub(crate) fn to_notes(kept: &Kept) -> String {
-    let lines: String = kept
-        .iter()
-        .map(|(name, value)| format!("  {name} = {value}\n"))
-        .collect();
+    let lines: String = kept.iter().map(|(name, value)| format!("  {name} = {value}\n")).collect();
     format!("{MARKER}\n{lines}")
 }
 
@@ -97,9 +85,7 @@ pub(crate) fn from_notes(notes: &str) -> Kept {
         return Kept::new();
     };
     let lines = block.lines().filter_map(|line| line.split_once(" = "));
-    lines
-        .map(|(name, value)| (name.trim().to_owned(), value.to_owned()))
-        .collect()
+    lines.map(|(name, value)| (name.trim().to_owned(), value.to_owned())).collect()
 }
 
 /// Whether a name of the notes is a field that scenarios may have to keep.

@@ -20,16 +20,8 @@ pub(crate) fn left_out(deck: &Deck, layout: &CompartmentLayout) -> Vec<LeftOut> 
     let mut left_out: Vec<_> = faces
         .into_iter()
         .filter_map(|face| {
-            let why = if face.corners.is_empty() {
-                "has no area"
-            } else {
-                without_resistance(deck, face.number)?
-            };
-            Some(LeftOut {
-                number: face.number,
-                name: face.name,
-                why,
-            })
+            let why = if face.corners.is_empty() { "has no area" } else { without_resistance(deck, face.number)? };
+            Some(LeftOut { number: face.number, name: face.name, why })
         })
         .collect();
     let wheel = &layout.wheel;
@@ -38,11 +30,7 @@ pub(crate) fn left_out(deck: &Deck, layout: &CompartmentLayout) -> Vec<LeftOut> 
     } else {
         without_resistance(deck, wheel.number)
     };
-    left_out.extend(why.map(|why| LeftOut {
-        number: wheel.number,
-        name: wheel.name.clone(),
-        why,
-    }));
+    left_out.extend(why.map(|why| LeftOut { number: wheel.number, name: wheel.name.clone(), why }));
     left_out
 }
 

@@ -15,17 +15,9 @@ const PLOT_SERIES: u8 = 16;
 impl Reader<'_> {
     /// The plot card; `None` if the deck ends without one and is not to be used.
     pub(crate) fn read_plot(&mut self) -> Option<Plot> {
-        let id = CardId {
-            series: PLOT_SERIES,
-            letter: None,
-            number: None,
-        };
+        let id = CardId { series: PLOT_SERIES, letter: None, number: None };
         let card = self.card();
-        let third_follows = self
-            .cards
-            .get(self.at + 2)
-            .and_then(looks_like_first_card)
-            .is_some_and(|s| s.number == 3);
+        let third_follows = self.cards.get(self.at + 2).and_then(looks_like_first_card).is_some_and(|s| s.number == 3);
         let word = card.map(|c| c.text_of(WORD).to_ascii_uppercase());
         let plot = match word.as_deref() {
             Some("STAN") => Plot::Standard,
@@ -38,9 +30,7 @@ impl Reader<'_> {
         };
         let card = card?;
         self.at += 1;
-        if card.text_of(WORD) != word.unwrap_or_default()
-            || !matches!(card.field(WORD), b"STAN" | b"NONE")
-        {
+        if card.text_of(WORD) != word.unwrap_or_default() || !matches!(card.field(WORD), b"STAN" | b"NONE") {
             self.sink.report(
                 Finding::new(Rule::UnknownWord, format!("`{}` is no plot option", card.text_of(WORD)))
                     .on(card)

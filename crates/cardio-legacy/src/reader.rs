@@ -33,11 +33,7 @@ pub(crate) fn read_file(bytes: &[u8], sink: &mut Sink) -> Vec<Deck> {
                 .remedy("give the name of a deck"),
         );
     }
-    let mut reader = Reader {
-        cards: &cards,
-        at: 0,
-        sink,
-    };
+    let mut reader = Reader { cards: &cards, at: 0, sink };
     let mut decks = Vec::new();
     while let Some(card) = reader.card() {
         if starts_with_fini(card) {
@@ -50,11 +46,8 @@ pub(crate) fn read_file(bytes: &[u8], sink: &mut Sink) -> Vec<Deck> {
         let before = reader.sink.errors();
         let first_line = card.line;
         let deck = reader.read_deck();
-        let last_line = reader.cards[..reader.at]
-            .last()
-            .map_or(first_line, |c| c.line);
-        let sound =
-            reader.sink.errors() == before && !reader.sink.has_error_in(first_line, last_line);
+        let last_line = reader.cards[..reader.at].last().map_or(first_line, |c| c.line);
+        let sound = reader.sink.errors() == before && !reader.sink.has_error_in(first_line, last_line);
         decks.extend(deck.filter(|_| sound));
     }
     if let Some(last) = cards.last() {
@@ -70,13 +63,10 @@ pub(crate) fn read_file(bytes: &[u8], sink: &mut Sink) -> Vec<Deck> {
 
 fn report_no_deck(card: &Card, sink: &mut Sink) {
     sink.report(
-        Finding::new(
-            Rule::EmptyFile,
-            "the first card is the final one: the file holds no deck",
-        )
-        .on(card)
-        .expected("two title cards, series 3 to 16 and FINI")
-        .remedy("change the first word of the title if the card is meant to be one"),
+        Finding::new(Rule::EmptyFile, "the first card is the final one: the file holds no deck")
+            .on(card)
+            .expected("two title cards, series 3 to 16 and FINI")
+            .remedy("change the first word of the title if the card is meant to be one"),
     );
 }
 
@@ -86,11 +76,7 @@ pub(crate) fn starts_with_fini(card: &Card) -> bool {
 
 /// Where the card of series 3 stands, counted from the first title.
 fn place_of_third(cards: &[Card]) -> Option<usize> {
-    if cards
-        .get(2)
-        .and_then(series_by_number)
-        .is_some_and(|s| s.number == 3)
-    {
+    if cards.get(2).and_then(series_by_number).is_some_and(|s| s.number == 3) {
         return Some(2);
     }
     let is_third = |card: &Card| looks_like_first_card(card).is_some_and(|s| s.number == 3);
@@ -142,29 +128,16 @@ impl<'a> Reader<'a> {
 
     fn report_titles(&mut self, third: &Card, found: usize) {
         let (rule, remedy) = if found < 2 {
-            (
-                Rule::MissingTitle,
-                "add the missing title cards; they may be blank, but they must be there",
-            )
+            (Rule::MissingTitle, "add the missing title cards; they may be blank, but they must be there")
         } else {
-            (
-                Rule::UnexpectedCard,
-                "remove the cards between the titles and series 3",
-            )
+            (Rule::UnexpectedCard, "remove the cards between the titles and series 3")
         };
-        let cards = if found == 1 {
-            "card stands"
-        } else {
-            "cards stand"
-        };
+        let cards = if found == 1 { "card stands" } else { "cards stand" };
         self.sink.report(
-            Finding::new(
-                rule,
-                format!("{found} {cards} before the first card with a card number"),
-            )
-            .on(third)
-            .expected("exactly two title cards at the beginning of a deck")
-            .remedy(remedy),
+            Finding::new(rule, format!("{found} {cards} before the first card with a card number"))
+                .on(third)
+                .expected("exactly two title cards at the beginning of a deck")
+                .remedy(remedy),
         );
     }
 
@@ -197,25 +170,14 @@ impl<'a> Reader<'a> {
     }
 
     /// The series that begins with this card: by its number, or, where that is blank, by its place.
-    fn series_here(
-        &self,
-        card: &Card,
-        highest: u8,
-        read: &SeriesRead,
-    ) -> Option<&'static SeriesLayout> {
+    fn series_here(&self, card: &Card, highest: u8, read: &SeriesRead) -> Option<&'static SeriesLayout> {
         match card_number(card) {
-            CardNumber::Series(_) | CardNumber::ByFormat(_) | CardNumber::Misplaced { .. } => {
-                series_by_number(card)
-            }
+            CardNumber::Series(_) | CardNumber::ByFormat(_) | CardNumber::Misplaced { .. } => series_by_number(card),
             CardNumber::Other(_) => None,
             CardNumber::Blank => {
-                let next = series(highest + 1)
-                    .filter(|s| s.ncard.is_some() && !read.contains_key(&s.number))?;
+                let next = series(highest + 1).filter(|s| s.ncard.is_some() && !read.contains_key(&s.number))?;
                 let behind = self.at + 1 + next.cards_behind_first()?;
-                let follows = self
-                    .cards
-                    .get(behind)
-                    .is_some_and(|c| looks_like_first_card(c).is_some());
+                let follows = self.cards.get(behind).is_some_and(|c| looks_like_first_card(c).is_some());
                 (follows && !card.is_blank()).then_some(next)
             }
         }
@@ -223,25 +185,22 @@ impl<'a> Reader<'a> {
 
     fn report_order(&mut self, card: &Card, series: &SeriesLayout, highest: u8, read: &SeriesRead) {
         let id = CardId::first_of(series);
-        let finding =
-            |rule, message: String| Finding::new(rule, message).on(card).in_card(id).at(NCARD);
+        let finding = |rule, message: String| Finding::new(rule, message).on(card).in_card(id).at(NCARD);
         if let Some(earlier) = read.get(&series.number) {
             let line = earlier.first().and_then(|c| c.line).unwrap_or_default();
             self.sink.report(
-                finding(Rule::SeriesTwice, format!("series {} ({}) has been read at line {line}", series.number, series.title))
-                    .expected("each series once")
-                    .remedy("remove one of the two; in lenient reading the later one counts, as it did in the program"),
+                finding(
+                    Rule::SeriesTwice,
+                    format!("series {} ({}) has been read at line {line}", series.number, series.title),
+                )
+                .expected("each series once")
+                .remedy("remove one of the two; in lenient reading the later one counts, as it did in the program"),
             );
         } else if series.number < highest {
             self.sink.report(
-                finding(
-                    Rule::OutOfOrder,
-                    format!("series {} stands behind series {highest}", series.number),
-                )
-                .expected("the series in the order of their numbers")
-                .remedy(
-                    "sort the deck; the card number says which series it is, and so it was read",
-                ),
+                finding(Rule::OutOfOrder, format!("series {} stands behind series {highest}", series.number))
+                    .expected("the series in the order of their numbers")
+                    .remedy("sort the deck; the card number says which series it is, and so it was read"),
             );
         }
     }
@@ -251,37 +210,21 @@ impl<'a> Reader<'a> {
         let here = &self.cards[self.at..];
         let Some(first) = here.first() else { return };
         let begins = |card: &Card| looks_like_first_card(card).is_some() || is_word(card);
-        let count = here
-            .iter()
-            .skip(1)
-            .position(begins)
-            .map_or(here.len(), |place| place + 1);
+        let count = here.iter().skip(1).position(begins).map_or(here.len(), |place| place + 1);
         let last = here.get(count - 1).map_or(first.line, |c| c.line);
-        let lines = if count == 1 {
-            "this card belongs".into()
-        } else {
-            format!("lines {} to {last} belong", first.line)
-        };
+        let lines =
+            if count == 1 { "this card belongs".into() } else { format!("lines {} to {last} belong", first.line) };
         let number = match card_number(first) {
             CardNumber::Other(text) => format!("columns 71–80 hold `{text}`"),
             _ => "columns 71–80 are blank".to_owned(),
         };
-        let after = if highest > 2 {
-            format!(" behind series {highest}")
-        } else {
-            String::new()
-        };
+        let after = if highest > 2 { format!(" behind series {highest}") } else { String::new() };
         self.sink.report(
-            Finding::new(
-                Rule::UnexpectedCard,
-                format!("{lines} to no series{after}: {number}"),
-            )
-            .on(first)
-            .at(NCARD)
-            .expected(
-                "the first card of a series, with its number ending in column 80, or the card 1000",
-            )
-            .remedy("look for a surplus card, a missing first card or a wrong card number"),
+            Finding::new(Rule::UnexpectedCard, format!("{lines} to no series{after}: {number}"))
+                .on(first)
+                .at(NCARD)
+                .expected("the first card of a series, with its number ending in column 80, or the card 1000")
+                .remedy("look for a surplus card, a missing first card or a wrong card number"),
         );
         self.at += count;
     }
@@ -299,38 +242,25 @@ impl<'a> Reader<'a> {
 
     fn report_no_terminator(&mut self, card: &Card) {
         self.sink.report(
-            Finding::new(
-                Rule::NoTerminator,
-                "the numbers end without the card 1000 (series 15)",
-            )
-            .on(card)
-            .expected("a card with 1000 in columns 77–80 before this one")
-            .remedy("add the card"),
+            Finding::new(Rule::NoTerminator, "the numbers end without the card 1000 (series 15)")
+                .on(card)
+                .expected("a card with 1000 in columns 77–80 before this one")
+                .remedy("add the card"),
         );
     }
 
     /// The final card, and what stands behind it.
     fn end_file(&mut self) {
         let Some(card) = self.card() else { return };
-        self.check_rest_of_word_card(
-            card,
-            CardId {
-                series: FINAL_CARD,
-                letter: None,
-                number: None,
-            },
-        );
+        self.check_rest_of_word_card(card, CardId { series: FINAL_CARD, letter: None, number: None });
         self.at += 1;
         if let Some(card) = self.cards[self.at..].iter().find(|c| !c.is_blank()) {
             self.sink.report(
-                Finding::new(
-                    Rule::AfterFinalCard,
-                    "something stands behind the final card; it is not read",
-                )
-                .on(card)
-                .at(Columns::new(1, 80))
-                .expected("FINI behind the last deck, and nothing more")
-                .remedy("remove an earlier FINI if a deck follows; remove the rest otherwise"),
+                Finding::new(Rule::AfterFinalCard, "something stands behind the final card; it is not read")
+                    .on(card)
+                    .at(Columns::new(1, 80))
+                    .expected("FINI behind the last deck, and nothing more")
+                    .remedy("remove an earlier FINI if a deck follows; remove the rest otherwise"),
             );
         }
     }

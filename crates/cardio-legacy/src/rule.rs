@@ -196,11 +196,9 @@ impl Rule {
             | Self::Inconsistent
             | Self::CompartmentEquality
             | Self::PassedPairUnused => Grade::Doubtful,
-            Self::BareExponent
-            | Self::CardNumberByFormat
-            | Self::BlankIsZero
-            | Self::SeriesUnused
-            | Self::Ignored => Grade::Remark,
+            Self::BareExponent | Self::CardNumberByFormat | Self::BlankIsZero | Self::SeriesUnused | Self::Ignored => {
+                Grade::Remark
+            }
         }
     }
 

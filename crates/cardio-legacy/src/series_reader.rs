@@ -16,12 +16,7 @@ pub(crate) const WORD: Columns = Columns::new(1, 4);
 const MOST_CARDS: f64 = 1e9;
 
 /// Reads the series that begins at `at`; returns its cards and how many cards of the file it took.
-pub(crate) fn read_series(
-    cards: &[Card],
-    at: usize,
-    series: &SeriesLayout,
-    sink: &mut Sink,
-) -> (Vec<DeckCard>, usize) {
+pub(crate) fn read_series(cards: &[Card], at: usize, series: &SeriesLayout, sink: &mut Sink) -> (Vec<DeckCard>, usize) {
     let (Some(first), Some(layout)) = (cards.get(at), series.cards.first()) else {
         return (Vec::new(), 1);
     };
@@ -49,18 +44,12 @@ pub(crate) fn read_series(
     }
     let mut read = vec![deck_card(first, id, numbers)];
     let rest = cards.get(at + 1..at + 1 + behind).unwrap_or_default();
-    let mut letters = series
-        .cards
-        .iter()
-        .skip(1)
-        .flat_map(|c| std::iter::repeat_n(c, how_often(c, behind)));
+    let mut letters = series.cards.iter().skip(1).flat_map(|c| std::iter::repeat_n(c, how_often(c, behind)));
     for (index, card) in rest.iter().enumerate() {
         let Some(layout) = letters.next() else { break };
         read.extend(read_card(card, index, series, layout, sink));
     }
-    if series
-        .cards_behind_first()
-        .is_some_and(|count| count > behind)
+    if series.cards_behind_first().is_some_and(|count| count > behind)
         && series.cards.iter().all(|c| c.repeat == Repeat::Once)
     {
         // Which card is missing cannot be known, so none of the numbers is in a known place.
@@ -85,11 +74,7 @@ fn cards_with_index(cards: &[Card], at: usize, layout: &CardLayout, count: u32) 
         let numbered = card.is_blank_in(free) && index_on_card(card, layout, count).is_some();
         !begins_something(card) && (place < count as usize || numbered)
     };
-    behind
-        .iter()
-        .enumerate()
-        .take_while(|(place, card)| follows((*place, card)))
-        .count()
+    behind.iter().enumerate().take_while(|(place, card)| follows((*place, card))).count()
 }
 
 fn begins_something(card: &Card) -> bool {
@@ -97,12 +82,7 @@ fn begins_something(card: &Card) -> bool {
 }
 
 fn deck_card(card: &Card, id: CardId, numbers: Vec<Number>) -> DeckCard {
-    DeckCard {
-        id,
-        line: Some(card.line),
-        raw: Some(card.text()),
-        numbers,
-    }
+    DeckCard { id, line: Some(card.line), raw: Some(card.text()), numbers }
 }
 
 /// Reads a card behind the first one; `None` if it does not say for which segment or surface it is.
@@ -113,11 +93,7 @@ fn read_card(
     layout: &CardLayout,
     sink: &mut Sink,
 ) -> Option<DeckCard> {
-    let mut id = CardId {
-        series: series.number,
-        letter: layout.letter,
-        number: None,
-    };
+    let mut id = CardId { series: series.number, letter: layout.letter, number: None };
     match layout.repeat {
         Repeat::Once => {}
         Repeat::Counted => id.number = u32::try_from(index + 1).ok(),
@@ -133,93 +109,52 @@ fn read_card(
 
 /// The segment or surface number on a card, if it is one.
 fn index_on_card(card: &Card, layout: &CardLayout, count: u32) -> Option<u32> {
-    let value = read_integer(card.field(layout.fields.first()?.columns))
-        .ok()?
-        .value;
-    (1.0..=f64::from(count))
-        .contains(&value)
-        .then_some(value as u32)
+    let value = read_integer(card.field(layout.fields.first()?.columns)).ok()?.value;
+    (1.0..=f64::from(count)).contains(&value).then_some(value as u32)
 }
 
-fn report_bad_index(
-    card: &Card,
-    id: CardId,
-    layout: &CardLayout,
-    count: u32,
-    read: Option<&Number>,
-    sink: &mut Sink,
-) {
+fn report_bad_index(card: &Card, id: CardId, layout: &CardLayout, count: u32, read: Option<&Number>, sink: &mut Sink) {
     let (Some(field), Some(read)) = (layout.fields.first(), read) else {
         return;
     };
     if read.value.is_nan() {
         return;
     }
-    let what = if read.blank {
-        "is blank".to_owned()
-    } else {
-        format!("is {}", read.digits)
-    };
+    let what = if read.blank { "is blank".to_owned() } else { format!("is {}", read.digits) };
     sink.report(
-        Finding::new(
-            Rule::BadIndex,
-            format!("{} {what}: the card belongs to nothing", field.variable),
-        )
-        .on(card)
-        .in_card(id)
-        .at(field.columns)
-        .variable(field.variable)
-        .expected(format!(
-            "1 to {count}, right-justified in {}",
-            field.columns
-        ))
-        .remedy(format!(
-            "punch the number so that it ends in column {}",
-            field.columns.last
-        )),
+        Finding::new(Rule::BadIndex, format!("{} {what}: the card belongs to nothing", field.variable))
+            .on(card)
+            .in_card(id)
+            .at(field.columns)
+            .variable(field.variable)
+            .expected(format!("1 to {count}, right-justified in {}", field.columns))
+            .remedy(format!("punch the number so that it ends in column {}", field.columns.last)),
     );
 }
 
 /// Says what is odd about the card number of a first card.
 fn report_card_number(card: &Card, id: CardId, sink: &mut Sink) {
-    let finding = |rule, message: String| {
-        Finding::new(rule, message)
-            .on(card)
-            .in_card(id)
-            .at(NCARD)
-            .variable("NCARD")
-    };
+    let finding = |rule, message: String| Finding::new(rule, message).on(card).in_card(id).at(NCARD).variable("NCARD");
     match card_number(card) {
         CardNumber::ByFormat(series) => sink.report(
             finding(
                 Rule::CardNumberByFormat,
-                format!(
-                    "the card number ends in column 78, where the format I8 of series {} reads it",
-                    series.number
-                ),
+                format!("the card number ends in column 78, where the format I8 of series {} reads it", series.number),
             )
             .expected("the number at the end of columns 71–80, as the report's table has it"),
         ),
         CardNumber::Misplaced { series, read_as } => sink.report(
             finding(
                 Rule::CardNumber,
-                format!(
-                    "the card number reads as {read_as}, because blanks behind a digit are zeros"
-                ),
+                format!("the card number reads as {read_as}, because blanks behind a digit are zeros"),
             )
-            .expected(format!(
-                "{} ending in column 80",
-                series.ncard.unwrap_or_default()
-            ))
+            .expected(format!("{} ending in column 80", series.ncard.unwrap_or_default()))
             .remedy("move the card number to the right end of the card"),
         ),
         CardNumber::Blank => sink.report(
-            finding(
-                Rule::CardNumber,
-                format!("the card number is blank; by its place this is card {id}"),
-            )
-            .expected("the number of the series, ending in column 80")
-            .remedy("punch the card number"),
+            finding(Rule::CardNumber, format!("the card number is blank; by its place this is card {id}"))
+                .expected("the number of the series, ending in column 80")
+                .remedy("punch the card number"),
         ),
         CardNumber::Series(_) | CardNumber::Other(_) => {}
     }
@@ -239,13 +174,16 @@ fn count_on_card(
     }
     if !count.value.is_nan() {
         sink.report(
-            Finding::new(Rule::NotAWholeNumber, format!("{} is {}, which counts no cards", field.variable, count.digits))
-                .on(card)
-                .in_card(id)
-                .at(field.columns)
-                .variable(field.variable)
-                .expected("exactly the number of cards that follow in this series, punched with the decimal point")
-                .remedy("count the cards behind this one"),
+            Finding::new(
+                Rule::NotAWholeNumber,
+                format!("{} is {}, which counts no cards", field.variable, count.digits),
+            )
+            .on(card)
+            .in_card(id)
+            .at(field.columns)
+            .variable(field.variable)
+            .expected("exactly the number of cards that follow in this series, punched with the decimal point")
+            .remedy("count the cards behind this one"),
         );
     }
     None
@@ -253,26 +191,16 @@ fn count_on_card(
 
 /// How many cards behind the first one belong to the series. The layout or the count says so; where the next series
 /// begins elsewhere, the cards that stand there do, and the difference is reported.
-fn cards_behind(
-    cards: &[Card],
-    at: usize,
-    series: &SeriesLayout,
-    wanted: Option<usize>,
-    sink: &mut Sink,
-) -> usize {
+fn cards_behind(cards: &[Card], at: usize, series: &SeriesLayout, wanted: Option<usize>, sink: &mut Sink) -> usize {
     let begins_next = |place: usize| cards.get(place).is_some_and(begins_something);
-    let next = (at + 1..cards.len())
-        .find(|place| begins_next(*place))
-        .unwrap_or(cards.len());
+    let next = (at + 1..cards.len()).find(|place| begins_next(*place)).unwrap_or(cards.len());
     let standing = next - at - 1;
     let Some(wanted) = wanted else {
         return standing;
     };
     let fixed = series.cards_behind_first().is_some();
     let place = (at + 1).saturating_add(wanted);
-    let in_place = cards
-        .get(place)
-        .is_some_and(|c| series_by_number(c).is_some() || is_word(c));
+    let in_place = cards.get(place).is_some_and(|c| series_by_number(c).is_some() || is_word(c));
     if standing == wanted || in_place || (fixed && standing > wanted) {
         return wanted.min(cards.len() - at - 1);
     }
@@ -290,11 +218,7 @@ fn report_count(
     sink: &mut Sink,
 ) {
     let Some(first) = cards.get(at) else { return };
-    let rule = if fixed {
-        Rule::SeriesTooShort
-    } else {
-        Rule::CountDiffers
-    };
+    let rule = if fixed { Rule::SeriesTooShort } else { Rule::CountDiffers };
     let end = match cards.get(at + 1 + standing) {
         Some(card) => format!("line {} begins something else", card.line),
         None => "the file ends".to_owned(),
@@ -303,11 +227,7 @@ fn report_count(
         "series {} ({}) should have {wanted} cards behind this one and has {standing}: then {end}",
         series.number, series.title
     );
-    let remedy = if fixed {
-        "add the missing cards"
-    } else {
-        "correct the count, or add or remove cards"
-    };
+    let remedy = if fixed { "add the missing cards" } else { "correct the count, or add or remove cards" };
     sink.report(
         Finding::new(rule, message)
             .on(first)

@@ -39,12 +39,7 @@ impl Deck {
             12 => self.value("MREAD") != Some(0.0),
             _ => false,
         };
-        let mut cards: Vec<DeckCard> = self
-            .cards()
-            .iter()
-            .filter(|c| !unused(c.id.series))
-            .cloned()
-            .collect();
+        let mut cards: Vec<DeckCard> = self.cards().iter().filter(|c| !unused(c.id.series)).cloned().collect();
         for card in &mut cards {
             let names: Vec<String> = fields_of(card).map(|field| name_of(card, field)).collect();
             for (number, name) in card.numbers.iter_mut().zip(names) {
@@ -61,9 +56,7 @@ impl Deck {
         for (field, number) in fields_of(card).zip(&card.numbers) {
             let text = match field.format {
                 Format::Integer => punch_integer(number),
-                Format::Real if number.blank && self.has_no_effect(&name_of(card, field)) => {
-                    String::new()
-                }
+                Format::Real if number.blank && self.has_no_effect(&name_of(card, field)) => String::new(),
                 Format::Real => punch_real(number, field.columns.width()),
                 Format::Text => String::new(),
             };
@@ -77,9 +70,7 @@ impl Deck {
 pub fn write_file(decks: &[Deck]) -> Vec<u8> {
     let mut text: String = decks.iter().map(Deck::write).collect();
     text.push_str("FINI\n");
-    text.chars()
-        .map(|c| u8::try_from(u32::from(c)).unwrap_or(b'?'))
-        .collect()
+    text.chars().map(|c| u8::try_from(u32::from(c)).unwrap_or(b'?')).collect()
 }
 
 fn push_line(text: &mut String, line: &str) {
@@ -91,11 +82,7 @@ fn push_line(text: &mut String, line: &str) {
 fn place(columns: &mut [u8; CARD_WIDTH], field: &Field, text: &str) {
     let Columns { first, last } = field.columns;
     let bytes = text.bytes().rev();
-    let cells = columns
-        .iter_mut()
-        .take(usize::from(last))
-        .skip(usize::from(first) - 1)
-        .rev();
+    let cells = columns.iter_mut().take(usize::from(last)).skip(usize::from(first) - 1).rev();
     for (cell, byte) in cells.zip(bytes) {
         *cell = byte;
     }
@@ -114,11 +101,7 @@ pub(crate) fn punch_real(number: &Number, width: usize) -> String {
         return "0.".to_owned();
     }
     fitting_form(&number.digits, width)
-        .or_else(|| {
-            (0..17)
-                .rev()
-                .find_map(|places| rounded_form(number.value, places, width))
-        })
+        .or_else(|| (0..17).rev().find_map(|places| rounded_form(number.value, places, width)))
         .unwrap_or_else(|| "0.".to_owned())
 }
 
@@ -132,41 +115,21 @@ fn rounded_form(value: f64, places: usize, width: usize) -> Option<String> {
     let fraction = fraction.trim_end_matches('0');
     let exponent: i32 = exponent.parse().ok()?;
     let shifted = exponent - i32::try_from(fraction.len()).ok()?;
-    let notations = [
-        format!("{rounded}"),
-        format!("{whole}.{fraction}e{exponent}"),
-        format!("{whole}{fraction}e{shifted}"),
-    ];
-    notations
-        .iter()
-        .filter(|_| rounded != 0.0)
-        .find_map(|digits| fitting_form(digits, width))
+    let notations =
+        [format!("{rounded}"), format!("{whole}.{fraction}e{exponent}"), format!("{whole}{fraction}e{shifted}")];
+    notations.iter().filter(|_| rounded != 0.0).find_map(|digits| fitting_form(digits, width))
 }
 
 /// The forms in which digits may be punched, the plainest first; the first one that fits.
 fn fitting_form(digits: &str, width: usize) -> Option<String> {
-    let (mantissa, exponent) = digits
-        .split_once('e')
-        .map_or((digits, None), |(m, e)| (m, Some(e)));
-    let pointed = if mantissa.contains('.') {
-        mantissa.to_owned()
-    } else {
-        format!("{mantissa}.")
-    };
-    let short = pointed.replacen(
-        "0.",
-        ".",
-        usize::from(pointed.trim_start_matches('-').starts_with("0.")),
-    );
+    let (mantissa, exponent) = digits.split_once('e').map_or((digits, None), |(m, e)| (m, Some(e)));
+    let pointed = if mantissa.contains('.') { mantissa.to_owned() } else { format!("{mantissa}.") };
+    let short = pointed.replacen("0.", ".", usize::from(pointed.trim_start_matches('-').starts_with("0.")));
     let bare = short.trim_end_matches('.');
     let forms = match exponent {
         None => vec![pointed.clone(), short.clone(), bare.to_owned()],
         Some(exponent) => {
-            let signed = if exponent.starts_with('-') {
-                exponent.to_owned()
-            } else {
-                format!("+{exponent}")
-            };
+            let signed = if exponent.starts_with('-') { exponent.to_owned() } else { format!("+{exponent}") };
             vec![
                 format!("{pointed}E{exponent}"),
                 format!("{short}E{exponent}"),
@@ -184,11 +147,7 @@ mod tests {
     use super::*;
 
     fn punched(value: f64) -> String {
-        let number = Number {
-            value,
-            digits: format!("{value:e}"),
-            blank: false,
-        };
+        let number = Number { value, digits: format!("{value:e}"), blank: false };
         punch_real(&number, 10)
     }
 

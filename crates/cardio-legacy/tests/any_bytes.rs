@@ -26,22 +26,14 @@ impl Random {
 /// Reads in all three strictnesses; whatever is handed out can be written, read again and is the same.
 fn read_all(bytes: &[u8]) {
     for strictness in [Strictness::Strict, Strictness::Default, Strictness::Lenient] {
-        let (decks, diagnostics) = Deck::parse(
-            bytes,
-            &ParseOptions {
-                file: "any".into(),
-                strictness,
-            },
-        );
+        let (decks, diagnostics) = Deck::parse(bytes, &ParseOptions { file: "any".into(), strictness });
         let _ = diagnostics.to_string();
         if decks.is_empty() {
             assert!(diagnostics.has_errors(), "no deck and no error");
         }
         for deck in &decks {
-            let (again, diagnostics) = Deck::parse(
-                cardio_legacy::write_file(std::slice::from_ref(deck)),
-                &ParseOptions::default(),
-            );
+            let (again, diagnostics) =
+                Deck::parse(cardio_legacy::write_file(std::slice::from_ref(deck)), &ParseOptions::default());
             assert!(!diagnostics.has_errors(), "{diagnostics}");
             assert_eq!(again[0].differences(deck), []);
         }
@@ -55,10 +47,7 @@ fn random_bytes_never_panic() {
         let length = random.below(4000);
         let text: Vec<u8> = (0..length).map(|_| random.next() as u8).collect();
         read_all(&text);
-        let printable: Vec<u8> = text
-            .iter()
-            .map(|b| b" 0123456789.-E\n"[usize::from(*b) % 15])
-            .collect();
+        let printable: Vec<u8> = text.iter().map(|b| b" 0123456789.-E\n"[usize::from(*b) % 15]).collect();
         read_all(&printable);
     }
 }
@@ -112,28 +101,15 @@ fn mutated_decks_convert_or_are_refused() {
     for round in 0..400 {
         let mut text = originals[round % originals.len()].clone();
         mutate(&mut text, &mut random);
-        let (decks, _) = Deck::parse(
-            &text,
-            &ParseOptions {
-                file: "any".into(),
-                strictness: Strictness::Lenient,
-            },
-        );
+        let (decks, _) = Deck::parse(&text, &ParseOptions { file: "any".into(), strictness: Strictness::Lenient });
         for deck in &decks {
             let Ok(conversion) = deck.to_scenario(&ConvertOptions::default()) else {
                 continue;
             };
             let nothing = |name: &str| Err(format!("no file {name}"));
-            let loaded = Scenario::from_text(&conversion.toml, Format::Toml, "any", &nothing)
-                .expect("checked before");
-            let back = Deck::from_scenario(&loaded, None)
-                .unwrap_or_else(|e| panic!("{e}\n{}", deck.write()));
-            assert_eq!(
-                back.deck.differences(&deck.normalised()),
-                [],
-                "{}",
-                deck.write()
-            );
+            let loaded = Scenario::from_text(&conversion.toml, Format::Toml, "any", &nothing).expect("checked before");
+            let back = Deck::from_scenario(&loaded, None).unwrap_or_else(|e| panic!("{e}\n{}", deck.write()));
+            assert_eq!(back.deck.differences(&deck.normalised()), [], "{}", deck.write());
             converted += 1;
         }
     }

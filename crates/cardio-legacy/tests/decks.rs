@@ -6,13 +6,8 @@ use cardio_legacy::{Deck, ParseOptions, Plot, Rule, Severity, Strictness, write_
 use support::{DECKS, bytes, driver, lines, parse, parse_as, rules};
 
 fn only_deck(name: &str) -> Deck {
-    let (decks, diagnostics) = Deck::parse(
-        bytes(name),
-        &ParseOptions {
-            file: name.into(),
-            strictness: Strictness::Strict,
-        },
-    );
+    let (decks, diagnostics) =
+        Deck::parse(bytes(name), &ParseOptions { file: name.into(), strictness: Strictness::Strict });
     assert!(!diagnostics.has_errors(), "{diagnostics}");
     assert_eq!(decks.len(), 1, "{name}");
     decks.into_iter().next().expect("one deck")
@@ -49,15 +44,9 @@ fn numbers_are_found_by_the_names_of_the_report() {
     assert_eq!(deck.number("GR").map(|n| n.digits.as_str()), Some("386.04"));
     assert_eq!(deck.number("Q0(1)"), None);
     assert_eq!(deck.plot(), Plot::Standard);
-    assert_eq!(
-        deck.titles()[1],
-        "COMPARTMENT AND BODY COMPOSED FROM PUBLISHED FIGURES"
-    );
+    assert_eq!(deck.titles()[1], "COMPARTMENT AND BODY COMPOSED FROM PUBLISHED FIGURES");
     let (card, field) = deck.place_of("AGNLB").expect("a field");
-    assert_eq!(
-        (card.id.to_string().as_str(), field.columns.first),
-        ("11c", 1)
-    );
+    assert_eq!((card.id.to_string().as_str(), field.columns.first), ("11c", 1));
 }
 
 #[test]
@@ -68,11 +57,7 @@ fn a_deck_written_and_read_again_is_the_same_deck() {
         let (again, diagnostics) = parse_as(&text, Strictness::Strict);
         assert!(!diagnostics.has_errors(), "{name}\n{diagnostics}");
         assert_eq!(again[0].differences(&deck), [], "{name}");
-        assert_eq!(
-            again[0].write() + "FINI\n",
-            text,
-            "{name}: the normalised form is its own normalised form"
-        );
+        assert_eq!(again[0].write() + "FINI\n", text, "{name}: the normalised form is its own normalised form");
     }
 }
 
@@ -81,16 +66,9 @@ fn blanks_are_counted_and_fields_of_the_other_belt_are_not() {
     let deck = only_deck("right-front-lap.dat");
     assert_eq!(deck.blank_fields(), ["VYVC", "VZVC"]);
     let (_, diagnostics) = parse(&lines("right-front-lap.dat").join("\n"));
-    let note = diagnostics
-        .iter()
-        .find(|d| d.rule == Rule::BlankIsZero)
-        .expect("counted");
+    let note = diagnostics.iter().find(|d| d.rule == Rule::BlankIsZero).expect("counted");
     assert_eq!(note.severity, Severity::Note);
-    assert!(
-        note.message.starts_with("2 blank fields"),
-        "{}",
-        note.message
-    );
+    assert!(note.message.starts_with("2 blank fields"), "{}", note.message);
 }
 
 #[test]
@@ -121,38 +99,15 @@ fn a_wrong_deck_does_not_take_the_next_one_with_it() {
 fn line_ends_sequence_numbers_and_latin_1_are_no_trouble() {
     let changed = driver(|lines| {
         lines[0] = "F\u{fc}hrer".into();
-        for (at, line) in lines
-            .iter_mut()
-            .enumerate()
-            .filter(|(at, _)| (5..17).contains(at))
-        {
+        for (at, line) in lines.iter_mut().enumerate().filter(|(at, _)| (5..17).contains(at)) {
             *line = format!("{line:72}{:08}", at * 10);
         }
     });
-    let latin: Vec<u8> = changed
-        .replace('\n', "\r\n")
-        .chars()
-        .map(|c| c as u8)
-        .collect();
-    let (decks, diagnostics) = Deck::parse(
-        &latin,
-        &ParseOptions {
-            file: "x".into(),
-            strictness: Strictness::Strict,
-        },
-    );
-    assert!(
-        diagnostics.iter().all(|d| d.rule == Rule::BlankIsZero),
-        "{diagnostics}"
-    );
+    let latin: Vec<u8> = changed.replace('\n', "\r\n").chars().map(|c| c as u8).collect();
+    let (decks, diagnostics) = Deck::parse(&latin, &ParseOptions { file: "x".into(), strictness: Strictness::Strict });
+    assert!(diagnostics.iter().all(|d| d.rule == Rule::BlankIsZero), "{diagnostics}");
     assert_eq!(decks[0].titles()[0], "Führer");
-    assert_eq!(
-        decks[0]
-            .differences(&only_deck("driver-lap-torso.dat"))
-            .len(),
-        1,
-        "the title only"
-    );
+    assert_eq!(decks[0].differences(&only_deck("driver-lap-torso.dat")).len(), 1, "the title only");
     assert!(write_file(&decks).starts_with(b"F\xfchrer\n"));
 }
 
@@ -170,20 +125,12 @@ fn a_series_that_is_not_needed_is_noted() {
 fn corners(number: u32) -> Vec<[f64; 3]> {
     let deck = only_deck("driver-lap-torso.dat");
     let layout = cardio_legacy::CompartmentLayout::reconstruction().expect("sound");
-    let face = layout
-        .faces(&deck)
-        .into_iter()
-        .find(|f| f.number == number)
-        .expect("a face");
+    let face = layout.faces(&deck).into_iter().find(|f| f.number == number).expect("a face");
     let value = |name: &str| deck.value(name).expect("a field");
     let place = |c: &cardio_legacy::Corner| {
         let (width, left) = c.wall.half_width();
         let y = if left { -value(width) } else { value(width) };
-        [
-            value(&format!("XV({})", c.x_of)),
-            y,
-            value(&format!("ZV({})", c.z_of)),
-        ]
+        [value(&format!("XV({})", c.x_of)), y, value(&format!("ZV({})", c.z_of))]
     };
     face.corners.iter().map(place).collect()
 }
@@ -210,11 +157,7 @@ fn faces_turn_their_open_side_into_the_compartment() {
         let c = corners(number);
         let edge = |a: usize, b: usize| [c[b][0] - c[a][0], c[b][1] - c[a][1], c[b][2] - c[a][2]];
         let (u, v) = (edge(0, 1), edge(1, 2));
-        let normal = [
-            u[1] * v[2] - u[2] * v[1],
-            u[2] * v[0] - u[0] * v[2],
-            u[0] * v[1] - u[1] * v[0],
-        ];
+        let normal = [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
         let along: f64 = normal.iter().zip(direction).map(|(n, d)| n * d).sum();
         assert!(along > 0.0, "surface {number}: normal {normal:?}");
     }
@@ -224,21 +167,10 @@ fn faces_turn_their_open_side_into_the_compartment() {
 fn the_windshield_joins_body_width_and_roof_width() {
     let mut windshield = corners(1);
     windshield.sort_by(|a, b| a.partial_cmp(b).expect("numbers"));
-    assert_eq!(
-        windshield,
-        [
-            [18.0, -23.0, -30.0],
-            [18.0, 23.0, -30.0],
-            [38.0, -29.0, -14.0],
-            [38.0, 29.0, -14.0]
-        ]
-    );
+    assert_eq!(windshield, [[18.0, -23.0, -30.0], [18.0, 23.0, -30.0], [38.0, -29.0, -14.0], [38.0, 29.0, -14.0]]);
 }
 
 #[test]
 fn the_example_s_deck_is_the_driver_s() {
-    assert_eq!(
-        include_bytes!("../examples/driver.dat").as_slice(),
-        bytes("driver-lap-torso.dat")
-    );
+    assert_eq!(include_bytes!("../examples/driver.dat").as_slice(), bytes("driver-lap-torso.dat"));
 }

@@ -41,28 +41,22 @@ enum Fate {
 /// # Errors
 /// In which fields the deck that came back differs, or why none came back.
 fn round_trip(text: &str) -> Result<Fate, String> {
-    let options = ParseOptions {
-        file: "odd".into(),
-        strictness: Strictness::Lenient,
-    };
+    let options = ParseOptions { file: "odd".into(), strictness: Strictness::Lenient };
     let csv_name = "driver-path-from-disk.csv";
     let csv = std::fs::read_to_string(path(csv_name)).expect("beside the deck");
     let (decks, _) = Deck::parse(text, &options);
     let mut fate = Fate::Refused;
     for deck in &decks {
         let options = ConvertOptions {
-            path: Some(PathSource::Csv {
-                name: csv_name.into(),
-                text: csv.clone(),
-            }),
+            path: Some(PathSource::Csv { name: csv_name.into(), text: csv.clone() }),
             ..ConvertOptions::default()
         };
         let Ok(conversion) = deck.to_scenario(&options) else {
             continue;
         };
         let resolver = |_: &str| Ok(csv.clone().into_bytes());
-        let loaded = Scenario::from_text(&conversion.toml, Format::Toml, "odd", &resolver)
-            .map_err(|d| d.to_string())?;
+        let loaded =
+            Scenario::from_text(&conversion.toml, Format::Toml, "odd", &resolver).map_err(|d| d.to_string())?;
         let back = Deck::from_scenario(&loaded, None).map_err(|e| e.to_string())?;
         let differences = back.deck.differences(&deck.normalised());
         if !differences.is_empty() {
@@ -98,14 +92,9 @@ fn odd_numbers_come_back() {
     let decks = if every { &DECKS[..] } else { &DECKS[3..4] };
     let mut texts = Vec::new();
     for name in decks {
-        for (at, column) in numeric_lines(name).flat_map(|at| (0..7).map(move |f| (at, f * 10 + 1)))
-        {
+        for (at, column) in numeric_lines(name).flat_map(|at| (0..7).map(move |f| (at, f * 10 + 1))) {
             let rotating = (at * 7 + column / 10) % ODD.len();
-            let chosen = if every {
-                0..ODD.len()
-            } else {
-                rotating..rotating + 1
-            };
+            let chosen = if every { 0..ODD.len() } else { rotating..rotating + 1 };
             for odd in &ODD[chosen] {
                 let mut lines = lines(name);
                 punch(&mut lines[at], column, odd);
@@ -130,10 +119,7 @@ fn cards_cut_short_come_back() {
                 let ncard = format!("{:80}", lines[at])[70..].to_owned();
                 lines[at].truncate(width);
                 punch(&mut lines[at], 71, &ncard);
-                texts.push((
-                    format!("{name}, line {} cut at {width}", at + 1),
-                    lines.join("\n"),
-                ));
+                texts.push((format!("{name}, line {} cut at {width}", at + 1), lines.join("\n")));
             }
         }
     }
@@ -165,50 +151,23 @@ fn what_was_lost_once_comes_back() {
         (driver, &[("VXVC", "1234567-20")]),
         // A stop without angles has no damping in a scenario.
         (driver, &[("AGNN", zero), ("AGSN", zero)]),
-        (
-            driver,
-            &[
-                ("AGNK(1)", blank),
-                ("AGSK(1)", blank),
-                ("AGNK(2)", blank),
-                ("AGSK(2)", blank),
-            ],
-        ),
+        (driver, &[("AGNK(1)", blank), ("AGSK(1)", blank), ("AGNK(2)", blank), ("AGSK(2)", blank)]),
         // In the middle of the car, or without wheel, y does not tell the seats of left and right apart.
         (driver, &[("SWP", zero)]),
         (driver, &[("SWP", "      -14."), ("DSW", zero)]),
         // Surfaces that are left out leave open which corner of their neighbours is which point.
         (exact, &[("STIF1(15)", zero), ("STIF2(15)", zero)]),
         (exact, &[("STIF1(13)", zero), ("STIF2(13)", zero)]),
-        (
-            exact,
-            &[
-                ("STIF1(12)", zero),
-                ("STIF2(12)", zero),
-                ("STIF1(14)", zero),
-                ("STIF2(14)", zero),
-            ],
-        ),
+        (exact, &[("STIF1(12)", zero), ("STIF2(12)", zero), ("STIF1(14)", zero), ("STIF2(14)", zero)]),
         // The normalised form leaves SLACK out, the notes kept it.
         (exact, &[("SLACK(1)", "      0.25")]),
         // The wheel's place rounds to more than a fixed bound.
-        (
-            driver,
-            &[
-                ("XV(6)", "7000000002"),
-                ("XV(7)", "7000000002"),
-                ("XV(22)", "7000000002"),
-            ],
-        ),
+        (driver, &[("XV(6)", "7000000002"), ("XV(7)", "7000000002"), ("XV(22)", "7000000002")]),
     ];
     for (deck, fields) in cases {
         let text = with_fields(deck, fields);
         assert_eq!(round_trip(&text), Ok(Fate::CameBack), "{fields:?}");
     }
     let titled = with_fields(driver, &[]).replacen("DRIVER", " D\\\"RIVER # = '''", 1);
-    assert_eq!(
-        round_trip(&titled),
-        Ok(Fate::CameBack),
-        "quotes in the title"
-    );
+    assert_eq!(round_trip(&titled), Ok(Fate::CameBack), "quotes in the title");
 }

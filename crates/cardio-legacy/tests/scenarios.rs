@@ -3,8 +3,8 @@
 mod support;
 
 use cardio_legacy::{
-    CompartmentLayout, ConversionError, ConvertOptions, Deck, NoDeck, ParseOptions, PathSource,
-    RunEnd, Strictness, spine_rest, write_file,
+    CompartmentLayout, ConversionError, ConvertOptions, Deck, NoDeck, ParseOptions, PathSource, RunEnd, Strictness,
+    spine_rest, write_file,
 };
 use occupant_core::model::Model;
 use occupant_core::recorder::Watch;
@@ -15,10 +15,7 @@ use support::{DECKS, bytes, path};
 
 fn deck(name: &str) -> Deck {
     let (decks, diagnostics) = Deck::parse(bytes(name), &ParseOptions::default());
-    decks
-        .into_iter()
-        .next()
-        .unwrap_or_else(|| panic!("{name}\n{diagnostics}"))
+    decks.into_iter().next().unwrap_or_else(|| panic!("{name}\n{diagnostics}"))
 }
 
 fn options(name: &str) -> ConvertOptions {
@@ -43,9 +40,7 @@ fn model(toml: &str) -> Model {
 #[test]
 fn the_committed_scenarios_are_the_converted_decks() {
     for name in DECKS {
-        let conversion = deck(name)
-            .to_scenario(&options(name))
-            .unwrap_or_else(|e| panic!("{name}: {e}"));
+        let conversion = deck(name).to_scenario(&options(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
         let file = path(&name.replace(".dat", ".toml"));
         if std::env::var_os("WRITE_CONVERTED").is_some() {
             std::fs::write(&file, &conversion.toml).expect("written");
@@ -64,11 +59,7 @@ const STORIES: [(&str, &str, &str); 6] = [
     ("driver-exact-state-extended.dat", "pelvis", "front_cushion"),
     ("driver-lap-torso.dat", "left_hand", "steering_wheel"),
     ("right-front-lap.dat", "head", "right_window"),
-    (
-        "left-rear-unbelted.dat",
-        "left_knee",
-        "front_seat_rear_upper",
-    ),
+    ("left-rear-unbelted.dat", "left_knee", "front_seat_rear_upper"),
     ("driver-exact-state.dat", "head", "steering_wheel"),
     ("driver-path-from-disk.dat", "head", "steering_wheel"),
 ];
@@ -76,77 +67,43 @@ const STORIES: [(&str, &str, &str); 6] = [
 #[test]
 fn every_converted_deck_runs_to_its_end_and_tells_its_story() {
     for (name, sphere, surface) in STORIES {
-        let conversion = deck(name)
-            .to_scenario(&options(name))
-            .unwrap_or_else(|e| panic!("{name}: {e}"));
+        let conversion = deck(name).to_scenario(&options(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
         let model = model(&conversion.toml);
         let outcome = simulate(&model, ()).expect("records nothing");
         assert_eq!(outcome.status, Status::Completed, "{name}");
         // Measured in this order: 3e-7, 3e-8, 3.3e-3 (unbelted, hard contacts at 0.1 ms), 2.3e-6, 1.4e-6.
-        assert!(
-            outcome.balance_error < 5e-3,
-            "{name}: {}",
-            outcome.balance_error
-        );
+        assert!(outcome.balance_error < 5e-3, "{name}: {}", outcome.balance_error);
         let setup = model.setup();
         let touched = |touch: &FirstTouch| {
-            setup.body.spheres[touch.sphere].name == sphere
-                && setup.surfaces[touch.surface].name == surface
+            setup.body.spheres[touch.sphere].name == sphere && setup.surfaces[touch.surface].name == surface
         };
-        assert!(
-            outcome.first_touches.iter().any(touched),
-            "{name}: {sphere} on {surface}"
-        );
+        assert!(outcome.first_touches.iter().any(touched), "{name}: {sphere} on {surface}");
     }
 }
 
 #[test]
 fn belts_hold_the_driver_off_the_wheel() {
     let outcome = |name: &str| {
-        let model = model(
-            &deck(name)
-                .to_scenario(&options(name))
-                .expect("converts")
-                .toml,
-        );
+        let model = model(&deck(name).to_scenario(&options(name)).expect("converts").toml);
         let touches = simulate(&model, ()).expect("records nothing").first_touches;
         let setup = model.setup();
-        touches.iter().any(|t| {
-            setup.body.spheres[t.sphere].name == "head"
-                && setup.surfaces[t.surface].name == "steering_wheel"
-        })
+        touches
+            .iter()
+            .any(|t| setup.body.spheres[t.sphere].name == "head" && setup.surfaces[t.surface].name == "steering_wheel")
     };
     assert!(!outcome("driver-lap-torso.dat"), "lap and torso belt");
-    assert!(
-        outcome("driver-path-from-disk.dat"),
-        "lap belt only: the body folds over it"
-    );
+    assert!(outcome("driver-path-from-disk.dat"), "lap belt only: the body folds over it");
 }
 
 #[test]
 fn deck_to_scenario_to_deck_is_the_same_deck() {
     for name in DECKS {
         let deck = deck(name);
-        let conversion = deck
-            .to_scenario(&options(name))
-            .unwrap_or_else(|e| panic!("{name}: {e}"));
-        let back = Deck::from_scenario(&load(&conversion.toml), None)
-            .unwrap_or_else(|e| panic!("{name}: {e}"));
+        let conversion = deck.to_scenario(&options(name)).unwrap_or_else(|e| panic!("{name}: {e}"));
+        let back = Deck::from_scenario(&load(&conversion.toml), None).unwrap_or_else(|e| panic!("{name}: {e}"));
         assert_eq!(back.deck.differences(&deck), [], "{name}");
-        assert_eq!(
-            back.remarks
-                .iter()
-                .filter(|r| !r.starts_with("MREAD"))
-                .count(),
-            0,
-            "{:?}",
-            back.remarks
-        );
-        assert_eq!(
-            back.deck.write(),
-            deck.write(),
-            "{name}: to the last column"
-        );
+        assert_eq!(back.remarks.iter().filter(|r| !r.starts_with("MREAD")).count(), 0, "{:?}", back.remarks);
+        assert_eq!(back.deck.write(), deck.write(), "{name}: to the last column");
     }
 }
 
@@ -167,39 +124,22 @@ const EXTENSION: &str = "driver-exact-state-extended.dat";
 #[test]
 fn a_run_is_extended_by_cards_as_the_report_has_it() {
     let first = deck("driver-exact-state.dat");
-    let end = run_end(
-        &first
-            .to_scenario(&options("driver-exact-state.dat"))
-            .expect("converts")
-            .toml,
-    );
+    let end = run_end(&first.to_scenario(&options("driver-exact-state.dat")).expect("converts").toml);
     assert!(!end.passed.is_empty(), "some sphere has gone round an edge");
     let extended = first.extended(&end, 0.25);
     if std::env::var_os("WRITE_CONVERTED").is_some() {
-        std::fs::write(path(EXTENSION), write_file(std::slice::from_ref(&extended)))
-            .expect("written");
+        std::fs::write(path(EXTENSION), write_file(std::slice::from_ref(&extended))).expect("written");
     }
-    let (decks, diagnostics) = Deck::parse(
-        bytes(EXTENSION),
-        &ParseOptions {
-            file: EXTENSION.into(),
-            strictness: Strictness::Strict,
-        },
-    );
+    let (decks, diagnostics) =
+        Deck::parse(bytes(EXTENSION), &ParseOptions { file: EXTENSION.into(), strictness: Strictness::Strict });
     assert_eq!(decks.len(), 1, "{diagnostics}");
     assert_eq!(decks[0].passed_pairs(), extended.passed_pairs());
     assert_eq!(decks[0].value("T1"), Some(0.2));
     for coordinate in 1..=31 {
         for name in [format!("Q0({coordinate})"), format!("QDO({coordinate})")] {
-            let (committed, now) = (
-                decks[0].value(&name).expect("a field"),
-                extended.value(&name).expect("a field"),
-            );
+            let (committed, now) = (decks[0].value(&name).expect("a field"), extended.value(&name).expect("a field"));
             // Measured on one machine: equal. The bound leaves room for other roundings, grown over 0.2 s with contacts.
-            assert!(
-                (committed - now).abs() < 1e-4 * (1.0 + committed.abs()),
-                "{name}: {committed} and {now}"
-            );
+            assert!((committed - now).abs() < 1e-4 * (1.0 + committed.abs()), "{name}: {committed} and {now}");
         }
     }
 }
@@ -207,40 +147,19 @@ fn a_run_is_extended_by_cards_as_the_report_has_it() {
 #[test]
 fn the_extension_starts_where_the_first_run_ended() {
     let first = run_end(
-        &deck("driver-exact-state.dat")
-            .to_scenario(&options("driver-exact-state.dat"))
-            .expect("converts")
-            .toml,
+        &deck("driver-exact-state.dat").to_scenario(&options("driver-exact-state.dat")).expect("converts").toml,
     );
-    let conversion = deck(EXTENSION)
-        .to_scenario(&options(EXTENSION))
-        .expect("converts");
-    assert!(
-        conversion
-            .report
-            .assumptions
-            .iter()
-            .any(|text| text.contains("series 14")),
-        "{}",
-        conversion.report
-    );
+    let conversion = deck(EXTENSION).to_scenario(&options(EXTENSION)).expect("converts");
+    assert!(conversion.report.assumptions.iter().any(|text| text.contains("series 14")), "{}", conversion.report);
     let setup = load(&conversion.toml).build().expect("builds").0;
     assert_eq!(setup.time.start_s, 0.2);
-    let occupant_core::seating::InitialPosture::Continued {
-        coordinates: start,
-        passed,
-    } = &setup.posture
-    else {
+    let occupant_core::seating::InitialPosture::Continued { coordinates: start, passed } = &setup.posture else {
         panic!("an exact state with pair states")
     };
     assert_eq!(passed.len(), deck(EXTENSION).passed_pairs().len());
     for (at, (ended, begins)) in first.coordinates.q.iter().zip(&start.q).enumerate() {
         // Ten columns hold six decimals of most coordinates; measured 4e-7.
-        assert!(
-            (ended - begins).abs() < 1e-4 * (1.0 + ended.abs()),
-            "q{}: {ended} and {begins}",
-            at + 1
-        );
+        assert!((ended - begins).abs() < 1e-4 * (1.0 + ended.abs()), "q{}: {ended} and {begins}", at + 1);
     }
     let model = model(&conversion.toml);
     assert_eq!(run_passed(&model), first.passed);
@@ -263,95 +182,39 @@ fn run_passed(model: &Model) -> Vec<(u32, u32)> {
 /// The end of a run in the coordinates of the report, for comparison.
 fn last_coordinates(toml: &str) -> Vec<f64> {
     let end = run_end(toml);
-    end.coordinates
-        .q
-        .into_iter()
-        .chain(end.coordinates.rates)
-        .collect()
+    end.coordinates.q.into_iter().chain(end.coordinates.rates).collect()
 }
 
 #[test]
 fn a_hand_written_scenario_of_the_same_case_gives_the_same_run() {
-    let converted = deck("driver-lap-torso.dat")
-        .to_scenario(&options("driver-lap-torso.dat"))
-        .expect("converts")
-        .toml;
+    let converted = deck("driver-lap-torso.dat").to_scenario(&options("driver-lap-torso.dat")).expect("converts").toml;
     let by_hand = include_str!("driver-lap-torso-by-hand.toml");
-    for (at, (one, two)) in last_coordinates(&converted)
-        .iter()
-        .zip(last_coordinates(by_hand))
-        .enumerate()
-    {
+    for (at, (one, two)) in last_coordinates(&converted).iter().zip(last_coordinates(by_hand)).enumerate() {
         // Measured: equal, because both texts say the same numbers.
-        assert!(
-            (one - two).abs() <= 1e-12 * (1.0 + one.abs()),
-            "{at}: {one} and {two}"
-        );
+        assert!((one - two).abs() <= 1e-12 * (1.0 + one.abs()), "{at}: {one} and {two}");
     }
 }
 
 #[test]
 fn a_path_from_disk_comes_as_csv_as_columns_or_as_cards() {
     let deck = deck("driver-path-from-disk.dat");
-    let with = |path: Option<PathSource>| {
-        deck.to_scenario(&ConvertOptions {
-            path,
-            ..ConvertOptions::default()
-        })
-    };
-    assert!(
-        matches!(with(None), Err(ConversionError::PathNeeded { stations }) if stations == 51.0)
-    );
+    let with = |path: Option<PathSource>| deck.to_scenario(&ConvertOptions { path, ..ConvertOptions::default() });
+    assert!(matches!(with(None), Err(ConversionError::PathNeeded { stations }) if stations == 51.0));
     let csv = std::fs::read_to_string(path("driver-path-from-disk.csv")).expect("beside the deck");
-    let numbers: String = csv
-        .lines()
-        .skip(1)
-        .map(|line| line.to_owned() + "\n")
-        .collect();
-    let beside = with(Some(PathSource::Csv {
-        name: "driver-path-from-disk.csv".into(),
-        text: csv,
-    }))
-    .expect("CSV");
-    let columns = [
-        "t[s]",
-        "x[in]",
-        "y[in]",
-        "z[in]",
-        "roll[deg]",
-        "pitch[deg]",
-        "yaw[deg]",
-    ]
-    .map(str::to_owned)
-    .to_vec();
-    let declared = with(Some(PathSource::Columns {
-        columns: columns.clone(),
-        text: numbers.clone(),
-    }))
-    .expect("columns");
-    let cards: String = numbers
-        .lines()
-        .map(|line| {
-            line.split(',')
-                .map(|n| format!("{n:>10}"))
-                .collect::<String>()
-                + "\n"
-        })
-        .collect();
+    let numbers: String = csv.lines().skip(1).map(|line| line.to_owned() + "\n").collect();
+    let beside = with(Some(PathSource::Csv { name: "driver-path-from-disk.csv".into(), text: csv })).expect("CSV");
+    let columns =
+        ["t[s]", "x[in]", "y[in]", "z[in]", "roll[deg]", "pitch[deg]", "yaw[deg]"].map(str::to_owned).to_vec();
+    let declared =
+        with(Some(PathSource::Columns { columns: columns.clone(), text: numbers.clone() })).expect("columns");
+    let cards: String =
+        numbers.lines().map(|line| line.split(',').map(|n| format!("{n:>10}")).collect::<String>() + "\n").collect();
     let punched = with(Some(PathSource::Cards { text: cards })).expect("cards");
     let built = |toml: &str| load(toml).build().expect("builds").0.path;
     assert_eq!(built(&beside.toml), built(&declared.toml));
     assert_eq!(built(&beside.toml), built(&punched.toml));
-    let short: String = numbers
-        .lines()
-        .take(40)
-        .map(|line| line.to_owned() + "\n")
-        .collect();
-    let error = with(Some(PathSource::Columns {
-        columns,
-        text: short,
-    }))
-    .expect_err("too few stations");
+    let short: String = numbers.lines().take(40).map(|line| line.to_owned() + "\n").collect();
+    let error = with(Some(PathSource::Columns { columns, text: short })).expect_err("too few stations");
     assert_eq!(
         error.to_string(),
         "the path of the vehicle cannot be read: it has 40 stations, MREAD on card 3 says 51"
@@ -360,8 +223,7 @@ fn a_path_from_disk_comes_as_csv_as_columns_or_as_cards() {
 
 #[test]
 fn what_does_not_fit_on_cards_is_named() {
-    let text = std::fs::read_to_string(path("../cart-lap-torso.toml"))
-        .expect("a scenario of the repository");
+    let text = std::fs::read_to_string(path("../cart-lap-torso.toml")).expect("a scenario of the repository");
     let Err(NoDeck::Misfits(misfits)) = Deck::from_scenario(&load(&text), None) else {
         panic!("a pulse fits on no card")
     };
@@ -375,75 +237,33 @@ rows = [[0, 0], [0.1, -1]]\n\n";
     };
     let named = |m: &String| m.contains("not what sensors recorded");
     assert!(of_sensors.iter().any(named), "{of_sensors:#?}");
-    for expected in [
-        "path.kind",
-        "surfaces.panel_face",
-        "posture.velocity",
-        "rear_window",
-    ] {
-        assert!(
-            misfits.iter().any(|m| m.contains(expected)),
-            "{expected}: {misfits:#?}"
-        );
+    for expected in ["path.kind", "surfaces.panel_face", "posture.velocity", "rear_window"] {
+        assert!(misfits.iter().any(|m| m.contains(expected)), "{expected}: {misfits:#?}");
     }
 }
 
 #[test]
 fn every_change_that_cards_cannot_hold_is_refused() {
-    let toml = deck("driver-lap-torso.dat")
-        .to_scenario(&options("driver-lap-torso.dat"))
-        .expect("converts")
-        .toml;
+    let toml = deck("driver-lap-torso.dat").to_scenario(&options("driver-lap-torso.dat")).expect("converts").toml;
     let changes = [
         ("kind = \"rk4\"", "kind = \"adaptive\"", "integrator.kind"),
         ("\"linear\"", "\"spline\"", "path.interpolation"),
         ("tilt = 25", "tilt = 30", "places the wheel"),
-        (
-            "neck.damping = ",
-            "neck.twist_damping = 1\nneck.damping = ",
-            "neck.twist_damping",
-        ),
-        (
-            "slack = \"0 in\"",
-            "mu1 = 0.5\nslack = \"0 in\"",
-            "belts.lap.mu1",
-        ),
+        ("neck.damping = ", "neck.twist_damping = 1\nneck.damping = ", "neck.twist_damping"),
+        ("slack = \"0 in\"", "mu1 = 0.5\nslack = \"0 in\"", "belts.lap.mu1"),
         ("[joints]", "[joints]\nepsilon = 0", "joints.epsilon"),
-        (
-            "head.radius",
-            "head.centre = [1, 0, 9.81]\nhead.radius",
-            "body.spheres.head",
-        ),
-        (
-            "seat = \"driver\"",
-            "seat = \"driver\"\nsettle = true",
-            "posture.settle",
-        ),
-        (
-            "[[38, 5], [22, 2]]",
-            "[[38, 5], [22, 3]]",
-            "surfaces.fire_wall does not meet",
-        ),
-        (
-            "friction = 0.2 }",
-            "friction = 0.2, memory = \"retain\" }",
-            "memory",
-        ),
+        ("head.radius", "head.centre = [1, 0, 9.81]\nhead.radius", "body.spheres.head"),
+        ("seat = \"driver\"", "seat = \"driver\"\nsettle = true", "posture.settle"),
+        ("[[38, 5], [22, 2]]", "[[38, 5], [22, 3]]", "surfaces.fire_wall does not meet"),
+        ("friction = 0.2 }", "friction = 0.2, memory = \"retain\" }", "memory"),
     ];
     for (from, to, expected) in changes {
         let changed = toml.replacen(from, to, 1);
-        let changed = if to.contains("adaptive") {
-            changed.replacen("step = ", "max_step = ", 1)
-        } else {
-            changed
-        };
+        let changed = if to.contains("adaptive") { changed.replacen("step = ", "max_step = ", 1) } else { changed };
         assert_ne!(changed, toml, "{from}");
         match Deck::from_scenario(&load(&changed), None) {
             Err(NoDeck::Misfits(misfits)) => {
-                assert!(
-                    misfits.iter().any(|m| m.contains(expected)),
-                    "{expected}: {misfits:#?}"
-                );
+                assert!(misfits.iter().any(|m| m.contains(expected)), "{expected}: {misfits:#?}");
             }
             other => panic!("{expected}: {other:?}"),
         }

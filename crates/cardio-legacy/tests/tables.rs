@@ -11,13 +11,7 @@ fn fields_follow_one_another_without_overlap() {
         for card in series.cards {
             let mut next = 1;
             for field in card.fields {
-                assert!(
-                    field.columns.first >= next,
-                    "series {} {:?}: {}",
-                    series.number,
-                    card.letter,
-                    field.variable
-                );
+                assert!(field.columns.first >= next, "series {} {:?}: {}", series.number, card.letter, field.variable);
                 assert!(field.columns.last <= 80 && field.columns.last >= field.columns.first);
                 next = field.columns.last + 1;
             }
@@ -31,16 +25,8 @@ fn every_number_has_a_name_of_its_own() {
     let mut numbers = 0;
     for series in &SERIES {
         for card in series.cards {
-            for field in card
-                .fields
-                .iter()
-                .filter(|f| f.variable != "NCARD" && f.format != Format::Text)
-            {
-                assert!(
-                    names.insert((field.variable, format!("{:?}", card.repeat))),
-                    "{} comes twice",
-                    field.variable
-                );
+            for field in card.fields.iter().filter(|f| f.variable != "NCARD" && f.format != Format::Text) {
+                assert!(names.insert((field.variable, format!("{:?}", card.repeat))), "{} comes twice", field.variable);
                 numbers += 1;
             }
         }
@@ -52,18 +38,7 @@ fn every_number_has_a_name_of_its_own() {
 #[test]
 fn series_have_as_many_cards_as_the_report_says() {
     let cards = |number: usize| SERIES[number - 1].cards_behind_first().map(|n| n + 1);
-    let expected = [
-        (5, 13),
-        (6, 9),
-        (7, 4),
-        (8, 7),
-        (9, 26),
-        (10, 2),
-        (11, 5),
-        (13, 3),
-        (15, 1),
-        (16, 1),
-    ];
+    let expected = [(5, 13), (6, 9), (7, 4), (8, 7), (9, 26), (10, 2), (11, 5), (13, 3), (15, 1), (16, 1)];
     for (number, count) in expected {
         assert_eq!(cards(number), Some(count), "series {number}");
     }
@@ -74,10 +49,7 @@ fn series_have_as_many_cards_as_the_report_says() {
 #[test]
 fn the_document_holds_the_tables() {
     let document = include_str!("../docs/cards.md").replace("\r\n", "\n");
-    assert!(
-        document.ends_with(&tables_as_markdown()),
-        "write the tables into docs/cards.md again"
-    );
+    assert!(document.ends_with(&tables_as_markdown()), "write the tables into docs/cards.md again");
 }
 
 #[test]

@@ -16,23 +16,9 @@ fn warnings(text: &str) -> Vec<(Rule, usize, String)> {
 
 fn of(text: &str, severity: Severity) -> Vec<(Rule, usize, String)> {
     let (decks, diagnostics) = parse(text);
-    assert_eq!(
-        decks.is_empty(),
-        diagnostics.has_errors(),
-        "a deck with an error is not handed out\n{diagnostics}"
-    );
-    let key = |d: &Diagnostic| {
-        (
-            d.rule,
-            d.line.unwrap_or(0),
-            d.variable.clone().unwrap_or_default(),
-        )
-    };
-    diagnostics
-        .iter()
-        .filter(|d| d.severity == severity)
-        .map(key)
-        .collect()
+    assert_eq!(decks.is_empty(), diagnostics.has_errors(), "a deck with an error is not handed out\n{diagnostics}");
+    let key = |d: &Diagnostic| (d.rule, d.line.unwrap_or(0), d.variable.clone().unwrap_or_default());
+    diagnostics.iter().filter(|d| d.severity == severity).map(key).collect()
 }
 
 /// The driver's deck with a text punched into a card: series by card number, how many cards behind its first one, column.
@@ -68,26 +54,16 @@ fn every_numeric_field_of_every_card_reports_what_is_no_number() {
         let deck = &cardio_legacy::Deck::parse(support::bytes(name), &Default::default()).0[0];
         for card in deck.cards() {
             let series = cardio_legacy::layout::series(card.id.series).expect("a series");
-            let layout = series
-                .cards
-                .iter()
-                .find(|c| c.letter == card.id.letter)
-                .expect("a card");
+            let layout = series.cards.iter().find(|c| c.letter == card.id.letter).expect("a card");
             for field in layout.fields.iter().filter(|f| f.variable != "NCARD") {
                 let line = card.line.expect("read from a file");
                 let mut lines = lines(name);
                 punch(&mut lines[line - 1], usize::from(field.columns.last), "?");
-                let variable = layout.name_of(
-                    field,
-                    card.id
-                        .number
-                        .filter(|_| !matches!(field.variable, "J" | "NSEG")),
-                );
+                let variable =
+                    layout.name_of(field, card.id.number.filter(|_| !matches!(field.variable, "J" | "NSEG")));
                 let found = errors(&lines.join("\n"));
                 let named = found.iter().any(|(rule, at, v)| {
-                    *rule == Rule::NotANumber
-                        && *at == line
-                        && (*v == variable || field.columns.first == 1)
+                    *rule == Rule::NotANumber && *at == line && (*v == variable || field.columns.first == 1)
                 });
                 assert!(named, "{name}, line {line}, {variable}: {found:?}");
             }
@@ -129,38 +105,18 @@ fn missing_cards_are_missed_where_they_should_be() {
     assert_eq!(warnings(&without(119)), [found(Rule::NoFinalCard, 118, "")]);
     // The first card of series 7 gone: its radii belong to nothing.
     let found = errors(&without(18));
-    assert_eq!(
-        found.iter().map(|f| f.0).collect::<Vec<_>>(),
-        [Rule::SeriesMissing, Rule::UnexpectedCard]
-    );
+    assert_eq!(found.iter().map(|f| f.0).collect::<Vec<_>>(), [Rule::SeriesMissing, Rule::UnexpectedCard]);
 }
 
 #[test]
 fn the_series_that_the_switches_ask_for_are_asked_for() {
     let (_, diagnostics) = parse(&punched("3", 0, 51, "        1."));
-    let missing: Vec<_> = diagnostics
-        .iter()
-        .filter(|d| d.severity == Severity::Error)
-        .map(|d| &d.message)
-        .collect();
+    let missing: Vec<_> = diagnostics.iter().filter(|d| d.severity == Severity::Error).map(|d| &d.message).collect();
     assert_eq!(missing.len(), 1, "{diagnostics}");
-    assert!(
-        missing[0].starts_with("series 6 ") && missing[0].contains("NPOS = 1"),
-        "{}",
-        missing[0]
-    );
-    assert_eq!(
-        rules(&diagnostics, Severity::Note),
-        [Rule::SeriesUnused, Rule::SeriesUnused]
-    );
-    assert_eq!(
-        errors(&punched("3", 0, 51, "        2.")),
-        [found(Rule::Impossible, 3, "NPOS")]
-    );
-    assert_eq!(
-        errors(&punched("3", 0, 41, "      -51.")),
-        [found(Rule::NotAWholeNumber, 3, "MREAD")]
-    );
+    assert!(missing[0].starts_with("series 6 ") && missing[0].contains("NPOS = 1"), "{}", missing[0]);
+    assert_eq!(rules(&diagnostics, Severity::Note), [Rule::SeriesUnused, Rule::SeriesUnused]);
+    assert_eq!(errors(&punched("3", 0, 51, "        2.")), [found(Rule::Impossible, 3, "NPOS")]);
+    assert_eq!(errors(&punched("3", 0, 41, "      -51.")), [found(Rule::NotAWholeNumber, 3, "MREAD")]);
 }
 
 #[test]
@@ -185,52 +141,21 @@ fn doubled_surplus_and_unordered_cards_are_named() {
 fn segment_and_surface_numbers_are_judged() {
     assert_eq!(
         errors(&punched("5", 1, 1, " 2")),
-        [
-            found(Rule::IndexMissing, 5, ""),
-            found(Rule::IndexTwice, 7, "NSEG")
-        ]
+        [found(Rule::IndexMissing, 5, ""), found(Rule::IndexTwice, 7, "NSEG")]
     );
-    assert_eq!(
-        errors(&punched("5", 1, 1, "13")),
-        [
-            found(Rule::IndexMissing, 5, ""),
-            found(Rule::BadIndex, 6, "NSEG")
-        ]
-    );
-    assert_eq!(
-        errors(&punched("9", 25, 1, "  "))[1],
-        found(Rule::BadIndex, line_of("9") + 25, "J")
-    );
+    assert_eq!(errors(&punched("5", 1, 1, "13")), [found(Rule::IndexMissing, 5, ""), found(Rule::BadIndex, 6, "NSEG")]);
+    assert_eq!(errors(&punched("9", 25, 1, "  "))[1], found(Rule::BadIndex, line_of("9") + 25, "J"));
     let left = punched("5", 1, 1, "1 ");
-    assert_eq!(
-        warnings(&left),
-        [found(Rule::LeftJustified, 6, "NSEG")],
-        "`1 ` in I2 is 10"
-    );
-    assert_eq!(
-        errors(&left).last(),
-        Some(&found(Rule::IndexTwice, 15, "NSEG"))
-    );
+    assert_eq!(warnings(&left), [found(Rule::LeftJustified, 6, "NSEG")], "`1 ` in I2 is 10");
+    assert_eq!(errors(&left).last(), Some(&found(Rule::IndexTwice, 15, "NSEG")));
 }
 
 #[test]
 fn card_numbers_are_read_where_they_stand() {
-    let moved = |from: usize, text: &str| {
-        driver(|lines| punch(&mut lines[first_card_by_line(from)], 71, text))
-    };
-    assert_eq!(
-        errors(&moved(18, "       7  ")),
-        [],
-        "the format I8 of series 7 ends in column 78"
-    );
-    assert_eq!(
-        errors(&moved(5, "5         ")),
-        [found(Rule::CardNumber, 5, "NCARD")]
-    );
-    assert_eq!(
-        errors(&moved(5, "          ")),
-        [found(Rule::CardNumber, 5, "NCARD")]
-    );
+    let moved = |from: usize, text: &str| driver(|lines| punch(&mut lines[first_card_by_line(from)], 71, text));
+    assert_eq!(errors(&moved(18, "       7  ")), [], "the format I8 of series 7 ends in column 78");
+    assert_eq!(errors(&moved(5, "5         ")), [found(Rule::CardNumber, 5, "NCARD")]);
+    assert_eq!(errors(&moved(5, "          ")), [found(Rule::CardNumber, 5, "NCARD")]);
     assert_eq!(errors(&moved(5, "        77"))[0].0, Rule::SeriesMissing);
     let (decks, diagnostics) = parse_as(&moved(5, "          "), Strictness::Lenient);
     assert_eq!(decks.len(), 1, "{diagnostics}");
@@ -272,23 +197,13 @@ fn units_that_look_wrong_are_doubted() {
     ];
     for (ncard, behind, column, text, variable) in cases {
         let found = warnings(&punched(ncard, behind, column, text));
-        let doubted = found
-            .iter()
-            .any(|(rule, _, v)| *rule == Rule::LooksLikeOtherUnit && v == variable);
+        let doubted = found.iter().any(|(rule, _, v)| *rule == Rule::LooksLikeOtherUnit && v == variable);
         assert!(doubted, "{variable} = {text}: {found:?}");
         let (decks, _) = parse_as(&punched(ncard, behind, column, text), Strictness::Strict);
         assert!(decks.is_empty(), "strict reading refuses what it doubts");
     }
-    let radians = punched(
-        "10",
-        0,
-        11,
-        "       .26       .31       .09       .35       .61     -1.05",
-    );
-    assert_eq!(
-        warnings(&radians),
-        [found(Rule::LooksLikeOtherUnit, 52, "GAMA1")].map(|f| (f.0, line_of("10"), f.2))
-    );
+    let radians = punched("10", 0, 11, "       .26       .31       .09       .35       .61     -1.05");
+    assert_eq!(warnings(&radians), [found(Rule::LooksLikeOtherUnit, 52, "GAMA1")].map(|f| (f.0, line_of("10"), f.2)));
 }
 
 fn line_of(ncard: &str) -> usize {
@@ -300,50 +215,21 @@ fn contradictions_are_found() {
     let equality = punched("8", 4, 71, "      3.00");
     assert_eq!(warnings(&equality).len(), 0, "point 16 is in no equality");
     let equality = punched("8", 4, 11, "      13.5");
-    assert_eq!(
-        warnings(&equality),
-        [found(Rule::CompartmentEquality, line_of("8") + 4, "ZV(13)")]
-    );
-    assert_eq!(
-        errors(&punched("5", 1, 21, "      3.25")),
-        [found(Rule::Impossible, line_of("5") + 1, "RHO(1)")]
-    );
-    assert_eq!(
-        errors(&punched("5", 1, 61, "     .2489")),
-        [found(Rule::Impossible, line_of("5") + 1, "ZIN(1)")]
-    );
-    assert_eq!(
-        errors(&punched("9", 4, 41, "       30.")),
-        [found(Rule::Impossible, line_of("9") + 4, "AMU1(4)")]
-    );
-    assert_eq!(
-        warnings(&punched("9", 1, 21, "      200.")),
-        [found(Rule::Unlikely, line_of("9") + 1, "STIF2(1)")]
-    );
-    assert_eq!(
-        errors(&punched("3", 0, 11, "       .26")),
-        [found(Rule::PathTooShort, 113, "CALT(51)")]
-    );
-    assert_eq!(
-        errors(&punched("12", 2, 1, "        0.")),
-        [found(Rule::Impossible, line_of("12") + 2, "CALT(2)")]
-    );
-    assert_eq!(
-        errors(&punched("11", 0, 31, "    1.1000")),
-        [found(Rule::Impossible, line_of("11"), "AGNN")]
-    );
+    assert_eq!(warnings(&equality), [found(Rule::CompartmentEquality, line_of("8") + 4, "ZV(13)")]);
+    assert_eq!(errors(&punched("5", 1, 21, "      3.25")), [found(Rule::Impossible, line_of("5") + 1, "RHO(1)")]);
+    assert_eq!(errors(&punched("5", 1, 61, "     .2489")), [found(Rule::Impossible, line_of("5") + 1, "ZIN(1)")]);
+    assert_eq!(errors(&punched("9", 4, 41, "       30.")), [found(Rule::Impossible, line_of("9") + 4, "AMU1(4)")]);
+    assert_eq!(warnings(&punched("9", 1, 21, "      200.")), [found(Rule::Unlikely, line_of("9") + 1, "STIF2(1)")]);
+    assert_eq!(errors(&punched("3", 0, 11, "       .26")), [found(Rule::PathTooShort, 113, "CALT(51)")]);
+    assert_eq!(errors(&punched("12", 2, 1, "        0.")), [found(Rule::Impossible, line_of("12") + 2, "CALT(2)")]);
+    assert_eq!(errors(&punched("11", 0, 31, "    1.1000")), [found(Rule::Impossible, line_of("11"), "AGNN")]);
 }
 
 #[test]
 fn counts_must_count() {
     for text in ["          ", "       2.5", "       -3.", "     1.E30"] {
         let found = errors(&punched("12", 0, 1, text));
-        assert!(
-            found
-                .iter()
-                .any(|f| matches!(f.0, Rule::NotAWholeNumber | Rule::CountDiffers)),
-            "{text}: {found:?}"
-        );
+        assert!(found.iter().any(|f| matches!(f.0, Rule::NotAWholeNumber | Rule::CountDiffers)), "{text}: {found:?}");
     }
     assert_eq!(
         errors(&punched("12", 0, 1, "       52.")),
@@ -356,11 +242,7 @@ fn no_deck_at_all_is_an_error() {
     for text in ["", "\n\n\n", "FINI\n", "   \r\n"] {
         let (decks, diagnostics): (_, Diagnostics) = parse(text);
         assert!(decks.is_empty());
-        assert_eq!(
-            rules(&diagnostics, Severity::Error),
-            [Rule::EmptyFile],
-            "{text:?}"
-        );
+        assert_eq!(rules(&diagnostics, Severity::Error), [Rule::EmptyFile], "{text:?}");
     }
 }
 
@@ -387,20 +269,11 @@ fn a_passed_pair_whose_surface_is_left_out_is_named() {
     assert!(pairs_with_wheel.len() > 1, "{pairs_with_wheel:?}");
     let named = |severity| {
         let (_, diagnostics) = parse_as(&no_wheel, severity);
-        let unused = diagnostics
-            .iter()
-            .filter(|d| d.rule == Rule::PassedPairUnused);
-        let shown: Vec<_> = unused
-            .map(|d| (d.severity, d.line.unwrap_or_default()))
-            .collect();
+        let unused = diagnostics.iter().filter(|d| d.rule == Rule::PassedPairUnused);
+        let shown: Vec<_> = unused.map(|d| (d.severity, d.line.unwrap_or_default())).collect();
         shown
     };
-    let expected = |severity| {
-        pairs_with_wheel
-            .iter()
-            .map(|line| (severity, *line))
-            .collect()
-    };
+    let expected = |severity| pairs_with_wheel.iter().map(|line| (severity, *line)).collect();
     let warned: Vec<_> = expected(Severity::Warning);
     assert_eq!(named(Strictness::Default), warned);
     assert_eq!(named(Strictness::Lenient), warned);
@@ -408,13 +281,14 @@ fn a_passed_pair_whose_surface_is_left_out_is_named() {
     assert_eq!(named(Strictness::Strict), refused);
     let (decks, diagnostics) = parse(&no_wheel);
     let text = diagnostics.to_string();
-    let message =
-        "the pair has no effect: surface 25, steering_wheel, has no diameter and is left out";
+    let message = "the pair has no effect: surface 25, steering_wheel, has no diameter and is left out";
     assert!(text.contains(message), "{text}");
     let conversion = decks[0].to_scenario(&Default::default()).expect("converts");
-    let said = conversion.report.ignored.iter().filter(|text| {
-        text.starts_with("series 14, pair of sphere") && text.contains("has no diameter")
-    });
+    let said = conversion
+        .report
+        .ignored
+        .iter()
+        .filter(|text| text.starts_with("series 14, pair of sphere") && text.contains("has no diameter"));
     assert_eq!(said.count(), pairs_with_wheel.len());
 }
 

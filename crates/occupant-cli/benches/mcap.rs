@@ -42,12 +42,7 @@ fn write(model: &Model) -> usize {
         media_type: "application/toml".to_owned(),
         content: SCENARIO.as_bytes().to_vec(),
     };
-    let about = About {
-        program: "benchmark".to_owned(),
-        scenario,
-        resolved: None,
-        notes: BTreeMap::new(),
-    };
+    let about = About { program: "benchmark".to_owned(), scenario, resolved: None, notes: BTreeMap::new() };
     let file = Cursor::new(Vec::new());
     let recorder = McapRecorder::new(file, about, McapOptions::default());
     let mut recorder = recorder.expect("memory takes everything");

@@ -17,45 +17,25 @@ fn convert(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
         .output()
         .expect("runs");
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    (
-        output.status.code().unwrap_or(-1),
-        text(&output.stdout),
-        text(&output.stderr),
-    )
+    (output.status.code().unwrap_or(-1), text(&output.stdout), text(&output.stderr))
 }
 
 #[test]
 fn a_deck_becomes_the_committed_scenario_and_comes_back() {
     let folder = tempfile::tempdir().expect("a folder");
     let deck = decks().join("driver-lap-torso.dat");
-    let (code, out, said) = convert(
-        folder.path(),
-        &[
-            deck.to_str().expect("UTF-8"),
-            "-o",
-            "case.toml",
-            "--report",
-            "case.txt",
-        ],
-    );
+    let (code, out, said) =
+        convert(folder.path(), &[deck.to_str().expect("UTF-8"), "-o", "case.toml", "--report", "case.txt"]);
     assert_eq!((code, out.as_str()), (0, ""), "{said}");
     let read = |name: &str| std::fs::read_to_string(folder.path().join(name)).expect(name);
-    let committed =
-        std::fs::read_to_string(decks().join("driver-lap-torso.toml")).expect("committed");
+    let committed = std::fs::read_to_string(decks().join("driver-lap-torso.toml")).expect("committed");
     assert_eq!(read("case.toml"), committed);
-    assert!(
-        said.contains("Assumptions") && read("case.txt").contains("Assumptions"),
-        "{said}"
-    );
+    assert!(said.contains("Assumptions") && read("case.txt").contains("Assumptions"), "{said}");
     let (code, _, said) = convert(folder.path(), &["case.toml", "-o", "case.dat"]);
     assert_eq!(code, 0, "{said}");
     let (code, out, said) = convert(folder.path(), &["case.dat", "-q"]);
     assert_eq!(code, 0, "{said}");
-    assert_eq!(
-        out.replace("case.dat", "driver-lap-torso.dat"),
-        committed,
-        "deck, scenario, deck, scenario"
-    );
+    assert_eq!(out.replace("case.dat", "driver-lap-torso.dat"), committed, "deck, scenario, deck, scenario");
 }
 
 #[test]
@@ -66,34 +46,20 @@ fn nothing_is_overwritten_without_force() {
     assert_eq!(convert(folder.path(), &[deck, "-o", "a.toml"]).0, 0);
     let (code, _, said) = convert(folder.path(), &[deck, "-o", "a.toml"]);
     assert_eq!(code, 2);
-    assert!(
-        said.contains("a.toml exists") && said.contains("--force"),
-        "{said}"
-    );
-    assert_eq!(
-        convert(folder.path(), &[deck, "-o", "a.toml", "--force"]).0,
-        0
-    );
+    assert!(said.contains("a.toml exists") && said.contains("--force"), "{said}");
+    assert_eq!(convert(folder.path(), &[deck, "-o", "a.toml", "--force"]).0, 0);
 }
 
 #[test]
 fn a_wrong_deck_is_refused_with_all_its_problems() {
     let folder = tempfile::tempdir().expect("a folder");
     let text = std::fs::read_to_string(decks().join("driver-lap-torso.dat")).expect("a deck");
-    let wrong =
-        text.replacen("     .0001", "     .0O01", 1)
-            .replacen("      13.71", "     -13.71", 1);
+    let wrong = text.replacen("     .0001", "     .0O01", 1).replacen("      13.71", "     -13.71", 1);
     std::fs::write(folder.path().join("wrong.dat"), wrong).expect("written");
     let (code, out, said) = convert(folder.path(), &["wrong.dat", "-o", "wrong.toml"]);
     assert_eq!((code, out.as_str()), (2, ""));
-    assert!(
-        said.contains("wrong.dat:3, card 3, column 28, DT"),
-        "{said}"
-    );
-    assert!(
-        said.contains("wrong.dat:8, card 5b no. 3, columns 11–20, XLE(3)"),
-        "{said}"
-    );
+    assert!(said.contains("wrong.dat:3, card 3, column 28, DT"), "{said}");
+    assert!(said.contains("wrong.dat:8, card 5b no. 3, columns 11–20, XLE(3)"), "{said}");
     assert!(!folder.path().join("wrong.toml").exists());
 }
 
@@ -105,37 +71,15 @@ fn the_path_from_disk_is_asked_for_and_taken() {
     }
     let (code, _, said) = convert(folder.path(), &["driver-path-from-disk.dat"]);
     assert_eq!(code, 2);
-    assert!(
-        said.contains("51 stations") && said.contains("--path"),
-        "{said}"
-    );
-    let arguments = [
-        "driver-path-from-disk.dat",
-        "--path",
-        "driver-path-from-disk.csv",
-        "-o",
-        "case.toml",
-    ];
+    assert!(said.contains("51 stations") && said.contains("--path"), "{said}");
+    let arguments = ["driver-path-from-disk.dat", "--path", "driver-path-from-disk.csv", "-o", "case.toml"];
     assert_eq!(convert(folder.path(), &arguments).0, 0);
-    let committed =
-        std::fs::read_to_string(decks().join("driver-path-from-disk.toml")).expect("committed");
-    assert_eq!(
-        std::fs::read_to_string(folder.path().join("case.toml")).expect("written"),
-        committed
-    );
-    let (code, out, said) = convert(
-        folder.path(),
-        &[
-            "driver-path-from-disk.dat",
-            "--path",
-            "driver-path-from-disk.csv",
-        ],
-    );
+    let committed = std::fs::read_to_string(decks().join("driver-path-from-disk.toml")).expect("committed");
+    assert_eq!(std::fs::read_to_string(folder.path().join("case.toml")).expect("written"), committed);
+    let (code, out, said) =
+        convert(folder.path(), &["driver-path-from-disk.dat", "--path", "driver-path-from-disk.csv"]);
     assert_eq!(code, 0, "{said}");
-    assert!(
-        out.contains("[0.005, 1.7544, 0, 0, 0, 0, 0]"),
-        "written out where no folder is known"
-    );
+    assert!(out.contains("[0.005, 1.7544, 0, 0, 0, 0, 0]"), "written out where no folder is known");
 }
 
 #[test]
@@ -144,10 +88,7 @@ fn a_scenario_that_does_not_fit_says_why() {
     let cart = decks().join("../cart-lap-torso.toml");
     let (code, out, said) = convert(folder.path(), &[cart.to_str().expect("UTF-8")]);
     assert_eq!((code, out.as_str()), (2, ""));
-    assert!(
-        said.contains("does not fit on cards") && said.contains("path.kind"),
-        "{said}"
-    );
+    assert!(said.contains("does not fit on cards") && said.contains("path.kind"), "{said}");
 }
 
 #[test]
@@ -160,9 +101,7 @@ fn a_run_is_extended_by_cards() {
     let (code, out, said) = convert(folder.path(), &["next.dat"]);
     assert_eq!(code, 0, "{said}");
     assert!(
-        out.contains("start = \"0.2 s\"")
-            && out.contains("end = \"0.25 s\"")
-            && out.contains("passed = ["),
+        out.contains("start = \"0.2 s\"") && out.contains("end = \"0.25 s\"") && out.contains("passed = ["),
         "{out}"
     );
     assert_eq!(convert(folder.path(), &[deck, "--extend", "0.1"]).0, 2);
@@ -175,13 +114,8 @@ fn several_decks_become_numbered_scenarios() {
     let both = read("driver-lap-torso.dat").replace("FINI\n", "") + &read("left-rear-unbelted.dat");
     std::fs::write(folder.path().join("both.dat"), both).expect("written");
     assert_eq!(convert(folder.path(), &["both.dat"]).0, 2);
-    assert_eq!(
-        convert(folder.path(), &["both.dat", "-o", "case.toml"]).0,
-        0
-    );
-    assert!(
-        folder.path().join("case-1.toml").exists() && folder.path().join("case-2.toml").exists()
-    );
+    assert_eq!(convert(folder.path(), &["both.dat", "-o", "case.toml"]).0, 0);
+    assert!(folder.path().join("case-1.toml").exists() && folder.path().join("case-2.toml").exists());
 }
 
 #[test]
@@ -191,13 +125,7 @@ fn a_recorded_run_is_extended_by_the_same_cards_as_the_deck() {
     let run = Command::cargo_bin("occupant")
         .expect("built")
         .current_dir(folder.path())
-        .args([
-            "run",
-            &name("driver-exact-state.toml"),
-            "-q",
-            "-o",
-            "run.mcap",
-        ])
+        .args(["run", &name("driver-exact-state.toml"), "-q", "-o", "run.mcap"])
         .output()
         .expect("runs");
     assert_eq!(run.status.code(), Some(0));
@@ -208,10 +136,9 @@ fn a_recorded_run_is_extended_by_the_same_cards_as_the_deck() {
     assert_eq!(code, 0, "{said}");
     assert!(said.contains("approximate"), "{said}");
     assert_eq!(by_run, by_deck);
-    for (words, expected) in [
-        (&["run.mcap"][..], "--extend TIME"),
-        (&["run.mcap", "--extend", "0.1"], "not after the end"),
-    ] {
+    for (words, expected) in
+        [(&["run.mcap"][..], "--extend TIME"), (&["run.mcap", "--extend", "0.1"], "not after the end")]
+    {
         let (code, _, said) = convert(folder.path(), words);
         assert!(code == 2 && said.contains(expected), "{said}");
     }

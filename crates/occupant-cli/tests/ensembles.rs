@@ -9,9 +9,7 @@ use assert_cmd::Command;
 use serde_json::Value;
 
 fn scenario(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR"))
-        .join("../../scenarios")
-        .join(name)
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios").join(name)
 }
 
 fn answer(folder: &Path, words: &[&str]) -> Output {
@@ -23,13 +21,7 @@ fn answer(folder: &Path, words: &[&str]) -> Output {
 /// Runs a scenario's ensemble and gives its JSON.
 fn ensemble(folder: &Path, name: &str, words: &[&str]) -> Value {
     let file = scenario(name);
-    let mut all = vec![
-        "run",
-        file.to_str().expect("UTF-8"),
-        "--no-mcap",
-        "--json",
-        "--ensemble",
-    ];
+    let mut all = vec!["run", file.to_str().expect("UTF-8"), "--no-mcap", "--json", "--ensemble"];
     all.extend(words);
     let output = answer(folder, &all);
     let code = output.status.code();
@@ -40,8 +32,7 @@ fn ensemble(folder: &Path, name: &str, words: &[&str]) -> Value {
 /// By name.
 fn named(list: &Value) -> BTreeMap<&str, &Value> {
     let list = list.as_array().expect("a list").iter();
-    list.map(|v| (v["name"].as_str().expect("a name"), v))
-        .collect()
+    list.map(|v| (v["name"].as_str().expect("a name"), v)).collect()
 }
 
 #[test]
@@ -65,17 +56,7 @@ fn any_number_of_threads_gives_the_same_bytes() {
     let folder = tempfile::tempdir().unwrap();
     let bytes = |threads: &str| {
         let table = format!("bands{threads}.csv");
-        let words = [
-            "10",
-            "--seed",
-            "3",
-            "--threads",
-            threads,
-            "--bands",
-            &table,
-            "--until",
-            "60 ms",
-        ];
+        let words = ["10", "--seed", "3", "--threads", threads, "--bands", &table, "--until", "60 ms"];
         let answer = ensemble(folder.path(), "cart-lap.toml", &words);
         let mut e = answer["ensemble"].clone();
         e["files"] = Value::Null;
@@ -118,20 +99,11 @@ fn what_can_not_be_is_refused_before_anything_is_run() {
         (&["--seed", "3"], "--ensemble"),
         (&["--ensemble", "10", "--threads", "0"], "invalid value"),
         (&["--ensemble", "10", "--change", "posture"], "it has no ="),
-        (
-            &["--ensemble", "10", "--change", "posture=2 mm"],
-            "expected",
-        ),
-        (
-            &["--ensemble", "10", "--change", "belts=2 mm"],
-            "nothing is called `belts`",
-        ),
+        (&["--ensemble", "10", "--change", "posture=2 mm"], "expected"),
+        (&["--ensemble", "10", "--change", "belts=2 mm"], "nothing is called `belts`"),
         (&["--ensemble", "10", "--change", "path=-1 %"], "not from 0"),
         (&["--ensemble", "10", "--stable-within", "0"], "not above 0"),
-        (
-            &["--ensemble", "10", "--channels", "head.aceleration.x"],
-            "head.acceleration.x",
-        ),
+        (&["--ensemble", "10", "--channels", "head.aceleration.x"], "head.acceleration.x"),
         (&["--ensemble", "10", "--bands", "bands.pdf"], "NAME.csv"),
         (&["--ensemble", "10", "--bands", "there.csv"], "--force"),
     ];
@@ -163,13 +135,9 @@ fn study(folder: &Path, parameters: &str) {
 /// The rows of a CSV without quotes, by column.
 fn rows(path: &Path) -> Vec<BTreeMap<String, String>> {
     let text = fs::read_to_string(path).unwrap();
-    let mut lines = text
-        .lines()
-        .map(|l| l.split(',').map(str::to_owned).collect::<Vec<_>>());
+    let mut lines = text.lines().map(|l| l.split(',').map(str::to_owned).collect::<Vec<_>>());
     let head = lines.next().unwrap();
-    lines
-        .map(|l| head.iter().cloned().zip(l).collect())
-        .collect()
+    lines.map(|l| head.iter().cloned().zip(l).collect()).collect()
 }
 
 #[test]
@@ -177,29 +145,11 @@ fn a_study_and_a_run_say_the_same_of_the_same_ensemble() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
     study(path, "");
-    let output = answer(
-        path,
-        &[
-            "sweep",
-            "study.toml",
-            "-o",
-            "out",
-            "--csv",
-            "--threads",
-            "2",
-        ],
-    );
+    let output = answer(path, &["sweep", "study.toml", "-o", "out", "--csv", "--threads", "2"]);
     let said = String::from_utf8_lossy(&output.stdout);
     assert_eq!(output.status.code(), Some(0), "{said}");
-    assert!(
-        said.contains("ensemble.parquet") && said.contains("head.peak"),
-        "{said}"
-    );
-    let run = ensemble(
-        path,
-        "cart-lap.toml",
-        &["12", "--seed", "3", "--until", "60 ms"],
-    );
+    assert!(said.contains("ensemble.parquet") && said.contains("head.peak"), "{said}");
+    let run = ensemble(path, "cart-lap.toml", &["12", "--seed", "3", "--until", "60 ms"]);
     let figures = named(&run["ensemble"]["figures"]);
     let table = rows(&path.join("out/ensemble.csv"));
     assert_eq!(table.len(), figures.len());
@@ -210,9 +160,8 @@ fn a_study_and_a_run_say_the_same_of_the_same_ensemble() {
         for part in ["nominal", "q05", "median", "q95", "tolerance"] {
             // the reader of JSON rounds the last bit its own way
             let (a, b) = (row[part].parse::<f64>().ok(), figure[part].as_f64());
-            let same = a.zip(b).map_or(a.is_none() && b.is_none(), |(a, b)| {
-                (a - b).abs() <= 4.0 * f64::EPSILON * a.abs()
-            });
+            let same =
+                a.zip(b).map_or(a.is_none() && b.is_none(), |(a, b)| (a - b).abs() <= 4.0 * f64::EPSILON * a.abs());
             assert!(same, "{} {part}: {a:?} {b:?}", row["figure"]);
         }
     }
@@ -250,14 +199,7 @@ fn every_sample_of_a_study_has_its_own_verdicts_and_failures() {
 fn members_part_when_chest_and_head_strike_the_wheel() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path();
-    let files = [
-        "--bands",
-        "b.parquet",
-        "--bands",
-        "b.svg",
-        "--bands",
-        "b.png",
-    ];
+    let files = ["--bands", "b.parquet", "--bands", "b.svg", "--bands", "b.png"];
     let words = [&["32", "--seed", "1"], &files[..]].concat();
     let answer = ensemble(path, "cart-lap.toml", &words);
     let verdict = |figure: &str| named(&answer["ensemble"]["figures"])[figure]["verdict"].clone();
@@ -291,25 +233,16 @@ fn the_table_marks_what_is_not_stable() {
     let file = scenario("cart-lap.toml");
     let words = ["run", file.to_str().unwrap(), "--no-mcap", "--ensemble"];
     let table = |members: &str| {
-        let output = answer(
-            folder.path(),
-            &[&words[..], &[members, "--seed", "1"]].concat(),
-        );
+        let output = answer(folder.path(), &[&words[..], &[members, "--seed", "1"]].concat());
         String::from_utf8(output.stdout).unwrap()
     };
     let text = table("16");
     let hic = text.lines().find(|l| l.starts_with("HIC15")).unwrap();
     assert!(hic.contains("2485.0*"), "{text}");
-    let excursion = text
-        .lines()
-        .find(|l| l.starts_with("head excursion"))
-        .unwrap();
+    let excursion = text.lines().find(|l| l.starts_with("head excursion")).unwrap();
     assert!(excursion.contains("forward 726 mm at"), "{text}");
     assert!(text.contains("* NOT STABLE under small changes"), "{text}");
     // nine have no verdict, and nothing carries a star
     let few = table("9");
-    assert!(
-        few.contains("too few members") && !few.contains('*'),
-        "{few}"
-    );
+    assert!(few.contains("too few members") && !few.contains('*'), "{few}");
 }

@@ -29,10 +29,7 @@ fn folder_with_run() -> tempfile::TempDir {
     let lines = SHORT.lines().filter(|l| !l.starts_with("title"));
     let text = lines.fold(hostile.to_owned(), |all, line| all + "\n" + line);
     fs::write(folder.path().join("case.toml"), text).expect("written");
-    let run = answer(
-        folder.path(),
-        &["run", "case.toml", "--quiet", "-o", "run.mcap"],
-    );
+    let run = answer(folder.path(), &["run", "case.toml", "--quiet", "-o", "run.mcap"]);
     assert_eq!(code(&run), 0, "{}", err(&run));
     folder
 }
@@ -44,28 +41,12 @@ fn read(folder: &Path, name: &str) -> String {
 #[test]
 fn a_strip_has_a_panel_for_each_time_and_view() {
     let folder = folder_with_run();
-    let words = [
-        "view",
-        "run.mcap",
-        "-o",
-        "v.svg",
-        "--times",
-        "0,2,4 ms",
-        "--views",
-        "side,front",
-    ];
+    let words = ["view", "run.mcap", "-o", "v.svg", "--times", "0,2,4 ms", "--views", "side,front"];
     let output = answer(folder.path(), &words);
     assert_eq!((code(&output), err(&output)), (0, String::new()));
     let svg = read(folder.path(), "v.svg");
     assert_eq!(svg.matches("<clipPath").count(), 6);
-    for label in [
-        ">0 ms<",
-        ">2 ms<",
-        ">4 ms<",
-        ">side<",
-        ">front<",
-        "from the right",
-    ] {
+    for label in [">0 ms<", ">2 ms<", ">4 ms<", ">side<", ">front<", "from the right"] {
         assert!(svg.contains(label), "{label}");
     }
     assert!(!svg.contains(">top<"));
@@ -80,10 +61,7 @@ fn a_strip_has_a_panel_for_each_time_and_view() {
 fn a_strip_becomes_a_png_of_twice_its_size() {
     let folder = folder_with_run();
     for name in ["v.svg", "v.png"] {
-        let output = answer(
-            folder.path(),
-            &["view", "run.mcap", "-o", name, "--times", "0"],
-        );
+        let output = answer(folder.path(), &["view", "run.mcap", "-o", name, "--times", "0"]);
         assert_eq!((code(&output), err(&output)), (0, String::new()));
     }
     let png = fs::read(folder.path().join("v.png")).expect("a picture");
@@ -91,17 +69,9 @@ fn a_strip_becomes_a_png_of_twice_its_size() {
     let svg = read(folder.path(), "v.svg");
     let number = |from: &str| -> f64 {
         let rest = svg.split_once(from).expect("there").1;
-        rest.split('"')
-            .next()
-            .expect("a value")
-            .parse()
-            .expect("a number")
+        rest.split('"').next().expect("a value").parse().expect("a number")
     };
-    let size = |at: usize| {
-        f64::from(u32::from_be_bytes(
-            png[at..at + 4].try_into().expect("four"),
-        ))
-    };
+    let size = |at: usize| f64::from(u32::from_be_bytes(png[at..at + 4].try_into().expect("four")));
     assert!((size(16) - 2.0 * number("width=\"")).abs() <= 1.0);
     assert!((size(20) - 2.0 * number("height=\"")).abs() <= 1.0);
 }
@@ -110,22 +80,10 @@ fn a_strip_becomes_a_png_of_twice_its_size() {
 fn wrong_words_for_a_view_are_answered() {
     let folder = folder_with_run();
     let cases: [(&[&str], &str); 7] = [
-        (
-            &["view", "run.mcap", "-o", "v.pdf"],
-            "ends with .svg or .png",
-        ),
-        (
-            &["view", "run.mcap", "-o", "v.svg", "--times", "9 s"],
-            "the outputs go from",
-        ),
-        (
-            &["view", "run.mcap", "-o", "v.svg", "--times", "soon"],
-            "is not a time",
-        ),
-        (
-            &["view", "run.mcap", "-o", "v.svg", "--views", "back"],
-            "possible values",
-        ),
+        (&["view", "run.mcap", "-o", "v.pdf"], "ends with .svg or .png"),
+        (&["view", "run.mcap", "-o", "v.svg", "--times", "9 s"], "the outputs go from"),
+        (&["view", "run.mcap", "-o", "v.svg", "--times", "soon"], "is not a time"),
+        (&["view", "run.mcap", "-o", "v.svg", "--views", "back"], "possible values"),
         (&["view", "case.toml", "-o", "v.svg"], "holds no results"),
         (&["view", "none.mcap", "-o", "v.svg"], "cannot be read"),
         (&["view", "run.mcap"], "--output"),
@@ -180,36 +138,13 @@ fn a_report_is_one_file_whose_data_stay_data() {
 #[test]
 fn a_report_against_another_run_holds_both() {
     let folder = folder_with_run();
-    let words = [
-        "report",
-        "run.mcap",
-        "-o",
-        "r.html",
-        "--against",
-        "run.mcap",
-    ];
+    let words = ["report", "run.mcap", "-o", "r.html", "--against", "run.mcap"];
     let output = answer(folder.path(), &words);
     assert_eq!((code(&output), err(&output)), (0, String::new()));
-    assert_eq!(
-        read(folder.path(), "r.html").matches("\"poses\":").count(),
-        2
-    );
+    assert_eq!(read(folder.path(), "r.html").matches("\"poses\":").count(), 2);
     for (words, said) in [
-        (
-            &["report", "run.mcap", "-o", "r.txt"][..],
-            "ends with .html",
-        ),
-        (
-            &[
-                "report",
-                "run.mcap",
-                "-o",
-                "x.html",
-                "--against",
-                "case.toml",
-            ],
-            "holds no results",
-        ),
+        (&["report", "run.mcap", "-o", "r.txt"][..], "ends with .html"),
+        (&["report", "run.mcap", "-o", "x.html", "--against", "case.toml"], "holds no results"),
     ] {
         let output = answer(folder.path(), words);
         assert_eq!(code(&output), 2, "{words:?}");

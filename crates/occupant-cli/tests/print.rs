@@ -15,18 +15,10 @@ use prost_reflect::{DescriptorPool, DynamicMessage, ReflectMessage, Value};
 const SCENARIO: &str = include_str!("recording/short.toml");
 
 fn occupant(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::cargo_bin("occupant")
-        .expect("built")
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .expect("runs");
+    let output =
+        Command::cargo_bin("occupant").expect("built").current_dir(folder).args(arguments).output().expect("runs");
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    (
-        output.status.code().unwrap_or(-1),
-        text(&output.stdout),
-        text(&output.stderr),
-    )
+    (output.status.code().unwrap_or(-1), text(&output.stdout), text(&output.stderr))
 }
 
 /// A folder with `short.toml` and its `short.mcap`.
@@ -58,19 +50,11 @@ fn row(text: &str, output: usize, title: &str, name: &str) -> Vec<f64> {
     let section = format!("OUTPUT {output}");
     let of_output = |p: &&&str| p.lines().nth(2).is_some_and(|l| l.ends_with(&section));
     let all = pages(text);
-    let lines: Vec<&str> = all
-        .iter()
-        .filter(of_output)
-        .flat_map(|p| p.lines())
-        .collect();
+    let lines: Vec<&str> = all.iter().filter(of_output).flat_map(|p| p.lines()).collect();
     let from = lines.iter().position(|l| l.starts_with(title));
     let from = from.unwrap_or_else(|| panic!("no table {title} of output {output}"));
-    let found = lines[from..]
-        .iter()
-        .find(|l| l.split_whitespace().any(|w| w == name));
-    let words = found
-        .unwrap_or_else(|| panic!("no row {name}"))
-        .split_whitespace();
+    let found = lines[from..].iter().find(|l| l.split_whitespace().any(|w| w == name));
+    let words = found.unwrap_or_else(|| panic!("no row {name}")).split_whitespace();
     let after = words.skip_while(|w| *w != name);
     after.skip(1).map_while(|w| w.parse().ok()).collect()
 }
@@ -80,25 +64,16 @@ fn value(folder: &Path, topic: &str, output: usize, field: &str) -> Vec<f64> {
     let bytes = fs::read(folder.join("short.mcap")).expect("recorded");
     let stream = mcap::MessageStream::new(&bytes).expect("an MCAP file");
     let own = stream.map(|m| m.expect("a message"));
-    let message = own
-        .filter(|m| m.channel.topic == topic)
-        .nth(output)
-        .expect("an output");
+    let message = own.filter(|m| m.channel.topic == topic).nth(output).expect("an output");
     let schema = message.channel.schema.as_ref().expect("a schema");
     let pool = DescriptorPool::decode(schema.data.as_ref()).expect("descriptors");
     let kind = pool.get_message_by_name(&schema.name).expect("its type");
     let content = DynamicMessage::decode(kind, message.data.as_ref()).expect("its content");
-    match content
-        .get_field_by_name(field)
-        .expect("the field")
-        .as_ref()
-    {
+    match content.get_field_by_name(field).expect("the field").as_ref() {
         Value::F64(number) => vec![*number],
-        Value::Message(vector) => vector
-            .descriptor()
-            .fields()
-            .map(|f| vector.get_field(&f).as_f64().expect("a number"))
-            .collect(),
+        Value::Message(vector) => {
+            vector.descriptor().fields().map(|f| vector.get_field(&f).as_f64().expect("a number")).collect()
+        }
         other => panic!("{other:?}"),
     }
 }
@@ -123,23 +98,10 @@ fn every_page_has_the_titles_its_number_and_at_most_60_lines_of_132_columns() {
     assert!(pages.len() > 5 + 2 * 5, "{} pages", pages.len());
     for (i, page) in pages.iter().enumerate() {
         let lines: Vec<&str> = page.lines().collect();
-        assert!(
-            lines.len() <= 60,
-            "page {} has {} lines",
-            i + 1,
-            lines.len()
-        );
+        assert!(lines.len() <= 60, "page {} has {} lines", i + 1, lines.len());
         assert!(lines[0].starts_with("Short"), "{}", lines[0]);
-        assert!(
-            lines[0].ends_with(&format!("PAGE {:>4}", i + 1)),
-            "{}",
-            lines[0]
-        );
-        assert!(
-            lines[1].starts_with("short.toml, occupant "),
-            "{}",
-            lines[1]
-        );
+        assert!(lines[0].ends_with(&format!("PAGE {:>4}", i + 1)), "{}", lines[0]);
+        assert!(lines[1].starts_with("short.toml, occupant "), "{}", lines[1]);
         for line in lines {
             assert!(line.chars().count() <= 132, "{line}");
         }
@@ -167,10 +129,7 @@ fn the_echo_says_what_was_read_and_computed() {
     ] {
         assert!(text.contains(words), "{words}\n{text}");
     }
-    assert!(
-        !text.contains("DIFFERS"),
-        "the rebuilt model is the one that ran"
-    );
+    assert!(!text.contains("DIFFERS"), "the rebuilt model is the one that ran");
 }
 
 #[test]
@@ -182,12 +141,7 @@ fn printed_numbers_are_the_recorded_ones() {
         let head = "/occupant/segment/head";
         let cells = row(&text, output, "1. END POINTS", "head");
         assert_printed(&cells, &of(head, output, "upper_end_vehicle_m"), 1.0, 4);
-        assert_printed(
-            &cells[3..],
-            &of(head, output, "lower_end_vehicle_m"),
-            1.0,
-            4,
-        );
+        assert_printed(&cells[3..], &of(head, output, "lower_end_vehicle_m"), 1.0, 4);
         let cells = row(&text, output, "2. ACCELERATION", "head");
         let total = of(head, output, "cg_acceleration_segment_m_s2");
         assert_printed(&cells, &total, 1.0, 2);
@@ -216,26 +170,13 @@ fn printed_numbers_are_the_recorded_ones() {
 #[test]
 fn inches_and_pounds_come_with_the_scenario_or_on_request() {
     let folder = recorded();
-    let text = printed(
-        folder.path(),
-        &["short.mcap", "--units", "in-lbf-s", "--every", "1"],
-    );
+    let text = printed(folder.path(), &["short.mcap", "--units", "in-lbf-s", "--every", "1"]);
     assert!(text.contains("VEHICLE COORDINATES (IN)"));
     let cells = row(&text, 0, "1. END POINTS", "head");
-    let end = value(
-        folder.path(),
-        "/occupant/segment/head",
-        0,
-        "upper_end_vehicle_m",
-    );
+    let end = value(folder.path(), "/occupant/segment/head", 0, "upper_end_vehicle_m");
     assert_printed(&cells, &end, 0.0254, 3);
     let cells = row(&text, 0, "5. FORCE", "pelvis");
-    let force = value(
-        folder.path(),
-        "/occupant/sphere/pelvis",
-        0,
-        "contact_force_vehicle_n",
-    );
+    let force = value(folder.path(), "/occupant/sphere/pelvis", 0, "contact_force_vehicle_n");
     assert_printed(&cells, &force, 4.448_221_615_260_5, 2);
 }
 
@@ -256,18 +197,13 @@ fn the_last_sheet_lists_the_passed_pairs_of_the_run() {
     assert!(!last.contains("PARTIAL"), "{last}");
     let (pairs, q1) = last_state();
     assert!(!pairs.is_empty(), "a scenario without passed pairs");
-    let list = last
-        .lines()
-        .skip_while(|l| !l.starts_with("PAIRS WITH NARRY"));
+    let list = last.lines().skip_while(|l| !l.starts_with("PAIRS WITH NARRY"));
     let rows = list.skip(2).take_while(|l| !l.is_empty());
     let words: Vec<&str> = rows.flat_map(str::split_whitespace).collect();
     let count = words.iter().filter(|w| w.parse::<u32>().is_ok()).count();
     assert_eq!(count, 2 * pairs.len(), "{last}");
     for (sphere, surface) in pairs {
-        assert!(
-            words.join(" ").contains(&format!("{sphere} {surface}")),
-            "{last}"
-        );
+        assert!(words.join(" ").contains(&format!("{sphere} {surface}")), "{last}");
     }
     assert!(last.contains(&format!("{q1:.6}")), "{q1}: {last}");
 }
@@ -296,10 +232,7 @@ fn last_state() -> (Vec<(String, String)>, f64) {
     let names = |(sphere, surface): (usize, usize)| {
         let sphere_name = &model.body().spheres[sphere].name;
         let surface_name = &model.setup().surfaces[surface].name;
-        (
-            format!("{} {sphere_name}", sphere + 1),
-            format!("{} {surface_name}", surface + 1),
-        )
+        (format!("{} {sphere_name}", sphere + 1), format!("{} {surface_name}", surface + 1))
     };
     (passed.into_iter().map(names).collect(), q1)
 }
@@ -310,41 +243,21 @@ fn a_deck_is_printed_in_inches_with_its_cards_numbers_and_both_titles() {
     let decks = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/decks");
     let deck = decks.join("driver-lap-torso.toml");
     let deck = deck.to_str().expect("UTF-8");
-    let run = [
-        "run",
-        deck,
-        "-q",
-        "--set",
-        "time.end='20 ms'",
-        "-o",
-        "d.mcap",
-    ];
+    let run = ["run", deck, "-q", "--set", "time.end='20 ms'", "-o", "d.mcap"];
     let (code, _, said) = occupant(folder.path(), &run);
     assert_eq!(code, 0, "{said}");
     let text = printed(folder.path(), &["d.mcap"]);
     for page in pages(&text) {
         let mut lines = page.lines();
         let title = lines.next().expect("a title");
-        assert!(
-            title.starts_with("DRIVER WITH LAP AND TORSO BELT, 20 MPH"),
-            "{title}"
-        );
-        assert_eq!(
-            lines.next(),
-            Some("COMPARTMENT AND BODY COMPOSED FROM PUBLISHED FIGURES")
-        );
+        assert!(title.starts_with("DRIVER WITH LAP AND TORSO BELT, 20 MPH"), "{title}");
+        assert_eq!(lines.next(), Some("COMPARTMENT AND BODY COMPOSED FROM PUBLISHED FIGURES"));
     }
     assert!(text.contains("CHANGED BY     --set time.end='20 ms'"));
-    assert!(
-        text.contains("END            0.02 SEC"),
-        "the change is in the echo"
-    );
+    assert!(text.contains("END            0.02 SEC"), "the change is in the echo");
     assert!(text.contains("SURFACE NUMBERS ARE THOSE OF THE CARDS"));
     assert!(text.contains("25 steering_wheel"));
-    assert!(
-        !text.contains("DIFFERS"),
-        "the rebuilt model is the one that ran"
-    );
+    assert!(!text.contains("DIFFERS"), "the rebuilt model is the one that ran");
     assert!(text.contains("PAIRS WITH NARRY(J,K) = 0: "));
 }
 
@@ -361,10 +274,7 @@ fn a_path_beside_the_scenario_travels_with_the_results() {
     // the file alone is enough
     fs::remove_file(folder.path().join("side-slope-path.csv")).expect("removed");
     let text = printed(folder.path(), &["side-slope.mcap", "--every", "10 ms"]);
-    assert!(
-        text.contains("STATIONS, NATURAL SPLINES BETWEEN THEM"),
-        "{text}"
-    );
+    assert!(text.contains("STATIONS, NATURAL SPLINES BETWEEN THEM"), "{text}");
     assert!(text.contains("PAIRS WITH NARRY(J,K) = 0: "));
 }
 
@@ -379,15 +289,7 @@ fn a_record_of_sensors_travels_with_the_results_and_is_printed_and_gone_on_with(
     let (code, out, said) = occupant(folder.path(), &["check", scenario]);
     assert_eq!(code, 0, "{said}");
     assert!(out.contains("sensors"), "{out}");
-    let run = [
-        "run",
-        scenario,
-        "-q",
-        "-o",
-        "run.mcap",
-        "--set",
-        "time.end='20 ms'",
-    ];
+    let run = ["run", scenario, "-q", "-o", "run.mcap", "--set", "time.end='20 ms'"];
     let (code, _, said) = occupant(folder.path(), &run);
     assert_eq!(code, 0, "{said}");
     fs::remove_file(folder.path().join("side-slope-sensors.csv")).expect("removed");

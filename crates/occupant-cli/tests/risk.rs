@@ -7,18 +7,10 @@ use assert_cmd::Command;
 use serde_json::Value;
 
 fn occupant(folder: &Path, arguments: &[&str]) -> (i32, String, String) {
-    let output = Command::cargo_bin("occupant")
-        .expect("built")
-        .current_dir(folder)
-        .args(arguments)
-        .output()
-        .expect("runs");
+    let output =
+        Command::cargo_bin("occupant").expect("built").current_dir(folder).args(arguments).output().expect("runs");
     let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    (
-        output.status.code().unwrap_or(-1),
-        text(&output.stdout),
-        text(&output.stderr),
-    )
+    (output.status.code().unwrap_or(-1), text(&output.stdout), text(&output.stderr))
 }
 
 fn folder() -> tempfile::TempDir {
@@ -40,17 +32,12 @@ fn json(folder: &Path, arguments: &[&str]) -> Value {
 
 fn value(report: &Value, key: &str) -> f64 {
     let value = &report["measures"][key]["value"];
-    value
-        .as_f64()
-        .unwrap_or_else(|| panic!("no {key} in {report:#}"))
+    value.as_f64().unwrap_or_else(|| panic!("no {key} in {report:#}"))
 }
 
 #[track_caller]
 fn assert_near(found: f64, expected: f64, bound: f64) {
-    assert!(
-        (found - expected).abs() < bound,
-        "found {found}, expected {expected}"
-    );
+    assert!((found - expected).abs() < bound, "found {found}, expected {expected}");
 }
 
 const G: f64 = 9.806_65;
@@ -58,23 +45,14 @@ const G: f64 = 9.806_65;
 #[test]
 fn steady_accelerations_give_the_closed_forms() {
     let folder = folder();
-    steady(
-        folder.path(),
-        "ax[g],ay[g],az[g],wx[deg/s],wy[deg/s],wz[deg/s]",
-        "-10,5,0,0,0,0",
-        10_000,
-    );
+    steady(folder.path(), "ax[g],ay[g],az[g],wx[deg/s],wy[deg/s],wz[deg/s]", "-10,5,0,0,0,0", 10_000);
     let report = json(folder.path(), &["a.csv"]);
     let of = |key| value(&report, key);
     assert_near(of("oiv_x_m_s"), 10.8480, 5e-5);
     assert_near(of("oiv_y_m_s"), 5.4240, 5e-5);
     assert_near(of("ora_x_m_s2") / G, -10.0, 1e-8);
     assert_near(of("ora_y_m_s2") / G, 5.0, 1e-8);
-    assert_near(
-        of("thiv_m_s") * 3.6,
-        3.6 * (1.25 * 1.2 * 10.0 * G).sqrt(),
-        1e-4,
-    );
+    assert_near(of("thiv_m_s") * 3.6, 3.6 * (1.25 * 1.2 * 10.0 * G).sqrt(), 1e-4);
     assert_near(of("phd_m_s2") / G, 125f64.sqrt(), 1e-8);
     let asi = ((10.0f64 / 12.0).powi(2) + (5.0f64 / 9.0).powi(2)).sqrt();
     assert_near(of("asi_1998"), asi, 1e-8);
@@ -83,9 +61,7 @@ fn steady_accelerations_give_the_closed_forms() {
     assert_near(of("max_50ms_y_m_s2") / G, 5.0, 1e-8);
     assert_near(of("final_velocity_change_x_m_s"), -2.0 * G, 1e-8);
     assert_near(of("olc_m_s2") / G, 600.0 / 47.0, 1e-7);
-    let when = report["measures"]["oiv_x_m_s"]["when_s"][0]
-        .as_f64()
-        .unwrap();
+    let when = report["measures"]["oiv_x_m_s"]["when_s"][0].as_f64().unwrap();
     assert_near(when, 0.110_619, 1e-6);
     assert_eq!(report["left_out"], serde_json::json!([]));
 }
@@ -93,12 +69,7 @@ fn steady_accelerations_give_the_closed_forms() {
 #[test]
 fn lateral_impact_first_and_units_of_choice() {
     let folder = folder();
-    steady(
-        folder.path(),
-        "ay[m/s^2],ax[ft/s^2]",
-        "78.4532,-160.8702",
-        10_000,
-    );
+    steady(folder.path(), "ay[m/s^2],ax[ft/s^2]", "78.4532,-160.8702", 10_000);
     let report = json(folder.path(), &["a.csv", "--cfc", "none"]);
     assert_near(value(&report, "oiv_x_m_s"), 4.288_06, 1e-5);
     assert_near(value(&report, "oiv_y_m_s"), 6.860_90, 1e-5);
@@ -107,20 +78,9 @@ fn lateral_impact_first_and_units_of_choice() {
 #[test]
 fn the_yawing_vectors_of_thiv() {
     let folder = folder();
-    steady(
-        folder.path(),
-        "ax[g],ay[g],yaw_rate[deg/s]",
-        "-8,6,100",
-        100_000,
-    );
+    steady(folder.path(), "ax[g],ay[g],yaw_rate[deg/s]", "-8,6,100", 100_000);
     let thiv = |arguments: &[&str]| {
-        value(
-            &json(
-                folder.path(),
-                &[&["a.csv", "--cfc", "none"], arguments].concat(),
-            ),
-            "thiv_m_s",
-        ) * 3.6
+        value(&json(folder.path(), &[&["a.csv", "--cfc", "none"], arguments].concat()), "thiv_m_s") * 3.6
     };
     assert_near(thiv(&[]), 33.396_092, 1e-5);
     assert_near(thiv(&["--head-start", "30 cm"]), 32.053_305, 1e-5);
@@ -132,22 +92,11 @@ fn distances_first_contact_and_gravity_are_options() {
     steady(folder.path(), "ax[g],ay[g],az[g]", "-10,0,-1", 10_000);
     let report = json(
         folder.path(),
-        &[
-            "a.csv",
-            "--flail-x",
-            "0.3 m",
-            "--start",
-            "50 ms",
-            "--end",
-            "0.19",
-            "--gravity-included",
-        ],
+        &["a.csv", "--flail-x", "0.3 m", "--start", "50 ms", "--end", "0.19", "--gravity-included"],
     );
     let met_s = (0.6 / (10.0 * G)).sqrt();
     assert_near(value(&report, "oiv_x_m_s"), 10.0 * G * met_s, 1e-6);
-    let when = report["measures"]["oiv_x_m_s"]["when_s"][0]
-        .as_f64()
-        .unwrap();
+    let when = report["measures"]["oiv_x_m_s"]["when_s"][0].as_f64().unwrap();
     assert_near(when, 0.05 + met_s, 1e-6);
     assert_near(value(&report, "max_50ms_z_m_s2"), 0.0, 1e-9);
     assert_near(report["record"]["end_s"].as_f64().unwrap(), 0.19, 1e-9);
@@ -175,47 +124,26 @@ fn missing_channels_leave_measures_out_with_the_reason() {
     ] {
         assert!(out.contains(line), "{line}\n{out}");
     }
-    assert!(
-        out.contains("OIV x") && out.contains("10.85") && out.contains("35.6"),
-        "{out}"
-    );
+    assert!(out.contains("OIV x") && out.contains("10.85") && out.contains("35.6"), "{out}");
 }
 
 #[test]
 fn rules_judge_with_margin_and_origin() {
     let folder = folder();
-    steady(
-        folder.path(),
-        "ax[g],ay[g],az[g],wz[deg/s]",
-        "-14,0,0,0",
-        10_000,
-    );
+    steady(folder.path(), "ax[g],ay[g],az[g],wz[deg/s]", "-14,0,0,0", 10_000);
     let (code, out, said) = occupant(folder.path(), &["risk", "a.csv", "--rule", "mash"]);
     assert_eq!(code, 1);
     assert!(said.contains("beyond the limit: MASH 2016 OIV x"), "{said}");
     // √(2·14 g·0.6 m) = 12.84 m/s, 0.64 beyond 12.2
-    let line = out
-        .lines()
-        .find(|l| l.contains("maximum") && l.contains("OIV x"))
-        .unwrap();
-    for word in [
-        "MASH 2016",
-        "12.20",
-        "12.84",
-        "-0.64",
-        "FAIL",
-        "a source that quotes the rule",
-    ] {
+    let line = out.lines().find(|l| l.contains("maximum") && l.contains("OIV x")).unwrap();
+    for word in ["MASH 2016", "12.20", "12.84", "-0.64", "FAIL", "a source that quotes the rule"] {
         assert!(line.contains(word), "{word}: {line}");
     }
     assert!(!out.contains("NCHRP"), "{out}");
     // without a rule all are shown, and none decides
     let (code, out, _) = occupant(folder.path(), &["risk", "a.csv"]);
     assert_eq!(code, 0);
-    assert!(
-        out.contains("NCHRP 350") && out.contains("EN 1317-1:2010"),
-        "{out}"
-    );
+    assert!(out.contains("NCHRP 350") && out.contains("EN 1317-1:2010"), "{out}");
     let (code, _, _) = occupant(folder.path(), &["risk", "a.csv", "--rule", "en1317-1998"]);
     assert_eq!(code, 1, "a THIV of 46 km/h");
 }
@@ -223,11 +151,7 @@ fn rules_judge_with_margin_and_origin() {
 #[test]
 fn a_file_with_errors_gives_all_of_them_with_their_places() {
     let folder = folder();
-    fs::write(
-        folder.path().join("a.csv"),
-        "t[s],ax[kg],q[g]\n0,1,2\n0.1,x,2\n",
-    )
-    .unwrap();
+    fs::write(folder.path().join("a.csv"), "t[s],ax[kg],q[g]\n0,1,2\n0.1,x,2\n").unwrap();
     let (code, out, said) = occupant(folder.path(), &["risk", "a.csv"]);
     assert_eq!((code, out.as_str()), (2, ""));
     for words in [
@@ -238,17 +162,10 @@ fn a_file_with_errors_gives_all_of_them_with_their_places() {
     ] {
         assert!(said.contains(words), "{words}\n{said}");
     }
-    fs::write(
-        folder.path().join("a.csv"),
-        "t[s],ax[g]\n0,1\n0.1,1\n0.1,1\n0.05,1\n",
-    )
-    .unwrap();
+    fs::write(folder.path().join("a.csv"), "t[s],ax[g]\n0,1\n0.1,1\n0.1,1\n0.05,1\n").unwrap();
     let (code, _, said) = occupant(folder.path(), &["risk", "a.csv"]);
     assert_eq!(code, 2);
-    assert!(
-        said.contains("a.csv:4:1") && said.contains("a.csv:5:1"),
-        "{said}"
-    );
+    assert!(said.contains("a.csv:4:1") && said.contains("a.csv:5:1"), "{said}");
     fs::write(folder.path().join("a.csv"), [0xff, 0xfe, 0x00]).unwrap();
     let (code, _, said) = occupant(folder.path(), &["risk", "a.csv"]);
     assert!(code == 2 && said.contains("not UTF-8"), "{said}");
@@ -262,37 +179,23 @@ fn uneven_and_coarse_samples_are_refused_with_a_remedy() {
     fs::write(folder.path().join("a.csv"), text).unwrap();
     let (code, _, said) = occupant(folder.path(), &["risk", "a.csv"]);
     assert_eq!(code, 2);
-    assert!(
-        said.contains("a.csv:72:1") && said.contains("--interval"),
-        "{said}"
-    );
+    assert!(said.contains("a.csv:72:1") && said.contains("--interval"), "{said}");
     let report = json(folder.path(), &["a.csv", "--interval", "0.1 ms"]);
     assert_near(value(&report, "oiv_x_m_s"), 10.8480, 5e-5);
 
     steady(folder.path(), "ax[g],ay[g]", "-10,0", 500);
     let (code, _, said) = occupant(folder.path(), &["risk", "a.csv"]);
     assert_eq!(code, 2);
-    assert!(
-        said.contains("half the sample rate, 250 Hz") && said.contains("--cfc 60"),
-        "{said}"
-    );
+    assert!(said.contains("half the sample rate, 250 Hz") && said.contains("--cfc 60"), "{said}");
     let (code, _, said) = occupant(folder.path(), &["risk", "a.csv", "--cfc", "60"]);
-    assert!(
-        code == 0 && said.contains("less than ten times the class"),
-        "{code} {said}"
-    );
+    assert!(code == 0 && said.contains("less than ten times the class"), "{code} {said}");
 }
 
 #[test]
 fn sensors_away_from_the_centre_need_their_rates() {
     let folder = folder();
     // a steady spin of 2 rad/s: at 1.5 m ahead, 6 m/s² towards the c.g.
-    steady(
-        folder.path(),
-        "ax[m/s^2],ay[m/s^2],az[m/s^2],wx[rad/s],wy[rad/s],wz[rad/s]",
-        "-6,0,0,0,0,2",
-        10_000,
-    );
+    steady(folder.path(), "ax[m/s^2],ay[m/s^2],az[m/s^2],wx[rad/s],wy[rad/s],wz[rad/s]", "-6,0,0,0,0,2", 10_000);
     let report = json(folder.path(), &["a.csv", "--offset", "1.5,0,0"]);
     assert_near(value(&report, "max_50ms_x_m_s2"), 0.0, 1e-8);
     assert_near(value(&report, "max_yaw_rad"), 0.4, 1e-9);
@@ -300,10 +203,7 @@ fn sensors_away_from_the_centre_need_their_rates() {
     let (code, _, said) = occupant(folder.path(), &["risk", "a.csv", "--offset", "1.5,0,0"]);
     assert!(code == 2 && said.contains("wx, wy are not there"), "{said}");
     let (code, _, said) = occupant(folder.path(), &["risk", "a.csv", "--offset", "1.5,0"]);
-    assert!(
-        code == 2 && said.contains("found 2 lengths, expected 3"),
-        "{said}"
-    );
+    assert!(code == 2 && said.contains("found 2 lengths, expected 3"), "{said}");
 }
 
 const SCENARIO: &str = include_str!("recording/short.toml");
@@ -314,10 +214,7 @@ fn a_scenario_and_its_results_give_the_same() {
     fs::write(folder.path().join("short.toml"), SCENARIO).unwrap();
     let (code, _, said) = occupant(folder.path(), &["run", "short.toml", "-q"]);
     assert_eq!(code, 0, "{said}");
-    let (scenario, run) = (
-        json(folder.path(), &["short.toml"]),
-        json(folder.path(), &["short.mcap"]),
-    );
+    let (scenario, run) = (json(folder.path(), &["short.toml"]), json(folder.path(), &["short.mcap"]));
     assert_eq!(scenario["measures"], run["measures"]);
     assert!(value(&scenario, "final_velocity_change_x_m_s") < 0.0);
     assert_eq!(scenario["source"], "path of a scenario, sampled");
@@ -331,10 +228,7 @@ fn a_scenario_and_its_results_give_the_same() {
         &["risk", "none.csv"],
     ] {
         let (code, out, said) = occupant(folder.path(), arguments);
-        assert!(
-            code == 2 && out.is_empty() && said.starts_with("error: "),
-            "{arguments:?} {said}"
-        );
+        assert!(code == 2 && out.is_empty() && said.starts_with("error: "), "{arguments:?} {said}");
     }
 }
 
@@ -342,11 +236,7 @@ fn a_scenario_and_its_results_give_the_same() {
 fn a_pulse_has_the_velocity_change_that_the_scenario_says() {
     let folder = folder();
     let scenarios = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios");
-    fs::copy(
-        scenarios.join("cart-lap.toml"),
-        folder.path().join("cart.toml"),
-    )
-    .unwrap();
+    fs::copy(scenarios.join("cart-lap.toml"), folder.path().join("cart.toml")).unwrap();
     let report = json(folder.path(), &["cart.toml"]);
     // 20 mph; the filter and trapezoids at 0.1 ms leave 1.2e-5
     assert_near(value(&report, "final_velocity_change_x_m_s"), -8.9408, 1e-4);

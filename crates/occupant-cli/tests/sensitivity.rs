@@ -83,10 +83,7 @@ fn the_answer_holds_derivatives_secants_and_events() {
     assert_eq!(change["part"], 1e-4);
     for side in ["secant_below", "secant_above"] {
         let secant = change[side].as_f64().expect("a secant");
-        assert!(
-            (secant / derivative - 1.0).abs() < 1e-3,
-            "{secant} {derivative}"
-        );
+        assert!((secant / derivative - 1.0).abs() < 1e-3, "{secant} {derivative}");
     }
     // nothing is relative to a slack of nothing
     assert_eq!(rows[1]["parameter"], "belts.lap.slack");
@@ -104,14 +101,7 @@ fn the_answer_holds_derivatives_secants_and_events() {
 #[test]
 fn the_text_is_a_table_and_what_limits_it() {
     let folder = folder();
-    let words = [
-        "sensitivity",
-        "short.toml",
-        "--to",
-        "belts.*.peak",
-        "--of",
-        "belts.lap.k1",
-    ];
+    let words = ["sensitivity", "short.toml", "--to", "belts.*.peak", "--of", "belts.lap.k1"];
     let text = well(folder.path(), &words);
     for part in [
         "belts.lap.peak",
@@ -146,9 +136,7 @@ fn channels_are_written_with_their_derivatives() {
     let table = here.join("out.csv");
     let metadata = std::fs::read_to_string(here.join("out.csv-metadata.json")).expect("metadata");
     let metadata: Value = serde_json::from_str(&metadata).expect("JSON");
-    let columns = metadata["tableSchema"]["columns"]
-        .as_array()
-        .expect("columns");
+    let columns = metadata["tableSchema"]["columns"].as_array().expect("columns");
     assert_eq!(columns[2]["name"], "d(belt.lap.force)/d(belts.lap.k1)");
     assert_eq!(columns[2]["unit"], "N/(N/m)");
     assert_eq!(columns[3]["unit"], "N/rad");
@@ -157,15 +145,9 @@ fn channels_are_written_with_their_derivatives() {
     let force = |k1: &str, name: &str| {
         let set = format!("belts.lap.k1={k1}");
         let file = format!("{name}.mcap");
-        well(
-            here,
-            &["run", "short.toml", "-q", "--set", &set, "-o", &file],
-        );
+        well(here, &["run", "short.toml", "-q", "--set", &set, "-o", &file]);
         let csv = format!("{name}.csv");
-        well(
-            here,
-            &["export", &file, "--channels", "belt.lap.force", "-o", &csv],
-        );
+        well(here, &["export", &file, "--channels", "belt.lap.force", "-o", &csv]);
         column(&here.join(csv), "belt.lap.force[N]")
     };
     let plain = force("70000", "plain");
@@ -176,10 +158,7 @@ fn channels_are_written_with_their_derivatives() {
     assert!(greatest > 0.0);
     for (i, slope) in slopes.iter().enumerate() {
         let expected = (above[i] - below[i]) / 14.0;
-        assert!(
-            (slope - expected).abs() < 1e-4 * greatest,
-            "{i} {slope} {expected}"
-        );
+        assert!((slope - expected).abs() < 1e-4 * greatest, "{i} {slope} {expected}");
     }
 
     // names that are taken stay, unless replacing them is asked for
@@ -192,11 +171,7 @@ fn channels_are_written_with_their_derivatives() {
     assert!(bytes.starts_with(b"PAR1"));
     let partial = std::fs::read_dir(here).expect("a folder");
     let left = partial.filter_map(Result::ok).map(|e| e.file_name());
-    assert!(
-        !left
-            .into_iter()
-            .any(|n| n.to_string_lossy().contains("partial"))
-    );
+    assert!(!left.into_iter().any(|n| n.to_string_lossy().contains("partial")));
 }
 
 #[test]
@@ -249,24 +224,10 @@ fn what_cannot_be_derived_is_refused_with_its_reason() {
     let short = ["--set", "time.end=-0.0085"];
     let told = asked("head.three_ms_contiguous", "belts.lap.k1", &short);
     assert!(told.contains("no value in this run"), "{told}");
-    let told = asked(
-        "chest.peak",
-        "belts.lap.k1",
-        &["-o", "out.txt", "--channels", "*"],
-    );
+    let told = asked("chest.peak", "belts.lap.k1", &["-o", "out.txt", "--channels", "*"]);
     assert!(told.contains("says nothing of a format"), "{told}");
     let told = asked("chest.peak", "belts.lap.k1", &["-o", "short.toml"]);
     assert!(told.contains("--channels"), "{told}");
-    let told = refused(
-        here,
-        &[
-            "sensitivity",
-            "none.toml",
-            "--to",
-            "hic15",
-            "--of",
-            "gravity",
-        ],
-    );
+    let told = refused(here, &["sensitivity", "none.toml", "--to", "hic15", "--of", "gravity"]);
     assert!(told.contains("none.toml"), "{told}");
 }

@@ -25,9 +25,7 @@ fn evaluation(criterion: &mut Criterion) {
     let loads = scene::no_loads();
     group.bench_function("bare", |b| b.iter(|| full.bare(black_box(&loads))));
     let mut held = full.held(&model);
-    group.bench_function("joints and belts", |b| {
-        b.iter(|| black_box(&mut held).rate())
-    });
+    group.bench_function("joints and belts", |b| b.iter(|| black_box(&mut held).rate()));
     let mut within = full.clone();
     group.bench_function("full, within a step", |b| {
         b.iter(|| black_box(&mut within).rate());

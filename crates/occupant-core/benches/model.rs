@@ -9,9 +9,7 @@ use occupant_core::model::Model;
 
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();
-    criterion.bench_function("scenario from text", |b| {
-        b.iter(|| black_box(scene::load()))
-    });
+    criterion.bench_function("scenario from text", |b| b.iter(|| black_box(scene::load())));
     let loaded = scene::load();
     criterion.bench_function("setup from scenario", |b| b.iter(|| loaded.build()));
     let (setup, _) = loaded.build().expect("the scene is valid");

@@ -76,11 +76,7 @@ fn model(study: &Study, index: u64) -> Model {
 }
 
 fn run<R: Recorder>(kernel: Kernel, models: impl Iterator<Item = Model>, recorder: impl Fn() -> R) {
-    let jobs = models.map(|model| Job {
-        tag: (),
-        model,
-        recorder: recorder(),
-    });
+    let jobs = models.map(|model| Job { tag: (), model, recorder: recorder() });
     simulate_many_with(kernel, jobs, |ended| {
         black_box(&ended.recorder);
         ended.outcome.expect("nothing is written");

@@ -39,10 +39,7 @@ fn main() {
         }
         return;
     };
-    let (_, work) = WORKS
-        .iter()
-        .find(|work| work.0 == name)
-        .expect("one of the names");
+    let (_, work) = WORKS.iter().find(|work| work.0 == name).expect("one of the names");
     work(count.parse().expect("a number of calls"));
 }
 
@@ -94,11 +91,7 @@ fn run(kernel: Kernel, side_by_side: usize, steps: usize) {
         Model::new(setup).expect("the scene is valid")
     };
     let models = scene::models(side_by_side).into_iter().map(shortened);
-    let job = |model| Job {
-        tag: (),
-        model,
-        recorder: (),
-    };
+    let job = |model| Job { tag: (), model, recorder: () };
     simulate_many_with(kernel, models.map(job), |ended| {
         black_box(ended.outcome.expect("nothing is written"));
         ControlFlow::Continue(())

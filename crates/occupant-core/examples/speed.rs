@@ -38,10 +38,7 @@ fn main() {
         }
     }
     report("pairs", model.system().contacts.pairs().len() as f64);
-    report(
-        "touches",
-        Instant::full(&model, TOUCHING_S).touches() as f64,
-    );
+    report("touches", Instant::full(&model, TOUCHING_S).touches() as f64);
     for ((name, _), best) in works.iter().zip(best) {
         report(name, best);
     }
@@ -144,11 +141,7 @@ fn sweep_ms() -> Vec<(Kernel, f64)> {
 }
 
 fn job(model: &Model) -> Job<(), ()> {
-    Job {
-        tag: (),
-        model: model.clone(),
-        recorder: (),
-    }
+    Job { tag: (), model: model.clone(), recorder: () }
 }
 
 /// A whole run, ms: the shortest time of each output interval among twenty runs, summed up.

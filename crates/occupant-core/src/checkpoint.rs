@@ -148,44 +148,30 @@ pub enum CheckpointError {
 impl fmt::Display for CheckpointError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match *self {
-            CheckpointError::Pairs { found, expected } => write!(
-                f,
-                "the checkpoint has {found} pairs of spheres and surfaces, the scenario {expected}"
-            ),
-            CheckpointError::Belts { found, expected } => write!(
-                f,
-                "the checkpoint has {found} belts, the scenario {expected}"
-            ),
-            CheckpointError::Time {
-                index,
-                found_s,
-                expected_s: Some(expected_s),
-            } => write!(
+            CheckpointError::Pairs { found, expected } => {
+                write!(f, "the checkpoint has {found} pairs of spheres and surfaces, the scenario {expected}")
+            }
+            CheckpointError::Belts { found, expected } => {
+                write!(f, "the checkpoint has {found} belts, the scenario {expected}")
+            }
+            CheckpointError::Time { index, found_s, expected_s: Some(expected_s) } => write!(
                 f,
                 "the checkpoint of output {index} is of t = {found_s} s, the scenario's output {index} of t = {expected_s} s"
             ),
-            CheckpointError::Time { index, found_s, .. } => write!(
-                f,
-                "the checkpoint is output {index} at t = {found_s} s, and the scenario ends before it"
-            ),
+            CheckpointError::Time { index, found_s, .. } => {
+                write!(f, "the checkpoint is output {index} at t = {found_s} s, and the scenario ends before it")
+            }
             CheckpointError::Pair { pair } => {
                 write!(f, "the checkpoint's pair {pair} is in no possible state")
             }
-            CheckpointError::Step {
-                start_s,
-                end_s,
-                time_s,
-            } => write!(
-                f,
-                "the checkpoint of t = {time_s} s has a step under way from {start_s} s to {end_s} s"
-            ),
+            CheckpointError::Step { start_s, end_s, time_s } => {
+                write!(f, "the checkpoint of t = {time_s} s has a step under way from {start_s} s to {end_s} s")
+            }
             CheckpointError::Touch { sphere, surface } => write!(
                 f,
                 "the checkpoint knows a touch of sphere {sphere} and surface {surface}, which the scenario does not have"
             ),
-            CheckpointError::NotFinite => {
-                f.write_str("the checkpoint holds numbers that are not finite")
-            }
+            CheckpointError::NotFinite => f.write_str("the checkpoint holds numbers that are not finite"),
         }
     }
 }
@@ -202,11 +188,7 @@ impl Checkpoint {
         let expected_s = output_time(model, self.index);
         // to the bit: a step from another time is another step
         if expected_s.map(f64::to_bits) != Some(self.time_s.to_bits()) {
-            return Err(CheckpointError::Time {
-                index: self.index,
-                found_s: self.time_s,
-                expected_s,
-            });
+            return Err(CheckpointError::Time { index: self.index, found_s: self.time_s, expected_s });
         }
         self.check_touches(model)?;
         if let Some(step) = &self.under_way {
@@ -221,11 +203,7 @@ impl Checkpoint {
         let time_s = self.time_s;
         match start_s <= time_s && time_s < end_s && end_s.is_finite() {
             true => check_histories(&step.pairs, &step.belts, &step.state),
-            false => Err(CheckpointError::Step {
-                start_s,
-                end_s,
-                time_s,
-            }),
+            false => Err(CheckpointError::Step { start_s, end_s, time_s }),
         }
     }
 
@@ -233,9 +211,7 @@ impl Checkpoint {
         let (spheres, surfaces) = (model.body().spheres.len(), model.faces().len());
         let strange = |t: &&FirstTouch| t.sphere >= spheres || t.surface >= surfaces;
         match self.first_touches.iter().find(strange) {
-            Some(&FirstTouch {
-                sphere, surface, ..
-            }) => Err(CheckpointError::Touch { sphere, surface }),
+            Some(&FirstTouch { sphere, surface, .. }) => Err(CheckpointError::Touch { sphere, surface }),
             None => Ok(()),
         }
     }
@@ -260,11 +236,7 @@ impl Checkpoint {
     }
 }
 
-fn check_lengths(
-    model: &Model,
-    pairs: &[PairHistory<f64>],
-    belts: &[BeltHistory<f64>],
-) -> Result<(), CheckpointError> {
+fn check_lengths(model: &Model, pairs: &[PairHistory<f64>], belts: &[BeltHistory<f64>]) -> Result<(), CheckpointError> {
     let system = model.system();
     let (found, expected) = (pairs.len(), system.contacts.pairs().len());
     if found != expected {
@@ -288,9 +260,7 @@ fn check_histories(
     if let Some(pair) = pairs.iter().position(|p| !possible(p)) {
         return Err(CheckpointError::Pair { pair });
     }
-    let belts = belts
-        .iter()
-        .flat_map(|b| [b.normal.x, b.normal.y, b.normal.z, b.greatest]);
+    let belts = belts.iter().flat_map(|b| [b.normal.x, b.normal.y, b.normal.z, b.greatest]);
     match belts.chain(state.to_numbers()).all(f64::is_finite) {
         true => Ok(()),
         false => Err(CheckpointError::NotFinite),

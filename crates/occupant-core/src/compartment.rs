@@ -29,11 +29,7 @@ impl FlatFace {
         let outline = surface.outline.clone();
         let (point, axis) = match &outline {
             Outline::Polygon(corners) => polygon_plane(corners, path, problems)?,
-            Outline::Disc {
-                centre_m,
-                radius_m,
-                axis,
-            } => {
+            Outline::Disc { centre_m, radius_m, axis } => {
                 if !(*radius_m > 0.0 && radius_m.is_finite()) {
                     problems.error(path, format!("radius {radius_m} m"), "a positive radius");
                     return None;
@@ -42,10 +38,7 @@ impl FlatFace {
             }
             Outline::Unbounded { point_m, axis } => (*point_m, *axis),
         };
-        let Some(normal) = axis
-            .try_normalize(1e-12)
-            .filter(|n| n.iter().all(|c| c.is_finite()))
-        else {
+        let Some(normal) = axis.try_normalize(1e-12).filter(|n| n.iter().all(|c| c.is_finite())) else {
             problems.error(path, "a normal of length zero", "a direction");
             return None;
         };
@@ -74,12 +67,7 @@ impl FlatFace {
             }
             other => other,
         };
-        Some(FlatFace {
-            frame: surface.frame,
-            normal,
-            offset_m: normal.dot(&point.coords),
-            outline,
-        })
+        Some(FlatFace { frame: surface.frame, normal, offset_m: normal.dot(&point.coords), outline })
     }
 
     /// Axes u, v of the plane with u × v = N̂.
@@ -123,51 +111,31 @@ fn overlap(a: Side, b: Side) -> bool {
 }
 
 /// A point of a convex polygon's plane and its normal for counter-clockwise corners.
-fn polygon_plane(
-    corners: &[Point3<f64>],
-    path: &str,
-    problems: &mut Problems,
-) -> Option<(Point3<f64>, Vector3<f64>)> {
+fn polygon_plane(corners: &[Point3<f64>], path: &str, problems: &mut Problems) -> Option<(Point3<f64>, Vector3<f64>)> {
     let n = corners.len();
     if n < 3 {
         problems.error(path, format!("{n} corners"), "at least three");
         return None;
     }
     if corners.iter().any(|p| p.iter().any(|c| !c.is_finite())) {
-        problems.error(
-            path,
-            "a corner that is not a finite number",
-            "finite coordinates",
-        );
+        problems.error(path, "a corner that is not a finite number", "finite coordinates");
         return None;
     }
     for (i, (p, q)) in sides(corners).enumerate() {
         if (q - p).norm() < SAME_M {
-            problems.error(
-                path,
-                format!("corners {} and {} coincide", i + 1, (i + 1) % n + 1),
-                "different corners",
-            );
+            problems.error(path, format!("corners {} and {} coincide", i + 1, (i + 1) % n + 1), "different corners");
             return None;
         }
     }
     // twice the vector area
-    let area: Vector3<f64> = sides(corners)
-        .map(|(p, q)| (p - corners[0]).cross(&(q - corners[0])))
-        .sum();
-    let size = corners
-        .iter()
-        .map(|p| (p - corners[0]).norm())
-        .fold(0.0, f64::max);
+    let area: Vector3<f64> = sides(corners).map(|(p, q)| (p - corners[0]).cross(&(q - corners[0]))).sum();
+    let size = corners.iter().map(|p| (p - corners[0]).norm()).fold(0.0, f64::max);
     if area.norm() < SAME_M * size {
         problems.error(path, "corners on one line", "corners that span a plane");
         return None;
     }
     let normal = area.normalize();
-    let warp = corners
-        .iter()
-        .map(|p| normal.dot(&(p - corners[0])).abs())
-        .fold(0.0, f64::max);
+    let warp = corners.iter().map(|p| normal.dot(&(p - corners[0])).abs()).fold(0.0, f64::max);
     if warp > 1e-3 * size {
         problems.error_with_hint(
             path,
@@ -190,8 +158,7 @@ fn polygon_plane(
         }
     }
     // turning one way at every corner is not enough: a star does so too
-    let beyond =
-        |(p, q): Side, r: &Point3<f64>| (q - p).cross(&(r - p)).dot(&normal) < -1e-9 * size * size;
+    let beyond = |(p, q): Side, r: &Point3<f64>| (q - p).cross(&(r - p)).dot(&normal) < -1e-9 * size * size;
     if sides(corners).any(|side| corners.iter().any(|r| beyond(side, r))) {
         problems.error_with_hint(
             path,

@@ -128,11 +128,7 @@ pub fn momentum(body: &Skeleton<f64>, k: &Kinematics<f64>, about: V3<f64>) -> (V
         let [ix, iy, iz] = link.central;
         linear += p;
         angular += (k.cg(body, n) - about).cross(p);
-        angular += k.axes[n].out(V3 {
-            x: ix * w.x,
-            y: iy * w.y,
-            z: iz * w.z,
-        });
+        angular += k.axes[n].out(V3 { x: ix * w.x, y: iy * w.y, z: iz * w.z });
     }
     (linear, angular)
 }

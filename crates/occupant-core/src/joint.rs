@@ -70,10 +70,7 @@ impl Joint {
 
     /// Elbows and knees turn about Y only.
     pub const fn is_hinge(self) -> bool {
-        matches!(
-            self,
-            Joint::LeftElbow | Joint::RightElbow | Joint::RightKnee | Joint::LeftKnee
-        )
+        matches!(self, Joint::LeftElbow | Joint::RightElbow | Joint::RightKnee | Joint::LeftKnee)
     }
 }
 

@@ -52,11 +52,8 @@ impl Model {
     pub fn new(setup: Setup) -> Result<Model, Problems> {
         let mut problems = Problems::new();
         validate::check(&setup, &mut problems);
-        let faces: Vec<Option<FlatFace>> = setup
-            .surfaces
-            .iter()
-            .map(|s| FlatFace::new(s, &format!("surfaces.{}", s.name), &mut problems))
-            .collect();
+        let faces: Vec<Option<FlatFace>> =
+            setup.surfaces.iter().map(|s| FlatFace::new(s, &format!("surfaces.{}", s.name), &mut problems)).collect();
         if let Err(problem) = setup.path.check_span(setup.time.start_s, setup.time.end_s) {
             problems.error("path", problem.to_string(), "a path for the whole run");
         }
@@ -65,13 +62,9 @@ impl Model {
         }
         let faces: Vec<FlatFace> = faces.into_iter().flatten().collect();
         match begin(&setup, &faces, &mut problems) {
-            Some((system, start)) if !problems.has_errors() => Ok(Model {
-                setup,
-                faces,
-                system,
-                start,
-                warnings: problems,
-            }),
+            Some((system, start)) if !problems.has_errors() => {
+                Ok(Model { setup, faces, system, start, warnings: problems })
+            }
             _ => Err(problems),
         }
     }
@@ -118,15 +111,9 @@ pub(crate) fn frames(vehicle: &FrameMotion) -> Frames<f64> {
 }
 
 /// Places the body, then everything that depends on where it is: β₀, L₀, pair states, velocities.
-fn begin(
-    setup: &Setup,
-    faces: &[FlatFace],
-    problems: &mut Problems,
-) -> Option<(System<f64>, Start)> {
+fn begin(setup: &Setup, faces: &[FlatFace], problems: &mut Problems) -> Option<(System<f64>, Start)> {
     let start_s = setup.time.start_s;
-    let vehicle = setup
-        .path
-        .motion(start_s, start_s, &mut PathCursor::default());
+    let vehicle = setup.path.motion(start_s, start_s, &mut PathCursor::default());
     let skeleton = Skeleton::new(&setup.body, setup.gravity_m_s2);
     let contacts = ContactSystem::new(
         &setup.body,
@@ -136,26 +123,13 @@ fn begin(
         setup.edge_force,
         setup.integrator.longest_step_s(),
     );
-    let mut system = System {
-        skeleton,
-        joints: JointSystem::new(&setup.joints, &[0.0; 7]),
-        contacts,
-        belts: Vec::new(),
-    };
+    let mut system =
+        System { skeleton, joints: JointSystem::new(&setup.joints, &[0.0; 7]), contacts, belts: Vec::new() };
     let (mut state, seated, settled) = match &setup.posture {
-        InitialPosture::Coordinates(q) | InitialPosture::Continued { coordinates: q, .. } => {
-            (q.to_state(), None, None)
-        }
+        InitialPosture::Coordinates(q) | InitialPosture::Continued { coordinates: q, .. } => (q.to_state(), None, None),
         InitialPosture::Seated(seating) => {
             let place = seat_of(setup, faces, seating, problems)?;
-            let (state, seated) = seat(
-                &setup.body,
-                seating,
-                &place,
-                &vehicle,
-                setup.gravity_m_s2,
-                problems,
-            )?;
+            let (state, seated) = seat(&setup.body, seating, &place, &vehicle, setup.gravity_m_s2, problems)?;
             if seating.settle {
                 let (state, settled) = settle(setup, &system, &vehicle, state);
                 settled.warn(problems);
@@ -166,11 +140,7 @@ fn begin(
         }
     };
     if !state.is_finite() {
-        problems.error(
-            "posture",
-            "coordinates that are not finite numbers",
-            "numbers",
-        );
+        problems.error("posture", "coordinates that are not finite numbers", "numbers");
         return None;
     }
     if seated.is_some() {
@@ -184,19 +154,9 @@ fn begin(
     let mut history = initial_history(&system, &k, &frames(&vehicle));
     if let InitialPosture::Continued { passed, .. } = &setup.posture {
         let pairs = |at: usize| continued_history(&system, &k, &frames(&vehicle), passed, at);
-        history.pairs = (0..system.contacts.groups().len())
-            .flat_map(pairs)
-            .collect();
+        history.pairs = (0..system.contacts.groups().len()).flat_map(pairs).collect();
     }
-    Some((
-        system,
-        Start {
-            state,
-            history,
-            seated,
-            settled,
-        },
-    ))
+    Some((system, Start { state, history, seated, settled }))
 }
 
 fn seat_of<'a>(
@@ -208,21 +168,13 @@ fn seat_of<'a>(
     let mut face = |index: usize, key: &str| {
         let found = faces.get(index);
         if found.is_none() {
-            problems.error(
-                format!("seat.{key}"),
-                "no such surface",
-                "a surface of the scenario",
-            );
+            problems.error(format!("seat.{key}"), "no such surface", "a surface of the scenario");
         }
         found
     };
     let (cushion, back) = (face(seating.cushion, "cushion"), face(seating.back, "back"));
     let material = setup.surfaces.get(seating.cushion)?.material;
-    Some(Seat {
-        cushion: cushion?,
-        back: back?,
-        spring: &setup.materials.get(material)?.spring,
-    })
+    Some(Seat { cushion: cushion?, back: back?, spring: &setup.materials.get(material)?.spring })
 }
 
 /// Gives every point of the body its velocity at the start.
@@ -269,23 +221,14 @@ fn belts(
         let law = BeltLaw::laid(belt, radius, V3::of(&centre));
         let rest_length_m = law.rest_length;
         if !(rest_length_m.is_finite() && rest_length_m > 0.0) {
-            problems.error(
-                path,
-                format!("an unstretched length of {rest_length_m} m"),
-                "a positive length",
-            );
+            problems.error(path, format!("an unstretched length of {rest_length_m} m"), "a positive length");
         }
         law
     };
     setup.belts.iter().map(law).collect()
 }
 
-fn centre_in(
-    system: &System<f64>,
-    k: &Kinematics<f64>,
-    sphere: usize,
-    vehicle: &FrameMotion,
-) -> Vector3<f64> {
+fn centre_in(system: &System<f64>, k: &Kinematics<f64>, sphere: usize, vehicle: &FrameMotion) -> Vector3<f64> {
     vehicle.point_to_frame(system.sphere(k, sphere).1.to_vector())
 }
 
@@ -299,25 +242,17 @@ fn continued_history(
 ) -> Vec<PairHistory<f64>> {
     let group = &system.contacts.groups()[at];
     let frame = &frames[group.frame];
-    let centre = frame
-        .axes
-        .into_frame(system.sphere(k, group.sphere).1 - frame.origin);
+    let centre = frame.axes.into_frame(system.sphere(k, group.sphere).1 - frame.origin);
     let history = |i: usize| {
         let parts = &system.contacts.pairs()[i].parts;
-        let is_passed = parts
-            .iter()
-            .any(|part| passed.contains(&(group.sphere, part.surface)));
+        let is_passed = parts.iter().any(|part| passed.contains(&(group.sphere, part.surface)));
         system.contacts.continued_history(i, centre, is_passed)
     };
     group.pairs.clone().map(history).collect()
 }
 
 /// Pair states and belt histories of a body that stands where it is.
-pub(crate) fn initial_history(
-    system: &System<f64>,
-    k: &Kinematics<f64>,
-    frames: &Frames<f64>,
-) -> History<f64> {
+pub(crate) fn initial_history(system: &System<f64>, k: &Kinematics<f64>, frames: &Frames<f64>) -> History<f64> {
     let in_frame = |sphere: usize, frame: usize| {
         let f: &Moving<f64> = &frames[frame];
         f.axes.into_frame(system.sphere(k, sphere).1 - f.origin)
@@ -329,10 +264,6 @@ pub(crate) fn initial_history(
         let history = |i| system.contacts.initial_history(i, radius, centre);
         pairs.extend(group.pairs.clone().map(history));
     }
-    let belts = system
-        .belts
-        .iter()
-        .map(|b| b.initial_history(in_frame(b.sphere, VEHICLE)))
-        .collect();
+    let belts = system.belts.iter().map(|b| b.initial_history(in_frame(b.sphere, VEHICLE))).collect();
     History::new(&system.contacts, pairs, belts)
 }

@@ -41,12 +41,7 @@ pub(crate) struct Meeting {
 impl From<&Touch<f64>> for Meeting {
     #[inline(always)]
     fn from(touch: &Touch<f64>) -> Self {
-        Meeting {
-            sphere: touch.sphere,
-            pair: touch.pair,
-            part: touch.part as usize,
-            closing_m_s: touch.closing,
-        }
+        Meeting { sphere: touch.sphere, pair: touch.pair, part: touch.part as usize, closing_m_s: touch.closing }
     }
 }
 
@@ -62,11 +57,7 @@ impl Seen {
     pub fn new(model: &Model) -> Self {
         let surfaces = model.faces().len();
         let combinations = model.body().spheres.len() * surfaces;
-        Seen {
-            surfaces,
-            known: vec![false; combinations],
-            touches: Vec::with_capacity(combinations),
-        }
+        Seen { surfaces, known: vec![false; combinations], touches: Vec::with_capacity(combinations) }
     }
 
     /// Takes over what an earlier part of the run has seen; all of it is of the model.
@@ -85,12 +76,7 @@ impl Seen {
         let known = &mut self.known[sphere * self.surfaces + surface];
         if !*known {
             *known = true;
-            self.touches.push(FirstTouch {
-                sphere,
-                surface,
-                time_s,
-                closing_m_s: meeting.closing_m_s,
-            });
+            self.touches.push(FirstTouch { sphere, surface, time_s, closing_m_s: meeting.closing_m_s });
         }
     }
 }

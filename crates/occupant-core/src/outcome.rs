@@ -75,20 +75,11 @@ pub enum StepError {
 impl fmt::Display for StepError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            StepError::NotFinite {
-                time_s,
-                step_s,
-                component,
-            } => write!(
+            StepError::NotFinite { time_s, step_s, component } => write!(
                 f,
                 "at t = {time_s:.6} s, in a step of {step_s:.3e} s, the {component} is no longer a finite number; a smaller step or softer springs and dampers may help"
             ),
-            StepError::StepTooSmall {
-                time_s,
-                step_s,
-                min_step_s,
-                error,
-            } => write!(
+            StepError::StepTooSmall { time_s, step_s, min_step_s, error } => write!(
                 f,
                 "at t = {time_s:.6} s the error control asks for a step of {step_s:.3e} s, below the smallest allowed, {min_step_s:.3e} s (error {error:.2} times the tolerance); a looser tolerance or a smaller `min_step` may help"
             ),
@@ -109,11 +100,7 @@ pub struct RecordingFailed {
 
 impl fmt::Display for RecordingFailed {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "recording failed at t = {:.6} s: {}",
-            self.time_s, self.source
-        )
+        write!(f, "recording failed at t = {:.6} s: {}", self.time_s, self.source)
     }
 }
 

@@ -32,11 +32,7 @@ impl fmt::Display for Problem {
             Severity::Warning => "warning",
             Severity::Error => "error",
         };
-        write!(
-            f,
-            "{word}: {}: {}; expected {}",
-            self.path, self.found, self.expected
-        )?;
+        write!(f, "{word}: {}: {}; expected {}", self.path, self.found, self.expected)?;
         match &self.hint {
             Some(hint) => write!(f, " ({hint})"),
             None => Ok(()),
@@ -55,12 +51,7 @@ impl Problems {
     }
 
     /// Adds an error.
-    pub fn error(
-        &mut self,
-        path: impl Into<String>,
-        found: impl Into<String>,
-        expected: impl Into<String>,
-    ) {
+    pub fn error(&mut self, path: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) {
         self.push(Severity::Error, path, found, expected, None);
     }
 
@@ -76,12 +67,7 @@ impl Problems {
     }
 
     /// Adds a warning.
-    pub fn warning(
-        &mut self,
-        path: impl Into<String>,
-        found: impl Into<String>,
-        expected: impl Into<String>,
-    ) {
+    pub fn warning(&mut self, path: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) {
         self.push(Severity::Warning, path, found, expected, None);
     }
 
@@ -93,13 +79,7 @@ impl Problems {
         expected: impl Into<String>,
         hint: Option<String>,
     ) {
-        self.0.push(Problem {
-            severity,
-            path: path.into(),
-            found: found.into(),
-            expected: expected.into(),
-            hint,
-        });
+        self.0.push(Problem { severity, path: path.into(), found: found.into(), expected: expected.into(), hint });
     }
 
     /// Appends all of `other`.

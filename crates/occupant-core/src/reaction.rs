@@ -80,10 +80,7 @@ pub fn reactions(sample: &Sample<'_>) -> [Reaction; 11] {
 
 fn in_axes(sample: &Sample<'_>, distal: Segment, load: Wrench<f64>) -> Reaction {
     let axes = &sample.evaluation.kinematics.axes[distal.index()];
-    Reaction {
-        force_n: axes.into_frame(load.force).to_vector(),
-        moment_n_m: axes.into_frame(load.moment).to_vector(),
-    }
+    Reaction { force_n: axes.into_frame(load.force).to_vector(), moment_n_m: axes.into_frame(load.moment).to_vector() }
 }
 
 /// Loads of contacts and belts, from which reactions follow.
@@ -97,11 +94,7 @@ impl<'s, 'a> Loads<'s, 'a> {
     fn new(sample: &'s Sample<'a>) -> Self {
         let mut passive = [Wrench::zero(); SEGMENTS];
         let k = &sample.evaluation.kinematics;
-        sample
-            .model
-            .system()
-            .joints
-            .apply(k, sample.state, &mut passive);
+        sample.model.system().joints.apply(k, sample.state, &mut passive);
         Loads { sample, passive }
     }
 
@@ -157,10 +150,8 @@ pub fn femur_axial_n(sample: &Sample<'_>, thigh: Segment) -> f64 {
         let sphere = &body.spheres[*s];
         sphere.segment == thigh && sphere.centre_from_lower_end_m.z < half_m
     };
-    let pushed: Vector3<f64> = (0..body.spheres.len())
-        .filter(at_knee)
-        .map(|s| sample.sphere_force_n(s) + sample.sphere_belt_force_n(s))
-        .sum();
+    let pushed: Vector3<f64> =
+        (0..body.spheres.len()).filter(at_knee).map(|s| sample.sphere_force_n(s) + sample.sphere_belt_force_n(s)).sum();
     let pushed = V3::of(&sample.vehicle.vector_to_space(pushed));
     // Z of a thigh points from the knee to the hip: a force at the knee against it pulls
     -(pushed - carried).dot(k.axes[thigh.index()].z)

@@ -45,10 +45,7 @@ impl ReportCoordinates {
         for (slot, &at) in EULER_START.iter().enumerate() {
             let angles = [q[at], q[at + 1], q[at + 2]];
             state.orientation[slot] = quaternion(&euler_rotation(angles));
-            state.omega[slot] = V3::of(&angular_velocity(
-                angles,
-                [rates[at], rates[at + 1], rates[at + 2]],
-            ));
+            state.omega[slot] = V3::of(&angular_velocity(angles, [rates[at], rates[at + 1], rates[at + 2]]));
         }
         for (slot, &at) in HINGE_PLACE.iter().enumerate() {
             state.hinge[slot] = q[at];
@@ -118,11 +115,7 @@ fn euler(rotation: &Matrix3<f64>, omega: Vector3<f64>) -> ([f64; 3], [f64; 3]) {
 
 fn euler_when_vertical(rotation: &Matrix3<f64>, omega: Vector3<f64>) -> ([f64; 3], [f64; 3]) {
     let horizontal = (omega.x * omega.x + omega.y * omega.y).sqrt();
-    let phi = if horizontal > 0.0 {
-        atan2(-omega.x, omega.y)
-    } else {
-        0.0
-    };
+    let phi = if horizontal > 0.0 { atan2(-omega.x, omega.y) } else { 0.0 };
     let up = rotation[(2, 2)] > 0.0;
     let theta = if up { 0.0 } else { std::f64::consts::PI };
     let rest = euler_rotation([phi, theta, 0.0]).tr_mul(rotation);
@@ -135,8 +128,5 @@ fn euler_when_vertical(rotation: &Matrix3<f64>, omega: Vector3<f64>) -> ([f64; 3
 pub fn quaternion(rotation: &Matrix3<f64>) -> Quat<f64> {
     let q = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*rotation));
     let Quaternion { coords } = *q.quaternion();
-    Quat {
-        w: coords.w,
-        v: v3(coords.x, coords.y, coords.z),
-    }
+    Quat { w: coords.w, v: v3(coords.x, coords.y, coords.z) }
 }

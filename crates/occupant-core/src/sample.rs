@@ -111,11 +111,7 @@ impl<'a> Sample<'a> {
         let n = segment.index();
         let near = k.joint[n];
         let far = near + k.axes[n].z * self.model.system().skeleton.links[n].far;
-        let (upper, lower) = if segment.hangs() {
-            (near, far)
-        } else {
-            (far, near)
-        };
+        let (upper, lower) = if segment.hangs() { (near, far) } else { (far, near) };
         [self.place_m(upper), self.place_m(lower)]
     }
 
@@ -146,10 +142,7 @@ impl<'a> Sample<'a> {
 
     /// Angular acceleration, segment axes, rad/s² (item 3).
     pub fn angular_acceleration_rad_s2(&self, segment: Segment) -> Vector3<f64> {
-        self.in_segment(
-            segment,
-            self.evaluation.accelerations.alpha[segment.index()],
-        )
+        self.in_segment(segment, self.evaluation.accelerations.alpha[segment.index()])
     }
 
     /// Absolute angular velocity, segment axes, rad/s (item 4).
@@ -160,8 +153,7 @@ impl<'a> Sample<'a> {
     /// Velocity of the centre of gravity, space axes, m/s.
     pub fn cg_velocity_m_s(&self, segment: Segment) -> Vector3<f64> {
         let k = &self.evaluation.kinematics;
-        k.cg_velocity(&self.model.system().skeleton, segment.index())
-            .to_vector()
+        k.cg_velocity(&self.model.system().skeleton, segment.index()).to_vector()
     }
 
     /// Touching pairs, one by one (item 5).
@@ -179,21 +171,13 @@ impl<'a> Sample<'a> {
     /// Force of belts on a sphere, vehicle axes, N.
     pub fn sphere_belt_force_n(&self, sphere: usize) -> Vector3<f64> {
         let laws = &self.model.system().belts;
-        let own = laws
-            .iter()
-            .zip(self.belts)
-            .filter(|(law, _)| law.sphere == sphere);
+        let own = laws.iter().zip(self.belts).filter(|(law, _)| law.sphere == sphere);
         own.map(|(_, action)| action.force.to_vector()).sum()
     }
 
     /// Centre of a sphere, vehicle axes, m.
     pub fn sphere_centre_m(&self, sphere: usize) -> Point3<f64> {
-        self.place_m(
-            self.model
-                .system()
-                .sphere(&self.evaluation.kinematics, sphere)
-                .1,
-        )
+        self.place_m(self.model.system().sphere(&self.evaluation.kinematics, sphere).1)
     }
 
     /// Point of application of a sphere's contact force relative to its centre, segment axes, m: the mean over the faces
@@ -207,20 +191,14 @@ impl<'a> Sample<'a> {
             sum -= normal.to_vector() * (site.radius * t.normal_force);
             total += t.normal_force;
         }
-        let mean = self.evaluation.kinematics.axes[site.segment]
-            .into_frame(V3::of(&sum))
-            .to_vector();
+        let mean = self.evaluation.kinematics.axes[site.segment].into_frame(V3::of(&sum)).to_vector();
         (total > 0.0).then(|| mean / total)
     }
 
     /// β of a ball joint or α of a hinge, rad.
     pub fn joint_angle_rad(&self, joint: Joint) -> f64 {
         match place(joint) {
-            Place::Ball(i) => self
-                .model
-                .system()
-                .joints
-                .beta(i, &self.evaluation.kinematics),
+            Place::Ball(i) => self.model.system().joints.beta(i, &self.evaluation.kinematics),
             Place::Hinge(i) => self.state.hinge[i],
         }
     }
@@ -232,11 +210,7 @@ impl<'a> Sample<'a> {
 
     /// Energy imbalance as a fraction of the greatest kinetic energy relative to the vehicle, `greatest_j`.
     pub fn balance_fraction(&self, greatest_j: f64) -> f64 {
-        if greatest_j > 0.0 {
-            self.energy.balance_j / greatest_j
-        } else {
-            0.0
-        }
+        if greatest_j > 0.0 { self.energy.balance_j / greatest_j } else { 0.0 }
     }
 
     fn contact(&self, t: &Touch<f64>) -> Contact {
@@ -266,17 +240,11 @@ impl<'a> Sample<'a> {
 
     fn cg_acceleration_space(&self, segment: Segment) -> V3<f64> {
         let e = self.evaluation;
-        e.accelerations.cg(
-            &self.model.system().skeleton,
-            &e.kinematics,
-            segment.index(),
-        )
+        e.accelerations.cg(&self.model.system().skeleton, &e.kinematics, segment.index())
     }
 
     fn in_segment(&self, segment: Segment, v: V3<f64>) -> Vector3<f64> {
-        self.evaluation.kinematics.axes[segment.index()]
-            .into_frame(v)
-            .to_vector()
+        self.evaluation.kinematics.axes[segment.index()].into_frame(v).to_vector()
     }
 
     fn place_m(&self, space: V3<f64>) -> Point3<f64> {
@@ -292,18 +260,8 @@ enum Place {
 
 fn place(joint: Joint) -> Place {
     // index of the distal segment
-    let ball = |lower| {
-        BALLS
-            .iter()
-            .position(|&(_, l)| l == lower)
-            .map_or(Place::Ball(0), Place::Ball)
-    };
-    let hinge = |lower| {
-        LIMBS
-            .iter()
-            .position(|&(_, l)| l == lower)
-            .map_or(Place::Hinge(0), Place::Hinge)
-    };
+    let ball = |lower| BALLS.iter().position(|&(_, l)| l == lower).map_or(Place::Ball(0), Place::Ball);
+    let hinge = |lower| LIMBS.iter().position(|&(_, l)| l == lower).map_or(Place::Hinge(0), Place::Hinge);
     match joint {
         Joint::Neck => ball(2),
         Joint::RightShoulder => ball(5),

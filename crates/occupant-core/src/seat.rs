@@ -60,11 +60,7 @@ pub fn seat(
         return None;
     };
     if pelvis.segment != Segment::LowerTorso {
-        problems.error(
-            "body.spheres.pelvis",
-            "not on the lower torso",
-            "the lower torso",
-        );
+        problems.error("body.spheres.pelvis", "not on the lower torso", "the lower torso");
         return None;
     }
     let sink_m = sink(body, seat, vehicle, gravity_m_s2, problems)?;
@@ -75,22 +71,8 @@ pub fn seat(
     let lower_end = pelvis_m - lean * pelvis.centre_from_lower_end_m.coords;
     let hip = Vector3::new(lower_end.x, 0.0, lower_end.z);
     let legs = [
-        leg(
-            body,
-            Segment::LeftThigh,
-            Segment::LeftLowerLeg,
-            hip,
-            seating,
-            problems,
-        ),
-        leg(
-            body,
-            Segment::RightThigh,
-            Segment::RightLowerLeg,
-            hip,
-            seating,
-            problems,
-        ),
+        leg(body, Segment::LeftThigh, Segment::LeftLowerLeg, hip, seating, problems),
+        leg(body, Segment::RightThigh, Segment::RightLowerLeg, hip, seating, problems),
     ];
     let [Some(left), Some(right)] = legs else {
         return None;
@@ -107,21 +89,9 @@ pub fn seat(
     for (orientation, lean) in state.orientation.iter_mut().zip(leans) {
         *orientation = quaternion(&(vehicle.rotation * leaned(lean)));
     }
-    state.hinge = [
-        seating.elbows_rad,
-        seating.elbows_rad,
-        left.thigh - left.shank,
-        right.thigh - right.shank,
-    ];
-    let knee_m = lower_end
-        - Vector3::y() * body.hip_half_width_m
-        - along(left.thigh) * length(Segment::LeftThigh);
-    let seated = Seated {
-        sink_m,
-        pelvis_m,
-        knee_m,
-        legs_rad: [left.thigh, left.shank],
-    };
+    state.hinge = [seating.elbows_rad, seating.elbows_rad, left.thigh - left.shank, right.thigh - right.shank];
+    let knee_m = lower_end - Vector3::y() * body.hip_half_width_m - along(left.thigh) * length(Segment::LeftThigh);
+    let seated = Seated { sink_m, pelvis_m, knee_m, legs_rad: [left.thigh, left.shank] };
     Some((state, seated))
 }
 
@@ -157,10 +127,7 @@ fn sink(
     if support < 0.1 {
         problems.error_with_hint(
             "seat.cushion",
-            format!(
-                "a cushion whose normal makes {:.0}° with the vertical",
-                crate::trig::acos(support).to_degrees()
-            ),
+            format!("a cushion whose normal makes {:.0}° with the vertical", crate::trig::acos(support).to_degrees()),
             "a cushion that faces up at the start",
             "check the cushion's `inside` point, or give the initial state in report coordinates",
         );
@@ -169,11 +136,7 @@ fn sink(
     let load = carried * gravity_m_s2 / support;
     let depth = depth_under(seat.spring, load);
     if depth.is_none() {
-        problems.error(
-            "materials",
-            "a cushion without stiffness",
-            "a positive k1 and k2",
-        );
+        problems.error("materials", "a cushion without stiffness", "a positive k1 and k2");
     }
     depth
 }
@@ -181,11 +144,8 @@ fn sink(
 /// Deformation at which the loading curve reaches `load` (N), m.
 fn depth_under(spring: &BilinearSpring, load: f64) -> Option<f64> {
     let first = spring.k1_n_per_m * spring.break_m;
-    let depth = if load <= first {
-        load / spring.k1_n_per_m
-    } else {
-        spring.break_m + (load - first) / spring.k2_n_per_m
-    };
+    let depth =
+        if load <= first { load / spring.k1_n_per_m } else { spring.break_m + (load - first) / spring.k2_n_per_m };
     let force = Spring::<f64>::new(spring).respond(depth, 0.0).0;
     (depth.is_finite() && (force - load).abs() < 1e-6 * load.max(1.0)).then_some(depth)
 }
@@ -198,25 +158,12 @@ fn place_pelvis(
     lateral_m: f64,
     problems: &mut Problems,
 ) -> Option<Vector3<f64>> {
-    let rows = Matrix3::from_rows(&[
-        seat.cushion.normal.transpose(),
-        seat.back.normal.transpose(),
-        Vector3::y().transpose(),
-    ]);
-    let places = Vector3::new(
-        seat.cushion.offset_m + radius_m - sink_m,
-        seat.back.offset_m + radius_m,
-        lateral_m,
-    );
-    let found = (rows.determinant().abs() > 1e-3)
-        .then(|| rows.lu().solve(&places))
-        .flatten();
+    let rows =
+        Matrix3::from_rows(&[seat.cushion.normal.transpose(), seat.back.normal.transpose(), Vector3::y().transpose()]);
+    let places = Vector3::new(seat.cushion.offset_m + radius_m - sink_m, seat.back.offset_m + radius_m, lateral_m);
+    let found = (rows.determinant().abs() > 1e-3).then(|| rows.lu().solve(&places)).flatten();
     if found.is_none() {
-        problems.error(
-            "seat",
-            "a cushion and a back that are parallel",
-            "planes that meet",
-        );
+        problems.error("seat", "a cushion and a back that are parallel", "planes that meet");
     }
     found
 }
@@ -266,8 +213,5 @@ fn leg(
     let thigh_lean = line + opening;
     let knee = hip - along(thigh_lean) * a;
     let down = Vector3::new(x, 0.0, z) - knee;
-    Some(Leg {
-        thigh: thigh_lean,
-        shank: crate::trig::atan2(down.x, down.z),
-    })
+    Some(Leg { thigh: thigh_lean, shank: crate::trig::atan2(down.x, down.z) })
 }

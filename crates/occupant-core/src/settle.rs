@@ -41,9 +41,7 @@ pub struct Settled {
 impl Settled {
     /// Warns when the body does not rest.
     pub(crate) fn warn(&self, problems: &mut Problems) {
-        if self.residual_force_n > 0.01 * self.weight_n
-            || self.residual_moment_n_m > 0.01 * self.weight_n * LEVER_M
-        {
+        if self.residual_force_n > 0.01 * self.weight_n || self.residual_moment_n_m > 0.01 * self.weight_n * LEVER_M {
             problems.warning(
                 "posture.settle",
                 format!(
@@ -101,11 +99,7 @@ pub(crate) fn settle(
 /// At most 2 cm (or the like in rotation) at a time: the forces are stiff and only piecewise smooth.
 fn limited(step: Vector6<f64>) -> Vector6<f64> {
     let norm = step.norm();
-    if norm > 0.02 {
-        step * (0.02 / norm)
-    } else {
-        step
-    }
+    if norm > 0.02 { step * (0.02 / norm) } else { step }
 }
 
 /// The body moved by x[0..3] (m) and turned about T1 by the rotation vector x[3..6]/lever.
@@ -132,12 +126,7 @@ fn turned_by(vector: &Vector3<f64>) -> Matrix3<f64> {
 }
 
 /// Resultant force (N) and moment about T1 over the lever (N) of contacts, belts and weight on the resting body.
-fn load(
-    setup: &Setup,
-    system: &System<f64>,
-    vehicle: &FrameMotion,
-    state: &State<f64>,
-) -> Vector6<f64> {
+fn load(setup: &Setup, system: &System<f64>, vehicle: &FrameMotion, state: &State<f64>) -> Vector6<f64> {
     let mut system = system.clone();
     let frames = frames(vehicle);
     // at rest: no friction, no damping
@@ -160,24 +149,13 @@ fn load(
     let (mut force, mut moment) = (V3::zero(), V3::zero());
     for (n, wrench) in e.wrench.iter().enumerate() {
         let link = &system.skeleton.links[n];
-        let weight = V3 {
-            x: 0.0,
-            y: 0.0,
-            z: -link.mass * system.skeleton.gravity,
-        };
+        let weight = V3 { x: 0.0, y: 0.0, z: -link.mass * system.skeleton.gravity };
         force += wrench.force + weight;
         moment += wrench.moment + (k.joint[n] - state.t1).cross(wrench.force);
         moment += (k.cg(&system.skeleton, n) - state.t1).cross(weight);
     }
     let lever = 1.0 / LEVER_M;
-    Vector6::new(
-        force.x,
-        force.y,
-        force.z,
-        moment.x * lever,
-        moment.y * lever,
-        moment.z * lever,
-    )
+    Vector6::new(force.x, force.y, force.z, moment.x * lever, moment.y * lever, moment.z * lever)
 }
 
 /// Central differences over a hundredth of a millimetre to either side (or the like in rotation).

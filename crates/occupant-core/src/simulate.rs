@@ -21,11 +21,7 @@ pub fn simulate(model: &Model, mut recorder: impl Recorder) -> Result<Outcome, R
 ///
 /// # Errors
 /// A checkpoint that does not fit the model; what the recorder reports.
-pub fn resume(
-    model: &Model,
-    checkpoint: &Checkpoint,
-    mut recorder: impl Recorder,
-) -> Result<Outcome, ResumeError> {
+pub fn resume(model: &Model, checkpoint: &Checkpoint, mut recorder: impl Recorder) -> Result<Outcome, ResumeError> {
     let run = Run::from_checkpoint(model, checkpoint).map_err(ResumeError::Refused)?;
     go(model, run, &mut recorder).map_err(ResumeError::Recording)
 }
@@ -34,33 +30,21 @@ pub fn resume(
 ///
 /// # Errors
 /// A checkpoint that does not fit the model; what the recorder reports.
-pub fn replay(
-    model: &Model,
-    checkpoint: &Checkpoint,
-    recorder: &mut impl Recorder,
-) -> Result<(), ResumeError> {
+pub fn replay(model: &Model, checkpoint: &Checkpoint, recorder: &mut impl Recorder) -> Result<(), ResumeError> {
     let mut run = Run::from_checkpoint(model, checkpoint).map_err(ResumeError::Refused)?;
     let recorded = run.record(model, recorder);
     recorded.map(|_| ()).map_err(ResumeError::Recording)
 }
 
 /// A whole run, from the present output of `run` on.
-fn go(
-    model: &Model,
-    mut run: Run,
-    recorder: &mut impl Recorder,
-) -> Result<Outcome, RecordingFailed> {
+fn go(model: &Model, mut run: Run, recorder: &mut impl Recorder) -> Result<Outcome, RecordingFailed> {
     run.begin(model, recorder)?;
     let status = go_on(model, &mut run, recorder)?;
     run.end(status, recorder)
 }
 
 /// From the present output of `run`, the next to be recorded, to the end.
-pub(crate) fn go_on(
-    model: &Model,
-    run: &mut Run,
-    recorder: &mut impl Recorder,
-) -> Result<Status, RecordingFailed> {
+pub(crate) fn go_on(model: &Model, run: &mut Run, recorder: &mut impl Recorder) -> Result<Status, RecordingFailed> {
     loop {
         if run.record(model, recorder)? == Flow::Stop {
             return Ok(Status::Stopped);
@@ -91,8 +75,5 @@ pub fn output_time(model: &Model, index: usize) -> Option<f64> {
 /// Number of outputs of a whole run.
 pub fn output_count(model: &Model) -> usize {
     let time = &model.setup().time;
-    (((time.end_s - time.start_s) / time.output_s) - 1e-9)
-        .floor()
-        .max(0.0) as usize
-        + 2
+    (((time.end_s - time.start_s) / time.output_s) - 1e-9).floor().max(0.0) as usize + 2
 }

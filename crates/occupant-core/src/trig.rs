@@ -54,15 +54,7 @@ mod tests {
     #[test]
     fn the_same_bits_everywhere() {
         let (sine, cosine) = sin_cos(1.0);
-        let found = [
-            sine,
-            cosine,
-            atan2(2.0, -3.0),
-            asin(0.3),
-            acos(0.3),
-            exp(0.7),
-        ]
-        .map(f64::to_bits);
+        let found = [sine, cosine, atan2(2.0, -3.0), asin(0.3), acos(0.3), exp(0.7)].map(f64::to_bits);
         let written_down = [
             0x3FEA_ED54_8F09_0CEE, // sin 1
             0x3FE1_4A28_0FB5_068C, // cos 1

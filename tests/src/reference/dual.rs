@@ -5,9 +5,7 @@
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// What the formulas of the reference need of a number.
-pub trait Number:
-    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
-{
+pub trait Number: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self> {
     /// A number that does not vary.
     fn constant(value: f64) -> Self;
     /// Sine.
@@ -76,10 +74,7 @@ impl<T: Number> Sub for Dual<T> {
 impl<T: Number> Mul for Dual<T> {
     type Output = Self;
     fn mul(self, b: Self) -> Self {
-        Dual::new(
-            self.value * b.value,
-            self.slope * b.value + self.value * b.slope,
-        )
+        Dual::new(self.value * b.value, self.slope * b.value + self.value * b.slope)
     }
 }
 

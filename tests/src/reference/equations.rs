@@ -34,12 +34,7 @@ pub struct Equations {
 /// # Panics
 /// If D is not positive definite: at a singular posture.
 pub fn equations_of_motion(system: &System, q: &[f64; DOF], rates: &[f64; DOF]) -> Equations {
-    let System {
-        body,
-        joints,
-        gravity,
-        forces,
-    } = system;
+    let System { body, joints, gravity, forces } = system;
     let d = mass_matrix(body, q, rates);
     let e = velocity_forces(body, q, rates);
     let f_p = std::array::from_fn(|j| -gravity_energy(body, gravity, &varied(q, j)).slope); // (51a)
@@ -47,21 +42,9 @@ pub fn equations_of_motion(system: &System, q: &[f64; DOF], rates: &[f64; DOF]) 
     let q_f = contact_forces(body, forces, q);
     let r = damping_forces(joints, q, rates);
     let right = DVector::from_fn(DOF, |j, _| e[j] + f_p[j] + f_s[j] + q_f[j] + r[j]);
-    let solution = d
-        .clone()
-        .cholesky()
-        .expect("D is positive definite")
-        .solve(&right);
+    let solution = d.clone().cholesky().expect("D is positive definite").solve(&right);
     let accelerations = std::array::from_fn(|j| solution[j]);
-    Equations {
-        d,
-        e,
-        f_p,
-        f_s,
-        q_f,
-        r,
-        accelerations,
-    }
+    Equations { d, e, f_p, f_s, q_f, r, accelerations }
 }
 
 /// D_jk = ∂²U/∂q̇_j∂q̇_k.
@@ -69,9 +52,7 @@ pub fn mass_matrix(body: &Body, q: &[f64; DOF], rates: &[f64; DOF]) -> DMatrix<f
     let still = q.map(Number::constant);
     DMatrix::from_fn(DOF, DOF, |j, k| {
         let pushed = varied(&varied(rates, j), k);
-        kinetic_energy::<Dual<Dual<f64>>>(body, &still, &pushed)
-            .slope
-            .slope
+        kinetic_energy::<Dual<Dual<f64>>>(body, &still, &pushed).slope.slope
     })
 }
 

@@ -22,10 +22,8 @@ pub fn contact_forces(body: &Body, forces: &[PointForce], q: &[f64; DOF]) -> [f6
         let work = |f: &PointForce| {
             let axes = pose.axes[f.segment.index()];
             // (65): X'_A = X' of the lower end + [T] (centre + r)
-            let point = pose.lower_end[f.segment.index()]
-                + f.point.x * axes.x
-                + f.point.y * axes.y
-                + f.point.z * axes.z;
+            let point =
+                pose.lower_end[f.segment.index()] + f.point.x * axes.x + f.point.y * axes.y + f.point.z * axes.z;
             Vector::constant(&f.force).dot(point.slope())
         };
         forces.iter().map(work).sum()

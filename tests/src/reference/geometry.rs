@@ -54,11 +54,7 @@ pub fn pose<T: Number>(body: &Body, q: &[T; DOF]) -> Pose<T> {
     ];
     // ρ is the distance of the centre of gravity from the lower end.
     let lower_end = std::array::from_fn(|i| cg[i] - rho[i + 1] * axes[i].z);
-    Pose {
-        axes,
-        cg,
-        lower_end,
-    }
+    Pose { axes, cg, lower_end }
 }
 
 /// [Tⁿ] of the eight free segments and [Tⁿᵐ] of forearms and lower legs.
@@ -96,11 +92,7 @@ fn euler<T: Number>(q: &[T; DOF], first: usize) -> Axes<T> {
 /// Eqs 8–11: [Tⁿᵐ] = [Tⁿ] R_y(α).
 fn hinge<T: Number>(t: Axes<T>, alpha: T) -> Axes<T> {
     let (sa, ca) = (alpha.sin(), alpha.cos());
-    Axes {
-        x: t.x * ca - t.z * sa,
-        y: t.y,
-        z: t.x * sa + t.z * ca,
-    }
+    Axes { x: t.x * ca - t.z * sa, y: t.y, z: t.x * sa + t.z * ca }
 }
 
 /// Values by the report's segment number, 1 to 12.

@@ -26,12 +26,7 @@ pub(super) fn balls(joints: &Joints) -> [(BallJoint, usize, usize); 7] {
 
 /// The four hinges with the number of their coordinate α (Eq. 72).
 fn hinges(joints: &Joints) -> [(HingeJoint, usize); 4] {
-    [
-        (joints.left_elbow, 22),
-        (joints.right_elbow, 23),
-        (joints.right_knee, 31),
-        (joints.left_knee, 30),
-    ]
+    [(joints.left_elbow, 22), (joints.right_elbow, 23), (joints.right_knee, 31), (joints.left_knee, 30)]
 }
 
 /// β between the Z axes of segments k and l: Eq. 71 for ε = 0, else atan2(√(s² + ε²), Z_k·Z_l).
@@ -99,14 +94,8 @@ fn ball_damping(ball: &BallJoint, beta: f64, beta_rate: f64) -> f64 {
 
 /// J of Figs 10 and 11: each stop works only while the hinge moves into it.
 fn hinge_damping(hinge: &HingeJoint, alpha: f64, alpha_rate: f64) -> f64 {
-    let stop = if alpha_rate > 0.0 {
-        hinge.upper_stop
-    } else {
-        hinge.lower_stop
-    };
-    stop.map_or(hinge.damping_n_m_s, |stop| {
-        stopped(hinge.damping_n_m_s, &stop, alpha)
-    })
+    let stop = if alpha_rate > 0.0 { hinge.upper_stop } else { hinge.lower_stop };
+    stop.map_or(hinge.damping_n_m_s, |stop| stopped(hinge.damping_n_m_s, &stop, alpha))
 }
 
 /// From J_N at the beginning of the stop linearly to J_S.

@@ -22,12 +22,8 @@ pub const FREE: [Segment; 8] = [
 ];
 
 /// The four segments on hinges.
-pub const HINGED: [Segment; 4] = [
-    Segment::LeftForearm,
-    Segment::RightForearm,
-    Segment::LeftLowerLeg,
-    Segment::RightLowerLeg,
-];
+pub const HINGED: [Segment; 4] =
+    [Segment::LeftForearm, Segment::RightForearm, Segment::LeftLowerLeg, Segment::RightLowerLeg];
 
 /// 31 speeds, or their rates, without Euler angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -47,11 +43,7 @@ pub fn space_velocities(q: &[f64; DOF], rates: &[f64; DOF]) -> SpaceMotion {
 }
 
 /// The accelerations that belong to q̈.
-pub fn space_accelerations(
-    q: &[f64; DOF],
-    rates: &[f64; DOF],
-    accelerations: &[f64; DOF],
-) -> SpaceMotion {
+pub fn space_accelerations(q: &[f64; DOF], rates: &[f64; DOF], accelerations: &[f64; DOF]) -> SpaceMotion {
     let omega = space_angular_velocities(&moving(q, rates), &moving(rates, accelerations));
     space_motion(accelerations, omega.map(|w| w.slope().into()))
 }
@@ -95,10 +87,7 @@ pub(super) fn angular_velocities<T: Number>(q: &[T; DOF], rates: &[T; DOF]) -> [
 }
 
 /// ω of every segment in space axes.
-pub(super) fn space_angular_velocities<T: Number>(
-    q: &[T; DOF],
-    rates: &[T; DOF],
-) -> [Vector<T>; 12] {
+pub(super) fn space_angular_velocities<T: Number>(q: &[T; DOF], rates: &[T; DOF]) -> [Vector<T>; 12] {
     let axes = super::geometry::all_axes(q);
     let local = angular_velocities(q, rates);
     std::array::from_fn(|i| {

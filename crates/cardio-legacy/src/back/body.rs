@@ -17,10 +17,7 @@ pub(super) fn read(back: &mut Back<'_>) {
         back.set(&format!("XLE({n})"), p.length_m, Unit::Inch);
         back.set(&format!("RHO({n})"), p.cg_from_lower_end_m, Unit::Inch);
         back.set(&format!("XM({n})"), p.mass_kg, Unit::Mass);
-        for (axis, inertia) in ["XIN", "YIN", "ZIN"]
-            .into_iter()
-            .zip(p.inertia_kg_m2.iter())
-        {
+        for (axis, inertia) in ["XIN", "YIN", "ZIN"].into_iter().zip(p.inertia_kg_m2.iter()) {
             back.set(&format!("{axis}({n})"), *inertia, Unit::Inertia);
         }
     }
@@ -34,22 +31,16 @@ fn spheres(back: &mut Back<'_>) {
     for (radius_m, name) in radii_m.iter_mut().zip(SPHERE_NAMES) {
         match body.sphere(name) {
             Some(at) => *radius_m = body.spheres[at].radius_m,
-            None => back.misfit(format!(
-                "body.spheres.{name} is removed: cards need all 17 spheres"
-            )),
+            None => back.misfit(format!("body.spheres.{name} is removed: cards need all 17 spheres")),
         }
     }
     let standard = standard_spheres(&body.segments, body.shoulder_half_width_m, &radii_m);
     for sphere in &body.spheres {
         match standard.iter().position(|s| s.name == sphere.name) {
-            None => back.misfit(format!(
-                "body.spheres.{}: cards know the report's 17 spheres only",
-                sphere.name
-            )),
+            None => back.misfit(format!("body.spheres.{}: cards know the report's 17 spheres only", sphere.name)),
             Some(at) => {
-                let moved = (sphere.centre_from_lower_end_m - standard[at].centre_from_lower_end_m)
-                    .norm()
-                    > SAME_PLACE_M;
+                let moved =
+                    (sphere.centre_from_lower_end_m - standard[at].centre_from_lower_end_m).norm() > SAME_PLACE_M;
                 if moved || sphere.segment != standard[at].segment {
                     back.misfit(format!(
                         "body.spheres.{}: it has been moved, and cards have no place for a centre",

@@ -14,12 +14,7 @@ use crate::layout::Unit;
 const SAME_PLACE: f64 = 1e-9;
 
 pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
-    let numbers: Vec<Option<u32>> = back
-        .setup
-        .surfaces
-        .iter()
-        .map(|s| layout.number_of(&s.name))
-        .collect();
+    let numbers: Vec<Option<u32>> = back.setup.surfaces.iter().map(|s| layout.number_of(&s.name)).collect();
     let mut polygons = Vec::new();
     for (surface, number) in back.setup.surfaces.iter().zip(numbers) {
         match number {
@@ -27,10 +22,7 @@ pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
                 read_surface(back, layout, surface, number);
                 polygons.extend(polygon(back, layout, surface, number));
             }
-            None => back.misfit(format!(
-                "surfaces.{}: it is none of the 25 surfaces of the cards",
-                surface.name
-            )),
+            None => back.misfit(format!("surfaces.{}: it is none of the 25 surfaces of the cards", surface.name)),
         }
     }
     place_points(back, polygons);
@@ -40,15 +32,10 @@ pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
     let there = |name: &str| back.setup.surfaces.iter().any(|s| s.name == name);
     let kept = |number: u32| back.kept.contains_key(&format!("STIF1({number})"));
     let numbered = (1..=25).zip(layout.names());
-    let missing: Vec<&str> = numbered
-        .filter(|(number, name)| !there(name) && !kept(*number))
-        .map(|(_, name)| name)
-        .collect();
+    let missing: Vec<&str> =
+        numbered.filter(|(number, name)| !there(name) && !kept(*number)).map(|(_, name)| name).collect();
     if !missing.is_empty() {
-        back.misfit(format!(
-            "surfaces {} are missing: cards need all 25 surfaces",
-            missing.join(", ")
-        ));
+        back.misfit(format!("surfaces {} are missing: cards need all 25 surfaces", missing.join(", ")));
     }
 }
 
@@ -66,28 +53,18 @@ fn read_surface(back: &mut Back<'_>, layout: &CompartmentLayout, surface: &Surfa
         read_material(back, material, number);
     }
     match (&surface.outline, number == layout.wheel.number) {
-        (
-            Outline::Disc {
-                centre_m, radius_m, ..
-            },
-            true,
-        ) => {
+        (Outline::Disc { centre_m, radius_m, .. }, true) => {
             back.set("DSW", 2.0 * radius_m, Unit::Inch);
             back.set("SWP", -centre_m.y, Unit::Inch);
         }
         (Outline::Polygon(_), false) => {}
-        _ => back.misfit(format!(
-            "surfaces.{name}: cards have a disc for the wheel and polygons for the others"
-        )),
+        _ => back.misfit(format!("surfaces.{name}: cards have a disc for the wheel and polygons for the others")),
     }
 }
 
 /// The wheel's name, centre and axis.
 fn wheel(setup: &Setup, layout: &CompartmentLayout) -> Option<(String, Point3<f64>, Vector3<f64>)> {
-    let surface = setup
-        .surfaces
-        .iter()
-        .find(|s| s.name == layout.wheel.name)?;
+    let surface = setup.surfaces.iter().find(|s| s.name == layout.wheel.name)?;
     match &surface.outline {
         Outline::Disc { centre_m, axis, .. } => Some((surface.name.clone(), *centre_m, *axis)),
         _ => None,
@@ -98,89 +75,45 @@ fn read_material(back: &mut Back<'_>, material: &Material, number: u32) {
     let spring = &material.spring;
     back.misfit_if(
         material.memory != Memory::Reset,
-        &format!(
-            "materials.{}.memory = \"retain\": cards forget",
-            material.name
-        ),
+        &format!("materials.{}.memory = \"retain\": cards forget", material.name),
     );
     let usual = material.friction_speed_m_s == DEFAULT_FRICTION_SPEED_M_S;
-    back.misfit_if(
-        !usual,
-        &format!(
-            "materials.{}.friction_speed: cards cannot choose it",
-            material.name
-        ),
-    );
-    back.set(
-        &format!("STIF1({number})"),
-        spring.k1_n_per_m,
-        Unit::Stiffness,
-    );
-    back.set(
-        &format!("STIF2({number})"),
-        spring.k2_n_per_m,
-        Unit::Stiffness,
-    );
+    back.misfit_if(!usual, &format!("materials.{}.friction_speed: cards cannot choose it", material.name));
+    back.set(&format!("STIF1({number})"), spring.k1_n_per_m, Unit::Stiffness);
+    back.set(&format!("STIF2({number})"), spring.k2_n_per_m, Unit::Stiffness);
     back.set(&format!("DELB({number})"), spring.break_m, Unit::Inch);
     back.set(&format!("AMU1({number})"), spring.returned_1, Unit::One);
     back.set(&format!("AMU2({number})"), spring.returned_2, Unit::One);
     back.set(&format!("COFR({number})"), material.friction, Unit::One);
 }
 
-fn polygon(
-    back: &mut Back<'_>,
-    layout: &CompartmentLayout,
-    surface: &Surface,
-    number: u32,
-) -> Option<Polygon> {
+fn polygon(back: &mut Back<'_>, layout: &CompartmentLayout, surface: &Surface, number: u32) -> Option<Polygon> {
     let Outline::Polygon(corners) = &surface.outline else {
         return None;
     };
     let (name, wanted) = (&surface.name, layout.corners_of(number));
     if wanted.len() != corners.len() {
-        back.misfit(format!(
-            "surfaces.{name} has {} corners; on cards it has {}",
-            corners.len(),
-            wanted.len()
-        ));
+        back.misfit(format!("surfaces.{name} has {} corners; on cards it has {}", corners.len(), wanted.len()));
         return None;
     }
     let count = corners.len();
-    let orders =
-        (0..count).flat_map(|start| [false, true].map(|turned| order(count, start, turned)));
-    let on_their_sides = orders.filter(|order| {
-        order
-            .iter()
-            .zip(&wanted)
-            .all(|(at, corner)| on_its_side(corner, &corners[*at]))
-    });
+    let orders = (0..count).flat_map(|start| [false, true].map(|turned| order(count, start, turned)));
+    let on_their_sides =
+        orders.filter(|order| order.iter().zip(&wanted).all(|(at, corner)| on_its_side(corner, &corners[*at])));
     let reading = |order: Vec<usize>| {
-        order
-            .iter()
-            .zip(&wanted)
-            .flat_map(|(at, corner)| fields_at(corner, &corners[*at]))
-            .collect()
+        order.iter().zip(&wanted).flat_map(|(at, corner)| fields_at(corner, &corners[*at])).collect()
     };
     let readings: Vec<_> = on_their_sides.map(reading).collect();
     if readings.is_empty() {
-        back.misfit(format!("surfaces.{name}: its corners do not lie left and right as those of the cards' surface {number}"));
+        back.misfit(format!(
+            "surfaces.{name}: its corners do not lie left and right as those of the cards' surface {number}"
+        ));
     }
-    Some(Polygon {
-        name: name.clone(),
-        readings,
-    })
+    Some(Polygon { name: name.clone(), readings })
 }
 
 fn order(count: usize, start: usize, turned: bool) -> Vec<usize> {
-    (0..count)
-        .map(|i| {
-            if turned {
-                (start + count - i) % count
-            } else {
-                (start + i) % count
-            }
-        })
-        .collect()
+    (0..count).map(|i| if turned { (start + count - i) % count } else { (start + i) % count }).collect()
 }
 
 fn on_its_side(corner: &Corner, place: &Point3<f64>) -> bool {
@@ -198,26 +131,12 @@ fn fields_at(corner: &Corner, place: &Point3<f64>) -> [(String, String); 3] {
 }
 
 /// Cards have no place for the wheel's; where it is not where a conversion puts it, that is lost.
-fn check_wheel(
-    back: &mut Back<'_>,
-    layout: &CompartmentLayout,
-    name: &str,
-    centre: Point3<f64>,
-    axis: Vector3<f64>,
-) {
+fn check_wheel(back: &mut Back<'_>, layout: &CompartmentLayout, name: &str, centre: Point3<f64>, axis: Vector3<f64>) {
     let wheel = &layout.wheel;
     let inch = super::digits::factor(Unit::Inch);
-    let known = |name: String| {
-        back.builder
-            .digits(&name)
-            .and_then(|d| d.parse::<f64>().ok())
-            .unwrap_or(f64::NAN)
-            * inch
-    };
-    let (x, z) = (
-        known(format!("XV({})", wheel.point)),
-        known(format!("ZV({})", wheel.point)),
-    );
+    let known =
+        |name: String| back.builder.digits(&name).and_then(|d| d.parse::<f64>().ok()).unwrap_or(f64::NAN) * inch;
+    let (x, z) = (known(format!("XV({})", wheel.point)), known(format!("ZV({})", wheel.point)));
     let (sin, cos) = wheel.tilt_deg.to_radians().sin_cos();
     let axis = axis / axis.norm();
     let tilted = (axis - Vector3::new(-cos, 0.0, -sin)).norm() > SAME_PLACE;

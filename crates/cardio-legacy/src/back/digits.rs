@@ -53,17 +53,11 @@ fn shortest(si: f64, factor: f64) -> String {
         return "0".to_owned();
     }
     let candidates = (0..17).map(|places| format!("{value:.places$e}"));
-    let found = candidates
-        .filter_map(|text| text.parse::<f64>().ok())
-        .find(|candidate| candidate * factor == si);
+    let found = candidates.filter_map(|text| text.parse::<f64>().ok()).find(|candidate| candidate * factor == si);
     plain(found.unwrap_or(value))
 }
 
 /// A number without exponent, unless it is very small or large.
 fn plain(value: f64) -> String {
-    if (1e-5..1e10).contains(&value.abs()) {
-        format!("{value}")
-    } else {
-        format!("{value:e}")
-    }
+    if (1e-5..1e10).contains(&value.abs()) { format!("{value}") } else { format!("{value:e}") }
 }

@@ -38,15 +38,12 @@ impl RunEnd {
     pub fn after(spine_rest_rad: [f64; 2], last: &Sample<'_>, layout: &CompartmentLayout) -> Self {
         let model = last.model;
         let lengths = |sphere: &str| {
-            let belt = model.setup().belts.iter().position(|b| {
-                model
-                    .body()
-                    .spheres
-                    .get(b.sphere)
-                    .is_some_and(|s| s.name == sphere)
-            });
-            belt.and_then(|at| model.system().belts.get(at))
-                .map(|law| law.rest_length)
+            let belt = model
+                .setup()
+                .belts
+                .iter()
+                .position(|b| model.body().spheres.get(b.sphere).is_some_and(|s| s.name == sphere));
+            belt.and_then(|at| model.system().belts.get(at)).map(|law| law.rest_length)
         };
         Self {
             time_s: last.time_s,
@@ -61,15 +58,8 @@ impl RunEnd {
 /// β₀ of the upper and the lower back joint: the scenario's, or the angles at the start.
 pub fn spine_rest(first: &Sample<'_>) -> [f64; 2] {
     let joints = &first.model.setup().joints;
-    [
-        (joints.upper_back, Joint::UpperBack),
-        (joints.lower_back, Joint::LowerBack),
-    ]
-    .map(|(data, joint)| {
-        data.spring
-            .and_then(|s| s.rest_rad)
-            .unwrap_or_else(|| first.joint_angle_rad(joint))
-    })
+    [(joints.upper_back, Joint::UpperBack), (joints.lower_back, Joint::LowerBack)]
+        .map(|(data, joint)| data.spring.and_then(|s| s.rest_rad).unwrap_or_else(|| first.joint_angle_rad(joint)))
 }
 
 fn passed(sample: &Sample<'_>, layout: &CompartmentLayout) -> Vec<(u32, u32)> {
@@ -78,24 +68,11 @@ fn passed(sample: &Sample<'_>, layout: &CompartmentLayout) -> Vec<(u32, u32)> {
     let mut pairs = BTreeSet::new();
     for group in contacts.groups() {
         for at in group.pairs.clone() {
-            let is_passed = sample
-                .history
-                .pairs
-                .get(at)
-                .is_some_and(|p| p.phase == PASSED);
-            let parts = contacts
-                .pairs()
-                .get(at)
-                .map(|p| p.parts.as_slice())
-                .unwrap_or_default();
+            let is_passed = sample.history.pairs.get(at).is_some_and(|p| p.phase == PASSED);
+            let parts = contacts.pairs().get(at).map(|p| p.parts.as_slice()).unwrap_or_default();
             for part in parts.iter().filter(|_| is_passed) {
-                let number = surfaces
-                    .get(part.surface)
-                    .and_then(|s| layout.number_of(&s.name));
-                pairs
-                    .extend(number.and_then(|surface| {
-                        Some((u32::try_from(group.sphere + 1).ok()?, surface))
-                    }));
+                let number = surfaces.get(part.surface).and_then(|s| layout.number_of(&s.name));
+                pairs.extend(number.and_then(|surface| Some((u32::try_from(group.sphere + 1).ok()?, surface))));
             }
         }
     }
@@ -124,11 +101,7 @@ impl Deck {
         }
         set_coordinates(&mut builder, &end.coordinates);
         builder.without_series(14);
-        let pairs: Vec<_> = end
-            .passed
-            .iter()
-            .map(|(j, k)| (j.to_string(), k.to_string()))
-            .collect();
+        let pairs: Vec<_> = end.passed.iter().map(|(j, k)| (j.to_string(), k.to_string())).collect();
         if !pairs.is_empty() {
             set_pairs(&mut builder, &pairs);
         }
@@ -139,11 +112,8 @@ impl Deck {
 /// q and their rates in inches and radians.
 fn set_coordinates(builder: &mut DeckBuilder, coordinates: &ReportCoordinates) {
     for (at, (q, rate)) in coordinates.q.iter().zip(&coordinates.rates).enumerate() {
-        let (unit, rate_unit) = if at < 3 {
-            (Unit::Inch, Unit::InchPerSecond)
-        } else {
-            (Unit::Radian, Unit::RadianPerSecond)
-        };
+        let (unit, rate_unit) =
+            if at < 3 { (Unit::Inch, Unit::InchPerSecond) } else { (Unit::Radian, Unit::RadianPerSecond) };
         builder.set(&format!("Q0({})", at + 1), &rounded(*q, unit));
         builder.set(&format!("QDO({})", at + 1), &rounded(*rate, rate_unit));
     }
@@ -152,18 +122,10 @@ fn set_coordinates(builder: &mut DeckBuilder, coordinates: &ReportCoordinates) {
 /// A number of a state as cards show it: six decimals, fewer where they would not leave a blank before the next field.
 fn rounded(si: f64, unit: Unit) -> String {
     let value = si / factor(unit);
-    let texts = (0..=DECIMALS)
-        .rev()
-        .map(|decimals| format!("{value:.decimals$}"));
-    let fitting = texts
-        .into_iter()
-        .find(|text| text.len() <= STATE_WIDTH)
-        .unwrap_or_else(|| format!("{value:e}"));
+    let texts = (0..=DECIMALS).rev().map(|decimals| format!("{value:.decimals$}"));
+    let fitting = texts.into_iter().find(|text| text.len() <= STATE_WIDTH).unwrap_or_else(|| format!("{value:e}"));
     match fitting.contains('.') {
-        true => fitting
-            .trim_end_matches('0')
-            .trim_end_matches('.')
-            .to_owned(),
+        true => fitting.trim_end_matches('0').trim_end_matches('.').to_owned(),
         false => fitting,
     }
 }

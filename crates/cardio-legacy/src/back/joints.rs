@@ -10,82 +10,27 @@ pub(super) fn read(back: &mut Back<'_>) {
     let smooth = joints.epsilon == Joints::default().epsilon;
     back.misfit_if(!smooth, "joints.epsilon: cards cannot choose it");
     let same = joints.left_shoulder == joints.right_shoulder && joints.left_hip == joints.right_hip;
-    back.misfit_if(
-        !same,
-        "shoulders or hips that differ between left and right: cards have one of each",
-    );
+    back.misfit_if(!same, "shoulders or hips that differ between left and right: cards have one of each");
     let same = joints.left_elbow == joints.right_elbow && joints.left_knee == joints.right_knee;
-    back.misfit_if(
-        !same,
-        "elbows or knees that differ between left and right: cards have one of each",
-    );
-    ball(
-        back,
-        "neck",
-        &joints.neck,
-        ["XJNN", "XJSN", "AGNN", "AGSN"],
-        None,
-    );
-    ball(
-        back,
-        "shoulders",
-        &joints.left_shoulder,
-        ["XJNS", "XJSS", "AGNS", "AGSS"],
-        None,
-    );
-    ball(
-        back,
-        "upper_back",
-        &joints.upper_back,
-        ["XJNUB", "XJSUB", "AGNUB", "AGSUB"],
-        Some(("SPJNT4", "BETA4")),
-    );
-    ball(
-        back,
-        "lower_back",
-        &joints.lower_back,
-        ["XJNLB", "XJSLB", "AGNLB", "AGSLB"],
-        Some(("SPJNT7", "BETA7")),
-    );
-    ball(
-        back,
-        "hips",
-        &joints.left_hip,
-        ["XJNH", "XJSH", "AGNH", "AGSH"],
-        None,
-    );
-    hinge(
-        back,
-        "elbows",
-        &joints.left_elbow,
-        ["XJNE", "XJSE", "AGNE", "AGSE"],
-    );
-    hinge(
-        back,
-        "knees",
-        &joints.left_knee,
-        ["XJNK", "XJSK", "AGNK", "AGSK"],
-    );
+    back.misfit_if(!same, "elbows or knees that differ between left and right: cards have one of each");
+    ball(back, "neck", &joints.neck, ["XJNN", "XJSN", "AGNN", "AGSN"], None);
+    ball(back, "shoulders", &joints.left_shoulder, ["XJNS", "XJSS", "AGNS", "AGSS"], None);
+    ball(back, "upper_back", &joints.upper_back, ["XJNUB", "XJSUB", "AGNUB", "AGSUB"], Some(("SPJNT4", "BETA4")));
+    ball(back, "lower_back", &joints.lower_back, ["XJNLB", "XJSLB", "AGNLB", "AGSLB"], Some(("SPJNT7", "BETA7")));
+    ball(back, "hips", &joints.left_hip, ["XJNH", "XJSH", "AGNH", "AGSH"], None);
+    hinge(back, "elbows", &joints.left_elbow, ["XJNE", "XJSE", "AGNE", "AGSE"]);
+    hinge(back, "knees", &joints.left_knee, ["XJNK", "XJSK", "AGNK", "AGSK"]);
 }
 
-fn ball(
-    back: &mut Back<'_>,
-    name: &str,
-    joint: &BallJoint,
-    fields: [&str; 4],
-    spring: Option<(&str, &str)>,
-) {
+fn ball(back: &mut Back<'_>, name: &str, joint: &BallJoint, fields: [&str; 4], spring: Option<(&str, &str)>) {
     let [normal, full, begin, end] = fields;
-    back.misfit_if(
-        joint.twist_damping_n_m_s != 0.0,
-        &format!("joints.{name}.twist_damping: cards have none"),
-    );
+    back.misfit_if(joint.twist_damping_n_m_s != 0.0, &format!("joints.{name}.twist_damping: cards have none"));
     back.set(normal, joint.damping_n_m_s, Unit::RotaryDamping);
     stop(back, joint.stop, [begin, end, full]);
     match (joint.spring, spring) {
-        (Some(_), None) => back.misfit(format!(
-            "joints.{name}.stiffness: cards have springs in the two back joints only"
-        )),
+        (Some(_), None) => {
+            back.misfit(format!("joints.{name}.stiffness: cards have springs in the two back joints only"))
+        }
         (Some(data), Some((stiffness, rest))) => {
             back.set(stiffness, data.stiffness_n_m, Unit::RotaryStiffness);
             if let Some(rest_rad) = data.rest_rad {
@@ -97,27 +42,16 @@ fn ball(
     }
 }
 
-fn hinge(
-    back: &mut Back<'_>,
-    name: &str,
-    joint: &HingeJoint,
-    [normal, full, begin, end]: [&str; 4],
-) {
+fn hinge(back: &mut Back<'_>, name: &str, joint: &HingeJoint, [normal, full, begin, end]: [&str; 4]) {
     back.set(normal, joint.damping_n_m_s, Unit::RotaryDamping);
     for (side, data) in [(1, joint.lower_stop), (2, joint.upper_stop)] {
-        stop(
-            back,
-            data,
-            [&format!("{begin}({side})"), &format!("{end}({side})"), full],
-        );
+        stop(back, data, [&format!("{begin}({side})"), &format!("{end}({side})"), full]);
     }
     if let (Some(lower), Some(upper)) = (joint.lower_stop, joint.upper_stop) {
         let differ = lower.damping_n_m_s != upper.damping_n_m_s;
         back.misfit_if(
             differ,
-            &format!(
-                "joints.{name}: the two stops have different dampings; cards have one, {full}"
-            ),
+            &format!("joints.{name}: the two stops have different dampings; cards have one, {full}"),
         );
     }
 }

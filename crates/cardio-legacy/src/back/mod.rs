@@ -52,9 +52,7 @@ impl fmt::Display for NoDeck {
             }
             Self::Misfits(misfits) => {
                 write!(f, "the scenario does not fit on cards:")?;
-                misfits
-                    .iter()
-                    .try_for_each(|misfit| write!(f, "\n  - {misfit}"))
+                misfits.iter().try_for_each(|misfit| write!(f, "\n  - {misfit}"))
             }
         }
     }
@@ -67,10 +65,7 @@ impl Deck {
     ///
     /// # Errors
     /// A scenario that is refused, or every feature of it that cards cannot hold.
-    pub fn from_scenario(
-        scenario: &Loaded,
-        layout: Option<&CompartmentLayout>,
-    ) -> Result<FromScenario, NoDeck> {
+    pub fn from_scenario(scenario: &Loaded, layout: Option<&CompartmentLayout>) -> Result<FromScenario, NoDeck> {
         let (setup, _) = scenario.build().map_err(|d| NoDeck::Refused(Box::new(d)))?;
         let layout = match layout {
             Some(layout) => layout.clone(),
@@ -101,14 +96,7 @@ struct Back<'a> {
 
 impl<'a> Back<'a> {
     fn new(setup: &'a Setup, kept: Kept) -> Self {
-        Self {
-            setup,
-            kept,
-            builder: DeckBuilder::new(),
-            passed: Vec::new(),
-            remarks: Vec::new(),
-            misfits: Vec::new(),
-        }
+        Self { setup, kept, builder: DeckBuilder::new(), passed: Vec::new(), remarks: Vec::new(), misfits: Vec::new() }
     }
 
     /// Sets a field from an SI number.
@@ -129,7 +117,9 @@ impl<'a> Back<'a> {
         match self.builder.digits(name).map(str::to_owned) {
             None => self.set(name, si, unit),
             Some(before) if before == digits || before.parse::<f64>() == digits.parse::<f64>() => {}
-            Some(before) => self.misfit(format!("{where_said} has {digits} where another place has {before}: on cards both are {name}")),
+            Some(before) => self.misfit(format!(
+                "{where_said} has {digits} where another place has {before}: on cards both are {name}"
+            )),
         }
     }
 
@@ -148,16 +138,10 @@ impl<'a> Back<'a> {
             return Err(NoDeck::Misfits(self.misfits));
         }
         let titles = self.titles();
-        let plot = if self.kept.get(kept::PLOT).map(String::as_str) == Some("STAN") {
-            Plot::Standard
-        } else {
-            Plot::None
-        };
+        let plot =
+            if self.kept.get(kept::PLOT).map(String::as_str) == Some("STAN") { Plot::Standard } else { Plot::None };
         self.keep();
-        Ok(FromScenario {
-            deck: self.builder.build(titles, plot),
-            remarks: self.remarks,
-        })
+        Ok(FromScenario { deck: self.builder.build(titles, plot), remarks: self.remarks })
     }
 
     fn titles(&mut self) -> [String; 2] {
@@ -168,26 +152,15 @@ impl<'a> Back<'a> {
         let second = self.kept.get(kept::TITLE_2).cloned().unwrap_or_default();
         let one_line = first.lines().next().unwrap_or_default();
         if one_line.chars().count() > CARD_WIDTH {
-            self.remarks
-                .push(format!("the title is cut to {CARD_WIDTH} columns"));
+            self.remarks.push(format!("the title is cut to {CARD_WIDTH} columns"));
         }
-        [one_line, &second].map(|title| {
-            title
-                .chars()
-                .take(CARD_WIDTH)
-                .collect::<String>()
-                .trim_end_matches(' ')
-                .to_owned()
-        })
+        [one_line, &second]
+            .map(|title| title.chars().take(CARD_WIDTH).collect::<String>().trim_end_matches(' ').to_owned())
     }
 
     /// Fields that the scenario could not say and its notes kept.
     fn keep(&mut self) {
-        let kept: Vec<(String, String)> = self
-            .kept
-            .iter()
-            .map(|(n, v)| (n.clone(), v.clone()))
-            .collect();
+        let kept: Vec<(String, String)> = self.kept.iter().map(|(n, v)| (n.clone(), v.clone())).collect();
         let mut pairs = std::mem::take(&mut self.passed);
         for (name, value) in kept {
             if let Some(place) = name.strip_prefix(kept::PAIR) {
@@ -204,15 +177,12 @@ impl<'a> Back<'a> {
         if !pairs.is_empty() {
             extension::set_pairs(&mut self.builder, &pairs);
         }
-        for (name, value, why) in [
-            ("NDISK", "1", "no plot data on disk"),
-            ("XV(14)", "0", "point 14 bounds no surface"),
-            ("ZV(14)", "", ""),
-        ] {
+        for (name, value, why) in
+            [("NDISK", "1", "no plot data on disk"), ("XV(14)", "0", "point 14 bounds no surface"), ("ZV(14)", "", "")]
+        {
             if !self.builder.has(name) {
                 let floor = self.builder.digits("ZV(8)").unwrap_or("0").to_owned();
-                self.builder
-                    .set(name, if value.is_empty() { &floor } else { value });
+                self.builder.set(name, if value.is_empty() { &floor } else { value });
                 if !why.is_empty() {
                     self.remarks.push(format!("{name} = {value}: {why}"));
                 }

@@ -20,13 +20,9 @@ pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
             let rest = [back.setup.joints.upper_back, back.setup.joints.lower_back]
                 .iter()
                 .any(|j| j.spring.is_some_and(|s| s.rest_rad.is_some()));
-            back.misfit_if(
-                rest,
-                "joints.*.rest_angle beside a posture: cards take β₀ from the posture if NPOS = 0",
-            );
+            back.misfit_if(rest, "joints.*.rest_angle beside a posture: cards take β₀ from the posture if NPOS = 0");
         }
-        InitialPosture::Coordinates(coordinates)
-        | InitialPosture::Continued { coordinates, .. } => {
+        InitialPosture::Coordinates(coordinates) | InitialPosture::Continued { coordinates, .. } => {
             back.builder.set("NPOS", "1");
             back.builder.with_series(6);
             coordinates_on(back, coordinates);
@@ -35,7 +31,10 @@ pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
                 ("lower_back", back.setup.joints.lower_back.spring),
             ] {
                 let open = spring.is_some_and(|s| s.rest_rad.is_none());
-                back.misfit_if(open, &format!("joints.{joint} without rest_angle: a deck with NPOS = 1 needs β₀ (BETA4, BETA7)"));
+                back.misfit_if(
+                    open,
+                    &format!("joints.{joint} without rest_angle: a deck with NPOS = 1 needs β₀ (BETA4, BETA7)"),
+                );
             }
         }
     }
@@ -51,12 +50,8 @@ fn passed_on(back: &mut Back<'_>, layout: &CompartmentLayout, passed: &[(usize, 
         let name = back.setup.surfaces.get(surface).map(|s| s.name.clone());
         let name = name.unwrap_or_default();
         match layout.number_of(&name) {
-            Some(number) => back
-                .passed
-                .push(((sphere + 1).to_string(), number.to_string())),
-            None => back.misfit(format!(
-                "initial_state.passed names {name}, which is none of the 25 surfaces"
-            )),
+            Some(number) => back.passed.push(((sphere + 1).to_string(), number.to_string())),
+            None => back.misfit(format!("initial_state.passed names {name}, which is none of the 25 surfaces")),
         }
     }
 }
@@ -64,11 +59,8 @@ fn passed_on(back: &mut Back<'_>, layout: &CompartmentLayout, passed: &[(usize, 
 /// q and their rates, in inches and radians.
 fn coordinates_on(back: &mut Back<'_>, coordinates: &ReportCoordinates) {
     for (at, (q, rate)) in coordinates.q.iter().zip(&coordinates.rates).enumerate() {
-        let (unit, rate_unit) = if at < 3 {
-            (Unit::Inch, Unit::InchPerSecond)
-        } else {
-            (Unit::Radian, Unit::RadianPerSecond)
-        };
+        let (unit, rate_unit) =
+            if at < 3 { (Unit::Inch, Unit::InchPerSecond) } else { (Unit::Radian, Unit::RadianPerSecond) };
         back.set(&format!("Q0({})", at + 1), *q, unit);
         back.set(&format!("QDO({})", at + 1), *rate, rate_unit);
     }
@@ -76,42 +68,27 @@ fn coordinates_on(back: &mut Back<'_>, coordinates: &ReportCoordinates) {
 
 fn seated(back: &mut Back<'_>, layout: &CompartmentLayout, seating: &Seating) {
     back.misfit_if(seating.settle, "posture.settle: cards have no settling");
-    let name = |at: usize| {
-        back.setup
-            .surfaces
-            .get(at)
-            .and_then(|s| layout.number_of(&s.name))
-    };
+    let name = |at: usize| back.setup.surfaces.get(at).and_then(|s| layout.number_of(&s.name));
     let (cushion, rest) = (name(seating.cushion), name(seating.back));
-    let right_hand_drive = back
-        .builder
-        .digits("SWP")
-        .is_some_and(|d| d.starts_with('-'));
+    let right_hand_drive = back.builder.digits("SWP").is_some_and(|d| d.starts_with('-'));
     let left = (seating.lateral_m < 0.0) != right_hand_drive;
     let is_seat = |at: &usize| Some(SEATS[*at].1) == cushion && Some(SEATS[*at].2) == rest;
     let mut seats = (0..SEATS.len()).filter(is_seat);
-    let seat = kept_seat(back)
-        .filter(is_seat)
-        .or_else(|| seats.find(|at| SEATS[*at].3 == left));
+    let seat = kept_seat(back).filter(is_seat).or_else(|| seats.find(|at| SEATS[*at].3 == left));
     let left = seat.map_or(left, |at| SEATS[at].3);
     match seat {
         Some(at) => back.builder.set("NOPTSP", &(at + 1).to_string()),
-        None => back.misfit("posture.seat: cards have driver, right front, left rear and right rear on the front and rear seats"),
+        None => back.misfit(
+            "posture.seat: cards have driver, right front, left rear and right rear on the front and rear seats",
+        ),
     }
     back.agree(
         "SWP",
-        if left {
-            -seating.lateral_m
-        } else {
-            seating.lateral_m
-        },
+        if left { -seating.lateral_m } else { seating.lateral_m },
         Unit::Inch,
         "the seat's place sideways",
     );
-    let angles = seating
-        .lean_rad
-        .into_iter()
-        .chain([seating.upper_arms_rad, seating.elbows_rad]);
+    let angles = seating.lean_rad.into_iter().chain([seating.upper_arms_rad, seating.elbows_rad]);
     for ((_, field), angle) in POSTURE.into_iter().zip(angles) {
         back.set(field, angle, Unit::Degree);
     }
@@ -144,23 +121,14 @@ fn belts(back: &mut Back<'_>) {
     let exact = !matches!(setup.posture, InitialPosture::Seated(_));
     let mut used = 0;
     for belt in &setup.belts {
-        let sphere = setup
-            .body
-            .spheres
-            .get(belt.sphere)
-            .map_or("", |s| s.name.as_str());
+        let sphere = setup.body.spheres.get(belt.sphere).map_or("", |s| s.name.as_str());
         match BELTS.iter().find(|b| b.2 == sphere) {
             Some((number, ..)) if used & number == 0 => {
                 used |= number;
                 read_belt(back, belt, *number, exact);
             }
-            Some((_, name, _)) => {
-                back.misfit(format!("belts.{}: cards have one {name} belt", belt.name))
-            }
-            None => back.misfit(format!(
-                "belts.{}: the cards' belts loop round pelvis and chest",
-                belt.name
-            )),
+            Some((_, name, _)) => back.misfit(format!("belts.{}: cards have one {name} belt", belt.name)),
+            None => back.misfit(format!("belts.{}: the cards' belts loop round pelvis and chest", belt.name)),
         }
     }
     if used > 0 {
@@ -182,25 +150,16 @@ fn read_belt(back: &mut Back<'_>, belt: &Belt, number: u32, exact: bool) {
     let returns_all = w.returned_1 == 1.0 && w.returned_2 == 1.0;
     back.misfit_if(
         !returns_all,
-        &format!(
-            "belts.{}.mu1, mu2: the cards' webbing gives all its energy back",
-            belt.name
-        ),
+        &format!("belts.{}.mu1, mu2: the cards' webbing gives all its energy back", belt.name),
     );
     match (belt.rest, exact) {
-        (RestLength::Slack { slack_m }, false) => {
-            back.set(&format!("SLACK({number})"), slack_m, Unit::Inch)
+        (RestLength::Slack { slack_m }, false) => back.set(&format!("SLACK({number})"), slack_m, Unit::Inch),
+        (RestLength::Given { length_m }, true) => back.set(&format!("BLTLEO({number})"), length_m, Unit::Inch),
+        (RestLength::Given { .. }, false) => {
+            back.misfit(format!("belts.{}.length: with a posture cards take slack", belt.name))
         }
-        (RestLength::Given { length_m }, true) => {
-            back.set(&format!("BLTLEO({number})"), length_m, Unit::Inch)
+        (RestLength::Slack { .. }, true) => {
+            back.misfit(format!("belts.{}: with an exact state cards take its length (BLTLEO)", belt.name))
         }
-        (RestLength::Given { .. }, false) => back.misfit(format!(
-            "belts.{}.length: with a posture cards take slack",
-            belt.name
-        )),
-        (RestLength::Slack { .. }, true) => back.misfit(format!(
-            "belts.{}: with an exact state cards take its length (BLTLEO)",
-            belt.name
-        )),
     }
 }

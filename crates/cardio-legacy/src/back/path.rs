@@ -7,14 +7,11 @@ use crate::layout::Unit;
 
 pub(super) fn read(back: &mut Back<'_>) {
     let setup = back.setup;
-    if let Some(stations) = back
-        .kept
-        .get("MREAD")
-        .filter(|d| d.parse::<f64>().is_ok_and(|v| v > 0.0))
-        .cloned()
-    {
+    if let Some(stations) = back.kept.get("MREAD").filter(|d| d.parse::<f64>().is_ok_and(|v| v > 0.0)).cloned() {
         back.builder.set("MREAD", &stations);
-        back.remarks.push(format!("MREAD = {stations} as in the deck that the scenario came from: the path stays outside the cards"));
+        back.remarks.push(format!(
+            "MREAD = {stations} as in the deck that the scenario came from: the path stays outside the cards"
+        ));
         return;
     }
     back.builder.set("MREAD", "0");
@@ -23,8 +20,7 @@ pub(super) fn read(back: &mut Back<'_>) {
         VehiclePath::Table(table) => read_table(back, table),
         VehiclePath::Fixed(path) => {
             let pose = path.pose();
-            let ends =
-                [setup.time.start_s, setup.time.end_s].map(|time_s| Station { time_s, pose });
+            let ends = [setup.time.start_s, setup.time.end_s].map(|time_s| Station { time_s, pose });
             stations(back, &ends);
         }
         VehiclePath::Pulse(_) => {
@@ -52,18 +48,11 @@ fn stations(back: &mut Back<'_>, stations: &[Station]) {
     for (at, station) in stations.iter().enumerate() {
         let n = at + 1;
         back.set(&format!("CALT({n})"), station.time_s, Unit::Second);
-        for (axis, place) in ["CALX", "CALY", "CALZ"]
-            .into_iter()
-            .zip(station.pose.position_m.iter())
-        {
+        for (axis, place) in ["CALX", "CALY", "CALZ"].into_iter().zip(station.pose.position_m.iter()) {
             back.set(&format!("{axis}({n})"), *place, Unit::Inch);
         }
         let attitude = station.pose.attitude;
-        for (angle, rad) in [
-            ("CALPH", attitude.roll_rad),
-            ("CALTH", attitude.pitch_rad),
-            ("CALPS", attitude.yaw_rad),
-        ] {
+        for (angle, rad) in [("CALPH", attitude.roll_rad), ("CALTH", attitude.pitch_rad), ("CALPS", attitude.yaw_rad)] {
             back.set(&format!("{angle}({n})"), rad, Unit::Degree);
         }
     }

@@ -27,20 +27,16 @@ pub(super) fn place_points(back: &mut Back<'_>, mut polygons: Vec<Polygon>) {
         }
     } else {
         let name = polygons.get(search.deepest).map_or("", |p| p.name.as_str());
-        back.misfit(format!("surfaces.{name} does not meet the surfaces before it at the points that they share on cards"));
+        back.misfit(format!(
+            "surfaces.{name} does not meet the surfaces before it at the points that they share on cards"
+        ));
     }
 }
 
 /// The fields of series 8 that the notes keep.
 fn kept_places(back: &Back<'_>) -> BTreeMap<String, String> {
-    let is_place = |name: &str| {
-        name.starts_with("XV(") || name.starts_with("ZV(") || name == "VCW" || name == "VRW"
-    };
-    back.kept
-        .iter()
-        .filter(|(name, _)| is_place(name))
-        .map(|(name, digits)| (name.clone(), digits.clone()))
-        .collect()
+    let is_place = |name: &str| name.starts_with("XV(") || name.starts_with("ZV(") || name == "VCW" || name == "VRW";
+    back.kept.iter().filter(|(name, _)| is_place(name)).map(|(name, digits)| (name.clone(), digits.clone())).collect()
 }
 
 /// Enough for any compartment whose surfaces meet; a bound for those that do not.
@@ -54,11 +50,7 @@ struct Search {
 
 impl Search {
     fn from_known(known: BTreeMap<String, String>) -> Self {
-        Self {
-            known,
-            deepest: 0,
-            budget: SEARCH_BUDGET,
-        }
+        Self { known, deepest: 0, budget: SEARCH_BUDGET }
     }
 
     /// Finds readings of the polygons from `at` on that agree with what is known.

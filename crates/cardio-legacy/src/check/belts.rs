@@ -9,8 +9,7 @@ pub(super) fn check(check: &mut Check<'_>) {
     }
     let used = check.value("NOPBLT");
     let known = used == 1.0 || used == 2.0 || used == 3.0 || used.is_nan();
-    let remedy =
-        "punch it with its decimal point, or leave the series out for an unrestrained occupant";
+    let remedy = "punch it with its decimal point, or leave the series out for an unrestrained occupant";
     check.complain_if(
         !known,
         Rule::Impossible,
@@ -19,10 +18,7 @@ pub(super) fn check(check: &mut Check<'_>) {
         "1. lap belt, 2. torso belt, 3. both",
         remedy,
     );
-    for (belt, name, in_use) in [
-        (1, "lap", used == 1.0 || used == 3.0),
-        (2, "torso", used == 2.0 || used == 3.0),
-    ] {
+    for (belt, name, in_use) in [(1, "lap", used == 1.0 || used == 3.0), (2, "torso", used == 2.0 || used == 3.0)] {
         if in_use {
             check_belt(check, belt, name);
         } else {
@@ -36,9 +32,7 @@ fn check_belt(check: &mut Check<'_>, belt: u32, name: &str) {
     check.positive(&first, "first slope of the webbing");
     check.not_negative(&second, "second slope of the webbing");
     check.not_negative(&elbow, "elongation of the webbing");
-    let anchor = |end: u32, check: &Check<'_>| {
-        [1, 2, 3].map(|axis| check.value(&format!("P{end}({belt},{axis})")))
-    };
+    let anchor = |end: u32, check: &Check<'_>| [1, 2, 3].map(|axis| check.value(&format!("P{end}({belt},{axis})")));
     let (one, two) = (anchor(1, check), anchor(2, check));
     if one == two {
         let message = format!("both anchors of the {name} belt lie at the same point");
@@ -65,32 +59,17 @@ fn check_belt(check: &mut Check<'_>, belt: u32, name: &str) {
     }
     let slack = format!("SLACK({belt})");
     let loose = check.value(&slack).abs() > 12.0;
-    check.complain_if(
-        loose,
-        Rule::Unlikely,
-        &slack,
-        "a foot of slack",
-        "a few inches",
-        "look for the decimal point",
-    );
+    check.complain_if(loose, Rule::Unlikely, &slack, "a foot of slack", "a few inches", "look for the decimal point");
 }
 
 /// Numbers of a belt that is not in use.
 fn note_ignored(check: &mut Check<'_>, belt: u32, name: &str) {
-    let mut names: Vec<String> = ["SLACK", "SK1", "SK2", "DELC"]
-        .map(|n| format!("{n}({belt})"))
-        .to_vec();
-    names.extend(
-        (1..=3).flat_map(|axis| [format!("P1({belt},{axis})"), format!("P2({belt},{axis})")]),
-    );
-    let punched = names
-        .into_iter()
-        .find(|n| check.value(n) != 0.0 && !check.value(n).is_nan());
+    let mut names: Vec<String> = ["SLACK", "SK1", "SK2", "DELC"].map(|n| format!("{n}({belt})")).to_vec();
+    names.extend((1..=3).flat_map(|axis| [format!("P1({belt},{axis})"), format!("P2({belt},{axis})")]));
+    let punched = names.into_iter().find(|n| check.value(n) != 0.0 && !check.value(n).is_nan());
     if let Some(first) = punched {
-        let message = format!(
-            "the {name} belt is not in use (NOPBLT = {}); its numbers have no effect",
-            check.digits("NOPBLT")
-        );
+        let message =
+            format!("the {name} belt is not in use (NOPBLT = {}); its numbers have no effect", check.digits("NOPBLT"));
         let complaint = Complaint {
             rule: Rule::Ignored,
             message,

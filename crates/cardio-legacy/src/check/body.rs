@@ -31,15 +31,10 @@ fn check_segment(check: &mut Check<'_>, n: u32) {
     for (name, what) in [("XLE", "length of a segment"), ("XM", "mass of a segment")] {
         check.positive(&named(name), what);
     }
-    check.not_negative(
-        &named("RHO"),
-        "distance of the centre of gravity from the lower end",
-    );
+    check.not_negative(&named("RHO"), "distance of the centre of gravity from the lower end");
     let (length, rho) = (check.value(&named("XLE")), check.value(&named("RHO")));
-    let message = format!(
-        "the centre of gravity lies beyond the segment's end, XLE({n}) = {}",
-        check.digits(&named("XLE"))
-    );
+    let message =
+        format!("the centre of gravity lies beyond the segment's end, XLE({n}) = {}", check.digits(&named("XLE")));
     check.complain_if(
         length > 0.0 && rho > length,
         Rule::Impossible,
@@ -56,8 +51,7 @@ fn check_segment(check: &mut Check<'_>, n: u32) {
     let sum: f64 = inertia.iter().sum();
     for (axis, own) in axes.iter().zip(inertia) {
         let others = sum - own;
-        let message =
-            format!("more than the two others together, {others:.6}, which no body can have");
+        let message = format!("more than the two others together, {others:.6}, which no body can have");
         let violated = own > others * (1.0 + ROUNDING) && inertia.iter().all(|i| *i > 0.0);
         check.complain_if(
             violated,
@@ -72,19 +66,10 @@ fn check_segment(check: &mut Check<'_>, n: u32) {
 
 /// Whole body: weight, and lengths that look like feet.
 fn check_sums(check: &mut Check<'_>) {
-    let sum = |name: &str, check: &Check<'_>| {
-        (1..=12)
-            .map(|n| check.value(&format!("{name}({n})")))
-            .sum::<f64>()
-    };
+    let sum = |name: &str, check: &Check<'_>| (1..=12).map(|n| check.value(&format!("{name}({n})"))).sum::<f64>();
     let mass = sum("XM", check);
     let weight = mass * GRAVITY;
-    let complaint = |rule, message, expected, remedy| Complaint {
-        rule,
-        message,
-        expected,
-        remedy,
-    };
+    let complaint = |rule, message, expected, remedy| Complaint { rule, message, expected, remedy };
     if mass > HEAVIEST {
         let heaviest = heaviest_segment(check);
         let message = format!(
@@ -92,12 +77,7 @@ fn check_sums(check: &mut Check<'_>) {
         );
         check.complain(
             &heaviest,
-            complaint(
-                Rule::LooksLikeOtherUnit,
-                message,
-                "masses in lbf·s²/in",
-                "divide weights in lb by 386.04",
-            ),
+            complaint(Rule::LooksLikeOtherUnit, message, "masses in lbf·s²/in", "divide weights in lb by 386.04"),
         );
     } else if !(15.0..=450.0).contains(&weight) && mass > 0.0 {
         let message = format!("the body weighs {weight:.1} lb");
@@ -116,42 +96,25 @@ fn check_sums(check: &mut Check<'_>) {
         let message = format!("the twelve lengths add up to {length:.2}; they look like feet");
         check.complain(
             "XLE(1)",
-            complaint(
-                Rule::LooksLikeOtherUnit,
-                message,
-                "lengths in inches",
-                "multiply feet by 12",
-            ),
+            complaint(Rule::LooksLikeOtherUnit, message, "lengths in inches", "multiply feet by 12"),
         );
     } else if length > 250.0 {
-        let message = format!(
-            "the twelve lengths add up to {length:.1}; they look like centimetres or millimetres"
-        );
+        let message = format!("the twelve lengths add up to {length:.1}; they look like centimetres or millimetres");
         check.complain(
             "XLE(1)",
-            complaint(
-                Rule::LooksLikeOtherUnit,
-                message,
-                "lengths in inches",
-                "divide centimetres by 2.54",
-            ),
+            complaint(Rule::LooksLikeOtherUnit, message, "lengths in inches", "divide centimetres by 2.54"),
         );
     }
 }
 
 fn heaviest_segment(check: &Check<'_>) -> String {
     let names = (1..=12).map(|n| format!("XM({n})"));
-    names
-        .max_by(|a, b| check.value(a).total_cmp(&check.value(b)))
-        .unwrap_or_default()
+    names.max_by(|a, b| check.value(a).total_cmp(&check.value(b))).unwrap_or_default()
 }
 
 fn check_symmetry(check: &mut Check<'_>, left: u32, right: u32) {
     for name in ["XLE", "RHO", "XM", "XIN", "YIN", "ZIN"] {
-        let (a, b) = (
-            check.value(&format!("{name}({left})")),
-            check.value(&format!("{name}({right})")),
-        );
+        let (a, b) = (check.value(&format!("{name}({left})")), check.value(&format!("{name}({right})")));
         let message = format!("the other side has {name}({left}) = {a}");
         let violated = (a - b).abs() > ASYMMETRY * a.abs().max(b.abs());
         check.complain_if(

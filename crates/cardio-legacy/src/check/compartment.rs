@@ -50,9 +50,7 @@ pub(super) fn check(check: &mut Check<'_>) {
         check_equality(check, equal);
     }
     let points = (1..=22).flat_map(|n| [format!("XV({n})"), format!("ZV({n})")]);
-    let largest = points
-        .map(|name| check.value(&name).abs())
-        .fold(0.0, f64::max);
+    let largest = points.map(|name| check.value(&name).abs()).fold(0.0, f64::max);
     if largest > 0.0 && largest < 12.0 {
         let message = format!("no coordinate is larger than {largest}; the points look like feet");
         check.complain(
@@ -81,16 +79,9 @@ fn check_extents(check: &mut Check<'_>) {
     let Ok(layout) = CompartmentLayout::reconstruction() else {
         return;
     };
-    for face in layout
-        .faces(check.deck)
-        .iter()
-        .filter(|face| face.corners.is_empty())
-    {
+    for face in layout.faces(check.deck).iter().filter(|face| face.corners.is_empty()) {
         let name = format!("STIF1({})", face.number);
-        let message = format!(
-            "surface {}, {}, has no area: its points in series 8 coincide",
-            face.number, face.name
-        );
+        let message = format!("surface {}, {}, has no area: its points in series 8 coincide", face.number, face.name);
         let complaint = Complaint {
             rule: Rule::Unlikely,
             message,
@@ -107,19 +98,9 @@ fn check_equality(check: &mut Check<'_>, names: &[&str]) {
     };
     for name in others {
         let violated = (check.value(name) - check.value(first)).abs() > TOLERANCE_IN;
-        let message = format!(
-            "{first} is {}, and Figs 13 and 14 have {} equal",
-            check.digits(first),
-            names.join(" = ")
-        );
+        let message =
+            format!("{first} is {}, and Figs 13 and 14 have {} equal", check.digits(first), names.join(" = "));
         let remedy = "correct one of them; surfaces between the points will lie differently than the report means";
-        check.complain_if(
-            violated,
-            Rule::CompartmentEquality,
-            name,
-            &message,
-            &names.join(" = "),
-            remedy,
-        );
+        check.complain_if(violated, Rule::CompartmentEquality, name, &message, &names.join(" = "), remedy);
     }
 }

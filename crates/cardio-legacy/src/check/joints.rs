@@ -20,13 +20,7 @@ const fn stop(
     full_at: &'static str,
     falling: bool,
 ) -> Stop {
-    Stop {
-        normal,
-        full,
-        begins_at,
-        full_at,
-        falling,
-    }
+    Stop { normal, full, begins_at, full_at, falling }
 }
 
 const STOPS: [Stop; 9] = [
@@ -51,10 +45,9 @@ pub(super) fn check(check: &mut Check<'_>) {
     for name in ["SPJNT4", "SPJNT7"] {
         check.not_negative(name, "stiffness of a spring");
     }
-    for (name, what) in [
-        ("AGSE(1)", "elbows bend towards negative angles"),
-        ("AGNE(1)", "elbows bend towards negative angles"),
-    ] {
+    for (name, what) in
+        [("AGSE(1)", "elbows bend towards negative angles"), ("AGNE(1)", "elbows bend towards negative angles")]
+    {
         let violated = check.value(name) > 0.0;
         check.complain_if(
             violated,
@@ -76,13 +69,8 @@ fn check_stop(check: &mut Check<'_>, stop: &Stop) {
     }
     if !pair_of_first {
         check.not_negative(stop.full, "a damping takes energy away");
-        let less =
-            check.value(stop.full) < check.value(stop.normal) && check.value(stop.full) != 0.0;
-        let message = format!(
-            "less than the damping before the stop, {} = {}",
-            stop.normal,
-            check.digits(stop.normal)
-        );
+        let less = check.value(stop.full) < check.value(stop.normal) && check.value(stop.full) != 0.0;
+        let message = format!("less than the damping before the stop, {} = {}", stop.normal, check.digits(stop.normal));
         check.complain_if(
             less,
             Rule::Unlikely,
@@ -93,21 +81,9 @@ fn check_stop(check: &mut Check<'_>, stop: &Stop) {
         );
     }
     let (begins, full) = (check.value(stop.begins_at), check.value(stop.full_at));
-    let wrong = if stop.falling {
-        begins < full
-    } else {
-        begins > full
-    };
-    let message = format!(
-        "the stop begins beyond its end, {} = {}",
-        stop.full_at,
-        check.digits(stop.full_at)
-    );
-    let side = if stop.falling {
-        "above the angle of the full stop"
-    } else {
-        "below the angle of the full stop"
-    };
+    let wrong = if stop.falling { begins < full } else { begins > full };
+    let message = format!("the stop begins beyond its end, {} = {}", stop.full_at, check.digits(stop.full_at));
+    let side = if stop.falling { "above the angle of the full stop" } else { "below the angle of the full stop" };
     check.complain_if(
         wrong,
         Rule::Impossible,
@@ -122,32 +98,11 @@ fn check_gravity(check: &mut Check<'_>) {
     let gravity = check.value("GR");
     check.not_negative("GR", "gravity is given by its magnitude");
     let (rule, message, remedy) = match gravity {
-        g if (31.0..33.5).contains(&g) => (
-            Rule::LooksLikeOtherUnit,
-            "this looks like ft/s²",
-            "multiply by 12",
-        ),
-        g if (9.7..9.9).contains(&g) => (
-            Rule::LooksLikeOtherUnit,
-            "this looks like m/s²",
-            "punch 386.04",
-        ),
-        1.0 => (
-            Rule::LooksLikeOtherUnit,
-            "this looks like a number of g",
-            "punch 386.04",
-        ),
-        g if g > 0.0 && !(380.0..392.0).contains(&g) => {
-            (Rule::Unlikely, "not the earth's gravity", "punch 386.04")
-        }
+        g if (31.0..33.5).contains(&g) => (Rule::LooksLikeOtherUnit, "this looks like ft/s²", "multiply by 12"),
+        g if (9.7..9.9).contains(&g) => (Rule::LooksLikeOtherUnit, "this looks like m/s²", "punch 386.04"),
+        1.0 => (Rule::LooksLikeOtherUnit, "this looks like a number of g", "punch 386.04"),
+        g if g > 0.0 && !(380.0..392.0).contains(&g) => (Rule::Unlikely, "not the earth's gravity", "punch 386.04"),
         _ => return,
     };
-    check.complain_if(
-        true,
-        rule,
-        "GR",
-        message,
-        "386.04 in/s², or 0 for none",
-        remedy,
-    );
+    check.complain_if(true, rule, "GR", message, "386.04 in/s², or 0 for none", remedy);
 }

@@ -22,11 +22,7 @@ const LISTED: usize = 24;
 
 /// Checks all numbers of a deck, and counts its blanks.
 pub(crate) fn check_deck(deck: &Deck, first_line: usize, sink: &mut Sink) {
-    let mut check = Check {
-        deck,
-        sink,
-        first_line,
-    };
+    let mut check = Check { deck, sink, first_line };
     times::check(&mut check);
     body::check(&mut check);
     compartment::check(&mut check);
@@ -87,53 +83,23 @@ impl Check<'_> {
         self.sink.report(finding);
     }
 
-    fn complain_if(
-        &mut self,
-        violated: bool,
-        rule: Rule,
-        name: &str,
-        message: &str,
-        expected: &str,
-        remedy: &str,
-    ) {
+    fn complain_if(&mut self, violated: bool, rule: Rule, name: &str, message: &str, expected: &str, remedy: &str) {
         if violated {
             let message = format!("{name} = {}: {message}", self.digits(name));
-            self.complain(
-                name,
-                Complaint {
-                    rule,
-                    message,
-                    expected,
-                    remedy,
-                },
-            );
+            self.complain(name, Complaint { rule, message, expected, remedy });
         }
     }
 
     /// The number must be above zero.
     fn positive(&mut self, name: &str, what: &str) {
         let violated = self.value(name) <= 0.0;
-        self.complain_if(
-            violated,
-            Rule::Impossible,
-            name,
-            what,
-            "a number above 0",
-            "punch the number",
-        );
+        self.complain_if(violated, Rule::Impossible, name, what, "a number above 0", "punch the number");
     }
 
     /// The number must not be below zero.
     fn not_negative(&mut self, name: &str, what: &str) {
         let violated = self.value(name) < 0.0;
-        self.complain_if(
-            violated,
-            Rule::Impossible,
-            name,
-            what,
-            "0 or more",
-            "look for a wrong sign",
-        );
+        self.complain_if(violated, Rule::Impossible, name, what, "0 or more", "look for a wrong sign");
     }
 
     /// Angles due in radians that look like degrees.
@@ -157,18 +123,9 @@ impl Check<'_> {
         if blanks.is_empty() {
             return;
         }
-        let more = if blanks.len() > LISTED {
-            format!(" and {} more", blanks.len() - LISTED)
-        } else {
-            String::new()
-        };
+        let more = if blanks.len() > LISTED { format!(" and {} more", blanks.len() - LISTED) } else { String::new() };
         let listed: Vec<_> = blanks.iter().take(LISTED).map(String::as_str).collect();
-        let message = format!(
-            "{} blank fields were read as zero: {}{more}",
-            blanks.len(),
-            listed.join(", ")
-        );
-        self.sink
-            .report(Finding::new(Rule::BlankIsZero, message).at_line(self.first_line));
+        let message = format!("{} blank fields were read as zero: {}{more}", blanks.len(), listed.join(", "));
+        self.sink.report(Finding::new(Rule::BlankIsZero, message).at_line(self.first_line));
     }
 }

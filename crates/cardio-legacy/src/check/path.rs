@@ -13,12 +13,7 @@ pub(super) fn check(check: &mut Check<'_>) {
         return;
     }
     let numbers = |card: &DeckCard| card.numbers.iter().map(|n| n.value).collect::<Vec<_>>();
-    let stations: Vec<Vec<f64>> = check
-        .deck
-        .cards_of(12, 'b')
-        .map(numbers)
-        .filter(|n| n.len() >= 7)
-        .collect();
+    let stations: Vec<Vec<f64>> = check.deck.cards_of(12, 'b').map(numbers).filter(|n| n.len() >= 7).collect();
     for (index, pair) in stations.windows(2).enumerate() {
         check_step(check, index + 2, &pair[0], &pair[1]);
     }
@@ -52,13 +47,9 @@ fn check_step(check: &mut Check<'_>, station: usize, before: &[f64], after: &[f6
             remedy,
         );
     }
-    let way = (1..=3)
-        .map(|axis| (after[axis] - before[axis]).powi(2))
-        .sum::<f64>()
-        .sqrt();
+    let way = (1..=3).map(|axis| (after[axis] - before[axis]).powi(2)).sum::<f64>().sqrt();
     let fast = after[0] > before[0] && way / (after[0] - before[0]) > FASTEST_IN_PER_S;
-    let message =
-        format!("the vehicle moves {way:.3} in from the station before, faster than 170 mph");
+    let message = format!("the vehicle moves {way:.3} in from the station before, faster than 170 mph");
     check.complain_if(
         fast,
         Rule::Unlikely,
@@ -81,23 +72,12 @@ fn check_cover(check: &mut Check<'_>, stations: &[Vec<f64>]) {
         remedy: "add stations, or change T1 and TF on card 3",
     };
     if first[0] > start {
-        check.complain(
-            "CALT(1)",
-            complaint(format!(
-                "the path begins at {} s and the run at T1 = {start} s",
-                first[0]
-            )),
-        );
+        check
+            .complain("CALT(1)", complaint(format!("the path begins at {} s and the run at T1 = {start} s", first[0])));
     }
     if last[0] < end {
         let name = format!("CALT({})", stations.len());
-        check.complain(
-            &name,
-            complaint(format!(
-                "the path ends at {} s and the run at TF = {end} s",
-                last[0]
-            )),
-        );
+        check.complain(&name, complaint(format!("the path ends at {} s and the run at TF = {end} s", last[0])));
     }
     if stations.len() == 1 {
         check.complain("NVPOS", complaint("one station makes no path".to_owned()));
@@ -110,28 +90,18 @@ fn check_speed(check: &mut Check<'_>, first: &[f64], second: &[f64]) {
     if check.value("NPOS") != 0.0 || duration <= 0.0 {
         return;
     }
-    let vehicle = (1..=3)
-        .map(|axis| ((second[axis] - first[axis]) / duration).powi(2))
-        .sum::<f64>()
-        .sqrt();
-    let occupant = ["VXVC", "VYVC", "VZVC"]
-        .map(|name| check.value(name).powi(2))
-        .iter()
-        .sum::<f64>()
-        .sqrt();
+    let vehicle = (1..=3).map(|axis| ((second[axis] - first[axis]) / duration).powi(2)).sum::<f64>().sqrt();
+    let occupant = ["VXVC", "VYVC", "VZVC"].map(|name| check.value(name).powi(2)).iter().sum::<f64>().sqrt();
     let near = |factor: f64| (vehicle / occupant / factor - 1.0).abs() < 0.05;
     let (rule, message) = match () {
         () if near(12.0) => (Rule::LooksLikeOtherUnit, "this looks like ft/s"),
         () if near(17.6) => (Rule::LooksLikeOtherUnit, "this looks like miles per hour"),
-        () if (vehicle - occupant).abs() > SPEED_TOLERANCE * vehicle.max(occupant) => (
-            Rule::Inconsistent,
-            "occupant and vehicle begin at different speeds",
-        ),
+        () if (vehicle - occupant).abs() > SPEED_TOLERANCE * vehicle.max(occupant) => {
+            (Rule::Inconsistent, "occupant and vehicle begin at different speeds")
+        }
         () => return,
     };
-    let message = format!(
-        "{message}: the vehicle's first interval has {vehicle:.2} in/s, the occupant {occupant:.2}"
-    );
+    let message = format!("{message}: the vehicle's first interval has {vehicle:.2} in/s, the occupant {occupant:.2}");
     check.complain_if(
         true,
         rule,

@@ -16,13 +16,9 @@ pub(super) fn check(check: &mut Check<'_>) {
         "1. driver, 2. right front, 3. left rear, 4. right rear",
         "punch it with its decimal point",
     );
-    let largest = ANGLES
-        .map(|name| check.value(name).abs())
-        .into_iter()
-        .fold(0.0, f64::max);
+    let largest = ANGLES.map(|name| check.value(name).abs()).into_iter().fold(0.0, f64::max);
     if largest > 0.0 && largest < std::f64::consts::PI {
-        let message =
-            format!("no angle of the posture is larger than {largest}; they look like radians");
+        let message = format!("no angle of the posture is larger than {largest}; they look like radians");
         let complaint = Complaint {
             rule: Rule::LooksLikeOtherUnit,
             message,
@@ -56,15 +52,9 @@ pub(super) fn check(check: &mut Check<'_>) {
 
 fn check_heels(check: &mut Check<'_>) {
     let (x, z) = (check.value("XHPV"), check.value("ZHPV"));
-    let along = |name: &str, check: &Check<'_>| {
-        (1..=22)
-            .map(|n| check.value(&format!("{name}({n})")))
-            .collect::<Vec<_>>()
-    };
-    for (name, own, all) in [
-        ("XHPV", x, along("XV", check)),
-        ("ZHPV", z, along("ZV", check)),
-    ] {
+    let along =
+        |name: &str, check: &Check<'_>| (1..=22).map(|n| check.value(&format!("{name}({n})"))).collect::<Vec<_>>();
+    for (name, own, all) in [("XHPV", x, along("XV", check)), ("ZHPV", z, along("ZV", check))] {
         let low = all.iter().copied().fold(f64::INFINITY, f64::min);
         let high = all.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let violated = own < low || own > high;

@@ -26,10 +26,7 @@ pub(super) fn check(check: &mut Check<'_>) {
         check.radians(&[&name]);
     }
     let used = check.value("NOPBLT");
-    for (belt, name, in_use) in [
-        (1, "lap", used == 1.0 || used == 3.0),
-        (2, "torso", used == 2.0 || used == 3.0),
-    ] {
+    for (belt, name, in_use) in [(1, "lap", used == 1.0 || used == 3.0), (2, "torso", used == 2.0 || used == 3.0)] {
         if in_use {
             check_belt_length(check, belt, name);
         }
@@ -41,19 +38,10 @@ fn check_belt_length(check: &mut Check<'_>, belt: u32, name: &str) {
     let missing = check.value(&length) <= 0.0;
     let message = format!("the {name} belt is in use and has no initial length");
     let remedy = "punch the length, or switch the belt off by NOPBLT";
-    check.complain_if(
-        missing,
-        Rule::Impossible,
-        &length,
-        &message,
-        "a length in inches, if NPOS = 1",
-        remedy,
-    );
+    check.complain_if(missing, Rule::Impossible, &length, &message, "a length in inches, if NPOS = 1", remedy);
     let value = check.value(&slack);
     if value != 0.0 && !value.is_nan() {
-        let message = format!(
-            "{slack} has no effect: with NPOS = 1 the length of the {name} belt is {length}"
-        );
+        let message = format!("{slack} has no effect: with NPOS = 1 the length of the {name} belt is {length}");
         let complaint = Complaint {
             rule: Rule::Ignored,
             message,
@@ -70,13 +58,7 @@ pub(super) fn check_pairs(check: &mut Check<'_>) {
     let pairs: Vec<_> = check
         .deck
         .cards_of(14, 'b')
-        .filter_map(|c| {
-            Some((
-                c.id.number?,
-                c.numbers.first()?.value,
-                c.numbers.get(1)?.value,
-            ))
-        })
+        .filter_map(|c| Some((c.id.number?, c.numbers.first()?.value, c.numbers.get(1)?.value)))
         .collect();
     for (at, (card, sphere, surface)) in pairs.iter().enumerate() {
         for (variable, value, count) in [("J", *sphere, 17.0), ("K", *surface, 25.0)] {
@@ -92,10 +74,7 @@ pub(super) fn check_pairs(check: &mut Check<'_>) {
                 "copy it from the last sheet of the earlier run",
             );
         }
-        if pairs[..at]
-            .iter()
-            .any(|(_, j, k)| j == sphere && k == surface)
-        {
+        if pairs[..at].iter().any(|(_, j, k)| j == sphere && k == surface) {
             let message = format!("the pair of sphere {sphere} and surface {surface} comes twice");
             let complaint = Complaint {
                 rule: Rule::IndexTwice,
@@ -129,19 +108,13 @@ fn check_surfaces_of_pairs(check: &mut Check<'_>) {
     }
     let missing = left_out(check.deck, &layout);
     let surface_of = |card: &DeckCard| Some((card.id.number?, card.numbers.get(1)?.value));
-    let pairs: Vec<_> = check
-        .deck
-        .cards_of(14, 'b')
-        .filter_map(surface_of)
-        .collect();
+    let pairs: Vec<_> = check.deck.cards_of(14, 'b').filter_map(surface_of).collect();
     for (card, surface) in pairs {
         let unused = missing.iter().find(|l| f64::from(l.number) == surface);
         if let Some(LeftOut { number, name, why }) = unused {
             let complaint = Complaint {
                 rule: Rule::PassedPairUnused,
-                message: format!(
-                    "the pair has no effect: surface {number}, {name}, {why} and is left out"
-                ),
+                message: format!("the pair has no effect: surface {number}, {name}, {why} and is left out"),
                 expected: "a surface that a sphere can touch",
                 remedy: "remove the pair and correct NOCRD, or give the surface its area and stiffness",
             };

@@ -12,12 +12,9 @@ pub(super) fn check(check: &mut Check<'_>) {
 fn check_surface(check: &mut Check<'_>, n: u32) {
     let [first, second, elbow, keep_1, keep_2, friction] =
         ["STIF1", "STIF2", "DELB", "AMU1", "AMU2", "COFR"].map(|name| format!("{name}({n})"));
-    for (name, what) in [
-        (&first, "stiffness"),
-        (&second, "stiffness"),
-        (&elbow, "deformation"),
-        (&friction, "coefficient of friction"),
-    ] {
+    for (name, what) in
+        [(&first, "stiffness"), (&second, "stiffness"), (&elbow, "deformation"), (&friction, "coefficient of friction")]
+    {
         check.not_negative(name, what);
     }
     let (soft, stiff) = (check.value(&first), check.value(&second));

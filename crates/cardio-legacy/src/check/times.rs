@@ -9,10 +9,7 @@ pub(super) fn check(check: &mut Check<'_>) {
     check.positive("DT", "the integration needs a step");
     check.positive("DTPRNT", "printing needs an interval");
     let (start, end, step) = (check.value("T1"), check.value("TF"), check.value("DT"));
-    let late = format!(
-        "the run ends at or before its initial time T1 = {}",
-        check.digits("T1")
-    );
+    let late = format!("the run ends at or before its initial time T1 = {}", check.digits("T1"));
     check.complain_if(
         end <= start,
         Rule::Impossible,
@@ -51,14 +48,7 @@ pub(super) fn check(check: &mut Check<'_>) {
     for name in ["NPOS", "NDISK"] {
         let value = check.value(name);
         let violated = value != 0.0 && value != 1.0 && !value.is_nan();
-        check.complain_if(
-            violated,
-            Rule::Impossible,
-            name,
-            "the switch has two positions",
-            SWITCH,
-            "punch 0. or 1.",
-        );
+        check.complain_if(violated, Rule::Impossible, name, "the switch has two positions", SWITCH, "punch 0. or 1.");
     }
     let stations = check.value("MREAD");
     let violated = stations < 0.0 || stations.fract() > 0.0;

@@ -4,12 +4,7 @@ use occupant_core::body::SPHERE_NAMES;
 
 use super::writer::Writer;
 
-const TRUNK: [(u32, &str); 4] = [
-    (1, "middle_torso"),
-    (2, "upper_torso"),
-    (3, "head"),
-    (4, "lower_torso"),
-];
+const TRUNK: [(u32, &str); 4] = [(1, "middle_torso"), (2, "upper_torso"), (3, "head"), (4, "lower_torso")];
 /// Left, right, and the names of both, of the left and of the right one.
 const LIMBS: [(u32, u32, [&str; 3]); 4] = [
     (5, 6, ["upper_arms", "left_upper_arm", "right_upper_arm"]),
@@ -18,15 +13,8 @@ const LIMBS: [(u32, u32, [&str; 3]); 4] = [
     (11, 12, ["lower_legs", "left_lower_leg", "right_lower_leg"]),
 ];
 /// Spheres that come in pairs: the even one is the right one.
-const SPHERE_PAIRS: [(usize, &str); 7] = [
-    (4, "shoulders"),
-    (6, "elbows"),
-    (8, "hands"),
-    (10, "thighs"),
-    (12, "knees"),
-    (14, "shins"),
-    (16, "feet"),
-];
+const SPHERE_PAIRS: [(usize, &str); 7] =
+    [(4, "shoulders"), (6, "elbows"), (8, "hands"), (10, "thighs"), (12, "knees"), (14, "shins"), (16, "feet")];
 const SEGMENT_FIELDS: [&str; 6] = ["XLE", "RHO", "XM", "XIN", "YIN", "ZIN"];
 
 pub(super) fn write(w: &mut Writer<'_>) {
@@ -35,10 +23,7 @@ pub(super) fn write(w: &mut Writer<'_>) {
         let value = w.quantity(name);
         w.set_with(key, &value, name);
     }
-    w.table(
-        "body.segments",
-        "Series 5, cards b: XLE, RHO, XM, XIN YIN ZIN of each NSEG",
-    );
+    w.table("body.segments", "Series 5, cards b: XLE, RHO, XM, XIN YIN ZIN of each NSEG");
     for (number, name) in TRUNK {
         segment(w, number, name, &format!("NSEG {number}"));
     }
@@ -52,12 +37,7 @@ pub(super) fn write(w: &mut Writer<'_>) {
     }
     w.table("body.spheres", "Series 7, cards b–d: RS");
     for number in 1..=3 {
-        sphere(
-            w,
-            number,
-            SPHERE_NAMES[number - 1],
-            &format!("RS({number})"),
-        );
+        sphere(w, number, SPHERE_NAMES[number - 1], &format!("RS({number})"));
     }
     for (right, both) in SPHERE_PAIRS {
         let (one, two) = (format!("RS({right})"), format!("RS({})", right + 1));
@@ -71,14 +51,11 @@ pub(super) fn write(w: &mut Writer<'_>) {
 }
 
 fn alike(w: &mut Writer<'_>, left: u32, right: u32) -> bool {
-    SEGMENT_FIELDS
-        .iter()
-        .all(|name| w.value(&format!("{name}({left})")) == w.value(&format!("{name}({right})")))
+    SEGMENT_FIELDS.iter().all(|name| w.value(&format!("{name}({left})")) == w.value(&format!("{name}({right})")))
 }
 
 fn segment(w: &mut Writer<'_>, number: u32, name: &str, card: &str) {
-    let [length, rho, mass, x, y, z] =
-        SEGMENT_FIELDS.map(|field| w.quantity(&format!("{field}({number})")));
+    let [length, rho, mass, x, y, z] = SEGMENT_FIELDS.map(|field| w.quantity(&format!("{field}({number})")));
     w.comment(&format!("Card 5b, {card}"));
     w.set(&format!("{name}.length"), &length);
     w.set(&format!("{name}.cg_from_lower_end"), &rho);

@@ -20,34 +20,26 @@ struct Written {
 pub(super) fn write(w: &mut Writer<'_>, layout: &CompartmentLayout) -> Result<(), ConversionError> {
     let surfaces = surfaces(w, layout);
     let groups = materials(w, &surfaces);
-    w.table("materials", "Series 9: surfaces with the same six numbers share a material, named after the first of them");
+    w.table(
+        "materials",
+        "Series 9: surfaces with the same six numbers share a material, named after the first of them",
+    );
     for (name, members) in &groups {
-        let [k1, k2, delta_b, mu1, mu2, friction] =
-            FIELDS.map(|field| w.quantity(&format!("{field}({})", members[0])));
+        let [k1, k2, delta_b, mu1, mu2, friction] = FIELDS.map(|field| w.quantity(&format!("{field}({})", members[0])));
         let numbers: Vec<String> = members.iter().map(u32::to_string).collect();
         w.comment(&format!("Cards 9b, J = {}", numbers.join(", ")));
         w.set(
             name,
-            &format!("{{ k1 = {k1}, delta_b = {delta_b}, k2 = {k2}, mu1 = {mu1}, mu2 = {mu2}, friction = {friction} }}"),
-        );
-    }
-    w.table(
-        "surfaces",
-        "Series 8: points in vehicle axes, in; the open side is told by the order of the points",
-    );
-    for surface in &surfaces {
-        let material = groups
-            .iter()
-            .find(|(_, members)| members.contains(&surface.number))
-            .map_or("", |g| &g.0);
-        w.comment(&surface.number.to_string());
-        w.set(
-            &surface.name,
             &format!(
-                "{{ material = \"{material}\", {}, facing = \"order\" }}",
-                surface.body
+                "{{ k1 = {k1}, delta_b = {delta_b}, k2 = {k2}, mu1 = {mu1}, mu2 = {mu2}, friction = {friction} }}"
             ),
         );
+    }
+    w.table("surfaces", "Series 8: points in vehicle axes, in; the open side is told by the order of the points");
+    for surface in &surfaces {
+        let material = groups.iter().find(|(_, members)| members.contains(&surface.number)).map_or("", |g| &g.0);
+        w.comment(&surface.number.to_string());
+        w.set(&surface.name, &format!("{{ material = \"{material}\", {}, facing = \"order\" }}", surface.body));
     }
     let wheel = &layout.wheel;
     w.report.assumptions.push(format!(
@@ -55,7 +47,8 @@ pub(super) fn write(w: &mut Writer<'_>, layout: &CompartmentLayout) -> Result<()
         wheel.behind_in, wheel.point, wheel.tilt_deg
     ));
     w.report.assumptions.push(
-        "which points bound which of the 25 surfaces is a reconstruction: the report's figures 13 and 14 are lost".to_owned(),
+        "which points bound which of the 25 surfaces is a reconstruction: the report's figures 13 and 14 are lost"
+            .to_owned(),
     );
     Ok(())
 }
@@ -71,20 +64,12 @@ fn surfaces(w: &mut Writer<'_>, layout: &CompartmentLayout) -> Vec<Written> {
                 Some(ends) => edge(w, ends),
                 None => points(w, &face),
             };
-            written.push(Written {
-                number: face.number,
-                name: face.name,
-                body,
-            });
+            written.push(Written { number: face.number, name: face.name, body });
         }
     }
     if is_there(layout.wheel.number) {
         let body = disc(w, layout);
-        written.push(Written {
-            number: layout.wheel.number,
-            name: layout.wheel.name.clone(),
-            body,
-        });
+        written.push(Written { number: layout.wheel.number, name: layout.wheel.name.clone(), body });
     }
     written
 }
@@ -117,17 +102,10 @@ pub(super) fn keep_left_out(
     }
     keep_pairs(w, layout, &left_out, kept);
     for LeftOut { number, name, why } in left_out {
-        let (soft, stiff) = (
-            w.value(&format!("STIF1({number})")),
-            w.value(&format!("STIF2({number})")),
-        );
+        let (soft, stiff) = (w.value(&format!("STIF1({number})")), w.value(&format!("STIF2({number})")));
         if soft == 0.0 && stiff > 0.0 {
-            let reason =
-                "a surface that resists only beyond DELB; give STIF1 a small stiffness".to_owned();
-            return Err(ConversionError::NoCounterpart {
-                variable: format!("STIF1({number}) = 0"),
-                reason,
-            });
+            let reason = "a surface that resists only beyond DELB; give STIF1 a small stiffness".to_owned();
+            return Err(ConversionError::NoCounterpart { variable: format!("STIF1({number}) = 0"), reason });
         }
         for field in FIELDS.map(|field| format!("{field}({number})")) {
             let digits = w.bare(&field);
@@ -142,29 +120,19 @@ pub(super) fn keep_left_out(
         for field in ["VCW", "VRW"] {
             kept.insert(field.into(), w.bare(field));
         }
-        w.report.ignored.push(format!(
-            "surface {number} ({name}): it {why} and is left out"
-        ));
+        w.report.ignored.push(format!("surface {number} ({name}): it {why} and is left out"));
     }
     Ok(())
 }
 
 /// Keeps the passed pairs that a scenario cannot name, and reports those whose surface it leaves out.
-fn keep_pairs(
-    w: &mut Writer<'_>,
-    layout: &CompartmentLayout,
-    left_out: &[LeftOut],
-    kept: &mut Kept,
-) {
+fn keep_pairs(w: &mut Writer<'_>, layout: &CompartmentLayout, left_out: &[LeftOut], kept: &mut Kept) {
     for (at, pair) in w.deck.passed_pairs().into_iter().enumerate() {
         if passed_pair(w, layout, pair).is_some() {
             continue;
         }
         let (sphere, surface) = pair;
-        kept.insert(
-            format!("{PAIR} {:03}", at + 1),
-            format!("{sphere} {surface}"),
-        );
+        kept.insert(format!("{PAIR} {:03}", at + 1), format!("{sphere} {surface}"));
         if let Some(l) = left_out.iter().find(|l| l.number == u32::from(surface)) {
             w.report.ignored.push(format!(
                 "series 14, pair of sphere {sphere} and surface {surface} ({}): the surface {}",
@@ -178,18 +146,13 @@ fn keep_pairs(
 fn materials(w: &mut Writer<'_>, surfaces: &[Written]) -> Vec<(String, Vec<u32>)> {
     let mut groups: Vec<(Vec<u64>, String, Vec<u32>)> = Vec::new();
     for surface in surfaces {
-        let numbers: Vec<u64> = FIELDS
-            .map(|field| w.value(&format!("{field}({})", surface.number)).to_bits())
-            .to_vec();
+        let numbers: Vec<u64> = FIELDS.map(|field| w.value(&format!("{field}({})", surface.number)).to_bits()).to_vec();
         match groups.iter_mut().find(|g| g.0 == numbers) {
             Some(group) => group.2.push(surface.number),
             None => groups.push((numbers, surface.name.clone(), vec![surface.number])),
         }
     }
-    groups
-        .into_iter()
-        .map(|(_, name, members)| (name, members))
-        .collect()
+    groups.into_iter().map(|(_, name, members)| (name, members)).collect()
 }
 
 /// The two ends of a face that reaches from left to right at two points, ordered so that its corners, near end first and
@@ -209,13 +172,8 @@ fn strip(face: &Face) -> Option<[Corner; 2]> {
 }
 
 fn edge(w: &mut Writer<'_>, [near, far]: [Corner; 2]) -> String {
-    let mut point = |c: &Corner| {
-        format!(
-            "[{}, {}]",
-            w.bare(&format!("XV({})", c.x_of)),
-            w.bare(&format!("ZV({})", c.z_of))
-        )
-    };
+    let mut point =
+        |c: &Corner| format!("[{}, {}]", w.bare(&format!("XV({})", c.x_of)), w.bare(&format!("ZV({})", c.z_of)));
     let (from, to) = (point(&near), point(&far));
     let (width, end_width) = (near.wall.half_width().0, far.wall.half_width().0);
     let mut text = format!("edge = [{from}, {to}], half_width = {}", w.bare(width));
@@ -231,10 +189,7 @@ fn points(w: &mut Writer<'_>, face: &Face) -> String {
 }
 
 fn place(w: &mut Writer<'_>, corner: &Corner) -> String {
-    let (x, z) = (
-        w.bare(&format!("XV({})", corner.x_of)),
-        w.bare(&format!("ZV({})", corner.z_of)),
-    );
+    let (x, z) = (w.bare(&format!("XV({})", corner.x_of)), w.bare(&format!("ZV({})", corner.z_of)));
     let (width, left) = corner.wall.half_width();
     let y = w.bare(width);
     format!("[{x}, {}, {z}]", if left { negated(&y) } else { y })
@@ -246,10 +201,7 @@ fn disc(w: &mut Writer<'_>, layout: &CompartmentLayout) -> String {
     let z = w.bare(&format!("ZV({})", wheel.point));
     let y = negated(&w.bare("SWP"));
     let diameter = w.bare("DSW");
-    format!(
-        "disc = {{ centre = [{x}, {y}, {z}], diameter = {diameter}, tilt = {} }}",
-        wheel.tilt_deg
-    )
+    format!("disc = {{ centre = [{x}, {y}, {z}], diameter = {diameter}, tilt = {} }}", wheel.tilt_deg)
 }
 
 /// A difference of card numbers without the noise of binary fractions.

@@ -19,16 +19,8 @@ pub(super) fn write(
         options.deck_name
     ));
     w.blank_line();
-    w.set_with(
-        "title",
-        &quoted(if title.is_empty() { "untitled" } else { &title }),
-        "card 1",
-    );
-    w.set_with(
-        "units",
-        "\"in-lbf-s\"",
-        "bare numbers: in, lbf, s; angles in degrees",
-    );
+    w.set_with("title", &quoted(if title.is_empty() { "untitled" } else { &title }), "card 1");
+    w.set_with("units", "\"in-lbf-s\"", "bare numbers: in, lbf, s; angles in degrees");
     let gravity = w.quantity("GR");
     w.set_with("gravity", &gravity, "card 11e, GR");
     let mut kept = kept_of(w.deck);
@@ -37,10 +29,7 @@ pub(super) fn write(
     }
     super::compartment::keep_left_out(w, layout, &mut kept)?;
     w.blank_line();
-    w.raw(&format!(
-        "notes = \"\"\"\n{}\"\"\"\n",
-        escaped(&to_notes(&kept))
-    ));
+    w.raw(&format!("notes = \"\"\"\n{}\"\"\"\n", escaped(&to_notes(&kept))));
     times(w);
     switches(w);
     Ok(())
@@ -52,10 +41,7 @@ fn times(w: &mut Writer<'_>) {
         let value = w.quantity(name);
         w.set_with(key, &value, name);
     }
-    w.table(
-        "integrator",
-        "Card 3; the report's method with its fixed step",
-    );
+    w.table("integrator", "Card 3; the report's method with its fixed step");
     w.set("kind", "\"rk4\"");
     let step = w.quantity("DT");
     w.set_with("step", &step, "DT");
@@ -63,11 +49,7 @@ fn times(w: &mut Writer<'_>) {
     let interval = w.quantity("DTPRNT");
     w.set_with("interval", &interval, "DTPRNT");
     if w.value("NDISK") == 0.0 {
-        w.set_with(
-            "report_coordinates",
-            "true",
-            "NDISK = 0: data for plots go to disk",
-        );
+        w.set_with("report_coordinates", "true", "NDISK = 0: data for plots go to disk");
     }
 }
 
@@ -77,48 +59,26 @@ fn switches(w: &mut Writer<'_>) {
         Plot::Standard => {
             "STAN (card 16): 14 plots were drawn, of variables that the report does not name; `occupant plot RUN.mcap -o plots.svg` draws fourteen of our choice from any run"
         }
-        Plot::None => {
-            "NONE (card 16): no plots were drawn; `occupant plot` can draw them from any run nevertheless"
-        }
+        Plot::None => "NONE (card 16): no plots were drawn; `occupant plot` can draw them from any run nevertheless",
     };
     let disk = if w.value("NDISK") == 0.0 {
         "NDISK = 0 (card 3): plot data went to disk; the report's coordinates are recorded as well"
     } else {
         "NDISK = 1 (card 3): no plot data went to disk; the results are written nevertheless"
     };
-    w.report
-        .assumptions
-        .extend([plots.to_owned(), disk.to_owned()]);
+    w.report.assumptions.extend([plots.to_owned(), disk.to_owned()]);
     w.report.assumptions.push("friction grows with sliding speed below 5 in/s and joint angles are smoothed by ε = 0.001, as everywhere in this program".into());
     let unused = [
-        (
-            6,
-            0.0,
-            "series 6 (coordinates): NPOS = 0 seats the occupant",
-        ),
-        (
-            4,
-            1.0,
-            "series 4 (velocity): NPOS = 1 takes the state from series 6",
-        ),
-        (
-            10,
-            1.0,
-            "series 10 (seating): NPOS = 1 takes the state from series 6",
-        ),
+        (6, 0.0, "series 6 (coordinates): NPOS = 0 seats the occupant"),
+        (4, 1.0, "series 4 (velocity): NPOS = 1 takes the state from series 6"),
+        (10, 1.0, "series 10 (seating): NPOS = 1 takes the state from series 6"),
     ];
     let npos = w.value("NPOS");
-    let ignored: Vec<_> = unused
-        .into_iter()
-        .filter(|(series, when, _)| npos == *when && w.deck.has_series(*series))
-        .collect();
-    w.report
-        .ignored
-        .extend(ignored.into_iter().map(|(_, _, text)| text.to_owned()));
+    let ignored: Vec<_> =
+        unused.into_iter().filter(|(series, when, _)| npos == *when && w.deck.has_series(*series)).collect();
+    w.report.ignored.extend(ignored.into_iter().map(|(_, _, text)| text.to_owned()));
     if w.value("MREAD") != 0.0 && w.deck.has_series(12) {
-        w.report
-            .ignored
-            .push("series 12 (path): MREAD ≠ 0 takes it from the path file".into());
+        w.report.ignored.push("series 12 (path): MREAD ≠ 0 takes it from the path file".into());
     }
     let pairs = w.deck.passed_pairs().len();
     if w.deck.has_series(14) && npos == 1.0 {

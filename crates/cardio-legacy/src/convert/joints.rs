@@ -11,14 +11,9 @@ const BALLS: [(&str, [&str; 4]); 5] = [
     ("hips", ["XJNH", "XJSH", "AGNH", "AGSH"]),
 ];
 /// Stiffness and rest angle of the back joints.
-const SPRINGS: [(&str, &str, &str); 2] = [
-    ("upper_back", "SPJNT4", "BETA4"),
-    ("lower_back", "SPJNT7", "BETA7"),
-];
-const HINGES: [(&str, [&str; 4]); 2] = [
-    ("elbows", ["XJNE", "XJSE", "AGNE", "AGSE"]),
-    ("knees", ["XJNK", "XJSK", "AGNK", "AGSK"]),
-];
+const SPRINGS: [(&str, &str, &str); 2] = [("upper_back", "SPJNT4", "BETA4"), ("lower_back", "SPJNT7", "BETA7")];
+const HINGES: [(&str, [&str; 4]); 2] =
+    [("elbows", ["XJNE", "XJSE", "AGNE", "AGSE"]), ("knees", ["XJNK", "XJSK", "AGNK", "AGSK"])];
 
 pub(super) fn write(w: &mut Writer<'_>) {
     w.table("joints", "Series 11");
@@ -46,9 +41,7 @@ fn damping(w: &mut Writer<'_>, name: &str, field: &str) {
 /// A stop whose two angles are blank or zero is none.
 fn stop(w: &mut Writer<'_>, key: &str, [begin, end, full]: [&str; 3]) {
     if w.value(begin) == 0.0 && w.value(end) == 0.0 {
-        w.report.assumptions.push(format!(
-            "{begin} and {end} are both zero: no stop ({key}), {full} is not used"
-        ));
+        w.report.assumptions.push(format!("{begin} and {end} are both zero: no stop ({key}), {full} is not used"));
         return;
     }
     let [from, to, damping] = [begin, end, full].map(|name| w.quantity(name));
@@ -67,10 +60,6 @@ fn spring(w: &mut Writer<'_>, name: &str, stiffness: &str, angle: &str) {
     w.set_with(&format!("{name}.stiffness"), &value, stiffness);
     if w.value("NPOS") == 1.0 {
         let rest = w.quantity(angle);
-        w.set_with(
-            &format!("{name}.rest_angle"),
-            &rest,
-            &format!("card 6a, {angle}"),
-        );
+        w.set_with(&format!("{name}.rest_angle"), &rest, &format!("card 6a, {angle}"));
     }
 }

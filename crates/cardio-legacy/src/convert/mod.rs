@@ -39,11 +39,7 @@ pub struct ConvertOptions {
 
 impl Default for ConvertOptions {
     fn default() -> Self {
-        Self {
-            deck_name: "deck".into(),
-            path: None,
-            compartment: None,
-        }
+        Self { deck_name: "deck".into(), path: None, compartment: None }
     }
 }
 
@@ -97,14 +93,8 @@ impl fmt::Display for ConversionError {
             Self::NoCounterpart { variable, reason } => {
                 write!(f, "{variable} has no counterpart in a scenario: {reason}")
             }
-            Self::MissingField(name) => write!(
-                f,
-                "the deck has no field {name}, which the conversion needs"
-            ),
-            Self::Refused(diagnostics) => write!(
-                f,
-                "the scenario made from the deck is refused:\n{diagnostics}"
-            ),
+            Self::MissingField(name) => write!(f, "the deck has no field {name}, which the conversion needs"),
+            Self::Refused(diagnostics) => write!(f, "the scenario made from the deck is refused:\n{diagnostics}"),
         }
     }
 }
@@ -142,8 +132,7 @@ fn check(toml: &str, beside: Option<&str>) -> Result<(), ConversionError> {
         None => Err(format!("there is no file {name}")),
     };
     let refused = |diagnostics| ConversionError::Refused(Box::new(diagnostics));
-    let loaded = Scenario::from_text(toml, Format::Toml, "converted scenario", &resolver)
-        .map_err(refused)?;
+    let loaded = Scenario::from_text(toml, Format::Toml, "converted scenario", &resolver).map_err(refused)?;
     loaded.build().map_err(refused)?;
     Ok(())
 }

@@ -36,18 +36,11 @@ pub(super) fn write(w: &mut Writer<'_>, layout: &CompartmentLayout) {
 }
 
 fn exact_state(w: &mut Writer<'_>) {
-    w.table(
-        "initial_state",
-        "Series 6, cards b–i: generalized coordinates in in and rad, and their rates",
-    );
+    w.table("initial_state", "Series 6, cards b–i: generalized coordinates in in and rad, and their rates");
     for (key, name) in [("q", "Q0"), ("rates", "QDO")] {
         let numbers: Vec<String> = (1..=31).map(|n| w.bare(&format!("{name}({n})"))).collect();
         let rows: Vec<String> = rows_of_coordinates(&numbers);
-        w.raw(&format!(
-            "{key} = [{}{}\n]\n",
-            if key == "q" { ORDER } else { "" },
-            rows.concat()
-        ));
+        w.raw(&format!("{key} = [{}{}\n]\n", if key == "q" { ORDER } else { "" }, rows.concat()));
     }
 }
 
@@ -65,12 +58,11 @@ fn passed(w: &mut Writer<'_>, layout: &CompartmentLayout) {
         text.push_str(&format!("[\"{sphere}\", \"{surface}\"],"));
         before = sphere;
     }
-    w.raw(&format!(
-        "passed = [                     # series 14: spheres that have passed a surface's edge{text}\n]\n"
-    ));
+    w.raw(&format!("passed = [                     # series 14: spheres that have passed a surface's edge{text}\n]\n"));
 }
 
-const ORDER: &str = "                          # T1; φ θ ψ of segments 1, 2, 3, 4, 5, 6; α₇ α₈; φ θ ψ of 9, 10; α₁₁ α₁₂";
+const ORDER: &str =
+    "                          # T1; φ θ ψ of segments 1, 2, 3, 4, 5, 6; α₇ α₈; φ θ ψ of 9, 10; α₁₁ α₁₂";
 
 /// T1, six triples, two angles, two triples, two angles: a line each.
 fn rows_of_coordinates(numbers: &[String]) -> Vec<String> {
@@ -93,30 +85,16 @@ fn seating(w: &mut Writer<'_>, layout: &CompartmentLayout) {
     let surface = |number| layout.name_of(number).unwrap_or_default();
     let y = w.bare("SWP");
     let y = if left { negated(&y) } else { y };
-    w.table(
-        &format!("seats.{name}"),
-        &format!("Card 10a, NOPTSP = {seat}"),
-    );
+    w.table(&format!("seats.{name}"), &format!("Card 10a, NOPTSP = {seat}"));
     w.set("cushion", &format!("\"{}\"", surface(cushion)));
     w.set("back", &format!("\"{}\"", surface(back)));
-    w.set_with(
-        "y",
-        &y,
-        if left {
-            "card 8a, −SWP"
-        } else {
-            "card 8a, SWP"
-        },
-    );
+    w.set_with("y", &y, if left { "card 8a, −SWP" } else { "card 8a, SWP" });
     let distance = w.bare("SWP");
     w.report.assumptions.push(format!(
         "the occupant sits {distance} in {} of the centre line, as far as the wheel (SWP): no card places a seat sideways",
         if left { "left" } else { "right" }
     ));
-    w.table(
-        "posture",
-        "Series 10, angles lean the top of a segment back; series 4",
-    );
+    w.table("posture", "Series 10, angles lean the top of a segment back; series 4");
     w.set("seat", &format!("\"{name}\""));
     for (key, field) in POSTURE {
         let value = w.quantity(field);
@@ -125,12 +103,11 @@ fn seating(w: &mut Writer<'_>, layout: &CompartmentLayout) {
     let heels = ["XHPV", "ZHPV"].map(|n| w.quantity(n)).join(", ");
     w.set_with("heels", &format!("[{heels}]"), "card 10b, XHPV, ZHPV");
     let velocity = ["VXVC", "VYVC", "VZVC"].map(|n| w.quantity(n)).join(", ");
-    w.set_with(
-        "velocity",
-        &format!("[{velocity}]"),
-        "card 4, VXVC, VYVC, VZVC: of every point, vehicle axes",
+    w.set_with("velocity", &format!("[{velocity}]"), "card 4, VXVC, VYVC, VZVC: of every point, vehicle axes");
+    w.report.assumptions.push(
+        "the pelvis touches the seat back and sinks into the cushion until it carries body and half of the thighs"
+            .into(),
     );
-    w.report.assumptions.push("the pelvis touches the seat back and sinks into the cushion until it carries body and half of the thighs".into());
 }
 
 fn belts(w: &mut Writer<'_>) {
@@ -138,28 +115,17 @@ fn belts(w: &mut Writer<'_>) {
     let exact = w.value("NPOS") == 1.0;
     for (number, name, sphere) in BELTS {
         if used != f64::from(number) && used != 3.0 {
-            let says_something = [
-                format!("SK1({number})"),
-                format!("P1({number},1)"),
-                format!("P2({number},1)"),
-            ];
+            let says_something = [format!("SK1({number})"), format!("P1({number},1)"), format!("P2({number},1)")];
             if says_something.iter().any(|field| w.value(field) != 0.0) {
-                w.report.ignored.push(format!(
-                    "series 13: numbers of the {name} belt, which NOPBLT = {used} does not use"
-                ));
+                w.report
+                    .ignored
+                    .push(format!("series 13: numbers of the {name} belt, which NOPBLT = {used} does not use"));
             }
             continue;
         }
-        w.table(
-            &format!("belts.{name}"),
-            &format!("Series 13, NOPBLT = {used}: {name} belt"),
-        );
+        w.table(&format!("belts.{name}"), &format!("Series 13, NOPBLT = {used}: {name} belt"));
         w.set("sphere", &format!("\"{sphere}\""));
-        let anchors = [1, 2].map(|end| {
-            [1, 2, 3]
-                .map(|axis| w.bare(&format!("P{end}({number},{axis})")))
-                .join(", ")
-        });
+        let anchors = [1, 2].map(|end| [1, 2, 3].map(|axis| w.bare(&format!("P{end}({number},{axis})"))).join(", "));
         w.set_with(
             "anchors",
             &format!("[[{}], [{}]]", anchors[0], anchors[1]),
@@ -170,21 +136,9 @@ fn belts(w: &mut Writer<'_>) {
             let value = w.quantity(&field);
             w.set_with(key, &value, &field);
         }
-        let (key, field) = if exact {
-            ("length", "BLTLEO")
-        } else {
-            ("slack", "SLACK")
-        };
+        let (key, field) = if exact { ("length", "BLTLEO") } else { ("slack", "SLACK") };
         let field = format!("{field}({number})");
         let value = w.quantity(&field);
-        w.set_with(
-            key,
-            &value,
-            &if exact {
-                format!("card 6a, {field}")
-            } else {
-                field
-            },
-        );
+        w.set_with(key, &value, &if exact { format!("card 6a, {field}") } else { field });
     }
 }

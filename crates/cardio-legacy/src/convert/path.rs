@@ -8,15 +8,7 @@ use crate::deck::Deck;
 use crate::field::read_real;
 
 /// The columns of a station on cards of series 12, with their units.
-const CARD_COLUMNS: [&str; 7] = [
-    "t[s]",
-    "x[in]",
-    "y[in]",
-    "z[in]",
-    "roll[deg]",
-    "pitch[deg]",
-    "yaw[deg]",
-];
+const CARD_COLUMNS: [&str; 7] = ["t[s]", "x[in]", "y[in]", "z[in]", "roll[deg]", "pitch[deg]", "yaw[deg]"];
 
 /// Where the path of a deck with MREAD ≠ 0 comes from. The vehicle program's own layout on disk is not documented.
 #[derive(Debug, Clone, PartialEq)]
@@ -46,11 +38,7 @@ pub enum PathSource {
 /// A path that is ready to be written.
 pub(super) enum Path {
     /// In the scenario itself.
-    Rows {
-        columns: Vec<String>,
-        rows: Vec<Vec<String>>,
-        from: &'static str,
-    },
+    Rows { columns: Vec<String>, rows: Vec<Vec<String>>, from: &'static str },
     /// In a file beside it.
     Beside { name: String, text: String },
 }
@@ -59,8 +47,7 @@ pub(super) enum Path {
 pub(super) fn read(deck: &Deck, source: Option<&PathSource>) -> Result<Path, ConversionError> {
     let stations = deck.value("MREAD").unwrap_or(0.0);
     if stations == 0.0 {
-        let digits =
-            |card: &crate::deck::DeckCard| card.numbers.iter().map(|n| n.digits.clone()).collect();
+        let digits = |card: &crate::deck::DeckCard| card.numbers.iter().map(|n| n.digits.clone()).collect();
         let rows = deck.cards_of(12, 'b').map(digits).collect();
         return Ok(Path::Rows {
             columns: card_columns(),
@@ -96,13 +83,8 @@ fn card_columns() -> Vec<String> {
 
 /// A CSV file that holds just the stations that MREAD counts stays a file; otherwise its first ones are written out.
 fn beside(name: &str, text: &str, wanted: usize) -> Result<Path, ConversionError> {
-    let mut lines = text
-        .lines()
-        .filter(|line| !line.trim().is_empty() && !line.trim_start().starts_with('#'));
-    let header = lines
-        .next()
-        .unwrap_or_default()
-        .trim_start_matches('\u{feff}');
+    let mut lines = text.lines().filter(|line| !line.trim().is_empty() && !line.trim_start().starts_with('#'));
+    let header = lines.next().unwrap_or_default().trim_start_matches('\u{feff}');
     if !header.contains('[') {
         return Err(ConversionError::Path(format!(
             "its first line, `{header}`, names no columns with units such as t[s],x[in]; declare the columns otherwise"
@@ -111,10 +93,7 @@ fn beside(name: &str, text: &str, wanted: usize) -> Result<Path, ConversionError
     let columns: Vec<String> = header.split(',').map(|c| c.trim().to_owned()).collect();
     let rows = plain_rows(&lines.clone().collect::<Vec<_>>().join("\n"), columns.len())?;
     if rows.len() == wanted {
-        return Ok(Path::Beside {
-            name: name.to_owned(),
-            text: text.to_owned(),
-        });
+        return Ok(Path::Beside { name: name.to_owned(), text: text.to_owned() });
     }
     Ok(Path::Rows {
         columns,
@@ -126,10 +105,7 @@ fn beside(name: &str, text: &str, wanted: usize) -> Result<Path, ConversionError
 /// The first `wanted` stations.
 fn first(mut rows: Vec<Vec<String>>, wanted: usize) -> Result<Vec<Vec<String>>, ConversionError> {
     if rows.len() < wanted {
-        let reason = format!(
-            "it has {} stations, MREAD on card 3 says {wanted}",
-            rows.len()
-        );
+        let reason = format!("it has {} stations, MREAD on card 3 says {wanted}", rows.len());
         return Err(ConversionError::Path(reason));
     }
     rows.truncate(wanted);
@@ -137,14 +113,11 @@ fn first(mut rows: Vec<Vec<String>>, wanted: usize) -> Result<Vec<Vec<String>>, 
 }
 
 fn plain_rows(text: &str, columns: usize) -> Result<Vec<Vec<String>>, ConversionError> {
-    let lines = text
-        .lines()
-        .enumerate()
-        .filter(|(_, line)| !line.trim().is_empty() && !line.trim_start().starts_with('#'));
+    let lines =
+        text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty() && !line.trim_start().starts_with('#'));
     lines
         .map(|(at, line)| {
-            plain_row(line, columns)
-                .map_err(|reason| ConversionError::Path(format!("line {}: {reason}", at + 1)))
+            plain_row(line, columns).map_err(|reason| ConversionError::Path(format!("line {}: {reason}", at + 1)))
         })
         .collect()
 }
@@ -163,11 +136,7 @@ fn plain_row(line: &str, columns: usize) -> Result<Vec<String>, String> {
 }
 
 fn card_rows(text: &str) -> Result<Vec<Vec<String>>, ConversionError> {
-    let cards = text
-        .lines()
-        .enumerate()
-        .map(|(at, line)| Card::new(at + 1, line.as_bytes()))
-        .filter(|c| !c.is_blank());
+    let cards = text.lines().enumerate().map(|(at, line)| Card::new(at + 1, line.as_bytes())).filter(|c| !c.is_blank());
     cards.map(|card| card_row(&card)).collect()
 }
 
@@ -194,12 +163,7 @@ impl Path {
             Self::Rows { from, .. } => *from,
             Self::Beside { .. } => "The path file; MREAD on card 3 counts its stations",
         };
-        w.table(
-            "path",
-            &format!(
-                "{stations}.\nStraight lines between stations, as the report's POSVEH has them"
-            ),
-        );
+        w.table("path", &format!("{stations}.\nStraight lines between stations, as the report's POSVEH has them"));
         w.set("kind", "\"table\"");
         w.set("interpolation", "\"linear\"");
         match self {
@@ -207,10 +171,7 @@ impl Path {
             Self::Rows { columns, rows, .. } => {
                 let names: Vec<String> = columns.iter().map(|c| format!("\"{c}\"")).collect();
                 w.set("columns", &format!("[{}]", names.join(", ")));
-                let lines: String = rows
-                    .iter()
-                    .map(|row| format!("    [{}],\n", row.join(", ")))
-                    .collect();
+                let lines: String = rows.iter().map(|row| format!("    [{}],\n", row.join(", "))).collect();
                 w.raw(&format!("rows = [\n{lines}]\n"));
             }
         }

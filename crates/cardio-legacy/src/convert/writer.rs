@@ -19,26 +19,15 @@ pub(super) struct Writer<'a> {
 
 impl<'a> Writer<'a> {
     pub fn new(deck: &'a Deck) -> Self {
-        let report = Report {
-            blanks: deck.blank_fields(),
-            ..Report::default()
-        };
-        Self {
-            deck,
-            report,
-            text: String::new(),
-            missing: None,
-        }
+        let report = Report { blanks: deck.blank_fields(), ..Report::default() };
+        Self { deck, report, text: String::new(), missing: None }
     }
 
     /// The text and the report; an error if the deck lacked a field that was asked for.
     pub fn finish(self) -> Result<Conversion, ConversionError> {
         match self.missing {
             Some(name) => Err(ConversionError::MissingField(name)),
-            None => Ok(Conversion {
-                toml: self.text.trim_end().to_owned() + "\n",
-                report: self.report,
-            }),
+            None => Ok(Conversion { toml: self.text.trim_end().to_owned() + "\n", report: self.report }),
         }
     }
 
@@ -57,16 +46,12 @@ impl<'a> Writer<'a> {
 
     /// The digits of a field as a bare number.
     pub fn bare(&mut self, name: &str) -> String {
-        self.number(name)
-            .map_or_else(|| "0".to_owned(), |n| n.digits.clone())
+        self.number(name).map_or_else(|| "0".to_owned(), |n| n.digits.clone())
     }
 
     /// A field as a quantity with its unit, quoted: `"13.71 in"`.
     pub fn quantity(&mut self, name: &str) -> String {
-        let unit = self
-            .deck
-            .place_of(name)
-            .map_or(Unit::One, |(_, field)| field.unit);
+        let unit = self.deck.place_of(name).map_or(Unit::One, |(_, field)| field.unit);
         let digits = self.bare(name);
         match unit_in_toml(unit) {
             "" => digits,

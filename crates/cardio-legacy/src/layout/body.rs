@@ -23,31 +23,11 @@ pub(super) const SEGMENTS: SeriesLayout = SeriesLayout {
             fields: &[
                 integer(1, 2, "NSEG", "number of the segment, 1–12, right-justified"),
                 real(11, "XLE", Unit::Inch, "length of the segment"),
-                real(
-                    21,
-                    "RHO",
-                    Unit::Inch,
-                    "distance of the centre of gravity from the lower end",
-                ),
+                real(21, "RHO", Unit::Inch, "distance of the centre of gravity from the lower end"),
                 real(31, "XM", Unit::Mass, "mass"),
-                real(
-                    41,
-                    "XIN",
-                    Unit::Inertia,
-                    "moment of inertia about the segment's X axis",
-                ),
-                real(
-                    51,
-                    "YIN",
-                    Unit::Inertia,
-                    "moment of inertia about the segment's Y axis",
-                ),
-                real(
-                    61,
-                    "ZIN",
-                    Unit::Inertia,
-                    "moment of inertia about the segment's Z axis",
-                ),
+                real(41, "XIN", Unit::Inertia, "moment of inertia about the segment's X axis"),
+                real(51, "YIN", Unit::Inertia, "moment of inertia about the segment's Y axis"),
+                real(61, "ZIN", Unit::Inertia, "moment of inertia about the segment's Z axis"),
             ],
         },
     ],
@@ -58,13 +38,7 @@ pub(super) const SPHERES: SeriesLayout = SeriesLayout {
     ncard: Some(7),
     title: "radii of the contact spheres",
     cards: &[
-        card(
-            'a',
-            "7F10.0,I8",
-            &[ncard(
-                "card number 7; the format's I8 would end in column 78",
-            )],
-        ),
+        card('a', "7F10.0,I8", &[ncard("card number 7; the format's I8 would end in column 78")]),
         card(
             'b',
             "8F10.0",
@@ -72,12 +46,7 @@ pub(super) const SPHERES: SeriesLayout = SeriesLayout {
                 real(1, "RS(1)", Unit::Inch, "radius of sphere 1, head"),
                 real(11, "RS(2)", Unit::Inch, "radius of sphere 2, chest"),
                 real(21, "RS(3)", Unit::Inch, "radius of sphere 3, pelvis"),
-                real(
-                    31,
-                    "RS(4)",
-                    Unit::Inch,
-                    "radius of sphere 4, right shoulder",
-                ),
+                real(31, "RS(4)", Unit::Inch, "radius of sphere 4, right shoulder"),
                 real(41, "RS(5)", Unit::Inch, "radius of sphere 5, left shoulder"),
                 real(51, "RS(6)", Unit::Inch, "radius of sphere 6, right elbow"),
                 real(61, "RS(7)", Unit::Inch, "radius of sphere 7, left elbow"),
@@ -98,15 +67,6 @@ pub(super) const SPHERES: SeriesLayout = SeriesLayout {
                 real(71, "RS(16)", Unit::Inch, "radius of sphere 16, right foot"),
             ],
         ),
-        card(
-            'd',
-            "8F10.0",
-            &[real(
-                1,
-                "RS(17)",
-                Unit::Inch,
-                "radius of sphere 17, left foot",
-            )],
-        ),
+        card('d', "8F10.0", &[real(1, "RS(17)", Unit::Inch, "radius of sphere 17, left foot")]),
     ],
 };

@@ -13,12 +13,7 @@ pub(super) const POINTS: SeriesLayout = SeriesLayout {
             &[
                 real(1, "VCW", Unit::Inch, "half of the compartment's width"),
                 real(11, "VRW", Unit::Inch, "half of the roof's width"),
-                real(
-                    21,
-                    "SWP",
-                    Unit::Inch,
-                    "distance of the steering wheel's centre from the centre line",
-                ),
+                real(21, "SWP", Unit::Inch, "distance of the steering wheel's centre from the centre line"),
                 real(31, "DSW", Unit::Inch, "diameter of the steering wheel"),
                 ncard("card number 8; the format's I8 would end in column 78"),
             ],

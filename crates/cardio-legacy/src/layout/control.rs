@@ -4,33 +4,21 @@ use super::{Field, Format, SeriesLayout, TERMINATOR, Unit, ncard, only_card, rea
 use crate::columns::Columns;
 
 const fn text(first: u8, last: u8, variable: &'static str, description: &'static str) -> Field {
-    Field {
-        columns: Columns::new(first, last),
-        format: Format::Text,
-        variable,
-        unit: Unit::One,
-        description,
-    }
+    Field { columns: Columns::new(first, last), format: Format::Text, variable, unit: Unit::One, description }
 }
 
 pub(super) const TITLE: SeriesLayout = SeriesLayout {
     number: 1,
     ncard: None,
     title: "title",
-    cards: &[only_card(
-        "20A4",
-        &[text(1, 80, "HED", "text printed at the top of each page")],
-    )],
+    cards: &[only_card("20A4", &[text(1, 80, "HED", "text printed at the top of each page")])],
 };
 
 pub(super) const TITLE_CONTINUED: SeriesLayout = SeriesLayout {
     number: 2,
     ncard: None,
     title: "title, continued",
-    cards: &[only_card(
-        "20A4",
-        &[text(1, 80, "HED", "second line of the title")],
-    )],
+    cards: &[only_card("20A4", &[text(1, 80, "HED", "second line of the title")])],
 };
 
 pub(super) const TIMES: SeriesLayout = SeriesLayout {
@@ -50,18 +38,8 @@ pub(super) const TIMES: SeriesLayout = SeriesLayout {
                 Unit::One,
                 "0: the vehicle path stands on series 12; else the number of stations to read from disk",
             ),
-            real(
-                51,
-                "NPOS",
-                Unit::One,
-                "0: seating by series 4 and 10; 1: initial state on series 6",
-            ),
-            real(
-                61,
-                "NDISK",
-                Unit::One,
-                "0: plot data go to disk; 1: they do not",
-            ),
+            real(51, "NPOS", Unit::One, "0: seating by series 4 and 10; 1: initial state on series 6"),
+            real(61, "NDISK", Unit::One, "0: plot data go to disk; 1: they do not"),
             ncard("card number 3"),
         ],
     )],
@@ -78,13 +56,5 @@ pub(super) const PLOT: SeriesLayout = SeriesLayout {
     number: 16,
     ncard: None,
     title: "plot option",
-    cards: &[only_card(
-        "A4",
-        &[text(
-            1,
-            4,
-            "HED(1)",
-            "STAN: plots of 14 variables against time; NONE: no plots",
-        )],
-    )],
+    cards: &[only_card("A4", &[text(1, 4, "HED(1)", "STAN: plots of 14 variables against time; NONE: no plots")])],
 };

@@ -10,21 +10,9 @@ pub fn tables_as_markdown() -> String {
     for series in &SERIES {
         let _ = writeln!(text, "## Series {}: {}\n", series.number, series.title);
         for card in series.cards {
-            let id = CardId {
-                series: series.number,
-                letter: card.letter,
-                number: None,
-            };
-            let _ = writeln!(
-                text,
-                "Card {id}, format {}{}\n",
-                card.format,
-                repeat_in_words(card)
-            );
-            let _ = writeln!(
-                text,
-                "| columns | variable | unit | what |\n|---|---|---|---|"
-            );
+            let id = CardId { series: series.number, letter: card.letter, number: None };
+            let _ = writeln!(text, "Card {id}, format {}{}\n", card.format, repeat_in_words(card));
+            let _ = writeln!(text, "| columns | variable | unit | what |\n|---|---|---|---|");
             for field in card.fields {
                 let columns = field.columns.to_string();
                 let columns = columns.trim_start_matches(|c: char| c.is_alphabetic() || c == ' ');

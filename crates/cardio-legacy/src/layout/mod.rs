@@ -159,11 +159,7 @@ pub const FINAL_CARD: u8 = 17;
 impl CardId {
     /// The only or first card of a series.
     pub fn first_of(series: &SeriesLayout) -> Self {
-        Self {
-            series: series.number,
-            letter: series.cards.first().and_then(|c| c.letter),
-            number: None,
-        }
+        Self { series: series.number, letter: series.cards.first().and_then(|c| c.letter), number: None }
     }
 }
 
@@ -216,22 +212,18 @@ pub fn series_with_ncard(ncard: u32) -> Option<&'static SeriesLayout> {
 impl SeriesLayout {
     /// Number of cards behind the first one, where the layout fixes it; `None` where the first card counts them.
     pub fn cards_behind_first(&self) -> Option<usize> {
-        self.cards
-            .iter()
-            .skip(1)
-            .try_fold(0, |sum, card| match card.repeat {
-                Repeat::Once => Some(sum + 1),
-                Repeat::Each { count } => Some(sum + count as usize),
-                Repeat::Counted => None,
-            })
+        self.cards.iter().skip(1).try_fold(0, |sum, card| match card.repeat {
+            Repeat::Once => Some(sum + 1),
+            Repeat::Each { count } => Some(sum + count as usize),
+            Repeat::Counted => None,
+        })
     }
 }
 
 impl CardLayout {
     /// The name of a field of this card as the report writes it, with the index where the card repeats.
     pub fn name_of(&self, field: &Field, number: Option<u32>) -> String {
-        let is_index =
-            self.fields.first() == Some(field) && matches!(self.repeat, Repeat::Each { .. });
+        let is_index = self.fields.first() == Some(field) && matches!(self.repeat, Repeat::Each { .. });
         match number {
             Some(number) if self.repeat != Repeat::Once && !is_index => {
                 format!("{}({number})", field.variable)
@@ -243,44 +235,22 @@ impl CardLayout {
 
 /// A card that comes once.
 const fn card(letter: char, format: &'static str, fields: &'static [Field]) -> CardLayout {
-    CardLayout {
-        letter: Some(letter),
-        format,
-        repeat: Repeat::Once,
-        fields,
-    }
+    CardLayout { letter: Some(letter), format, repeat: Repeat::Once, fields }
 }
 
 /// The only card of a series.
 const fn only_card(format: &'static str, fields: &'static [Field]) -> CardLayout {
-    CardLayout {
-        letter: None,
-        format,
-        repeat: Repeat::Once,
-        fields,
-    }
+    CardLayout { letter: None, format, repeat: Repeat::Once, fields }
 }
 
 /// A field of ten columns that starts at column `first`.
 const fn real(first: u8, variable: &'static str, unit: Unit, description: &'static str) -> Field {
-    Field {
-        columns: Columns::new(first, first + 9),
-        format: Format::Real,
-        variable,
-        unit,
-        description,
-    }
+    Field { columns: Columns::new(first, first + 9), format: Format::Real, variable, unit, description }
 }
 
 /// An integer in some columns.
 const fn integer(first: u8, last: u8, variable: &'static str, description: &'static str) -> Field {
-    Field {
-        columns: Columns::new(first, last),
-        format: Format::Integer,
-        variable,
-        unit: Unit::One,
-        description,
-    }
+    Field { columns: Columns::new(first, last), format: Format::Integer, variable, unit: Unit::One, description }
 }
 
 /// The card number in columns 71–80, read where it stands whatever the format says.

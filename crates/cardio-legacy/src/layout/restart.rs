@@ -11,10 +11,7 @@ pub(super) const PAIRS: SeriesLayout = SeriesLayout {
         card(
             'a',
             "7F10.0,I10",
-            &[
-                real(1, "NOCRD", Unit::One, "number of pairs, one card each"),
-                ncard("card number 14"),
-            ],
+            &[real(1, "NOCRD", Unit::One, "number of pairs, one card each"), ncard("card number 14")],
         ),
         CardLayout {
             letter: Some('b'),

@@ -16,9 +16,7 @@ pub const DECKS: [&str; 6] = [
 ];
 
 pub fn path(name: &str) -> PathBuf {
-    PathBuf::from(env!("CARGO_MANIFEST_DIR"))
-        .join("../../scenarios/decks")
-        .join(name)
+    PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/decks").join(name)
 }
 
 pub fn bytes(name: &str) -> Vec<u8> {
@@ -26,11 +24,7 @@ pub fn bytes(name: &str) -> Vec<u8> {
 }
 
 pub fn lines(name: &str) -> Vec<String> {
-    String::from_utf8(bytes(name))
-        .expect("ASCII")
-        .lines()
-        .map(str::to_owned)
-        .collect()
+    String::from_utf8(bytes(name)).expect("ASCII").lines().map(str::to_owned).collect()
 }
 
 pub fn parse(text: &str) -> (Vec<Deck>, Diagnostics) {
@@ -38,13 +32,7 @@ pub fn parse(text: &str) -> (Vec<Deck>, Diagnostics) {
 }
 
 pub fn parse_as(text: &str, strictness: Strictness) -> (Vec<Deck>, Diagnostics) {
-    Deck::parse(
-        text,
-        &ParseOptions {
-            file: "test.dat".into(),
-            strictness,
-        },
-    )
+    Deck::parse(text, &ParseOptions { file: "test.dat".into(), strictness })
 }
 
 /// The deck of the driver with lap and torso belt, changed line by line.
@@ -60,25 +48,14 @@ pub fn punch(line: &mut String, first: usize, text: &str) {
     for (offset, letter) in text.chars().enumerate() {
         columns[first - 1 + offset] = letter;
     }
-    *line = columns
-        .into_iter()
-        .collect::<String>()
-        .trim_end()
-        .to_owned();
+    *line = columns.into_iter().collect::<String>().trim_end().to_owned();
 }
 
 /// Line index of the first card of a series, by its card number.
 pub fn first_card(lines: &[String], ncard: &str) -> usize {
-    lines
-        .iter()
-        .position(|line| format!("{line:80}")[70..].trim() == ncard)
-        .expect("the series is there")
+    lines.iter().position(|line| format!("{line:80}")[70..].trim() == ncard).expect("the series is there")
 }
 
 pub fn rules(diagnostics: &Diagnostics, severity: Severity) -> Vec<Rule> {
-    diagnostics
-        .iter()
-        .filter(|d| d.severity == severity)
-        .map(|d| d.rule)
-        .collect()
+    diagnostics.iter().filter(|d| d.severity == severity).map(|d| d.rule).collect()
 }

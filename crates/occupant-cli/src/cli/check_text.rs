@@ -46,11 +46,7 @@ fn overview(d: &Diagnosis) -> String {
             "vehicle",
             format!(
                 "{} path: {:.3} m/s at the start, {:.3} m/s at the end, velocity change {:.3} m/s; {} surfaces",
-                vehicle.path,
-                vehicle.start_speed_m_s,
-                vehicle.end_speed_m_s,
-                vehicle.velocity_change_m_s,
-                d.surfaces
+                vehicle.path, vehicle.start_speed_m_s, vehicle.end_speed_m_s, vehicle.velocity_change_m_s, d.surfaces
             ),
         ),
         (
@@ -70,11 +66,7 @@ fn overview(d: &Diagnosis) -> String {
 fn segments(d: &Diagnosis) -> String {
     let mut table = Table::new(&[("segment", Left), ("mass, kg", Right), ("length, m", Right)]);
     for s in &d.body.segments {
-        table.row([
-            s.segment.to_owned(),
-            format!("{:.3}", s.mass_kg),
-            format!("{:.4}", s.length_m),
-        ]);
+        table.row([s.segment.to_owned(), format!("{:.3}", s.mass_kg), format!("{:.4}", s.length_m)]);
     }
     table.text()
 }
@@ -83,22 +75,9 @@ fn seating(seat: &SeatStart) -> String {
     let place = |[x, y, z]: [f64; 3]| format!("({x:.4}, {y:.4}, {z:.4}) m in the vehicle");
     let mut lines = vec![
         ("seated on", format!("{}, {}", seat.cushion, seat.back)),
-        (
-            "pelvis",
-            format!(
-                "centre at {}, sinks {:.1} mm into the cushion",
-                place(seat.pelvis_m),
-                seat.sink_m * 1e3
-            ),
-        ),
+        ("pelvis", format!("centre at {}, sinks {:.1} mm into the cushion", place(seat.pelvis_m), seat.sink_m * 1e3)),
         ("left knee", format!("at {}", place(seat.left_knee_m))),
-        (
-            "legs",
-            format!(
-                "thighs lean {:.1}°, lower legs {:.1}°",
-                seat.thighs_deg, seat.lower_legs_deg
-            ),
-        ),
+        ("legs", format!("thighs lean {:.1}°, lower legs {:.1}°", seat.thighs_deg, seat.lower_legs_deg)),
     ];
     if let Some(s) = &seat.settled {
         lines.push((
@@ -120,12 +99,8 @@ fn contacts(d: &Diagnosis) -> String {
     if d.contacts.is_empty() {
         return "nothing touches at the start\n".to_owned();
     }
-    let mut table = Table::new(&[
-        ("touches at the start", Left),
-        ("surface", Left),
-        ("depth, mm", Right),
-        ("force, N", Right),
-    ]);
+    let mut table =
+        Table::new(&[("touches at the start", Left), ("surface", Left), ("depth, mm", Right), ("force, N", Right)]);
     for c in &d.contacts {
         table.row([
             c.sphere.clone(),
@@ -178,27 +153,17 @@ fn sphere_rates(d: &Diagnosis) -> String {
             format!("{:.1}", r.coefficient / 1e3),
             format!("{:.3}", r.time_scale_s * 1e3),
             by_step(d, r),
-            s.friction_limit_n
-                .map_or(NONE.to_owned(), |n| format!("{n:.0}")),
+            s.friction_limit_n.map_or(NONE.to_owned(), |n| format!("{n:.0}")),
         ]);
     }
     table.text()
 }
 
 fn other_rates(d: &Diagnosis) -> String {
-    let mut table = Table::new(&[
-        ("belt or joint", Left),
-        ("", Left),
-        ("time scale, ms", Right),
-        ("step/time scale", Right),
-    ]);
+    let mut table =
+        Table::new(&[("belt or joint", Left), ("", Left), ("time scale, ms", Right), ("step/time scale", Right)]);
     for r in &d.other_rates {
-        table.row([
-            r.of.clone(),
-            r.by.clone(),
-            format!("{:.3}", r.time_scale_s * 1e3),
-            by_step(d, r),
-        ]);
+        table.row([r.of.clone(), r.by.clone(), format!("{:.3}", r.time_scale_s * 1e3), by_step(d, r)]);
     }
     table.text()
 }
@@ -212,12 +177,7 @@ fn verdict(d: &Diagnosis) -> String {
     let Some(fastest) = &d.fastest else {
         return "no contact, belt or joint sets a time scale\n".to_owned();
     };
-    let scale = format!(
-        "fastest time scale: {:.4} ms ({}, {})",
-        fastest.time_scale_s * 1e3,
-        fastest.of,
-        fastest.by
-    );
+    let scale = format!("fastest time scale: {:.4} ms ({}, {})", fastest.time_scale_s * 1e3, fastest.of, fastest.by);
     match d.step_by_time_scale {
         Some(number) => {
             format!("{scale}; step/time scale {number:.3}, which must stay below 2.8\n")

@@ -54,12 +54,7 @@ pub struct Args {
     to: Option<String>,
 
     /// Time added to the test's clock
-    #[arg(
-        long,
-        value_name = "TIME",
-        allow_hyphen_values = true,
-        default_value = "0"
-    )]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, default_value = "0")]
     shift: String,
 
     #[command(flatten)]
@@ -109,11 +104,7 @@ struct Couple {
 /// Compares a run with a test.
 pub fn compare(args: &Args) -> Result<Done, Failure> {
     let window = Window {
-        from_s: args
-            .from
-            .as_deref()
-            .map(|t| time("--from", t))
-            .transpose()?,
+        from_s: args.from.as_deref().map(|t| time("--from", t)).transpose()?,
         to_s: args.to.as_deref().map(|t| time("--to", t)).transpose()?,
         shift_s: time("--shift", &args.shift)?,
     };
@@ -124,17 +115,10 @@ pub fn compare(args: &Args) -> Result<Done, Failure> {
     }
     let mut rated = Vec::with_capacity(couples.len());
     for couple in couples {
-        let ours = Track {
-            time_s: &couple.time_s,
-            values: &couple.values,
-        };
-        let theirs = Track {
-            time_s: &couple.measured.time_s,
-            values: &couple.measured.values,
-        };
-        let rating = rate(ours, theirs, window).map_err(|reason| {
-            Failure::plain(format!("{} cannot be compared: {reason}", couple.channel))
-        })?;
+        let ours = Track { time_s: &couple.time_s, values: &couple.values };
+        let theirs = Track { time_s: &couple.measured.time_s, values: &couple.measured.values };
+        let rating = rate(ours, theirs, window)
+            .map_err(|reason| Failure::plain(format!("{} cannot be compared: {reason}", couple.channel)))?;
         rated.push(RatedPair {
             channel: couple.channel,
             signal: couple.measured.signal,
@@ -178,11 +162,7 @@ fn couples(args: &Args, notes: &mut Vec<String>) -> Result<Found, Failure> {
     let wanted: Vec<Wanted> = channels.iter().map(Wanted::from).collect();
     let pairs = pairs(&recording, &wanted, &args.map, args.seat, notes)?;
     if pairs.is_empty() {
-        return Ok((
-            Vec::new(),
-            computed,
-            source(&args.measured, &recording.sha256),
-        ));
+        return Ok((Vec::new(), computed, source(&args.measured, &recording.sha256)));
     }
     let chosen = pairs.iter().map(|p| channels[p.channel].clone()).collect();
     let histories = load(&results, chosen, args.treatment.treatment(None)?)?;
@@ -204,12 +184,7 @@ fn couples(args: &Args, notes: &mut Vec<String>) -> Result<Found, Failure> {
 }
 
 /// Two runs: channels of the same name.
-fn run_couples(
-    args: &Args,
-    results: &Results,
-    computed: Source,
-    notes: &mut Vec<String>,
-) -> Result<Found, Failure> {
+fn run_couples(args: &Args, results: &Results, computed: Source, notes: &mut Vec<String>) -> Result<Found, Failure> {
     if !args.map.is_empty() {
         return Err(Failure::with_help(
             "--map: channels of two runs have the same names",
@@ -219,37 +194,23 @@ fn run_couples(
     let other = Results::open(&args.measured)?;
     let channels = match args.channel.is_empty() {
         true => {
-            let entries = standard(&results.model, false)
-                .into_iter()
-                .flat_map(|w| w.entries);
-            choose(
-                &results.model,
-                &entries.map(|e| e.channel).collect::<Vec<_>>(),
-            )?
+            let entries = standard(&results.model, false).into_iter().flat_map(|w| w.entries);
+            choose(&results.model, &entries.map(|e| e.channel).collect::<Vec<_>>())?
         }
         false => choose(&results.model, &args.channel)?,
     };
     let theirs = occupant_core::channel::channels(&other.model);
     let in_both = |c: &Channel| theirs.iter().find(|t| t.name == c.name).cloned();
-    let (ours, theirs): (Vec<Channel>, Vec<Channel>) = channels
-        .into_iter()
-        .filter_map(|c| Some((c.clone(), in_both(&c)?)))
-        .unzip();
+    let (ours, theirs): (Vec<Channel>, Vec<Channel>) =
+        channels.into_iter().filter_map(|c| Some((c.clone(), in_both(&c)?))).unzip();
     let treatment = args.treatment.treatment(None)?;
-    let (ours, theirs) = (
-        load(results, ours, treatment)?,
-        load(&other, theirs, treatment)?,
-    );
+    let (ours, theirs) = (load(results, ours, treatment)?, load(&other, theirs, treatment)?);
     notes.extend(ours.notes.iter().chain(&theirs.notes).cloned());
     let mut couples = Vec::with_capacity(ours.columns.len());
     for (column, other) in ours.columns.into_iter().zip(theirs.columns) {
         // what never happens in the other run (no contact, no belt) cannot be rated
         if other.values.iter().all(|v| v.abs() < 1e-100) {
-            notes.push(format!(
-                "{}: zero throughout in {}, not rated",
-                other.channel.name,
-                args.measured.display()
-            ));
+            notes.push(format!("{}: zero throughout in {}, not rated", other.channel.name, args.measured.display()));
             continue;
         }
         couples.push(Couple {
@@ -272,10 +233,7 @@ fn run_couples(
 fn recorded_couples(args: &Args, notes: &mut Vec<String>) -> Result<Found, Failure> {
     if !is_recording(&args.measured) {
         return Err(Failure::with_help(
-            format!(
-                "{} is a run: the measured side comes last",
-                args.measured.display()
-            ),
+            format!("{} is a run: the measured side comes last", args.measured.display()),
             "occupant compare RUN.mcap TEST.csv",
         ));
     }
@@ -312,10 +270,7 @@ fn recorded_couples(args: &Args, notes: &mut Vec<String>) -> Result<Found, Failu
             measured,
         });
     }
-    let sources = (
-        source(&args.computed, &ours.sha256),
-        source(&args.measured, &theirs.sha256),
-    );
+    let sources = (source(&args.computed, &ours.sha256), source(&args.measured, &theirs.sha256));
     Ok((couples, sources.0, sources.1))
 }
 
@@ -324,26 +279,16 @@ fn own(recording: &Recording, name: &str, notes: &mut Vec<String>) -> Result<Pai
     let signal = recording.signals.iter().find(|s| s.name == name);
     let signal = signal.ok_or_else(|| Failure::plain(format!("no column `{name}`")))?;
     let found = pairs(recording, &[Wanted::from(signal)], &[], '1', notes)?;
-    found
-        .into_iter()
-        .next()
-        .ok_or_else(|| Failure::plain(format!("no column `{name}`")))
+    found.into_iter().next().ok_or_else(|| Failure::plain(format!("no column `{name}`")))
 }
 
 fn source(path: &Path, sha256: &str) -> Source {
-    Source {
-        file: file_name(path),
-        sha256: sha256.to_owned(),
-    }
+    Source { file: file_name(path), sha256: sha256.to_owned() }
 }
 
 fn nothing_common(args: &Args) -> Failure {
     Failure::with_help(
-        format!(
-            "no signal of {} belongs to a channel of {}",
-            args.measured.display(),
-            args.computed.display()
-        ),
+        format!("no signal of {} belongs to a channel of {}", args.measured.display(), args.computed.display()),
         "say which column is which channel: --map 'column[unit]=head.acceleration.x'; for another seat of an ISO-MME test --seat",
     )
 }
@@ -368,13 +313,7 @@ fn pair_table(pair: &RatedPair) -> String {
     let percent = |x: f64| format!("{:+.1} %", 100.0 * x);
     let mut lines = vec![(
         "compared",
-        format!(
-            "{:.1} to {:.1} ms, {} samples, filter {}",
-            r.from_s * 1e3,
-            r.to_s * 1e3,
-            r.samples,
-            pair.filter
-        ),
+        format!("{:.1} to {:.1} ms, {} samples, filter {}", r.from_s * 1e3, r.to_s * 1e3, r.samples, pair.filter),
     )];
     if let Some(s) = &r.iso18571 {
         let lag = match s.lag_s {
@@ -401,11 +340,7 @@ fn pair_table(pair: &RatedPair) -> String {
         ));
     }
     if let Some(s) = &r.sprague_geers {
-        let verdict = if s.within_40_percent {
-            "all within 40 %"
-        } else {
-            "not all within 40 %"
-        };
+        let verdict = if s.within_40_percent { "all within 40 %" } else { "not all within 40 %" };
         lines.push((
             "Sprague–Geers",
             format!(
@@ -417,11 +352,7 @@ fn pair_table(pair: &RatedPair) -> String {
         ));
     }
     if let Some(s) = &r.anova {
-        let verdict = if s.within_5_and_35_percent {
-            "within"
-        } else {
-            "not within"
-        };
+        let verdict = if s.within_5_and_35_percent { "within" } else { "not within" };
         lines.push((
             "ANOVA",
             format!(
@@ -432,10 +363,5 @@ fn pair_table(pair: &RatedPair) -> String {
         ));
     }
     lines.extend(r.problems.iter().map(|p| ("not rated", p.clone())));
-    format!(
-        "{} against {}\n{}",
-        pair.channel,
-        pair.signal,
-        facts(&lines)
-    )
+    format!("{} against {}\n{}", pair.channel, pair.signal, facts(&lines))
 }

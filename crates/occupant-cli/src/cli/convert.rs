@@ -5,8 +5,7 @@ use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 
 use cardio_legacy::{
-    CompartmentLayout, ConvertOptions, Deck, FromScenario, ParseOptions, PathSource, Strictness,
-    write_file,
+    CompartmentLayout, ConvertOptions, Deck, FromScenario, ParseOptions, PathSource, Strictness, write_file,
 };
 use clap::ArgGroup;
 use occupant_core::scenario::{Draft, Format, Loaded};
@@ -48,12 +47,7 @@ pub struct Args {
     path: Option<PathBuf>,
 
     /// Names and units of the columns of --path, where its first line does not name them
-    #[arg(
-        long,
-        value_name = "t[s],x[in],…",
-        requires = "path",
-        conflicts_with = "path_cards"
-    )]
+    #[arg(long, value_name = "t[s],x[in],…", requires = "path", conflicts_with = "path_cards")]
     path_columns: Option<String>,
 
     /// --path holds cards of series 12, one a station
@@ -82,11 +76,7 @@ pub struct Args {
 pub fn convert(args: &Args) -> Result<Done, Failure> {
     let bytes = read(&args.input)?;
     let layout = args.compartment.as_deref().map(compartment).transpose()?;
-    if args
-        .input
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("mcap"))
-    {
+    if args.input.extension().is_some_and(|e| e.eq_ignore_ascii_case("mcap")) {
         return run_to_deck(args, &bytes, layout.as_ref());
     }
     match format_of(&args.input) {
@@ -104,13 +94,11 @@ fn format_of(path: &Path) -> Option<Format> {
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, Failure> {
-    fs::read(path)
-        .map_err(|error| Failure::plain(format!("{} cannot be read: {error}", path.display())))
+    fs::read(path).map_err(|error| Failure::plain(format!("{} cannot be read: {error}", path.display())))
 }
 
 fn read_text(path: &Path) -> Result<String, Failure> {
-    String::from_utf8(read(path)?)
-        .map_err(|_| Failure::plain(format!("{} is not UTF-8 text", path.display())))
+    String::from_utf8(read(path)?).map_err(|_| Failure::plain(format!("{} is not UTF-8 text", path.display())))
 }
 
 fn compartment(path: &Path) -> Result<CompartmentLayout, Failure> {
@@ -118,51 +106,29 @@ fn compartment(path: &Path) -> Result<CompartmentLayout, Failure> {
         .map_err(|reason| Failure::plain(format!("{}: {reason}", path.display())))
 }
 
-fn decks_to_scenarios(
-    args: &Args,
-    bytes: &[u8],
-    layout: Option<CompartmentLayout>,
-) -> Result<Done, Failure> {
+fn decks_to_scenarios(args: &Args, bytes: &[u8], layout: Option<CompartmentLayout>) -> Result<Done, Failure> {
     let decks = decks(args, bytes)?;
     if decks.len() > 1 && args.output.is_none() {
-        let found = format!(
-            "{} holds {} decks, and standard output takes one",
-            args.input.display(),
-            decks.len()
-        );
-        return Err(Failure::with_help(
-            found,
-            "name a file with -o; its name is numbered",
-        ));
+        let found = format!("{} holds {} decks, and standard output takes one", args.input.display(), decks.len());
+        return Err(Failure::with_help(found, "name a file with -o; its name is numbered"));
     }
     let mut reports = String::new();
     for (at, deck) in decks.iter().enumerate() {
-        let output = args.output.as_deref().map(|file| {
-            if decks.len() > 1 {
-                numbered(file, at + 1)
-            } else {
-                file.to_owned()
-            }
-        });
+        let output =
+            args.output.as_deref().map(|file| if decks.len() > 1 { numbered(file, at + 1) } else { file.to_owned() });
         let options = ConvertOptions {
             deck_name: name_of(&args.input),
             path: path_source(args, output.as_deref())?,
             compartment: layout.clone(),
         };
-        let conversion = deck
-            .to_scenario(&options)
-            .map_err(|error| Failure::plain(format!("{}: {error}", args.input.display())))?;
+        let conversion =
+            deck.to_scenario(&options).map_err(|error| Failure::plain(format!("{}: {error}", args.input.display())))?;
         let text = match args.extend {
             Some(final_s) => extend(deck, &conversion.toml, &options, final_s, args.quiet)?,
             None => conversion.toml.into_bytes(),
         };
         deliver(args, output.as_deref(), &text)?;
-        reports.push_str(&format!(
-            "{}: {}\n{}\n",
-            args.input.display(),
-            deck.titles()[0],
-            conversion.report
-        ));
+        reports.push_str(&format!("{}: {}\n{}\n", args.input.display(), deck.titles()[0], conversion.report));
     }
     tell(args, &reports)
 }
@@ -174,18 +140,9 @@ fn decks(args: &Args, bytes: &[u8]) -> Result<Vec<Deck>, Failure> {
         (_, true) => Strictness::Lenient,
         _ => Strictness::Default,
     };
-    let (decks, diagnostics) = Deck::parse(
-        bytes,
-        &ParseOptions {
-            file: args.input.display().to_string(),
-            strictness,
-        },
-    );
+    let (decks, diagnostics) = Deck::parse(bytes, &ParseOptions { file: args.input.display().to_string(), strictness });
     if diagnostics.has_errors() {
-        return Err(Failure::CouldNotRun(format!(
-            "{diagnostics}\n{}: nothing was converted",
-            args.input.display()
-        )));
+        return Err(Failure::CouldNotRun(format!("{diagnostics}\n{}: nothing was converted", args.input.display())));
     }
     if !diagnostics.is_empty() && !args.quiet {
         say(&diagnostics.to_string());
@@ -204,74 +161,38 @@ fn path_source(args: &Args, output: Option<&Path>) -> Result<Option<PathSource>,
     }
     let split = |columns: &str| columns.split(',').map(|c| c.trim().to_owned()).collect();
     if let Some(columns) = &args.path_columns {
-        return Ok(Some(PathSource::Columns {
-            columns: split(columns),
-            text,
-        }));
+        return Ok(Some(PathSource::Columns { columns: split(columns), text }));
     }
     let folder = |path: &Path| path.parent().map(Path::to_owned).unwrap_or_default();
     if output.is_some_and(|output| folder(output) == folder(file)) {
-        return Ok(Some(PathSource::Csv {
-            name: name_of(file),
-            text,
-        }));
+        return Ok(Some(PathSource::Csv { name: name_of(file), text }));
     }
-    let mut lines = text
-        .lines()
-        .filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
-    let header = lines
-        .next()
-        .unwrap_or_default()
-        .trim_start_matches('\u{feff}')
-        .to_owned();
+    let mut lines = text.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
+    let header = lines.next().unwrap_or_default().trim_start_matches('\u{feff}').to_owned();
     if !header.contains('[') {
-        let found = format!(
-            "the first line of {} names no columns with units: {header}",
-            file.display()
-        );
-        return Err(Failure::with_help(
-            found,
-            "declare them with --path-columns t[s],x[in],…",
-        ));
+        let found = format!("the first line of {} names no columns with units: {header}", file.display());
+        return Err(Failure::with_help(found, "declare them with --path-columns t[s],x[in],…"));
     }
     let rows: String = lines.map(|line| format!("{line}\n")).collect();
-    Ok(Some(PathSource::Columns {
-        columns: split(&header),
-        text: rows,
-    }))
+    Ok(Some(PathSource::Columns { columns: split(&header), text: rows }))
 }
 
 fn name_of(path: &Path) -> String {
-    path.file_name()
-        .map(|name| name.to_string_lossy().into_owned())
-        .unwrap_or_default()
+    path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
 /// `case.toml` → `case-2.toml`.
 fn numbered(file: &Path, number: usize) -> PathBuf {
-    let stem = file
-        .file_stem()
-        .map(|s| s.to_string_lossy().into_owned())
-        .unwrap_or_default();
-    let extension = file
-        .extension()
-        .map(|e| format!(".{}", e.to_string_lossy()))
-        .unwrap_or_default();
+    let stem = file.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    let extension = file.extension().map(|e| format!(".{}", e.to_string_lossy())).unwrap_or_default();
     file.with_file_name(format!("{stem}-{number}{extension}"))
 }
 
 /// The deck that goes on from a results file.
-fn run_to_deck(
-    args: &Args,
-    bytes: &[u8],
-    layout: Option<&CompartmentLayout>,
-) -> Result<Done, Failure> {
+fn run_to_deck(args: &Args, bytes: &[u8], layout: Option<&CompartmentLayout>) -> Result<Done, Failure> {
     let Some(final_s) = args.extend else {
         return Err(Failure::with_help(
-            format!(
-                "{} is a run, and a deck of its scenario would not go on from it",
-                args.input.display()
-            ),
+            format!("{} is a run, and a deck of its scenario would not go on from it", args.input.display()),
             "give the time to which the deck extends the run: --extend TIME",
         ));
     };
@@ -289,9 +210,8 @@ fn scenario_to_deck(
         return Err(Failure::plain("--extend takes a deck"));
     }
     let loaded = load(&args.input, bytes, format)?;
-    let cards = Deck::from_scenario(&loaded, layout).map_err(|error| {
-        Failure::CouldNotRun(format!("error: {}: {error}", args.input.display()))
-    })?;
+    let cards = Deck::from_scenario(&loaded, layout)
+        .map_err(|error| Failure::CouldNotRun(format!("error: {}: {error}", args.input.display())))?;
     deliver_deck(args, cards)
 }
 
@@ -299,25 +219,16 @@ fn scenario_to_deck(
 fn deliver_deck(args: &Args, cards: FromScenario) -> Result<Done, Failure> {
     let FromScenario { deck, remarks } = cards;
     deliver(args, args.output.as_deref(), &write_file(&[deck]))?;
-    let remarks: String = remarks
-        .iter()
-        .map(|remark| format!("  - {remark}\n"))
-        .collect();
-    tell(
-        args,
-        &format!("{}: on cards\n{remarks}", args.input.display()),
-    )
+    let remarks: String = remarks.iter().map(|remark| format!("  - {remark}\n")).collect();
+    tell(args, &format!("{}: on cards\n{remarks}", args.input.display()))
 }
 
 fn load(path: &Path, bytes: &[u8], format: Format) -> Result<Loaded, Failure> {
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
     let resolver = move |file: &str| fs::read(folder.join(file)).map_err(|error| error.to_string());
     let name = path.display().to_string();
-    let loaded =
-        Draft::read_bytes(bytes, Some(format), &name).and_then(|draft| draft.load(&resolver));
-    loaded.map_err(|problems| {
-        Failure::CouldNotRun(format!("{problems}\n\n{name}: nothing was converted"))
-    })
+    let loaded = Draft::read_bytes(bytes, Some(format), &name).and_then(|draft| draft.load(&resolver));
+    loaded.map_err(|problems| Failure::CouldNotRun(format!("{problems}\n\n{name}: nothing was converted")))
 }
 
 fn deliver(args: &Args, output: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
@@ -336,16 +247,13 @@ fn write(file: &Path, bytes: &[u8], force: bool) -> Result<(), Failure> {
         false => options.create_new(true),
     };
     let name = file.display();
-    options
-        .open(file)
-        .and_then(|mut target| target.write_all(bytes))
-        .map_err(|error| match error.kind() {
-            ErrorKind::AlreadyExists => Failure::with_help(
-                format!("{name} exists, and it was left alone"),
-                "choose another name, or replace it with --force",
-            ),
-            _ => Failure::plain(format!("{name} cannot be written: {error}")),
-        })
+    options.open(file).and_then(|mut target| target.write_all(bytes)).map_err(|error| match error.kind() {
+        ErrorKind::AlreadyExists => Failure::with_help(
+            format!("{name} exists, and it was left alone"),
+            "choose another name, or replace it with --force",
+        ),
+        _ => Failure::plain(format!("{name} cannot be written: {error}")),
+    })
 }
 
 /// Says the report, and writes it where it was asked for.

@@ -54,12 +54,7 @@ pub struct EnsembleArgs {
     change: Vec<String>,
 
     /// A figure is stable if the middle 90 % of the members lie within this part of the median
-    #[arg(
-        long,
-        value_name = "PART",
-        default_value = "10 %",
-        requires = "ensemble"
-    )]
+    #[arg(long, value_name = "PART", default_value = "10 %", requires = "ensemble")]
     stable_within: String,
 
     /// Write the bands over time: NAME.csv or NAME.parquet for numbers, NAME.svg or NAME.png for a picture; may be repeated
@@ -183,31 +178,18 @@ impl Wanted {
             Member::Completed(left) => Some(left.values.as_slice()),
             Member::Failed(_) => None,
         });
-        let runs: Vec<&[Vec<f64>]> = std::iter::once(nominal.values.as_slice())
-            .chain(completed)
-            .collect();
+        let runs: Vec<&[Vec<f64>]> = std::iter::once(nominal.values.as_slice()).chain(completed).collect();
         let bands = Bands::of(&self.channels, time_s, &runs, self.tolerance);
         let set = (self.seed, self.changes);
         let report = Report::of(&nominal, &others, self.tolerance, bands, set);
         let title = plain(&summary.title);
-        let files = self
-            .files
-            .iter()
-            .map(|file| self.write(&report, file, &title));
+        let files = self.files.iter().map(|file| self.write(&report, file, &title));
         let files = files.collect::<Result<_, _>>()?;
         Ok(Ran { report, files })
     }
 
-    fn write(
-        &self,
-        report: &Report,
-        (path, kind): &(PathBuf, BandFile),
-        title: &str,
-    ) -> Result<String, Failure> {
-        let words = format!(
-            "{} runs with small changes, seed {}",
-            report.members, report.seed
-        );
+    fn write(&self, report: &Report, (path, kind): &(PathBuf, BandFile), title: &str) -> Result<String, Failure> {
+        let words = format!("{} runs with small changes, seed {}", report.members, report.seed);
         let written = match kind {
             BandFile::Table(form) => {
                 let about = format!("{}: {title}: {words}", program());
@@ -215,15 +197,13 @@ impl Wanted {
             }
             BandFile::Picture(format) => {
                 let drawing = plot::svg(&report.bands, title, &words);
-                let bytes = format.encode(&drawing, PIXELS).map_err(|e| {
-                    Failure::BrokeOff(format!("error: {} cannot be made: {e}", path.display()))
-                })?;
+                let bytes = format
+                    .encode(&drawing, PIXELS)
+                    .map_err(|e| Failure::BrokeOff(format!("error: {} cannot be made: {e}", path.display())))?;
                 write_bytes(path, self.existing, &bytes)
             }
         };
-        written
-            .map(|path| path.display().to_string())
-            .map_err(|reason| Failure::BrokeOff(format!("error: {reason}")))
+        written.map(|path| path.display().to_string()).map_err(|reason| Failure::BrokeOff(format!("error: {reason}")))
     }
 }
 
@@ -240,10 +220,7 @@ fn band_file(path: &Path) -> Result<BandFile, Failure> {
         (Some(form), _) => Ok(BandFile::Table(form)),
         (None, Some(format)) => Ok(BandFile::Picture(format)),
         (None, None) => Err(Failure::with_help(
-            format!(
-                "--bands {}: its ending says no kind of file",
-                path.display()
-            ),
+            format!("--bands {}: its ending says no kind of file", path.display()),
             "give NAME.csv, NAME.parquet, NAME.svg or NAME.png",
         )),
     }
@@ -265,26 +242,10 @@ fn changes(given: &[String]) -> Result<Tolerances, Failure> {
             value.map_err(|e| refused(&format!("{}; expected {}", e.found, e.expected)))
         };
         let (to, value, most) = match what.trim() {
-            "posture" => (
-                &mut changes.posture_rad,
-                si(Angle::text(amount).si(UnitSystem::Si))?,
-                f64::INFINITY,
-            ),
-            "place" => (
-                &mut changes.place_m,
-                si(Length::text(amount).si(UnitSystem::Si))?,
-                f64::INFINITY,
-            ),
-            "path" => (
-                &mut changes.path,
-                si(ratio(amount).si(UnitSystem::Si))?,
-                1.0,
-            ),
-            "stiffness" => (
-                &mut changes.stiffness,
-                si(ratio(amount).si(UnitSystem::Si))?,
-                1.0,
-            ),
+            "posture" => (&mut changes.posture_rad, si(Angle::text(amount).si(UnitSystem::Si))?, f64::INFINITY),
+            "place" => (&mut changes.place_m, si(Length::text(amount).si(UnitSystem::Si))?, f64::INFINITY),
+            "path" => (&mut changes.path, si(ratio(amount).si(UnitSystem::Si))?, 1.0),
+            "stiffness" => (&mut changes.stiffness, si(ratio(amount).si(UnitSystem::Si))?, 1.0),
             other => return Err(refused(&format!("nothing is called `{other}`"))),
         };
         if !(0.0..=most).contains(&value) {
@@ -297,12 +258,7 @@ fn changes(given: &[String]) -> Result<Tolerances, Failure> {
 
 /// A part such as `10 %` or 0.1, above 0.
 fn part(flag: &str, text: &str) -> Result<f64, Failure> {
-    let refused = |found: String| {
-        Failure::with_help(
-            format!("{flag} {text}: {found}"),
-            "give a part such as '10 %'",
-        )
-    };
+    let refused = |found: String| Failure::with_help(format!("{flag} {text}: {found}"), "give a part such as '10 %'");
     let value = ratio(text).si(UnitSystem::Si);
     let value = value.map_err(|e| refused(format!("{}; expected {}", e.found, e.expected)))?;
     match value > 0.0 && value.is_finite() {

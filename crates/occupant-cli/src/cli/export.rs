@@ -83,9 +83,8 @@ pub fn export(args: &Args) -> Result<Done, Failure> {
     let words = treatment.filter.words();
     let about = About::new(&results, &histories, args.units, words, coefficients);
     if kind == Kind::Parquet {
-        let bytes = parquet(&histories, &about, args.units).map_err(|e| {
-            Failure::plain(format!("{} cannot be made: {e}", args.output.display()))
-        })?;
+        let bytes = parquet(&histories, &about, args.units)
+            .map_err(|e| Failure::plain(format!("{} cannot be made: {e}", args.output.display())))?;
         write_file(args, &args.output, &bytes)?;
         return Ok(Done::Well);
     }
@@ -97,26 +96,19 @@ pub fn export(args: &Args) -> Result<Done, Failure> {
     let mut described = begin(args, &beside)?;
     write_file(args, &args.output, table.as_bytes())?;
     let written = described.write_all(about_text.as_bytes());
-    written
-        .map_err(|e| Failure::BrokeOff(format!("error: cannot write {}: {e}", beside.display())))?;
+    written.map_err(|e| Failure::BrokeOff(format!("error: cannot write {}: {e}", beside.display())))?;
     described.publish().map_err(|e| problem(&e))?;
     Ok(Done::Well)
 }
 
 fn kind(output: &Path) -> Result<Kind, Failure> {
-    let ending = output
-        .extension()
-        .and_then(|e| e.to_str())
-        .unwrap_or_default();
+    let ending = output.extension().and_then(|e| e.to_str()).unwrap_or_default();
     match ending.to_ascii_lowercase().as_str() {
         "csv" => Ok(Kind::Csv),
         "parquet" => Ok(Kind::Parquet),
         "mme" => Ok(Kind::Mme),
         _ => Err(Failure::with_help(
-            format!(
-                "-o {}: the ending says nothing of a format",
-                output.display()
-            ),
+            format!("-o {}: the ending says nothing of a format", output.display()),
             "end it in .csv, .parquet or .mme",
         )),
     }
@@ -143,8 +135,7 @@ fn begin(args: &Args, path: &Path) -> Result<PartialFile, Failure> {
 
 fn write_file(args: &Args, path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let mut file = begin(args, path)?;
-    file.write_all(bytes)
-        .map_err(|e| Failure::BrokeOff(format!("error: cannot write {}: {e}", path.display())))?;
+    file.write_all(bytes).map_err(|e| Failure::BrokeOff(format!("error: cannot write {}: {e}", path.display())))?;
     file.publish().map_err(|e| problem(&e))?;
     Ok(())
 }
@@ -155,14 +146,9 @@ fn problem(problem: &FileProblem) -> Failure {
 
 fn export_mme(args: &Args, results: &Results, histories: &Histories) -> Result<Done, Failure> {
     let name = args.output.file_stem().and_then(|n| n.to_str());
-    let name =
-        name.ok_or_else(|| Failure::plain("-o: the name of an ISO-MME test must be text"))?;
+    let name = name.ok_or_else(|| Failure::plain("-o: the name of an ISO-MME test must be text"))?;
     let mut remarks = vec![
-        format!(
-            "result file {}, SHA-256 {}",
-            super::scenario::file_name(&args.run),
-            results.sha256
-        ),
+        format!("result file {}, SHA-256 {}", super::scenario::file_name(&args.run), results.sha256),
         format!("filter: {}", args.treatment.words()),
     ];
     remarks.extend(histories.notes.iter().cloned());
@@ -174,27 +160,15 @@ fn export_mme(args: &Args, results: &Results, histories: &Histories) -> Result<D
         dummy: args.dummy.clone(),
         remarks,
     };
-    let (files, without) = files(&results.model, histories, &labels).map_err(|reason| {
-        Failure::plain(format!(
-            "{} cannot be made: {reason}",
-            args.output.display()
-        ))
-    })?;
+    let (files, without) = files(&results.model, histories, &labels)
+        .map_err(|reason| Failure::plain(format!("{} cannot be made: {reason}", args.output.display())))?;
     let folder = args.output.with_extension("");
     publish_folder(args, &folder, &files)?;
-    say(&format!(
-        "wrote {} channels: {}",
-        files.len() - 2,
-        folder.join(format!("{name}.mme")).display()
-    ));
+    say(&format!("wrote {} channels: {}", files.len() - 2, folder.join(format!("{name}.mme")).display()));
     if !without.is_empty() {
         let shown: Vec<&str> = without.iter().take(4).map(String::as_str).collect();
         let more = if without.len() > 4 { ", …" } else { "" };
-        say(&format!(
-            "left out {} channels that ISO-MME has no code for: {}{more}",
-            without.len(),
-            shown.join(", ")
-        ));
+        say(&format!("left out {} channels that ISO-MME has no code for: {}{more}", without.len(), shown.join(", ")));
     }
     Ok(Done::Well)
 }
@@ -212,26 +186,20 @@ fn publish_folder(args: &Args, folder: &Path, files: &[(PathBuf, String)]) -> Re
             true => remove(&partial)?,
             false => {
                 return Err(Failure::with_help(
-                    format!(
-                        "{} exists, of an export that was interrupted",
-                        partial.display()
-                    ),
+                    format!("{} exists, of an export that was interrupted", partial.display()),
                     "--force replaces it, -o gives another name",
                 ));
             }
         }
     }
-    let failed = |path: &Path, e: std::io::Error| {
-        Failure::BrokeOff(format!("error: cannot write {}: {e}", path.display()))
-    };
+    let failed =
+        |path: &Path, e: std::io::Error| Failure::BrokeOff(format!("error: cannot write {}: {e}", path.display()));
     for (name, text) in files {
         let path = partial.join(name);
         let parent = path.parent().unwrap_or(&partial);
         fs::create_dir_all(parent).map_err(|e| failed(parent, e))?;
         let mut file = fs::File::create_new(&path).map_err(|e| failed(&path, e))?;
-        let written = file
-            .write_all(text.as_bytes())
-            .and_then(|()| file.sync_all());
+        let written = file.write_all(text.as_bytes()).and_then(|()| file.sync_all());
         written.map_err(|e| failed(&path, e))?;
     }
     if fs::symlink_metadata(folder).is_ok() {
@@ -244,10 +212,7 @@ fn publish_folder(args: &Args, folder: &Path, files: &[(PathBuf, String)]) -> Re
 fn refuse_other_folder(args: &Args, folder: &Path) -> Result<(), Failure> {
     let name = folder.display();
     if !args.force {
-        return Err(Failure::with_help(
-            format!("{name} exists"),
-            "--force replaces it, -o gives another name",
-        ));
+        return Err(Failure::with_help(format!("{name} exists"), "--force replaces it, -o gives another name"));
     }
     let mme = super::scenario::file_name(&args.output);
     let listed = fs::read_dir(folder).map_err(|e| Failure::plain(format!("{name}: {e}")))?;
@@ -256,10 +221,7 @@ fn refuse_other_folder(args: &Args, folder: &Path) -> Result<(), Failure> {
         let found = entry.file_name();
         if found != *mme && found != "Channel" {
             return Err(Failure::with_help(
-                format!(
-                    "{name} holds {}, no part of an ISO-MME test, and is not replaced",
-                    found.to_string_lossy()
-                ),
+                format!("{name} holds {}, no part of an ISO-MME test, and is not replaced", found.to_string_lossy()),
                 "-o gives another name",
             ));
         }
@@ -268,8 +230,7 @@ fn refuse_other_folder(args: &Args, folder: &Path) -> Result<(), Failure> {
 }
 
 fn remove(folder: &Path) -> Result<(), Failure> {
-    fs::remove_dir_all(folder)
-        .map_err(|e| Failure::plain(format!("{} cannot be replaced: {e}", folder.display())))
+    fs::remove_dir_all(folder).map_err(|e| Failure::plain(format!("{} cannot be replaced: {e}", folder.display())))
 }
 
 pub(super) fn code_letter(text: &str) -> Result<char, String> {

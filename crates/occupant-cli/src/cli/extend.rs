@@ -3,8 +3,7 @@
 use std::path::Path;
 
 use cardio_legacy::{
-    CompartmentLayout, ConvertOptions, Deck, FromScenario, PathSource, RunEnd, spine_rest,
-    write_file,
+    CompartmentLayout, ConvertOptions, Deck, FromScenario, PathSource, RunEnd, spine_rest, write_file,
 };
 use occupant_core::model::Model;
 use occupant_core::recorder::{Flow, Recorder, RecorderError, Watch};
@@ -37,19 +36,14 @@ pub fn extend(
         _ => String::new(),
     };
     let resolver = |_: &str| Ok(beside.clone().into_bytes());
-    let refused =
-        |problems: occupant_core::scenario::Diagnostics| Failure::CouldNotRun(problems.to_string());
-    let loaded = Draft::read(toml, Format::Toml, "converted scenario")
-        .and_then(|d| d.load(&resolver))
-        .map_err(refused)?;
+    let refused = |problems: occupant_core::scenario::Diagnostics| Failure::CouldNotRun(problems.to_string());
+    let loaded =
+        Draft::read(toml, Format::Toml, "converted scenario").and_then(|d| d.load(&resolver)).map_err(refused)?;
     let (model, _) = loaded.model().map_err(refused)?;
     let end = run_end(&model, &layout)?;
     refuse_early(final_s, end.time_s)?;
     if !quiet {
-        say(&format!(
-            "ran to {} s; cards carry no greatest deformations, so the extension is approximate",
-            end.time_s
-        ));
+        say(&format!("ran to {} s; cards carry no greatest deformations, so the extension is approximate", end.time_s));
     }
     Ok(write_file(&[deck.extended(&end, final_s)]))
 }
@@ -70,17 +64,14 @@ pub fn extend_run(
     let last = last.ok_or_else(|| Failure::plain(format!("{name} holds no checkpoint")))?;
     refuse_early(final_s, last.time_s)?;
     let loaded = scenario::stored(file, &stored)?;
-    let (model, _) = loaded
-        .model()
-        .map_err(|problems| Failure::CouldNotRun(problems.to_string()))?;
+    let (model, _) = loaded.model().map_err(|problems| Failure::CouldNotRun(problems.to_string()))?;
     let cards = Deck::from_scenario(&loaded, layout);
     let mut cards = cards.map_err(|e| Failure::CouldNotRun(format!("error: {name}: {e}")))?;
     let layout = match layout {
         Some(layout) => layout.clone(),
         None => CompartmentLayout::reconstruction().map_err(Failure::plain)?,
     };
-    let broke =
-        |error: &dyn std::error::Error| Failure::BrokeOff(format!("error: {name}: {error}"));
+    let broke = |error: &dyn std::error::Error| Failure::BrokeOff(format!("error: {name}: {error}"));
     let mut first = First(None);
     simulate(&model, &mut first).map_err(|e| broke(&e))?;
     let rest = first.0.unwrap_or_default();
@@ -120,12 +111,9 @@ fn run_end(model: &Model, layout: &CompartmentLayout) -> Result<RunEnd, Failure>
         let rest = *rest.get_or_insert_with(|| spine_rest(sample));
         end = Some(RunEnd::after(rest, sample, layout));
     });
-    let outcome =
-        simulate(model, watch).map_err(|error| Failure::BrokeOff(format!("error: {error}")))?;
+    let outcome = simulate(model, watch).map_err(|error| Failure::BrokeOff(format!("error: {error}")))?;
     match (outcome.status, end) {
         (Status::Completed, Some(end)) => Ok(end),
-        (status, _) => Err(Failure::BrokeOff(format!(
-            "error: the run did not reach its end: {status:?}"
-        ))),
+        (status, _) => Err(Failure::BrokeOff(format!("error: the run did not reach its end: {status:?}"))),
     }
 }

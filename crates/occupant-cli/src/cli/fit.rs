@@ -82,29 +82,16 @@ pub struct Args {
 
 /// Fits.
 pub fn fit(args: &Args) -> Result<Done, Failure> {
-    let means = Means {
-        threads: threads(args.threads),
-        kernel: kernel(args.kernel.as_deref())?,
-    };
-    let given = Given {
-        files: &args.to,
-        maps: &args.map,
-        overrides: &args.overrides,
-    };
+    let means = Means { threads: threads(args.threads), kernel: kernel(args.kernel.as_deref())? };
+    let given = Given { files: &args.to, maps: &args.map, overrides: &args.overrides };
     let fitting = Fitting::open(&args.study, &given, program()).map_err(Failure::CouldNotRun)?;
     if !args.quiet {
         fitting.warnings.iter().for_each(|w| say(&format!("{w}\n")));
     }
     let folder = Folder::of_fit(&args.output);
     let sha256 = fitting.manifest.sha256();
-    let sha256 =
-        sha256.map_err(|e| Failure::plain(format!("the manifest cannot be written: {e}")))?;
-    let claimed = folder.claim(
-        &fitting.manifest,
-        &fitting.texts,
-        Shard::WHOLE,
-        args.restart,
-    );
+    let sha256 = sha256.map_err(|e| Failure::plain(format!("the manifest cannot be written: {e}")))?;
+    let claimed = folder.claim(&fitting.manifest, &fitting.texts, Shard::WHOLE, args.restart);
     let held = claimed.map_err(told)?;
     if let (Some(reason), false) = (&held.unlocked, args.quiet) {
         say(&format!(
@@ -120,11 +107,7 @@ pub fn fit(args: &Args) -> Result<Done, Failure> {
     }
     let answer = search(&fitting, &mut evaluator)?;
     let records = evaluator.close().map_err(told)?;
-    let found = Output {
-        fitting: &fitting,
-        folder: &folder,
-    }
-    .write(&answer, &records)?;
+    let found = Output { fitting: &fitting, folder: &folder }.write(&answer, &records)?;
     match (args.json, args.quiet) {
         (true, _) => print(&json(&found)?)?,
         (false, true) => {}
@@ -150,10 +133,7 @@ impl Output<'_> {
         let found = found(self.fitting, answer, records, &fittings, program());
         self.write_scenarios(&found, &fittings)?;
         history::write(self.folder, self.fitting, records).map_err(told)?;
-        let lines = [format!(
-            "{}: {} score {:.5}",
-            found.study.file, found.objective, found.score.after
-        )];
+        let lines = [format!("{}: {} score {:.5}", found.study.file, found.objective, found.score.after)];
         for (name, svg) in sheets(self.fitting, &runs, &lines).map_err(broke_off)? {
             let name = format!("plots/{}.svg", file_stem(&name));
             self.put(&name, svg.as_bytes())?;
@@ -165,11 +145,7 @@ impl Output<'_> {
     /// Runs the scenarios with the numbers as they will be written, and without.
     fn run_fitted(&self, values: &[f64]) -> Result<(Fittings, Vec<Pair>), String> {
         let experiments = &self.fitting.experiments;
-        let mut fittings = Fittings {
-            names: self.names(),
-            numbers: Vec::new(),
-            parts: Vec::new(),
-        };
+        let mut fittings = Fittings { names: self.names(), numbers: Vec::new(), parts: Vec::new() };
         let mut runs = Vec::new();
         for experiment in experiments {
             let numbers = numbers(experiment, values)?;
@@ -180,14 +156,9 @@ impl Output<'_> {
             }
             let (_, model, _) = opened(draft, &experiment.tables).map_err(|e| e.to_string())?;
             let after = run_model(experiment, &model)?;
-            fittings
-                .parts
-                .extend(experiment.misfits(self.fitting.fit.misfit, &after)?);
+            fittings.parts.extend(experiment.misfits(self.fitting.fit.misfit, &after)?);
             fittings.numbers.push(numbers);
-            runs.push(Pair {
-                before: run(experiment, None).ok(),
-                after,
-            });
+            runs.push(Pair { before: run(experiment, None).ok(), after });
         }
         Ok((fittings, runs))
     }
@@ -210,10 +181,8 @@ impl Output<'_> {
         let each = self.fitting.experiments.iter().zip(&fittings.numbers);
         for ((experiment, numbers), name) in each.zip(&fittings.names) {
             let words = |i: usize| report::provenance(self.fitting, found, &found.parameters[i], i);
-            let provenance: Vec<(String, String)> = numbers
-                .iter()
-                .map(|n| (n.path.clone(), words(n.parameter)))
-                .collect();
+            let provenance: Vec<(String, String)> =
+                numbers.iter().map(|n| (n.path.clone(), words(n.parameter))).collect();
             let head = format!(
                 "# {} with the numbers of the fit {}: see [provenance].\n",
                 file_name(&experiment.scenario),
@@ -221,19 +190,14 @@ impl Output<'_> {
             );
             let text = fitted(experiment, numbers, &provenance, &head).map_err(broke_off)?;
             if !text.kept {
-                say(&format!(
-                    "note: {name} is written anew: its comments and order could not be kept"
-                ));
+                say(&format!("note: {name} is written anew: its comments and order could not be kept"));
             }
             self.put(name, text.text.as_bytes())?;
             let folder = Path::new(name).parent().unwrap_or(Path::new(""));
             for (table, bytes) in &experiment.tables {
                 // beside the scenario that names it, if that is a place below it
                 let below = Path::new(table).components();
-                if below
-                    .clone()
-                    .all(|c| matches!(c, std::path::Component::Normal(_)))
-                {
+                if below.clone().all(|c| matches!(c, std::path::Component::Normal(_))) {
                     let place = folder.join(table);
                     self.put(&place.display().to_string(), bytes)?;
                 }
@@ -245,9 +209,8 @@ impl Output<'_> {
     /// Writes a file of the folder, whole or not at all.
     fn put(&self, name: &str, bytes: &[u8]) -> Result<(), Failure> {
         let path = self.folder.path().join(name);
-        let failed = |e: &dyn std::fmt::Display| {
-            Failure::BrokeOff(format!("error: cannot write {}: {e}", path.display()))
-        };
+        let failed =
+            |e: &dyn std::fmt::Display| Failure::BrokeOff(format!("error: cannot write {}: {e}", path.display()));
         if let Some(folder) = path.parent() {
             fs::create_dir_all(folder).map_err(|e| failed(&e))?;
         }
@@ -261,11 +224,7 @@ impl Output<'_> {
 /// A name that can be that of a file.
 fn file_stem(name: &str) -> String {
     let plain = |c: char| {
-        if c.is_alphanumeric() || "-_ .".contains(c) {
-            c
-        } else {
-            '_'
-        }
+        if c.is_alphanumeric() || "-_ .".contains(c) { c } else { '_' }
     };
     name.chars().map(plain).collect()
 }

@@ -29,17 +29,11 @@ impl HistoryArgs {
             && seconds <= 0.0
         {
             return Err(Failure::with_help(
-                format!(
-                    "--interval {text}: not an interval of samples; expected a time above zero"
-                ),
+                format!("--interval {text}: not an interval of samples; expected a time above zero"),
                 "give a time such as '1 ms'",
             ));
         }
-        Ok(Treatment {
-            filter: self.filter,
-            family: self.coefficients,
-            interval_s,
-        })
+        Ok(Treatment { filter: self.filter, family: self.coefficients, interval_s })
     }
 
     /// Name of the coefficients.

@@ -32,9 +32,7 @@ impl Interrupt {
             say(words);
         };
         if let Err(error) = ctrlc::set_handler(handler) {
-            say(&format!(
-                "warning: Ctrl-C will end the run at once: {error}"
-            ));
+            say(&format!("warning: Ctrl-C will end the run at once: {error}"));
         }
         interrupt
     }

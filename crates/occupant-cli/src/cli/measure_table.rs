@@ -9,16 +9,8 @@ use super::table::Align::{Left, Right};
 use super::table::{NONE, Table, number};
 
 /// Measures that the table at the end of a run shows.
-const SHORT: [&str; 8] = [
-    "hic15",
-    "hic36",
-    "nij",
-    "neck_tension",
-    "neck_compression",
-    "chest_3ms_cumulative",
-    "right_femur",
-    "left_femur",
-];
+const SHORT: [&str; 8] =
+    ["hic15", "hic36", "nij", "neck_tension", "neck_compression", "chest_3ms_cumulative", "right_femur", "left_femur"];
 
 /// The table at the end of a run.
 pub fn short(measures: &[Measure], marks: &Marks) -> String {
@@ -42,11 +34,7 @@ pub fn risks(measures: &[Measure]) -> String {
     let mut table = Table::new(&[("injury", Left), ("from", Left), ("risk, %", Right)]);
     for m in measures {
         for risk in &m.risks {
-            table.row([
-                risk.injury.to_owned(),
-                m.label.to_owned(),
-                number(100.0 * risk.probability, 1),
-            ]);
+            table.row([risk.injury.to_owned(), m.label.to_owned(), number(100.0 * risk.probability, 1)]);
         }
     }
     table.text()
@@ -68,10 +56,7 @@ fn table<'m>(measures: impl Iterator<Item = &'m Measure>, marks: &Marks) -> Stri
         let [limit, of, margin, verdict] = verdict(m, limits.next());
         table.row([
             m.label.to_owned(),
-            marks.put(
-                figure_name(m.name),
-                m.value.map_or(NONE.to_owned(), |v| shown(m, v)),
-            ),
+            marks.put(figure_name(m.name), m.value.map_or(NONE.to_owned(), |v| shown(m, v))),
             unit(m).to_owned(),
             at(m),
             limit,
@@ -82,16 +67,7 @@ fn table<'m>(measures: impl Iterator<Item = &'m Measure>, marks: &Marks) -> Stri
         for more in limits {
             let [limit, of, margin, verdict] = self::verdict(m, Some(more));
             let blank = String::new;
-            table.row([
-                blank(),
-                blank(),
-                blank(),
-                blank(),
-                limit,
-                of,
-                margin,
-                verdict,
-            ]);
+            table.row([blank(), blank(), blank(), blank(), limit, of, margin, verdict]);
         }
     }
     table.text()

@@ -33,10 +33,7 @@ pub fn new(args: &Args) -> Result<Done, Failure> {
         file.set_extension("toml");
     }
     let name = file.display();
-    if file
-        .extension()
-        .is_some_and(|e| !e.eq_ignore_ascii_case("toml"))
-    {
+    if file.extension().is_some_and(|e| !e.eq_ignore_ascii_case("toml")) {
         return Err(Failure::with_help(
             format!("{name} is not named .toml, and the starter scenario is TOML"),
             "give it a name that ends with .toml",
@@ -48,15 +45,11 @@ pub fn new(args: &Args) -> Result<Done, Failure> {
         true => options.create(true).truncate(true),
         false => options.create_new(true),
     };
-    let written = options
-        .open(&file)
-        .and_then(|mut target| target.write_all(STARTER.as_bytes()));
+    let written = options.open(&file).and_then(|mut target| target.write_all(STARTER.as_bytes()));
     match written {
         Ok(()) if args.quiet => Ok(Done::Well),
         Ok(()) => {
-            say(&format!(
-                "wrote {name}\nnext: occupant check {name}\n      occupant run {name}"
-            ));
+            say(&format!("wrote {name}\nnext: occupant check {name}\n      occupant run {name}"));
             Ok(Done::Well)
         }
         Err(error) if error.kind() == ErrorKind::AlreadyExists => Err(Failure::with_help(

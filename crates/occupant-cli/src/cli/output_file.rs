@@ -63,31 +63,21 @@ pub enum FileProblem {
 impl fmt::Display for FileProblem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            FileProblem::Exists { path } => write!(
-                f,
-                "{} exists; --force replaces it, -o gives another name",
-                path.display()
-            ),
+            FileProblem::Exists { path } => {
+                write!(f, "{} exists; --force replaces it, -o gives another name", path.display())
+            }
             FileProblem::PartialExists { path } => write!(
                 f,
                 "{} exists: a run that was interrupted or still goes on; --force replaces it, -o gives another name",
                 path.display()
             ),
-            FileProblem::NotAFile { path } => write!(
-                f,
-                "{} is not an ordinary file; -o gives another name",
-                path.display()
-            ),
-            FileProblem::IsInput { path } => write!(
-                f,
-                "{} is what the run reads and is not replaced; -o gives another name",
-                path.display()
-            ),
-            FileProblem::Io {
-                doing,
-                path,
-                source,
-            } => write!(f, "cannot {doing} {}: {source}", path.display()),
+            FileProblem::NotAFile { path } => {
+                write!(f, "{} is not an ordinary file; -o gives another name", path.display())
+            }
+            FileProblem::IsInput { path } => {
+                write!(f, "{} is what the run reads and is not replaced; -o gives another name", path.display())
+            }
+            FileProblem::Io { doing, path, source } => write!(f, "cannot {doing} {}: {source}", path.display()),
         }
     }
 }
@@ -133,11 +123,9 @@ fn refuse_irregular(target: &Path) -> Result<(), FileProblem> {
 
 fn remove_if_there(partial: &Path) -> Result<(), FileProblem> {
     match fs::remove_file(partial) {
-        Err(source) if source.kind() != io::ErrorKind::NotFound => Err(FileProblem::Io {
-            doing: "replace",
-            path: partial.to_owned(),
-            source,
-        }),
+        Err(source) if source.kind() != io::ErrorKind::NotFound => {
+            Err(FileProblem::Io { doing: "replace", path: partial.to_owned(), source })
+        }
         _ => Ok(()),
     }
 }
@@ -167,19 +155,10 @@ impl PartialFile {
             let path = partial.clone();
             match source.kind() {
                 io::ErrorKind::AlreadyExists => FileProblem::PartialExists { path },
-                _ => FileProblem::Io {
-                    doing: "create",
-                    path,
-                    source,
-                },
+                _ => FileProblem::Io { doing: "create", path, source },
             }
         })?;
-        Ok(PartialFile {
-            target: target.to_owned(),
-            partial,
-            existing,
-            writer: BufWriter::new(file),
-        })
+        Ok(PartialFile { target: target.to_owned(), partial, existing, writer: BufWriter::new(file) })
     }
 
     /// The provisional name.
@@ -214,11 +193,7 @@ impl PartialFile {
     pub fn keep(mut self) -> Result<PathBuf, FileProblem> {
         let written = self.writer.flush();
         let synced = written.and_then(|()| self.writer.get_ref().sync_all());
-        synced.map_err(|source| FileProblem::Io {
-            doing: "write",
-            path: self.partial.clone(),
-            source,
-        })?;
+        synced.map_err(|source| FileProblem::Io { doing: "write", path: self.partial.clone(), source })?;
         Ok(self.partial)
     }
 }
@@ -257,9 +232,7 @@ pub fn partial_path(target: &Path) -> PathBuf {
 
 fn refuse_existing(target: &Path) -> Result<(), FileProblem> {
     match fs::symlink_metadata(target) {
-        Ok(_) => Err(FileProblem::Exists {
-            path: target.to_owned(),
-        }),
+        Ok(_) => Err(FileProblem::Exists { path: target.to_owned() }),
         Err(_) => Ok(()),
     }
 }

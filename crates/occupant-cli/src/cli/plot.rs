@@ -17,10 +17,7 @@ use super::speak::say;
 use crate::history::{UnitChoice, choose, load};
 use crate::measured::{self, MapArgument, Wanted, pairs};
 use crate::picture::Format;
-use crate::plot::{
-    Entry, Figure, LimitArgument, Material, Overlay, RunCurves, Sheet, Wish, figures, sheet,
-    standard,
-};
+use crate::plot::{Entry, Figure, LimitArgument, Material, Overlay, RunCurves, Sheet, Wish, figures, sheet, standard};
 use crate::results::Results;
 
 /// Draw time histories of one or more runs as SVG or PNG
@@ -51,12 +48,7 @@ pub struct Args {
     channel: Vec<String>,
 
     /// The channel across instead of the time
-    #[arg(
-        long,
-        value_name = "NAME",
-        requires = "channel",
-        conflicts_with = "test"
-    )]
+    #[arg(long, value_name = "NAME", requires = "channel", conflicts_with = "test")]
     x: Option<String>,
 
     /// A level to draw, such as 'head.acceleration.resultant=80 g'; without unit in that of the plot
@@ -72,12 +64,7 @@ pub struct Args {
     map: Vec<MapArgument>,
 
     /// Time added to the tests' clocks
-    #[arg(
-        long,
-        value_name = "TIME",
-        allow_hyphen_values = true,
-        default_value = "0"
-    )]
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, default_value = "0")]
     shift: String,
 
     /// Position of the occupant in the tests' ISO-MME codes
@@ -129,11 +116,7 @@ enum Kind {
 pub fn plot(args: &Args) -> Result<Done, Failure> {
     let kind = kind(args)?;
     let window_s = window(args)?;
-    let runs = args
-        .runs
-        .iter()
-        .map(|path| Results::open(path))
-        .collect::<Result<Vec<_>, _>>()?;
+    let runs = args.runs.iter().map(|path| Results::open(path)).collect::<Result<Vec<_>, _>>()?;
     let wishes = wishes(args, &runs)?;
     let names = channel_names(args, &wishes);
     let mut notes = Vec::new();
@@ -158,10 +141,7 @@ pub fn plot(args: &Args) -> Result<Done, Failure> {
         window_s,
     };
     let figures = figures(&wishes, &material).map_err(|reason| {
-        Failure::with_help(
-            reason,
-            "give other channels a plot of their own with another --channel",
-        )
+        Failure::with_help(reason, "give other channels a plot of their own with another --channel")
     })?;
     let words = words(args, &runs);
     match &args.each {
@@ -179,26 +159,16 @@ fn kind(args: &Args) -> Result<Format, Failure> {
     };
     Format::of(output).ok_or_else(|| {
         Failure::with_help(
-            format!(
-                "-o {}: the ending says nothing of a picture",
-                output.display()
-            ),
+            format!("-o {}: the ending says nothing of a picture", output.display()),
             "end it in .svg or .png",
         )
     })
 }
 
 fn window(args: &Args) -> Result<[f64; 2], Failure> {
-    let from = args
-        .from
-        .as_deref()
-        .map(|t| time("--from", t))
-        .transpose()?;
+    let from = args.from.as_deref().map(|t| time("--from", t)).transpose()?;
     let to = args.to.as_deref().map(|t| time("--to", t)).transpose()?;
-    let window = [
-        from.unwrap_or(f64::NEG_INFINITY),
-        to.unwrap_or(f64::INFINITY),
-    ];
+    let window = [from.unwrap_or(f64::NEG_INFINITY), to.unwrap_or(f64::INFINITY)];
     match window[0] < window[1] {
         true => Ok(window),
         false => Err(Failure::with_help(
@@ -214,20 +184,14 @@ fn wishes(args: &Args, runs: &[Results]) -> Result<Vec<Wish>, Failure> {
         let mut wishes = standard(&runs[0].model, runs.len() > 1);
         for other in &runs[1..] {
             for (wish, more) in wishes.iter_mut().zip(standard(&other.model, true)) {
-                let new = more
-                    .entries
-                    .into_iter()
-                    .filter(|e| !wish.entries.contains(e));
+                let new = more.entries.into_iter().filter(|e| !wish.entries.contains(e));
                 let new: Vec<Entry> = new.collect();
                 wish.entries.extend(new);
             }
         }
         return Ok(wishes);
     }
-    args.channel
-        .iter()
-        .map(|names| own_wish(names, runs))
-        .collect()
+    args.channel.iter().map(|names| own_wish(names, runs)).collect()
 }
 
 /// A plot of channels by name, as the first run that has them knows them.
@@ -246,22 +210,12 @@ fn wish_of(names: &str, channels: &[Channel]) -> Wish {
     let title = match channels {
         [one] if one.axes != Axes::None => format!("{}, {} axes", one.name, one.axes.name()),
         [one] => one.name.clone(),
-        _ => names
-            .split(',')
-            .map(str::trim)
-            .collect::<Vec<_>>()
-            .join(", "),
+        _ => names.split(',').map(str::trim).collect::<Vec<_>>().join(", "),
     };
-    let entry = |c: &Channel| Entry {
-        channel: c.name.clone(),
-        label: c.name.clone(),
-    };
+    let entry = |c: &Channel| Entry { channel: c.name.clone(), label: c.name.clone() };
     Wish {
         title,
-        axis: channels
-            .first()
-            .map_or("", |c| c.unit.quantity())
-            .to_owned(),
+        axis: channels.first().map_or("", |c| c.unit.quantity()).to_owned(),
         entries: channels.iter().map(entry).collect(),
         empty: "no value in this time".to_owned(),
     }
@@ -330,12 +284,7 @@ fn labels(runs: &[Results]) -> Vec<String> {
     runs.iter().enumerate().map(label).collect()
 }
 
-fn overlays(
-    args: &Args,
-    runs: &[Results],
-    names: &[String],
-    notes: &mut Vec<String>,
-) -> Result<Vec<Overlay>, Failure> {
+fn overlays(args: &Args, runs: &[Results], names: &[String], notes: &mut Vec<String>) -> Result<Vec<Overlay>, Failure> {
     let shift_s = time("--shift", &args.shift)?;
     let known = |n: &String| runs.iter().find_map(|r| find(&r.model, n).ok());
     let channels: Vec<Channel> = names.iter().filter_map(known).collect();
@@ -347,10 +296,7 @@ fn overlays(
         let found = pairs(&recording, &wanted, &args.map, args.seat, notes)?;
         if found.is_empty() {
             return Err(Failure::with_help(
-                format!(
-                    "no signal of {} belongs to a channel that is drawn",
-                    path.display()
-                ),
+                format!("no signal of {} belongs to a channel that is drawn", path.display()),
                 "say which column is which channel: --map 'column[unit]=head.acceleration.x'",
             ));
         }
@@ -360,11 +306,7 @@ fn overlays(
                 pair.filter(class, args.treatment.coefficients)?;
             }
             pair.time_s.iter_mut().for_each(|t| *t += shift_s);
-            overlays.push(Overlay {
-                channel,
-                file: file_name(path),
-                pair,
-            });
+            overlays.push(Overlay { channel, file: file_name(path), pair });
         }
     }
     Ok(overlays)
@@ -383,17 +325,10 @@ fn words(args: &Args, runs: &[Results]) -> Sheet {
         .iter()
         .take(MOST_RUNS_TOLD)
         .map(|run| {
-            let end = if run.is_complete() {
-                ""
-            } else {
-                " – RUN DID NOT COMPLETE"
-            };
+            let end = if run.is_complete() { "" } else { " – RUN DID NOT COMPLETE" };
             let hash = run.sha256.get(..12).unwrap_or_default();
             let name = file_name(&run.path);
-            format!(
-                "{name}: {} (SHA-256 {hash}…){end}",
-                run.loaded.scenario.title
-            )
+            format!("{name}: {} (SHA-256 {hash}…){end}", run.loaded.scenario.title)
         })
         .collect();
     if runs.len() > MOST_RUNS_TOLD {
@@ -403,15 +338,8 @@ fn words(args: &Args, runs: &[Results]) -> Sheet {
         "none" => "not filtered".to_owned(),
         words => format!("filter: {words}"),
     };
-    lines.push(format!(
-        "{}; {filter}; segment axes: X ahead, Y left, Z up when upright",
-        program()
-    ));
-    Sheet {
-        title,
-        lines,
-        columns: usize::from(args.columns),
-    }
+    lines.push(format!("{}; {filter}; segment axes: X ahead, Y left, Z up when upright", program()));
+    Sheet { title, lines, columns: usize::from(args.columns) }
 }
 
 fn existing(args: &Args) -> Existing {
@@ -421,12 +349,7 @@ fn existing(args: &Args) -> Existing {
     }
 }
 
-fn write_sheet(
-    args: &Args,
-    kind: Format,
-    words: &Sheet,
-    figures: &[Figure],
-) -> Result<Done, Failure> {
+fn write_sheet(args: &Args, kind: Format, words: &Sheet, figures: &[Figure]) -> Result<Done, Failure> {
     let Some(path) = &args.output else {
         return Ok(Done::Well);
     };
@@ -434,15 +357,8 @@ fn write_sheet(
     Ok(Done::Well)
 }
 
-fn write_each(
-    args: &Args,
-    folder: &Path,
-    kind: Format,
-    words: &Sheet,
-    figures: &[Figure],
-) -> Result<Done, Failure> {
-    fs::create_dir_all(folder)
-        .map_err(|e| Failure::plain(format!("{} cannot be made: {e}", folder.display())))?;
+fn write_each(args: &Args, folder: &Path, kind: Format, words: &Sheet, figures: &[Figure]) -> Result<Done, Failure> {
+    fs::create_dir_all(folder).map_err(|e| Failure::plain(format!("{} cannot be made: {e}", folder.display())))?;
     let ending = match kind {
         Format::Svg => "svg",
         Format::Png => "png",
@@ -452,11 +368,7 @@ fn write_each(
         let drawing = sheet(words, std::slice::from_ref(figure));
         write(args, &folder.join(name), kind, &drawing)?;
     }
-    say(&format!(
-        "wrote {} plots into {}",
-        figures.len(),
-        folder.display()
-    ));
+    say(&format!("wrote {} plots into {}", figures.len(), folder.display()));
     Ok(Done::Well)
 }
 
@@ -482,13 +394,10 @@ fn write(args: &Args, path: &Path, kind: Format, drawing: &str) -> Result<(), Fa
     for input in args.runs.iter().chain(&args.test) {
         refuse_input(path, input).map_err(|e| Failure::plain(e.to_string()))?;
     }
-    let bytes = kind
-        .encode(drawing, args.pixels)
-        .map_err(|e| Failure::plain(format!("{name} cannot be made: {e}")))?;
+    let bytes = kind.encode(drawing, args.pixels).map_err(|e| Failure::plain(format!("{name} cannot be made: {e}")))?;
     let problem = |e: super::output_file::FileProblem| Failure::plain(e.to_string());
     let mut file = PartialFile::create(path, existing(args)).map_err(problem)?;
-    file.write_all(&bytes)
-        .map_err(|e| Failure::BrokeOff(format!("error: cannot write {name}: {e}")))?;
+    file.write_all(&bytes).map_err(|e| Failure::BrokeOff(format!("error: cannot write {name}: {e}")))?;
     file.publish().map_err(problem)?;
     Ok(())
 }
@@ -506,10 +415,7 @@ mod tests {
 
     #[test]
     fn titles_become_file_names() {
-        assert_eq!(
-            slug("Head acceleration X, ahead"),
-            "head-acceleration-x-ahead"
-        );
+        assert_eq!(slug("Head acceleration X, ahead"), "head-acceleration-x-ahead");
         assert_eq!(slug("∑ (a)/b"), "a-b");
         assert!(slug(&"long ".repeat(40)).len() <= LONGEST_SLUG);
     }

@@ -52,8 +52,7 @@ enum UnitsChoice {
 pub fn print_run(args: &Args) -> Result<Done, Failure> {
     let every_s = args.every.as_deref().map(interval).transpose()?;
     let name = args.run.display();
-    let bytes = fs::read(&args.run)
-        .map_err(|error| Failure::plain(format!("{name} cannot be read: {error}")))?;
+    let bytes = fs::read(&args.run).map_err(|error| Failure::plain(format!("{name} cannot be read: {error}")))?;
     let refused = |reason| {
         Failure::with_help(
             format!("{name} cannot be printed: {reason}"),
@@ -66,8 +65,7 @@ pub fn print_run(args: &Args) -> Result<Done, Failure> {
         Some(UnitsChoice::InchPound) => &crate::print::INCH_POUND,
         None => case.units(),
     };
-    let text =
-        printout(&case, units, every_s).map_err(|e| Failure::plain(format!("{name}: {e}")))?;
+    let text = printout(&case, units, every_s).map_err(|e| Failure::plain(format!("{name}: {e}")))?;
     write(args, &text)?;
     if !case.is_complete() {
         say(&format!("{name} is partial; the last page says so"));
@@ -105,14 +103,11 @@ fn write(args: &Args, text: &str) -> Result<(), Failure> {
         true => options.create(true).truncate(true),
         false => options.create_new(true),
     };
-    let written = options
-        .open(path)
-        .and_then(|mut file| std::io::Write::write_all(&mut file, text.as_bytes()));
+    let written = options.open(path).and_then(|mut file| std::io::Write::write_all(&mut file, text.as_bytes()));
     written.map_err(|error| match error.kind() {
-        std::io::ErrorKind::AlreadyExists => Failure::with_help(
-            format!("{} exists", path.display()),
-            "--force replaces it, -o gives another name",
-        ),
+        std::io::ErrorKind::AlreadyExists => {
+            Failure::with_help(format!("{} exists", path.display()), "--force replaces it, -o gives another name")
+        }
         _ => Failure::plain(format!("{} cannot be written: {error}", path.display())),
     })
 }

@@ -21,9 +21,7 @@ impl Progress {
         };
         let bar = ProgressBar::with_draw_target(None, target);
         // the words of the template are ours; should they not parse, the plain bar does
-        if let Ok(style) =
-            ProgressStyle::with_template("{bar:40} {msg}, {elapsed} so far, {eta} to go")
-        {
+        if let Ok(style) = ProgressStyle::with_template("{bar:40} {msg}, {elapsed} so far, {eta} to go") {
             bar.set_style(style);
         }
         Progress { bar }
@@ -39,8 +37,7 @@ impl Recorder for Progress {
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
         if !self.bar.is_hidden() {
             self.bar.set_position(sample.index as u64 + 1);
-            self.bar
-                .set_message(format!("{:.1} ms", sample.time_s * 1e3));
+            self.bar.set_message(format!("{:.1} ms", sample.time_s * 1e3));
         }
         Ok(Flow::Continue)
     }

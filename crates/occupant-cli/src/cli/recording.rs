@@ -85,8 +85,7 @@ impl Recording {
         let file = PartialFile::create(name, existing).map_err(|e| refused(&e))?;
         let partial = file.partial_path().to_owned();
         let recorder = McapRecorder::new(file, about, McapOptions::default());
-        let recorder = recorder
-            .map_err(|e| Failure::plain(format!("{} cannot be written: {e}", partial.display())))?;
+        let recorder = recorder.map_err(|e| Failure::plain(format!("{} cannot be written: {e}", partial.display())))?;
         let recorder = match opened.loaded.table() {
             Some((name, text)) => recorder.with_table(Document {
                 name: file_name(Path::new(name)),
@@ -101,10 +100,7 @@ impl Recording {
     /// Words about what a run that broke off left behind.
     pub fn left(&self) -> String {
         match &self.0 {
-            Some(open) => format!(
-                "\n = done: what was written before is in {}",
-                open.partial.display()
-            ),
+            Some(open) => format!("\n = done: what was written before is in {}", open.partial.display()),
             None => String::new(),
         }
     }
@@ -128,9 +124,7 @@ impl Recording {
         };
         closed.map_err(|problem| {
             let partial = open.partial.display();
-            Failure::BrokeOff(format!(
-                "error: {problem}\n = done: the run is in {partial}"
-            ))
+            Failure::BrokeOff(format!("error: {problem}\n = done: the run is in {partial}"))
         })
     }
 }
@@ -167,8 +161,7 @@ impl Recorder for Recording {
 fn about(args: &ScenarioArgs, opened: &Opened) -> Result<About, Failure> {
     let name = file_name(&args.scenario);
     let resolved = opened.loaded.explicit().to_toml();
-    let resolved = resolved
-        .map_err(|e| Failure::plain(format!("the scenario cannot be written down: {e}")))?;
+    let resolved = resolved.map_err(|e| Failure::plain(format!("the scenario cannot be written down: {e}")))?;
     let media_type = match args.scenario.extension() {
         Some(e) if e.eq_ignore_ascii_case("json") => "application/json",
         _ => "application/toml",
@@ -179,11 +172,7 @@ fn about(args: &ScenarioArgs, opened: &Opened) -> Result<About, Failure> {
     }
     Ok(About {
         program: program(),
-        scenario: Document {
-            name,
-            media_type: media_type.to_owned(),
-            content: opened.bytes.clone(),
-        },
+        scenario: Document { name, media_type: media_type.to_owned(), content: opened.bytes.clone() },
         resolved: Some(Document {
             name: RESOLVED.to_owned(),
             media_type: "application/toml".to_owned(),

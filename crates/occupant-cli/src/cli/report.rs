@@ -40,25 +40,14 @@ pub fn report(args: &Args) -> Result<Done, Failure> {
             "give a name that ends with .html",
         ));
     }
-    for input in [Some(&args.run), args.against.as_ref()]
-        .into_iter()
-        .flatten()
-    {
+    for input in [Some(&args.run), args.against.as_ref()].into_iter().flatten() {
         refuse_input(&args.output, input).map_err(|e| Failure::plain(e.to_string()))?;
     }
     let run = Results::open(&args.run)?;
     let against = args.against.as_deref().map(Results::open).transpose()?;
-    for note in [Some(&run), against.as_ref()]
-        .into_iter()
-        .flatten()
-        .flat_map(Results::notes)
-    {
+    for note in [Some(&run), against.as_ref()].into_iter().flatten().flat_map(Results::notes) {
         say(&note);
     }
-    publish(
-        &args.output,
-        args.force,
-        page(&run, against.as_ref())?.as_bytes(),
-    )?;
+    publish(&args.output, args.force, page(&run, against.as_ref())?.as_bytes())?;
     Ok(Done::Well)
 }

@@ -47,10 +47,8 @@ impl Resumption {
     /// A file that cannot be read or holds no checkpoint; another scenario; an end that lies not after the file's.
     pub fn find(file: &Path, opened: &Opened) -> Result<Self, Failure> {
         let name = file.display();
-        let bytes = fs::read(file)
-            .map_err(|e| Failure::plain(format!("{name}, to resume, cannot be read: {e}")))?;
-        let stored = StoredRun::read(&bytes)
-            .map_err(|e| Failure::plain(format!("{name} cannot be resumed: {e}")))?;
+        let bytes = fs::read(file).map_err(|e| Failure::plain(format!("{name}, to resume, cannot be read: {e}")))?;
+        let stored = StoredRun::read(&bytes).map_err(|e| Failure::plain(format!("{name} cannot be resumed: {e}")))?;
         let Some(last) = stored.checkpoints.last() else {
             return Err(Failure::with_help(
                 format!("{name} holds no checkpoint"),
@@ -61,21 +59,13 @@ impl Resumption {
         let end_s = opened.model.setup().time.end_s;
         if end_s <= last.time_s {
             return Err(Failure::with_help(
-                format!(
-                    "{name} reaches t = {} s, and the run is to end at {end_s} s",
-                    last.time_s
-                ),
+                format!("{name} reaches t = {} s, and the run is to end at {end_s} s", last.time_s),
                 "give a later end with --until TIME",
             ));
         }
         let sha256 = sha256(&bytes);
         let (checkpoint, earlier) = last_fitting(file, stored.checkpoints, &opened.model)?;
-        Ok(Resumption {
-            checkpoint,
-            earlier,
-            file: file.to_owned(),
-            sha256,
-        })
+        Ok(Resumption { checkpoint, earlier, file: file.to_owned(), sha256 })
     }
 
     /// What the new file says of it.
@@ -106,11 +96,7 @@ impl Resumption {
 
     /// For `--json`.
     pub fn describe(&self) -> Resumed {
-        Resumed {
-            file: self.file.display().to_string(),
-            at_s: self.checkpoint.time_s,
-            output: self.checkpoint.index,
-        }
+        Resumed { file: self.file.display().to_string(), at_s: self.checkpoint.time_s, output: self.checkpoint.index }
     }
 
     /// Refuses to write over what is being resumed.
@@ -124,11 +110,7 @@ impl Resumption {
         };
         match same(target) || same(partial) {
             true => Err(Failure::with_help(
-                format!(
-                    "{} would write over {}, which it resumes",
-                    target.display(),
-                    self.file.display()
-                ),
+                format!("{} would write over {}, which it resumes", target.display(), self.file.display()),
                 "choose another name with -o FILE.mcap",
             )),
             false => Ok(()),
@@ -164,19 +146,13 @@ fn same_scenario(file: &Path, stored: &StoredRun, opened: &Opened) -> Result<(),
     let theirs = super::scenario::stored(file, stored)?;
     let mut found = differences(theirs.explicit(), opened.loaded.explicit())
         .map_err(|e| Failure::plain(format!("the scenarios cannot be compared: {e}")))?;
-    let table = |loaded: &occupant_core::scenario::Loaded| {
-        loaded.table().map(|(_, text)| sha256(text.as_bytes()))
-    };
+    let table = |loaded: &occupant_core::scenario::Loaded| loaded.table().map(|(_, text)| sha256(text.as_bytes()));
     if table(&theirs) != table(&opened.loaded) {
         found.push("the content of the path's table".to_owned());
     }
     if !found.is_empty() {
         let more = found.len().saturating_sub(SHOWN);
-        let mut lines: String = found
-            .iter()
-            .take(SHOWN)
-            .map(|line| format!("\n   {line}"))
-            .collect();
+        let mut lines: String = found.iter().take(SHOWN).map(|line| format!("\n   {line}")).collect();
         if more > 0 {
             lines.push_str(&format!("\n   and {more} more"));
         }

@@ -148,9 +148,7 @@ pub fn risk(args: &Args) -> Result<Done, Failure> {
         false => print(&text(&report))?,
     }
     let broken = report.judgements.iter().filter(|j| j.breaks_the_rule());
-    let broken: Vec<String> = broken
-        .map(|j| format!("{} {}", j.limit.rule.name(), j.measure))
-        .collect();
+    let broken: Vec<String> = broken.map(|j| format!("{} {}", j.limit.rule.name(), j.measure)).collect();
     match rules.is_empty() || broken.is_empty() {
         true => Ok(Done::Well),
         false => {

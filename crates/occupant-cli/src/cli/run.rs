@@ -211,12 +211,8 @@ fn output_name(args: &Args) -> Result<Option<PathBuf>, Failure> {
         return Ok(Some(name.clone()));
     }
     let stem = args.scenario.scenario.file_stem().map(Path::new);
-    let stem = stem.ok_or_else(|| {
-        Failure::with_help(
-            "the scenario's name gives no name to its results",
-            "use -o FILE.mcap",
-        )
-    })?;
+    let stem =
+        stem.ok_or_else(|| Failure::with_help("the scenario's name gives no name to its results", "use -o FILE.mcap"))?;
     let mut name = stem.as_os_str().to_owned();
     name.push(match args.resume {
         Some(_) => ".resumed.mcap",
@@ -262,11 +258,7 @@ fn tell(
     };
     let marks = Marks::of(ran.report.unstable());
     let summary = summary_table(answer.summary, written, &marks);
-    let files: String = ran
-        .files
-        .iter()
-        .map(|f| format!("written   {f}\n"))
-        .collect();
+    let files: String = ran.files.iter().map(|f| format!("written   {f}\n")).collect();
     speak::print(&format!("{summary}\n{}{files}", ensemble_text(&ran.report)))
 }
 
@@ -283,10 +275,7 @@ fn broke_off(summary: &Summary, written: &Written) -> String {
         (summary.end_s - summary.start_s) * 1e3
     );
     let file = match written {
-        Written::Partial(path) => format!(
-            "; these are in {}, which says that it is partial",
-            path.display()
-        ),
+        Written::Partial(path) => format!("; these are in {}, which says that it is partial", path.display()),
         _ => String::new(),
     };
     format!("error: the run was not completed: {reason}\n = done: {reached}{file}")

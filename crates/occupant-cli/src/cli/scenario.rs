@@ -68,16 +68,10 @@ pub fn open_draft(args: &ScenarioArgs, bytes: Vec<u8>, draft: Draft) -> Result<O
     let name = args.scenario.display().to_string();
     let refuse = |problems: Diagnostics| refused(&name, &problems);
     let folder = args.scenario.parent().unwrap_or(Path::new("")).to_owned();
-    let resolver =
-        move |file: &str| std::fs::read(folder.join(file)).map_err(|error| error.to_string());
+    let resolver = move |file: &str| std::fs::read(folder.join(file)).map_err(|error| error.to_string());
     let loaded = draft.load(&resolver).map_err(refuse)?;
     let (model, warnings) = loaded.model().map_err(refuse)?;
-    Ok(Opened {
-        bytes,
-        loaded,
-        model,
-        warnings,
-    })
+    Ok(Opened { bytes, loaded, model, warnings })
 }
 
 /// The scenario that a results file was made from, all that was changed in it included.
@@ -90,17 +84,11 @@ pub fn stored(file: &Path, run: &StoredRun) -> Result<Loaded, Failure> {
     let bytes = bytes.ok_or_else(|| Failure::plain(format!("{name} holds no scenario")))?;
     let resolver = |table: &str| {
         let found = run.attachments.get(&file_name(Path::new(table)));
-        found
-            .cloned()
-            .ok_or_else(|| format!("{name} does not hold it"))
+        found.cloned().ok_or_else(|| format!("{name} does not hold it"))
     };
     Draft::read_bytes(bytes, Some(Format::Toml), RESOLVED)
         .and_then(|draft| draft.load(&resolver))
-        .map_err(|problems| {
-            Failure::plain(format!(
-                "the scenario in {name} cannot be read:\n{problems}"
-            ))
-        })
+        .map_err(|problems| Failure::plain(format!("the scenario in {name} cannot be read:\n{problems}")))
 }
 
 /// The name of a file without its folder.
@@ -122,19 +110,15 @@ pub fn format_of(path: &Path) -> Option<Format> {
 fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
     let found = format!("the scenario {} cannot be read: {error}", path.display());
     match error.kind() {
-        std::io::ErrorKind::NotFound => Failure::with_help(
-            found,
-            "check the path, or write a starter scenario with `occupant new NAME.toml`",
-        ),
+        std::io::ErrorKind::NotFound => {
+            Failure::with_help(found, "check the path, or write a starter scenario with `occupant new NAME.toml`")
+        }
         _ => Failure::plain(found),
     }
 }
 
 fn refused(name: &str, problems: &Diagnostics) -> Failure {
-    let errors = problems
-        .iter()
-        .filter(|d| d.problem.severity == Severity::Error)
-        .count();
+    let errors = problems.iter().filter(|d| d.problem.severity == Severity::Error).count();
     let count = match errors {
         1 => "1 error".to_owned(),
         n => format!("{n} errors"),

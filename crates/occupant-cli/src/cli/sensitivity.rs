@@ -68,11 +68,7 @@ pub fn sensitivity(args: &Args) -> Result<Done, Failure> {
     }
     let folder = args.scenario.scenario.parent().unwrap_or(Path::new(""));
     let resolver = |file: &str| std::fs::read(folder.join(file)).map_err(|error| error.to_string());
-    let words = Words {
-        to: &args.to,
-        of: &args.of,
-        channels: &args.channels,
-    };
+    let words = Words { to: &args.to, of: &args.of, channels: &args.channels };
     // names that are taken are told before the work
     let files = begin(args, kind)?;
     let asked = ask(&base, &opened.model, &resolver, &words).inspect_err(|_| discard(&files))?;
@@ -97,10 +93,7 @@ fn kind(output: &Path) -> Result<Kind, Failure> {
         "csv" => Ok(Kind::Csv),
         "parquet" => Ok(Kind::Parquet),
         _ => Err(Failure::with_help(
-            format!(
-                "-o {}: the ending says nothing of a format",
-                output.display()
-            ),
+            format!("-o {}: the ending says nothing of a format", output.display()),
             "end it in .csv or .parquet",
         )),
     }
@@ -143,10 +136,7 @@ fn begin(args: &Args, kind: Option<Kind>) -> Result<Option<Files>, Failure> {
 /// Takes away the provisional files of work that came to nothing.
 fn discard(files: &Option<Files>) {
     let Some(files) = files else { return };
-    for file in [Some(&files.table), files.beside.as_ref()]
-        .into_iter()
-        .flatten()
-    {
+    for file in [Some(&files.table), files.beside.as_ref()].into_iter().flatten() {
         let _it_may_stay = std::fs::remove_file(file.partial_path());
     }
 }
@@ -169,18 +159,13 @@ fn write(
     let table = histories(asked, found);
     let about = about(model, asked, found, source);
     let broke_off = |e: &dyn std::fmt::Display| Failure::BrokeOff(format!("error: {e}"));
-    let Files {
-        table: mut file,
-        beside,
-    } = files;
+    let Files { table: mut file, beside } = files;
     let bytes = match beside {
         None => parquet(&table, &about, UnitChoice::Si).map_err(|e| broke_off(&e))?,
         Some(mut beside) => {
             let output = args.output.as_deref().unwrap_or(Path::new(""));
             let described = speak::json(&metadata(&about, &file_name(output)))?;
-            beside
-                .write_all(described.as_bytes())
-                .map_err(|e| broke_off(&e))?;
+            beside.write_all(described.as_bytes()).map_err(|e| broke_off(&e))?;
             beside.publish().map_err(|e| broke_off(&e))?;
             csv(&table, &about, UnitChoice::Si).into_bytes()
         }

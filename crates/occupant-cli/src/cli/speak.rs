@@ -9,9 +9,9 @@ pub fn print(text: &str) -> Result<(), Failure> {
     let mut out = stdout().lock();
     let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
     match written {
-        Err(error) if error.kind() != ErrorKind::BrokenPipe => Err(Failure::BrokeOff(format!(
-            "error: the result could not be written to standard output: {error}"
-        ))),
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::BrokeOff(format!("error: the result could not be written to standard output: {error}")))
+        }
         _ => Ok(()),
     }
 }

@@ -2,9 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use occupant_core::summary::{
-    Acceleration, ContactBegin, FirstContact, Level, RunStatus, Summary, word,
-};
+use occupant_core::summary::{Acceleration, ContactBegin, FirstContact, Level, RunStatus, Summary, word};
 
 use super::measure_table;
 use super::recording::Written;
@@ -63,22 +61,17 @@ fn title(summary: &Summary) -> String {
         RunStatus::Interrupted => format!("INTERRUPTED: {reached} of {} ms", ms(summary.end_s)),
         RunStatus::Failed => format!("FAILED: {reached} of {} ms", ms(summary.end_s)),
     };
-    let every = (summary.reached_s - summary.start_s)
-        / summary.solver.outputs.saturating_sub(1).max(1) as f64;
+    let every = (summary.reached_s - summary.start_s) / summary.solver.outputs.saturating_sub(1).max(1) as f64;
     let peaks = format!(
         "peaks are those of outputs every {} ms",
-        number(every * 1e3, 3)
-            .trim_end_matches('0')
-            .trim_end_matches('.')
+        number(every * 1e3, 3).trim_end_matches('0').trim_end_matches('.')
     );
     format!("{}\n{ending}; {peaks}\n", plain(&summary.title))
 }
 
 /// A name without characters that would speak to the terminal instead of the reader.
 pub(crate) fn plain(name: &str) -> String {
-    name.chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect()
+    name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 
 fn accelerations(summary: &Summary, marks: &Marks) -> String {
@@ -91,11 +84,7 @@ fn accelerations(summary: &Summary, marks: &Marks) -> String {
         ("3 ms in total, g", Right),
     ]);
     let a = &summary.accelerations;
-    for (name, part) in [
-        ("head", &a.head),
-        ("chest", &a.chest),
-        ("pelvis", &a.pelvis),
-    ] {
+    for (name, part) in [("head", &a.head), ("chest", &a.chest), ("pelvis", &a.pelvis)] {
         table.row(acceleration(name, part, marks));
     }
     table.text()
@@ -111,9 +100,7 @@ fn acceleration(name: &str, part: &Acceleration, marks: &Marks) -> [String; 6] {
         mark("peak", number(part.peak_g, 1)),
         mark("peak_time", ms(part.peak_time_s)),
         mark("three_ms_contiguous", level(held)),
-        held.map_or(NONE.to_owned(), |l| {
-            format!("{}–{}", ms(l.from_s), ms(l.to_s))
-        }),
+        held.map_or(NONE.to_owned(), |l| format!("{}–{}", ms(l.from_s), ms(l.to_s))),
         mark("three_ms_cumulative", level(total)),
     ]
 }
@@ -151,34 +138,24 @@ fn first_contacts(summary: &Summary, marks: &Marks) -> String {
         ("on", Left),
     ]);
     for first in &summary.first_contacts {
-        rows_of(summary, first, marks)
-            .into_iter()
-            .for_each(|row| table.row(row));
+        rows_of(summary, first, marks).into_iter().for_each(|row| table.row(row));
     }
     table.text()
 }
 
 /// A row for each surface that a sphere touched; the greatest force of the whole run stands in the first.
 fn rows_of(summary: &Summary, first: &FirstContact, marks: &Marks) -> Vec<[String; 7]> {
-    let peak = summary
-        .sphere_forces
-        .iter()
-        .find(|p| p.sphere == first.sphere);
+    let peak = summary.sphere_forces.iter().find(|p| p.sphere == first.sphere);
     let none = || NONE.to_owned();
     let name = word(&first.sphere);
     let mark = |figure: &str, text| marks.put(&format!("contacts.{name}.{figure}"), text);
     let force = match peak {
-        Some(p) => [
-            mark("peak", number(p.force_n, 0)),
-            mark("peak_time", ms(p.time_s)),
-            p.surface.clone(),
-        ],
+        Some(p) => [mark("peak", number(p.force_n, 0)), mark("peak_time", ms(p.time_s)), p.surface.clone()],
         None => [none(), none(), none()],
     };
     let own = summary.contacts.iter().filter(|c| c.sphere == first.sphere);
     let mut touches: Vec<[String; 3]> = own.map(touch).collect();
-    let is_first =
-        |t: &&[String; 3]| Some(&t[1]) == first.contact.as_ref().map(|c| ms(c.time_s)).as_ref();
+    let is_first = |t: &&[String; 3]| Some(&t[1]) == first.contact.as_ref().map(|c| ms(c.time_s)).as_ref();
     let at = touches.iter().position(|t| is_first(&t));
     if let Some([_, time, speed]) = at.and_then(|i| touches.get_mut(i)) {
         *time = mark("first_time", std::mem::take(time));
@@ -215,11 +192,7 @@ fn trust(summary: &Summary, written: &Written, marks: &Marks) -> String {
             marked.trim_end().to_owned()
         };
         let ways = [
-            format!(
-                "{} at {} ms",
-                mm("forward", e.forward_m),
-                ms(e.forward_time_s)
-            ),
+            format!("{} at {} ms", mm("forward", e.forward_m), ms(e.forward_time_s)),
             mm("up", e.up_m),
             mm("down", e.down_m),
             mm("left", e.left_m),
@@ -252,13 +225,8 @@ fn integration(summary: &Summary) -> String {
         0 => String::new(),
         n => format!(" ({n} rejected)"),
     };
-    let time = s
-        .wall_time_s
-        .map_or(String::new(), |t| format!(", {t:.3} s of wall time"));
-    format!(
-        "{}, {} steps{rejected}, {} evaluations, {} outputs{time}",
-        s.integrator, s.steps, s.evaluations, s.outputs
-    )
+    let time = s.wall_time_s.map_or(String::new(), |t| format!(", {t:.3} s of wall time"));
+    format!("{}, {} steps{rejected}, {} evaluations, {} outputs{time}", s.integrator, s.steps, s.evaluations, s.outputs)
 }
 
 /// Seconds as milliseconds.

@@ -122,10 +122,7 @@ impl Sweep {
             ));
         }
         if args.csv && !shard.is_whole() {
-            return Err(Failure::with_help(
-                "a shard writes no table",
-                "give --csv to `occupant sweep merge`",
-            ));
+            return Err(Failure::with_help("a shard writes no table", "give --csv to `occupant sweep merge`"));
         }
         if !args.quiet {
             if !plan.warnings.is_empty() {
@@ -203,12 +200,7 @@ impl Sweep {
             stop: self.interrupt.flag(),
             kernel: self.kernel,
         };
-        let job = Job {
-            samples,
-            finished,
-            threads: self.threads,
-            stop: self.interrupt.flag(),
-        };
+        let job = Job { samples, finished, threads: self.threads, stop: self.interrupt.flag() };
         let ended = engine::run(job, &simulation, &mut |row| {
             journal.append(&row).map_err(told)?;
             progress.see(&row);
@@ -233,18 +225,10 @@ impl Sweep {
     /// Writes whole runs of finished samples.
     fn write_kept(&self, samples: &[u64]) -> Result<(), Failure> {
         let stop = self.interrupt.flag();
-        kept::write(
-            &self.plan,
-            &self.folder,
-            samples,
-            self.threads,
-            self.kernel,
-            stop,
-        )?;
+        kept::write(&self.plan, &self.folder, samples, self.threads, self.kernel, stop)?;
         match self.interrupt.is_asked() {
             true => Err(Failure::BrokeOff(
-                "error: interrupted\n = done: all samples are finished; the same command goes on from there"
-                    .to_owned(),
+                "error: interrupted\n = done: all samples are finished; the same command goes on from there".to_owned(),
             )),
             false => Ok(()),
         }
@@ -253,20 +237,15 @@ impl Sweep {
     /// The table, and the worst.
     fn finish(&self, journal: &Journal, progress: &Progress, quiet: bool) -> Result<Done, Failure> {
         let manifest = &self.plan.manifest;
-        let (census, files) =
-            results::write(&self.folder, journal, manifest, &self.keep, self.csv).map_err(told)?;
+        let (census, files) = results::write(&self.folder, journal, manifest, &self.keep, self.csv).map_err(told)?;
         let lacking = kept::missing(&self.folder, journal, census.worst()).map_err(told)?;
         self.write_kept(&lacking)?;
         let ensembles = ensembles(&self.folder, manifest, self.csv)?;
         if quiet {
             return Ok(Done::Well);
         }
-        let work = format!(
-            "{} samples in {:.1} s, {} threads",
-            progress.computed(),
-            progress.elapsed_s(),
-            self.threads
-        );
+        let work =
+            format!("{} samples in {:.1} s, {} threads", progress.computed(), progress.elapsed_s(), self.threads);
         tell(&census, &files, Some(work), ensembles.as_ref())
     }
 }

@@ -69,9 +69,7 @@ pub fn number(value: f64, decimals: usize) -> String {
 pub fn facts(facts: &[(&str, String)]) -> String {
     let width = facts.iter().map(|(name, _)| name.chars().count()).max();
     let width = width.unwrap_or(0);
-    let lines = facts
-        .iter()
-        .map(|(name, words)| format!("{name:<width$}{GAP}{words}\n"));
+    let lines = facts.iter().map(|(name, words)| format!("{name:<width$}{GAP}{words}\n"));
     lines.collect()
 }
 
@@ -85,8 +83,7 @@ mod tests {
         table.row(["neck".to_owned(), "3.5".to_owned()]);
         table.row(["left_shoulder".to_owned(), "127.0".to_owned()]);
         table.row(["blank".to_owned()]);
-        let expected =
-            "joint            β, °\nneck              3.5\nleft_shoulder   127.0\nblank\n";
+        let expected = "joint            β, °\nneck              3.5\nleft_shoulder   127.0\nblank\n";
         assert_eq!(table.text(), expected);
     }
 

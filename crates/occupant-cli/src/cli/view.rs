@@ -78,9 +78,8 @@ pub fn view(args: &Args) -> Result<Done, Failure> {
         views: distinct(&args.views),
         origin: origin(&results),
     };
-    let bytes = format
-        .encode(&draw(&strip), PIXELS)
-        .map_err(|e| Failure::with_help(e.to_string(), "draw fewer times"))?;
+    let bytes =
+        format.encode(&draw(&strip), PIXELS).map_err(|e| Failure::with_help(e.to_string(), "draw fewer times"))?;
     publish(&args.output, args.force, &bytes)?;
     Ok(Done::Well)
 }
@@ -185,11 +184,7 @@ fn moments(results: &Results, outputs: &[usize]) -> Result<Vec<Snapshot>, Failur
         output += 1;
     })?;
     let find = |wanted: &usize| seen.iter().find(|(at, _)| at == wanted);
-    Ok(outputs
-        .iter()
-        .filter_map(find)
-        .map(|s| s.1.clone())
-        .collect())
+    Ok(outputs.iter().filter_map(find).map(|s| s.1.clone()).collect())
 }
 
 fn distinct(views: &[View]) -> Vec<View> {
@@ -210,11 +205,7 @@ fn origin(results: &Results) -> String {
         true => "",
         false => ", a run that did not complete",
     };
-    format!(
-        "{} (SHA-256 {}…), run by {program}{state}",
-        name.to_string_lossy(),
-        &results.sha256[..12]
-    )
+    format!("{} (SHA-256 {}…), run by {program}{state}", name.to_string_lossy(), &results.sha256[..12])
 }
 
 #[cfg(test)]

@@ -1,8 +1,6 @@
 //! How well a computed history follows a measured one: ISO/TS 18571, CORA, Sprague–Geers and ANOVA of one pair.
 
-use occupant_core::correlation::{
-    CoraSettings, Iso18571Grade, anova, cora, iso18571, sprague_geers,
-};
+use occupant_core::correlation::{CoraSettings, Iso18571Grade, anova, cora, iso18571, sprague_geers};
 use occupant_core::signal::{Interpolant, Interpolation, whole_steps};
 use serde::Serialize;
 
@@ -125,10 +123,7 @@ pub struct Residuals {
 /// No common time, values that are missing in it.
 pub fn rate(computed: Track<'_>, measured: Track<'_>, window: Window) -> Result<Rating, String> {
     let moved: Vec<f64> = measured.time_s.iter().map(|t| t + window.shift_s).collect();
-    let measured = Track {
-        time_s: &moved,
-        values: measured.values,
-    };
+    let measured = Track { time_s: &moved, values: measured.values };
     let [from_s, to_s] = overlap(computed, measured, window)?;
     if to_s - from_s > LONGEST_S {
         return Err(format!(
@@ -142,25 +137,19 @@ pub fn rate(computed: Track<'_>, measured: Track<'_>, window: Window) -> Result<
     let dt_s = 1.0 / RATE_HZ;
     let mut problems = Vec::new();
     let mut note = |name: &str, error: String| problems.push(format!("{name}: {error}"));
-    let iso = iso18571(&reference, &computed, dt_s)
-        .map_err(|e| note("ISO/TS 18571", e.to_string()))
-        .ok();
+    let iso = iso18571(&reference, &computed, dt_s).map_err(|e| note("ISO/TS 18571", e.to_string())).ok();
     let cora = match to_s - from_s <= LONGEST_CORA_S {
-        true => cora(&reference, &computed, dt_s, &CoraSettings::default())
-            .map_err(|e| note("CORA", e.to_string()))
-            .ok(),
+        true => {
+            cora(&reference, &computed, dt_s, &CoraSettings::default()).map_err(|e| note("CORA", e.to_string())).ok()
+        }
         false => {
             let longest = format!("longer than {LONGEST_CORA_S} s: cut to the event");
             note("CORA", longest);
             None
         }
     };
-    let mpc = sprague_geers(&reference, &computed)
-        .map_err(|e| note("Sprague–Geers", e.to_string()))
-        .ok();
-    let residuals = anova(&reference, &computed)
-        .map_err(|e| note("ANOVA", e.to_string()))
-        .ok();
+    let mpc = sprague_geers(&reference, &computed).map_err(|e| note("Sprague–Geers", e.to_string())).ok();
+    let residuals = anova(&reference, &computed).map_err(|e| note("ANOVA", e.to_string())).ok();
     Ok(Rating {
         from_s,
         to_s: from_s + (samples - 1) as f64 * dt_s,
@@ -239,34 +228,17 @@ pub fn overlap(a: Track<'_>, b: Track<'_>, window: Window) -> Result<[f64; 2], S
 ///
 /// # Errors
 /// A value that is missing there.
-pub fn sampled(
-    track: Track<'_>,
-    from_s: f64,
-    to_s: f64,
-    samples: usize,
-    what: &str,
-) -> Result<Vec<f64>, String> {
+pub fn sampled(track: Track<'_>, from_s: f64, to_s: f64, samples: usize, what: &str) -> Result<Vec<f64>, String> {
     // the samples of the window and one beyond on each side
-    let first = track
-        .time_s
-        .partition_point(|t| *t <= from_s)
-        .saturating_sub(1);
-    let last = track
-        .time_s
-        .partition_point(|t| *t < to_s)
-        .min(track.time_s.len() - 1);
+    let first = track.time_s.partition_point(|t| *t <= from_s).saturating_sub(1);
+    let last = track.time_s.partition_point(|t| *t < to_s).min(track.time_s.len() - 1);
     let (time_s, values) = (&track.time_s[first..=last], &track.values[first..=last]);
     if let Some(gap) = values.iter().position(|v| !v.is_finite()) {
-        return Err(format!(
-            "{what} has no value at {} s; --from and --to choose a part without gaps",
-            time_s[gap]
-        ));
+        return Err(format!("{what} has no value at {} s; --from and --to choose a part without gaps", time_s[gap]));
     }
     let line = Interpolant::new(time_s, values, Interpolation::Linear);
     let line = line.map_err(|e| format!("{what}: {e}"))?;
-    Ok((0..samples)
-        .map(|i| line.value_at(from_s + i as f64 / RATE_HZ))
-        .collect())
+    Ok((0..samples).map(|i| line.value_at(from_s + i as f64 / RATE_HZ)).collect())
 }
 
 #[cfg(test)]
@@ -274,9 +246,7 @@ mod tests {
     use super::*;
 
     fn grid(end_s: f64, dt_s: f64, value: impl Fn(f64) -> f64) -> (Vec<f64>, Vec<f64>) {
-        let time: Vec<f64> = (0..=whole_steps(end_s, dt_s))
-            .map(|i| i as f64 * dt_s)
-            .collect();
+        let time: Vec<f64> = (0..=whole_steps(end_s, dt_s)).map(|i| i as f64 * dt_s).collect();
         let values = time.iter().map(|t| value(*t)).collect();
         (time, values)
     }
@@ -289,27 +259,16 @@ mod tests {
     #[test]
     fn a_shift_brings_clocks_together() {
         let pulse = |t: f64| {
-            if t < 0.05 {
-                (t * 20.0 * std::f64::consts::PI).sin()
-            } else {
-                0.0
-            }
+            if t < 0.05 { (t * 20.0 * std::f64::consts::PI).sin() } else { 0.0 }
         };
         let ours = grid(0.1, 1e-3, pulse);
         let mut theirs = grid(0.1, 1e-3, pulse);
         theirs.0.iter_mut().for_each(|t| *t += 7.5);
-        let window = Window {
-            shift_s: -7.5,
-            ..Window::default()
-        };
+        let window = Window { shift_s: -7.5, ..Window::default() };
         let found = rate(track(&ours), track(&theirs), window).unwrap();
         let r = found.iso18571.unwrap().overall;
         assert!((r - 1.0).abs() < 1e-9, "{r}");
-        assert!(
-            rate(track(&ours), track(&theirs), Window::default())
-                .unwrap_err()
-                .contains("no common time")
-        );
+        assert!(rate(track(&ours), track(&theirs), Window::default()).unwrap_err().contains("no common time"));
     }
 
     #[test]
@@ -317,19 +276,9 @@ mod tests {
         let ours = grid(0.1, 1e-3, |t| 1.0 + t);
         let mut theirs = ours.clone();
         theirs.1[90] = f64::NAN;
-        assert!(
-            rate(track(&ours), track(&theirs), Window::default())
-                .unwrap_err()
-                .contains("0.09 s")
-        );
-        let window = Window {
-            to_s: Some(0.08),
-            ..Window::default()
-        };
-        assert_eq!(
-            rate(track(&ours), track(&theirs), window).unwrap().samples,
-            801
-        );
+        assert!(rate(track(&ours), track(&theirs), Window::default()).unwrap_err().contains("0.09 s"));
+        let window = Window { to_s: Some(0.08), ..Window::default() };
+        assert_eq!(rate(track(&ours), track(&theirs), window).unwrap().samples, 801);
     }
 
     #[test]

@@ -85,10 +85,9 @@ fn unknown(model: &Model, name: &str) -> Failure {
     let nearest = find(model, name).err().flatten();
     let help = match (nearest, channels(model).first()) {
         (Some(nearest), _) => format!("did you mean `{nearest}`?"),
-        (None, Some(one)) => format!(
-            "names are such as `{}` and `head.acceleration.resultant`; `*` stands for anything",
-            one.name
-        ),
+        (None, Some(one)) => {
+            format!("names are such as `{}` and `head.acceleration.resultant`; `*` stands for anything", one.name)
+        }
         (None, None) => "the model has no channels".to_owned(),
     };
     Failure::with_help(format!("--channels: no channel is called `{name}`"), &help)
@@ -100,10 +99,7 @@ fn unknown(model: &Model, name: &str) -> Failure {
 /// More than one GiB.
 pub fn refuse_too_much(members: u64, channels: usize, outputs: usize) -> Result<(), Failure> {
     let members = usize::try_from(members).unwrap_or(usize::MAX);
-    let bytes = members
-        .saturating_mul(channels)
-        .saturating_mul(outputs)
-        .saturating_mul(size_of::<f64>());
+    let bytes = members.saturating_mul(channels).saturating_mul(outputs).saturating_mul(size_of::<f64>());
     match bytes > MOST_BYTES {
         false => Ok(()),
         true => Err(Failure::with_help(
@@ -118,23 +114,12 @@ pub fn refuse_too_much(members: u64, channels: usize, outputs: usize) -> Result<
 
 impl Bands {
     /// The bands of these channels; the histories of the unchanged run come first.
-    pub fn of(
-        channels: &[Channel],
-        time_s: Vec<f64>,
-        runs: &[&[Vec<f64>]],
-        tolerance: Tolerance,
-    ) -> Bands {
+    pub fn of(channels: &[Channel], time_s: Vec<f64>, runs: &[&[Vec<f64>]], tolerance: Tolerance) -> Bands {
         let band = |(i, channel): (usize, &Channel)| {
-            let members: Vec<&[f64]> = runs
-                .iter()
-                .filter_map(|r| r.get(i))
-                .map(Vec::as_slice)
-                .collect();
+            let members: Vec<&[f64]> = runs.iter().filter_map(|r| r.get(i)).map(Vec::as_slice).collect();
             let band = Band::of(&members);
             let unit = channel.unit.symbol();
-            let within = (tolerance.relative * range(&band.median))
-                .max(smallest("", unit))
-                .max(put_in(&band, unit));
+            let within = (tolerance.relative * range(&band.median)).max(smallest("", unit)).max(put_in(&band, unit));
             ChannelBand {
                 name: channel.name.clone(),
                 unit,
@@ -145,19 +130,14 @@ impl Bands {
                 band,
             }
         };
-        Bands {
-            channels: channels.iter().enumerate().map(band).collect(),
-            time_s,
-        }
+        Bands { channels: channels.iter().enumerate().map(band).collect(), time_s }
     }
 }
 
 /// Greatest width of the middle 90 %, and its time.
 fn widest(band: &Band, time_s: &[f64]) -> Option<(f64, f64)> {
     let widths = band.q95.iter().zip(&band.q05).map(|(high, low)| high - low);
-    let timed = widths
-        .zip(time_s.iter().copied())
-        .filter(|(w, _)| w.is_finite());
+    let timed = widths.zip(time_s.iter().copied()).filter(|(w, _)| w.is_finite());
     // the first of equal ones
     timed.reduce(|a, b| if b.0 > a.0 { b } else { a })
 }

@@ -11,9 +11,7 @@ pub struct Tolerance {
 
 impl Default for Tolerance {
     fn default() -> Self {
-        Tolerance {
-            relative: Rule::default().relative,
-        }
+        Tolerance { relative: Rule::default().relative }
     }
 }
 
@@ -54,13 +52,9 @@ impl Judged {
 
 /// Judges figures (name, unit, a value for each member). Left out are those that no member has, and the times of peaks that
 /// are too small for anybody to act on: when nothing was greatest says nothing.
-pub fn judge<'a>(
-    figures: impl Iterator<Item = (&'a str, &'a str, Vec<f64>)>,
-    tolerance: Tolerance,
-) -> Vec<Judged> {
-    let mut judged: Vec<Judged> = figures
-        .filter_map(|(name, unit, values)| Judged::of(name, unit, &values, tolerance))
-        .collect();
+pub fn judge<'a>(figures: impl Iterator<Item = (&'a str, &'a str, Vec<f64>)>, tolerance: Tolerance) -> Vec<Judged> {
+    let mut judged: Vec<Judged> =
+        figures.filter_map(|(name, unit, values)| Judged::of(name, unit, &values, tolerance)).collect();
     let of_nothing = |f: &&Judged| f.spread.greatest.abs() <= smallest(&f.name, &f.unit);
     let nothing = judged.iter().filter(of_nothing);
     let times: Vec<String> = nothing.map(|f| format!("{}_time", f.name)).collect();
@@ -123,9 +117,7 @@ mod tests {
     fn small_figures_and_times_are_judged_by_plain_differences() {
         let tolerance = Tolerance::default();
         let verdict = |name, unit, centre: f64, half_width: f64| {
-            let values: Vec<f64> = (0..=20)
-                .map(|i| centre + half_width * (f64::from(i) / 10.0 - 1.0))
-                .collect();
+            let values: Vec<f64> = (0..=20).map(|i| centre + half_width * (f64::from(i) / 10.0 - 1.0)).collect();
             Judged::of(name, unit, &values, tolerance).map(|j| j.verdict)
         };
         // the middle 90 % of evenly spread values is 0.9 of their whole width
@@ -150,10 +142,7 @@ mod tests {
 
     #[test]
     fn a_figure_that_no_member_has_is_none() {
-        assert_eq!(
-            Judged::of("a", "s", &[f64::NAN; 12], Tolerance::default()),
-            None
-        );
+        assert_eq!(Judged::of("a", "s", &[f64::NAN; 12], Tolerance::default()), None);
         let mut some = [1.0; 12];
         some[0] = f64::NAN;
         let judged = Judged::of("a", "s", &some, Tolerance::default());

@@ -55,10 +55,7 @@ impl Left {
     pub fn of(summary: &Summary, model: &Model, histories: Series) -> Left {
         let figures = summary.figures(model).into_iter();
         Left {
-            figures: figures
-                .filter(|f| is_result(&f.name))
-                .map(|f| (f.name, f.unit, f.value))
-                .collect(),
+            figures: figures.filter(|f| is_result(&f.name)).map(|f| (f.name, f.unit, f.value)).collect(),
             values: histories.values,
             time_s: histories.time_s,
         }
@@ -104,13 +101,9 @@ impl Members<'_> {
             self.work(&next, &done);
         });
         self.bar.finish_and_clear();
-        let mut done = done
-            .into_inner()
-            .unwrap_or_else(|broken| broken.into_inner());
+        let mut done = done.into_inner().unwrap_or_else(|broken| broken.into_inner());
         match self.interrupt.is_asked() || (done.len() as u64) < count {
-            true => Err(Failure::BrokeOff(
-                "error: the ensemble was interrupted".to_owned(),
-            )),
+            true => Err(Failure::BrokeOff("error: the ensemble was interrupted".to_owned())),
             false => {
                 done.sort_unstable_by_key(|(number, _)| *number);
                 Ok(done.into_iter().map(|(_, member)| member).collect())
@@ -154,11 +147,7 @@ impl Members<'_> {
 
     fn job(&self, number: u64, model: Model) -> Job<u64, Recorders> {
         let histories = Series::new(self.channels.to_vec());
-        Job {
-            tag: number,
-            model,
-            recorder: (self.interrupt.clone(), (Summarizer::new(), histories)),
-        }
+        Job { tag: number, model, recorder: (self.interrupt.clone(), (Summarizer::new(), histories)) }
     }
 }
 
@@ -175,23 +164,16 @@ fn member(ended: Ended<u64, Recorders>) -> Option<Member> {
     match summary.status {
         RunStatus::Interrupted => None,
         RunStatus::Failed => Some(Member::Failed(summary.reason.unwrap_or_default())),
-        RunStatus::Completed if off > BROKEN_BALANCE => Some(Member::Failed(format!(
-            "its energy balance is off by {:.0} %",
-            100.0 * off
-        ))),
-        RunStatus::Completed => Some(Member::Completed(Left::of(
-            &summary,
-            &ended.model,
-            histories,
-        ))),
+        RunStatus::Completed if off > BROKEN_BALANCE => {
+            Some(Member::Failed(format!("its energy balance is off by {:.0} %", 100.0 * off)))
+        }
+        RunStatus::Completed => Some(Member::Completed(Left::of(&summary, &ended.model, histories))),
     }
 }
 
 /// The first error, in one line.
 fn reason(problems: &Diagnostics) -> String {
-    let first = problems
-        .iter()
-        .find(|d| d.problem.severity == Severity::Error);
+    let first = problems.iter().find(|d| d.problem.severity == Severity::Error);
     let line = first.map(|d| {
         let p = &d.problem;
         format!("{}: {}; expected {}", p.path, p.found, p.expected)

@@ -94,8 +94,7 @@ pub fn write(table: &Path, manifest: &Manifest, csv: bool) -> Result<Ensembles, 
     let unread = |error: ParquetError| format!("{} cannot be read: {error}", table.display());
     let file = File::open(table).map_err(|e| format!("{} cannot be read: {e}", table.display()))?;
     let reader = SerializedFileReader::new(file).map_err(unread)?;
-    let places = Places::of(&reader, manifest)
-        .ok_or_else(|| format!("{} has no ensembles", table.display()))?;
+    let places = Places::of(&reader, manifest).ok_or_else(|| format!("{} has no ensembles", table.display()))?;
     let mut writing = Writing::begin(table, csv, &places)?;
     let mut present: Option<Sample> = None;
     for i in 0..reader.num_row_groups() {
@@ -126,9 +125,7 @@ impl Places {
             sample: place(SAMPLE)?,
             status: place("status")?,
             balance: place("energy.balance_error"),
-            figures: figures
-                .filter_map(|c| Some((c.name.clone(), c.unit.clone(), place(&c.name)?)))
-                .collect(),
+            figures: figures.filter_map(|c| Some((c.name.clone(), c.unit.clone(), place(&c.name)?))).collect(),
         })
     }
 }
@@ -143,8 +140,7 @@ struct Rows {
 impl Rows {
     fn read(group: &dyn RowGroupReader, places: &Places) -> Result<Rows, ParquetError> {
         let status = values::<ByteArrayType>(group, places.status)?;
-        let is_completed =
-            |s: &Option<ByteArray>| s.as_ref().is_some_and(|s| s.data() == b"completed");
+        let is_completed = |s: &Option<ByteArray>| s.as_ref().is_some_and(|s| s.data() == b"completed");
         let mut completed: Vec<bool> = status.iter().map(is_completed).collect();
         if let Some(balance) = places.balance {
             let errors = values::<DoubleType>(group, balance)?;
@@ -156,25 +152,15 @@ impl Rows {
         Ok(Rows {
             sample: values::<DoubleType>(group, places.sample)?,
             completed,
-            figures: figures
-                .map(|(_, _, column)| values::<DoubleType>(group, *column))
-                .collect::<Result<_, _>>()?,
+            figures: figures.map(|(_, _, column)| values::<DoubleType>(group, *column)).collect::<Result<_, _>>()?,
         })
     }
 }
 
 /// The values of a column, absent ones included.
-fn values<T: DataType>(
-    group: &dyn RowGroupReader,
-    column: usize,
-) -> Result<Vec<Option<T::T>>, ParquetError> {
+fn values<T: DataType>(group: &dyn RowGroupReader, column: usize) -> Result<Vec<Option<T::T>>, ParquetError> {
     let rows = usize::try_from(group.metadata().num_rows()).unwrap_or(0);
-    let optional = group
-        .metadata()
-        .column(column)
-        .column_descr()
-        .max_def_level()
-        > 0;
+    let optional = group.metadata().column(column).column_descr().max_def_level() > 0;
     let mut reader = get_typed_column_reader::<T>(group.get_column_reader(column)?);
     let (mut values, mut levels) = (Vec::with_capacity(rows), Vec::new());
     while values.len() < rows {
@@ -202,11 +188,7 @@ struct Sample {
 
 impl Sample {
     fn new(number: u64, figures: usize) -> Self {
-        Sample {
-            number,
-            failed: 0,
-            values: vec![Vec::new(); figures],
-        }
+        Sample { number, failed: 0, values: vec![Vec::new(); figures] }
     }
 
     fn see(&mut self, rows: &Rows, row: usize) {
@@ -228,15 +210,10 @@ struct Writing {
 
 impl Writing {
     fn begin(table: &Path, csv: bool, places: &Places) -> Result<Self, String> {
-        let forms = [
-            (Form::Parquet, "ensemble.parquet"),
-            (Form::Csv, "ensemble.csv"),
-        ];
+        let forms = [(Form::Parquet, "ensemble.parquet"), (Form::Csv, "ensemble.csv")];
         let tolerance = Tolerance::default();
         let about = [("occupant.stable_within", tolerance.relative.to_string())];
-        let asked = forms
-            .iter()
-            .filter(|(form, _)| csv || *form == Form::Parquet);
+        let asked = forms.iter().filter(|(form, _)| csv || *form == Form::Parquet);
         let tables = asked.map(|(form, name)| {
             let path = table.with_file_name(name);
             TableFile::create(&path, *form, Existing::Replace, &COLUMNS, &about)
@@ -250,10 +227,7 @@ impl Writing {
         };
         Ok(Writing {
             tables: tables.collect::<Result<_, _>>()?,
-            found: Ensembles {
-                figures: places.figures.iter().map(counted).collect(),
-                ..Ensembles::default()
-            },
+            found: Ensembles { figures: places.figures.iter().map(counted).collect(), ..Ensembles::default() },
             tolerance,
         })
     }
@@ -262,8 +236,7 @@ impl Writing {
         self.found.samples += 1;
         self.found.failed += sample.failed;
         let figures = places.figures.iter().zip(&sample.values);
-        let figures =
-            figures.map(|((name, unit, _), values)| (name.as_str(), unit.as_str(), values.clone()));
+        let figures = figures.map(|((name, unit, _), values)| (name.as_str(), unit.as_str(), values.clone()));
         let judged = judge(figures, self.tolerance);
         for counted in &mut self.found.figures {
             let figure = judged.iter().find(|j| j.name == counted.name);
@@ -307,9 +280,7 @@ fn row(sample: &Sample, judged: &Judged, tolerance: Tolerance) -> Vec<Cell> {
         Cell::Count(s.missing as u64),
         Cell::Count(sample.failed),
     ];
-    let spread = [
-        s.least, s.q05, s.q25, s.median, s.q75, s.q95, s.greatest, within,
-    ];
+    let spread = [s.least, s.q05, s.q25, s.median, s.q75, s.q95, s.greatest, within];
     row.extend(spread.map(Cell::Number));
     row.push(Cell::Text(word(judged.verdict).to_owned()));
     row

@@ -21,10 +21,7 @@ const RED: &str = "#c00000";
 pub fn svg(bands: &Bands, title: &str, words: &str) -> String {
     let columns = COLUMNS.min(bands.channels.len()).max(1);
     let rows = bands.channels.len().div_ceil(columns);
-    let (width, height) = (
-        columns as f64 * PANEL[0] + 20.0,
-        HEAD + rows as f64 * PANEL[1] + 10.0,
-    );
+    let (width, height) = (columns as f64 * PANEL[0] + 20.0, HEAD + rows as f64 * PANEL[1] + 10.0);
     let mut out = format!(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{width:.0}\" height=\"{height:.0}\" viewBox=\"0 0 {width:.0} {height:.0}\" font-family=\"{FAMILY}\" font-size=\"11\" fill=\"#222\">\n<title>{0}</title>\n<rect width=\"100%\" height=\"100%\" fill=\"#fff\"/>\n<text x=\"14\" y=\"24\" font-size=\"16\" font-weight=\"bold\">{0}</text>\n<text x=\"14\" y=\"42\">{1}</text>\n",
         escape(title),
@@ -44,34 +41,15 @@ fn legend(out: &mut String, [x, y]: [f64; 2]) {
     let mut x = x;
     for (mark, words) in [
         (
-            format!(
-                "<rect width=\"22\" height=\"8\" y=\"-8\" fill=\"{BLUE}\" fill-opacity=\"0.2\"/>"
-            ),
+            format!("<rect width=\"22\" height=\"8\" y=\"-8\" fill=\"{BLUE}\" fill-opacity=\"0.2\"/>"),
             "90 % of the members",
         ),
-        (
-            format!(
-                "<rect width=\"22\" height=\"8\" y=\"-8\" fill=\"{BLUE}\" fill-opacity=\"0.45\"/>"
-            ),
-            "half of them",
-        ),
-        (
-            format!("<path d=\"M0 -4H22\" stroke=\"{BLUE}\" stroke-width=\"1.6\"/>"),
-            "median",
-        ),
-        (
-            "<path d=\"M0 -4H22\" stroke=\"#222\" stroke-dasharray=\"4 2.5\"/>".to_owned(),
-            "unchanged run",
-        ),
-        (
-            format!("<path d=\"M11 1V-10\" stroke=\"{RED}\"/>"),
-            "members part",
-        ),
+        (format!("<rect width=\"22\" height=\"8\" y=\"-8\" fill=\"{BLUE}\" fill-opacity=\"0.45\"/>"), "half of them"),
+        (format!("<path d=\"M0 -4H22\" stroke=\"{BLUE}\" stroke-width=\"1.6\"/>"), "median"),
+        ("<path d=\"M0 -4H22\" stroke=\"#222\" stroke-dasharray=\"4 2.5\"/>".to_owned(), "unchanged run"),
+        (format!("<path d=\"M11 1V-10\" stroke=\"{RED}\"/>"), "members part"),
     ] {
-        let _ = writeln!(
-            out,
-            "<g transform=\"translate({x:.1} {y:.1})\">{mark}<text x=\"28\">{words}</text></g>"
-        );
+        let _ = writeln!(out, "<g transform=\"translate({x:.1} {y:.1})\">{mark}<text x=\"28\">{words}</text></g>");
         x += 48.0 + 6.6 * words.len() as f64;
     }
 }
@@ -120,16 +98,8 @@ fn panel(out: &mut String, band: &ChannelBand, time_s: &[f64], [left, top]: [f64
     frame(out, &axes, &format!("{}, {unit}", band.name));
     fill(out, &axes, time_s, [&q05, &q95], 0.2);
     fill(out, &axes, time_s, [&q25, &q75], 0.45);
-    line(
-        out,
-        &axes.points(time_s, &median),
-        &format!("stroke=\"{BLUE}\" stroke-width=\"1.6\""),
-    );
-    line(
-        out,
-        &axes.points(time_s, &nominal),
-        "stroke=\"#222\" stroke-dasharray=\"4 2.5\"",
-    );
+    line(out, &axes.points(time_s, &median), &format!("stroke=\"{BLUE}\" stroke-width=\"1.6\""));
+    line(out, &axes.points(time_s, &nominal), "stroke=\"#222\" stroke-dasharray=\"4 2.5\"");
     if let Some(lost_s) = band.lost_at_s {
         let [x, y] = axes.place(lost_s * 1e3, axes.value[1]);
         let bottom = y + axes.size[1];
@@ -192,35 +162,22 @@ fn frame(out: &mut String, axes: &Axes, title: &str) {
 fn fill(out: &mut String, axes: &Axes, time_s: &[f64], [low, high]: [&[f64]; 2], opacity: f64) {
     let mut around = axes.points(time_s, high);
     around.extend(axes.points(time_s, low).into_iter().rev());
-    let _ = writeln!(
-        out,
-        "<polygon points=\"{}\" fill=\"{BLUE}\" fill-opacity=\"{opacity}\"/>",
-        list(&around)
-    );
+    let _ = writeln!(out, "<polygon points=\"{}\" fill=\"{BLUE}\" fill-opacity=\"{opacity}\"/>", list(&around));
 }
 
 fn line(out: &mut String, points: &[[f64; 2]], style: &str) {
-    let _ = writeln!(
-        out,
-        "<polyline points=\"{}\" fill=\"none\" {style}/>",
-        list(points)
-    );
+    let _ = writeln!(out, "<polyline points=\"{}\" fill=\"none\" {style}/>", list(points));
 }
 
 fn list(points: &[[f64; 2]]) -> String {
-    let words: Vec<String> = points
-        .iter()
-        .map(|[x, y]| format!("{x:.2},{y:.2}"))
-        .collect();
+    let words: Vec<String> = points.iter().map(|[x, y]| format!("{x:.2},{y:.2}")).collect();
     words.join(" ")
 }
 
 /// A range of round numbers that covers all values, and the step between them.
 fn ticks(values: impl Iterator<Item = f64>) -> ([f64; 2], f64) {
     let finite = values.filter(|x| x.is_finite());
-    let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
-        (low.min(x), high.max(x))
-    });
+    let (low, high) = finite.fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| (low.min(x), high.max(x)));
     let (low, high) = match high - low > 1e-9 * high.abs().max(low.abs()).max(1e-9) {
         true if low > 0.0 && low < 0.5 * high => (0.0, high),
         true => (low, high),
@@ -228,18 +185,13 @@ fn ticks(values: impl Iterator<Item = f64>) -> ([f64; 2], f64) {
         false => (0.0, 1.0),
     };
     let step = round_step((high - low) / 4.0);
-    (
-        [(low / step).floor() * step, (high / step).ceil() * step],
-        step,
-    )
+    ([(low / step).floor() * step, (high / step).ceil() * step], step)
 }
 
 /// The least of 1, 2, 5 times a power of ten that is not below `step`.
 fn round_step(step: f64) -> f64 {
     let power = 10_f64.powi(step.log10().floor() as i32);
-    let round = [1.0, 2.0, 5.0]
-        .into_iter()
-        .find(|r| step <= r * power * (1.0 + 1e-9));
+    let round = [1.0, 2.0, 5.0].into_iter().find(|r| step <= r * power * (1.0 + 1e-9));
     round.unwrap_or(10.0) * power
 }
 
@@ -269,9 +221,6 @@ mod tests {
         assert_eq!(ticks([-3.0, 41.0].into_iter()), ([-20.0, 60.0], 20.0));
         assert_eq!(ticks([7.0, 7.0].into_iter()).0, [6.0, 8.0]);
         assert_eq!(ticks([f64::NAN].into_iter()).0, [0.0, 1.0]);
-        assert_eq!(
-            (figures(-0.25, 0.05), figures(-0.0, 10.0)),
-            ("−0.25".to_owned(), "0".to_owned())
-        );
+        assert_eq!((figures(-0.25, 0.05), figures(-0.0, 10.0)), ("−0.25".to_owned(), "0".to_owned()));
     }
 }

@@ -34,35 +34,21 @@ impl Report {
         bands: Bands,
         (seed, changes): (u64, Tolerances),
     ) -> Report {
-        let failed = (1..)
-            .zip(others)
-            .filter_map(|(number, member)| match member {
-                Member::Failed(reason) => Some((number, reason.clone())),
-                Member::Completed(_) => None,
-            });
+        let failed = (1..).zip(others).filter_map(|(number, member)| match member {
+            Member::Failed(reason) => Some((number, reason.clone())),
+            Member::Completed(_) => None,
+        });
         let value = |i: usize, member: &Member| match member {
             Member::Completed(left) => left.value(i),
             Member::Failed(_) => f64::NAN,
         };
-        let figures = nominal
-            .figures
-            .iter()
-            .enumerate()
-            .map(|(i, (name, unit, _))| {
-                let first = std::iter::once(nominal.value(i));
-                let values = first.chain(others.iter().map(|m| value(i, m)));
-                (name.as_str(), *unit, values.collect())
-            });
+        let figures = nominal.figures.iter().enumerate().map(|(i, (name, unit, _))| {
+            let first = std::iter::once(nominal.value(i));
+            let values = first.chain(others.iter().map(|m| value(i, m)));
+            (name.as_str(), *unit, values.collect())
+        });
         let figures = judge(figures, tolerance);
-        Report {
-            members: others.len() as u64 + 1,
-            seed,
-            changes,
-            tolerance,
-            failed: failed.collect(),
-            figures,
-            bands,
-        }
+        Report { members: others.len() as u64 + 1, seed, changes, tolerance, failed: failed.collect(), figures, bands }
     }
 
     /// As `--json` prints it.
@@ -78,19 +64,8 @@ impl Report {
                 stiffness: self.changes.stiffness,
             },
             within: self.tolerance.relative,
-            failed: self
-                .failed
-                .iter()
-                .map(|(member, reason)| Broken {
-                    member: *member,
-                    reason,
-                })
-                .collect(),
-            figures: self
-                .figures
-                .iter()
-                .map(|f| Figure::of(f, self.tolerance))
-                .collect(),
+            failed: self.failed.iter().map(|(member, reason)| Broken { member: *member, reason }).collect(),
+            figures: self.figures.iter().map(|f| Figure::of(f, self.tolerance)).collect(),
             channels: self.bands.channels.iter().map(Channel::of).collect(),
             files,
         }

@@ -112,8 +112,7 @@ impl StudyBands<'_> {
             bar: &ProgressBar::hidden(),
         };
         let members = members.run()?;
-        self.publish(sample, &channels, &members)
-            .map_err(|reason| Failure::BrokeOff(format!("error: {reason}")))
+        self.publish(sample, &channels, &members).map_err(|reason| Failure::BrokeOff(format!("error: {reason}")))
     }
 
     /// The channels of a sample; none of one that is refused.
@@ -142,18 +141,13 @@ impl StudyBands<'_> {
         let unchanged = matches!(members.first(), Some(Member::Completed(_)));
         let about = [(ABOUT, self.about())];
         let path = self.file(sample);
-        let mut table =
-            TableFile::create(&path, Form::Parquet, Existing::Replace, &COLUMNS, &about)?;
+        let mut table = TableFile::create(&path, Form::Parquet, Existing::Replace, &COLUMNS, &about)?;
         for band in &bands.channels {
             let (b, text) = (&band.band, |t: &str| Cell::Text(t.to_owned()));
             for (i, time_s) in bands.time_s.iter().enumerate() {
                 let at = |values: &[f64]| values.get(i).copied().unwrap_or(f64::NAN);
                 // the first that completed need not be the unchanged one
-                let nominal = if unchanged {
-                    at(&band.nominal)
-                } else {
-                    f64::NAN
-                };
+                let nominal = if unchanged { at(&band.nominal) } else { f64::NAN };
                 let numbers = [
                     *time_s,
                     nominal,

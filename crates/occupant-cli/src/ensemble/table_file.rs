@@ -84,16 +84,13 @@ impl TableFile {
         columns: &[(impl AsRef<str>, Kind)],
         about: &[(&str, String)],
     ) -> Result<Self, String> {
-        let columns: Vec<(String, Kind)> = columns
-            .iter()
-            .map(|(name, kind)| (name.as_ref().to_owned(), *kind))
-            .collect();
+        let columns: Vec<(String, Kind)> =
+            columns.iter().map(|(name, kind)| (name.as_ref().to_owned(), *kind)).collect();
         let mut file = PartialFile::create(path, existing).map_err(|e| e.to_string())?;
         let writer = match form {
             Form::Csv => {
                 let names: Vec<&str> = columns.iter().map(|(name, _)| name.as_str()).collect();
-                writeln!(file, "{}", names.join(","))
-                    .map_err(|e| unwritten(path, &e.to_string()))?;
+                writeln!(file, "{}", names.join(",")).map_err(|e| unwritten(path, &e.to_string()))?;
                 Writer::Csv(file)
             }
             Form::Parquet => {
@@ -101,12 +98,7 @@ impl TableFile {
                 Writer::Parquet(Box::new(writer.map_err(|e| unwritten(path, &words(&e)))?))
             }
         };
-        Ok(TableFile {
-            path: path.to_owned(),
-            columns,
-            waiting: Vec::new(),
-            writer,
-        })
+        Ok(TableFile { path: path.to_owned(), columns, waiting: Vec::new(), writer })
     }
 
     /// Adds a row, a cell for each column.
@@ -166,27 +158,17 @@ fn begin(
 ) -> Result<SerializedFileWriter<PartialFile>, ParquetError> {
     let column = |(name, kind): &(String, Kind)| {
         let (physical, logical, repetition) = match kind {
-            Kind::Text => (
-                Physical::BYTE_ARRAY,
-                Some(LogicalType::String),
-                Repetition::REQUIRED,
-            ),
+            Kind::Text => (Physical::BYTE_ARRAY, Some(LogicalType::String), Repetition::REQUIRED),
             Kind::Number => (Physical::DOUBLE, None, Repetition::OPTIONAL),
             Kind::Count => (Physical::INT64, None, Repetition::REQUIRED),
         };
         let column = Type::primitive_type_builder(name, physical);
-        let column = column
-            .with_repetition(repetition)
-            .with_logical_type(logical);
+        let column = column.with_repetition(repetition).with_logical_type(logical);
         column.build().map(Arc::new)
     };
     let fields = columns.iter().map(column).collect::<Result<Vec<_>, _>>()?;
-    let schema = Type::group_type_builder("occupant_table")
-        .with_fields(fields)
-        .build()?;
-    let about = about
-        .iter()
-        .map(|(key, value)| KeyValue::new((*key).to_owned(), value.clone()));
+    let schema = Type::group_type_builder("occupant_table").with_fields(fields).build()?;
+    let about = about.iter().map(|(key, value)| KeyValue::new((*key).to_owned(), value.clone()));
     let properties = WriterProperties::builder()
         .set_compression(Compression::ZSTD(ZstdLevel::try_new(3)?))
         .set_key_value_metadata(Some(about.collect()))
@@ -211,9 +193,7 @@ fn write_group(
                     _ => ByteArray::from(Vec::new()),
                 };
                 let values: Vec<ByteArray> = cells.map(text).collect();
-                column
-                    .typed::<ByteArrayType>()
-                    .write_batch(&values, None, None)?;
+                column.typed::<ByteArrayType>().write_batch(&values, None, None)?;
             }
             Kind::Number => {
                 let number = |cell: Option<&Cell>| match cell {
@@ -223,9 +203,7 @@ fn write_group(
                 let numbers: Vec<Option<f64>> = cells.map(number).collect();
                 let levels: Vec<i16> = numbers.iter().map(|x| i16::from(x.is_some())).collect();
                 let values: Vec<f64> = numbers.into_iter().flatten().collect();
-                column
-                    .typed::<DoubleType>()
-                    .write_batch(&values, Some(&levels), None)?;
+                column.typed::<DoubleType>().write_batch(&values, Some(&levels), None)?;
             }
             Kind::Count => {
                 let count = |cell: Option<&Cell>| match cell {
@@ -233,9 +211,7 @@ fn write_group(
                     _ => 0,
                 };
                 let values: Vec<i64> = cells.map(count).collect();
-                column
-                    .typed::<Int64Type>()
-                    .write_batch(&values, None, None)?;
+                column.typed::<Int64Type>().write_batch(&values, None, None)?;
             }
         }
         column.close()?;

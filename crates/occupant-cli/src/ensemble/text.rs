@@ -173,8 +173,7 @@ fn channel_row(band: &ChannelBand) -> [String; 6] {
         band.name.clone(),
         band.lost_at_s.map_or("never".to_owned(), ms),
         size(band.tolerance),
-        band.widest
-            .map_or(NONE.to_owned(), |(width, _)| size(width)),
+        band.widest.map_or(NONE.to_owned(), |(width, _)| size(width)),
         band.widest.map_or(NONE.to_owned(), |(_, at)| ms(at)),
         unit.to_owned(),
     ]
@@ -185,18 +184,11 @@ fn conclusion(report: &Report) -> String {
     let all = report.figures.len();
     match unstable.as_slice() {
         _ if report.members < ENOUGH => {
-            format!(
-                "{} members are too few for a verdict: {ENOUGH} or more\n",
-                report.members
-            )
+            format!("{} members are too few for a verdict: {ENOUGH} or more\n", report.members)
         }
         [] => format!("all {all} figures are stable\n"),
         some => {
-            let more: Vec<&str> = some
-                .iter()
-                .copied()
-                .filter(|name| !is_shown(name))
-                .collect();
+            let more: Vec<&str> = some.iter().copied().filter(|name| !is_shown(name)).collect();
             let named = more.iter().take(LISTED).copied();
             let mut named: Vec<&str> = named.collect();
             if more.len() > LISTED {
@@ -215,9 +207,7 @@ fn conclusion(report: &Report) -> String {
 pub fn of_study(found: &Ensembles) -> String {
     let failed = match found.failed {
         0 => String::new(),
-        n => format!(
-            "; {n} members did not complete, and no figure of their samples counts as stable"
-        ),
+        n => format!("; {n} members did not complete, and no figure of their samples counts as stable"),
     };
     let samples = match found.samples {
         1 => "1 sample".to_owned(),
@@ -253,12 +243,7 @@ fn all_samples(found: &Ensembles) -> String {
         ("absent in", Right),
     ]);
     for figure in found.figures.iter().filter(|f| is_shown(&f.name)) {
-        let counts = [
-            figure.stable,
-            figure.unstable,
-            figure.too_few,
-            figure.absent,
-        ];
+        let counts = [figure.stable, figure.unstable, figure.too_few, figure.absent];
         let cells = counts.map(|n| n.to_string());
         table.row(std::iter::once(figure.name.clone()).chain(cells));
     }

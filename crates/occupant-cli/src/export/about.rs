@@ -79,9 +79,7 @@ impl About {
             filter,
             filter_coefficients: coefficients,
             notes: histories.notes.clone(),
-            columns: std::iter::once(time)
-                .chain(histories.columns.iter().map(of))
-                .collect(),
+            columns: std::iter::once(time).chain(histories.columns.iter().map(of)).collect(),
         }
     }
 }

@@ -15,11 +15,7 @@ pub fn csv(histories: &Histories, about: &About, units: UnitChoice) -> String {
     let headings: Vec<String> = about.columns.iter().map(|c| quoted(&heading(c))).collect();
     let mut text = headings.join(",");
     text.push('\n');
-    let sizes: Vec<f64> = histories
-        .columns
-        .iter()
-        .map(|c| shown(c.channel.unit, units).si)
-        .collect();
+    let sizes: Vec<f64> = histories.columns.iter().map(|c| shown(c.channel.unit, units).si).collect();
     for (i, time_s) in histories.time_s.iter().enumerate() {
         let _ = write!(text, "{}", rounded(*time_s));
         for (column, size) in histories.columns.iter().zip(&sizes) {

@@ -17,11 +17,7 @@ use crate::history::{Histories, UnitChoice, shown};
 ///
 /// # Errors
 /// What the writer refuses, in its words.
-pub fn parquet(
-    histories: &Histories,
-    about: &About,
-    units: UnitChoice,
-) -> Result<Vec<u8>, ParquetError> {
+pub fn parquet(histories: &Histories, about: &About, units: UnitChoice) -> Result<Vec<u8>, ParquetError> {
     let mut fields = Vec::with_capacity(about.columns.len());
     for column in &about.columns {
         let field = Type::primitive_type_builder(&column.name, Physical::DOUBLE)
@@ -29,9 +25,7 @@ pub fn parquet(
             .build()?;
         fields.push(Arc::new(field));
     }
-    let schema = Type::group_type_builder("run")
-        .with_fields(fields)
-        .build()?;
+    let schema = Type::group_type_builder("run").with_fields(fields).build()?;
     let json = serde_json::to_string(about).map_err(|e| ParquetError::General(e.to_string()))?;
     let properties = WriterProperties::builder()
         .set_compression(Compression::ZSTD(ZstdLevel::default()))
@@ -41,18 +35,13 @@ pub fn parquet(
     let mut bytes = Vec::new();
     let mut file = SerializedFileWriter::new(&mut bytes, Arc::new(schema), Arc::new(properties))?;
     let mut rows = file.next_row_group()?;
-    let sizes = histories
-        .columns
-        .iter()
-        .map(|c| (shown(c.channel.unit, units).si, &c.values));
+    let sizes = histories.columns.iter().map(|c| (shown(c.channel.unit, units).si, &c.values));
     for (size, values) in std::iter::once((1.0, &histories.time_s)).chain(sizes) {
         let Some(mut column) = rows.next_column()? else {
             break;
         };
         let shown: Vec<f64> = values.iter().map(|v| v / size).collect();
-        column
-            .typed::<DoubleType>()
-            .write_batch(&shown, None, None)?;
+        column.typed::<DoubleType>().write_batch(&shown, None, None)?;
         column.close()?;
     }
     rows.close()?;

@@ -65,11 +65,7 @@ pub fn parts(body: &Body) -> Vec<Part> {
             _ => limb(body, segment),
         };
         let tone = tone(segment);
-        ends.into_iter().map(move |ends| Part {
-            segment,
-            tone,
-            ends,
-        })
+        ends.into_iter().map(move |ends| Part { segment, tone, ends })
     };
     Segment::ALL.into_iter().flat_map(of_segment).collect()
 }
@@ -102,10 +98,7 @@ fn head(body: &Body) -> Vec<[Lump; 2]> {
     let bridge = centre + Vector3::new(0.8 * radius, 0.0, 0.1 * radius);
     let nose = centre + Vector3::new(radius, 0.0, -0.1 * radius);
     vec![
-        [
-            ball(Vector3::z() * -p.cg_from_lower_end_m, neck),
-            ball(centre, neck),
-        ],
+        [ball(Vector3::z() * -p.cg_from_lower_end_m, neck), ball(centre, neck)],
         [skull, skull],
         [ball(bridge, NOSE * radius), ball(nose, NOSE * radius)],
     ]
@@ -142,10 +135,7 @@ fn trunk(body: &Body, segment: Segment) -> [Lump; 2] {
     let (a, b) = (axis(i.z - i.x + i.y), axis(i.z + i.x - i.y));
     let half = Vector3::new(a, b, 0.25 * p.length_m);
     let lower = -p.cg_from_lower_end_m + half.z;
-    let end = |z: f64| Lump {
-        centre_m: Vector3::z() * z,
-        half_m: half,
-    };
+    let end = |z: f64| Lump { centre_m: Vector3::z() * z, half_m: half };
     [end(lower), end(lower + 2.0 * half.z)]
 }
 
@@ -164,10 +154,7 @@ fn limb(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
         stations.push((upper, last.1));
     }
     let at = |&(z, r): &(f64, f64)| ball(Vector3::z() * z, r);
-    stations
-        .windows(2)
-        .map(|two| [at(&two[0]), at(&two[1])])
-        .collect()
+    stations.windows(2).map(|two| [at(&two[0]), at(&two[1])]).collect()
 }
 
 /// Heights and radii of the spheres on a segment's long axis, from the lower end up.
@@ -175,9 +162,7 @@ fn stations(body: &Body, segment: Segment) -> Vec<(f64, f64)> {
     let cg = body.segment(segment).cg_from_lower_end_m;
     let own = body.spheres.iter().filter(|s| s.segment == segment);
     let on_axis = own.filter(|s| s.centre_from_lower_end_m.coords.xy().norm() < OFF_AXIS_M);
-    let mut stations: Vec<_> = on_axis
-        .map(|s| (s.centre_from_lower_end_m.z - cg, s.radius_m))
-        .collect();
+    let mut stations: Vec<_> = on_axis.map(|s| (s.centre_from_lower_end_m.z - cg, s.radius_m)).collect();
     stations.sort_by(|a, b| a.0.total_cmp(&b.0));
     stations
 }
@@ -194,10 +179,7 @@ fn mean_radius(p: &SegmentProperties) -> f64 {
 }
 
 fn ball(centre_m: Vector3<f64>, radius_m: f64) -> Lump {
-    Lump {
-        centre_m,
-        half_m: Vector3::repeat(radius_m),
-    }
+    Lump { centre_m, half_m: Vector3::repeat(radius_m) }
 }
 
 fn tone(segment: Segment) -> Tone {

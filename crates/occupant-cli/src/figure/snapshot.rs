@@ -56,15 +56,8 @@ impl Snapshot {
         Snapshot {
             time_s: sample.time_s,
             poses: Segment::ALL.map(pose).to_vec(),
-            spheres_m: (0..body.spheres.len())
-                .map(|s| sample.sphere_centre_m(s))
-                .collect(),
-            belts: belts
-                .map(|both| BeltCourse {
-                    points_m: course(both),
-                    force_n: both.1.loop_force,
-                })
-                .collect(),
+            spheres_m: (0..body.spheres.len()).map(|s| sample.sphere_centre_m(s)).collect(),
+            belts: belts.map(|both| BeltCourse { points_m: course(both), force_n: both.1.loop_force }).collect(),
             contacts: sample.contacts().collect(),
             vehicle: *sample.vehicle,
         }

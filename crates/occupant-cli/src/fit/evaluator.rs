@@ -116,11 +116,7 @@ impl<'a> Evaluator<'a> {
     ///
     /// # Errors
     /// A signal, a full disk, a journal that does not fit the search.
-    pub fn scores(
-        &mut self,
-        stage: Option<Stage>,
-        candidates: Vec<Option<Vec<f64>>>,
-    ) -> Result<Vec<f64>, Failure> {
+    pub fn scores(&mut self, stage: Option<Stage>, candidates: Vec<Option<Vec<f64>>>) -> Result<Vec<f64>, Failure> {
         let experiments = self.fitting.experiments.len() as u64;
         let first = self.records.len() as u64 * experiments;
         let rows = first..first + candidates.len() as u64 * experiments;
@@ -136,12 +132,8 @@ impl<'a> Evaluator<'a> {
             candidates: &candidates,
         };
         if finished.count(rows.clone()) < rows.end - rows.start {
-            let job = Job {
-                samples: &rows,
-                finished: &finished,
-                threads: self.means.threads,
-                stop: self.interrupt.flag(),
-            };
+            let job =
+                Job { samples: &rows, finished: &finished, threads: self.means.threads, stop: self.interrupt.flag() };
             let (journal, known) = (&mut self.journal, &mut self.known);
             engine::run(job, &batch, &mut |row| {
                 journal.append(&row).map_err(super::words::told)?;
@@ -151,14 +143,12 @@ impl<'a> Evaluator<'a> {
         }
         let before = self.records.len();
         for (i, candidate) in candidates.iter().enumerate() {
-            let rows: Option<Vec<&Row>> = (0..experiments)
-                .map(|e| self.known.get(&(first + i as u64 * experiments + e)))
-                .collect();
+            let rows: Option<Vec<&Row>> =
+                (0..experiments).map(|e| self.known.get(&(first + i as u64 * experiments + e))).collect();
             let Some(rows) = rows else {
                 return Err(self.interrupted());
             };
-            self.records
-                .push(record(self.fitting, stage, candidate, &rows)?);
+            self.records.push(record(self.fitting, stage, candidate, &rows)?);
         }
         let new = &self.records[before..];
         self.progress.see(stage, new);
@@ -274,14 +264,9 @@ impl Batch<'_> {
         let experiment = &self.fitting.experiments[e];
         let values = candidate.as_ref().map(|at| self.fitting.values(at));
         match experiment.model_of(values.as_deref()) {
-            Ok(model) => Ok(Run {
-                tag,
-                model,
-                recorder: (
-                    self.interrupt.clone(),
-                    Series::new(experiment.recorded.clone()),
-                ),
-            }),
+            Ok(model) => {
+                Ok(Run { tag, model, recorder: (self.interrupt.clone(), Series::new(experiment.recorded.clone())) })
+            }
             Err(problems) => {
                 let mut row = self.row(tag, Status::Refused, reason(&problems));
                 row.kernel = String::new();
@@ -319,24 +304,13 @@ impl Batch<'_> {
             Some(at) => at.iter().map(|u| Cell::Number(*u)).collect(),
             None => vec![Cell::Absent; self.fitting.bounds.len()],
         };
-        Row {
-            index,
-            status,
-            reason,
-            cells,
-            wall_time_s: begun.elapsed().as_secs_f64(),
-            kernel: String::new(),
-        }
+        Row { index, status, reason, cells, wall_time_s: begun.elapsed().as_secs_f64(), kernel: String::new() }
     }
 }
 
 /// All errors in one line.
 fn reason(problems: &Diagnostics) -> String {
-    let errors = problems
-        .iter()
-        .filter(|d| d.problem.severity == Severity::Error);
-    let line = |d: &occupant_core::scenario::Diagnostic| {
-        format!("{}: {}", d.problem.path, d.problem.found)
-    };
+    let errors = problems.iter().filter(|d| d.problem.severity == Severity::Error);
+    let line = |d: &occupant_core::scenario::Diagnostic| format!("{}: {}", d.problem.path, d.problem.found);
     errors.map(line).collect::<Vec<_>>().join(" | ")
 }

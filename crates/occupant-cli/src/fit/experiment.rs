@@ -112,11 +112,7 @@ impl Experiment {
     /// Outputs too far apart for a filter.
     pub fn histories(&self, series: &Series) -> Result<Vec<(Filter, Histories)>, String> {
         let of = |(filter, channels): &(Filter, Vec<Channel>)| {
-            let treatment = Treatment {
-                filter: *filter,
-                family: FAMILY,
-                interval_s: None,
-            };
+            let treatment = Treatment { filter: *filter, family: FAMILY, interval_s: None };
             let histories = treated(&self.model, channels.clone(), series.clone(), treatment);
             histories.map(|h| (*filter, h)).map_err(|e| match e {
                 Untreated::Run(reason) => reason,
@@ -147,10 +143,7 @@ impl Experiment {
         let histories = self.histories(series)?;
         let of = |(_, target): &(usize, Target)| {
             let computed = target.computed(in_group(&histories, target.filter)?)?;
-            let peak = target
-                .reference
-                .iter()
-                .fold(0.0, |g: f64, m| g.max(m.abs()));
+            let peak = target.reference.iter().fold(0.0, |g: f64, m| g.max(m.abs()));
             let pairs = computed.iter().zip(&target.reference);
             Ok(pairs.map(|(c, m)| (c - m) / peak).collect())
         };
@@ -161,24 +154,17 @@ impl Experiment {
 /// The histories with this filter.
 pub fn in_group(groups: &[(Filter, Histories)], filter: Filter) -> Result<&Histories, String> {
     let found = groups.iter().find(|(f, _)| *f == filter);
-    found
-        .map(|(_, histories)| histories)
-        .ok_or_else(|| "a channel without a history".to_owned())
+    found.map(|(_, histories)| histories).ok_or_else(|| "a channel without a history".to_owned())
 }
 
 /// The scenario and the model of a draft.
 ///
 /// # Errors
 /// What is wrong with it.
-pub fn opened(
-    draft: Draft,
-    tables: &[(String, Vec<u8>)],
-) -> Result<(Loaded, Model, Diagnostics), Diagnostics> {
+pub fn opened(draft: Draft, tables: &[(String, Vec<u8>)]) -> Result<(Loaded, Model, Diagnostics), Diagnostics> {
     let table = |name: &str| {
         let found = tables.iter().find(|(table, _)| table == name);
-        found
-            .map(|(_, bytes)| bytes.clone())
-            .ok_or_else(|| "it was not there when the fit began".to_owned())
+        found.map(|(_, bytes)| bytes.clone()).ok_or_else(|| "it was not there when the fit began".to_owned())
     };
     let loaded = draft.load(&table)?;
     let (model, warnings) = loaded.model()?;

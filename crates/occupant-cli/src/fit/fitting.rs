@@ -109,11 +109,7 @@ impl Fitting {
         if !opening.problems.is_empty() || opening.experiments.is_empty() {
             return Err(ended(opening.problems, &shown));
         }
-        let Opening {
-            experiments,
-            warnings,
-            ..
-        } = opening;
+        let Opening { experiments, warnings, .. } = opening;
         let bounds = experiments[0].study.parameters().iter();
         let bounds: Option<Vec<Bounds>> = bounds.map(Parameter::bounds).collect();
         // bind_fit has refused parameters without ends
@@ -127,10 +123,7 @@ impl Fitting {
         let study_sha256 = texts[0].sha256.clone();
         // where a test lies is no part of the fit
         let named = |text: Text| match text.by {
-            NamedBy::CommandLineTest => Text {
-                name: file_name(Path::new(&text.name)),
-                ..text
-            },
+            NamedBy::CommandLineTest => Text { name: file_name(Path::new(&text.name)), ..text },
             _ => text,
         };
         manifest.texts = texts.into_iter().map(named).collect();
@@ -156,11 +149,7 @@ impl Fitting {
 
     /// Values of the parameters, SI, at a point of the unit cube.
     pub fn values(&self, at: &[f64]) -> Vec<f64> {
-        self.bounds
-            .iter()
-            .zip(at)
-            .map(|(b, u)| b.value(*u))
-            .collect()
+        self.bounds.iter().zip(at).map(|(b, u)| b.value(*u)).collect()
     }
 
     /// The score of all targets, experiment by experiment.
@@ -183,11 +172,7 @@ impl Fitting {
             }
             _ => 0.5,
         };
-        self.parameters()
-            .iter()
-            .zip(&self.bounds)
-            .map(start)
-            .collect()
+        self.parameters().iter().zip(&self.bounds).map(start).collect()
     }
 }
 
@@ -206,9 +191,7 @@ struct Opening<'a> {
 
 impl Opening<'_> {
     fn complain(&mut self, at: &str, found: String, expected: &str, hint: Option<&str>) {
-        let told = self
-            .text
-            .complaint(at, found, expected, hint.map(str::to_owned));
+        let told = self.text.complaint(at, found, expected, hint.map(str::to_owned));
         self.problems.push(told.to_string());
     }
 
@@ -227,9 +210,7 @@ impl Opening<'_> {
                 self.complain("", "no test to fit to".to_owned(), "a test", Some(hint));
             }
             let each = files.iter();
-            return each
-                .map(|f| of_command(f, FitTest::default(), String::new()))
-                .collect();
+            return each.map(|f| of_command(f, FitTest::default(), String::new())).collect();
         }
         let open = fit.tests.iter().filter(|t| t.file.is_none()).count();
         if open != files.len() {
@@ -340,10 +321,7 @@ impl Opening<'_> {
         };
         let path = self.folder.join(base);
         let shown = path.display().to_string();
-        let bytes = self
-            .texts
-            .get(by, base)
-            .map_err(|e| format!("error: the scenario {shown} cannot be read: {e}"))?;
+        let bytes = self.texts.get(by, base).map_err(|e| format!("error: the scenario {shown} cannot be read: {e}"))?;
         let draft = Draft::read_bytes(&bytes, format_of(&path), &shown);
         let draft = draft.map_err(|e| e.to_string())?;
         let at = format!("{}.set", named.at);
@@ -388,15 +366,11 @@ impl Opening<'_> {
                     self.warnings.push(format!("note: {note}"));
                 }
                 // a copy for the folder; of an ISO-MME test its checksum only
-                let mme = named
-                    .file
-                    .extension()
-                    .is_some_and(|e| e.eq_ignore_ascii_case("mme"));
+                let mme = named.file.extension().is_some_and(|e| e.eq_ignore_ascii_case("mme"));
                 let single = named.file.is_file() && !mme;
                 let copied = single && self.texts.get(named.by.0, &named.by.1).is_ok();
                 if !copied {
-                    self.texts
-                        .add(named.by.0, &named.by.1, recording.sha256.clone());
+                    self.texts.add(named.by.0, &named.by.1, recording.sha256.clone());
                 }
                 Some(recording)
             }
@@ -408,13 +382,7 @@ impl Opening<'_> {
     }
 
     /// The measured channels of a test, each with its name.
-    fn targets(
-        &mut self,
-        fit: &Fit,
-        named: &Named,
-        recording: &Recording,
-        experiment: usize,
-    ) -> Vec<(String, Target)> {
+    fn targets(&mut self, fit: &Fit, named: &Named, recording: &Recording, experiment: usize) -> Vec<(String, Target)> {
         let Some(wanted) = self.wanted(fit, experiment) else {
             return Vec::new();
         };
@@ -424,8 +392,7 @@ impl Opening<'_> {
         let names: Vec<Wanted> = wanted.iter().map(|(c, _)| Wanted::from(c)).collect();
         let mut notes = Vec::new();
         let found = pairs(recording, &names, &maps, named.test.seat, &mut notes);
-        self.warnings
-            .extend(notes.into_iter().map(|n| format!("note: {n}")));
+        self.warnings.extend(notes.into_iter().map(|n| format!("note: {n}")));
         let found = match found {
             Ok(found) => found,
             Err(failure) => {
@@ -450,9 +417,7 @@ impl Opening<'_> {
             let shifted = (pair, named.test.shift_s);
             let filter = filter_of(of.filter);
             let channel = channel.clone();
-            match Target::new(
-                channel, filter, weight, shifted, window_s, run_s, fit.misfit,
-            ) {
+            match Target::new(channel, filter, weight, shifted, window_s, run_s, fit.misfit) {
                 Ok(target) => targets.push((name, target)),
                 Err(reason) => {
                     let found = format!("{name} of {file} cannot be fitted to: {reason}");
@@ -470,11 +435,7 @@ impl Opening<'_> {
         let model = self.experiments[experiment].model.clone();
         if fit.channels.is_empty() {
             let of = |channel: Channel| {
-                let like = FitChannel {
-                    name: channel.name.clone(),
-                    weight: 1.0,
-                    filter: fit.filter,
-                };
+                let like = FitChannel { name: channel.name.clone(), weight: 1.0, filter: fit.filter };
                 (channel, like)
             };
             return Some(channels(&model).into_iter().map(of).collect());
@@ -532,8 +493,5 @@ fn ended(problems: Vec<String>, study: &str) -> String {
         1 => "1 error".to_owned(),
         n => format!("{n} errors"),
     };
-    format!(
-        "{}\n\n{study}: {count}, nothing was run",
-        blocks.join("\n\n")
-    )
+    format!("{}\n\n{study}: {count}, nothing was run", blocks.join("\n\n"))
 }

@@ -229,42 +229,26 @@ pub struct Fittings {
 }
 
 /// Puts everything together.
-pub fn found(
-    fitting: &Fitting,
-    answer: &Answer,
-    records: &[Record],
-    fitted: &Fittings,
-    program: String,
-) -> Found {
+pub fn found(fitting: &Fitting, answer: &Answer, records: &[Record], fitted: &Fittings, program: String) -> Found {
     let misfit = fitting.fit.misfit;
     let before = (answer.before.reason.is_none()).then_some(answer.before.score);
     let evaluations = evaluations(records);
     let limit = misfit.of_cost(answer.best.value + answer.rise);
-    let sets: Vec<&Record> = records
-        .iter()
-        .filter(|r| r.at.is_some() && r.score <= limit)
-        .collect();
+    let sets: Vec<&Record> = records.iter().filter(|r| r.at.is_some() && r.score <= limit).collect();
     let parameters = verdicts(fitting, answer, &sets);
     let mut warnings = fitting.warnings.clone();
     warnings.extend(remarks(fitting, answer, &parameters, &evaluations));
     Found {
         program,
         title: fitting.title.clone(),
-        study: File {
-            file: fitting.study_name.clone(),
-            sha256: fitting.study_sha256.clone(),
-        },
+        study: File { file: fitting.study_name.clone(), sha256: fitting.study_sha256.clone() },
         overrides: fitting.overrides.clone(),
         objective: misfit.name(),
         seed: fitting.fit.seed,
         budget: fitting.fit.budget,
         tolerance: fitting.fit.tolerance,
         tests: tests(fitting, fitted),
-        score: Score {
-            before,
-            after: fitting.score(&fitted.parts),
-            channels: channels(fitting, answer, fitted),
-        },
+        score: Score { before, after: fitting.score(&fitted.parts), channels: channels(fitting, answer, fitted) },
         near: NearFound {
             score: limit,
             by: by(answer.near),
@@ -336,10 +320,7 @@ fn correlations(fitting: &Fitting, answer: &Answer) -> Vec<Correlation> {
     for a in 0..parameters.len() {
         for b in a + 1..parameters.len() {
             if let Some(correlation) = answer.shape.correlation(a, b) {
-                all.push(Correlation {
-                    between: [a, b].map(|i| parameters[i].name.clone()),
-                    correlation,
-                });
+                all.push(Correlation { between: [a, b].map(|i| parameters[i].name.clone()), correlation });
             }
         }
     }
@@ -349,21 +330,15 @@ fn correlations(fitting: &Fitting, answer: &Answer) -> Vec<Correlation> {
 fn written(fitted: &Fittings) -> Vec<Written> {
     let files = fitted.names.iter().zip(&fitted.numbers);
     let number = |(name, numbers): (&String, &Vec<Fitted>)| {
-        let written = numbers.iter().map(|n| Written {
-            fitted: name.clone(),
-            path: n.path.clone(),
-            text: n.text.clone(),
-        });
+        let written =
+            numbers.iter().map(|n| Written { fitted: name.clone(), path: n.path.clone(), text: n.text.clone() });
         written.collect::<Vec<_>>()
     };
     files.flat_map(number).collect()
 }
 
 fn evaluations(records: &[Record]) -> Evaluations {
-    let mut found = Evaluations {
-        all: records.len(),
-        ..Evaluations::default()
-    };
+    let mut found = Evaluations { all: records.len(), ..Evaluations::default() };
     for record in records {
         match record.stage {
             None => {}
@@ -393,10 +368,7 @@ fn remarks(
             Verdict::AtUpperBound => "upper",
             _ => continue,
         };
-        all.push(format!(
-            "{} is at its {bound} bound: a wider range may fit better",
-            parameter.name
-        ));
+        all.push(format!("{} is at its {bound} bound: a wider range may fit better", parameter.name));
     }
     if evaluations.failed > 0 {
         all.push(format!(
@@ -413,14 +385,9 @@ fn remarks(
     let best = misfit.of_cost(answer.best.value);
     let limit = misfit.of_cost(answer.best.value + answer.rise);
     let descents = &answer.global.descents;
-    let same = descents
-        .iter()
-        .filter(|d| d.best.value <= limit.max(best + fitting.fit.tolerance));
+    let same = descents.iter().filter(|d| d.best.value <= limit.max(best + fitting.fit.tolerance));
     if descents.len() > 1 && same.count() < 2 {
-        all.push(
-            "only one descent has found this score: a greater budget may find a better one"
-                .to_owned(),
-        );
+        all.push("only one descent has found this score: a greater budget may find a better one".to_owned());
     }
     all
 }

@@ -29,11 +29,7 @@ pub fn write(folder: &Folder, fitting: &Fitting, records: &[Record]) -> Result<(
 }
 
 fn manifest(fitting: &Fitting) -> Manifest {
-    let column = |name: String, unit: &str, role| Column {
-        name,
-        unit: unit.to_owned(),
-        role,
-    };
+    let column = |name: String, unit: &str, role| Column { name, unit: unit.to_owned(), role };
     let one_if_empty = |unit: &'static str| if unit.is_empty() { "1" } else { unit };
     let mut manifest = fitting.manifest.clone();
     manifest.columns = vec![
@@ -42,24 +38,14 @@ fn manifest(fitting: &Fitting) -> Manifest {
         column("generation".to_owned(), "1", Role::Input),
     ];
     let parameters = fitting.parameters().iter();
-    manifest.columns.extend(parameters.map(|p| {
-        column(
-            format!("input.{}", p.name),
-            one_if_empty(p.unit),
-            Role::Input,
-        )
-    }));
+    manifest.columns.extend(parameters.map(|p| column(format!("input.{}", p.name), one_if_empty(p.unit), Role::Input)));
     for name in ["score", "best"] {
-        manifest
-            .columns
-            .push(column(name.to_owned(), "1", Role::Figure));
+        manifest.columns.push(column(name.to_owned(), "1", Role::Figure));
     }
-    manifest
-        .columns
-        .extend(fitting.targets().map(|(test, target)| {
-            let name = format!("{}.{}", fitting.tests[*test].name, target.channel.name);
-            column(name, "1", Role::Figure)
-        }));
+    manifest.columns.extend(fitting.targets().map(|(test, target)| {
+        let name = format!("{}.{}", fitting.tests[*test].name, target.channel.name);
+        column(name, "1", Role::Figure)
+    }));
     manifest
 }
 
@@ -73,11 +59,7 @@ fn rows(fitting: &Fitting, records: &[Record]) -> Vec<Row> {
             _ => [f64::NAN; 2],
         };
         let number = |x: f64| {
-            if x.is_nan() {
-                Cell::Absent
-            } else {
-                Cell::Number(x)
-            }
+            if x.is_nan() { Cell::Absent } else { Cell::Number(x) }
         };
         let mut cells = vec![Cell::Text(stage.into())];
         cells.extend(counted.map(number));
@@ -85,11 +67,7 @@ fn rows(fitting: &Fitting, records: &[Record]) -> Vec<Row> {
             Some(at) => cells.extend(fitting.values(at).into_iter().map(Cell::Number)),
             None => cells.extend(vec![Cell::Absent; fitting.bounds.len()]),
         }
-        best = if record.at.is_some() {
-            record.score.min(best)
-        } else {
-            best
-        };
+        best = if record.at.is_some() { record.score.min(best) } else { best };
         cells.extend([record.score, best].map(|x| match x.is_finite() {
             true => Cell::Number(x),
             false => Cell::Absent,

@@ -75,9 +75,8 @@ pub fn search(fitting: &Fitting, evaluator: &mut Evaluator<'_>) -> Result<Answer
         population: fit.population,
         tolerance: fit.tolerance,
     };
-    let mut scores = |stage: Stage, points: &[Vec<f64>]| {
-        evaluator.scores(Some(stage), points.iter().cloned().map(Some).collect())
-    };
+    let mut scores =
+        |stage: Stage, points: &[Vec<f64>]| evaluator.scores(Some(stage), points.iter().cloned().map(Some).collect());
     let global = descend(&how, &mut scores)?;
     if global.best.value >= WORST {
         let mut latest = evaluator.records.iter().rev();
@@ -92,41 +91,24 @@ pub fn search(fitting: &Fitting, evaluator: &mut Evaluator<'_>) -> Result<Answer
         let scores = evaluator.scores(Some(stage), points.iter().cloned().map(Some).collect())?;
         Ok(scores.into_iter().map(|s| misfit.cost(s)).collect())
     };
-    let mut best = Point {
-        at: global.best.at.clone(),
-        value: misfit.cost(global.best.value),
-    };
+    let mut best = Point { at: global.best.at.clone(), value: misfit.cost(global.best.value) };
     let mut anew = 0;
     loop {
         let (rise, _) = rise(fitting, &best)?;
         let (reaches, lowest) = scan(&best, rise, &mut costs)?;
-        let lengths: Vec<f64> = reaches
-            .iter()
-            .map(|[a, b]| a.length.max(b.length))
-            .collect();
+        let lengths: Vec<f64> = reaches.iter().map(|[a, b]| a.length.max(b.length)).collect();
         best = refine(lowest, &lengths, rise, &mut costs)?;
         let (rise, near) = self::rise(fitting, &best)?;
         let (reaches, scanned) = scan(&best, rise, &mut costs)?;
         let (shape, looked) = Shape::look(&best, &reaches, rise, &mut costs)?;
         let profiles = profile(&best, &reaches, &shape, rise, &mut costs)?;
         let lowest = [scanned, looked, profiles.lowest.clone()];
-        let lowest = lowest
-            .into_iter()
-            .min_by(|a, b| a.value.total_cmp(&b.value));
+        let lowest = lowest.into_iter().min_by(|a, b| a.value.total_cmp(&b.value));
         anew += 1;
         match lowest {
             Some(lower) if anew < ANEW && best.value - lower.value > LOWER * rise => best = lower,
             _ => {
-                return Ok(Answer {
-                    before,
-                    global,
-                    best,
-                    rise,
-                    near,
-                    reaches,
-                    shape,
-                    profiles,
-                });
+                return Ok(Answer { before, global, best, rise, near, reaches, shape, profiles });
             }
         }
     }
@@ -147,11 +129,8 @@ fn rise(fitting: &Fitting, best: &Point) -> Result<(f64, Near), Failure> {
     let mut unrelated = 0.0;
     for experiment in &fitting.experiments {
         let residuals = run(experiment, Some(&values)).and_then(|s| experiment.residuals(&s));
-        let residuals = residuals.map_err(|reason| {
-            Failure::BrokeOff(format!(
-                "error: the best candidate cannot be run again: {reason}"
-            ))
-        })?;
+        let residuals = residuals
+            .map_err(|reason| Failure::BrokeOff(format!("error: the best candidate cannot be run again: {reason}")))?;
         unrelated += residuals.iter().map(|r| unrelated_samples(r)).sum::<f64>();
     }
     let likely = likelihood_rise(best.value, unrelated);

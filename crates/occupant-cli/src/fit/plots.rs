@@ -20,20 +20,12 @@ pub struct Pair {
 ///
 /// # Errors
 /// Histories that cannot be drawn.
-pub fn sheets(
-    fitting: &Fitting,
-    runs: &[Pair],
-    lines: &[String],
-) -> Result<Vec<(String, String)>, String> {
+pub fn sheets(fitting: &Fitting, runs: &[Pair], lines: &[String]) -> Result<Vec<(String, String)>, String> {
     let mut sheets = Vec::new();
     for (number, test) in fitting.tests.iter().enumerate() {
         let experiment = &fitting.experiments[test.experiment];
         let drawn = figures_of(experiment, number, &test.file, &runs[test.experiment])?;
-        let words = Sheet {
-            title: format!("{}: measured and fitted", test.name),
-            lines: lines.to_vec(),
-            columns: 2,
-        };
+        let words = Sheet { title: format!("{}: measured and fitted", test.name), lines: lines.to_vec(), columns: 2 };
         sheets.push((test.name.clone(), sheet(&words, &drawn)));
     }
     Ok(sheets)
@@ -41,33 +33,20 @@ pub fn sheets(
 
 type Groups = Vec<(Filter, Histories)>;
 
-fn figures_of(
-    experiment: &Experiment,
-    test: usize,
-    file: &str,
-    runs: &Pair,
-) -> Result<Vec<Figure>, String> {
+fn figures_of(experiment: &Experiment, test: usize, file: &str, runs: &Pair) -> Result<Vec<Figure>, String> {
     let after = experiment.histories(&runs.after)?;
     let before = match &runs.before {
         Some(series) => Some(experiment.histories(series)?),
         None => None,
     };
     let own = experiment.targets.iter().filter(|(t, _)| *t == test);
-    own.map(|(_, target)| figure(target, file, before.as_ref(), &after))
-        .collect()
+    own.map(|(_, target)| figure(target, file, before.as_ref(), &after)).collect()
 }
 
-fn figure(
-    target: &Target,
-    file: &str,
-    before: Option<&Groups>,
-    after: &Groups,
-) -> Result<Figure, String> {
+fn figure(target: &Target, file: &str, before: Option<&Groups>, after: &Groups) -> Result<Figure, String> {
     let curves = |label: &str, groups: &Groups| {
-        in_group(groups, target.filter).map(|histories| RunCurves {
-            label: label.to_owned(),
-            histories: histories.clone(),
-        })
+        in_group(groups, target.filter)
+            .map(|histories| RunCurves { label: label.to_owned(), histories: histories.clone() })
     };
     let mut runs = Vec::new();
     if let Some(before) = before {
@@ -82,10 +61,7 @@ fn figure(
     let wish = Wish {
         title: target.channel.name.clone(),
         axis: target.channel.unit.quantity().to_owned(),
-        entries: vec![Entry {
-            channel: target.channel.name.clone(),
-            label: target.channel.name.clone(),
-        }],
+        entries: vec![Entry { channel: target.channel.name.clone(), label: target.channel.name.clone() }],
         empty: String::new(),
     };
     let material = Material {
@@ -97,8 +73,5 @@ fn figure(
         window_s: target.window_s,
     };
     let drawn = figures(std::slice::from_ref(&wish), &material)?;
-    drawn
-        .into_iter()
-        .next()
-        .ok_or_else(|| "no figure".to_owned())
+    drawn.into_iter().next().ok_or_else(|| "no figure".to_owned())
 }

@@ -33,9 +33,7 @@ impl Progress {
         };
         let bar = ProgressBar::with_draw_target(Some(budget), target);
         // the words of the template are ours; should they not parse, the plain bar does
-        if let Ok(style) =
-            ProgressStyle::with_template("{bar:30} {pos} of {len} evaluations, {msg}")
-        {
+        if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos} of {len} evaluations, {msg}") {
             bar.set_style(style);
         }
         Progress {
@@ -53,10 +51,7 @@ impl Progress {
     /// What a batch came to.
     pub fn see(&mut self, stage: Option<Stage>, records: &[Record]) {
         self.evaluations += records.len() as u64;
-        let least = records
-            .iter()
-            .map(|r| r.score)
-            .fold(f64::INFINITY, f64::min);
+        let least = records.iter().map(|r| r.score).fold(f64::INFINITY, f64::min);
         if stage.is_some() {
             self.best = self.best.min(least);
         }
@@ -67,8 +62,7 @@ impl Progress {
         if !self.bar.is_hidden() {
             self.bar.set_length(self.budget.max(self.evaluations));
             self.bar.set_position(self.evaluations);
-            self.bar
-                .set_message(format!("{words}: score {:.5}", self.best));
+            self.bar.set_message(format!("{words}: score {:.5}", self.best));
             return;
         }
         match stage {
@@ -76,11 +70,7 @@ impl Progress {
             Some(_) => {
                 let news = name != self.stage;
                 if news || (self.best < self.told && self.line.elapsed() > LINE_EVERY) {
-                    say(&format!(
-                        "{} evaluations, {words}: {}",
-                        self.evaluations,
-                        score(self.best)
-                    ));
+                    say(&format!("{} evaluations, {words}: {}", self.evaluations, score(self.best)));
                     self.told = self.best;
                     self.line = Instant::now();
                 }
@@ -107,10 +97,9 @@ fn score(score: f64) -> String {
 pub fn words_of(stage: Option<Stage>) -> (&'static str, String) {
     match stage {
         None => ("base", "base scenario".to_owned()),
-        Some(Stage::Descent { number, generation }) => (
-            "search",
-            format!("descent {}, generation {}", number + 1, generation + 1),
-        ),
+        Some(Stage::Descent { number, generation }) => {
+            ("search", format!("descent {}, generation {}", number + 1, generation + 1))
+        }
         Some(Stage::Refinement) => ("refinement", "refinement".to_owned()),
         Some(Stage::Scan) => ("scan", "each parameter alone".to_owned()),
         Some(Stage::Shape) => ("shape", "curvature".to_owned()),

@@ -21,22 +21,13 @@ pub fn text(fitting: &Fitting, found: &Found) -> String {
 
 fn overview(found: &Found) -> String {
     let e = &found.evaluations;
-    let before = found
-        .score
-        .before
-        .map_or(NONE.to_owned(), |b| format!("{b:.5}"));
+    let before = found.score.before.map_or(NONE.to_owned(), |b| format!("{b:.5}"));
     let tests: Vec<&str> = found.tests.iter().map(|t| t.file.as_str()).collect();
     let mut lines = vec![
-        (
-            "fit",
-            format!("{} to {}", found.study.file, tests.join(", ")),
-        ),
+        ("fit", format!("{} to {}", found.study.file, tests.join(", "))),
         (
             "score",
-            format!(
-                "{:.5} ({}), before {before}; 0 is a run that is the test",
-                found.score.after, found.objective
-            ),
+            format!("{:.5} ({}), before {before}; 0 is a run that is the test", found.score.after, found.objective),
         ),
         (
             "evaluations",
@@ -48,10 +39,7 @@ fn overview(found: &Found) -> String {
                 e.intervals
             ),
         ),
-        (
-            "as good",
-            format!("scores up to {:.5} ({})", found.near.score, found.near.by),
-        ),
+        ("as good", format!("scores up to {:.5} ({})", found.near.score, found.near.by)),
     ];
     for warning in &found.warnings {
         lines.push(("warning", warning.clone()));
@@ -66,9 +54,9 @@ pub fn unit_of(fitting: &Fitting, i: usize) -> (String, f64) {
     let place = parameter.targets.first();
     match parameter.apply {
         ApplyChoice::Factor => (String::new(), 1.0),
-        ApplyChoice::Value | ApplyChoice::Offset => place
-            .and_then(|t| base.unit_at(&t.path))
-            .unwrap_or((parameter.unit.to_owned(), 1.0)),
+        ApplyChoice::Value | ApplyChoice::Offset => {
+            place.and_then(|t| base.unit_at(&t.path)).unwrap_or((parameter.unit.to_owned(), 1.0))
+        }
     }
 }
 
@@ -112,11 +100,7 @@ fn parameters(fitting: &Fitting, found: &Found) -> String {
 /// Pairs that make up for each other, and how far.
 fn compensating(fitting: &Fitting, found: &Found) -> String {
     let mut lines = Vec::new();
-    for pair in found
-        .correlations
-        .iter()
-        .filter(|c| c.correlation.abs() > COMPENSATING)
-    {
+    for pair in found.correlations.iter().filter(|c| c.correlation.abs() > COMPENSATING) {
         let [a, b] = &pair.between;
         let place = |name: &String| found.parameters.iter().position(|p| p.name == *name);
         let (Some(i), Some(j)) = (place(a), place(b)) else {
@@ -125,15 +109,17 @@ fn compensating(fitting: &Fitting, found: &Found) -> String {
         let [low, high] = &found.parameters[i].ends;
         let value = |end: &super::found::EndFound, at: usize| {
             let (unit, si) = unit_of(fitting, at);
-            format!("{} {unit}", short(end.values[at] / si))
-                .trim()
-                .to_owned()
+            format!("{} {unit}", short(end.values[at] / si)).trim().to_owned()
         };
         lines.push(format!(
             "{a} and {b} compensate each other (correlation {:.3}): {} with {} scores {:.5}, {} with {} scores {:.5}\n",
             pair.correlation,
-            value(low, i), value(low, j), low.score,
-            value(high, i), value(high, j), high.score,
+            value(low, i),
+            value(low, j),
+            low.score,
+            value(high, i),
+            value(high, j),
+            high.score,
         ));
     }
     lines.concat()
@@ -172,27 +158,16 @@ pub fn provenance(fitting: &Fitting, found: &Found, p: &ParameterFound, i: usize
     let factor = match p.apply {
         ApplyChoice::Value => String::new(),
         ApplyChoice::Factor => format!(" (times {} what the base scenario says)", short(p.value)),
-        ApplyChoice::Offset => format!(
-            " ({} added to what the base scenario says)",
-            with_unit(short(p.value / si))
-        ),
+        ApplyChoice::Offset => format!(" ({} added to what the base scenario says)", with_unit(short(p.value / si))),
     };
     let interval = match p.verdict {
-        Verdict::NotIdentified => format!(
-            "{}; any value of {} is as good",
-            p.words,
-            with_unit(format!("{low} to {high}"))
-        ),
-        _ => format!(
-            "{}, interval {}",
-            p.words,
-            with_unit(format!("{low} to {high}"))
-        ),
+        Verdict::NotIdentified => {
+            format!("{}; any value of {} is as good", p.words, with_unit(format!("{low} to {high}")))
+        }
+        _ => format!("{}, interval {}", p.words, with_unit(format!("{low} to {high}"))),
     };
     let tests = found.tests.iter();
-    let tests: Vec<String> = tests
-        .map(|t| format!("{} (SHA-256 {})", t.file, t.sha256))
-        .collect();
+    let tests: Vec<String> = tests.map(|t| format!("{} (SHA-256 {})", t.file, t.sha256)).collect();
     format!(
         "fitted by {}{factor}: parameter {} of {} (SHA-256 {}…) to {}; {} score {:.5}; {interval}",
         found.program,

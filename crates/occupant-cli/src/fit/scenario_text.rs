@@ -54,13 +54,8 @@ pub fn numbers(experiment: &Experiment, values: &[f64]) -> Result<Vec<Fitted>, S
                 return Err(format!("`{}` is no number", assignment.path));
             };
             let text = study.base().written(&assignment.path, si, DIGITS);
-            let text =
-                text.ok_or_else(|| format!("no number can stand at `{}`", assignment.path))?;
-            Ok(Fitted {
-                parameter: of(&assignment.path),
-                path: assignment.path,
-                text,
-            })
+            let text = text.ok_or_else(|| format!("no number can stand at `{}`", assignment.path))?;
+            Ok(Fitted { parameter: of(&assignment.path), path: assignment.path, text })
         })
         .collect()
 }
@@ -87,20 +82,12 @@ pub fn fitted(
     }
     let format = format_of(&experiment.scenario);
     let is_toml = format.unwrap_or_else(|| Format::of_text(&experiment.text)) == Format::Toml;
-    let edited = is_toml
-        .then(|| edited(experiment, numbers, provenance))
-        .flatten();
+    let edited = is_toml.then(|| edited(experiment, numbers, provenance)).flatten();
     if let Some(text) = edited.filter(|text| says(experiment, text, &wanted)) {
-        return Ok(FittedText {
-            text: format!("{head}{text}"),
-            kept: true,
-        });
+        return Ok(FittedText { text: format!("{head}{text}"), kept: true });
     }
     let text = wanted.to_toml().map_err(|e| e.to_string())?;
-    Ok(FittedText {
-        text: format!("{head}{text}"),
-        kept: false,
-    })
+    Ok(FittedText { text: format!("{head}{text}"), kept: false })
 }
 
 /// Whether a text says this scenario.
@@ -111,11 +98,7 @@ fn says(experiment: &Experiment, text: &str, wanted: &Scenario) -> bool {
 }
 
 /// The author's text with everything put in that the study, the command line and the fit have changed.
-fn edited(
-    experiment: &Experiment,
-    numbers: &[Fitted],
-    provenance: &[(String, String)],
-) -> Option<String> {
+fn edited(experiment: &Experiment, numbers: &[Fitted], provenance: &[(String, String)]) -> Option<String> {
     let mut document: DocumentMut = experiment.text.parse().ok()?;
     let changes = experiment.study.changes().iter();
     let numbers = numbers.iter().map(|n| (&n.path, &n.text));
@@ -136,9 +119,7 @@ fn edited(
     }
     if !provenance.is_empty() {
         let table = document.entry("provenance");
-        let table = table
-            .or_insert(Item::Table(Table::new()))
-            .as_table_like_mut()?;
+        let table = table.or_insert(Item::Table(Table::new())).as_table_like_mut()?;
         for (path, words) in provenance {
             table.insert(path, value(words.as_str()));
         }
@@ -156,9 +137,7 @@ fn put(item: &mut Item, steps: &[Step], new: Value) -> Option<()> {
         return put_in_table(table, inline, key, rest, new);
     }
     match (step, item) {
-        (Step::Index(i), Item::Value(Value::Array(array))) => {
-            put_in_value(array.get_mut(*i)?, rest, new)
-        }
+        (Step::Index(i), Item::Value(Value::Array(array))) => put_in_value(array.get_mut(*i)?, rest, new),
         (Step::Index(i), Item::ArrayOfTables(tables)) => {
             let table = tables.get_mut(*i)?;
             let (Step::Key(key), rest) = rest.split_first()? else {
@@ -178,13 +157,7 @@ fn put(item: &mut Item, steps: &[Step], new: Value) -> Option<()> {
     }
 }
 
-fn put_in_table(
-    table: &mut dyn TableLike,
-    inline: bool,
-    key: &str,
-    rest: &[Step],
-    new: Value,
-) -> Option<()> {
+fn put_in_table(table: &mut dyn TableLike, inline: bool, key: &str, rest: &[Step], new: Value) -> Option<()> {
     if !table.contains_key(key) {
         let blank = match (rest.is_empty(), inline) {
             (true, _) => Item::Value(new.clone()),

@@ -62,19 +62,9 @@ impl Target {
             filtered.map_err(super::words::of_failure)?;
         }
         measured.time_s.iter_mut().for_each(|t| *t += shift_s);
-        let theirs = Track {
-            time_s: &measured.time_s,
-            values: &measured.values,
-        };
-        let ours = Track {
-            time_s: &run_s,
-            values: &[0.0; 2],
-        };
-        let window = Window {
-            from_s: window_s[0],
-            to_s: window_s[1],
-            shift_s: 0.0,
-        };
+        let theirs = Track { time_s: &measured.time_s, values: &measured.values };
+        let ours = Track { time_s: &run_s, values: &[0.0; 2] };
+        let window = Window { from_s: window_s[0], to_s: window_s[1], shift_s: 0.0 };
         let [from_s, to_s] = overlap(ours, theirs, window)?;
         let samples = whole_steps(to_s - from_s, 1.0 / RATE_HZ) + 1;
         if samples as f64 > RATE_HZ * 100.0 {
@@ -83,15 +73,7 @@ impl Target {
         let reference = sampled(theirs, from_s, to_s, samples, "the measured signal")?;
         let itself = misfit.of(&reference, &reference, 1.0 / RATE_HZ);
         itself.map_err(|e| e.to_string())?;
-        Ok(Target {
-            channel,
-            class,
-            filter,
-            weight,
-            measured,
-            window_s: [from_s, to_s],
-            reference,
-        })
+        Ok(Target { channel, class, filter, weight, measured, window_s: [from_s, to_s], reference })
     }
 
     /// The computed values on the grid of the measured ones.
@@ -99,23 +81,11 @@ impl Target {
     /// # Errors
     /// Histories without this channel, or with values missing in the window.
     pub fn computed(&self, histories: &Histories) -> Result<Vec<f64>, String> {
-        let found = histories
-            .columns
-            .iter()
-            .find(|c| c.channel.name == self.channel.name);
+        let found = histories.columns.iter().find(|c| c.channel.name == self.channel.name);
         let column = found.ok_or_else(|| format!("no history of {}", self.channel.name))?;
         let [from_s, to_s] = self.window_s;
-        let track = Track {
-            time_s: &histories.time_s,
-            values: &column.values,
-        };
-        sampled(
-            track,
-            from_s,
-            to_s,
-            self.reference.len(),
-            "the computed history",
-        )
+        let track = Track { time_s: &histories.time_s, values: &column.values };
+        sampled(track, from_s, to_s, self.reference.len(), "the computed history")
     }
 
     /// How far computed values are from the measured ones.

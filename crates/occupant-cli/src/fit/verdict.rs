@@ -39,9 +39,7 @@ pub enum Verdict {
 /// All parameters with their verdicts; `sets` are the evaluated ones that are as good as the best.
 pub fn verdicts(fitting: &Fitting, answer: &Answer, sets: &[&Record]) -> Vec<ParameterFound> {
     let parameters = 0..fitting.parameters().len();
-    parameters
-        .map(|i| parameter(fitting, answer, sets, i))
-        .collect()
+    parameters.map(|i| parameter(fitting, answer, sets, i)).collect()
 }
 
 fn parameter(fitting: &Fitting, answer: &Answer, sets: &[&Record], i: usize) -> ParameterFound {
@@ -52,10 +50,7 @@ fn parameter(fitting: &Fitting, answer: &Answer, sets: &[&Record], i: usize) -> 
     let verdict = verdict(u, ends, open);
     let compensated_by = partners(fitting, answer, i);
     let misfit = fitting.fit.misfit;
-    let end = |end: &End| EndFound {
-        values: fitting.values(&end.point.at),
-        score: misfit.of_cost(end.point.value),
-    };
+    let end = |end: &End| EndFound { values: fitting.values(&end.point.at), score: misfit.of_cost(end.point.value) };
     let [down, up] = answer.reaches[i];
     let among = sets.iter().filter_map(|r| r.at.as_ref()).map(|at| at[i]);
     let [least, most] = among.fold([u, u], |[l, m], v| [l.min(v), m.max(v)]);
@@ -83,20 +78,14 @@ fn parameter(fitting: &Fitting, answer: &Answer, sets: &[&Record], i: usize) -> 
 }
 
 fn alone(bounds: Bounds, u: f64, [down, up]: [f64; 2]) -> [f64; 2] {
-    [
-        bounds.value((u - down).max(0.0)),
-        bounds.value((u + up).min(1.0)),
-    ]
+    [bounds.value((u - down).max(0.0)), bounds.value((u + up).min(1.0))]
 }
 
 /// Whether a bound, of this or of another parameter, ends the interval.
 fn is_open(end: &End, best: &[f64]) -> bool {
     let at_bound = |u: f64| !(AT..=1.0 - AT).contains(&u);
     let others = end.point.at.iter().zip(best);
-    end.open
-        || others
-            .into_iter()
-            .any(|(there, here)| at_bound(*there) && !at_bound(*here))
+    end.open || others.into_iter().any(|(there, here)| at_bound(*there) && !at_bound(*here))
 }
 
 fn verdict(u: f64, ends: &[End; 2], open: [bool; 2]) -> Verdict {

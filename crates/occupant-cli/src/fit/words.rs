@@ -6,9 +6,7 @@ use crate::sweep::problem::Problem;
 /// A problem with the folder, as the end of the command.
 pub fn told(problem: Problem) -> Failure {
     match (&problem, problem.help()) {
-        (Problem::Io { .. } | Problem::Table { .. }, _) => {
-            Failure::BrokeOff(format!("error: {problem}"))
-        }
+        (Problem::Io { .. } | Problem::Table { .. }, _) => Failure::BrokeOff(format!("error: {problem}")),
         (_, Some(help)) => Failure::with_help(problem.to_string(), help),
         (_, None) => Failure::plain(problem.to_string()),
     }

@@ -33,9 +33,7 @@ fn fitting(model: &Model, name: &str) -> Result<Vec<Channel>, Failure> {
         };
     }
     let found = find(model, name);
-    found
-        .map(|c| vec![c])
-        .map_err(|nearest| unknown(model, name, nearest))
+    found.map(|c| vec![c]).map_err(|nearest| unknown(model, name, nearest))
 }
 
 fn unknown(model: &Model, name: &str, nearest: Option<String>) -> Failure {

@@ -47,9 +47,7 @@ impl FromStr for Filter {
         }
         let number = word.strip_prefix("cfc").unwrap_or(&word).trim();
         let class = number.parse().ok().and_then(ChannelClass::from_number);
-        class
-            .map(Filter::Class)
-            .ok_or_else(|| "expected CFC60, CFC180, CFC600, CFC1000, j211 or none".to_owned())
+        class.map(Filter::Class).ok_or_else(|| "expected CFC60, CFC180, CFC600, CFC1000, j211 or none".to_owned())
     }
 }
 
@@ -95,12 +93,7 @@ fn j211_class(channel: &str) -> Option<ChannelClass> {
 ///
 /// # Errors
 /// Samples too far apart for the class, or not finite.
-pub fn filtered(
-    values: &[f64],
-    dt_s: f64,
-    class: ChannelClass,
-    family: Family,
-) -> Result<Vec<f64>, String> {
+pub fn filtered(values: &[f64], dt_s: f64, class: ChannelClass, family: Family) -> Result<Vec<f64>, String> {
     filter_cfc(values, dt_s, class, family.into()).map_err(|error| match error {
         SignalError::CornerAboveNyquist { corner_hz, .. } => format!(
             "CFC {} needs more than {:.0} samples a second (and SAE J211 asks for {:.0}), but samples are {:.0} a second",
@@ -129,14 +122,8 @@ mod tests {
     #[test]
     fn j211_gives_classes_to_what_transducers_measure() {
         let class = |name| Filter::J211.class_of(name);
-        assert_eq!(
-            class("head.acceleration.resultant"),
-            Some(ChannelClass::Cfc1000)
-        );
-        assert_eq!(
-            class("upper_torso.acceleration.x"),
-            Some(ChannelClass::Cfc180)
-        );
+        assert_eq!(class("head.acceleration.resultant"), Some(ChannelClass::Cfc1000));
+        assert_eq!(class("upper_torso.acceleration.x"), Some(ChannelClass::Cfc180));
         assert_eq!(class("belt.lap.force"), Some(ChannelClass::Cfc60));
         assert_eq!(class("left_femur.axial"), Some(ChannelClass::Cfc600));
         assert_eq!(class("energy.kinetic"), None);

@@ -25,11 +25,7 @@ pub struct Treatment {
 ///
 /// # Errors
 /// Outputs too far apart for the filter, or an interval that is none.
-pub fn load(
-    results: &Results,
-    channels: Vec<Channel>,
-    treatment: Treatment,
-) -> Result<Histories, Failure> {
+pub fn load(results: &Results, channels: Vec<Channel>, treatment: Treatment) -> Result<Histories, Failure> {
     let asked = asked(&results.model, &channels, treatment.filter);
     let series = results.series(asked)?;
     let treated = treated(&results.model, channels, series, treatment);
@@ -89,24 +85,13 @@ pub fn treated(
                     filtered(raw, dt_s, class, treatment.family)
                 };
                 let found = filtered_channel(model, &channel, &apply);
-                found.map_err(|reason| Untreated::Channel {
-                    name: channel.name.clone(),
-                    reason,
-                })?
+                found.map_err(|reason| Untreated::Channel { name: channel.name.clone(), reason })?
             }
             _ => series.of(&channel.name).unwrap_or_default().to_vec(),
         };
-        columns.push(Column {
-            channel,
-            class,
-            values,
-        });
+        columns.push(Column { channel, class, values });
     }
-    let mut histories = Histories {
-        time_s: series.time_s,
-        columns,
-        notes,
-    };
+    let mut histories = Histories { time_s: series.time_s, columns, notes };
     if let Some(interval_s) = treatment.interval_s {
         resample(&mut histories, interval_s).map_err(Untreated::Run)?;
     }
@@ -157,18 +142,14 @@ fn even(series: &mut Series, notes: &mut Vec<String>) -> Result<f64, String> {
 
 fn too_coarse(results: &Results, channel: &str, reason: &str) -> Failure {
     Failure::with_help(
-        format!(
-            "{}: {channel} cannot be filtered: {reason}",
-            results.path.display()
-        ),
+        format!("{}: {channel} cannot be filtered: {reason}", results.path.display()),
         "run with a shorter output.interval (--set 'output.interval=\"0.1 ms\"'), choose a lower class, or leave the channel out",
     )
 }
 
 fn resample(histories: &mut Histories, interval_s: f64) -> Result<(), String> {
     let time_s = std::mem::take(&mut histories.time_s);
-    let recorded_s = (time_s.len() > 1)
-        .then(|| (time_s[time_s.len() - 1] - time_s[0]) / (time_s.len() - 1) as f64);
+    let recorded_s = (time_s.len() > 1).then(|| (time_s[time_s.len() - 1] - time_s[0]) / (time_s.len() - 1) as f64);
     for column in &mut histories.columns {
         let line = Interpolant::new(&time_s, &column.values, Interpolation::Linear);
         let line = line.map_err(|e| format!("{}: {e}", column.channel.name))?;
@@ -176,12 +157,8 @@ fn resample(histories: &mut Histories, interval_s: f64) -> Result<(), String> {
     }
     let count = histories.columns.first().map_or(0, |c| c.values.len());
     let start_s = time_s.first().copied().unwrap_or_default();
-    histories.time_s = (0..count)
-        .map(|i| start_s + i as f64 * interval_s)
-        .collect();
-    if recorded_s.is_some_and(|r| interval_s > 1.5 * r)
-        && histories.columns.iter().any(|c| c.class.is_none())
-    {
+    histories.time_s = (0..count).map(|i| start_s + i as f64 * interval_s).collect();
+    if recorded_s.is_some_and(|r| interval_s > 1.5 * r) && histories.columns.iter().any(|c| c.class.is_none()) {
         histories.notes.push(format!(
             "samples {interval_s} s apart are taken from unfiltered outputs that stand closer: peaks between them are lost"
         ));

@@ -128,11 +128,7 @@ mod tests {
                 for shown in [shown(unit, choice), plotted(unit, choice)] {
                     let scale = parse(shown.ascii, 0).unwrap();
                     assert_eq!(scale.dimension, dimension(unit), "{}", shown.ascii);
-                    assert!(
-                        (scale.factor / shown.si - 1.0).abs() < 1e-15,
-                        "{}",
-                        shown.ascii
-                    );
+                    assert!((scale.factor / shown.si - 1.0).abs() < 1e-15, "{}", shown.ascii);
                 }
             }
         }

@@ -68,10 +68,7 @@ pub fn run(about: &About, tables: &[Document], model: &Model) -> Metadata {
     for (key, value) in integrator(&setup.integrator) {
         put(key, value);
     }
-    Metadata {
-        name: RUN.to_owned(),
-        metadata: entries,
-    }
+    Metadata { name: RUN.to_owned(), metadata: entries }
 }
 
 const FRAMES: &str = "space: X forward, Y left, Z up; vehicle: X forward, Y right, Z down, origin at its centre of \
@@ -96,25 +93,13 @@ pub fn result(outcome: &Outcome, outputs: u64) -> Metadata {
         ("greatest_kinetic_j", outcome.greatest_kinetic_j.to_string()),
         ("balance_error", outcome.balance_error.to_string()),
     ];
-    Metadata {
-        name: RESULT.to_owned(),
-        metadata: entries.map(|(k, v)| (k.to_owned(), v)).into(),
-    }
+    Metadata { name: RESULT.to_owned(), metadata: entries.map(|(k, v)| (k.to_owned(), v)).into() }
 }
 
 fn integrator(integrator: &Integrator) -> Vec<(&'static str, String)> {
     match *integrator {
-        Integrator::Rk4 { step_s } => vec![
-            ("integrator", "rk4".to_owned()),
-            ("step_s", step_s.to_string()),
-        ],
-        Integrator::Adaptive {
-            relative,
-            absolute_m,
-            absolute_m_s,
-            min_step_s,
-            max_step_s,
-        } => vec![
+        Integrator::Rk4 { step_s } => vec![("integrator", "rk4".to_owned()), ("step_s", step_s.to_string())],
+        Integrator::Adaptive { relative, absolute_m, absolute_m_s, min_step_s, max_step_s } => vec![
             ("integrator", "adaptive".to_owned()),
             ("relative", relative.to_string()),
             ("absolute_m", absolute_m.to_string()),
@@ -138,9 +123,6 @@ mod tests {
     /// FIPS 180-4, the example "abc".
     #[test]
     fn the_published_digest_comes_out() {
-        assert_eq!(
-            sha256(b"abc"),
-            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad"
-        );
+        assert_eq!(sha256(b"abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
     }
 }

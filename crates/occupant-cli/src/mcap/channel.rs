@@ -25,12 +25,7 @@ pub struct Channel {
 impl Channel {
     /// Header of the next message.
     pub fn next(&mut self, ns: u64) -> MessageHeader {
-        let header = MessageHeader {
-            channel_id: self.id,
-            sequence: self.sequence,
-            log_time: ns,
-            publish_time: ns,
-        };
+        let header = MessageHeader { channel_id: self.id, sequence: self.sequence, log_time: ns, publish_time: ns };
         self.sequence = self.sequence.wrapping_add(1);
         header
     }
@@ -67,12 +62,7 @@ impl Schemas {
     }
 
     /// A channel of a Foxglove type.
-    pub fn add_foxglove(
-        &self,
-        writer: &mut Writer<impl Write + Seek>,
-        topic: &str,
-        name: &str,
-    ) -> McapResult<Channel> {
+    pub fn add_foxglove(&self, writer: &mut Writer<impl Write + Seek>, topic: &str, name: &str) -> McapResult<Channel> {
         let full = format!("foxglove.{name}");
         let schema = writer.add_schema(&full, PROTOBUF, &self.foxglove(name))?;
         let id = writer.add_channel(schema, topic, PROTOBUF, &BTreeMap::new())?;
@@ -80,12 +70,7 @@ impl Schemas {
     }
 
     /// A channel of a group; its metadata say what each field means.
-    pub fn add_group(
-        &self,
-        writer: &mut Writer<impl Write + Seek>,
-        topic: &str,
-        group: &Group,
-    ) -> McapResult<Channel> {
+    pub fn add_group(&self, writer: &mut Writer<impl Write + Seek>, topic: &str, group: &Group) -> McapResult<Channel> {
         let full = format!("{PACKAGE}.{}", group.message);
         let schema = writer.add_schema(&full, PROTOBUF, &self.group(group))?;
         let meaning = |c: &super::column::Column| (c.name.to_owned(), c.meaning.to_owned());

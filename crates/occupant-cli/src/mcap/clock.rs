@@ -9,9 +9,7 @@ pub fn nanoseconds(time_s: f64, start_s: f64) -> u64 {
 /// Every how many outputs a frame of the scene is recorded so that there are at most `most_per_s` frames a second.
 pub fn stride(output_s: f64, most_per_s: u32) -> usize {
     // an output rate that misses the limit by rounding alone still counts as the limit
-    (1.0 / (output_s * f64::from(most_per_s)) - 1e-9)
-        .ceil()
-        .max(1.0) as usize
+    (1.0 / (output_s * f64::from(most_per_s)) - 1e-9).ceil().max(1.0) as usize
 }
 
 #[cfg(test)]

@@ -70,9 +70,7 @@ impl Column {
         match self.value {
             Value::Number(_) => one(number, name, Kind::Number),
             Value::Count(_) => one(number, name, Kind::Count),
-            Value::Vector(_) | Value::Perhaps(_) => {
-                one(number, name, Kind::Message("foxglove.Vector3"))
-            }
+            Value::Vector(_) | Value::Perhaps(_) => one(number, name, Kind::Message("foxglove.Vector3")),
             Value::Rotation(_) => one(number, name, Kind::Message("foxglove.Quaternion")),
             Value::Coordinates(_) | Value::Numbers(_) => many(number, name, Kind::Number),
             Value::Indices(_) => many(number, name, Kind::Index),
@@ -117,24 +115,10 @@ fn write_touches(number: u32, sample: &Sample<'_>, sphere: usize, wire: &mut Wir
 }
 
 /// The time in every group's first field.
-pub const TIME: Column = Column {
-    number: 1,
-    name: "time_s",
-    meaning: "time of the scenario",
-    value: Value::Number(|s, _| s.time_s),
-};
+pub const TIME: Column =
+    Column { number: 1, name: "time_s", meaning: "time of the scenario", value: Value::Number(|s, _| s.time_s) };
 
 /// A column, in one line.
-pub const fn column(
-    number: u32,
-    name: &'static str,
-    value: Value,
-    meaning: &'static str,
-) -> Column {
-    Column {
-        number,
-        name,
-        meaning,
-        value,
-    }
+pub const fn column(number: u32, name: &'static str, value: Value, meaning: &'static str) -> Column {
+    Column { number, name, meaning, value }
 }

@@ -3,8 +3,8 @@
 use prost::Message as _;
 use prost_types::field_descriptor_proto::{Label, Type};
 use prost_types::{
-    DescriptorProto, EnumDescriptorProto, EnumValueDescriptorProto, FieldDescriptorProto,
-    FileDescriptorProto, FileDescriptorSet,
+    DescriptorProto, EnumDescriptorProto, EnumValueDescriptorProto, FieldDescriptorProto, FileDescriptorProto,
+    FileDescriptorSet,
 };
 
 /// Type of a field.
@@ -47,34 +47,19 @@ pub struct Field {
 
 /// A single value.
 pub const fn one(number: u32, name: &'static str, kind: Kind) -> Field {
-    Field {
-        number,
-        name,
-        kind,
-        repeated: false,
-    }
+    Field { number, name, kind, repeated: false }
 }
 
 /// A list of values.
 pub const fn many(number: u32, name: &'static str, kind: Kind) -> Field {
-    Field {
-        number,
-        name,
-        kind,
-        repeated: true,
-    }
+    Field { number, name, kind, repeated: true }
 }
 
 /// An enum declared inside a message: its name and its values, numbered from 0.
 pub type NestedEnum = (&'static str, &'static [&'static str]);
 
 /// A `.proto` file with one message of its own name; `package/Name.proto` declares `package.Name`.
-pub fn file(
-    package: &str,
-    name: &str,
-    fields: &[Field],
-    nested: Option<NestedEnum>,
-) -> FileDescriptorProto {
+pub fn file(package: &str, name: &str, fields: &[Field], nested: Option<NestedEnum>) -> FileDescriptorProto {
     let mut dependency: Vec<String> = fields.iter().filter_map(|f| home(f.kind)).collect();
     dependency.sort();
     dependency.dedup();
@@ -102,18 +87,12 @@ pub fn set(wanted: &FileDescriptorProto, library: &[FileDescriptorProto]) -> Vec
     FileDescriptorSet { file: files }.encode_to_vec()
 }
 
-fn collect(
-    file: &FileDescriptorProto,
-    library: &[FileDescriptorProto],
-    files: &mut Vec<FileDescriptorProto>,
-) {
+fn collect(file: &FileDescriptorProto, library: &[FileDescriptorProto], files: &mut Vec<FileDescriptorProto>) {
     if files.iter().any(|f| f.name == file.name) {
         return;
     }
     for dependency in &file.dependency {
-        let found = library
-            .iter()
-            .find(|f| f.name.as_deref() == Some(dependency));
+        let found = library.iter().find(|f| f.name.as_deref() == Some(dependency));
         if let Some(found) = found {
             collect(found, library, files);
         }
@@ -134,11 +113,7 @@ fn home(kind: Kind) -> Option<String> {
 }
 
 fn describe(field: &Field) -> FieldDescriptorProto {
-    let label = if field.repeated {
-        Label::Repeated
-    } else {
-        Label::Optional
-    };
+    let label = if field.repeated { Label::Repeated } else { Label::Optional };
     let (kind, type_name) = match field.kind {
         Kind::Number => (Type::Double, None),
         Kind::Count => (Type::Uint64, None),

@@ -47,46 +47,16 @@ pub fn library() -> Vec<FileDescriptorProto> {
             ..file("google.protobuf", name, &fields, None)
         }
     };
-    let own = MESSAGES
-        .iter()
-        .map(|&(name, fields, nested)| file("foxglove", name, fields, nested));
-    [seconds("Timestamp"), seconds("Duration")]
-        .into_iter()
-        .chain(own)
-        .collect()
+    let own = MESSAGES.iter().map(|&(name, fields, nested)| file("foxglove", name, fields, nested));
+    [seconds("Timestamp"), seconds("Duration")].into_iter().chain(own).collect()
 }
 
 const MESSAGES: &[Entry] = &[
     ("Vector3", XYZ, None),
     ("Point3", XYZ, None),
-    (
-        "Quaternion",
-        &[
-            one(1, "x", Number),
-            one(2, "y", Number),
-            one(3, "z", Number),
-            one(4, "w", Number),
-        ],
-        None,
-    ),
-    (
-        "Color",
-        &[
-            one(1, "r", Number),
-            one(2, "g", Number),
-            one(3, "b", Number),
-            one(4, "a", Number),
-        ],
-        None,
-    ),
-    (
-        "Pose",
-        &[
-            one(1, "position", VECTOR),
-            one(2, "orientation", QUATERNION),
-        ],
-        None,
-    ),
+    ("Quaternion", &[one(1, "x", Number), one(2, "y", Number), one(3, "z", Number), one(4, "w", Number)], None),
+    ("Color", &[one(1, "r", Number), one(2, "g", Number), one(3, "b", Number), one(4, "a", Number)], None),
+    ("Pose", &[one(1, "position", VECTOR), one(2, "orientation", QUATERNION)], None),
     (
         "FrameTransform",
         &[
@@ -98,11 +68,7 @@ const MESSAGES: &[Entry] = &[
         ],
         None,
     ),
-    (
-        FRAME_TRANSFORMS,
-        &[many(1, "transforms", Message("foxglove.FrameTransform"))],
-        None,
-    ),
+    (FRAME_TRANSFORMS, &[many(1, "transforms", Message("foxglove.FrameTransform"))], None),
     (
         LOG,
         &[
@@ -113,10 +79,7 @@ const MESSAGES: &[Entry] = &[
             one(5, "file", Text),
             one(6, "line", Index),
         ],
-        Some((
-            "Level",
-            &["UNKNOWN", "DEBUG", "INFO", "WARNING", "ERROR", "FATAL"],
-        )),
+        Some(("Level", &["UNKNOWN", "DEBUG", "INFO", "WARNING", "ERROR", "FATAL"])),
     ),
     (
         SCENE_UPDATE,
@@ -128,11 +91,7 @@ const MESSAGES: &[Entry] = &[
     ),
     (
         "SceneEntityDeletion",
-        &[
-            one(1, "timestamp", TIME),
-            one(2, "type", Enum("foxglove.SceneEntityDeletion.Type")),
-            one(3, "id", Text),
-        ],
+        &[one(1, "timestamp", TIME), one(2, "type", Enum("foxglove.SceneEntityDeletion.Type")), one(3, "id", Text)],
         Some(("Type", &["MATCHING_ID", "ALL"])),
     ),
     (
@@ -155,11 +114,7 @@ const MESSAGES: &[Entry] = &[
         ],
         None,
     ),
-    (
-        "KeyValuePair",
-        &[one(1, "key", Text), one(2, "value", Text)],
-        None,
-    ),
+    ("KeyValuePair", &[one(1, "key", Text), one(2, "value", Text)], None),
     (
         "ArrowPrimitive",
         &[
@@ -172,24 +127,8 @@ const MESSAGES: &[Entry] = &[
         ],
         None,
     ),
-    (
-        "CubePrimitive",
-        &[
-            one(1, "pose", POSE),
-            one(2, "size", VECTOR),
-            one(3, "color", COLOR),
-        ],
-        None,
-    ),
-    (
-        "SpherePrimitive",
-        &[
-            one(1, "pose", POSE),
-            one(2, "size", VECTOR),
-            one(3, "color", COLOR),
-        ],
-        None,
-    ),
+    ("CubePrimitive", &[one(1, "pose", POSE), one(2, "size", VECTOR), one(3, "color", COLOR)], None),
+    ("SpherePrimitive", &[one(1, "pose", POSE), one(2, "size", VECTOR), one(3, "color", COLOR)], None),
     (
         "CylinderPrimitive",
         &[
@@ -253,8 +192,4 @@ const MESSAGES: &[Entry] = &[
     ),
 ];
 
-const XYZ: &[Field] = &[
-    one(1, "x", Number),
-    one(2, "y", Number),
-    one(3, "z", Number),
-];
+const XYZ: &[Field] = &[one(1, "x", Number), one(2, "y", Number), one(3, "z", Number)];

@@ -16,10 +16,8 @@ pub fn layout(model: &Model, belts: &[String]) -> Value {
     let pelvis = "/occupant/segment/lower_torso.accelerometer_resultant_m_s2";
     let loops: Vec<String> = belts.iter().map(|b| format!("{b}.loop_force_n")).collect();
     let names = model.body().spheres.iter().map(|s| s.name.as_str());
-    let forces: Vec<String> = topics::named(topics::SPHERES, names)
-        .iter()
-        .map(|t| format!("{t}.contact_force_resultant_n"))
-        .collect();
+    let forces: Vec<String> =
+        topics::named(topics::SPHERES, names).iter().map(|t| format!("{t}.contact_force_resultant_n")).collect();
     let energies = ["kinetic_relative_j", "balance_j"].map(|f| format!("{}.{f}", topics::ENERGY));
     let panels = json!({
         "3D!scene": scene(),

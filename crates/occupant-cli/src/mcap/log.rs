@@ -37,10 +37,7 @@ impl Names {
     pub fn first_touch(&self, touch: &FirstTouch) -> String {
         format!(
             "{} touches {} first at t = {:.6} s, closing at {:.3} m/s",
-            self.spheres[touch.sphere],
-            self.surfaces[touch.surface],
-            touch.time_s,
-            touch.closing_m_s
+            self.spheres[touch.sphere], self.surfaces[touch.surface], touch.time_s, touch.closing_m_s
         )
     }
 }
@@ -48,14 +45,8 @@ impl Names {
 /// What the end says, and how bad it is.
 pub fn end(outcome: &Outcome) -> (Level, String) {
     match &outcome.status {
-        Status::Completed => (
-            Level::Info,
-            format!("completed at t = {:.6} s", outcome.time_s),
-        ),
-        Status::Stopped => (
-            Level::Warning,
-            format!("stopped at t = {:.6} s", outcome.time_s),
-        ),
+        Status::Completed => (Level::Info, format!("completed at t = {:.6} s", outcome.time_s)),
+        Status::Stopped => (Level::Warning, format!("stopped at t = {:.6} s", outcome.time_s)),
         Status::Failed(error) => (Level::Error, format!("failed: {error}")),
     }
 }

@@ -53,10 +53,7 @@ struct Batch {
 impl<W: Write + Seek + Send + 'static> Press<W> {
     /// With the writer here.
     pub fn new(writer: Writer<W>) -> Self {
-        Press {
-            place: Place::Here(Box::new(writer)),
-            batch: Batch::default(),
-        }
+        Press { place: Place::Here(Box::new(writer)), batch: Batch::default() }
     }
 
     /// Takes the next message.
@@ -145,11 +142,7 @@ impl<W: Write + Seek + Send + 'static> Press<W> {
         let place = std::mem::replace(&mut self.place, Place::Nowhere);
         if let Place::Here(writer) = place {
             self.place = match give.send(writer) {
-                Ok(()) => Place::Away(Away {
-                    batches,
-                    written,
-                    thread,
-                }),
+                Ok(()) => Place::Away(Away { batches, written, thread }),
                 Err(back) => Place::Here(back.0),
             };
         }
@@ -166,10 +159,7 @@ impl<W: Write + Seek + Send + 'static> Press<W> {
         };
         drop(away.batches);
         // as if it had happened here
-        let (writer, result) = away
-            .thread
-            .join()
-            .unwrap_or_else(|panic| resume_unwind(panic));
+        let (writer, result) = away.thread.join().unwrap_or_else(|panic| resume_unwind(panic));
         self.place = writer.map_or(Place::Nowhere, Place::Here);
         result
     }

@@ -142,22 +142,13 @@ impl<W: Write + Seek + Send + 'static> McapRecorder<W> {
     }
 
     /// What never changes, on topics of its own.
-    fn write_still_scenes(
-        &mut self,
-        model: &Model,
-        schemas: &Schemas,
-        frames: &FrameNames,
-    ) -> McapResult<()> {
+    fn write_still_scenes(&mut self, model: &Model, schemas: &Schemas, frames: &FrameNames) -> McapResult<()> {
         type Draw<'a> = &'a dyn Fn(&mut Wire);
         let body = model.body();
         let scenes: [(&str, Draw<'_>); 4] = [
-            (topics::COMPARTMENT_SCENE, &|w| {
-                scene::compartment::write(w, model)
-            }),
+            (topics::COMPARTMENT_SCENE, &|w| scene::compartment::write(w, model)),
             (topics::BODY_SCENE, &|w| scene::body::write(w, body, frames)),
-            (topics::SPHERES_SCENE, &|w| {
-                scene::body::write_spheres(w, body, frames)
-            }),
+            (topics::SPHERES_SCENE, &|w| scene::body::write_spheres(w, body, frames)),
             (topics::LABELS_SCENE, &|w| scene::labels::write(w, model)),
         ];
         for (topic, draw) in scenes {
@@ -177,10 +168,7 @@ fn plan(model: &Model, belts: &[String]) -> Vec<(String, &'static Group, usize)>
         plan.push((topics::segment(segment), &groups::SEGMENT, segment.index()));
     }
     let names = model.body().spheres.iter().map(|s| s.name.as_str());
-    for (i, topic) in topics::named(topics::SPHERES, names)
-        .into_iter()
-        .enumerate()
-    {
+    for (i, topic) in topics::named(topics::SPHERES, names).into_iter().enumerate() {
         plan.push((topic, &groups::SPHERE, i));
     }
     for (i, topic) in belts.iter().enumerate() {
@@ -212,11 +200,7 @@ impl Tracks {
         let mut groups = Vec::new();
         for (topic, group, index) in plan(model, belts) {
             let channel = schemas.add_group(writer, &topic, group)?;
-            groups.push(Track {
-                group,
-                index,
-                channel,
-            });
+            groups.push(Track { group, index, channel });
         }
         let mut add = |topic, name| schemas.add_foxglove(writer, topic, name);
         let time = &model.setup().time;
@@ -304,20 +288,14 @@ impl<W: Write + Seek + Send + 'static> Recorder for McapRecorder<W> {
 
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
         let (press, wire) = (&mut self.press, &mut self.wire);
-        let tracks = self
-            .tracks
-            .as_mut()
-            .ok_or("an output before the run began")?;
+        let tracks = self.tracks.as_mut().ok_or("an output before the run began")?;
         tracks.write_groups(press, wire, sample);
         let (first, last) = (self.outputs == 0, sample.index == tracks.last);
         if first || last || sample.index.is_multiple_of(tracks.stride) {
             tracks.write_frame(press, wire, sample, self.options.force_scale_m_per_n);
         }
         self.outputs += 1;
-        if self
-            .outputs
-            .is_multiple_of(self.options.outputs_per_chunk.get().into())
-        {
+        if self.outputs.is_multiple_of(self.options.outputs_per_chunk.get().into()) {
             press.end_chunk()?;
         }
         Ok(Flow::Continue)

@@ -68,10 +68,7 @@ impl StoredRun {
             Record::Channel(channel) if channel.topic == topics::CHECKPOINT => {
                 *wanted = Some(channel.id);
             }
-            Record::Message {
-                header: MessageHeader { channel_id, .. },
-                data,
-            } if *wanted == Some(channel_id) => {
+            Record::Message { header: MessageHeader { channel_id, .. }, data } if *wanted == Some(channel_id) => {
                 let message = Message::decode(data.as_ref()).map_err(|e| e.to_string())?;
                 found.push(message.checkpoint()?);
             }
@@ -214,10 +211,7 @@ impl Message {
                 greatest_m: &self.step_greatest_deformation_m,
             }
             .histories()?,
-            belts: belts(
-                &self.step_belt_normal_vehicle,
-                &self.step_belt_greatest_elongation_m,
-            )?,
+            belts: belts(&self.step_belt_normal_vehicle, &self.step_belt_greatest_elongation_m)?,
         }))
     }
 
@@ -251,16 +245,11 @@ impl Pairs<'_> {
             return Err(format!("a checkpoint has {} pairs", self.number));
         }
         same_length("deformed pairs", self.deformed, self.greatest_m)?;
-        let open = PairHistory {
-            phase: OPEN,
-            greatest: 0.0,
-        };
+        let open = PairHistory { phase: OPEN, greatest: 0.0 };
         let mut pairs = vec![open; self.number as usize];
         let mut change = |pair: u32, to: &dyn Fn(&mut PairHistory<f64>)| {
             let found = pairs.get_mut(pair as usize);
-            found
-                .map(to)
-                .ok_or_else(|| format!("a checkpoint has no pair {pair}, it has {}", self.number))
+            found.map(to).ok_or_else(|| format!("a checkpoint has no pair {pair}, it has {}", self.number))
         };
         for (list, phase) in [(self.passed, PASSED), (self.touching, TOUCHING)] {
             for &pair in list {
@@ -276,9 +265,7 @@ impl Pairs<'_> {
 
 fn state(numbers: &[f64]) -> Result<State<f64>, String> {
     let found = numbers.len();
-    let numbers = numbers
-        .try_into()
-        .map_err(|_| format!("a checkpoint's state has {found} numbers, not 75"))?;
+    let numbers = numbers.try_into().map_err(|_| format!("a checkpoint's state has {found} numbers, not 75"))?;
     Ok(State::from_numbers(numbers))
 }
 
@@ -287,21 +274,12 @@ fn belts(normals: &[f64], greatest_m: &[f64]) -> Result<Vec<BeltHistory<f64>>, S
     same_length("belts", normals, greatest_m)?;
     same_length("components of belts' normals", odd, &[(); 0])?;
     let belts = normals.iter().zip(greatest_m);
-    Ok(belts
-        .map(|(&[x, y, z], &greatest)| BeltHistory {
-            normal: v3(x, y, z),
-            greatest,
-        })
-        .collect())
+    Ok(belts.map(|(&[x, y, z], &greatest)| BeltHistory { normal: v3(x, y, z), greatest }).collect())
 }
 
 fn same_length<A, B>(what: &str, a: &[A], b: &[B]) -> Result<(), String> {
     match a.len() == b.len() {
         true => Ok(()),
-        false => Err(format!(
-            "a checkpoint's lists of {what} have {} and {} entries",
-            a.len(),
-            b.len()
-        )),
+        false => Err(format!("a checkpoint's lists of {what} have {} and {} entries", a.len(), b.len())),
     }
 }

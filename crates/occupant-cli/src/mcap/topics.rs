@@ -79,11 +79,7 @@ pub fn named<'a>(parent: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<
 /// Letters and digits stay, in small letters; anything else becomes `_`.
 fn in_small_letters(name: &str) -> String {
     let letter = |c: char| {
-        if c.is_ascii_alphanumeric() {
-            c.to_ascii_lowercase()
-        } else {
-            '_'
-        }
+        if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' }
     };
     name.chars().map(letter).collect()
 }
@@ -96,14 +92,6 @@ mod tests {
     fn names_become_different_topics() {
         let names = ["lap", "Lap", "left knee", "gurt/λ"];
         let topics = named("/belt", names);
-        assert_eq!(
-            topics,
-            [
-                "/belt/lap",
-                "/belt/lap_2",
-                "/belt/left_knee",
-                "/belt/gurt__"
-            ]
-        );
+        assert_eq!(topics, ["/belt/lap", "/belt/lap_2", "/belt/left_knee", "/belt/gurt__"]);
     }
 }

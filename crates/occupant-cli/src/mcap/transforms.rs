@@ -30,16 +30,15 @@ pub fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>, names: &FrameNames) 
     let vehicle = sample.vehicle;
     let turned = Rotation3::from_matrix_unchecked(vehicle.rotation);
     let rotation = UnitQuaternion::from_rotation_matrix(&turned);
-    let mut transform =
-        |parent: &str, child: &str, translation: &Vector3<f64>, rotation: &UnitQuaternion<f64>| {
-            wire.message(1, |w| {
-                w.time(1, ns);
-                w.text(2, parent);
-                w.text(3, child);
-                w.vector(4, translation);
-                w.rotation(5, rotation);
-            });
-        };
+    let mut transform = |parent: &str, child: &str, translation: &Vector3<f64>, rotation: &UnitQuaternion<f64>| {
+        wire.message(1, |w| {
+            w.time(1, ns);
+            w.text(2, parent);
+            w.text(3, child);
+            w.vector(4, translation);
+            w.rotation(5, rotation);
+        });
+    };
     transform(SPACE_FRAME, VEHICLE_FRAME, &vehicle.origin_m, &rotation);
     for segment in Segment::ALL {
         let (place, turn) = (sample.cg_m(segment), sample.orientation(segment));

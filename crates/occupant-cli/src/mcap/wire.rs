@@ -139,11 +139,7 @@ mod tests {
         wire.count(1, 150);
         wire.text(2, "testing");
         wire.message(3, |w| w.count(1, 150));
-        let expected = [
-            &[0x08, 0x96, 0x01][..],
-            b"\x12\x07testing",
-            &[0x1a, 0x03, 0x08, 0x96, 0x01],
-        ];
+        let expected = [&[0x08, 0x96, 0x01][..], b"\x12\x07testing", &[0x1a, 0x03, 0x08, 0x96, 0x01]];
         assert_eq!(wire.bytes(), expected.concat());
     }
 

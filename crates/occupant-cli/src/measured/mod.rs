@@ -66,8 +66,7 @@ pub fn read(path: &Path) -> Result<Recording, Failure> {
     if path.is_dir() || extension.eq_ignore_ascii_case("mme") {
         return mme::read(path);
     }
-    let bytes = std::fs::read(path)
-        .map_err(|e| Failure::plain(format!("{} cannot be read: {e}", path.display())))?;
+    let bytes = std::fs::read(path).map_err(|e| Failure::plain(format!("{} cannot be read: {e}", path.display())))?;
     let text = String::from_utf8(bytes.clone()).map_err(|e| {
         let at = e.utf8_error().valid_up_to();
         let line = 1 + bytes[..at].iter().filter(|b| **b == b'\n').count();

@@ -26,20 +26,14 @@ pub struct Wanted {
 
 impl From<&Channel> for Wanted {
     fn from(channel: &Channel) -> Self {
-        Wanted {
-            name: channel.name.clone(),
-            unit: Some((dimension(channel.unit), channel.unit.symbol().to_owned())),
-        }
+        Wanted { name: channel.name.clone(), unit: Some((dimension(channel.unit), channel.unit.symbol().to_owned())) }
     }
 }
 
 impl From<&Signal> for Wanted {
     fn from(signal: &Signal) -> Self {
         let unit = signal.scale.map(|s| s.dimension).zip(signal.unit.clone());
-        Wanted {
-            name: signal.name.clone(),
-            unit,
-        }
+        Wanted { name: signal.name.clone(), unit }
     }
 }
 
@@ -56,9 +50,8 @@ impl FromStr for MapArgument {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let (column, channel) = text
-            .rsplit_once('=')
-            .ok_or("expected column=channel, such as 'head_x[g]=head.acceleration.x'")?;
+        let (column, channel) =
+            text.rsplit_once('=').ok_or("expected column=channel, such as 'head_x[g]=head.acceleration.x'")?;
         let (column, unit) = name_and_unit(column);
         let channel = channel.trim();
         let (channel, sign) = match channel.strip_prefix('-') {
@@ -68,12 +61,7 @@ impl FromStr for MapArgument {
         if column.is_empty() || channel.is_empty() {
             return Err("expected a column before `=` and a channel after it".to_owned());
         }
-        Ok(MapArgument {
-            column: column.to_owned(),
-            unit: unit.map(str::to_owned),
-            channel: channel.to_owned(),
-            sign,
-        })
+        Ok(MapArgument { column: column.to_owned(), unit: unit.map(str::to_owned), channel: channel.to_owned(), sign })
     }
 }
 
@@ -107,10 +95,7 @@ impl Pair {
     pub fn filter(&mut self, class: ChannelClass, family: Family) -> Result<(), Failure> {
         let refused = |reason: String| {
             Failure::with_help(
-                format!(
-                    "the measured signal {} cannot be filtered: {reason}",
-                    self.signal
-                ),
+                format!("the measured signal {} cannot be filtered: {reason}", self.signal),
                 "--filter none leaves signals as they are",
             )
         };
@@ -136,10 +121,7 @@ pub fn pairs(
     for map in maps {
         if wanted.iter().all(|w| w.name != map.channel) {
             return Err(Failure::with_help(
-                format!(
-                    "--map: the channel `{}` is not among those asked for",
-                    map.channel
-                ),
+                format!("--map: the channel `{}` is not among those asked for", map.channel),
                 "name it with --channel, or mend the name",
             ));
         }
@@ -170,19 +152,11 @@ fn signal_for<'a>(
     seat: char,
 ) -> Result<Option<Match<'a>>, Failure> {
     if let Some(map) = maps.iter().find(|m| m.channel == wanted.name) {
-        let named: Vec<&Signal> = recording
-            .signals
-            .iter()
-            .filter(|s| s.name == map.column)
-            .collect();
+        let named: Vec<&Signal> = recording.signals.iter().filter(|s| s.name == map.column).collect();
         return match named.as_slice() {
             [signal] => Ok(Some((signal, Some(map), map.sign))),
             [] => Err(Failure::with_help(
-                format!(
-                    "--map: {} has no column `{}`",
-                    recording.path.display(),
-                    map.column
-                ),
+                format!("--map: {} has no column `{}`", recording.path.display(), map.column),
                 &format!("it has {}", names(&recording.signals)),
             )),
             _ => Err(Failure::plain(format!(
@@ -197,10 +171,7 @@ fn signal_for<'a>(
         if signal.name == wanted.name {
             return Ok(Some((signal, None, 1.0)));
         }
-        let sign = signal
-            .code
-            .as_ref()
-            .and_then(|c| c.sign_for(&wanted.name, seat));
+        let sign = signal.code.as_ref().and_then(|c| c.sign_for(&wanted.name, seat));
         if let Some(sign) = sign {
             fitting.push((signal, None, sign));
         }
@@ -248,19 +219,13 @@ fn factor(
     };
     let Some(scale) = scale else {
         return Err(Failure::with_help(
-            format!(
-                "{}: `{written}`, the unit of {}, is not known",
-                signal.place, signal.name
-            ),
+            format!("{}: `{written}`, the unit of {}, is not known", signal.place, signal.name),
             &format!("say it as --map '{}[unit]={}'", signal.name, wanted.name),
         ));
     };
     match &wanted.unit {
         Some((dimension, symbol)) if scale.dimension != *dimension => Err(Failure::with_help(
-            format!(
-                "{}: {} is in {written}, but {} in {symbol}",
-                signal.place, signal.name, wanted.name
-            ),
+            format!("{}: {} is in {written}, but {} in {symbol}", signal.place, signal.name, wanted.name),
             "map a column of the same kind of quantity",
         )),
         _ => Ok(scale.factor),
@@ -285,10 +250,7 @@ mod tests {
         let map: MapArgument = "head x [g]=-head.acceleration.x".parse().unwrap();
         assert_eq!(map.column, "head x");
         assert_eq!(map.unit.as_deref(), Some("g"));
-        assert_eq!(
-            (map.channel.as_str(), map.sign),
-            ("head.acceleration.x", -1.0)
-        );
+        assert_eq!((map.channel.as_str(), map.sign), ("head.acceleration.x", -1.0));
         assert!("head".parse::<MapArgument>().is_err() && "=x".parse::<MapArgument>().is_err());
     }
 }

@@ -47,18 +47,10 @@ pub fn read(path: &Path, text: &str, sha256: String) -> Result<Recording, Failur
     let mut notes = Vec::new();
     let (headings, used) = headings(&lines, separator);
     let time = time_column(&headings);
-    let mut reader = Reader {
-        path,
-        separator,
-        headings,
-        problems: Vec::new(),
-    };
+    let mut reader = Reader { path, separator, headings, problems: Vec::new() };
     let time_factor = reader.time_factor(time, used > 0, &mut notes);
     let columns = reader.columns(&lines[used..]);
-    let time_s: Vec<f64> = columns
-        .get(time)
-        .map(|c| c.iter().map(|t| t * time_factor).collect())
-        .unwrap_or_default();
+    let time_s: Vec<f64> = columns.get(time).map(|c| c.iter().map(|t| t * time_factor).collect()).unwrap_or_default();
     let numbers: Vec<usize> = lines[used..].iter().map(|(n, _)| *n).collect();
     reader.check_times(&time_s, &numbers);
     if !reader.problems.is_empty() {
@@ -69,12 +61,7 @@ pub fn read(path: &Path, text: &str, sha256: String) -> Result<Recording, Failur
         let found = "a table with one column";
         return Err(Trouble::of(path, found, "a column of times and one of values").failure());
     }
-    Ok(Recording {
-        path: path.to_owned(),
-        sha256,
-        signals,
-        notes,
-    })
+    Ok(Recording { path: path.to_owned(), sha256, signals, notes })
 }
 
 fn separator_of(line: &str) -> Separator {
@@ -131,29 +118,19 @@ fn headings(lines: &[(usize, &str)], separator: Separator) -> (Vec<Heading>, usi
     let first = cells(first, separator);
     let is_number = |c: &String| !c.is_empty() && number(c, separator).is_some();
     if first.iter().any(is_number) {
-        let plain = |i: usize| Heading {
-            name: (i + 1).to_string(),
-            unit: None,
-            line,
-        };
+        let plain = |i: usize| Heading { name: (i + 1).to_string(), unit: None, line };
         return ((0..first.len()).map(plain).collect(), 0);
     }
     let heading = |cell: &String| {
         let (name, unit) = name_and_unit(cell);
-        Heading {
-            name: name.to_owned(),
-            unit: unit.map(str::to_owned),
-            line,
-        }
+        Heading { name: name.to_owned(), unit: unit.map(str::to_owned), line }
     };
     let mut headings: Vec<Heading> = first.iter().map(heading).collect();
     let Some((line, second)) = lines.get(1).copied() else {
         return (headings, 1);
     };
     let second = cells(second, separator);
-    let is_unit = |c: &String| {
-        c.is_empty() || c == "-" || parse(c.trim_matches(['[', ']', '(', ')']), 0).is_ok()
-    };
+    let is_unit = |c: &String| c.is_empty() || c == "-" || parse(c.trim_matches(['[', ']', '(', ')']), 0).is_ok();
     if second.iter().any(is_number) || !second.iter().all(is_unit) {
         return (headings, 1);
     }
@@ -201,10 +178,7 @@ impl Reader<'_> {
             if has_headings && heading.name.ends_with("_s") {
                 return 1.0;
             }
-            notes.push(format!(
-                "{} gives no unit for the time: taken as seconds",
-                self.path.display()
-            ));
+            notes.push(format!("{} gives no unit for the time: taken as seconds", self.path.display()));
             return 1.0;
         };
         let second = occupant_core::scenario::kind::Dimension::new(0, 0, 1, 0);
@@ -212,15 +186,8 @@ impl Reader<'_> {
             Ok(scale) if scale.dimension == second => scale.factor,
             _ => {
                 let found = format!("`{unit}` as the unit of the time column `{}`", heading.name);
-                let trouble = Trouble::at(
-                    self.path,
-                    heading.line,
-                    found,
-                    "a unit of time, such as s or ms",
-                );
-                self.problems.push(
-                    trouble.hint("the time is the column called `t` or `time`, or the first"),
-                );
+                let trouble = Trouble::at(self.path, heading.line, found, "a unit of time, such as s or ms");
+                self.problems.push(trouble.hint("the time is the column called `t` or `time`, or the first"));
                 1.0
             }
         }
@@ -238,8 +205,7 @@ impl Reader<'_> {
             if cells.len() != columns.len() {
                 let expected = format!("{}, one for each column", columns.len());
                 let found = format!("{} cells", cells.len());
-                self.problems
-                    .push(Trouble::at(self.path, line, found, expected));
+                self.problems.push(Trouble::at(self.path, line, found, expected));
                 columns.iter_mut().for_each(|c| c.push(f64::NAN));
                 continue;
             }
@@ -247,8 +213,7 @@ impl Reader<'_> {
                 let value = number(cell, self.separator);
                 if value.is_none() {
                     let found = format!("`{cell}`");
-                    self.problems
-                        .push(Trouble::at(self.path, line, found, "a number"));
+                    self.problems.push(Trouble::at(self.path, line, found, "a number"));
                 }
                 column.push(value.unwrap_or(f64::NAN));
             }
@@ -261,11 +226,7 @@ impl Reader<'_> {
             return;
         }
         if time_s.is_empty() {
-            let trouble = Trouble::of(
-                self.path,
-                "headings without numbers",
-                "a line for each time",
-            );
+            let trouble = Trouble::of(self.path, "headings without numbers", "a line for each time");
             self.problems.push(trouble);
         }
         for (i, t) in time_s.iter().enumerate() {
@@ -275,8 +236,7 @@ impl Reader<'_> {
                 Some(before) if *t <= before => format!("time {t} s after {before} s"),
                 _ => continue,
             };
-            self.problems
-                .push(Trouble::at(self.path, line, found, "times that increase"));
+            self.problems.push(Trouble::at(self.path, line, found, "times that increase"));
         }
     }
 
@@ -300,10 +260,7 @@ impl Reader<'_> {
 /// Size and dimension of a unit as written; `-` and `1` are plain numbers.
 pub(crate) fn scale_of(unit: &str) -> Option<Scale> {
     match unit.trim() {
-        "-" | "1" | "–" => Some(Scale {
-            dimension: Default::default(),
-            factor: 1.0,
-        }),
+        "-" | "1" | "–" => Some(Scale { dimension: Default::default(), factor: 1.0 }),
         unit => parse(unit, 0).ok(),
     }
 }
@@ -331,8 +288,7 @@ mod tests {
 
     #[test]
     fn units_may_stand_below_and_cells_may_be_quoted() {
-        let found =
-            table("\"Time\";\"Head, x\";force\ns;m/s^2;kN\n0,5;1,5;2\n0,6;NaN;3\n").unwrap();
+        let found = table("\"Time\";\"Head, x\";force\ns;m/s^2;kN\n0,5;1,5;2\n0,6;NaN;3\n").unwrap();
         assert_eq!(found.signals[0].name, "Head, x");
         assert_eq!(found.signals[0].time_s, [0.5, 0.6]);
         assert_eq!(found.signals[0].values[0], 1.5);
@@ -378,10 +334,7 @@ mod tests {
             ("t\n1\n2\n", "t.csv", "one column"),
         ] {
             let message = table(text).unwrap_err();
-            assert!(
-                message.contains(line) && message.contains(found),
-                "{message}"
-            );
+            assert!(message.contains(line) && message.contains(found), "{message}");
             assert!(message.contains("= expected"), "{message}");
         }
     }

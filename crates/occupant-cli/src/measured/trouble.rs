@@ -19,12 +19,7 @@ const MOST_TOLD: usize = 10;
 
 impl Trouble {
     /// In a line (from 1) of a file.
-    pub fn at(
-        path: &Path,
-        line: usize,
-        found: impl Into<String>,
-        expected: impl Into<String>,
-    ) -> Self {
+    pub fn at(path: &Path, line: usize, found: impl Into<String>, expected: impl Into<String>) -> Self {
         Trouble {
             place: format!("{}:{line}", path.display()),
             found: found.into(),
@@ -35,12 +30,7 @@ impl Trouble {
 
     /// In a file as a whole.
     pub fn of(path: &Path, found: impl Into<String>, expected: impl Into<String>) -> Self {
-        Trouble {
-            place: path.display().to_string(),
-            found: found.into(),
-            expected: expected.into(),
-            hint: None,
-        }
+        Trouble { place: path.display().to_string(), found: found.into(), expected: expected.into(), hint: None }
     }
 
     /// How to mend it.
@@ -57,11 +47,7 @@ impl Trouble {
 
 impl fmt::Display for Trouble {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(
-            f,
-            "error: {}\n --> {}\n = expected {}",
-            self.found, self.place, self.expected
-        )?;
+        write!(f, "error: {}\n --> {}\n = expected {}", self.found, self.place, self.expected)?;
         match &self.hint {
             Some(hint) => write!(f, "\n = help: {hint}"),
             None => Ok(()),

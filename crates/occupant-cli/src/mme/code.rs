@@ -55,32 +55,20 @@ impl FromStr for Code {
 
 impl fmt::Display for Code {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        self.0
-            .iter()
-            .try_for_each(|b| write!(f, "{}", char::from(*b)))
+        self.0.iter().try_for_each(|b| write!(f, "{}", char::from(*b)))
     }
 }
 
 impl Code {
     /// The code of a place.
-    pub fn new(
-        place: &Place,
-        seat: char,
-        dummy: &str,
-        class: Option<ChannelClass>,
-    ) -> Option<Self> {
+    pub fn new(place: &Place, seat: char, dummy: &str, class: Option<ChannelClass>) -> Option<Self> {
         let position = if place.of_vehicle { '0' } else { seat };
         let third = match place.of_vehicle {
             true => "00",
             false => place.belt.unwrap_or(dummy),
         };
         let filter = class.map_or('0', ChannelClass::mme_letter);
-        format!(
-            "1{position}{}{third}{}{}{filter}",
-            place.location, place.dimension, place.direction
-        )
-        .parse()
-        .ok()
+        format!("1{position}{}{third}{}{}{filter}", place.location, place.dimension, place.direction).parse().ok()
     }
 
     fn part(&self, from: usize, to: usize) -> &str {
@@ -183,14 +171,7 @@ fn place_of_name(name: &str) -> Option<Place> {
         (true, 'Y' | 'Z') => -1.0,
         _ => 1.0,
     };
-    Some(Place {
-        location,
-        belt: None,
-        dimension,
-        direction,
-        of_vehicle,
-        sign,
-    })
+    Some(Place { location, belt: None, dimension, direction, of_vehicle, sign })
 }
 
 #[cfg(test)]
@@ -215,15 +196,9 @@ mod tests {
         assert_eq!(sign("11HEADCG00H3ACXA", "head.acceleration.x"), Some(1.0));
         assert_eq!(sign("11HEAD0000H3ACYA", "head.acceleration.y"), Some(-1.0));
         assert_eq!(sign("11HEADCG00H3ACZA", "head.acceleration.z"), Some(-1.0));
-        assert_eq!(
-            sign("11HEADCG00H3ACRA", "head.acceleration.resultant"),
-            Some(1.0)
-        );
+        assert_eq!(sign("11HEADCG00H3ACRA", "head.acceleration.resultant"), Some(1.0));
         assert_eq!(sign("11NECKUP00H3FOZB", "neck.force.z"), Some(1.0));
-        assert_eq!(
-            sign("10VEHCCG0000ACXD", "vehicle.acceleration.x"),
-            Some(1.0)
-        );
+        assert_eq!(sign("10VEHCCG0000ACXD", "vehicle.acceleration.x"), Some(1.0));
         // direction 3 has unknown signs, seat 3 is another occupant, the lower neck is another place
         assert_eq!(sign("11HEADCG00H3AC3A", "head.acceleration.z"), None);
         assert_eq!(sign("13HEADCG00H3ACXA", "head.acceleration.x"), None);

@@ -39,10 +39,7 @@ impl Header {
 /// Writes a header line, the value from column 29 on.
 pub fn write(text: &mut String, name: &str, value: &str) {
     // one line a value
-    let value: String = value
-        .chars()
-        .map(|c| if c.is_control() { ' ' } else { c })
-        .collect();
+    let value: String = value.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
     let value = match value.trim() {
         "" => "NOVALUE",
         value => value,

@@ -24,8 +24,7 @@ pub fn read(path: &Path) -> Result<Recording, Failure> {
     let mut all_bytes = Vec::new();
     let mut channels = Vec::with_capacity(files.len());
     for file in files {
-        let bytes = fs::read(&file)
-            .map_err(|e| Failure::plain(format!("{} cannot be read: {e}", file.display())))?;
+        let bytes = fs::read(&file).map_err(|e| Failure::plain(format!("{} cannot be read: {e}", file.display())))?;
         all_bytes.extend_from_slice(&bytes);
         channels.push(RawChannel::read(file, &text_of(bytes)).map_err(Trouble::failure)?);
     }
@@ -35,12 +34,7 @@ pub fn read(path: &Path) -> Result<Recording, Failure> {
         let time_s = channel.times(&channels).map_err(Trouble::failure)?;
         signals.push(channel.signal(time_s, &mut notes));
     }
-    Ok(Recording {
-        path: path.to_owned(),
-        sha256: sha256(&all_bytes),
-        signals,
-        notes,
-    })
+    Ok(Recording { path: path.to_owned(), sha256: sha256(&all_bytes), signals, notes })
 }
 
 fn entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
@@ -59,12 +53,10 @@ fn the_mme_in(folder: &Path) -> Result<PathBuf, Failure> {
     let mut found: Vec<PathBuf> = entries(folder)?.into_iter().filter(is_mme).collect();
     match (found.len(), found.pop()) {
         (1, Some(one)) => Ok(one),
-        (0, _) => {
-            Err(Trouble::of(folder, "a folder without a .mme file", "an ISO-MME test").failure())
+        (0, _) => Err(Trouble::of(folder, "a folder without a .mme file", "an ISO-MME test").failure()),
+        (n, _) => {
+            Err(Trouble::of(folder, format!("{n} .mme files"), "one test").hint("name the .mme file itself").failure())
         }
-        (n, _) => Err(Trouble::of(folder, format!("{n} .mme files"), "one test")
-            .hint("name the .mme file itself")
-            .failure()),
     }
 }
 
@@ -72,11 +64,7 @@ fn the_mme_in(folder: &Path) -> Result<PathBuf, Failure> {
 fn channel_files(mme: &Path) -> Result<Vec<PathBuf>, Failure> {
     let folder = mme.parent().filter(|p| !p.as_os_str().is_empty());
     let folder = folder.unwrap_or(Path::new("."));
-    let is_channel = |p: &PathBuf| {
-        p.is_dir()
-            && p.file_name()
-                .is_some_and(|n| n.eq_ignore_ascii_case("channel"))
-    };
+    let is_channel = |p: &PathBuf| p.is_dir() && p.file_name().is_some_and(|n| n.eq_ignore_ascii_case("channel"));
     let Some(inside) = entries(folder)?.into_iter().find(is_channel) else {
         let found = "no folder Channel beside the .mme file";
         return Err(Trouble::of(mme, found, "the test's channels in Channel/").failure());
@@ -108,12 +96,7 @@ struct RawChannel {
 
 impl RawChannel {
     fn read(path: PathBuf, text: &str) -> Result<Self, Trouble> {
-        let mut channel = RawChannel {
-            path,
-            header: Header::default(),
-            values: Vec::new(),
-            first_line: 0,
-        };
+        let mut channel = RawChannel { path, header: Header::default(), values: Vec::new(), first_line: 0 };
         for (i, line) in text.lines().enumerate() {
             let (number, line) = (i + 1, line.trim());
             if line.is_empty() {
@@ -139,19 +122,13 @@ impl RawChannel {
             return Ok(f64::NAN);
         }
         let number = text.parse::<f64>().ok().filter(|v| v.is_finite());
-        number.ok_or_else(|| {
-            Trouble::at(&self.path, line, format!("`{text}`"), "a number or NOVALUE")
-        })
+        number.ok_or_else(|| Trouble::at(&self.path, line, format!("`{text}`"), "a number or NOVALUE"))
     }
 
     fn check_count(&self) -> Result<(), Trouble> {
         let found = self.values.len();
         if found == 0 {
-            return Err(Trouble::of(
-                &self.path,
-                "a channel without values",
-                "one value a line",
-            ));
+            return Err(Trouble::of(&self.path, "a channel without values", "one value a line"));
         }
         let Some((count, line)) = self.header.get("Number of samples") else {
             return Ok(());
@@ -164,12 +141,7 @@ impl RawChannel {
                 format!("{found} values after a header that says {n}"),
                 "as many values as the header says",
             )),
-            Err(_) => Err(Trouble::at(
-                &self.path,
-                line,
-                format!("`{count}`"),
-                "a number of samples",
-            )),
+            Err(_) => Err(Trouble::at(&self.path, line, format!("`{count}`"), "a number of samples")),
         }
     }
 
@@ -192,21 +164,13 @@ impl RawChannel {
         let named = named.or_else(|| self.header.get("Name of the channel"));
         match named {
             Some((name, _)) => name.to_owned(),
-            None => self
-                .path
-                .file_name()
-                .unwrap_or_default()
-                .to_string_lossy()
-                .into_owned(),
+            None => self.path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
         }
     }
 
     /// Times, s: counted from the header, or those of the channel that it refers to.
     fn times(&self, all: &[RawChannel]) -> Result<Vec<f64>, Trouble> {
-        let reference = self
-            .header
-            .get("Reference channel")
-            .map(|(r, _)| r.to_lowercase());
+        let reference = self.header.get("Reference channel").map(|(r, _)| r.to_lowercase());
         if reference.as_deref() != Some("explicit") {
             return self.counted_times();
         }
@@ -216,12 +180,7 @@ impl RawChannel {
         };
         let Some(times) = all.iter().find(|c| c.name() == name) else {
             let found = format!("the reference channel `{name}`, which the test does not hold");
-            return Err(Trouble::at(
-                &self.path,
-                line,
-                found,
-                "the code of a channel of times",
-            ));
+            return Err(Trouble::at(&self.path, line, found, "the code of a channel of times"));
         };
         let unit = times.header.get("Unit").and_then(|(u, _)| scale_of(u));
         let seconds = occupant_core::scenario::kind::Dimension::new(0, 0, 1, 0);
@@ -233,17 +192,8 @@ impl RawChannel {
             }
         };
         if times.values.len() != self.values.len() {
-            let found = format!(
-                "{} values at {} times",
-                self.values.len(),
-                times.values.len()
-            );
-            return Err(Trouble::at(
-                &self.path,
-                line,
-                found,
-                "as many times as values",
-            ));
+            let found = format!("{} values at {} times", self.values.len(), times.values.len());
+            return Err(Trouble::at(&self.path, line, found, "as many times as values"));
         }
         let time_s: Vec<f64> = times.values.iter().map(|t| t * factor).collect();
         // a missing time is no greater than another
@@ -263,17 +213,11 @@ impl RawChannel {
         let interval_s = self.number("Sampling interval")?;
         let Some(interval_s) = interval_s.filter(|dt| *dt > 0.0) else {
             let found = "no sampling interval above zero";
-            return Err(Trouble::of(
-                &self.path,
-                found,
-                "`Sampling interval` in seconds",
-            ));
+            return Err(Trouble::of(&self.path, found, "`Sampling interval` in seconds"));
         };
         let first_s = self.number("Time of first sample")?.unwrap_or(0.0);
         let count = self.values.len();
-        Ok((0..count)
-            .map(|i| first_s + i as f64 * interval_s)
-            .collect())
+        Ok((0..count).map(|i| first_s + i as f64 * interval_s).collect())
     }
 
     fn signal(&self, time_s: Vec<f64>, notes: &mut Vec<String>) -> Signal {
@@ -284,9 +228,7 @@ impl RawChannel {
         };
         let explicit = self.header.get("Reference channel").is_some();
         if !explicit && self.header.get("Time of first sample").is_none() {
-            notes.push(format!(
-                "{name}: no time of the first sample is given: taken as 0 s"
-            ));
+            notes.push(format!("{name}: no time of the first sample is given: taken as 0 s"));
         }
         Signal {
             code: name.parse::<Code>().ok(),
@@ -316,15 +258,9 @@ mod tests {
         let found = channel(&format!("{HEAD}Number of samples :3\n-0\nNOVALUE\n1.5e1\n")).unwrap();
         let times = found.times(&[]).unwrap();
         let close = |(a, b): (&f64, f64)| (a - b).abs() < 1e-15;
-        assert!(
-            times.iter().zip([-0.01, -0.009, -0.008]).all(close),
-            "{times:?}"
-        );
+        assert!(times.iter().zip([-0.01, -0.009, -0.008]).all(close), "{times:?}");
         let signal = found.signal(Vec::new(), &mut Vec::new());
-        assert_eq!(
-            signal.code.map(|c| c.to_string()).as_deref(),
-            Some("10VEHCCG0000ACXD")
-        );
+        assert_eq!(signal.code.map(|c| c.to_string()).as_deref(), Some("10VEHCCG0000ACXD"));
         assert_eq!(signal.scale.map(|s| s.factor), Some(1.0));
         assert!(signal.values[1].is_nan() && signal.values[2] == 15.0);
     }
@@ -335,13 +271,7 @@ mod tests {
         let text = "Channel code :X\nReference channel :explicit\nReference channel name :11TIRS0000__TI00\n5\n6\n7\n";
         let found = channel(text).unwrap();
         assert_eq!(found.times(&[times]).unwrap(), [0.001, 0.002, 0.004]);
-        assert!(
-            found
-                .times(&[])
-                .unwrap_err()
-                .to_string()
-                .contains("does not hold")
-        );
+        assert!(found.times(&[]).unwrap_err().to_string().contains("does not hold"));
     }
 
     #[test]
@@ -355,12 +285,6 @@ mod tests {
             assert!(message.contains(words), "{message}");
         }
         let found = channel("Channel code :X\n1\n").unwrap();
-        assert!(
-            found
-                .times(&[])
-                .unwrap_err()
-                .to_string()
-                .contains("sampling interval")
-        );
+        assert!(found.times(&[]).unwrap_err().to_string().contains("sampling interval"));
     }
 }

@@ -35,14 +35,9 @@ pub type NamedText = (PathBuf, String);
 ///
 /// # Errors
 /// Times that are not equally spaced, or no channel with a code.
-pub fn files(
-    model: &Model,
-    histories: &Histories,
-    labels: &Labels,
-) -> Result<(Vec<NamedText>, Vec<String>), String> {
-    let interval_s = uniform_interval(&histories.time_s).map_err(|e| {
-        format!("ISO-MME channels need equally spaced samples ({e}); --interval makes them so")
-    })?;
+pub fn files(model: &Model, histories: &Histories, labels: &Labels) -> Result<(Vec<NamedText>, Vec<String>), String> {
+    let interval_s = uniform_interval(&histories.time_s)
+        .map_err(|e| format!("ISO-MME channels need equally spaced samples ({e}); --interval makes them so"))?;
     let mut files = Vec::new();
     let mut without = Vec::new();
     let mut list = String::new();
@@ -56,15 +51,8 @@ pub fn files(
         let number = files.len() + 1;
         let text = channel_file(column, &place, &code, interval_s, histories.time_s[0]);
         let heading = format!("Name of channel {number:03}");
-        write(
-            &mut list,
-            &heading,
-            &format!("{code} / {}", column.channel.name),
-        );
-        files.push((
-            PathBuf::from(format!("Channel/{}.{number:03}", labels.name)),
-            text,
-        ));
+        write(&mut list, &heading, &format!("{code} / {}", column.channel.name));
+        files.push((PathBuf::from(format!("Channel/{}.{number:03}", labels.name)), text));
     }
     if files.is_empty() {
         return Err("none of these channels has a code in ISO-MME's dictionary".to_owned());
@@ -75,10 +63,7 @@ pub fn files(
     write(&mut chn, "Number of channels", &count);
     chn.push_str(&list);
     files.push((PathBuf::from(format!("Channel/{}.chn", labels.name)), chn));
-    files.push((
-        PathBuf::from(format!("{}.mme", labels.name)),
-        test_file(labels),
-    ));
+    files.push((PathBuf::from(format!("{}.mme", labels.name)), test_file(labels)));
     Ok((files, without))
 }
 
@@ -97,13 +82,7 @@ fn test_file(labels: &Labels) -> String {
     text
 }
 
-fn channel_file(
-    column: &Column,
-    place: &Place,
-    code: &Code,
-    interval_s: f64,
-    first_s: f64,
-) -> String {
+fn channel_file(column: &Column, place: &Place, code: &Code, interval_s: f64, first_s: f64) -> String {
     let channel = &column.channel;
     let mut text = String::with_capacity(20 * column.values.len() + 1000);
     let mut put = |name: &str, value: &str| write(&mut text, name, value);
@@ -116,10 +95,7 @@ fn channel_file(
     put("Reference channel", "implicit");
     put("Reference channel name", "NOVALUE");
     let class = column.class.map(|c| c.hertz().to_string());
-    put(
-        "Channel frequency class",
-        class.as_deref().unwrap_or("NOVALUE"),
-    );
+    put("Channel frequency class", class.as_deref().unwrap_or("NOVALUE"));
     put("Sampling interval", &interval_s.to_string());
     put("Time of first sample", &first_s.to_string());
     put("Number of samples", &column.values.len().to_string());

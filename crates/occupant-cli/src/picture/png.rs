@@ -62,14 +62,9 @@ pub fn png(svg: &str, pixels: f64) -> Result<Vec<u8>, PngError> {
     }
     let mut pixmap = Pixmap::new(width as u32, height as u32).ok_or(refused)?;
     pixmap.fill(Color::WHITE);
-    let scale = Transform::from_scale(
-        pixmap.width() as f32 / size.width(),
-        pixmap.height() as f32 / size.height(),
-    );
+    let scale = Transform::from_scale(pixmap.width() as f32 / size.width(), pixmap.height() as f32 / size.height());
     resvg::render(&tree, scale, &mut pixmap.as_mut());
-    pixmap
-        .encode_png()
-        .map_err(|e| PngError::Encoding(e.to_string()))
+    pixmap.encode_png().map_err(|e| PngError::Encoding(e.to_string()))
 }
 
 /// Reads nothing but the text: no system fonts, and our font for every family.
@@ -80,11 +75,7 @@ fn options() -> Options<'static> {
     fonts.set_sans_serif_family(font::NAME);
     fonts.set_serif_family(font::NAME);
     fonts.set_monospace_family(font::NAME);
-    Options {
-        font_family: font::NAME.to_owned(),
-        fontdb: Arc::new(fonts),
-        ..Options::default()
-    }
+    Options { font_family: font::NAME.to_owned(), fontdb: Arc::new(fonts), ..Options::default() }
 }
 
 #[cfg(test)]

@@ -47,26 +47,14 @@ pub struct Text<'a> {
 
 impl Default for Text<'_> {
     fn default() -> Self {
-        Text {
-            size: 12.0,
-            fill: "#222222",
-            anchor: Anchor::Start,
-            weight: Weight::Regular,
-            turn_deg: 0.0,
-            halo: None,
-        }
+        Text { size: 12.0, fill: "#222222", anchor: Anchor::Start, weight: Weight::Regular, turn_deg: 0.0, halo: None }
     }
 }
 
 impl Svg {
     /// An empty drawing with a title for those who cannot see it.
     pub fn new(width: f64, height: f64, title: &str) -> Self {
-        Svg {
-            size: [width, height],
-            title: title.to_owned(),
-            body: String::new(),
-            open: 0,
-        }
+        Svg { size: [width, height], title: title.to_owned(), body: String::new(), open: 0 }
     }
 
     /// Begins a group; `attributes` as in SVG, such as `stroke="#000" fill="none"`.
@@ -101,34 +89,24 @@ impl Svg {
 
     /// A line through points.
     pub fn polyline(&mut self, points: &[[f64; 2]], attributes: &str) {
-        self.line(&format!(
-            "<polyline points=\"{}\" {attributes}/>",
-            list(points)
-        ));
+        self.line(&format!("<polyline points=\"{}\" {attributes}/>", list(points)));
     }
 
     /// A polygon.
     pub fn polygon(&mut self, points: &[[f64; 2]], attributes: &str) {
-        self.line(&format!(
-            "<polygon points=\"{}\" {attributes}/>",
-            list(points)
-        ));
+        self.line(&format!("<polygon points=\"{}\" {attributes}/>", list(points)));
     }
 
     /// A straight line.
     pub fn segment(&mut self, from: [f64; 2], to: [f64; 2], attributes: &str) {
         let [x1, y1, x2, y2] = [from[0], from[1], to[0], to[1]].map(number);
-        self.line(&format!(
-            "<line x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\" {attributes}/>"
-        ));
+        self.line(&format!("<line x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\" {attributes}/>"));
     }
 
     /// A circle.
     pub fn circle(&mut self, centre: [f64; 2], radius: f64, attributes: &str) {
         let [x, y, r] = [centre[0], centre[1], radius].map(number);
-        self.line(&format!(
-            "<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" {attributes}/>"
-        ));
+        self.line(&format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" {attributes}/>"));
     }
 
     /// Dots as wide as their line, whose ends must be round: one element however many they are.
@@ -163,10 +141,7 @@ impl Svg {
             put("font-weight", "bold");
         }
         if style.turn_deg != 0.0 {
-            put(
-                "transform",
-                &format!("rotate({} {x} {y})", number(style.turn_deg)),
-            );
+            put("transform", &format!("rotate({} {x} {y})", number(style.turn_deg)));
         }
         if let Some(halo) = style.halo {
             put("stroke", halo);
@@ -180,10 +155,7 @@ impl Svg {
 
     /// The whole file.
     pub fn finish(self) -> String {
-        format!(
-            "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{}",
-            self.inline()
-        )
+        format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{}", self.inline())
     }
 
     /// The drawing as an element of an HTML page.
@@ -259,13 +231,7 @@ mod tests {
 
     #[test]
     fn numbers_are_short() {
-        let cases = [
-            (1.0, "1"),
-            (-0.001, "0"),
-            (2.345, "2.35"),
-            (-10.5, "-10.5"),
-            (100.0, "100"),
-        ];
+        let cases = [(1.0, "1"), (-0.001, "0"), (2.345, "2.35"), (-10.5, "-10.5"), (100.0, "100")];
         for (value, text) in cases {
             assert_eq!(number(value), text);
         }

@@ -51,9 +51,7 @@ impl FromStr for LimitArgument {
         // an exponent such as 1e3 belongs to the number
         let mut end = level.find(|c| !sign(c)).unwrap_or(level.len());
         if level[end..].starts_with(['e', 'E']) {
-            let digits = level[end + 1..]
-                .find(|c| !sign(c))
-                .unwrap_or(level.len() - end - 1);
+            let digits = level[end + 1..].find(|c| !sign(c)).unwrap_or(level.len() - end - 1);
             if digits > 0 {
                 end += 1 + digits;
             }
@@ -82,9 +80,7 @@ impl LimitArgument {
             return Ok(self.value);
         };
         match scale_of(written) {
-            Some(scale) if scale.dimension == dimension(unit) => {
-                Ok(self.value * scale.factor / shown.si)
-            }
+            Some(scale) if scale.dimension == dimension(unit) => Ok(self.value * scale.factor / shown.si),
             _ => Err(format!(
                 "--limit {}={}: `{written}` is not a unit of this channel, which is in {}",
                 self.channel, self.text, shown.symbol
@@ -130,9 +126,7 @@ fn figure(wish: &Wish, material: &Material<'_>) -> Result<Figure, String> {
             // a colour for each run and a dash for each channel, as long as there are enough
             let style = match (material.runs.len(), wish.entries.len()) {
                 (1, _) => Style::of(e, 0),
-                (runs, channels) if runs <= Style::COLOURS && channels <= Style::DASHES => {
-                    Style::of(r, e)
-                }
+                (runs, channels) if runs <= Style::COLOURS && channels <= Style::DASHES => Style::of(r, e),
                 _ => Style::of(curves.len(), 0),
             };
             curves.push(Curve {
@@ -151,10 +145,7 @@ fn figure(wish: &Wish, material: &Material<'_>) -> Result<Figure, String> {
         ));
     }
     for (e, entry) in wish.entries.iter().enumerate() {
-        let measured = material
-            .overlays
-            .iter()
-            .filter(|o| o.channel == entry.channel);
+        let measured = material.overlays.iter().filter(|o| o.channel == entry.channel);
         curves.extend(measured.map(|o| overlay(o, entry, e, wish, shown, material)));
     }
     let mut limits = Vec::new();
@@ -192,9 +183,7 @@ fn column<'a>(histories: &'a Histories, channel: &str) -> Option<&'a Column> {
 }
 
 fn channel_of<'a>(runs: &'a [RunCurves], name: &str) -> Option<&'a Channel> {
-    runs.iter()
-        .find_map(|r| column(&r.histories, name))
-        .map(|c| &c.channel)
+    runs.iter().find_map(|r| column(&r.histories, name)).map(|c| &c.channel)
 }
 
 fn common_unit(wish: &Wish, runs: &[RunCurves]) -> Result<Unit, String> {
@@ -220,10 +209,7 @@ fn common_unit(wish: &Wish, runs: &[RunCurves]) -> Result<Unit, String> {
 
 /// What tells this curve from the others of its figure.
 fn label(entry: &Entry, run: &RunCurves, wish: &Wish, material: &Material<'_>) -> String {
-    let measured = material
-        .overlays
-        .iter()
-        .any(|o| wish.entries.iter().any(|e| e.channel == o.channel));
+    let measured = material.overlays.iter().any(|o| wish.entries.iter().any(|e| e.channel == o.channel));
     match (run.label.as_str(), wish.entries.len()) {
         ("", 1) if measured => "run".to_owned(),
         ("", 1) => String::new(),
@@ -237,12 +223,7 @@ fn in_window(time_s: f64, [from, to]: [f64; 2]) -> bool {
     time_s >= from - 1e-9 && time_s <= to + 1e-9
 }
 
-fn points(
-    run: &RunCurves,
-    column: &Column,
-    shown: Shown,
-    material: &Material<'_>,
-) -> Vec<[f64; 2]> {
+fn points(run: &RunCurves, column: &Column, shown: Shown, material: &Material<'_>) -> Vec<[f64; 2]> {
     let time_s = &run.histories.time_s;
     let across: Vec<f64> = match material.x.map(|x| self::column(&run.histories, x)) {
         None => time_s.iter().map(|t| t * 1e3).collect(),
@@ -254,19 +235,10 @@ fn points(
     };
     let inside = |t: &f64| in_window(*t, material.window_s);
     let both = across.iter().zip(&column.values).zip(time_s);
-    both.filter(|(_, t)| inside(t))
-        .map(|((x, y), _)| [*x, y / shown.si])
-        .collect()
+    both.filter(|(_, t)| inside(t)).map(|((x, y), _)| [*x, y / shown.si]).collect()
 }
 
-fn overlay(
-    overlay: &Overlay,
-    entry: &Entry,
-    dash: usize,
-    wish: &Wish,
-    shown: Shown,
-    material: &Material<'_>,
-) -> Curve {
+fn overlay(overlay: &Overlay, entry: &Entry, dash: usize, wish: &Wish, shown: Shown, material: &Material<'_>) -> Curve {
     let pair = &overlay.pair;
     let label = match wish.entries.len() {
         1 => format!("test: {} ({})", pair.signal, overlay.file),
@@ -301,16 +273,9 @@ mod tests {
         let acceleration = Unit::MetrePerSecondSquared;
         let si = plotted(acceleration, UnitChoice::Si);
         assert!((limit.level(acceleration, si).unwrap() - 784.532).abs() < 1e-9);
-        assert!(
-            limit
-                .level(Unit::Newton, plotted(Unit::Newton, UnitChoice::Si))
-                .is_err()
-        );
+        assert!(limit.level(Unit::Newton, plotted(Unit::Newton, UnitChoice::Si)).is_err());
         let plain: LimitArgument = "neck.force.z=-1.5e3".parse().unwrap();
-        assert_eq!(
-            plain.level(Unit::Newton, plotted(Unit::Newton, UnitChoice::Si)),
-            Ok(-1500.0)
-        );
+        assert_eq!(plain.level(Unit::Newton, plotted(Unit::Newton, UnitChoice::Si)), Ok(-1500.0));
         assert_eq!("a=4 kN".parse::<LimitArgument>().map(|l| l.value), Ok(4.0));
         assert!("a".parse::<LimitArgument>().is_err() && "a=b".parse::<LimitArgument>().is_err());
         assert!("a=3 furlong".parse::<LimitArgument>().is_err());

@@ -6,11 +6,7 @@ use super::figure::drawable;
 ///
 /// `to_page` places a point. Curves with far more points than `columns` keep, in each column, first, least, greatest and last:
 /// what the eye sees stays the same.
-pub fn strokes(
-    points: &[[f64; 2]],
-    columns: usize,
-    to_page: impl Fn([f64; 2]) -> [f64; 2],
-) -> Vec<Vec<[f64; 2]>> {
+pub fn strokes(points: &[[f64; 2]], columns: usize, to_page: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<Vec<[f64; 2]>> {
     let mut strokes: Vec<Vec<[f64; 2]>> = vec![Vec::new()];
     for point in points {
         if drawable(point[0]) && drawable(point[1]) {
@@ -44,10 +40,7 @@ fn thinned(stroke: &[[f64; 2]], columns: usize) -> Vec<[f64; 2]> {
     for group in stroke.chunk_by(|a, b| column(a) == column(b)) {
         let by_height = |a: &&[f64; 2], b: &&[f64; 2]| a[1].total_cmp(&b[1]);
         let ends = [group.first(), group.last()];
-        let peaks = [
-            group.iter().min_by(by_height),
-            group.iter().max_by(by_height),
-        ];
+        let peaks = [group.iter().min_by(by_height), group.iter().max_by(by_height)];
         let mut group: Vec<[f64; 2]> = ends.into_iter().chain(peaks).flatten().copied().collect();
         group.sort_by(|a, b| a[0].total_cmp(&b[0]));
         group.dedup();
@@ -64,14 +57,7 @@ mod tests {
 
     #[test]
     fn gaps_part_strokes_and_lone_points_stay() {
-        let points = [
-            [0.0, 1.0],
-            [1.0, 2.0],
-            [2.0, NAN],
-            [3.0, 5.0],
-            [4.0, NAN],
-            [5.0, f64::INFINITY],
-        ];
+        let points = [[0.0, 1.0], [1.0, 2.0], [2.0, NAN], [3.0, 5.0], [4.0, NAN], [5.0, f64::INFINITY]];
         let found = strokes(&points, 100, |p| p);
         assert_eq!(found, [vec![[0.0, 1.0], [1.0, 2.0]], vec![[3.0, 5.0]]]);
         assert!(strokes(&[], 100, |p| p).is_empty());
@@ -85,9 +71,6 @@ mod tests {
         let found = &strokes(&points, 500, |p| p)[0];
         assert!(found.len() < 2100, "{}", found.len());
         assert!(found.contains(&[54_321.0, 7.0]) && found.contains(&[54_322.0, -3.0]));
-        assert_eq!(
-            (found[0], found[found.len() - 1]),
-            (points[0], points[99_999])
-        );
+        assert_eq!((found[0], found[found.len() - 1]), (points[0], points[99_999]));
     }
 }

@@ -35,32 +35,16 @@ struct Page {
 }
 
 /// Draws a figure into a rectangle; `below` is the room for the legend, as figures in one row share it.
-pub fn draw(
-    svg: &mut Svg,
-    figure: &Figure,
-    [left, top]: [f64; 2],
-    [width, height]: [f64; 2],
-    below: f64,
-) {
+pub fn draw(svg: &mut Svg, figure: &Figure, [left, top]: [f64; 2], [width, height]: [f64; 2], below: f64) {
     let title = shortened(&figure.title, TITLE, Weight::Bold, width - 2.0 * EDGE);
-    let style = Text {
-        size: TITLE,
-        weight: Weight::Bold,
-        anchor: Anchor::Middle,
-        ..Text::default()
-    };
+    let style = Text { size: TITLE, weight: Weight::Bold, anchor: Anchor::Middle, ..Text::default() };
     svg.begin("");
     svg.tip(&figure.title);
     svg.text([left + 0.5 * width, top + EDGE + TITLE], &title, &style);
     let upper = top + EDGE + TITLE + 10.0;
     let bottom = top + height - below - EDGE;
     match figure.extent() {
-        None => nothing(
-            svg,
-            figure,
-            [left + EDGE, upper],
-            [width - 2.0 * EDGE, bottom - upper],
-        ),
+        None => nothing(svg, figure, [left + EDGE, upper], [width - 2.0 * EDGE, bottom - upper]),
         Some(extent) => {
             let page = Page::new(figure, extent, [left, upper], [width, bottom - upper]);
             page.axes(svg, figure, left);
@@ -74,22 +58,13 @@ pub fn draw(
 
 fn nothing(svg: &mut Svg, figure: &Figure, [left, top]: [f64; 2], [width, height]: [f64; 2]) {
     svg.rect(left, top, width, height, FRAME);
-    let style = Text {
-        anchor: Anchor::Middle,
-        fill: "#666666",
-        ..Text::default()
-    };
+    let style = Text { anchor: Anchor::Middle, fill: "#666666", ..Text::default() };
     let text = shortened(&figure.empty, style.size, Weight::Regular, width - 10.0);
     svg.text([left + 0.5 * width, top + 0.5 * height], &text, &style);
 }
 
 impl Page {
-    fn new(
-        figure: &Figure,
-        [x, y]: [[f64; 2]; 2],
-        [left, top]: [f64; 2],
-        [width, height]: [f64; 2],
-    ) -> Self {
+    fn new(figure: &Figure, [x, y]: [[f64; 2]; 2], [left, top]: [f64; 2], [width, height]: [f64; 2]) -> Self {
         let inner_height = height - TICK - LABEL - 16.0;
         let y = match figure.y.words.is_empty() {
             true => Scale::new(y, ((inner_height / 36.0) as usize).clamp(2, 8)),
@@ -100,29 +75,17 @@ impl Page {
         let x = across(figure, x, room);
         // half of the last figure may stand beyond the axis' end
         let beyond = (0.5 * widest(&x) + 2.0 - EDGE).max(0.0);
-        Page {
-            corner: [left + margin, top],
-            size: [room - beyond, inner_height],
-            x,
-            y,
-        }
+        Page { corner: [left + margin, top], size: [room - beyond, inner_height], x, y }
     }
 
     fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
-        [
-            self.corner[0] + self.size[0] * self.x.place(x),
-            self.corner[1] + self.size[1] * (1.0 - self.y.place(y)),
-        ]
+        [self.corner[0] + self.size[0] * self.x.place(x), self.corner[1] + self.size[1] * (1.0 - self.y.place(y))]
     }
 
     fn axes(&self, svg: &mut Svg, figure: &Figure, outer_left: f64) {
         let ([left, top], [width, height]) = (self.corner, self.size);
         let (right, bottom) = (left + width, top + height);
-        let figures = |anchor| Text {
-            size: TICK,
-            anchor,
-            ..Text::default()
-        };
+        let figures = |anchor| Text { size: TICK, anchor, ..Text::default() };
         for tick in &self.y.ticks {
             let [_, y] = self.place([self.x.range[0], *tick]);
             svg.segment([left, y], [right, y], grid(&self.y, *tick));
@@ -143,26 +106,11 @@ impl Page {
             shortened(&text, LABEL, Weight::Regular, room)
         };
         let x = label(&figure.x.name, &figure.x.unit, &self.x, width);
-        let style = Text {
-            size: LABEL,
-            anchor: Anchor::Middle,
-            ..Text::default()
-        };
-        svg.text(
-            [left + 0.5 * width, bottom + TICK_MARK + TICK + LABEL + 5.0],
-            &x,
-            &style,
-        );
+        let style = Text { size: LABEL, anchor: Anchor::Middle, ..Text::default() };
+        svg.text([left + 0.5 * width, bottom + TICK_MARK + TICK + LABEL + 5.0], &x, &style);
         let y = label(&figure.y.name, &figure.y.unit, &self.y, height);
-        let style = Text {
-            turn_deg: -90.0,
-            ..style
-        };
-        svg.text(
-            [outer_left + EDGE + LABEL - 2.0, top + 0.5 * height],
-            &y,
-            &style,
-        );
+        let style = Text { turn_deg: -90.0, ..style };
+        svg.text([outer_left + EDGE + LABEL - 2.0, top + 0.5 * height], &y, &style);
     }
 
     fn curves(&self, svg: &mut Svg, figure: &Figure) {
@@ -221,11 +169,7 @@ fn across(figure: &Figure, range: [f64; 2], room: f64) -> Scale {
         false => Scale::new(range, count),
     };
     let fits = |s: &Scale| s.ticks.len() as f64 * (widest(s) + 12.0) <= room;
-    (2..=8)
-        .rev()
-        .map(scale)
-        .find(fits)
-        .unwrap_or_else(|| scale(1))
+    (2..=8).rev().map(scale).find(fits).unwrap_or_else(|| scale(1))
 }
 
 /// Width of the widest figure.
@@ -241,9 +185,7 @@ fn labelled(name: &str, unit: &str, exponent: i32) -> String {
         exponent => format!("10{} ", raised(exponent)),
     };
     match unit {
-        "" => format!("{name}, {power}")
-            .trim_end_matches([',', ' '])
-            .to_owned(),
+        "" => format!("{name}, {power}").trim_end_matches([',', ' ']).to_owned(),
         unit => format!("{name}, {power}{unit}"),
     }
 }
@@ -254,10 +196,7 @@ fn raised(exponent: i32) -> String {
         '1' => '¹',
         '2' => '²',
         '3' => '³',
-        c => c
-            .to_digit(10)
-            .and_then(|d| char::from_u32(0x2070 + d))
-            .unwrap_or(c),
+        c => c.to_digit(10).and_then(|d| char::from_u32(0x2070 + d)).unwrap_or(c),
     };
     exponent.to_string().chars().map(digit).collect()
 }

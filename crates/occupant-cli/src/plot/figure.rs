@@ -33,12 +33,7 @@ pub struct Axis {
 impl Axis {
     /// An axis of numbers.
     pub fn of(name: impl Into<String>, unit: impl Into<String>) -> Self {
-        Axis {
-            name: name.into(),
-            unit: unit.into(),
-            words: Vec::new(),
-            includes: None,
-        }
+        Axis { name: name.into(), unit: unit.into(), words: Vec::new(), includes: None }
     }
 
     /// A range that covers `range` and what is to be shown at any rate.
@@ -51,10 +46,7 @@ impl Axis {
 
     /// An axis of words.
     pub fn of_words(name: impl Into<String>, words: Vec<String>) -> Self {
-        Axis {
-            words,
-            ..Axis::of(name, "")
-        }
+        Axis { words, ..Axis::of(name, "") }
     }
 }
 
@@ -102,17 +94,10 @@ pub struct Limit {
 }
 
 /// Colours that most colour-blind people tell apart (Okabe and Ito, 2008), their yellow left out for white paper.
-const COLOURS: [&str; 7] = [
-    "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#666666",
-];
+const COLOURS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#666666"];
 const DASHES: [&str; 4] = ["", "7 3", "2 2.5", "9 3 2 3"];
 /// Lines of limits.
-pub const LIMIT: Style = Style {
-    colour: "#c00000",
-    dash: "5 3",
-    width: 1.1,
-    mark: Mark::Line,
-};
+pub const LIMIT: Style = Style { colour: "#c00000", dash: "5 3", width: 1.1, mark: Mark::Line };
 
 impl Style {
     /// Colours.
@@ -135,30 +120,17 @@ impl Style {
 
     /// Measured curves: black.
     pub fn measured(dash: usize) -> Self {
-        Style {
-            colour: "#000000",
-            dash: DASHES[dash % DASHES.len()],
-            width: 1.2,
-            mark: Mark::Line,
-        }
+        Style { colour: "#000000", dash: DASHES[dash % DASHES.len()], width: 1.2, mark: Mark::Line }
     }
 
     /// A solid line of any width: a bar, a whisker.
     pub fn line(colour: &'static str, width: f64) -> Self {
-        Style {
-            colour,
-            dash: "",
-            width,
-            mark: Mark::Line,
-        }
+        Style { colour, dash: "", width, mark: Mark::Line }
     }
 
     /// Dots.
     pub fn dots(colour: &'static str, diameter: f64) -> Self {
-        Style {
-            mark: Mark::Dots,
-            ..Style::line(colour, diameter)
-        }
+        Style { mark: Mark::Dots, ..Style::line(colour, diameter) }
     }
 
     /// As attributes of SVG.

@@ -32,10 +32,7 @@ impl Legend {
     pub fn new(figure: &Figure, width: f64) -> Self {
         let curves = figure.curves.iter().map(|c| (c.label.as_str(), c.style));
         let limits = figure.limits.iter().map(|l| (l.label.as_str(), LIMIT));
-        let mut legend = Legend {
-            entries: Vec::new(),
-            rows: 0,
-        };
+        let mut legend = Legend { entries: Vec::new(), rows: 0 };
         let mut x = 0.0;
         for (label, style) in curves.chain(limits).filter(|(label, _)| !label.is_empty()) {
             let label = shortened(label, SIZE, Weight::Regular, width - SAMPLE - GAP);
@@ -45,12 +42,7 @@ impl Legend {
                 x = 0.0;
             }
             let row = legend.rows - 1;
-            legend.entries.push(Entry {
-                label,
-                style,
-                x,
-                row,
-            });
+            legend.entries.push(Entry { label, style, x, row });
             x += long + BETWEEN;
         }
         legend
@@ -71,10 +63,7 @@ impl Legend {
                 Mark::Line => svg.segment([x, y], [x + SAMPLE, y], &look),
                 Mark::Dots => svg.dots(&[[x + 0.5 * SAMPLE, y]], &look),
             }
-            let style = Text {
-                size: SIZE,
-                ..Text::default()
-            };
+            let style = Text { size: SIZE, ..Text::default() };
             svg.text([x + SAMPLE + GAP, y + 0.36 * SIZE], &entry.label, &style);
         }
     }
@@ -88,11 +77,7 @@ pub fn shortened(text: &str, size: f64, weight: Weight, width: f64) -> String {
     let letters: Vec<char> = text.chars().collect();
     for kept in (0..letters.len()).rev() {
         let (head, tail) = (kept.div_ceil(2), kept / 2);
-        let short: String = letters[..head]
-            .iter()
-            .chain(&['…'])
-            .chain(&letters[letters.len() - tail..])
-            .collect();
+        let short: String = letters[..head].iter().chain(&['…']).chain(&letters[letters.len() - tail..]).collect();
         if font::width(&short, size, weight) <= width {
             return short;
         }
@@ -107,11 +92,7 @@ mod tests {
 
     fn figure(labels: &[&str]) -> Figure {
         let axis = Axis::of("", "");
-        let curve = |l: &&str| Curve {
-            label: (*l).to_owned(),
-            style: Style::of(0, 0),
-            points: Vec::new(),
-        };
+        let curve = |l: &&str| Curve { label: (*l).to_owned(), style: Style::of(0, 0), points: Vec::new() };
         Figure {
             title: String::new(),
             x: axis.clone(),
@@ -135,15 +116,7 @@ mod tests {
     #[test]
     fn entries_never_overlap_nor_leave_the_width() {
         let long = "x".repeat(200);
-        let labels = [
-            "head",
-            "upper torso",
-            &long,
-            "lap",
-            "torso",
-            "pelvis",
-            "energy of contacts",
-        ];
+        let labels = ["head", "upper torso", &long, "lap", "torso", "pelvis", "energy of contacts"];
         let legend = Legend::new(&figure(&labels), 300.0);
         let end = |e: &Entry| e.x + SAMPLE + GAP + font::width(&e.label, SIZE, Weight::Regular);
         for (i, entry) in legend.entries.iter().enumerate() {

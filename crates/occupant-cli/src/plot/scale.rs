@@ -24,9 +24,7 @@ impl Scale {
         // multiples of the step, counted, so that ticks carry no sums of rounding errors
         let first = (low / step + 1e-9).floor();
         let last = (high / step - 1e-9).ceil().max(first + 1.0);
-        let ticks: Vec<f64> = (0..=(last - first) as usize)
-            .map(|i| (first + i as f64) * step)
-            .collect();
+        let ticks: Vec<f64> = (0..=(last - first) as usize).map(|i| (first + i as f64) * step).collect();
         Self::of_ticks(ticks, step)
     }
 
@@ -76,10 +74,7 @@ impl Scale {
         };
         let digits = (step.log10() - f64::from(exponent) + 1e-9).floor();
         Scale {
-            range: [
-                ticks.first().copied().unwrap_or(0.0),
-                ticks.last().copied().unwrap_or(1.0),
-            ],
+            range: [ticks.first().copied().unwrap_or(0.0), ticks.last().copied().unwrap_or(1.0)],
             decimals: (-digits).clamp(0.0, 12.0) as usize,
             ticks,
             exponent,
@@ -97,11 +92,7 @@ impl Scale {
         let half = self.exponent / 2;
         let value = tick * 10_f64.powi(-half) * 10_f64.powi(half - self.exponent);
         let text = format!("{value:.*}", self.decimals);
-        match text
-            .trim_start_matches('-')
-            .bytes()
-            .all(|b| matches!(b, b'0' | b'.'))
-        {
+        match text.trim_start_matches('-').bytes().all(|b| matches!(b, b'0' | b'.')) {
             true => text.trim_start_matches('-').to_owned(),
             // a true minus sign is as wide as a plus
             false => text.replace('-', "−"),
@@ -142,9 +133,7 @@ fn opened(low: f64, high: f64) -> [f64; 2] {
 fn round_step(step: f64) -> f64 {
     let power = 10_f64.powi(step.log10().floor() as i32);
     let times = step / power;
-    let round = [1.0, 2.0, 5.0, 10.0]
-        .into_iter()
-        .find(|r| times <= r + 1e-9);
+    let round = [1.0, 2.0, 5.0, 10.0].into_iter().find(|r| times <= r + 1e-9);
     round.unwrap_or(10.0) * power
 }
 
@@ -195,24 +184,14 @@ mod tests {
     fn any_range_gives_a_few_finite_increasing_ticks() {
         let sizes = [5e-324, 1e-300, 1e-12, 1.0, 17.3, 1e9, 1e300];
         for low in sizes.iter().flat_map(|s| [-s, 0.0, *s]) {
-            for high in sizes
-                .iter()
-                .flat_map(|s| [-s, 0.0, *s])
-                .filter(|h| *h >= low)
-            {
+            for high in sizes.iter().flat_map(|s| [-s, 0.0, *s]).filter(|h| *h >= low) {
                 for scale in [Scale::new([low, high], 5), Scale::inside([low, high], 6)] {
-                    assert!(
-                        (1..=14).contains(&scale.ticks.len()),
-                        "{low} {high}: {scale:?}"
-                    );
+                    assert!((1..=14).contains(&scale.ticks.len()), "{low} {high}: {scale:?}");
                     assert!(scale.ticks.windows(2).all(|w| w[0] < w[1]), "{low} {high}");
                     // what is left of a tick by rounding may lie beyond the axis, by no width of a line
                     let (from, to) = (scale.place(low), scale.place(high));
                     assert!(from > -1e-8 && to < 1.0 + 1e-8, "{low} {high}: {scale:?}");
-                    assert!(
-                        scale.ticks.iter().all(|t| scale.figures(*t).len() < 20),
-                        "{scale:?}"
-                    );
+                    assert!(scale.ticks.iter().all(|t| scale.figures(*t).len() < 20), "{scale:?}");
                 }
             }
         }

@@ -29,14 +29,8 @@ const SMALL: f64 = 11.0;
 pub fn sheet(sheet: &Sheet, figures: &[Figure]) -> String {
     let columns = sheet.columns.clamp(1, figures.len().max(1));
     let size = if figures.len() == 1 { ALONE } else { SIZE };
-    let below: Vec<f64> = figures
-        .chunks(columns)
-        .map(|row| {
-            row.iter()
-                .map(|f| legend_height(f, size[0]))
-                .fold(0.0, f64::max)
-        })
-        .collect();
+    let below: Vec<f64> =
+        figures.chunks(columns).map(|row| row.iter().map(|f| legend_height(f, size[0])).fold(0.0, f64::max)).collect();
     let width = 2.0 * EDGE + columns as f64 * size[0];
     let head = head_height(sheet);
     let height = head + below.iter().map(|b| size[1] + b).sum::<f64>() + EDGE;
@@ -69,19 +63,11 @@ fn head_height(sheet: &Sheet) -> f64 {
 
 fn heading(svg: &mut Svg, sheet: &Sheet, width: f64) {
     let room = width - 2.0 * EDGE;
-    let title = Text {
-        size: TITLE,
-        weight: Weight::Bold,
-        ..Text::default()
-    };
+    let title = Text { size: TITLE, weight: Weight::Bold, ..Text::default() };
     let words = shortened(&sheet.title, TITLE, Weight::Bold, room);
     svg.text([EDGE, EDGE + TITLE], &words, &title);
     for (i, line) in sheet.lines.iter().enumerate() {
-        let style = Text {
-            size: SMALL,
-            fill: "#444444",
-            ..Text::default()
-        };
+        let style = Text { size: SMALL, fill: "#444444", ..Text::default() };
         let y = EDGE + TITLE + 6.0 + (i + 1) as f64 * (SMALL + 4.0) - 2.0;
         let words = shortened(line, SMALL, Weight::Regular, room);
         svg.text([EDGE, y], &words, &style);

@@ -30,11 +30,7 @@ pub struct Entry {
     pub label: String,
 }
 
-const ACCELERATIONS: [(&str, &str); 3] = [
-    ("head", "Head"),
-    ("upper_torso", "Chest"),
-    ("lower_torso", "Pelvis"),
-];
+const ACCELERATIONS: [(&str, &str); 3] = [("head", "Head"), ("upper_torso", "Chest"), ("lower_torso", "Pelvis")];
 
 /// Energies, the first of them for several runs.
 const ENERGIES: [(&str, &str); 8] = [
@@ -53,17 +49,9 @@ const FEW_ENERGIES: usize = 4;
 pub fn standard(model: &Model, several: bool) -> Vec<Wish> {
     let mut wishes = Vec::with_capacity(14);
     for (segment, name) in ACCELERATIONS {
-        for (component, words) in [
-            ("x", "X, ahead"),
-            ("z", "Z, up"),
-            ("resultant", "resultant"),
-        ] {
+        for (component, words) in [("x", "X, ahead"), ("z", "Z, up"), ("resultant", "resultant")] {
             let channel = format!("{segment}.acceleration.{component}");
-            wishes.push(wish(
-                &format!("{name} acceleration {words}"),
-                "acceleration",
-                [(channel, words)],
-            ));
+            wishes.push(wish(&format!("{name} acceleration {words}"), "acceleration", [(channel, words)]));
         }
     }
     let spheres = ["head", "chest", "right_knee", "left_knee"];
@@ -71,49 +59,28 @@ pub fn standard(model: &Model, several: bool) -> Vec<Wish> {
         let sphere = model.body().sphere(s);
         sphere.map(|_| (format!("sphere.{s}.force.resultant"), s))
     };
-    wishes.push(wish(
-        "Contact force on head, chest and knees",
-        "force",
-        spheres.into_iter().filter_map(force),
-    ));
+    wishes.push(wish("Contact force on head, chest and knees", "force", spheres.into_iter().filter_map(force)));
     let belts: Vec<(String, String)> = matching(model, "belt.*.force")
         .into_iter()
-        .map(|c| {
-            (
-                c.name.clone(),
-                c.name["belt.".len()..c.name.len() - ".force".len()].to_owned(),
-            )
-        })
+        .map(|c| (c.name.clone(), c.name["belt.".len()..c.name.len() - ".force".len()].to_owned()))
         .collect();
     wishes.push(wish("Belt loads", "loop force", belts));
     let joints = ["neck", "upper_back", "lower_back"];
     let angle = |j: &str| (format!("joint.{j}.angle"), j.to_owned());
-    wishes.push(wish(
-        "Spine angles",
-        "angle between the segments",
-        joints.map(angle),
-    ));
+    wishes.push(wish("Spine angles", "angle between the segments", joints.map(angle)));
     let shown = match several {
         true => &ENERGIES[..FEW_ENERGIES],
         false => &ENERGIES[..],
     };
     let energy = |(channel, label): &(&str, &'static str)| (format!("energy.{channel}"), *label);
     wishes.push(wish("Energy", "energy", shown.iter().map(energy)));
-    let axes =
-        ["x", "y", "z"].map(|axis| (format!("vehicle.acceleration.{axis}"), axis.to_uppercase()));
+    let axes = ["x", "y", "z"].map(|axis| (format!("vehicle.acceleration.{axis}"), axis.to_uppercase()));
     wishes.push(wish("Vehicle acceleration", "acceleration", axes));
     wishes
 }
 
-fn wish<L: Into<String>>(
-    title: &str,
-    axis: &str,
-    entries: impl IntoIterator<Item = (String, L)>,
-) -> Wish {
-    let entry = |(channel, label): (String, L)| Entry {
-        channel,
-        label: label.into().replace('_', " "),
-    };
+fn wish<L: Into<String>>(title: &str, axis: &str, entries: impl IntoIterator<Item = (String, L)>) -> Wish {
+    let entry = |(channel, label): (String, L)| Entry { channel, label: label.into().replace('_', " ") };
     Wish {
         title: title.to_owned(),
         axis: axis.to_owned(),

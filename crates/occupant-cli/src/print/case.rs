@@ -41,9 +41,7 @@ impl Case {
     /// The file lacks its scenario or a table that it names; this program refuses the scenario.
     pub fn new(file: RunFile) -> Result<Self, String> {
         let loaded = load(&file)?;
-        let (model, warnings) = loaded
-            .model()
-            .map_err(|d| format!("the scenario in the file is refused:\n{d}"))?;
+        let (model, warnings) = loaded.model().map_err(|d| format!("the scenario in the file is refused:\n{d}"))?;
         let named = |parent, names: Vec<&str>| topics::named(parent, names);
         let sphere_names = model.body().spheres.iter().map(|s| s.name.as_str());
         let belt_names = model.setup().belts.iter().map(|b| b.name.as_str());
@@ -74,15 +72,10 @@ impl Case {
     /// The two lines on top of each page: the title cards, or the title and where the run comes from.
     pub fn titles(&self) -> [String; 2] {
         let notes = self.loaded.scenario.notes.as_deref().unwrap_or_default();
-        let second = notes
-            .lines()
-            .find_map(|line| line.trim().strip_prefix("TITLE 2 = "));
+        let second = notes.lines().find_map(|line| line.trim().strip_prefix("TITLE 2 = "));
         let known = |key: &str| self.file.run.get(key).map_or("-", String::as_str);
         let origin = || format!("{}, {}", known("scenario"), known("program"));
-        [
-            self.model.setup().title.clone(),
-            second.map_or_else(origin, str::to_owned),
-        ]
+        [self.model.setup().title.clone(), second.map_or_else(origin, str::to_owned)]
     }
 
     /// Whether the run reached its end.
@@ -94,12 +87,7 @@ impl Case {
     /// Number of outputs of which every group is in the file.
     pub fn outputs(&self) -> usize {
         let segments = Segment::ALL.map(topics::segment);
-        let single = [
-            topics::VEHICLE,
-            topics::JOINTS,
-            topics::ENERGY,
-            topics::SOLVER,
-        ];
+        let single = [topics::VEHICLE, topics::JOINTS, topics::ENERGY, topics::SOLVER];
         let all = segments.iter().chain(&self.spheres).chain(&self.belts);
         let all = all.map(String::as_str).chain(single);
         all.map(|t| self.file.messages(t).len()).min().unwrap_or(0)
@@ -109,12 +97,7 @@ impl Case {
     ///
     /// # Errors
     /// It is not there, or its bytes are no message.
-    pub fn message(
-        &self,
-        topic: &str,
-        group: &'static Group,
-        output: usize,
-    ) -> Result<Message<'_>, String> {
+    pub fn message(&self, topic: &str, group: &'static Group, output: usize) -> Result<Message<'_>, String> {
         let bytes = self.file.messages(topic).get(output);
         bytes
             .and_then(|bytes| Message::read(group, bytes))
@@ -159,9 +142,8 @@ fn load(file: &RunFile) -> Result<Loaded, String> {
     let read = file.run.get("scenario").map(String::as_str);
     let resolved = ["resolved.toml"].into_iter().chain(read);
     let found = resolved.filter_map(|name| Some((name, file.attachments.get(name)?)));
-    let (name, content) = { found }
-        .next()
-        .ok_or("the file holds no scenario, so nothing can be said of its numbers")?;
+    let (name, content) =
+        { found }.next().ok_or("the file holds no scenario, so nothing can be said of its numbers")?;
     let resolver = |name: &str| {
         let base = name.rsplit(['/', '\\']).next().unwrap_or(name);
         let table = file.attachments.get(base);

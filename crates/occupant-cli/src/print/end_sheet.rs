@@ -34,10 +34,7 @@ fn fits(checkpoint: &Checkpoint, case: &Case) -> Result<(), String> {
     let pairs = case.model.system().contacts.pairs().len();
     match checkpoint.pairs.len() == pairs {
         true => Ok(()),
-        false => Err(format!(
-            "THE CHECKPOINT HAS {} PAIRS, THE SCENARIO {pairs}.",
-            checkpoint.pairs.len()
-        )),
+        false => Err(format!("THE CHECKPOINT HAS {} PAIRS, THE SCENARIO {pairs}.", checkpoint.pairs.len())),
     }
 }
 
@@ -46,12 +43,7 @@ fn ending(pages: &mut Pages, case: &Case, times_s: &[f64]) {
     let end_s = case.model.setup().time.end_s;
     let reached = times_s.last().map_or_else(
         || "NO OUTPUT IS IN THE FILE".to_owned(),
-        |t| {
-            format!(
-                "LAST OUTPUT AT {t:.6} SEC OF {end_s:.6} SEC, {} OUTPUTS",
-                times_s.len()
-            )
-        },
+        |t| format!("LAST OUTPUT AT {t:.6} SEC OF {end_s:.6} SEC, {} OUTPUTS", times_s.len()),
     );
     let Some(result) = &case.file.result else {
         pages.say("*** PARTIAL: THE FILE WAS CUT OFF; IT HOLDS NO END OF THE RUN ***");
@@ -62,10 +54,7 @@ fn ending(pages: &mut Pages, case: &Case, times_s: &[f64]) {
     let imbalance = known("balance_error").parse().unwrap_or(f64::NAN);
     match known("status") {
         "completed" => pages.say("THE RUN REACHED ITS END TIME"),
-        status => pages.say(&format!(
-            "*** PARTIAL: THE RUN WAS NOT COMPLETED ({status}): {} ***",
-            known("reason")
-        )),
+        status => pages.say(&format!("*** PARTIAL: THE RUN WAS NOT COMPLETED ({status}): {} ***", known("reason"))),
     }
     pages.say(&reached);
     pages.say(&format!(
@@ -100,16 +89,8 @@ fn extension(pages: &mut Pages, case: &Case, units: &Units, checkpoint: &Checkpo
     coordinates(pages, units, "GENERALIZED COORDINATES AT THE END", &q);
     pages.say("");
     let [upper, lower] = spine_rest_rad(case);
-    pages.say(&format!(
-        "REST ANGLES OF THE BACK JOINTS: BETA4 {upper:.6} RAD, BETA7 {lower:.6} RAD"
-    ));
-    for (belt, law) in case
-        .model
-        .setup()
-        .belts
-        .iter()
-        .zip(&case.model.system().belts)
-    {
+    pages.say(&format!("REST ANGLES OF THE BACK JOINTS: BETA4 {upper:.6} RAD, BETA7 {lower:.6} RAD"));
+    for (belt, law) in case.model.setup().belts.iter().zip(&case.model.system().belts) {
         pages.say(&format!(
             "UNSTRETCHED LENGTH OF THE BELT {}: {} {}",
             belt.name,
@@ -123,11 +104,7 @@ fn extension(pages: &mut Pages, case: &Case, units: &Units, checkpoint: &Checkpo
 fn spine_rest_rad(case: &Case) -> [f64; 2] {
     let (system, joints) = (case.model.system(), &case.model.setup().joints);
     let start = Kinematics::new(&system.skeleton, &case.model.start().state);
-    [
-        (joints.upper_back, Segment::UpperTorso),
-        (joints.lower_back, Segment::LowerTorso),
-    ]
-    .map(|(data, distal)| {
+    [(joints.upper_back, Segment::UpperTorso), (joints.lower_back, Segment::LowerTorso)].map(|(data, distal)| {
         let ball = BALLS.iter().position(|&(_, n)| n == distal.index());
         let at_start = ball.map_or(f64::NAN, |i| system.joints.beta(i, &start));
         data.spring.and_then(|s| s.rest_rad).unwrap_or(at_start)
@@ -140,17 +117,8 @@ pub fn pairs(pages: &mut Pages, case: &Case, title: &str, passed: &[(usize, usiz
     let mut table = Table::new(title, &[head, head].concat());
     for row in passed.chunks(2) {
         let pair = |&(sphere, surface): &(usize, usize)| {
-            let name = case
-                .model
-                .body()
-                .spheres
-                .get(sphere)
-                .map(|s| s.name.clone());
-            [
-                (sphere + 1).to_string(),
-                name.unwrap_or_default(),
-                case.surface(surface),
-            ]
+            let name = case.model.body().spheres.get(sphere).map(|s| s.name.clone());
+            [(sphere + 1).to_string(), name.unwrap_or_default(), case.surface(surface)]
         };
         table.row(row.iter().flat_map(pair));
     }

@@ -52,15 +52,10 @@ fn forces(case: &Case, units: &Units, spheres: &[Message<'_>]) -> Result<Table, 
     let surfaces = &case.model.setup().surfaces;
     for (i, m) in spheres.iter().enumerate() {
         let force = m.components("contact_force_vehicle_n");
-        let mut cells = vec![
-            (i + 1).to_string(),
-            case.model.body().spheres[i].name.clone(),
-        ];
+        let mut cells = vec![(i + 1).to_string(), case.model.body().spheres[i].name.clone()];
         cells.extend(units.force.vector(force));
         cells.push(units.force.show(m.number("contact_force_resultant_n")));
-        let touches = m
-            .touches()
-            .ok_or_else(|| format!("the contacts of {} cannot be read", case.spheres[i]))?;
+        let touches = m.touches().ok_or_else(|| format!("the contacts of {} cannot be read", case.spheres[i]))?;
         if touches.is_empty() {
             cells.push("-".to_owned());
             table.row(std::mem::take(&mut cells));

@@ -178,10 +178,7 @@ mod tests {
         let message = Message::read(&BELT, wire.bytes()).unwrap();
         assert_eq!(message.number("time_s"), -0.25);
         assert_eq!(message.number("loop_force_n"), 123.456);
-        assert_eq!(
-            message.vector("restraining_force_vehicle_n"),
-            Some([1.0, -2.0, 3.5])
-        );
+        assert_eq!(message.vector("restraining_force_vehicle_n"), Some([1.0, -2.0, 3.5]));
         assert!(message.number("length_m").is_nan());
     }
 
@@ -200,10 +197,7 @@ mod tests {
         let message = Message::read(&SPHERE, wire.bytes()).unwrap();
         let touches = message.touches().unwrap();
         assert_eq!(touches.len(), 2);
-        assert_eq!(
-            (touches[0].surface.as_str(), touches[0].depth_m),
-            ("floor", 0.01)
-        );
+        assert_eq!((touches[0].surface.as_str(), touches[0].depth_m), ("floor", 0.01));
         assert_eq!(touches[1].surface, "wall");
     }
 

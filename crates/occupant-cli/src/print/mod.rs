@@ -36,10 +36,7 @@ pub fn printout(case: &Case, units: &Units, every_s: Option<f64>) -> Result<Stri
     echo::write(&mut pages, case, units);
     let times_s = times(case)?;
     for output in chosen(&times_s, every_s, case.model.setup().time.output_s)? {
-        pages.begin(&format!(
-            "TIME {:.6} SEC    OUTPUT {}",
-            times_s[output], output
-        ));
+        pages.begin(&format!("TIME {:.6} SEC    OUTPUT {}", times_s[output], output));
         vehicle::write(&mut pages, case, units, output)?;
         segments::write(&mut pages, case, units, output)?;
         loads::write(&mut pages, case, units, output)?;
@@ -65,9 +62,7 @@ fn chosen(times_s: &[f64], every_s: Option<f64>, output_s: f64) -> Result<Vec<us
         return Ok((0..times_s.len()).collect());
     };
     if every_s.is_nan() || every_s < output_s * (1.0 - 1e-9) {
-        return Err(format!(
-            "the print interval is {every_s} s, but the run was recorded every {output_s} s"
-        ));
+        return Err(format!("the print interval is {every_s} s, but the run was recorded every {output_s} s"));
     }
     let Some(&start_s) = times_s.first() else {
         return Ok(Vec::new());
@@ -94,10 +89,7 @@ mod tests {
     fn print_times_take_the_first_output_at_or_after_them_and_the_last() {
         let times_s: Vec<f64> = (0..=10).map(|i| -0.01 + f64::from(i) * 0.001).collect();
         assert_eq!(chosen(&times_s, Some(0.004), 0.001), Ok(vec![0, 4, 8, 10]));
-        assert_eq!(
-            chosen(&times_s, Some(0.0025), 0.001),
-            Ok(vec![0, 3, 5, 8, 10])
-        );
+        assert_eq!(chosen(&times_s, Some(0.0025), 0.001), Ok(vec![0, 3, 5, 8, 10]));
         assert_eq!(chosen(&times_s, None, 0.001).map(|c| c.len()), Ok(11));
         assert!(chosen(&times_s, Some(0.0005), 0.001).is_err());
         assert!(chosen(&times_s, Some(f64::NAN), 0.001).is_err());

@@ -23,13 +23,7 @@ pub struct Pages {
 impl Pages {
     /// No page yet; `titles` stand on top of each.
     pub fn new(titles: [String; 2]) -> Self {
-        Pages {
-            titles,
-            section: String::new(),
-            text: String::new(),
-            page: 0,
-            line: 0,
-        }
+        Pages { titles, section: String::new(), text: String::new(), page: 0, line: 0 }
     }
 
     /// The text; every page ends in a form feed.
@@ -58,9 +52,7 @@ impl Pages {
     /// are continued, with the first `head` of them repeated.
     pub fn block(&mut self, lines: &[String], head: usize) {
         if self.line > HEAD {
-            match self.line + 1 + lines.len() <= LINES
-                || self.line + head + 3 < LINES && lines.len() > LINES - HEAD
-            {
+            match self.line + 1 + lines.len() <= LINES || self.line + head + 3 < LINES && lines.len() > LINES - HEAD {
                 true => self.put(""),
                 false => self.turn(),
             }
@@ -123,9 +115,7 @@ fn folded(words: &str) -> Vec<String> {
     for paragraph in words.lines() {
         let mut rest: Vec<char> = paragraph.chars().collect();
         while rest.len() > COLUMNS {
-            let within = rest[INDENT.len() + 1..=COLUMNS]
-                .iter()
-                .rposition(|&c| c == ' ');
+            let within = rest[INDENT.len() + 1..=COLUMNS].iter().rposition(|&c| c == ' ');
             let at = within.map_or(COLUMNS, |at| at + INDENT.len() + 1);
             lines.push(rest[..at].iter().collect());
             let left: String = rest[at..].iter().collect();

@@ -32,9 +32,7 @@ impl RunFile {
     pub fn read(bytes: &[u8]) -> Result<Self, String> {
         let stored = StoredRun::read(bytes)?;
         if stored.run.is_empty() {
-            return Err(format!(
-                "it is an MCAP file without the record `{RUN}`: no result of `occupant run`"
-            ));
+            return Err(format!("it is an MCAP file without the record `{RUN}`: no result of `occupant run`"));
         }
         Ok(RunFile {
             run: stored.run,

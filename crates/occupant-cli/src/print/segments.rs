@@ -30,23 +30,16 @@ pub fn label(segment: Segment) -> [String; 2] {
 
 fn end_points(messages: &[(Segment, Message<'_>)], units: &Units) -> Table {
     let mut table = Table::new(
-        format!(
-            "1. END POINTS AND C.G. OF SEGMENTS, VEHICLE COORDINATES ({})",
-            units.length.name
-        ),
+        format!("1. END POINTS AND C.G. OF SEGMENTS, VEHICLE COORDINATES ({})", units.length.name),
         &[
-            "NO", "<SEGMENT", "UPPER X", "UPPER Y", "UPPER Z", "LOWER X", "LOWER Y", "LOWER Z",
-            "C.G. X", "C.G. Y", "C.G. Z",
+            "NO", "<SEGMENT", "UPPER X", "UPPER Y", "UPPER Z", "LOWER X", "LOWER Y", "LOWER Z", "C.G. X", "C.G. Y",
+            "C.G. Z",
         ],
     );
     for (segment, m) in messages {
         let places = ["upper_end_vehicle_m", "lower_end_vehicle_m", "cg_vehicle_m"];
         let places = places.map(|name| units.length.vector(m.components(name)));
-        table.row(
-            label(*segment)
-                .into_iter()
-                .chain(places.into_iter().flatten()),
-        );
+        table.row(label(*segment).into_iter().chain(places.into_iter().flatten()));
     }
     table
 }
@@ -57,18 +50,7 @@ fn accelerations(messages: &[(Segment, Message<'_>)], units: &Units) -> Table {
             "2. ACCELERATION OF C.G., SEGMENT COORDINATES: TOTAL ({}), AND LESS GRAVITY AS AN ACCELEROMETER READS IT (G)",
             units.acceleration.name
         ),
-        &[
-            "NO",
-            "<SEGMENT",
-            "TOTAL X",
-            "TOTAL Y",
-            "TOTAL Z",
-            "RESULTANT",
-            "READS X",
-            "READS Y",
-            "READS Z",
-            "RESULTANT",
-        ],
+        &["NO", "<SEGMENT", "TOTAL X", "TOTAL Y", "TOTAL Z", "RESULTANT", "READS X", "READS Y", "READS Z", "RESULTANT"],
     );
     for (segment, m) in messages {
         let total = m.components("cg_acceleration_segment_m_s2");
@@ -87,9 +69,7 @@ fn accelerations(messages: &[(Segment, Message<'_>)], units: &Units) -> Table {
 fn turning(messages: &[(Segment, Message<'_>)]) -> Table {
     let mut table = Table::new(
         "3, 4. ANGULAR ACCELERATION (RAD/S2) AND ANGULAR VELOCITY (RAD/S), SEGMENT COORDINATES",
-        &[
-            "NO", "<SEGMENT", "ACC X", "ACC Y", "ACC Z", "VEL X", "VEL Y", "VEL Z",
-        ],
+        &["NO", "<SEGMENT", "ACC X", "ACC Y", "ACC Z", "VEL X", "VEL Y", "VEL Z"],
     );
     for (segment, m) in messages {
         let acceleration = RAD_S2.vector(m.components("angular_acceleration_segment_rad_s2"));

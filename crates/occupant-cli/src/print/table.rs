@@ -54,10 +54,7 @@ impl Table {
         let gaps = GAP * widths.len().saturating_sub(1);
         let mut excess = (widths.iter().sum::<usize>() + gaps).saturating_sub(COLUMNS);
         while excess > 0 {
-            let names = widths
-                .iter_mut()
-                .zip(&self.words)
-                .filter(|(_, words)| **words);
+            let names = widths.iter_mut().zip(&self.words).filter(|(_, words)| **words);
             match names.map(|(w, _)| w).max() {
                 Some(widest) if *widest > SHORTEST => *widest -= 1,
                 _ => break,

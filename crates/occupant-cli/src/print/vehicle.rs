@@ -19,12 +19,7 @@ pub fn write(pages: &mut Pages, case: &Case, units: &Units, output: usize) -> Re
     let motion = |name, unit: &super::unit::Unit| unit.vector(m.components(name));
     let speed = format!("VELOCITY ({})", units.speed.name);
     let rows = [
-        (
-            "POSITION",
-            motion("position_path_m", &units.length),
-            "ROLL, PITCH, YAW (DEG)",
-            angles,
-        ),
+        ("POSITION", motion("position_path_m", &units.length), "ROLL, PITCH, YAW (DEG)", angles),
         (
             speed.as_str(),
             motion("velocity_vehicle_m_s", &units.speed),

@@ -45,37 +45,19 @@ const RECIPES: [Recipe; 9] = [
             ("lower_torso.acceleration.resultant", "pelvis"),
         ],
     },
-    Recipe {
-        title: "Belt force",
-        unit: "kN",
-        per_si: 1e-3,
-        channels: &[("belt.*.force", "*")],
-    },
-    Recipe {
-        title: CONTACTS,
-        unit: "kN",
-        per_si: 1e-3,
-        channels: &[("sphere.*.force.resultant", "*")],
-    },
+    Recipe { title: "Belt force", unit: "kN", per_si: 1e-3, channels: &[("belt.*.force", "*")] },
+    Recipe { title: CONTACTS, unit: "kN", per_si: 1e-3, channels: &[("sphere.*.force.resultant", "*")] },
     Recipe {
         title: "Neck force on the head",
         unit: "kN",
         per_si: 1e-3,
-        channels: &[
-            ("neck.force.x", "shear x"),
-            ("neck.force.y", "shear y"),
-            ("neck.force.z", "axial z"),
-        ],
+        channels: &[("neck.force.x", "shear x"), ("neck.force.y", "shear y"), ("neck.force.z", "axial z")],
     },
     Recipe {
         title: "Neck moment on the head",
         unit: "N·m",
         per_si: 1.0,
-        channels: &[
-            ("neck.moment.x", "x"),
-            ("neck.moment.y", "y, + flexion"),
-            ("neck.moment.z", "z"),
-        ],
+        channels: &[("neck.moment.x", "x"), ("neck.moment.y", "y, + flexion"), ("neck.moment.z", "z")],
     },
     Recipe {
         title: "Femur axial force",
@@ -87,11 +69,7 @@ const RECIPES: [Recipe; 9] = [
         title: "Vehicle acceleration",
         unit: "g",
         per_si: 1.0 / STANDARD_GRAVITY_M_S2,
-        channels: &[
-            ("vehicle.acceleration.x", "x"),
-            ("vehicle.acceleration.y", "y"),
-            ("vehicle.acceleration.z", "z"),
-        ],
+        channels: &[("vehicle.acceleration.x", "x"), ("vehicle.acceleration.y", "y"), ("vehicle.acceleration.z", "z")],
     },
     Recipe {
         title: "Energy",
@@ -107,12 +85,7 @@ const RECIPES: [Recipe; 9] = [
             ("energy.lost_belts", "lost in belts"),
         ],
     },
-    Recipe {
-        title: "Energy balance error",
-        unit: "J",
-        per_si: 1.0,
-        channels: &[("energy.balance", "imbalance")],
-    },
+    Recipe { title: "Energy balance error", unit: "J", per_si: 1.0, channels: &[("energy.balance", "imbalance")] },
 ];
 const CONTACTS: &str = "Contact force";
 
@@ -127,11 +100,8 @@ pub fn series(model: &Model) -> Series {
 
 /// The plots, without those that would be empty.
 pub fn plots(series: &Series) -> Vec<Plot> {
-    let plots = RECIPES.iter().map(|recipe| Plot {
-        title: recipe.title,
-        unit: recipe.unit,
-        curves: curves(recipe, series),
-    });
+    let plots =
+        RECIPES.iter().map(|recipe| Plot { title: recipe.title, unit: recipe.unit, curves: curves(recipe, series) });
     plots.filter(|p| !p.curves.is_empty()).collect()
 }
 
@@ -182,10 +152,7 @@ mod tests {
 
     #[test]
     fn a_star_is_one_name() {
-        let found = star(
-            "sphere.*.force.resultant",
-            "sphere.left_knee.force.resultant",
-        );
+        let found = star("sphere.*.force.resultant", "sphere.left_knee.force.resultant");
         assert_eq!(found.as_deref(), Some("left_knee"));
         assert_eq!(star("belt.*.force", "belt.lap.elongation"), None);
         assert_eq!(star("a", "a").as_deref(), Some(""));

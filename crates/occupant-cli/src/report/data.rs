@@ -197,13 +197,8 @@ fn surfaces(results: &Results) -> Vec<SurfaceData> {
 }
 
 /// A square of the plane about a point of it.
-fn patch(
-    face: &occupant_core::compartment::FlatFace,
-    about: nalgebra::Vector3<f64>,
-) -> Vec<[f64; 3]> {
+fn patch(face: &occupant_core::compartment::FlatFace, about: nalgebra::Vector3<f64>) -> Vec<[f64; 3]> {
     let (u, v) = face.plane_axes();
     let half = crate::figure::PATCH_M;
-    [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)]
-        .map(|(a, b)| (about + (u * a + v * b) * half).into())
-        .to_vec()
+    [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)].map(|(a, b)| (about + (u * a + v * b) * half).into()).to_vec()
 }

@@ -33,17 +33,7 @@ impl Measure {
         unit: &'static str,
         time_s: Option<f64>,
     ) -> Self {
-        Measure {
-            group,
-            name: name.into(),
-            value,
-            unit,
-            time_s,
-            limit: None,
-            rule: None,
-            verdict: None,
-            remark: None,
-        }
+        Measure { group, name: name.into(), value, unit, time_s, limit: None, rule: None, verdict: None, remark: None }
     }
 }
 
@@ -57,16 +47,8 @@ pub fn measures(summary: &Summary) -> Vec<Measure> {
     let mut add = |name: &str, value: f64, unit| {
         rows.push(Measure::new(group, name, Some(value), unit, None));
     };
-    add(
-        "Greatest imbalance, of the greatest kinetic energy",
-        100.0 * energy.balance_error,
-        "%",
-    );
-    add(
-        "Greatest kinetic energy, in the vehicle",
-        energy.greatest_kinetic_j,
-        "J",
-    );
+    add("Greatest imbalance, of the greatest kinetic energy", 100.0 * energy.balance_error, "%");
+    add("Greatest kinetic energy, in the vehicle", energy.greatest_kinetic_j, "J");
     add("Steps", summary.solver.steps as f64, "");
     add("Steps rejected", summary.solver.rejected as f64, "");
     rows
@@ -135,12 +117,6 @@ fn add_excursion(rows: &mut Vec<Measure>, summary: &Summary) {
         ("down", e.down_m, e.down_time_s),
     ] {
         let group = "Head excursion in the vehicle";
-        rows.push(Measure::new(
-            group,
-            way,
-            Some(by_m * 1e3),
-            "mm",
-            Some(time_s),
-        ));
+        rows.push(Measure::new(group, way, Some(by_m * 1e3), "mm", Some(time_s)));
     }
 }

@@ -25,9 +25,6 @@ pub fn page(run: &Results, against: Option<&Results>) -> Result<String, Failure>
     if let Some(other) = against {
         runs.push(data::Run::of(other)?);
     }
-    let report = Report {
-        program: crate::cli::run::program(),
-        runs,
-    };
+    let report = Report { program: crate::cli::run::program(), runs };
     page::fill(&report)
 }

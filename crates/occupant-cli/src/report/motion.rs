@@ -153,8 +153,7 @@ mod tests {
 
     #[test]
     fn courses_of_any_length_get_as_many_points() {
-        let line =
-            |n: usize| -> Vec<_> { (0..n).map(|i| Point3::new(i as f64, 0.0, 0.0)).collect() };
+        let line = |n: usize| -> Vec<_> { (0..n).map(|i| Point3::new(i as f64, 0.0, 0.0)).collect() };
         for n in [2, 4, 5, 30] {
             let points = evenly(&line(n));
             assert_eq!(points.len(), BELT_POINTS);

@@ -16,8 +16,8 @@ const STYLE: &str = include_str!("../../assets/viewer/dist/viewer.css");
 /// # Errors
 /// Data that are no JSON, which those of a report always are.
 pub fn fill(report: &Report) -> Result<String, Failure> {
-    let data = serde_json::to_string(report)
-        .map_err(|e| Failure::plain(format!("the report's data are not JSON: {e}")))?;
+    let data =
+        serde_json::to_string(report).map_err(|e| Failure::plain(format!("the report's data are not JSON: {e}")))?;
     let parts = [
         ("program", escape(&report.program)),
         ("title", escape(&report.title())),
@@ -36,8 +36,7 @@ fn harmless(json: &str) -> String {
 
 /// Puts each part where `{{name}}` stands, once and in order: what a part holds is never searched.
 fn replace(page: &str, parts: &[(&str, String)]) -> String {
-    let mut out =
-        String::with_capacity(page.len() + parts.iter().map(|p| p.1.len()).sum::<usize>());
+    let mut out = String::with_capacity(page.len() + parts.iter().map(|p| p.1.len()).sum::<usize>());
     let mut rest = page;
     while let Some((before, after)) = rest.split_once("{{") {
         out.push_str(before);

@@ -15,10 +15,7 @@ pub fn lines(results: &Results, summary: &Summary) -> Vec<[String; 2]> {
     };
     let reason = summary.reason.as_ref().map(|r| format!(": {r}"));
     put("status", format!("{status}{}", reason.unwrap_or_default()));
-    put(
-        "reached",
-        format!("{} s of {} s", summary.reached_s, summary.end_s),
-    );
+    put("reached", format!("{} s of {} s", summary.reached_s, summary.end_s));
     put("outputs", results.checkpoints.len().to_string());
     put("results", results.path.display().to_string());
     put("results, SHA-256", results.sha256.clone());

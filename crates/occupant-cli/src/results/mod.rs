@@ -50,20 +50,17 @@ impl Results {
     /// A file that cannot be read, holds no run, or whose scenario this program refuses.
     pub fn open(path: &Path) -> Result<Self, Failure> {
         let name = path.display();
-        let bytes =
-            fs::read(path).map_err(|e| Failure::plain(format!("{name} cannot be read: {e}")))?;
+        let bytes = fs::read(path).map_err(|e| Failure::plain(format!("{name} cannot be read: {e}")))?;
         let run = StoredRun::read(&bytes).map_err(|e| no_results(path, &e))?;
         if run.run.is_empty() || run.checkpoints.is_empty() {
             return Err(no_results(path, "it holds no outputs of a run"));
         }
         let loaded = stored(path, &run)?;
-        let (model, _) = loaded.model().map_err(|problems| {
-            Failure::plain(format!("the scenario in {name} is refused:\n{problems}"))
-        })?;
+        let (model, _) = loaded
+            .model()
+            .map_err(|problems| Failure::plain(format!("the scenario in {name} is refused:\n{problems}")))?;
         for checkpoint in &run.checkpoints {
-            checkpoint
-                .check(&model)
-                .map_err(|e| no_results(path, &e.to_string()))?;
+            checkpoint.check(&model).map_err(|e| no_results(path, &e.to_string()))?;
         }
         let text = run.run.get("scenario").and_then(|n| run.attachments.get(n));
         Ok(Results {
@@ -100,9 +97,7 @@ impl Results {
         if !self.is_complete() {
             let reason = self.result.as_ref().and_then(|r| r.get("reason"));
             let reason = reason.map_or("it was cut off", String::as_str);
-            notes.push(format!(
-                "{name} holds a run that did not complete: {reason}"
-            ));
+            notes.push(format!("{name} holds a run that did not complete: {reason}"));
         }
         let theirs = self.run.get("program").map_or("?", String::as_str);
         if theirs != program() {
@@ -119,9 +114,8 @@ impl Results {
     /// # Errors
     /// What the recorder reports.
     pub fn replay(&self, mut recorder: impl Recorder) -> Result<(), Failure> {
-        let refused = |e: &dyn std::fmt::Display| {
-            Failure::plain(format!("{} cannot be evaluated: {e}", self.path.display()))
-        };
+        let refused =
+            |e: &dyn std::fmt::Display| Failure::plain(format!("{} cannot be evaluated: {e}", self.path.display()));
         recorder.begin(&self.model).map_err(|e| refused(&e))?;
         for checkpoint in &self.checkpoints {
             replay(&self.model, checkpoint, &mut recorder).map_err(|e| refused(&e))?;
@@ -155,9 +149,7 @@ impl Results {
         let mut summarizer = Summarizer::new();
         self.replay(&mut summarizer)?;
         let refused = |what: &str| Failure::plain(format!("{}: {what}", self.path.display()));
-        summarizer
-            .end(&self.outcome())
-            .map_err(|e| refused(&e.to_string()))?;
+        summarizer.end(&self.outcome()).map_err(|e| refused(&e.to_string()))?;
         let summary = summarizer.summary(None);
         let mut summary = summary.ok_or_else(|| refused("the run left no summary"))?;
         summary.status = self.status();

@@ -73,11 +73,7 @@ pub struct Figures {
 impl Figures {
     /// The measures of a report.
     pub fn of(report: &Report) -> Self {
-        let mut all = Figures {
-            figures: Vec::new(),
-            left_out: Vec::new(),
-            start_s: report.signals.start_s,
-        };
+        let mut all = Figures { figures: Vec::new(), left_out: Vec::new(), start_s: report.signals.start_s };
         all.flail(report);
         all.head_impact(report);
         all.severity(report);
@@ -106,10 +102,7 @@ impl Figures {
     }
 
     fn leave_out(&mut self, name: &str, reason: impl ToString) {
-        self.left_out.push(LeftOut {
-            name: name.to_owned(),
-            reason: reason.to_string(),
-        });
+        self.left_out.push(LeftOut { name: name.to_owned(), reason: reason.to_string() });
     }
 
     /// The measure, or a line that says why it was left out.
@@ -128,19 +121,13 @@ impl Figures {
             return;
         };
         let when: Vec<f64> = flail.impact_s.into_iter().collect();
-        for (name, key, value) in [
-            ("OIV x", "oiv_x_m_s", flail.oiv_x_mps),
-            ("OIV y", "oiv_y_m_s", flail.oiv_y_mps),
-        ] {
+        for (name, key, value) in [("OIV x", "oiv_x_m_s", flail.oiv_x_mps), ("OIV y", "oiv_y_m_s", flail.oiv_y_mps)] {
             self.add(name, key, value, [M_S, FT_S], &when);
             if flail.impact_s.is_none() {
                 self.remark("no impact: velocity change of the record");
             }
         }
-        for (name, key, ridedown) in [
-            ("ORA x", "ora_x_m_s2", flail.ora_x),
-            ("ORA y", "ora_y_m_s2", flail.ora_y),
-        ] {
+        for (name, key, ridedown) in [("ORA x", "ora_x_m_s2", flail.ora_x), ("ORA y", "ora_y_m_s2", flail.ora_y)] {
             match ridedown {
                 Some(w) => self.add(name, key, w.value, [G_UNIT, M_S2], &[w.start_s, w.end_s]),
                 None => self.leave_out(name, no_ridedown(flail.impact_s)),
@@ -152,21 +139,9 @@ impl Figures {
         let Some(thiv) = self.measured("THIV and PHD", &report.risk.thiv) else {
             return;
         };
-        self.add(
-            "THIV",
-            "thiv_m_s",
-            thiv.speed_mps,
-            [KM_H, M_S],
-            &[thiv.impact_s],
-        );
+        self.add("THIV", "thiv_m_s", thiv.speed_mps, [KM_H, M_S], &[thiv.impact_s]);
         match thiv.phd {
-            Some(w) => self.add(
-                "PHD",
-                "phd_m_s2",
-                w.value,
-                [G_UNIT, M_S2],
-                &[w.start_s, w.end_s],
-            ),
+            Some(w) => self.add("PHD", "phd_m_s2", w.value, [G_UNIT, M_S2], &[w.start_s, w.end_s]),
             None => self.leave_out("PHD", no_ridedown(Some(thiv.impact_s))),
         }
     }

@@ -6,9 +6,7 @@ mod subject;
 mod table;
 
 use occupant_core::measure::limits::Rule;
-use occupant_core::vehicle_risk::{
-    Flight, Judgement, Preparation, ROADSIDE_RULES, VehicleRisk, VehicleSignals, judge,
-};
+use occupant_core::vehicle_risk::{Flight, Judgement, Preparation, ROADSIDE_RULES, VehicleRisk, VehicleSignals, judge};
 
 pub use json::json;
 pub use subject::Subject;
@@ -45,13 +43,6 @@ impl Report {
             [] => judge(&risk, &ROADSIDE_RULES),
             rules => judge(&risk, rules),
         };
-        Report {
-            subject,
-            preparation,
-            flight,
-            signals,
-            risk,
-            judgements,
-        }
+        Report { subject, preparation, flight, signals, risk, judgements }
     }
 }

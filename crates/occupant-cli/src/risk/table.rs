@@ -18,9 +18,7 @@ pub fn text(report: &Report) -> String {
     }
     if !figures.left_out.is_empty() {
         let lines = figures.left_out.iter();
-        let lines: String = lines
-            .map(|l| format!("  {}: {}\n", l.name, l.reason))
-            .collect();
+        let lines: String = lines.map(|l| format!("  {}: {}\n", l.name, l.reason)).collect();
         parts.push(format!("left out\n{lines}"));
     }
     parts.join("\n")
@@ -106,11 +104,7 @@ fn measures(figures: &Figures) -> String {
     ]);
     for figure in &figures.figures {
         let [first, second] = figure.units;
-        let mut cells = vec![
-            figure.name.clone(),
-            shown(figure.value, first),
-            first.name.into(),
-        ];
+        let mut cells = vec![figure.name.clone(), shown(figure.value, first), first.name.into()];
         match first == second {
             true => cells.extend([String::new(), String::new()]),
             false => cells.extend([shown(figure.value, second), second.name.into()]),

@@ -7,9 +7,7 @@ use occupant_core::model::Model;
 use occupant_core::scenario::place::Misplaced;
 use occupant_core::scenario::{Draft, Resolver};
 use occupant_core::sensitivity::finite::{CHANGES, Comparison, Finite, compare, finite_changes};
-use occupant_core::sensitivity::measures::{
-    Derivatives, Values, Wish, chosen, derivatives, plain_values,
-};
+use occupant_core::sensitivity::measures::{Derivatives, Values, Wish, chosen, derivatives, plain_values};
 use occupant_core::sensitivity::{Built, Parameter, Trajectory, follow, parameter};
 use occupant_core::simulate::{Status, simulate};
 use occupant_core::summary::{Figure, Summarizer};
@@ -99,25 +97,10 @@ pub fn ask<'a>(
             1 => "1 error".to_owned(),
             n => format!("{n} errors"),
         };
-        return Err(Failure::CouldNotRun(format!(
-            "{}\n\n{count}, nothing was computed",
-            wrong.join("\n")
-        )));
+        return Err(Failure::CouldNotRun(format!("{}\n\n{count}, nothing was computed", wrong.join("\n"))));
     }
-    let unit = |name: &String| {
-        figures
-            .iter()
-            .find(|f| f.name == *name)
-            .map_or("1", |f| f.unit)
-    };
-    Ok(Asked {
-        parameters,
-        units: names.iter().map(unit).collect(),
-        wish: Wish {
-            figures: names,
-            channels,
-        },
-    })
+    let unit = |name: &String| figures.iter().find(|f| f.name == *name).map_or("1", |f| f.unit);
+    Ok(Asked { parameters, units: names.iter().map(unit).collect(), wish: Wish { figures: names, channels } })
 }
 
 /// Lists with commas, several of them; a comma within double quotes belongs to a name.
@@ -135,10 +118,7 @@ fn split(lists: &[String]) -> Vec<String> {
 }
 
 fn told(flag: &str, misplaced: &Misplaced) -> String {
-    let mut text = format!(
-        "error: {flag}: {}\n = expected: {}",
-        misplaced.found, misplaced.expected
-    );
+    let mut text = format!("error: {flag}: {}\n = expected: {}", misplaced.found, misplaced.expected);
     if let Some(hint) = &misplaced.hint {
         text.push_str(&format!("\n = help: {hint}"));
     }
@@ -148,10 +128,7 @@ fn told(flag: &str, misplaced: &Misplaced) -> String {
 fn fitting(model: &Model, name: &str) -> Result<Vec<Channel>, String> {
     let unknown = |hint: Option<String>| {
         let help = hint.map_or_else(
-            || {
-                "names are such as head.acceleration.x, belt.lap.force; `*` stands for anything"
-                    .to_owned()
-            },
+            || "names are such as head.acceleration.x, belt.lap.force; `*` stands for anything".to_owned(),
             |nearest| format!("did you mean `{nearest}`?"),
         );
         format!("error: --channels: no channel is called `{name}`\n = help: {help}")
@@ -169,12 +146,10 @@ fn fitting(model: &Model, name: &str) -> Result<Vec<Channel>, String> {
 /// The figures of the plain run.
 fn figures(model: &Model) -> Result<Vec<Figure>, Failure> {
     let mut summarizer = Summarizer::new();
-    let outcome = simulate(model, &mut summarizer)
-        .map_err(|e| Failure::BrokeOff(format!("error: the run broke off: {e}")))?;
+    let outcome =
+        simulate(model, &mut summarizer).map_err(|e| Failure::BrokeOff(format!("error: the run broke off: {e}")))?;
     if let Status::Failed(reason) = outcome.status {
-        return Err(Failure::BrokeOff(format!(
-            "error: the run was not completed, so it has no derivative: {reason}"
-        )));
+        return Err(Failure::BrokeOff(format!("error: the run was not completed, so it has no derivative: {reason}")));
     }
     let summary = summarizer.summary(None);
     Ok(summary.map_or_else(Vec::new, |s| s.figures(model)))
@@ -220,15 +195,7 @@ pub fn analyse(model: &Model, asked: &Asked<'_>) -> Result<Analysis, Failure> {
         all.push(found);
         finite.push(changes);
     }
-    Ok(Analysis {
-        values,
-        trajectory,
-        built,
-        derivatives: all,
-        finite,
-        comparisons,
-        cost_s: [plain_s, dual_s],
-    })
+    Ok(Analysis { values, trajectory, built, derivatives: all, finite, comparisons, cost_s: [plain_s, dual_s] })
 }
 
 /// Relative sensitivity: parts of the figure per part of the parameter; none where one of them is 0.

@@ -108,12 +108,7 @@ impl Answer {
             parameters: parameters(asked, found),
             measures: measures(asked, found),
             sensitivities: sensitivities(asked, found),
-            events: found
-                .trajectory
-                .events
-                .iter()
-                .map(|e| event(e, model))
-                .collect(),
+            events: found.trajectory.events.iter().map(|e| event(e, model)).collect(),
             events_not_kept: found.trajectory.dropped_events,
             holds_while_off_by_at_most: HOLDS,
             cost: Cost {
@@ -148,11 +143,7 @@ fn measures(asked: &Asked<'_>, found: &Analysis) -> Vec<MeasureAnswer> {
     let named = asked.wish.figures.iter().zip(&asked.units);
     named
         .zip(&found.values.figures)
-        .map(|((name, unit), value)| MeasureAnswer {
-            name: name.clone(),
-            unit,
-            value: *value,
-        })
+        .map(|((name, unit), value)| MeasureAnswer { name: name.clone(), unit, value: *value })
         .collect()
 }
 
@@ -171,12 +162,7 @@ fn sensitivities(asked: &Asked<'_>, found: &Analysis) -> Vec<Sensitivity> {
             let changes = found.finite[k].iter().enumerate();
             let change = |(c, finite): (usize, &occupant_core::sensitivity::finite::Finite)| {
                 let [secant_below, secant_above] = comparison.secants[c];
-                ChangeAnswer {
-                    part: finite.part,
-                    secant_below,
-                    secant_above,
-                    off_by: comparison.off[c],
-                }
+                ChangeAnswer { part: finite.part, secant_below, secant_above, off_by: comparison.off[c] }
             };
             all.push(Sensitivity {
                 measure: measure.clone(),
@@ -204,10 +190,6 @@ fn event(event: &Event, model: &Model) -> EventAnswer {
             Change::Jump => "jump",
         },
         jump_n: event.jump_n,
-        shift_s_per_unit: event
-            .shift
-            .iter()
-            .any(|s| *s != 0.0)
-            .then(|| event.shift.clone()),
+        shift_s_per_unit: event.shift.iter().any(|s| *s != 0.0).then(|| event.shift.clone()),
     }
 }

@@ -12,11 +12,7 @@ pub fn histories(asked: &Asked<'_>, found: &Analysis) -> Histories {
     let mut columns = Vec::new();
     for (c, channel) in asked.wish.channels.iter().enumerate() {
         let mut column = |values: Vec<f64>| {
-            columns.push(Column {
-                channel: channel.clone(),
-                class: None,
-                values,
-            });
+            columns.push(Column { channel: channel.clone(), class: None, values });
         };
         column(found.values.channels[c].clone());
         for derivatives in &found.derivatives {
@@ -24,20 +20,11 @@ pub fn histories(asked: &Asked<'_>, found: &Analysis) -> Histories {
         }
     }
     let outputs = &found.trajectory.checkpoints;
-    Histories {
-        time_s: outputs.iter().map(|o| o.time_s).collect(),
-        columns,
-        notes: Vec::new(),
-    }
+    Histories { time_s: outputs.iter().map(|o| o.time_s).collect(), columns, notes: Vec::new() }
 }
 
 /// What the columns are; `source` is the scenario's name and SHA-256.
-pub fn about(
-    model: &Model,
-    asked: &Asked<'_>,
-    found: &Analysis,
-    [source, sha256]: [&str; 2],
-) -> About {
+pub fn about(model: &Model, asked: &Asked<'_>, found: &Analysis, [source, sha256]: [&str; 2]) -> About {
     let mut columns = vec![ColumnAbout {
         name: "time".to_owned(),
         unit: "s".to_owned(),
@@ -54,11 +41,7 @@ pub fn about(
             filter: "none".to_owned(),
             meaning,
         };
-        columns.push(column(
-            channel.name.clone(),
-            unit.to_owned(),
-            channel.meaning.clone(),
-        ));
+        columns.push(column(channel.name.clone(), unit.to_owned(), channel.meaning.clone()));
         for parameter in &asked.parameters {
             columns.push(column(
                 format!("d({})/d({})", channel.name, parameter.name),
@@ -69,9 +52,8 @@ pub fn about(
     }
     let events = found.trajectory.events.len();
     let mut notes: Vec<String> = found.built.iter().flat_map(|b| b.notes.clone()).collect();
-    notes.push(format!(
-        "derivatives at fixed times, in SI units; {events} places of the run where they are not smooth"
-    ));
+    notes
+        .push(format!("derivatives at fixed times, in SI units; {events} places of the run where they are not smooth"));
     About {
         program: crate::cli::run::program(),
         title: model.setup().title.clone(),

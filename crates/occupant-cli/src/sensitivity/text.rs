@@ -50,22 +50,11 @@ fn heading(model: &Model, asked: &Asked<'_>, found: &Analysis) -> String {
     let worst = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0_f64, f64::max);
     let constants = worst(&mut found.built.iter().map(|b| b.doubt));
     let figures = found.derivatives.iter().flat_map(|d| &d.figures);
-    let figures = worst(
-        &mut figures
-            .filter(|s| s.value != 0.0)
-            .map(|s| s.doubt / s.value.abs()),
-    );
+    let figures = worst(&mut figures.filter(|s| s.value != 0.0).map(|s| s.doubt / s.value.abs()));
     let mut accuracy = format!("the start and all constants to {constants:.0e}");
-    if let Some((doubt, time_s)) = found
-        .built
-        .iter()
-        .filter_map(|b| b.path_doubt())
-        .max_by(|a, b| a.0.total_cmp(&b.0))
+    if let Some((doubt, time_s)) = found.built.iter().filter_map(|b| b.path_doubt()).max_by(|a, b| a.0.total_cmp(&b.0))
     {
-        accuracy.push_str(&format!(
-            ", the vehicle's motion to {doubt:.0e} (worst at {:.1} ms)",
-            time_s * 1e3
-        ));
+        accuracy.push_str(&format!(", the vehicle's motion to {doubt:.0e} (worst at {:.1} ms)", time_s * 1e3));
     }
     if !asked.wish.figures.is_empty() {
         accuracy.push_str(&format!(", measures to {figures:.0e}"));
@@ -86,10 +75,7 @@ fn heading(model: &Model, asked: &Asked<'_>, found: &Analysis) -> String {
             ),
         ),
         ("extrapolated", accuracy),
-        (
-            "cost",
-            format!("{:.1} times the plain run for {count}", dual / plain),
-        ),
+        ("cost", format!("{:.1} times the plain run for {count}", dual / plain)),
     ])
 }
 
@@ -162,11 +148,7 @@ fn words(verdict: &Verdict, of_zero: bool) -> String {
             format!("within {} up to ±{}", percent(off), part(up_to))
         }
         Verdict::NoInfluence => "no influence".to_owned(),
-        Verdict::NotReliable { off, at } => format!(
-            "not to be relied upon: {} off at ±{}",
-            percent(off),
-            part(at)
-        ),
+        Verdict::NotReliable { off, at } => format!("not to be relied upon: {} off at ±{}", percent(off), part(at)),
         Verdict::Unchecked => "not checked: no run beside it".to_owned(),
     }
 }
@@ -192,10 +174,7 @@ fn events(model: &Model, events: &[Event]) -> String {
         let minor = matches!(
             e.happening,
             Happening::Contact {
-                what: Touching::Unloads
-                    | Touching::Reloads
-                    | Touching::Stiffens
-                    | Touching::SlipsBack,
+                what: Touching::Unloads | Touching::Reloads | Touching::Stiffens | Touching::SlipsBack,
                 ..
             }
         );
@@ -220,8 +199,7 @@ fn events(model: &Model, events: &[Event]) -> String {
         text.push_str(&format!("and {} more of these\n", told.len() - TOLD));
     }
     let count = |what: Touching| {
-        let fits =
-            |e: &&Event| matches!(e.happening, Happening::Contact { what: w, .. } if w == what);
+        let fits = |e: &&Event| matches!(e.happening, Happening::Contact { what: w, .. } if w == what);
         events.iter().filter(fits).count()
     };
     text.push_str(&format!(
@@ -246,10 +224,7 @@ mod tests {
     #[test]
     fn parts_are_told_as_per_cent() {
         let told: Vec<String> = [1e-4, 1e-3, 0.01, 0.0123, 0.2, 30.0].map(percent).into();
-        assert_eq!(
-            told,
-            ["0.01 %", "0.1 %", "1 %", "1.2 %", "20 %", "> 1000 %"]
-        );
+        assert_eq!(told, ["0.01 %", "0.1 %", "1 %", "1.2 %", "20 %", "> 1000 %"]);
         assert_eq!(number(-0.001234567), "-0.0012346");
         assert_eq!(number(1234567.0), "1.2346e6");
     }

@@ -10,10 +10,7 @@ pub fn per(measure: &str, parameter: &str) -> String {
     match (bare(measure), bare(parameter)) {
         (true, true) => "1".to_owned(),
         (false, true) => measure.to_owned(),
-        (_, false) => format!(
-            "{}/{parameter_in_brackets}",
-            if bare(measure) { "1" } else { measure }
-        ),
+        (_, false) => format!("{}/{parameter_in_brackets}", if bare(measure) { "1" } else { measure }),
     }
 }
 

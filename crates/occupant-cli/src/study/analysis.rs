@@ -1,8 +1,8 @@
 //! What a table of samples says of one response.
 
 use occupant_core::study::analysis::{
-    AnalysisError, Effect, RankCorrelation, Regression, SobolIndices, rank_correlation, regression,
-    screening, sobol_indices,
+    AnalysisError, Effect, RankCorrelation, Regression, SobolIndices, rank_correlation, regression, screening,
+    sobol_indices,
 };
 use occupant_core::study::spread::Spread;
 use occupant_core::study::{Block, Design, Role, Study};
@@ -73,10 +73,7 @@ impl Reach {
     /// Least and greatest response, that of the base included.
     pub fn range(&self) -> [f64; 2] {
         let all = || self.levels.iter().map(|l| l.1).chain([self.nominal]);
-        [
-            all().fold(f64::INFINITY, f64::min),
-            all().fold(f64::NEG_INFINITY, f64::max),
-        ]
+        [all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max)]
     }
 
     /// The response at the least and at the greatest value of the parameter, if its values have an order.
@@ -167,21 +164,12 @@ impl Linear {
     }
 
     fn without(why: &str) -> Linear {
-        Linear {
-            without: Some(why.to_owned()),
-            ranks: Vec::new(),
-            regression: Err(why.to_owned()),
-        }
+        Linear { without: Some(why.to_owned()), ranks: Vec::new(), regression: Err(why.to_owned()) }
     }
 }
 
 /// The regression on all parameters that are numbers and vary.
-fn fit(
-    inputs: &[Input],
-    rows: &[usize],
-    values: &[f64],
-    seed: u64,
-) -> Result<(Vec<usize>, Regression), String> {
+fn fit(inputs: &[Input], rows: &[usize], values: &[f64], seed: u64) -> Result<(Vec<usize>, Regression), String> {
     let among = |i: &usize| inputs[*i].is_number() && inputs[*i].varies();
     let which: Vec<usize> = (0..inputs.len()).filter(among).collect();
     if which.is_empty() {
@@ -200,15 +188,7 @@ fn fit(
 
 /// Rows whose parameters were drawn independently: A and B.
 fn independent(samples: &Samples) -> Vec<usize> {
-    let is_one = |row: &usize| {
-        matches!(
-            samples.roles[*row],
-            Role::Saltelli {
-                block: Block::A | Block::B,
-                ..
-            }
-        )
-    };
+    let is_one = |row: &usize| matches!(samples.roles[*row], Role::Saltelli { block: Block::A | Block::B, .. });
     (0..samples.len()).filter(is_one).collect()
 }
 
@@ -231,11 +211,7 @@ fn sobol(samples: &Samples, values: &[f64], seed: u64) -> Result<SobolIndices, S
         }
     };
     for (role, value) in samples.roles.iter().zip(values) {
-        let Role::Saltelli {
-            point: number,
-            block,
-        } = role
-        else {
+        let Role::Saltelli { point: number, block } = role else {
             continue;
         };
         if point.0 != *number {
@@ -285,12 +261,7 @@ fn reaches(samples: &Samples, values: &[f64]) -> Result<Vec<Reach>, String> {
     let base = samples.roles.iter().position(|r| *r == Role::Nominal);
     let nominal = base.map(|row| values[row]).filter(|x| x.is_finite());
     let nominal = nominal.ok_or("the run of the base has no such figure")?;
-    let none = |input: &Input| Reach {
-        nominal,
-        levels: Vec::new(),
-        missing: 0,
-        ordered: input.is_number(),
-    };
+    let none = |input: &Input| Reach { nominal, levels: Vec::new(), missing: 0, ordered: input.is_number() };
     let mut reaches: Vec<Reach> = samples.inputs.iter().map(none).collect();
     for (row, role) in samples.roles.iter().enumerate() {
         let Role::Varied { parameter } = role else {
@@ -298,9 +269,7 @@ fn reaches(samples: &Samples, values: &[f64]) -> Result<Vec<Reach>, String> {
         };
         let reach = &mut reaches[*parameter];
         match values[row].is_finite() {
-            true => reach
-                .levels
-                .push((samples.inputs[*parameter].values[row], values[row])),
+            true => reach.levels.push((samples.inputs[*parameter].values[row], values[row])),
             false => reach.missing += 1,
         }
     }
@@ -309,12 +278,8 @@ fn reaches(samples: &Samples, values: &[f64]) -> Result<Vec<Reach>, String> {
 
 fn said(error: &AnalysisError) -> String {
     match error {
-        AnalysisError::Constant { parameter: Some(_) } => {
-            "a parameter is the same in all rows".to_owned()
-        }
-        AnalysisError::Constant { parameter: None } => {
-            "the figure is the same in all rows".to_owned()
-        }
+        AnalysisError::Constant { parameter: Some(_) } => "a parameter is the same in all rows".to_owned(),
+        AnalysisError::Constant { parameter: None } => "the figure is the same in all rows".to_owned(),
         e => e.to_string(),
     }
 }

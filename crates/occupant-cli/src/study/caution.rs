@@ -4,9 +4,7 @@
 //! that is known, a linear model that explains most of what it is a model of.
 
 use occupant_core::study::Design;
-use occupant_core::study::analysis::{
-    Effect, Estimate, RankCorrelation, Regression, SobolIndices, rank_correlation,
-};
+use occupant_core::study::analysis::{Effect, Estimate, RankCorrelation, Regression, SobolIndices, rank_correlation};
 use occupant_core::study::spread::Spread;
 
 use super::gather::Gathered;
@@ -34,9 +32,7 @@ const NAMED: usize = 3;
 /// The rules, for the page and the documentation.
 pub fn rules() -> [String; 6] {
     [
-        format!(
-            "a Sobol index whose 95 % interval is wider than {INDEX_WIDTH}: its first digit is not known"
-        ),
+        format!("a Sobol index whose 95 % interval is wider than {INDEX_WIDTH}: its first digit is not known"),
         format!(
             "a Morris effect with fewer than {TRAJECTORIES} trajectories, or whose interval is wider than the effect"
         ),
@@ -48,8 +44,7 @@ pub fn rules() -> [String; 6] {
             "every number of a response that more than {:.0} % of the runs lack: runs seldom fail by chance",
             100.0 * MISSING
         ),
-        "the unfinished part of a study is not there: its design holds for the whole only"
-            .to_owned(),
+        "the unfinished part of a study is not there: its design holds for the whole only".to_owned(),
     ]
 }
 
@@ -71,10 +66,7 @@ pub fn regression(found: &Regression) -> Option<String> {
 pub fn index(index: &Estimate, found: &SobolIndices) -> Option<String> {
     if part(found.dropped, found.points + found.dropped) > MISSING {
         let all = found.points + found.dropped;
-        return Some(format!(
-            "{} of {all} points have runs without a figure",
-            found.dropped
-        ));
+        return Some(format!("{} of {all} points have runs without a figure", found.dropped));
     }
     let unknown = !index.width().is_finite() || index.width() > INDEX_WIDTH;
     unknown.then(|| format!("interval wider than {INDEX_WIDTH}"))
@@ -83,10 +75,7 @@ pub fn index(index: &Estimate, found: &SobolIndices) -> Option<String> {
 /// Why an effect is marked.
 pub fn effect(found: &Effect) -> Option<String> {
     if found.effects < TRAJECTORIES {
-        return Some(format!(
-            "{} trajectories, fewer than {TRAJECTORIES}",
-            found.effects
-        ));
+        return Some(format!("{} trajectories, fewer than {TRAJECTORIES}", found.effects));
     }
     let wide = found.mean_magnitude.width() > found.mean_magnitude.value;
     wide.then(|| "interval wider than the effect".to_owned())
@@ -124,15 +113,13 @@ pub fn of_the_study(opened: &Opened, gathered: &Gathered) -> Vec<String> {
         ));
     }
     let study = opened.plan.study();
-    if !matches!(
-        study.design(),
-        Design::Saltelli { .. } | Design::Morris { .. } | Design::OneAtATime { .. }
-    ) {
+    if !matches!(study.design(), Design::Saltelli { .. } | Design::Morris { .. } | Design::OneAtATime { .. }) {
         notes.extend(together(&gathered.samples));
     }
     if study.parameters().is_empty() && *study.design() == Design::Single {
         notes.push(
-            "The study varies nothing but the small changes of its ensemble: there is no parameter to analyse.".to_owned(),
+            "The study varies nothing but the small changes of its ensemble: there is no parameter to analyse."
+                .to_owned(),
         );
     }
     notes
@@ -168,11 +155,7 @@ mod tests {
 
     #[test]
     fn a_number_is_marked_exactly_where_a_rule_says_so() {
-        let estimate = |low: f64, high: f64| Estimate {
-            value: 0.5 * (low + high),
-            low,
-            high,
-        };
+        let estimate = |low: f64, high: f64| Estimate { value: 0.5 * (low + high), low, high };
         let found = |points, dropped| SobolIndices {
             first: Vec::new(),
             total: Vec::new(),
@@ -194,11 +177,7 @@ mod tests {
         };
         assert_eq!(effect(&effect_of(10, 3.0)), None);
         assert!(effect(&effect_of(9, 1.0)).is_some() && effect(&effect_of(10, 3.1)).is_some());
-        let fit = |rows, explained| Regression {
-            coefficients: vec![estimate(0.0, 0.0); 3],
-            explained,
-            rows,
-        };
+        let fit = |rows, explained| Regression { coefficients: vec![estimate(0.0, 0.0); 3], explained, rows };
         assert_eq!(regression(&fit(30, 0.7)), None);
         assert!(regression(&fit(29, 0.9)).is_some() && regression(&fit(30, 0.69)).is_some());
         assert_eq!(missing(5, 100), None);

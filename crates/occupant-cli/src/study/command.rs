@@ -18,10 +18,7 @@ const FILE: &str = "path.file";
 /// The command that runs a run of the study again, given in the folder of the sweep. None where no shell can say it.
 pub fn command(plan: &Plan, manifest: &Manifest, run: u64) -> Option<String> {
     let (args, _) = plan.command(run);
-    let base = manifest
-        .texts
-        .iter()
-        .find(|t| t.by == NamedBy::StudyAsBase)?;
+    let base = manifest.texts.iter().find(|t| t.by == NamedBy::StudyAsBase)?;
     let mut words = vec!["occupant".to_owned(), "run".to_owned(), base.copy.clone()];
     let table = table(plan, manifest, run);
     for change in args.overrides.into_iter().chain(table) {
@@ -74,9 +71,7 @@ mod tests {
         ];
         for word in words {
             let script = format!("printf %s {}", quoted(word).unwrap());
-            let output = std::process::Command::new("sh")
-                .args(["-c", &script])
-                .output();
+            let output = std::process::Command::new("sh").args(["-c", &script]).output();
             assert_eq!(output.unwrap().stdout, word.as_bytes(), "{word}");
         }
         assert_eq!(quoted("a\0b"), None);

@@ -13,80 +13,47 @@ pub fn design(study: &Study) -> String {
         Design::Single => "the scenario itself".to_owned(),
         Design::FullFactorial => "full factorial: every value with every other".to_owned(),
         Design::LatinHypercube { samples } => format!("Latin hypercube of {samples} samples"),
-        Design::Sobol { samples, scramble } => format!(
-            "Sobol’s sequence, {samples} points, {}",
-            if *scramble { "scrambled" } else { "plain" }
-        ),
-        Design::MonteCarlo { samples } => format!("Monte Carlo, {samples} independent samples"),
-        Design::OneAtATime { .. } => {
-            "one parameter at a time, all others as in the base".to_owned()
+        Design::Sobol { samples, scramble } => {
+            format!("Sobol’s sequence, {samples} points, {}", if *scramble { "scrambled" } else { "plain" })
         }
+        Design::MonteCarlo { samples } => format!("Monte Carlo, {samples} independent samples"),
+        Design::OneAtATime { .. } => "one parameter at a time, all others as in the base".to_owned(),
         Design::Table { rows } => format!("a table of {} samples", rows.len()),
-        Design::Saltelli {
-            samples,
-            second_order,
-        } => format!(
+        Design::Saltelli { samples, second_order } => format!(
             "Saltelli’s blocks for Sobol indices, {samples} points{}",
-            if *second_order {
-                ", second order included"
-            } else {
-                ""
-            }
+            if *second_order { ", second order included" } else { "" }
         ),
-        Design::Morris {
-            trajectories,
-            levels,
-            ..
-        } => format!("Morris’s screening, {trajectories} trajectories on {levels} levels"),
+        Design::Morris { trajectories, levels, .. } => {
+            format!("Morris’s screening, {trajectories} trajectories on {levels} levels")
+        }
     }
 }
 
 /// How the values of a parameter are spread, in words.
 pub fn law(parameter: &Parameter) -> String {
     let unit = parameter.unit;
-    let range =
-        |from: f64, to: f64| format!("{} to {}", given(from, unit), given_with_unit(to, unit));
+    let range = |from: f64, to: f64| format!("{} to {}", given(from, unit), given_with_unit(to, unit));
     let text = match &parameter.law {
         Law::List(values) => {
             let some: Vec<String> = values.iter().take(NAMED).map(|v| value(v, unit)).collect();
             let more = values.len().saturating_sub(NAMED);
-            let rest = if more > 0 {
-                format!(" and {more} more")
-            } else {
-                String::new()
-            };
+            let rest = if more > 0 { format!(" and {more} more") } else { String::new() };
             format!("list: {}{rest}", some.join(", "))
         }
-        Law::Grid {
-            from,
-            to,
-            steps,
-            log,
-        } => format!(
-            "grid: {}, {steps} values{}",
-            range(*from, *to),
-            if *log { ", equal ratios" } else { "" }
-        ),
+        Law::Grid { from, to, steps, log } => {
+            format!("grid: {}, {steps} values{}", range(*from, *to), if *log { ", equal ratios" } else { "" })
+        }
         Law::Uniform { from, to } => format!("uniform: {}", range(*from, *to)),
         Law::LogUniform { from, to } => format!("log-uniform: {}", range(*from, *to)),
         Law::Normal { mean, sd } => {
-            format!(
-                "normal: {} ± {}",
-                given(*mean, unit),
-                given_with_unit(*sd, unit)
-            )
+            format!("normal: {} ± {}", given(*mean, unit), given_with_unit(*sd, unit))
         }
-        Law::TruncatedNormal { mean, sd, from, to } => format!(
-            "normal: {} ± {}, cut to {}",
-            given(*mean, unit),
-            given_with_unit(*sd, unit),
-            range(*from, *to)
-        ),
-        Law::Triangular { from, mode, to } => format!(
-            "triangular: {}, likeliest {}",
-            range(*from, *to),
-            given_with_unit(*mode, unit)
-        ),
+        Law::TruncatedNormal { mean, sd, from, to } => {
+            format!("normal: {} ± {}, cut to {}", given(*mean, unit), given_with_unit(*sd, unit), range(*from, *to))
+        }
+        Law::Triangular { from, mode, to } => {
+            format!("triangular: {}, likeliest {}", range(*from, *to), given_with_unit(*mode, unit))
+        }
         Law::Table => "as the table says".to_owned(),
     };
     match parameter.apply {
@@ -107,12 +74,7 @@ fn value(value: &Value, unit: &str) -> String {
 
 /// Where a parameter acts.
 pub fn places(parameter: &Parameter) -> String {
-    let paths: Vec<&str> = parameter
-        .targets
-        .iter()
-        .take(NAMED)
-        .map(|t| t.path.as_str())
-        .collect();
+    let paths: Vec<&str> = parameter.targets.iter().take(NAMED).map(|t| t.path.as_str()).collect();
     match parameter.targets.len().saturating_sub(NAMED) {
         0 => paths.join(", "),
         more => format!("{} and {more} more", paths.join(", ")),

@@ -37,10 +37,7 @@ mod tests {
     #[test]
     fn the_ends_are_found_and_ties_keep_their_order() {
         let mut extremes = Extremes::default();
-        for (run, value) in [3.0, f64::NAN, 7.0, 1.0, 7.0, 2.0, 9.0]
-            .into_iter()
-            .enumerate()
-        {
+        for (run, value) in [3.0, f64::NAN, 7.0, 1.0, 7.0, 2.0, 9.0].into_iter().enumerate() {
             extremes.see(run as u64, value);
         }
         assert_eq!(extremes.worst, [(9.0, 6), (7.0, 2), (7.0, 4)]);

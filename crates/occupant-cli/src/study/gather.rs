@@ -88,23 +88,16 @@ impl Ends {
 pub fn gather(opened: &Opened, figures: &[usize]) -> Result<Gathered, Failure> {
     let study = opened.plan.study();
     let columns = &opened.manifest.columns;
-    let named: Vec<(String, String)> = figures
-        .iter()
-        .map(|i| (columns[*i].name.clone(), columns[*i].unit.clone()))
-        .collect();
+    let named: Vec<(String, String)> =
+        figures.iter().map(|i| (columns[*i].name.clone(), columns[*i].unit.clone())).collect();
     let mut gathering = Gathering {
         study,
         figures,
-        balance: columns
-            .iter()
-            .position(|c| c.name == "energy.balance_error"),
+        balance: columns.iter().position(|c| c.name == "energy.balance_error"),
         found: Gathered {
             samples: Samples::new(study, &named),
             extremes: vec![Extremes::default(); figures.len()],
-            ends: Ends {
-                planned: opened.manifest.samples,
-                ..Ends::default()
-            },
+            ends: Ends { planned: opened.manifest.samples, ..Ends::default() },
         },
         members: vec![Vec::new(); figures.len()],
     };
@@ -187,22 +180,11 @@ impl Gathering<'_> {
         if self.found.samples.is_empty() {
             return;
         }
-        for (response, members) in self
-            .found
-            .samples
-            .responses
-            .iter_mut()
-            .zip(&mut self.members)
-        {
+        for (response, members) in self.found.samples.responses.iter_mut().zip(&mut self.members) {
             let there = members.iter().filter(|x| x.is_finite()).count();
             let value = median(members).filter(|_| 2 * there >= members.len());
             response.values.push(value.unwrap_or(f64::NAN));
-            let judged = Judged::of(
-                &response.name,
-                &response.unit,
-                members,
-                Tolerance::default(),
-            );
+            let judged = Judged::of(&response.name, &response.unit, members, Tolerance::default());
             match judged.map(|j| j.verdict).filter(|_| members.len() > 1) {
                 Some(Verdict::Stable) => response.stable[0] += 1,
                 Some(Verdict::NotStable) => response.stable[1] += 1,

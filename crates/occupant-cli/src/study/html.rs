@@ -21,8 +21,7 @@ impl Html {
     /// An element of one text; `tag` may carry attributes of ours.
     pub fn text(&mut self, tag: &str, text: &str) {
         let name = tag.split(' ').next().unwrap_or(tag);
-        self.0
-            .push_str(&format!("<{tag}>{}</{name}>\n", escape(text)));
+        self.0.push_str(&format!("<{tag}>{}</{name}>\n", escape(text)));
     }
 
     /// Something that is HTML already.
@@ -47,10 +46,7 @@ impl Html {
     pub fn table(&mut self, head: &[&str], rows: &[Vec<Cell>]) {
         self.raw("<div class=\"scroll\"><table>\n<tr>");
         for (i, name) in head.iter().enumerate() {
-            let numbers = rows
-                .first()
-                .and_then(|r| r.get(i))
-                .is_some_and(|c| !matches!(c, Cell::Words(_)));
+            let numbers = rows.first().and_then(|r| r.get(i)).is_some_and(|c| !matches!(c, Cell::Words(_)));
             let class = if numbers { " class=\"number\"" } else { "" };
             self.raw(&format!("<th{class}>{}</th>", escape(name)));
         }
@@ -76,11 +72,9 @@ impl Cell {
         match self {
             Cell::Words(text) => format!("<td>{}</td>", escape(text)),
             Cell::Number(text) => format!("<td class=\"number\">{}</td>", escape(text)),
-            Cell::Marked(text, why) => format!(
-                "<td class=\"number marked\" title=\"{}\">{}\u{a0}†</td>",
-                escape(why),
-                escape(text)
-            ),
+            Cell::Marked(text, why) => {
+                format!("<td class=\"number marked\" title=\"{}\">{}\u{a0}†</td>", escape(why), escape(text))
+            }
         }
     }
 
@@ -102,13 +96,7 @@ mod tests {
         let mut html = Html::default();
         html.text("h2 id=\"r0\"", "</h2><script>");
         html.facts(&[("<b>", "a & b".to_owned())]);
-        html.table(
-            &["<i>"],
-            &[vec![Cell::Marked(
-                "1".to_owned(),
-                "\" onclick=\"".to_owned(),
-            )]],
-        );
+        html.table(&["<i>"], &[vec![Cell::Marked("1".to_owned(), "\" onclick=\"".to_owned())]]);
         let text = html.finish();
         assert!(!text.contains("<script>") && !text.contains("<b>") && !text.contains("<i>"));
         assert!(!text.contains("\" onclick"), "{text}");

@@ -54,17 +54,9 @@ impl<'a> Found<'a> {
     }
 
     /// A number and its interval.
-    fn estimate(
-        &self,
-        estimate: &Estimate,
-        text: &dyn Fn(f64) -> String,
-        mark: Option<String>,
-    ) -> [Cell; 2] {
+    fn estimate(&self, estimate: &Estimate, text: &dyn Fn(f64) -> String, mark: Option<String>) -> [Cell; 2] {
         let interval = format!("{} … {}", text(estimate.low), text(estimate.high));
-        [
-            self.number(text(estimate.value), mark),
-            Cell::Number(interval),
-        ]
+        [self.number(text(estimate.value), mark), Cell::Number(interval)]
     }
 }
 
@@ -75,16 +67,12 @@ pub fn by_design(html: &mut Html, report: &Report, analysis: &Analysis) {
         ByDesign::Plain => return,
         ByDesign::Sobol(found) => ("Sobol indices", found.as_ref().map(|f| sobol(&of, f))),
         ByDesign::Morris(found) => ("Elementary effects", found.as_ref().map(|f| morris(&of, f))),
-        ByDesign::OneAtATime(found) => (
-            "One parameter at a time",
-            found.as_ref().map(|f| alone(&of, f)),
-        ),
+        ByDesign::OneAtATime(found) => ("One parameter at a time", found.as_ref().map(|f| alone(&of, f))),
     };
     let matter = match found {
         Ok(matter) => matter,
         Err(why) => {
-            let words =
-                format!("{what}: none, because there are too few numbers to say anything ({why}).");
+            let words = format!("{what}: none, because there are too few numbers to say anything ({why}).");
             return html.text("p class=\"note\"", &words);
         }
     };
@@ -106,10 +94,7 @@ fn sobol(of: &Found<'_>, found: &SobolIndices) -> Matter {
         n => format!("; {n} more have runs without a figure"),
     };
     Matter {
-        title: format!(
-            "Sobol indices: parts of the variance, of {} points{dropped}",
-            found.points
-        ),
+        title: format!("Sobol indices: parts of the variance, of {} points{dropped}", found.points),
         head: &["parameter", "first order", "95 %", "total", "95 %"],
         rows,
         picture: plots::sobol(of.samples, of.analysis, found),
@@ -121,9 +106,7 @@ fn morris(of: &Found<'_>, found: &[Effect]) -> Matter {
     let rows = of.rows(|i| {
         let effect = found.get(i)?;
         let mark = caution::effect(effect);
-        let mut row = of
-            .estimate(&effect.mean_magnitude, &text, mark.clone())
-            .to_vec();
+        let mut row = of.estimate(&effect.mean_magnitude, &text, mark.clone()).to_vec();
         row.push(of.number(text(effect.mean.value), mark.clone()));
         row.push(of.number(text(effect.deviation), mark));
         row.push(Cell::Number(effect.effects.to_string()));
@@ -148,14 +131,7 @@ fn alone(of: &Found<'_>, found: &[Reach]) -> Matter {
     });
     Matter {
         title: "One parameter at a time".to_owned(),
-        head: &[
-            "parameter",
-            "at its least",
-            "at its greatest",
-            "least",
-            "greatest",
-            "reach",
-        ],
+        head: &["parameter", "at its least", "at its greatest", "least", "greatest", "reach"],
         rows,
         picture: plots::tornado(of.samples, of.analysis, found),
     }
@@ -173,17 +149,8 @@ pub fn linear(html: &mut Html, report: &Report, analysis: &Analysis) {
     }
     let rows = of.rows(|i| Some(linear_row(&of, &analysis.linear, i)));
     let picture = plots::linear(of.samples, analysis);
-    html.raw(&format!(
-        "<div class=\"pair\">\n<figure>{picture}</figure>\n<div>"
-    ));
-    let head = [
-        "parameter",
-        "rank correlation",
-        "95 %",
-        "coefficient",
-        "95 %",
-        "reading",
-    ];
+    html.raw(&format!("<div class=\"pair\">\n<figure>{picture}</figure>\n<div>"));
+    let head = ["parameter", "rank correlation", "95 %", "coefficient", "95 %", "reading"];
     html.table(&head, &rows);
     html.text("p class=\"remark\"", &regression_words(&analysis.linear));
     html.raw("</div></div>\n");

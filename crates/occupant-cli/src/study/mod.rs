@@ -55,11 +55,6 @@ impl Report {
         let study = opened.plan.study();
         let count = gathered.samples.responses.len();
         let analyses = (0..count).map(|i| Analysis::of(&gathered.samples, i, study));
-        Ok(Report {
-            analyses: analyses.collect(),
-            notes: caution::of_the_study(&opened, &gathered),
-            gathered,
-            opened,
-        })
+        Ok(Report { analyses: analyses.collect(), notes: caution::of_the_study(&opened, &gathered), gathered, opened })
     }
 }

@@ -129,15 +129,13 @@ impl<'a> List<'a> {
         for (i, rank) in linear.ranks.iter().enumerate() {
             if let Ok(found) = rank {
                 let mark = caution::rank(found);
-                self.estimate("rank_correlation", "1", i, &found.rho, mark)
-                    .rows = found.rows;
+                self.estimate("rank_correlation", "1", i, &found.rho, mark).rows = found.rows;
             }
         }
         if let Ok((which, found)) = &linear.regression {
             let mark = caution::regression(found);
             for (i, estimate) in which.iter().zip(&found.coefficients) {
-                self.estimate("regression_coefficient", "1", *i, estimate, mark.clone())
-                    .rows = found.rows;
+                self.estimate("regression_coefficient", "1", *i, estimate, mark.clone()).rows = found.rows;
             }
             let explained = self.put("r_squared", "1", found.explained);
             explained.rows = found.rows;
@@ -158,11 +156,7 @@ impl<'a> List<'a> {
             }
             ByDesign::Morris(Ok(found)) => {
                 for (i, effect) in found.iter().enumerate() {
-                    let sigma = Estimate {
-                        value: effect.deviation,
-                        low: f64::NAN,
-                        high: f64::NAN,
-                    };
+                    let sigma = Estimate { value: effect.deviation, low: f64::NAN, high: f64::NAN };
                     for (quantity, estimate) in [
                         ("morris_mu", &effect.mean),
                         ("morris_mu_star", &effect.mean_magnitude),

@@ -59,13 +59,7 @@ pub fn open(folders: &[PathBuf]) -> Result<Opened, Failure> {
             program()
         ));
     }
-    Ok(Opened {
-        manifest_sha256,
-        plan,
-        journal,
-        notes,
-        manifest,
-    })
+    Ok(Opened { manifest_sha256, plan, journal, notes, manifest })
 }
 
 /// Names of the input columns.

@@ -21,27 +21,16 @@ pub fn page(report: &Report) -> String {
     let mut html = Html::default();
     html.raw("<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n");
     html.raw("<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n");
-    html.raw(&format!(
-        "<meta name=\"generator\" content=\"{}\">\n",
-        escape(&program())
-    ));
-    html.raw("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n");
+    html.raw(&format!("<meta name=\"generator\" content=\"{}\">\n", escape(&program())));
+    html.raw(
+        "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'\">\n",
+    );
     html.text("title", title);
-    html.raw(&format!(
-        "<style>\n{}\n{}</style>\n",
-        STYLE.trim_end(),
-        OWN_STYLE
-    ));
+    html.raw(&format!("<style>\n{}\n{}</style>\n", STYLE.trim_end(), OWN_STYLE));
     html.raw("</head>\n<body>\n<div id=\"report\" class=\"study\">\n<header>\n");
     html.text("h1", title);
     let ends = &report.gathered.ends;
-    html.text(
-        "p",
-        &format!(
-            "Study report, {} of {} runs finished",
-            ends.finished, ends.planned
-        ),
-    );
+    html.text("p", &format!("Study report, {} of {} runs finished", ends.finished, ends.planned));
     html.raw("</header>\n");
     for note in &report.notes {
         html.text("p class=\"note\"", note);
@@ -54,10 +43,7 @@ pub fn page(report: &Report) -> String {
     html.raw("</div></div>\n");
     sections::varied(&mut html, report);
     if ends.finished == 0 {
-        html.text(
-            "p class=\"note\"",
-            "No run has finished yet: there is nothing to say.",
-        );
+        html.text("p class=\"note\"", "No run has finished yet: there is nothing to say.");
     }
     for analysis in shown(report) {
         sections::response(&mut html, report, analysis);

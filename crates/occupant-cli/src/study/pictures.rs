@@ -19,12 +19,8 @@ const MAPPED_ROWS: usize = 10;
 pub fn pictures(html: &mut Html, report: &Report, analysis: &Analysis) {
     let samples = &report.gathered.samples;
     let response = &samples.responses[analysis.response];
-    let drawn: Vec<&Input> = analysis
-        .order
-        .iter()
-        .map(|i| &samples.inputs[*i])
-        .filter(|input| input.varies())
-        .collect();
+    let drawn: Vec<&Input> =
+        analysis.order.iter().map(|i| &samples.inputs[*i]).filter(|input| input.varies()).collect();
     if drawn.is_empty() {
         return;
     }
@@ -79,9 +75,6 @@ fn fifths(values: &[f64]) -> Option<[f64; 4]> {
     if there < MAPPED_ROWS {
         return None;
     }
-    let bounds: Vec<f64> = [0.2, 0.4, 0.6, 0.8]
-        .iter()
-        .filter_map(|p| quantile(values, *p))
-        .collect();
+    let bounds: Vec<f64> = [0.2, 0.4, 0.6, 0.8].iter().filter_map(|p| quantile(values, *p)).collect();
     bounds.try_into().ok()
 }

@@ -65,18 +65,10 @@ pub fn linear(samples: &Samples, analysis: &Analysis) -> String {
         }
     }
     let mut curves = entries("rank correlation", BLUE, ranks, -0.14);
-    curves.extend(entries(
-        "regression coefficient",
-        ORANGE,
-        coefficients,
-        0.14,
-    ));
+    curves.extend(entries("regression coefficient", ORANGE, coefficients, 0.14));
     words_figure(
         &title("Rank correlation and regression", samples, analysis),
-        Axis {
-            includes: Some([-1.0, 1.0]),
-            ..Axis::of("95 % intervals", "")
-        },
+        Axis { includes: Some([-1.0, 1.0]), ..Axis::of("95 % intervals", "") },
         names,
         curves,
     )
@@ -88,12 +80,7 @@ pub fn sobol(samples: &Samples, analysis: &Analysis, found: &SobolIndices) -> St
         let all = analysis.order.iter().enumerate();
         all.filter_map(|(at, i)| {
             let estimate = estimates.get(*i)?;
-            Some(Entry::of(
-                at,
-                estimate,
-                1.0,
-                caution::index(estimate, found),
-            ))
+            Some(Entry::of(at, estimate, 1.0, caution::index(estimate, found)))
         })
         .collect()
     };
@@ -101,10 +88,7 @@ pub fn sobol(samples: &Samples, analysis: &Analysis, found: &SobolIndices) -> St
     curves.extend(entries("total", ORANGE, of(&found.total), 0.14));
     words_figure(
         &title("Sobol indices", samples, analysis),
-        Axis {
-            includes: Some([0.0, 1.0]),
-            ..Axis::of("part of the variance, 95 % intervals", "")
-        },
+        Axis { includes: Some([0.0, 1.0]), ..Axis::of("part of the variance, 95 % intervals", "") },
         names(samples, &analysis.order),
         curves,
     )
@@ -117,19 +101,9 @@ pub fn morris(samples: &Samples, analysis: &Analysis, found: &[Effect]) -> Strin
     let all = || analysis.order.iter().enumerate();
     let magnitude = |(at, i): (usize, &usize)| {
         let effect = found.get(*i)?;
-        Some(Entry::of(
-            at,
-            &effect.mean_magnitude,
-            per,
-            caution::effect(effect),
-        ))
+        Some(Entry::of(at, &effect.mean_magnitude, per, caution::effect(effect)))
     };
-    let mut curves = entries(
-        "μ*, mean magnitude",
-        BLUE,
-        all().filter_map(magnitude).collect(),
-        -0.14,
-    );
+    let mut curves = entries("μ*, mean magnitude", BLUE, all().filter_map(magnitude).collect(), -0.14);
     let sigma = |(at, i): (usize, &usize)| Some([found.get(*i)?.deviation / per, at as f64 + 0.14]);
     curves.push(Curve {
         label: "σ, deviation".to_owned(),
@@ -138,10 +112,7 @@ pub fn morris(samples: &Samples, analysis: &Analysis, found: &[Effect]) -> Strin
     });
     words_figure(
         &title("Elementary effects over the whole range", samples, analysis),
-        Axis {
-            includes: Some([0.0, 0.0]),
-            ..Axis::of(&response.name, unit)
-        },
+        Axis { includes: Some([0.0, 0.0]), ..Axis::of(&response.name, unit) },
         names(samples, &analysis.order),
         curves,
     )
@@ -168,27 +139,14 @@ pub fn tornado(samples: &Samples, analysis: &Analysis, found: &[Reach]) -> Strin
         }
     }
     let nominal = found.first().map_or(f64::NAN, |r| r.nominal / per);
-    let curve = |label: &str, style: Style, points: Vec<[f64; 2]>| Curve {
-        label: label.to_owned(),
-        style,
-        points,
-    };
+    let curve = |label: &str, style: Style, points: Vec<[f64; 2]>| Curve { label: label.to_owned(), style, points };
     let curves = vec![
         curve("range", Style::line(PALE, 12.0), bars),
-        curve(
-            "base",
-            Style::line("#222222", 1.2),
-            vec![[nominal, -0.5], [nominal, shown as f64 - 0.5]],
-        ),
+        curve("base", Style::line("#222222", 1.2), vec![[nominal, -0.5], [nominal, shown as f64 - 0.5]]),
         curve("at the least value", Style::dots(BLUE, 7.0), at_least),
         curve("at the greatest", Style::dots(ORANGE, 7.0), at_greatest),
     ];
-    words_figure(
-        &title("One parameter at a time", samples, analysis),
-        Axis::of(&response.name, unit),
-        names,
-        curves,
-    )
+    words_figure(&title("One parameter at a time", samples, analysis), Axis::of(&response.name, unit), names, curves)
 }
 
 /// A response over a parameter.
@@ -202,11 +160,7 @@ pub fn scatter(input: &Input, response: &Response) -> String {
         title: input.name.clone(),
         x: across,
         y: up,
-        curves: vec![Curve {
-            label: String::new(),
-            style: Style::dots(BLUE, diameter(points.len())),
-            points,
-        }],
+        curves: vec![Curve { label: String::new(), style: Style::dots(BLUE, diameter(points.len())), points }],
         limits: Vec::new(),
         empty: "no sample has a value".to_owned(),
     };
@@ -295,10 +249,7 @@ fn entries(label: &str, colour: &'static str, all: Vec<Entry>, lower: f64) -> Ve
     let shown = all.into_iter().filter(|e| e.at < MOST_WORDS);
     let (marked, sure): (Vec<Entry>, Vec<Entry>) = shown.partition(|e| e.marked);
     let mut curves = Vec::new();
-    for (entries, label, colour) in [
-        (sure, label.to_owned(), colour),
-        (marked, format!("{label}, marked"), GREY),
-    ] {
+    for (entries, label, colour) in [(sure, label.to_owned(), colour), (marked, format!("{label}, marked"), GREY)] {
         if entries.is_empty() {
             continue;
         }

@@ -69,8 +69,7 @@ fn fits(pattern: &str, name: &str) -> bool {
         None => pattern == name,
         Some((before, after)) => {
             let rest = name.strip_prefix(before);
-            rest.and_then(|r| r.strip_suffix(after))
-                .is_some_and(|middle| !middle.is_empty())
+            rest.and_then(|r| r.strip_suffix(after)).is_some_and(|middle| !middle.is_empty())
         }
     }
 }
@@ -78,10 +77,7 @@ fn fits(pattern: &str, name: &str) -> bool {
 /// Of the customary figures leaves the first that vary, or the first of all where none does.
 pub fn keep_telling(gathered: &mut Gathered) {
     let responses = &gathered.samples.responses;
-    let mut kept: Vec<usize> = (0..responses.len())
-        .filter(|i| varies(&responses[*i].values))
-        .take(MOST)
-        .collect();
+    let mut kept: Vec<usize> = (0..responses.len()).filter(|i| varies(&responses[*i].values)).take(MOST).collect();
     if kept.is_empty() {
         kept.extend((!responses.is_empty()).then_some(0));
     }

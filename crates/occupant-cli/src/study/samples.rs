@@ -101,9 +101,6 @@ impl Input {
 /// Whether finite numbers differ by more than rounding.
 pub fn varies(values: &[f64]) -> bool {
     let finite = || values.iter().copied().filter(|x| x.is_finite());
-    let (low, high) = (
-        finite().fold(f64::INFINITY, f64::min),
-        finite().fold(f64::NEG_INFINITY, f64::max),
-    );
+    let (low, high) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
     high - low > 1e-12 * low.abs().max(high.abs())
 }

@@ -19,10 +19,7 @@ pub fn study(html: &mut Html, report: &Report) {
         ("base scenario", study.base_name().to_owned()),
         ("design", describe::design(study)),
         ("seed", study.seed().to_string()),
-        (
-            "runs",
-            format!("{} of {} finished", ends.finished, ends.planned),
-        ),
+        ("runs", format!("{} of {} finished", ends.finished, ends.planned)),
     ];
     if let Some(ensemble) = study.ensemble() {
         let each = format!(
@@ -64,10 +61,7 @@ pub fn ends(html: &mut Html, report: &Report) {
     html.text("h2", "How the runs ended");
     let mut facts = vec![("completed", ends.completed.to_string())];
     for (name, count) in [
-        (
-            "completed, energy balance off by more than 10 %: left out",
-            ends.doubtful,
-        ),
+        ("completed, energy balance off by more than 10 %: left out", ends.doubtful),
         ("failed", ends.failed),
         ("refused", ends.refused),
         ("the program broke off", ends.broken),
@@ -82,11 +76,7 @@ pub fn ends(html: &mut Html, report: &Report) {
         return;
     }
     let row = |(reason, count, run): &(String, u64, u64)| {
-        vec![
-            Cell::Number(count.to_string()),
-            Cell::Number(run.to_string()),
-            Cell::Words(reason.clone()),
-        ]
+        vec![Cell::Number(count.to_string()), Cell::Number(run.to_string()), Cell::Words(reason.clone())]
     };
     let mut rows: Vec<Vec<Cell>> = ends.reasons.iter().map(row).collect();
     if ends.other_reasons > 0 {
@@ -124,10 +114,7 @@ fn heading(response: &Response) -> String {
 
 fn spread(html: &mut Html, response: &Response, analysis: &Analysis) {
     let Some(s) = analysis.spread else {
-        html.text(
-            "p class=\"note\"",
-            "No sample that is there has this figure.",
-        );
+        html.text("p class=\"note\"", "No sample that is there has this figure.");
         return;
     };
     let lacking = caution::lacking(Some(&s));
@@ -146,10 +133,7 @@ fn spread(html: &mut Html, response: &Response, analysis: &Analysis) {
     }
     if analysis.constant {
         let value = with_unit(s.median, &response.unit);
-        html.text(
-            "p",
-            &format!("The same in all {} samples: {value}.", s.members),
-        );
+        html.text("p", &format!("The same in all {} samples: {value}.", s.members));
         return;
     }
     let head = ["samples", "least", "5 %", "median", "95 %", "greatest"];

@@ -85,14 +85,8 @@ mod tests {
         }
         assert_eq!(with_unit(0.5, "m"), "500.0 mm");
         assert_eq!(given_with_unit(0.5, "m"), "500 mm");
-        assert_eq!(
-            (given(100.0, ""), given(3e7, "")),
-            ("100".to_owned(), "3.000e7".to_owned())
-        );
+        assert_eq!((given(100.0, ""), given(3e7, "")), ("100".to_owned(), "3.000e7".to_owned()));
         assert_eq!(with_unit(std::f64::consts::PI, "rad"), "180.0°");
-        assert_eq!(
-            (part(-0.25), part(f64::NAN)),
-            ("−0.250".to_owned(), "–".to_owned())
-        );
+        assert_eq!((part(-0.25), part(f64::NAN)), ("−0.250".to_owned(), "–".to_owned()));
     }
 }

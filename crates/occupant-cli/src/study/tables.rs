@@ -53,8 +53,7 @@ pub fn write(report: &Report, tables: &Tables, existing: Existing) -> Result<(),
         ("occupant.study", report.opened.manifest_sha256.clone()),
         (
             "occupant.units",
-            "{\"value\": \"column unit\", \"low\": \"column unit\", \"high\": \"column unit\"}"
-                .to_owned(),
+            "{\"value\": \"column unit\", \"low\": \"column unit\", \"high\": \"column unit\"}".to_owned(),
         ),
     ];
     let mut table = TableFile::create(&tables.numbers, Form::Parquet, existing, &columns, &about)?;
@@ -63,11 +62,7 @@ pub fn write(report: &Report, tables: &Tables, existing: Existing) -> Result<(),
     for number in numbers(report) {
         // the first, second, third worst
         let now = (number.quantity, number.response.clone());
-        place = if number.run.is_some() && now == last {
-            place + 1
-        } else {
-            0
-        };
+        place = if number.run.is_some() && now == last { place + 1 } else { 0 };
         last = now;
         table.row(row(&number, place))?;
     }
@@ -93,26 +88,13 @@ fn row(number: &Number, place: u64) -> Vec<Cell> {
     ]
 }
 
-fn samples(
-    samples: &Samples,
-    report: &Report,
-    path: &Path,
-    existing: Existing,
-) -> Result<(), String> {
+fn samples(samples: &Samples, report: &Report, path: &Path, existing: Existing) -> Result<(), String> {
     let mut columns = vec![("sample".to_owned(), Kind::Count)];
     let mut units = serde_json::Map::new();
     for input in &samples.inputs {
-        let kind = if input.is_number() {
-            Kind::Number
-        } else {
-            Kind::Text
-        };
+        let kind = if input.is_number() { Kind::Number } else { Kind::Text };
         let name = format!("input.{}", input.name);
-        let unit = if input.unit.is_empty() && input.is_number() {
-            "1"
-        } else {
-            &input.unit
-        };
+        let unit = if input.unit.is_empty() && input.is_number() { "1" } else { &input.unit };
         units.insert(name.clone(), unit.into());
         columns.push((name, kind));
     }
@@ -122,10 +104,7 @@ fn samples(
     }
     let about = [
         ("occupant.study", report.opened.manifest_sha256.clone()),
-        (
-            "occupant.units",
-            serde_json::Value::Object(units).to_string(),
-        ),
+        ("occupant.units", serde_json::Value::Object(units).to_string()),
     ];
     let mut table = TableFile::create(path, Form::Parquet, existing, &columns, &about)?;
     for (i, number) in samples.numbers.iter().enumerate() {
@@ -135,9 +114,7 @@ fn samples(
             let word = |words: &Vec<String>| words.get(value as usize).cloned();
             row.push(match &input.words {
                 None => Cell::Number(value),
-                Some(words) => {
-                    Cell::Text(word(words).filter(|_| !value.is_nan()).unwrap_or_default())
-                }
+                Some(words) => Cell::Text(word(words).filter(|_| !value.is_nan()).unwrap_or_default()),
             });
         }
         let values = samples.responses.iter();

@@ -33,10 +33,7 @@ pub struct Census {
 impl Census {
     /// Nothing counted yet.
     pub fn new(manifest: &Manifest) -> Self {
-        Census {
-            balance: column(manifest, "energy.balance_error"),
-            ..Census::default()
-        }
+        Census { balance: column(manifest, "energy.balance_error"), ..Census::default() }
     }
 
     /// Looks for the `count` worst by a figure too; false if there is no such figure.
@@ -67,11 +64,7 @@ impl Census {
             return;
         }
         let value = |column: usize| row.cells.get(column).and_then(|cell| cell.number());
-        if self
-            .balance
-            .and_then(value)
-            .is_some_and(|e| e.abs() > BROKEN_BALANCE)
-        {
+        if self.balance.and_then(value).is_some_and(|e| e.abs() > BROKEN_BALANCE) {
             self.unbalanced += 1;
         }
         if let Some((column, worst)) = &mut self.worst

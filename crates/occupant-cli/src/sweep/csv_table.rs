@@ -26,11 +26,7 @@ impl CsvTable {
     pub fn create(path: PathBuf, manifest: &Manifest) -> Result<Self, Problem> {
         let file = create(&path)?;
         let inputs = manifest.columns.iter().filter(|c| c.role != Role::Figure);
-        let mut table = CsvTable {
-            path,
-            file,
-            inputs: inputs.count(),
-        };
+        let mut table = CsvTable { path, file, inputs: inputs.count() };
         let (inputs, figures) = manifest.columns.split_at(table.inputs);
         let names = std::iter::once("index")
             .chain(inputs.iter().map(|c| c.name.as_str()))
@@ -52,10 +48,7 @@ impl CsvTable {
     }
 
     fn write(&mut self, row: &Row) -> io::Result<()> {
-        let (inputs, figures) = row
-            .cells
-            .split_at_checked(self.inputs)
-            .unwrap_or((&[], &[]));
+        let (inputs, figures) = row.cells.split_at_checked(self.inputs).unwrap_or((&[], &[]));
         write!(self.file, "{}", row.index)?;
         for cell in inputs {
             write!(self.file, ",{}", shown(cell))?;
@@ -88,12 +81,7 @@ pub fn write_columns(path: PathBuf, manifest: &Manifest) -> Result<PathBuf, Prob
                 Role::Input | Role::InputText => "input",
                 Role::Figure => "figure",
             };
-            writeln!(
-                file,
-                "{},{},{role}",
-                quoted(&column.name),
-                quoted(&column.unit)
-            )?;
+            writeln!(file, "{},{},{role}", quoted(&column.name), quoted(&column.unit))?;
         }
         writeln!(file, "wall_time_s,s,work")
     };
@@ -102,17 +90,12 @@ pub fn write_columns(path: PathBuf, manifest: &Manifest) -> Result<PathBuf, Prob
 }
 
 fn create(path: &std::path::Path) -> Result<PartialFile, Problem> {
-    PartialFile::create(path, Existing::Replace).map_err(|e| Problem::Table {
-        path: path.to_owned(),
-        reason: e.to_string(),
-    })
+    PartialFile::create(path, Existing::Replace)
+        .map_err(|e| Problem::Table { path: path.to_owned(), reason: e.to_string() })
 }
 
 fn publish(file: PartialFile, path: &std::path::Path) -> Result<PathBuf, Problem> {
-    file.publish().map_err(|e| Problem::Table {
-        path: path.to_owned(),
-        reason: e.to_string(),
-    })
+    file.publish().map_err(|e| Problem::Table { path: path.to_owned(), reason: e.to_string() })
 }
 
 /// Numbers as the shortest text that is read as the same number.

@@ -74,12 +74,7 @@ pub fn run<W: Worker>(
 }
 
 /// One thread.
-fn work<W: Worker>(
-    job: Job<'_>,
-    worker: &W,
-    counter: &AtomicU64,
-    rows: &SyncSender<Result<Row, W::Error>>,
-) {
+fn work<W: Worker>(job: Job<'_>, worker: &W, counter: &AtomicU64, rows: &SyncSender<Result<Row, W::Error>>) {
     let hand_on = |row| match rows.send(Ok(row)) {
         Ok(()) => ControlFlow::Continue(()),
         Err(_) => ControlFlow::Break(()),
@@ -117,11 +112,7 @@ mod tests {
     impl Worker for Maker {
         type Error = &'static str;
 
-        fn work(
-            &self,
-            next: &dyn Fn() -> Option<u64>,
-            hand_on: HandOn<'_>,
-        ) -> Result<(), Self::Error> {
+        fn work(&self, next: &dyn Fn() -> Option<u64>, hand_on: HandOn<'_>) -> Result<(), Self::Error> {
             while let Some(index) = next() {
                 if self.breaks_at_7 && index == 7 {
                     return Err("seven");
@@ -134,22 +125,13 @@ mod tests {
         }
     }
 
-    fn run_all(
-        threads: usize,
-        worker: &Maker,
-        sink_fails_at: u64,
-    ) -> (Vec<u64>, Result<(), &'static str>) {
+    fn run_all(threads: usize, worker: &Maker, sink_fails_at: u64) -> (Vec<u64>, Result<(), &'static str>) {
         let mut finished = Finished::none(1000);
         (0..1000).filter(|i| i % 3 == 0).for_each(|i| {
             finished.add(i);
         });
         let stop = AtomicBool::new(false);
-        let job = Job {
-            samples: &(5..1000),
-            finished: &finished,
-            threads,
-            stop: &stop,
-        };
+        let job = Job { samples: &(5..1000), finished: &finished, threads, stop: &stop };
         let mut seen = Vec::new();
         let ended = run(job, worker, &mut |row| {
             if row.index == sink_fails_at {

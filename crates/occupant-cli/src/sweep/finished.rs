@@ -12,10 +12,7 @@ pub struct Finished {
 impl Finished {
     /// None of `samples`.
     pub fn none(samples: u64) -> Self {
-        Finished {
-            bits: vec![0; samples.div_ceil(64) as usize],
-            samples,
-        }
+        Finished { bits: vec![0; samples.div_ceil(64) as usize], samples }
     }
 
     /// Adds a sample; false if it was there or is none of the study.
@@ -61,12 +58,7 @@ pub fn ranges_text(ranges: &[Range<u64>], most: usize) -> String {
         1 => r.start.to_string(),
         _ => format!("{}–{}", r.start, r.end - 1),
     };
-    let mut text = ranges
-        .iter()
-        .take(most)
-        .map(one)
-        .collect::<Vec<_>>()
-        .join(", ");
+    let mut text = ranges.iter().take(most).map(one).collect::<Vec<_>>().join(", ");
     if ranges.len() > most {
         text.push_str(&format!(" and {} more ranges", ranges.len() - most));
     }
@@ -89,9 +81,6 @@ mod tests {
         assert_eq!(finished.gaps(0..65), vec![60..65]);
         assert_eq!(finished.count(0..200), 189);
         assert_eq!(ranges_text(&finished.gaps(0..200), 9), "60–69, 199");
-        assert_eq!(
-            ranges_text(&finished.gaps(0..200), 1),
-            "60–69 and 1 more ranges"
-        );
+        assert_eq!(ranges_text(&finished.gaps(0..200), 1), "60–69 and 1 more ranges");
     }
 }

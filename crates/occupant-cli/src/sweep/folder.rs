@@ -94,18 +94,12 @@ pub struct Held {
 impl Folder {
     /// The folder of a sweep at this place, there or not.
     pub fn at(path: &Path) -> Self {
-        Folder {
-            path: path.to_owned(),
-            holds: Holds::Sweep,
-        }
+        Folder { path: path.to_owned(), holds: Holds::Sweep }
     }
 
     /// The folder of a fit at this place, there or not.
     pub fn of_fit(path: &Path) -> Self {
-        Folder {
-            path: path.to_owned(),
-            holds: Holds::Fit,
-        }
+        Folder { path: path.to_owned(), holds: Holds::Fit }
     }
 
     fn manifest_path(&self) -> PathBuf {
@@ -178,13 +172,7 @@ impl Folder {
     ///
     /// # Errors
     /// It holds something else; another process is at work on it; the operating system refuses.
-    pub fn claim(
-        &self,
-        manifest: &Manifest,
-        texts: &[Vec<u8>],
-        shard: Shard,
-        restart: bool,
-    ) -> Result<Held, Problem> {
+    pub fn claim(&self, manifest: &Manifest, texts: &[Vec<u8>], shard: Shard, restart: bool) -> Result<Held, Problem> {
         fs::create_dir_all(&self.path).map_err(Problem::io("create", &self.path))?;
         let _one_at_a_time = self.wait()?;
         self.refuse_other_files()?;
@@ -226,18 +214,13 @@ impl Folder {
         let others = [RUNS, self.holds.manifest()[0]];
         let mut results = TABLES.iter().chain(&others);
         match results.find(|name| self.path.join(name).exists()) {
-            Some(name) => Err(Problem::Exists {
-                path: self.path.join(name),
-            }),
+            Some(name) => Err(Problem::Exists { path: self.path.join(name) }),
             None => Ok(()),
         }
     }
 
     fn busy(&self, doing: String) -> Problem {
-        Problem::Busy {
-            folder: self.path.clone(),
-            doing,
-        }
+        Problem::Busy { folder: self.path.clone(), doing }
     }
 
     fn differs(&self, there: &Manifest, here: &Manifest, texts: &[Vec<u8>]) -> Problem {
@@ -268,10 +251,7 @@ impl Folder {
         let ours = [LOCK, INPUTS, JOURNAL];
         for name in names_in(&self.path)? {
             if !ours.contains(&name.as_str()) && name != self.holds.manifest()[1] {
-                return Err(Problem::NotOurs {
-                    folder: self.path.clone(),
-                    holds: self.holds,
-                });
+                return Err(Problem::NotOurs { folder: self.path.clone(), holds: self.holds });
             }
         }
         Ok(())
@@ -287,8 +267,7 @@ impl Folder {
             let Some(other) = Shard::of_file(name) else {
                 continue;
             };
-            if (all || other.count() != shard.count()) && self.lock(&journal.join(name))?.is_none()
-            {
+            if (all || other.count() != shard.count()) && self.lock(&journal.join(name))?.is_none() {
                 return Err(self.busy(format!("computes shard {other}")));
             }
         }
@@ -303,10 +282,7 @@ impl Folder {
             Err(TryLockError::WouldBlock) => return Ok(None),
             Err(TryLockError::Error(error)) => Some(error.to_string()),
         };
-        Ok(Some(Held {
-            _file: file,
-            unlocked,
-        }))
+        Ok(Some(Held { _file: file, unlocked }))
     }
 
     /// Copies first, the manifest last: a folder with a manifest is whole.
@@ -319,10 +295,9 @@ impl Folder {
             write_whole(&path, bytes)?;
         }
         let path = self.manifest_path();
-        let bytes = manifest.to_bytes().map_err(|error| Problem::Damaged {
-            path: path.clone(),
-            found: format!("cannot be written: {error}"),
-        })?;
+        let bytes = manifest
+            .to_bytes()
+            .map_err(|error| Problem::Damaged { path: path.clone(), found: format!("cannot be written: {error}") })?;
         let partial = self.path.join(self.holds.manifest()[1]);
         write_whole(&partial, &bytes)?;
         fs::rename(&partial, &path).map_err(Problem::io("rename to", &path))

@@ -37,11 +37,7 @@ impl JournalWriter {
         let folder = folder.journal();
         let number = |name: &String| {
             let number = name.strip_prefix(&shard.file_stem())?;
-            number
-                .strip_prefix('.')?
-                .strip_suffix(".rows")?
-                .parse::<u64>()
-                .ok()
+            number.strip_prefix('.')?.strip_suffix(".rows")?.parse::<u64>().ok()
         };
         let last = names_in(&folder)?.iter().filter_map(number).max();
         Ok(JournalWriter {
@@ -171,10 +167,7 @@ impl Journal {
         };
         let lack = |shard: Shard| {
             let range = shard.range(samples);
-            (
-                shard,
-                range.end - range.start - self.finished.count(range.clone()),
-            )
+            (shard, range.end - range.start - self.finished.count(range.clone()))
         };
         let all = Shard::all(*count).map(lack);
         all.filter(|(_, missing)| *missing > 0).collect()
@@ -219,11 +212,7 @@ impl Journal {
                 let row = Row::decode(bytes).ok_or_else(|| no_row(path))?;
                 match &mut found[(index - range.start) as usize] {
                     Some((there, first)) if !there.agrees(&row) => {
-                        return Err(Problem::Disagree {
-                            index,
-                            first: first.to_path_buf(),
-                            second: path.clone(),
-                        });
+                        return Err(Problem::Disagree { index, first: first.to_path_buf(), second: path.clone() });
                     }
                     Some(_) => {}
                     empty => *empty = Some((row, path)),
@@ -245,8 +234,5 @@ fn not_ours(path: &Path, found: NotOurs) -> Problem {
 }
 
 fn no_row(path: &Path) -> Problem {
-    Problem::Damaged {
-        path: path.to_owned(),
-        found: "holds a row that is none of this sweep".to_owned(),
-    }
+    Problem::Damaged { path: path.to_owned(), found: "holds a row that is none of this sweep".to_owned() }
 }

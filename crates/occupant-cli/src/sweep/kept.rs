@@ -24,10 +24,9 @@ pub fn parse(text: &str) -> Option<Keep> {
     match words[..] {
         ["none"] => Some(Keep::None),
         ["all"] => Some(Keep::All),
-        ["worst", count, "by", measure] => Some(Keep::Worst {
-            count: count.parse().ok().filter(|n| *n > 0)?,
-            measure: measure.to_owned(),
-        }),
+        ["worst", count, "by", measure] => {
+            Some(Keep::Worst { count: count.parse().ok().filter(|n| *n > 0)?, measure: measure.to_owned() })
+        }
         _ => {
             let number = |word: &str| word.trim().parse::<u64>().ok();
             let numbers: Option<Vec<u64>> = text.split(',').map(number).collect();
@@ -101,23 +100,9 @@ pub fn write(
     kernel: Kernel,
     stop: &AtomicBool,
 ) -> Result<(), Failure> {
-    let again = Again {
-        samples,
-        simulation: Simulation {
-            plan,
-            keep: &Keep::All,
-            folder,
-            stop,
-            kernel,
-        },
-    };
+    let again = Again { samples, simulation: Simulation { plan, keep: &Keep::All, folder, stop, kernel } };
     let count = samples.len() as u64;
-    let job = Job {
-        samples: &(0..count),
-        finished: &Finished::none(count),
-        threads,
-        stop,
-    };
+    let job = Job { samples: &(0..count), finished: &Finished::none(count), threads, stop };
     run(job, &again, &mut |_row| Ok(()))
 }
 
@@ -145,19 +130,9 @@ mod tests {
         assert_eq!(parse("none"), Some(Keep::None));
         assert_eq!(parse(" all "), Some(Keep::All));
         assert_eq!(parse("7,3, 7"), Some(Keep::Indices(vec![3, 7])));
-        let worst = Keep::Worst {
-            count: 5,
-            measure: "hic15".to_owned(),
-        };
+        let worst = Keep::Worst { count: 5, measure: "hic15".to_owned() };
         assert_eq!(parse("worst 5 by hic15"), Some(worst));
-        for wrong in [
-            "",
-            "worst",
-            "worst 0 by hic15",
-            "worst five by hic15",
-            "-1",
-            "some",
-        ] {
+        for wrong in ["", "worst", "worst 0 by hic15", "worst five by hic15", "-1", "some"] {
             assert_eq!(parse(wrong), None, "{wrong}");
         }
     }

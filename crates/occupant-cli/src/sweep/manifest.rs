@@ -68,15 +68,7 @@ pub enum Role {
 impl Manifest {
     /// The manifest of a sweep with this program.
     pub fn new(program: String, title: String, samples: u64, overrides: Vec<String>) -> Self {
-        Manifest {
-            form: FORM,
-            program,
-            title,
-            samples,
-            overrides,
-            texts: Vec::new(),
-            columns: Vec::new(),
-        }
+        Manifest { form: FORM, program, title, samples, overrides, texts: Vec::new(), columns: Vec::new() }
     }
 
     /// Its bytes.
@@ -110,17 +102,9 @@ impl Manifest {
                 found.push(format!("{what}: {there} → {here}"));
             }
         };
-        differ(
-            "form of the folder",
-            self.form.to_string(),
-            here.form.to_string(),
-        );
+        differ("form of the folder", self.form.to_string(), here.form.to_string());
         differ("program", self.program.clone(), here.program.clone());
-        differ(
-            "samples",
-            self.samples.to_string(),
-            here.samples.to_string(),
-        );
+        differ("samples", self.samples.to_string(), here.samples.to_string());
         let listed = |overrides: &[String]| match overrides {
             [] => "none".to_owned(),
             some => some.join(", "),
@@ -130,11 +114,7 @@ impl Manifest {
             match here.texts.get(i) {
                 None => found.push(format!("{}: there, not here", there.name)),
                 Some(ours) if ours.sha256 != there.sha256 => {
-                    found.push(text_difference(
-                        &ours.name,
-                        text_there(there),
-                        text_here(ours),
-                    ));
+                    found.push(text_difference(&ours.name, text_there(there), text_here(ours)));
                 }
                 Some(_) => {}
             }
@@ -154,10 +134,7 @@ fn text_difference(name: &str, there: Option<Vec<u8>>, here: Option<Vec<u8>>) ->
     let (Some(there), Some(here)) = (there, here) else {
         return format!("{name}: another text");
     };
-    let (there, here) = (
-        String::from_utf8_lossy(&there),
-        String::from_utf8_lossy(&here),
-    );
+    let (there, here) = (String::from_utf8_lossy(&there), String::from_utf8_lossy(&here));
     let (mut a, mut b) = (there.lines(), here.lines());
     for line in 1.. {
         match (a.next(), b.next()) {
@@ -201,17 +178,9 @@ mod tests {
         let found = there.differences(&here, text(old), text(new));
         assert_eq!(
             found,
-            [
-                "program: occupant 1 → occupant 2",
-                "--set: none → time.end=1",
-                "study.toml, line 2: `b = 2` → `b = 3`"
-            ]
+            ["program: occupant 1 → occupant 2", "--set: none → time.end=1", "study.toml, line 2: `b = 2` → `b = 3`"]
         );
-        assert!(
-            there
-                .differences(&manifest(old), text(old), text(old))
-                .is_empty()
-        );
+        assert!(there.differences(&manifest(old), text(old), text(old)).is_empty());
     }
 
     #[test]

@@ -107,47 +107,24 @@ fn schema(fields: &[(&str, Field)]) -> Result<Type, ParquetError> {
             Field::Index => (Physical::INT64, None, Repetition::REQUIRED),
             Field::WallTime => (Physical::DOUBLE, None, Repetition::REQUIRED),
             Field::Number(_) => (Physical::DOUBLE, None, Repetition::OPTIONAL),
-            Field::Status | Field::Kernel => (
-                Physical::BYTE_ARRAY,
-                Some(LogicalType::String),
-                Repetition::REQUIRED,
-            ),
-            Field::Reason | Field::Text(_) => (
-                Physical::BYTE_ARRAY,
-                Some(LogicalType::String),
-                Repetition::OPTIONAL,
-            ),
+            Field::Status | Field::Kernel => (Physical::BYTE_ARRAY, Some(LogicalType::String), Repetition::REQUIRED),
+            Field::Reason | Field::Text(_) => (Physical::BYTE_ARRAY, Some(LogicalType::String), Repetition::OPTIONAL),
         };
         let column = Type::primitive_type_builder(name, physical);
-        let column = column
-            .with_repetition(repetition)
-            .with_logical_type(logical);
+        let column = column.with_repetition(repetition).with_logical_type(logical);
         column.build().map(Arc::new)
     };
     let columns = fields.iter().map(column).collect::<Result<Vec<_>, _>>()?;
-    Type::group_type_builder("occupant_sweep")
-        .with_fields(columns)
-        .build()
+    Type::group_type_builder("occupant_sweep").with_fields(columns).build()
 }
 
 fn properties(manifest: &Manifest) -> Result<WriterProperties, ParquetError> {
-    let units: serde_json::Map<String, serde_json::Value> = manifest
-        .columns
-        .iter()
-        .map(|column| (column.name.clone(), column.unit.clone().into()))
-        .collect();
-    let whole = manifest
-        .to_bytes()
-        .map_err(|e| ParquetError::General(e.to_string()))?;
+    let units: serde_json::Map<String, serde_json::Value> =
+        manifest.columns.iter().map(|column| (column.name.clone(), column.unit.clone().into())).collect();
+    let whole = manifest.to_bytes().map_err(|e| ParquetError::General(e.to_string()))?;
     let metadata = vec![
-        KeyValue::new(
-            "occupant.sweep".to_owned(),
-            String::from_utf8_lossy(&whole).into_owned(),
-        ),
-        KeyValue::new(
-            "occupant.units".to_owned(),
-            serde_json::Value::Object(units).to_string(),
-        ),
+        KeyValue::new("occupant.sweep".to_owned(), String::from_utf8_lossy(&whole).into_owned()),
+        KeyValue::new("occupant.units".to_owned(), serde_json::Value::Object(units).to_string()),
     ];
     Ok(WriterProperties::builder()
         .set_compression(Compression::ZSTD(ZstdLevel::try_new(3)?))
@@ -167,15 +144,11 @@ fn write_column(
     match field {
         Field::Index => {
             let values: Vec<i64> = rows.iter().map(|r| r.index as i64).collect();
-            column
-                .typed::<Int64Type>()
-                .write_batch(&values, None, None)?;
+            column.typed::<Int64Type>().write_batch(&values, None, None)?;
         }
         Field::WallTime => {
             let values: Vec<f64> = rows.iter().map(|r| r.wall_time_s).collect();
-            column
-                .typed::<DoubleType>()
-                .write_batch(&values, None, None)?;
+            column.typed::<DoubleType>().write_batch(&values, None, None)?;
         }
         Field::Number(i) => {
             let (values, levels) = present(rows, |r| r.cells.get(i).and_then(Cell::number));
@@ -198,15 +171,11 @@ fn write_column(
         }
         Field::Status => {
             let values: Vec<ByteArray> = rows.iter().map(|r| text(r.status.word())).collect();
-            column
-                .typed::<ByteArrayType>()
-                .write_batch(&values, None, None)?;
+            column.typed::<ByteArrayType>().write_batch(&values, None, None)?;
         }
         Field::Kernel => {
             let values: Vec<ByteArray> = rows.iter().map(|r| text(&r.kernel)).collect();
-            column
-                .typed::<ByteArrayType>()
-                .write_batch(&values, None, None)?;
+            column.typed::<ByteArrayType>().write_batch(&values, None, None)?;
         }
     }
     column.close()
@@ -224,10 +193,7 @@ fn present<T>(rows: &[Row], value: impl Fn(&Row) -> Option<T>) -> (Vec<T>, Vec<i
 }
 
 fn refused(path: &std::path::Path, problem: &FileProblem) -> Problem {
-    Problem::Table {
-        path: path.to_owned(),
-        reason: problem.to_string(),
-    }
+    Problem::Table { path: path.to_owned(), reason: problem.to_string() }
 }
 
 fn unwritten(path: &std::path::Path, error: &ParquetError) -> Problem {

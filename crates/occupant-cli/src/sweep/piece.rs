@@ -38,12 +38,7 @@ impl PieceWriter {
         let mut file = OpenOptions::new().write(true).create_new(true).open(path)?;
         let head = [MAGIC, manifest_sha256.as_bytes(), b"\n"].concat();
         file.write_all(&head)?;
-        Ok(PieceWriter {
-            file,
-            rows: 0,
-            bytes: head.len(),
-            frame: Vec::new(),
-        })
+        Ok(PieceWriter { file, rows: 0, bytes: head.len(), frame: Vec::new() })
     }
 
     /// Appends a row, in one write.
@@ -54,8 +49,7 @@ impl PieceWriter {
         self.frame.clear();
         self.frame.extend([0; 8]);
         row.encode(&mut self.frame);
-        let length = u32::try_from(self.frame.len() - 8)
-            .map_err(|_| io::Error::other("a row of more than 4 GiB"))?;
+        let length = u32::try_from(self.frame.len() - 8).map_err(|_| io::Error::other("a row of more than 4 GiB"))?;
         let checksum = crc32fast::hash(&self.frame[8..]);
         self.frame[..4].copy_from_slice(&length.to_le_bytes());
         self.frame[4..8].copy_from_slice(&checksum.to_le_bytes());
@@ -166,8 +160,7 @@ mod tests {
             assert!(there.len() >= seen && there.len() < 4);
             seen = there.len();
             let whole = frames(&bytes[..end], SHA).unwrap().torn() == 0;
-            let boundary =
-                end <= head || indices(&bytes[..end]).len() > indices(&bytes[..end - 1]).len();
+            let boundary = end <= head || indices(&bytes[..end]).len() > indices(&bytes[..end - 1]).len();
             assert_eq!(whole, boundary, "{end}");
         }
     }

@@ -46,12 +46,7 @@ impl Plan {
     ///
     /// # Errors
     /// Everything that is wrong with it, in words.
-    pub fn open(
-        name: &Path,
-        overrides: &[String],
-        texts: &Texts,
-        program: String,
-    ) -> Result<Plan, NoPlan> {
+    pub fn open(name: &Path, overrides: &[String], texts: &Texts, program: String) -> Result<Plan, NoPlan> {
         let shown = name.display();
         let bytes = texts.get(NamedBy::CommandLine, &file_name(name));
         let bytes = bytes.map_err(|e| NoPlan(format!("the study {shown} cannot be read: {e}")))?;
@@ -60,17 +55,13 @@ impl Plan {
         let scenario = name.parent().unwrap_or(Path::new("")).join(text.base());
         let bytes = texts.get(NamedBy::StudyAsBase, text.base()).map_err(|e| {
             let base = scenario.display();
-            NoPlan(format!(
-                "the scenario {base}, which the study {shown} varies, cannot be read: {e}"
-            ))
+            NoPlan(format!("the scenario {base}, which the study {shown} varies, cannot be read: {e}"))
         })?;
         let scenario_name = scenario.display().to_string();
         let draft = Draft::read_bytes(&bytes, format_of(&scenario), &scenario_name)
             .map_err(|problems| refused(&scenario_name, &problems))?;
         let beside = |file: &str| texts.get(NamedBy::Study, file);
-        let study = text
-            .bind(draft, overrides, &beside)
-            .map_err(|problems| refused(&shown.to_string(), &problems))?;
+        let study = text.bind(draft, overrides, &beside).map_err(|problems| refused(&shown.to_string(), &problems))?;
         let mut changes = changes_of(&text);
         changes.extend(overrides.iter().cloned());
         let title = text.section.title.clone().unwrap_or_default();
@@ -136,25 +127,16 @@ impl Plan {
     /// The bytes of a table that a scenario of the study names.
     pub fn table(&self, name: &str) -> Result<Vec<u8>, String> {
         let found = self.tables.iter().find(|(table, _)| table == name);
-        found
-            .map(|(_, bytes)| bytes.clone())
-            .ok_or_else(|| "it was not there when the sweep began".to_owned())
+        found.map(|(_, bytes)| bytes.clone()).ok_or_else(|| "it was not there when the sweep began".to_owned())
     }
 
     /// The words with which `occupant run` runs a sample, and the scenario's bytes.
     pub fn command(&self, index: u64) -> (ScenarioArgs, Vec<u8>) {
         let mut overrides = self.changes.clone();
         let assignments = self.study.assignments(index);
-        overrides.extend(
-            assignments
-                .iter()
-                .map(|a| format!("{}={}", a.path, a.text())),
-        );
+        overrides.extend(assignments.iter().map(|a| format!("{}={}", a.path, a.text())));
         let scenario = self.scenario.clone();
-        let args = ScenarioArgs {
-            scenario,
-            overrides,
-        };
+        let args = ScenarioArgs { scenario, overrides };
         (args, self.bytes.clone())
     }
 
@@ -175,18 +157,13 @@ impl Plan {
         let file = "path.file";
         let mut base = self.study.base().clone();
         if let Ok(found) = base.get(file) {
-            let name = |(_, value): &(String, occupant_core::scenario::document::Value)| match value
-            {
+            let name = |(_, value): &(String, occupant_core::scenario::document::Value)| match value {
                 occupant_core::scenario::document::Value::String(name) => Some(name.clone()),
                 _ => None,
             };
             names.extend(found.iter().filter_map(name));
         }
-        let varied = self
-            .study
-            .parameters()
-            .iter()
-            .any(|p| p.targets.iter().any(|t| t.path == file));
+        let varied = self.study.parameters().iter().any(|p| p.targets.iter().any(|t| t.path == file));
         if varied {
             for index in 0..self.study.len() {
                 for assignment in &self.study.assignments(index) {
@@ -217,11 +194,7 @@ impl Plan {
             role: Role::Input,
         };
         let input = |(at, parameter): (usize, &Parameter)| match has_texts(&self.study, at) {
-            true => Column {
-                name: format!("input.{}", parameter.name),
-                unit: String::new(),
-                role: Role::InputText,
-            },
+            true => Column { name: format!("input.{}", parameter.name), unit: String::new(), role: Role::InputText },
             false => number(&parameter.name, parameter.unit),
         };
         let parameters = self.study.parameters().iter().enumerate();
@@ -259,10 +232,7 @@ impl Plan {
             }
         }
         let scenario = self.scenario.display().to_string();
-        Err(refused(
-            &scenario,
-            &first_refusal.unwrap_or_else(Diagnostics::new),
-        ))
+        Err(refused(&scenario, &first_refusal.unwrap_or_else(Diagnostics::new)))
     }
 }
 
@@ -282,9 +252,7 @@ fn has_texts(study: &Study, at: usize) -> bool {
     let text = |value: &Value| matches!(value, Value::Text(_) | Value::Truth(_));
     match (study.parameters().get(at).map(|p| &p.law), study.design()) {
         (Some(Law::List(values)), _) => values.iter().any(text),
-        (Some(Law::Table), Design::Table { rows }) => {
-            rows.iter().any(|row| row.get(at).is_some_and(text))
-        }
+        (Some(Law::Table), Design::Table { rows }) => rows.iter().any(|row| row.get(at).is_some_and(text)),
         _ => false,
     }
 }
@@ -299,9 +267,7 @@ impl Recorder for Enough {
 }
 
 fn refused(name: &str, problems: &Diagnostics) -> NoPlan {
-    let errors = problems
-        .iter()
-        .filter(|d| d.problem.severity == Severity::Error);
+    let errors = problems.iter().filter(|d| d.problem.severity == Severity::Error);
     let count = match errors.count() {
         1 => "1 error".to_owned(),
         n => format!("{n} errors"),

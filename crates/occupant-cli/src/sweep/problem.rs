@@ -90,29 +90,21 @@ impl Problem {
     /// What the operating system said while something was done to a file.
     pub fn io(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Problem {
         let path = path.to_owned();
-        move |source| Problem::Io {
-            doing,
-            path,
-            source,
-        }
+        move |source| Problem::Io { doing, path, source }
     }
 
     /// How to go on, where there is something to say.
     pub fn help(&self) -> Option<&'static str> {
         match self {
-            Problem::Exists { .. } | Problem::NotOurs { .. } => {
-                Some("name a new folder, or an empty one")
-            }
+            Problem::Exists { .. } | Problem::NotOurs { .. } => Some("name a new folder, or an empty one"),
             Problem::Differs { .. } => Some(
                 "name another folder, or compute everything anew with --restart, which removes the results that are there",
             ),
-            Problem::Damaged { .. } => {
-                Some("remove the file: its samples are computed again by the same sweep")
-            }
+            Problem::Damaged { .. } => Some("remove the file: its samples are computed again by the same sweep"),
             Problem::Busy { .. } => Some("wait for it, or name another folder"),
-            Problem::Incomplete { .. } => Some(
-                "give the same command of `occupant sweep` again: it goes on from what is there",
-            ),
+            Problem::Incomplete { .. } => {
+                Some("give the same command of `occupant sweep` again: it goes on from what is there")
+            }
             Problem::Disagree { .. } => Some(
                 "the results were computed by programs or machines that do not agree; compute them anew with --restart",
             ),
@@ -124,11 +116,7 @@ impl Problem {
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Problem::Io {
-                doing,
-                path,
-                source,
-            } => write!(f, "cannot {doing} {}: {source}", path.display()),
+            Problem::Io { doing, path, source } => write!(f, "cannot {doing} {}: {source}", path.display()),
             Problem::Exists { path } => {
                 write!(f, "{} exists and is not of this sweep", path.display())
             }
@@ -136,28 +124,16 @@ impl fmt::Display for Problem {
                 let (folder, word) = (folder.display(), holds.word());
                 write!(f, "{folder} holds files that are no {word}'s")
             }
-            Problem::Differs {
-                folder,
-                holds,
-                differences,
-            } => {
+            Problem::Differs { folder, holds, differences } => {
                 let (folder, word) = (folder.display(), holds.word());
                 write!(f, "{folder} holds another {word} (there → here):")?;
-                differences
-                    .iter()
-                    .try_for_each(|line| write!(f, "\n   {line}"))
+                differences.iter().try_for_each(|line| write!(f, "\n   {line}"))
             }
             Problem::Damaged { path, found } => write!(f, "{} {found}", path.display()),
-            Problem::Busy { folder, doing } => write!(
-                f,
-                "another process is at work in {}: it {doing}",
-                folder.display()
-            ),
-            Problem::Incomplete {
-                gaps,
-                samples,
-                shards,
-            } => {
+            Problem::Busy { folder, doing } => {
+                write!(f, "another process is at work in {}: it {doing}", folder.display())
+            }
+            Problem::Incomplete { gaps, samples, shards } => {
                 let missing: u64 = gaps.iter().map(|g| g.end - g.start).sum();
                 let which = ranges_text(gaps, SHOWN);
                 write!(f, "{missing} of {samples} samples are missing: {which}")?;
@@ -170,16 +146,9 @@ impl fmt::Display for Problem {
                     _ => Ok(()),
                 }
             }
-            Problem::Disagree {
-                index,
-                first,
-                second,
-            } => write!(
-                f,
-                "sample {index} has one result in {} and another in {}",
-                first.display(),
-                second.display()
-            ),
+            Problem::Disagree { index, first, second } => {
+                write!(f, "sample {index} has one result in {} and another in {}", first.display(), second.display())
+            }
             Problem::Table { path, reason } => {
                 write!(f, "{} cannot be written: {reason}", path.display())
             }

@@ -33,22 +33,12 @@ impl Progress {
         };
         let bar = ProgressBar::with_draw_target(Some(samples), target).with_position(before);
         // the words of the template are ours; should they not parse, the plain bar does
-        if let Ok(style) = ProgressStyle::with_template(
-            "{bar:30} {pos} of {len} samples, {per_sec}, {eta} to go{msg}",
-        ) {
+        if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos} of {len} samples, {per_sec}, {eta} to go{msg}")
+        {
             bar.set_style(style);
         }
         bar.reset_eta();
-        Progress {
-            bar,
-            quiet,
-            samples,
-            before,
-            now: 0,
-            failed: 0,
-            began: Instant::now(),
-            line: Instant::now(),
-        }
+        Progress { bar, quiet, samples, before, now: 0, failed: 0, began: Instant::now(), line: Instant::now() }
     }
 
     /// One more.
@@ -88,9 +78,6 @@ impl Progress {
         let done = self.before + self.now;
         let rate = self.now as f64 / self.elapsed_s();
         let to_go_s = (self.samples.saturating_sub(done)) as f64 / rate;
-        format!(
-            "{done} of {} samples, {rate:.1}/s, {to_go_s:.0} s to go, {} failed",
-            self.samples, self.failed
-        )
+        format!("{done} of {} samples, {rate:.1}/s, {to_go_s:.0} s to go, {} failed", self.samples, self.failed)
     }
 }

@@ -15,12 +15,7 @@ pub enum Status {
 
 impl Status {
     /// All of them; the position is the byte in the journal.
-    const ALL: [Status; 4] = [
-        Status::Completed,
-        Status::Failed,
-        Status::Refused,
-        Status::Broken,
-    ];
+    const ALL: [Status; 4] = [Status::Completed, Status::Failed, Status::Refused, Status::Broken];
 
     /// The word in the table.
     pub fn word(self) -> &'static str {
@@ -125,14 +120,7 @@ impl Row {
                 _ => return None,
             });
         }
-        Some(Row {
-            index,
-            status: *Status::ALL.get(usize::from(status))?,
-            reason,
-            cells,
-            wall_time_s,
-            kernel,
-        })
+        Some(Row { index, status: *Status::ALL.get(usize::from(status))?, reason, cells, wall_time_s, kernel })
     }
 
     /// Number of the sample whose row these bytes are.

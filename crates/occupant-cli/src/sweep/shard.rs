@@ -12,10 +12,7 @@ pub struct Shard {
 
 impl Shard {
     /// Everything.
-    pub const WHOLE: Shard = Shard {
-        number: 1,
-        count: 1,
-    };
+    pub const WHOLE: Shard = Shard { number: 1, count: 1 };
 
     /// Reads `3/8`.
     ///
@@ -23,25 +20,18 @@ impl Shard {
     /// What is wrong with it.
     pub fn parse(text: &str) -> Result<Shard, String> {
         let form = "a part and how many there are, such as 3/8";
-        let (number, count) = text
-            .split_once('/')
-            .ok_or_else(|| format!("`{text}` is no shard; expected {form}"))?;
+        let (number, count) = text.split_once('/').ok_or_else(|| format!("`{text}` is no shard; expected {form}"))?;
         let read = |word: &str| {
             let word = word.trim();
-            word.parse::<u64>()
-                .map_err(|_| format!("`{word}` in `{text}` is no whole number; expected {form}"))
+            word.parse::<u64>().map_err(|_| format!("`{word}` in `{text}` is no whole number; expected {form}"))
         };
         Shard::new(read(number)?, read(count)?)
     }
 
     fn new(number: u64, count: u64) -> Result<Shard, String> {
         match number {
-            0 => Err(format!(
-                "there is no shard 0/{count}: shards are counted from 1, 1/{count} is the first"
-            )),
-            _ if number > count => Err(format!(
-                "there is no shard {number} of {count}: the last is {count}/{count}"
-            )),
+            0 => Err(format!("there is no shard 0/{count}: shards are counted from 1, 1/{count} is the first")),
+            _ if number > count => Err(format!("there is no shard {number} of {count}: the last is {count}/{count}")),
             _ => Ok(Shard { number, count }),
         }
     }
@@ -51,9 +41,7 @@ impl Shard {
     ///
     /// # Errors
     /// Variables that tell no shard.
-    pub fn from_environment(
-        get: impl Fn(&str) -> Option<String>,
-    ) -> Result<Option<(Shard, &'static str)>, String> {
+    pub fn from_environment(get: impl Fn(&str) -> Option<String>) -> Result<Option<(Shard, &'static str)>, String> {
         if let Some(text) = get("OCCUPANT_SHARD") {
             let shard = Shard::parse(&text).map_err(|e| format!("OCCUPANT_SHARD: {e}"))?;
             return Ok(Some((shard, "OCCUPANT_SHARD")));
@@ -73,10 +61,7 @@ impl Shard {
                 return Err("SLURM_ARRAY_TASK_ID is set, but not SLURM_ARRAY_TASK_COUNT".to_owned());
             }
         };
-        let (first, step) = (
-            of("SLURM_ARRAY_TASK_MIN", 0)?,
-            of("SLURM_ARRAY_TASK_STEP", 1)?,
-        );
+        let (first, step) = (of("SLURM_ARRAY_TASK_MIN", 0)?, of("SLURM_ARRAY_TASK_STEP", 1)?);
         let gaps = || {
             format!(
                 "task {id} of a Slurm array of {count} tasks from {first} in steps of {step} is no part of a study; use an array without gaps"
@@ -194,10 +179,7 @@ mod tests {
         assert_eq!(found, Ok(Some((half, "OCCUPANT_SHARD"))));
         assert_eq!(Shard::from_environment(|_| None), Ok(None));
         for refused in [&slurm[..1], &[slurm[0], slurm[1]], &slurm[..3]] {
-            assert!(
-                Shard::from_environment(environment(refused)).is_err(),
-                "{refused:?}"
-            );
+            assert!(Shard::from_environment(environment(refused)).is_err(), "{refused:?}");
         }
     }
 }

@@ -96,12 +96,7 @@ impl Simulation<'_> {
     }
 
     /// Runs the samples that `next` gives, as many side by side as the kernel can.
-    fn run(
-        &self,
-        kernel: Kernel,
-        next: &dyn Fn() -> Option<u64>,
-        hand_on: HandOn<'_>,
-    ) -> Result<(), Failure> {
+    fn run(&self, kernel: Kernel, next: &dyn Fn() -> Option<u64>, hand_on: HandOn<'_>) -> Result<(), Failure> {
         let failure = RefCell::new(None);
         let broken_off = Slot::new(false);
         let jobs = std::iter::from_fn(|| {
@@ -167,9 +162,7 @@ impl Simulation<'_> {
         let (_, (summarizer, recording)) = ended.recorder;
         if let Err(error) = &ended.outcome {
             let reason = with_causes(error);
-            return Err(Failure::BrokeOff(format!(
-                "error: sample {index}: {reason}"
-            )));
+            return Err(Failure::BrokeOff(format!("error: sample {index}: {reason}")));
         }
         let Some(summary) = summarizer.summary(None) else {
             return Ok(None);
@@ -190,14 +183,7 @@ impl Simulation<'_> {
     fn without_figures(&self, (index, begun): Tag, status: Status, reason: String) -> Row {
         let mut cells = self.plan.inputs(index);
         cells.resize(self.plan.manifest.columns.len(), Cell::Absent);
-        Row {
-            index,
-            status,
-            reason,
-            cells,
-            wall_time_s: begun.elapsed().as_secs_f64(),
-            kernel: String::new(),
-        }
+        Row { index, status, reason, cells, wall_time_s: begun.elapsed().as_secs_f64(), kernel: String::new() }
     }
 
     /// Puts the figures into their columns. A run that failed has only those of its work: its peaks are those of numbers
@@ -244,9 +230,7 @@ impl Recorder for Stop<'_> {
 
 /// All errors in one line.
 fn reason(problems: &Diagnostics) -> String {
-    let errors = problems
-        .iter()
-        .filter(|d| d.problem.severity == Severity::Error);
+    let errors = problems.iter().filter(|d| d.problem.severity == Severity::Error);
     let line = |d: &occupant_core::scenario::Diagnostic| {
         let p = &d.problem;
         let at = match p.path.as_str() {

@@ -23,11 +23,7 @@ pub trait TableSink {
 ///
 /// # Errors
 /// Samples that are missing or disagree; what a sink reports.
-pub fn stream(
-    journal: &Journal,
-    manifest: &Manifest,
-    sinks: &mut [&mut dyn TableSink],
-) -> Result<(), Problem> {
+pub fn stream(journal: &Journal, manifest: &Manifest, sinks: &mut [&mut dyn TableSink]) -> Result<(), Problem> {
     let at_once = (CELLS / manifest.columns.len().max(1)).clamp(64, ROWS) as u64;
     let mut start = 0;
     while start < manifest.samples {

@@ -55,25 +55,16 @@ struct Read {
 impl Texts {
     /// Reads files.
     pub fn of_files(study: &Path) -> Self {
-        Texts::new(Source::Files {
-            study: study.to_owned(),
-        })
+        Texts::new(Source::Files { study: study.to_owned() })
     }
 
     /// Reads the copies in a folder.
     pub fn of_copies(folder: &Folder, manifest: &Manifest) -> Self {
-        Texts::new(Source::Copies {
-            folder: folder.clone(),
-            texts: manifest.texts.clone(),
-        })
+        Texts::new(Source::Copies { folder: folder.clone(), texts: manifest.texts.clone() })
     }
 
     fn new(source: Source) -> Self {
-        Texts {
-            source,
-            read: RefCell::default(),
-            base: RefCell::default(),
-        }
+        Texts { source, read: RefCell::default(), base: RefCell::default() }
     }
 
     /// The bytes of a file that was named; read once.
@@ -86,11 +77,7 @@ impl Texts {
             return Ok(read.bytes.clone());
         }
         let bytes = self.fetch(by, name)?;
-        self.read.borrow_mut().push(Read {
-            by,
-            name: name.to_owned(),
-            bytes: bytes.clone(),
-        });
+        self.read.borrow_mut().push(Read { by, name: name.to_owned(), bytes: bytes.clone() });
         Ok(bytes)
     }
 
@@ -125,11 +112,7 @@ impl Texts {
 
     /// Remembers what stands for something that is no single file.
     pub fn add(&self, by: NamedBy, name: &str, text: String) {
-        self.read.borrow_mut().push(Read {
-            by,
-            name: name.to_owned(),
-            bytes: text.into_bytes(),
-        });
+        self.read.borrow_mut().push(Read { by, name: name.to_owned(), bytes: text.into_bytes() });
     }
 
     /// What was read, for the manifest, and the bytes.

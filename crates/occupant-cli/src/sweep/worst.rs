@@ -13,10 +13,7 @@ pub struct Worst {
 impl Worst {
     /// Nothing seen yet.
     pub fn new(count: usize) -> Self {
-        Worst {
-            count,
-            found: Vec::new(),
-        }
+        Worst { count, found: Vec::new() }
     }
 
     /// Looks at a sample; samples come in order.

@@ -21,11 +21,7 @@ pub fn outline(part: &Part, pose: &Isometry3<f64>, view: View) -> Vec<[f64; 2]> 
 
 /// The ellipse that an ellipsoid x = c + M u, |u| = 1 projects to: with the projection P and B = P M, its support in the
 /// direction d is |Bᵀd|, reached at B Bᵀd / |Bᵀd|.
-fn ellipse(
-    lump: &Lump,
-    pose: &Isometry3<f64>,
-    view: View,
-) -> impl Iterator<Item = [f64; 2]> + use<> {
+fn ellipse(lump: &Lump, pose: &Isometry3<f64>, view: View) -> impl Iterator<Item = [f64; 2]> + use<> {
     let centre = view.place(&(pose * nalgebra::Point3::from(lump.centre_m)));
     let axes = pose.rotation.to_rotation_matrix() * Matrix3::from_diagonal(&lump.half_m);
     let columns = [0, 1, 2].map(|i| view.turn(axes.column(i).into_owned()).xy());
@@ -84,15 +80,8 @@ mod tests {
     /// A ball's outline is its circle however it is turned; that of an ellipsoid reaches as far as its half axes.
     #[test]
     fn ellipsoids_project_to_their_outlines() {
-        let lump = |half_m| Lump {
-            centre_m: Vector3::new(0.1, 0.0, 0.0),
-            half_m,
-        };
-        let part = |half_m| Part {
-            segment: Segment::Head,
-            tone: Tone::Skin,
-            ends: [lump(half_m); 2],
-        };
+        let lump = |half_m| Lump { centre_m: Vector3::new(0.1, 0.0, 0.0), half_m };
+        let part = |half_m| Part { segment: Segment::Head, tone: Tone::Skin, ends: [lump(half_m); 2] };
         let turn = UnitQuaternion::from_euler_angles(0.3, -0.7, 1.1);
         let pose = Isometry3::from_parts(Translation3::new(1.0, 2.0, 3.0), turn);
         let centre = View::Side.place(&(pose * nalgebra::Point3::new(0.1, 0.0, 0.0)));

@@ -73,10 +73,7 @@ impl Layout {
     /// Upper left corner of the column of a moment.
     pub fn head(&self, moment: usize) -> [f64; 2] {
         let (block, column) = (moment / self.columns, moment % self.columns);
-        [
-            LEFT + column as f64 * (self.column + GAP),
-            TOP + block as f64 * self.block,
-        ]
+        [LEFT + column as f64 * (self.column + GAP), TOP + block as f64 * self.block]
     }
 
     /// Width of a column.

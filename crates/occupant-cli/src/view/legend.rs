@@ -6,22 +6,12 @@ use super::projection::View;
 use crate::picture::font::{self, Weight};
 use crate::picture::svg::{Anchor, Svg, Text};
 
-const SMALL: Text<'_> = Text {
-    size: 11.0,
-    fill: "#333333",
-    anchor: Anchor::Start,
-    weight: Weight::Regular,
-    turn_deg: 0.0,
-    halo: None,
-};
+const SMALL: Text<'_> =
+    Text { size: 11.0, fill: "#333333", anchor: Anchor::Start, weight: Weight::Regular, turn_deg: 0.0, halo: None };
 
 /// Name and axes of a view, left of its first panel.
 pub fn name_row(svg: &mut Svg, view: View, y: f64) {
-    let name = Text {
-        size: 12.0,
-        weight: Weight::Bold,
-        ..SMALL
-    };
+    let name = Text { size: 12.0, weight: Weight::Bold, ..SMALL };
     svg.text([8.0, y + 14.0], view.name(), &name);
     svg.text([8.0, y + 28.0], view.from(), &Text { size: 9.5, ..SMALL });
     let centre = [38.0, y + 58.0];
@@ -31,11 +21,7 @@ pub fn name_row(svg: &mut Svg, view: View, y: f64) {
         arrow(svg, centre, tip, "#333333");
         let mut at = centre;
         at[row] += 30.0 * sense;
-        let style = Text {
-            size: 10.0,
-            anchor: Anchor::Middle,
-            ..SMALL
-        };
+        let style = Text { size: 10.0, anchor: Anchor::Middle, ..SMALL };
         svg.text([at[0], at[1] + 3.5], axis, &style);
     }
 }
@@ -53,10 +39,8 @@ pub fn draw(svg: &mut Svg, layout: &Layout, pen: &Pen<'_>) {
     }
     let belts = pen.strip.moments.iter().flat_map(|m| &m.belts);
     let (taut, slack): (Vec<_>, Vec<_>) = belts.partition(|b| b.force_n > 0.0);
-    for (found, color, label) in [
-        (!taut.is_empty(), TAUT, "belt under load"),
-        (!slack.is_empty(), SLACK, "slack belt"),
-    ] {
+    for (found, color, label) in [(!taut.is_empty(), TAUT, "belt under load"), (!slack.is_empty(), SLACK, "slack belt")]
+    {
         if found {
             row.stroke(&format!("stroke=\"{color}\" stroke-width=\"1.8\""), label);
         }
@@ -67,11 +51,7 @@ pub fn draw(svg: &mut Svg, layout: &Layout, pen: &Pen<'_>) {
         let dashed = format!("{line} stroke-width=\"0.8\" stroke-dasharray=\"3 2\"");
         row.stroke(&dashed, "surface before the body");
     }
-    let print = Text {
-        size: 9.5,
-        fill: "#666666",
-        ..SMALL
-    };
+    let print = Text { size: 9.5, fill: "#666666", ..SMALL };
     let at = [12.0, layout.height - 12.0];
     svg.text(at, &pen.strip.origin, &print);
 }

@@ -62,19 +62,8 @@ impl Place {
 }
 
 /// Draws a panel; `corner` is the sheet place of the picture place `corner_m`.
-pub fn draw(
-    svg: &mut Svg,
-    pen: &Pen<'_>,
-    moment: &Snapshot,
-    view: View,
-    corner: [f64; 2],
-    corner_m: [f64; 2],
-) {
-    let place = Place {
-        view,
-        scale: pen.scale,
-        origin: [0, 1].map(|i| corner[i] - pen.scale * corner_m[i]),
-    };
+pub fn draw(svg: &mut Svg, pen: &Pen<'_>, moment: &Snapshot, view: View, corner: [f64; 2], corner_m: [f64; 2]) {
+    let place = Place { view, scale: pen.scale, origin: [0, 1].map(|i| corner[i] - pen.scale * corner_m[i]) };
     let (before, behind) = surfaces(pen, moment, view);
     for face in &behind {
         draw_surface(svg, &place, moment, face, false);
@@ -89,11 +78,7 @@ pub fn draw(
 }
 
 /// Surfaces before the pelvis and the others.
-fn surfaces<'a>(
-    pen: &Pen<'a>,
-    moment: &Snapshot,
-    view: View,
-) -> (Vec<&'a FlatFace>, Vec<&'a FlatFace>) {
+fn surfaces<'a>(pen: &Pen<'a>, moment: &Snapshot, view: View) -> (Vec<&'a FlatFace>, Vec<&'a FlatFace>) {
     let pelvis = moment.poses[Segment::LowerTorso.index()].translation.vector;
     let own = view.depth(&pelvis.into());
     pen.strip.model.faces().iter().partition(|face| {
@@ -116,13 +101,9 @@ fn draw_surface(svg: &mut Svg, place: &Place, moment: &Snapshot, face: &FlatFace
     }
     let look = match before {
         true => {
-            format!(
-                "fill=\"none\" stroke=\"{SURFACE}\" stroke-width=\"0.6\" stroke-dasharray=\"3 2\""
-            )
+            format!("fill=\"none\" stroke=\"{SURFACE}\" stroke-width=\"0.6\" stroke-dasharray=\"3 2\"")
         }
-        false => format!(
-            "fill=\"{SURFACE}\" fill-opacity=\"0.08\" stroke=\"{SURFACE}\" stroke-width=\"0.7\""
-        ),
+        false => format!("fill=\"{SURFACE}\" fill-opacity=\"0.08\" stroke=\"{SURFACE}\" stroke-width=\"0.7\""),
     };
     svg.polygon(&points, &look);
 }
@@ -145,9 +126,7 @@ fn farthest(points: &[[f64; 2]]) -> ([f64; 2], [f64; 2]) {
 fn draw_body(svg: &mut Svg, place: &Place, pen: &Pen<'_>, moment: &Snapshot) {
     let depth = |part: &Part| {
         let pose = &moment.poses[part.segment.index()];
-        let ends = part
-            .ends
-            .map(|e| place.view.depth(&(pose * Point3::from(e.centre_m))));
+        let ends = part.ends.map(|e| place.view.depth(&(pose * Point3::from(e.centre_m))));
         0.5 * (ends[0] + ends[1])
     };
     let mut order: Vec<(f64, &Part)> = pen.parts.iter().map(|p| (depth(p), p)).collect();
@@ -155,9 +134,7 @@ fn draw_body(svg: &mut Svg, place: &Place, pen: &Pen<'_>, moment: &Snapshot) {
     svg.begin("stroke=\"#2b2f36\" stroke-width=\"0.7\" stroke-linejoin=\"round\"");
     for (_, part) in order {
         let pose = &moment.poses[part.segment.index()];
-        let points: Vec<_> = { outline(part, pose, place.view).into_iter() }
-            .map(|p| place.flat(p))
-            .collect();
+        let points: Vec<_> = { outline(part, pose, place.view).into_iter() }.map(|p| place.flat(p)).collect();
         svg.polygon(&points, &format!("fill=\"{}\"", fill(part.tone)));
     }
     svg.end();
@@ -214,22 +191,10 @@ pub fn arrow(svg: &mut Svg, from: [f64; 2], to: [f64; 2], color: &str) {
     }
     let unit = along.map(|c| c / length);
     let base = [0, 1].map(|i| to[i] - head * unit[i]);
-    svg.segment(
-        from,
-        base,
-        &format!("stroke=\"{color}\" stroke-width=\"1.3\""),
-    );
+    svg.segment(from, base, &format!("stroke=\"{color}\" stroke-width=\"1.3\""));
     let half = head / SLENDER;
-    let corner = |side: f64| {
-        [
-            base[0] - side * half * unit[1],
-            base[1] + side * half * unit[0],
-        ]
-    };
+    let corner = |side: f64| [base[0] - side * half * unit[1], base[1] + side * half * unit[0]];
     let [a, b] = [corner(1.0), corner(-1.0)];
     let [x, y, ax, ay, bx, by] = [to[0], to[1], a[0], a[1], b[0], b[1]].map(number);
-    svg.path(
-        &format!("M{x} {y}L{ax} {ay}L{bx} {by}Z"),
-        &format!("fill=\"{color}\""),
-    );
+    svg.path(&format!("M{x} {y}L{ax} {ay}L{bx} {by}Z"), &format!("fill=\"{color}\""));
 }

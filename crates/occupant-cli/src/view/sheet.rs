@@ -17,26 +17,13 @@ pub fn draw(strip: &Strip<'_>) -> String {
     let title = &strip.model.setup().title;
     let mut svg = Svg::new(layout.width, layout.height, title);
     svg.rect(0.0, 0.0, layout.width, layout.height, "fill=\"#ffffff\"");
-    let heading = Text {
-        size: 15.0,
-        weight: Weight::Bold,
-        ..Text::default()
-    };
+    let heading = Text { size: 15.0, weight: Weight::Bold, ..Text::default() };
     svg.text([12.0, 24.0], title, &heading);
     let axes = "Vehicle axes: X forward, Y right, Z down. One scale in all panels.";
-    let small = Text {
-        size: 10.5,
-        fill: "#555555",
-        ..Text::default()
-    };
+    let small = Text { size: 10.5, fill: "#555555", ..Text::default() };
     svg.text([12.0, 41.0], axes, &small);
     let parts = parts(strip.model.body());
-    let pen = Pen {
-        strip,
-        parts: &parts,
-        scale: layout.scale,
-        per_n: force_scale(strip),
-    };
+    let pen = Pen { strip, parts: &parts, scale: layout.scale, per_n: force_scale(strip) };
     for moment in 0..strip.moments.len() {
         draw_moment(&mut svg, &layout, &pen, moment);
     }
@@ -55,12 +42,7 @@ fn force_scale(strip: &Strip<'_>) -> Option<f64> {
 fn draw_moment(svg: &mut Svg, layout: &Layout, pen: &Pen<'_>, moment: usize) {
     let snapshot = &pen.strip.moments[moment];
     let [x, y] = layout.head(moment);
-    let label = Text {
-        size: 13.0,
-        weight: Weight::Bold,
-        anchor: Anchor::Middle,
-        ..Text::default()
-    };
+    let label = Text { size: 13.0, weight: Weight::Bold, anchor: Anchor::Middle, ..Text::default() };
     let middle = x + 0.5 * layout.column();
     svg.text([middle, y + 16.0], &time_label(snapshot.time_s), &label);
     for (row, &view) in pen.strip.views.iter().enumerate() {

@@ -21,10 +21,7 @@ pub struct Window {
 impl Window {
     /// Of a strip.
     pub fn of(strip: &Strip<'_>) -> Self {
-        let mut window = Window {
-            low: Vector3::repeat(f64::INFINITY),
-            high: Vector3::repeat(f64::NEG_INFINITY),
-        };
+        let mut window = Window { low: Vector3::repeat(f64::INFINITY), high: Vector3::repeat(f64::NEG_INFINITY) };
         for moment in &strip.moments {
             window.add_body(strip, moment);
         }
@@ -86,9 +83,6 @@ impl Window {
     }
 
     fn grown(&self, by_m: f64) -> Self {
-        Window {
-            low: self.low.add_scalar(-by_m),
-            high: self.high.add_scalar(by_m),
-        }
+        Window { low: self.low.add_scalar(-by_m), high: self.high.add_scalar(by_m) }
     }
 }

@@ -6,20 +6,11 @@ fn it_shows_what_will_be_simulated() {
     let output = answer(folder.path(), &["check", "case.toml"]);
     assert_eq!(code(&output), 0, "{}", err(&output));
     let text = out(&output);
-    for words in [
-        "31 degrees of freedom",
-        "12 segments",
-        "sinks",
-        "touches at the start",
-        "fastest time scale",
-    ] {
+    for words in ["31 degrees of freedom", "12 segments", "sinks", "touches at the start", "fastest time scale"] {
         assert!(text.contains(words), "{words} is missing in\n{text}");
     }
     assert_eq!(row(&text, "lap")[1], "pelvis");
-    assert!(
-        !folder.path().join("case.mcap").exists(),
-        "check runs nothing"
-    );
+    assert!(!folder.path().join("case.mcap").exists(), "check runs nothing");
 }
 
 #[test]
@@ -27,16 +18,10 @@ fn its_json_tells_the_same() {
     let folder = folder_with_case();
     let text = out(&answer(folder.path(), &["check", "case.toml"]));
     let json = json(&answer(folder.path(), &["check", "case.toml", "--json"]));
-    assert!(text.contains(&format!(
-        "{:.2} kg",
-        json["body"]["mass_kg"].as_f64().unwrap()
-    )));
+    assert!(text.contains(&format!("{:.2} kg", json["body"]["mass_kg"].as_f64().unwrap())));
     for belt in json["belts"].as_array().unwrap() {
         let cells = row(&text, belt["belt"].as_str().unwrap());
-        assert_eq!(
-            cells[2],
-            format!("{:.4}", belt["length_m"].as_f64().unwrap())
-        );
+        assert_eq!(cells[2], format!("{:.4}", belt["length_m"].as_f64().unwrap()));
     }
     let number = json["step_by_time_scale"].as_f64().unwrap();
     assert!(text.contains(&format!("{number:.3}")));
@@ -55,12 +40,7 @@ fn a_step_that_is_too_long_fails_the_check() {
 #[test]
 fn the_adaptive_integrator_needs_no_such_check() {
     let folder = folder_with_case();
-    let words = [
-        "check",
-        "case.toml",
-        "--set",
-        "integrator={kind=\"adaptive\"}",
-    ];
+    let words = ["check", "case.toml", "--set", "integrator={kind=\"adaptive\"}"];
     let output = answer(folder.path(), &words);
     assert_eq!(code(&output), 0, "{}", err(&output));
     assert!(out(&output).contains("the error control chooses the step"));

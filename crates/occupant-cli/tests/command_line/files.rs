@@ -9,10 +9,7 @@ fn a_file_that_exists_is_not_written_over() {
     assert_eq!(code(&output), 2);
     assert!(err(&output).contains("--force"), "{}", err(&output));
     assert_eq!(std::fs::read_to_string(&file).unwrap(), "mine");
-    assert_eq!(
-        code(&answer(folder.path(), &["run", "case.toml", "--force"])),
-        0
-    );
+    assert_eq!(code(&answer(folder.path(), &["run", "case.toml", "--force"])), 0);
     assert!(std::fs::metadata(&file).unwrap().len() > 10_000);
 }
 
@@ -23,11 +20,7 @@ fn what_an_interrupted_run_left_is_not_written_over() {
     std::fs::write(&partial, "half").unwrap();
     let output = answer(folder.path(), &["run", "case.toml"]);
     assert_eq!(code(&output), 2);
-    assert!(
-        err(&output).contains("case.partial.mcap"),
-        "{}",
-        err(&output)
-    );
+    assert!(err(&output).contains("case.partial.mcap"), "{}", err(&output));
     assert_eq!(std::fs::read_to_string(&partial).unwrap(), "half");
     assert_eq!(code(&answer(folder.path(), &["run", "case.toml", "-f"])), 0);
     assert!(!partial.exists());
@@ -37,13 +30,7 @@ fn what_an_interrupted_run_left_is_not_written_over() {
 fn the_same_scenario_gives_the_same_bytes() {
     let folder = folder_with_case();
     for name in ["a.mcap", "b.mcap"] {
-        assert_eq!(
-            code(&answer(
-                folder.path(),
-                &["run", "case.toml", "-q", "-o", name]
-            )),
-            0
-        );
+        assert_eq!(code(&answer(folder.path(), &["run", "case.toml", "-q", "-o", name])), 0);
     }
     let bytes = |name| std::fs::read(folder.path().join(name)).unwrap();
     assert!(bytes("a.mcap") == bytes("b.mcap"));
@@ -52,14 +39,7 @@ fn the_same_scenario_gives_the_same_bytes() {
 #[test]
 fn a_folder_that_is_not_there_is_named() {
     let folder = folder_with_case();
-    let output = answer(
-        folder.path(),
-        &["run", "case.toml", "-o", "no/such/run.mcap"],
-    );
+    let output = answer(folder.path(), &["run", "case.toml", "-o", "no/such/run.mcap"]);
     assert_eq!(code(&output), 2);
-    assert!(
-        err(&output).contains("no/such/run.partial.mcap"),
-        "{}",
-        err(&output)
-    );
+    assert!(err(&output).contains("no/such/run.partial.mcap"), "{}", err(&output));
 }

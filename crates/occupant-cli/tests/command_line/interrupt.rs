@@ -20,38 +20,23 @@ fn an_interrupted_run_leaves_a_readable_file_that_says_so() {
     let patience = Instant::now();
     let size = || std::fs::metadata(&partial).map_or(0, |m| m.len());
     while size() < 100_000 {
-        assert!(
-            patience.elapsed() < Duration::from_secs(60),
-            "nothing was written"
-        );
+        assert!(patience.elapsed() < Duration::from_secs(60), "nothing was written");
         std::thread::sleep(Duration::from_millis(20));
     }
-    let signal = Command::new("kill")
-        .args(["-INT", &child.id().to_string()])
-        .status();
+    let signal = Command::new("kill").args(["-INT", &child.id().to_string()]).status();
     assert!(signal.unwrap().success());
     let output = child.wait_with_output().unwrap();
     assert_eq!(output.status.code(), Some(1));
     let said = String::from_utf8(output.stderr).unwrap();
     assert!(said.contains("partial"), "{said}");
-    assert!(
-        String::from_utf8(output.stdout)
-            .unwrap()
-            .contains("INTERRUPTED")
-    );
+    assert!(String::from_utf8(output.stdout).unwrap().contains("INTERRUPTED"));
     assert!(!folder.path().join("case.mcap").exists());
 
     let bytes = std::fs::read(&partial).unwrap();
-    let messages = mcap::MessageStream::new(&bytes)
-        .unwrap()
-        .map(Result::unwrap)
-        .count();
+    let messages = mcap::MessageStream::new(&bytes).unwrap().map(Result::unwrap).count();
     assert!(messages > 100, "{messages}");
     let summary = mcap::Summary::read(&bytes).unwrap().expect("a summary");
-    let index = summary
-        .metadata_indexes
-        .iter()
-        .find(|i| i.name == "occupant.result");
+    let index = summary.metadata_indexes.iter().find(|i| i.name == "occupant.result");
     let record = mcap::read::metadata(&bytes, index.expect("a result")).unwrap();
     assert_eq!(record.metadata["status"], "stopped");
 }

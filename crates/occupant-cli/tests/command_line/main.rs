@@ -52,9 +52,7 @@ fn json(output: &Output) -> serde_json::Value {
 
 /// The cells of the table row that starts with `name`.
 fn row(text: &str, name: &str) -> Vec<String> {
-    let line = text
-        .lines()
-        .find(|l| l.split_whitespace().next() == Some(name));
+    let line = text.lines().find(|l| l.split_whitespace().next() == Some(name));
     let line = line.unwrap_or_else(|| panic!("no row {name} in\n{text}"));
     line.split_whitespace().map(str::to_owned).collect()
 }

@@ -20,10 +20,7 @@ fn a_file_that_exists_is_left_alone_unless_forced() {
     assert_eq!(code(&again), 2);
     assert!(err(&again).contains("--force"), "{}", err(&again));
     assert_eq!(std::fs::read_to_string(&file).unwrap(), "mine");
-    assert_eq!(
-        code(&answer(folder.path(), &["new", "case.toml", "--force"])),
-        0
-    );
+    assert_eq!(code(&answer(folder.path(), &["new", "case.toml", "--force"])), 0);
     assert!(std::fs::read_to_string(&file).unwrap().contains("[path]"));
 }
 
@@ -35,8 +32,5 @@ fn the_ending_is_added_and_no_other_is_taken() {
     assert!(err(&named).contains("occupant run other.toml"));
     assert!(folder.path().join("other.toml").exists());
     assert_eq!(code(&answer(folder.path(), &["new", "other.json"])), 2);
-    assert_eq!(
-        code(&answer(folder.path(), &["new", "no/such/folder.toml"])),
-        2
-    );
+    assert_eq!(code(&answer(folder.path(), &["new", "no/such/folder.toml"])), 2);
 }

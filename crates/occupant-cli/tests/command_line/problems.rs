@@ -43,13 +43,7 @@ fn every_problem_is_told_at_once_with_the_nearest_name() {
         ("heels = [0.69, 0.33]", "heels = [0.69]"),
     ]);
     assert_eq!(code, 2);
-    for words in [
-        "did you mean `preset`",
-        "50 kg",
-        "true",
-        "heels",
-        "errors, nothing was run",
-    ] {
+    for words in ["did you mean `preset`", "50 kg", "true", "heels", "errors, nothing was run"] {
         assert!(said.contains(words), "{words} is missing in\n{said}");
     }
 }
@@ -72,12 +66,7 @@ fn physics_that_cannot_be_is_told_with_its_place() {
 #[test]
 fn a_change_that_leads_nowhere_is_told() {
     let folder = folder_with_case();
-    for change in [
-        "path.sped=3",
-        "no equals sign",
-        "joints.nek.damping=2",
-        "surfaces.*.colour=3",
-    ] {
+    for change in ["path.sped=3", "no equals sign", "joints.nek.damping=2", "surfaces.*.colour=3"] {
         let output = answer(folder.path(), &["run", "case.toml", "--set", change]);
         assert_eq!(code(&output), 2, "{change}");
         assert!(err(&output).contains("error"), "{}", err(&output));

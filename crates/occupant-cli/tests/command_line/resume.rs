@@ -42,10 +42,7 @@ fn a_run_in_two_parts_is_the_run_in_one() {
         let at = |name: &str| folder.path().join(name);
         let set = ["--set", integrator];
         run(folder.path(), &[&set[..], &["-o", "whole.mcap"]].concat());
-        run(
-            folder.path(),
-            &[&set[..], &["--until", "60 ms", "-o", "first.mcap"]].concat(),
-        );
+        run(folder.path(), &[&set[..], &["--until", "60 ms", "-o", "first.mcap"]].concat());
         let resumed = ["--resume", "first.mcap", "-o", "rest.mcap"];
         run(folder.path(), &[&set[..], &resumed].concat());
         let first = last(&at("first.mcap"));
@@ -78,19 +75,13 @@ fn the_summary_of_a_resumed_run_is_that_of_the_whole() {
         for changing in ["file", "overrides", "resumed"] {
             object.remove(changing);
         }
-        object["solver"]
-            .as_object_mut()
-            .unwrap()
-            .remove("wall_time_s");
+        object["solver"].as_object_mut().unwrap().remove("wall_time_s");
         answer
     };
     let whole = summary(&["-o", "whole.mcap"]);
     run(folder.path(), &["--until", "0.0604", "-o", "first.mcap"]);
     // the end lies between two outputs: the run goes on from the one before
-    assert_eq!(
-        summary(&["--resume", "first.mcap", "-o", "rest.mcap"]),
-        whole
-    );
+    assert_eq!(summary(&["--resume", "first.mcap", "-o", "rest.mcap"]), whole);
     let rest = stored(&folder.path().join("rest.mcap"));
     assert_eq!(rest.run["resumed_at_s"], "0.06");
     assert!(last(&folder.path().join("rest.mcap")) == last(&folder.path().join("whole.mcap")));
@@ -117,17 +108,11 @@ fn what_a_killed_run_left_can_be_resumed() {
         reached.push(from);
     }
     // a chunk is closed every 50 outputs
-    assert!(
-        reached.iter().all(|at| (at + 1).is_multiple_of(50)),
-        "{reached:?}"
-    );
+    assert!(reached.iter().all(|at| (at + 1).is_multiple_of(50)), "{reached:?}");
     // a resumed run can be resumed in its turn
     let bytes = std::fs::read(at("rest.mcap")).unwrap();
     std::fs::write(at("again.mcap"), &bytes[..bytes.len() * 9 / 10]).unwrap();
-    run(
-        folder.path(),
-        &["--resume", "again.mcap", "-o", "third.mcap"],
-    );
+    run(folder.path(), &["--resume", "again.mcap", "-o", "third.mcap"]);
     assert!(last(&at("third.mcap")) == *whole.checkpoints.last().unwrap());
 }
 
@@ -154,35 +139,17 @@ fn what_cannot_be_resumed_is_refused_in_words() {
         (&["--resume", "none.mcap"], "cannot be read"),
         (&["--resume", "text.mcap"], "not an MCAP file"),
         (&["--resume", "short.mcap"], "holds no checkpoint"),
-        (
-            &["--resume", "first.mcap", "--until", "0.05"],
-            "reaches t = 0.06 s",
-        ),
+        (&["--resume", "first.mcap", "--until", "0.05"], "reaches t = 0.06 s"),
         (&["--resume", "first.mcap", "--until", "0.06"], "--until"),
         (&["--resume", "first.mcap", "--until", "soon"], "soon"),
-        (
-            &[
-                "--resume",
-                "first.mcap",
-                "--set",
-                "output.interval=\"2 ms\"",
-            ],
-            "output.interval: ",
-        ),
-        (
-            &["--resume", "first.mcap", "-f", "-o", "first.mcap"],
-            "write over",
-        ),
+        (&["--resume", "first.mcap", "--set", "output.interval=\"2 ms\""], "output.interval: "),
+        (&["--resume", "first.mcap", "-f", "-o", "first.mcap"], "write over"),
     ];
     for (words, expected) in cases {
         let words = [&["run", "case.toml"], words].concat();
         let output = answer(folder.path(), &words);
         assert_eq!(code(&output), 2, "{words:?}");
-        assert!(
-            err(&output).contains(expected),
-            "{words:?}: {}",
-            err(&output)
-        );
+        assert!(err(&output).contains(expected), "{words:?}: {}", err(&output));
     }
     assert!(std::fs::read(folder.path().join("first.mcap")).unwrap() == bytes);
     assert!(!folder.path().join("case.resumed.mcap").exists());
@@ -193,9 +160,6 @@ fn what_cannot_be_resumed_is_refused_in_words() {
 fn words_about_a_scenario_may_change_before_it_is_resumed() {
     let folder = folder_with_case();
     run(folder.path(), &["--until", "0.06", "-o", "first.mcap"]);
-    run(
-        folder.path(),
-        &["--resume", "first.mcap", "--set", "title=Another title"],
-    );
+    run(folder.path(), &["--resume", "first.mcap", "--set", "title=Another title"]);
     assert!(folder.path().join("case.resumed.mcap").exists());
 }

@@ -22,15 +22,8 @@ fn the_table_and_the_json_tell_the_same_numbers() {
     for part in ["head", "chest", "pelvis"] {
         let a = &json["accelerations"][part];
         let cells = row(&table, part);
-        assert_eq!(
-            cells[1],
-            format!("{:.1}", a["peak_g"].as_f64().unwrap()),
-            "{table}"
-        );
-        assert_eq!(
-            cells[2],
-            format!("{:.1}", 1e3 * a["peak_time_s"].as_f64().unwrap())
-        );
+        assert_eq!(cells[1], format!("{:.1}", a["peak_g"].as_f64().unwrap()), "{table}");
+        assert_eq!(cells[2], format!("{:.1}", 1e3 * a["peak_time_s"].as_f64().unwrap()));
         let held = a["three_ms_contiguous"]["level_g"].as_f64().unwrap();
         assert_eq!(cells[3], format!("{held:.1}"));
         let total = a["three_ms_cumulative"]["level_g"].as_f64().unwrap();
@@ -38,14 +31,8 @@ fn the_table_and_the_json_tell_the_same_numbers() {
     }
     for belt in json["belts"].as_array().unwrap() {
         let cells = row(&table, belt["belt"].as_str().unwrap());
-        assert_eq!(
-            cells[1],
-            format!("{:.0}", belt["loop_force_n"].as_f64().unwrap())
-        );
-        assert_eq!(
-            cells[2],
-            format!("{:.1}", 1e3 * belt["time_s"].as_f64().unwrap())
-        );
+        assert_eq!(cells[1], format!("{:.0}", belt["loop_force_n"].as_f64().unwrap()));
+        assert_eq!(cells[2], format!("{:.1}", 1e3 * belt["time_s"].as_f64().unwrap()));
     }
     for first in json["first_contacts"].as_array().unwrap() {
         // "head" has a row among the accelerations too: the one below is meant
@@ -64,22 +51,12 @@ fn the_table_and_the_json_tell_the_same_numbers() {
             assert!(rows.iter().any(has), "{told:?} in {rows:?}");
         } else {
             // what touched at the start, or nothing at all
-            assert!(
-                rows.iter()
-                    .all(|r| r.contains("at start") || r.contains('–')),
-                "{rows:?}"
-            );
+            assert!(rows.iter().all(|r| r.contains("at start") || r.contains('–')), "{rows:?}");
         }
     }
     let solver = &json["solver"];
-    assert!(table.contains(&format!(
-        "{} steps, {} evaluations",
-        solver["steps"], solver["evaluations"]
-    )));
-    assert!(table.contains(&format!(
-        "{:.1e}",
-        json["energy"]["balance_error"].as_f64().unwrap()
-    )));
+    assert!(table.contains(&format!("{} steps, {} evaluations", solver["steps"], solver["evaluations"])));
+    assert!(table.contains(&format!("{:.1e}", json["energy"]["balance_error"].as_f64().unwrap())));
 }
 
 #[test]
@@ -101,48 +78,28 @@ fn values_are_changed_from_the_command_line() {
         assert_eq!(code(&output), 0, "{}", err(&output));
         json(&output)
     };
-    let shorter = run(&[
-        "--set",
-        "time.end=50 ms",
-        "--set",
-        "path.speed=20 mph",
-        "--set",
-        "path.delta_v='20 mph'",
-    ]);
+    let shorter = run(&["--set", "time.end=50 ms", "--set", "path.speed=20 mph", "--set", "path.delta_v='20 mph'"]);
     assert_eq!(shorter["reached_s"], 0.05);
     assert_eq!(shorter["overrides"].as_array().unwrap().len(), 3);
     let (as_it_is, slack) = (run(&[]), run(&["--set", "belts.*.slack='8 cm'"]));
     let head = |json: &serde_json::Value| json["head_excursion"]["forward_m"].as_f64().unwrap();
-    assert!(
-        head(&slack) > head(&as_it_is),
-        "slack belts let the head go farther"
-    );
+    assert!(head(&slack) > head(&as_it_is), "slack belts let the head go farther");
 }
 
 #[test]
 fn nothing_is_said_when_quiet() {
     let folder = folder_with_case();
     let output = answer(folder.path(), &["run", "case.toml", "-q"]);
-    assert_eq!(
-        (code(&output), out(&output), err(&output)),
-        (0, String::new(), String::new())
-    );
+    assert_eq!((code(&output), out(&output), err(&output)), (0, String::new(), String::new()));
     assert!(folder.path().join("case.mcap").exists());
-    let output = answer(
-        folder.path(),
-        &["run", "case.toml", "-q", "--json", "--no-mcap"],
-    );
+    let output = answer(folder.path(), &["run", "case.toml", "-q", "--json", "--no-mcap"]);
     assert_eq!(json(&output)["status"], "completed");
 }
 
 #[test]
 fn a_reader_that_goes_away_is_no_failure() {
     let folder = folder_with_case();
-    for words in [
-        &["run", "case.toml", "--no-mcap"][..],
-        &["schema"],
-        &["check", "case.toml"],
-    ] {
+    for words in [&["run", "case.toml", "--no-mcap"][..], &["schema"], &["check", "case.toml"]] {
         let mut child = std::process::Command::new(assert_cmd::cargo::cargo_bin!("occupant"))
             .args(words)
             .current_dir(folder.path())
@@ -190,16 +147,8 @@ fn a_run_that_fails_says_when_and_why_and_leaves_what_it_has() {
     ];
     let output = occupant(folder.path()).args(words).output().unwrap();
     assert_eq!(code(&output), 1);
-    assert!(
-        err(&output).contains("no longer a finite number"),
-        "{}",
-        err(&output)
-    );
-    assert!(
-        err(&output).contains("case.partial.mcap"),
-        "{}",
-        err(&output)
-    );
+    assert!(err(&output).contains("no longer a finite number"), "{}", err(&output));
+    assert!(err(&output).contains("case.partial.mcap"), "{}", err(&output));
     assert!(out(&output).contains("FAILED"), "{}", out(&output));
     assert!(folder.path().join("case.partial.mcap").exists());
     assert!(!folder.path().join("case.mcap").exists());

@@ -31,11 +31,7 @@ fn the_example_finds_what_was_hidden_in_its_tests() {
     let said = done(&at, &["fit", "fit.toml", "-o", "out"]);
     let found = found(&at, "out");
     // what make_test.py hides
-    let hidden = [
-        ("lap belt stiffness", 1.3),
-        ("torso belt slack", 0.8 * 0.0254),
-        ("seat friction", 0.45),
-    ];
+    let hidden = [("lap belt stiffness", 1.3), ("torso belt slack", 0.8 * 0.0254), ("seat friction", 0.45)];
     for (name, planted) in hidden {
         let p = parameter(&found, name);
         assert_eq!(p["verdict"], "identified", "{said}");
@@ -49,24 +45,13 @@ fn the_example_finds_what_was_hidden_in_its_tests() {
 fn the_example_of_webbing_and_anchorage_says_that_they_are_not_identified() {
     let folder = example();
     let at = folder.path().join("studies/fit-cart");
-    let words = [
-        "fit",
-        "anchorage.toml",
-        "--to",
-        "test-20mph.csv",
-        "-o",
-        "out",
-    ];
+    let words = ["fit", "anchorage.toml", "--to", "test-20mph.csv", "-o", "out"];
     let said = done(&at, &words);
     let found = found(&at, "out");
     let value = |name| number(&parameter(&found, name)["value"]);
     let product = value("webbing") * value("anchorage");
     assert!((product / 1.3 - 1.0).abs() < 0.02, "{product}\n{said}");
     for name in ["webbing", "anchorage"] {
-        assert_eq!(
-            parameter(&found, name)["verdict"],
-            "not_identified",
-            "{said}"
-        );
+        assert_eq!(parameter(&found, name)["verdict"], "not_identified", "{said}");
     }
 }

@@ -31,17 +31,7 @@ fn killed_at_any_moment_it_ends_at_the_same_answer_bit_for_bit() {
     let folder = folder_with(STUDY);
     let at = folder.path();
     measure(at, "test.csv", &HIDDEN, 0.03, 1);
-    let fit = |out| {
-        [
-            "fit",
-            "study.toml",
-            "--to",
-            "test.csv",
-            "-o",
-            out,
-            "--quiet",
-        ]
-    };
+    let fit = |out| ["fit", "study.toml", "--to", "test.csv", "-o", out, "--quiet"];
     done(at, &fit("whole"));
     let mut kills = 0;
     for round in 0..8_u64 {
@@ -75,15 +65,7 @@ fn the_answer_is_the_same_for_any_number_of_threads_and_every_kernel() {
     let at = folder.path();
     measure(at, "test.csv", &HIDDEN, 0.03, 2);
     let fit = |out: &str, more: &[&str]| {
-        let words = [
-            "fit",
-            "study.toml",
-            "--to",
-            "test.csv",
-            "-o",
-            out,
-            "--quiet",
-        ];
+        let words = ["fit", "study.toml", "--to", "test.csv", "-o", out, "--quiet"];
         done(at, &[&words, more].concat());
         results(at, out)
     };
@@ -101,24 +83,13 @@ fn another_test_or_study_in_the_same_folder_is_refused_with_what_differs() {
     let folder = folder_with(&STUDY.replace("budget = 160", "budget = 16"));
     let at = folder.path();
     measure(at, "test.csv", &HIDDEN, 0.03, 1);
-    let fit = [
-        "fit",
-        "study.toml",
-        "--to",
-        "test.csv",
-        "-o",
-        "out",
-        "--quiet",
-    ];
+    let fit = ["fit", "study.toml", "--to", "test.csv", "-o", "out", "--quiet"];
     done(at, &fit);
     measure(at, "test.csv", &HIDDEN, 0.03, 2);
     let refused = answer(at, &fit);
     assert_eq!(refused.status.code(), Some(2));
     let said = err(&refused);
-    assert!(
-        said.contains("out holds another fit") && said.contains("test.csv, line 2"),
-        "{said}"
-    );
+    assert!(said.contains("out holds another fit") && said.contains("test.csv, line 2"), "{said}");
     done(at, &[&fit[..], &["--restart"]].concat());
     // a sweep does not touch it
     let study = format!("{STUDY}\n[design]\nkind = \"monte_carlo\"\nsamples = 4\n");

@@ -50,10 +50,7 @@ fn occupant(folder: &Path) -> Command {
 }
 
 fn answer(folder: &Path, words: &[&str]) -> Output {
-    occupant(folder)
-        .args(words)
-        .output()
-        .expect("the command starts")
+    occupant(folder).args(words).output().expect("the command starts")
 }
 
 /// It does its work; what it prints.
@@ -78,37 +75,18 @@ fn folder_with(study: &str) -> tempfile::TempDir {
 /// Measures a run of the starter scenario with these changes into a table: belt forces and pelvis acceleration, each with
 /// noise of `noise` of its greatest value, the same for the same seed.
 fn measure(folder: &Path, name: &str, changes: &[&str], noise: f64, seed: u64) {
-    let mut run = vec![
-        "run",
-        "case.toml",
-        "-o",
-        "test.mcap",
-        "--force",
-        "--quiet",
-        "--set",
-        TIME,
-    ];
+    let mut run = vec!["run", "case.toml", "-o", "test.mcap", "--force", "--quiet", "--set", TIME];
     for change in changes {
         run.extend(["--set", change]);
     }
     done(folder, &run);
     let channels = "belt.lap.force,belt.torso.force,lower_torso.acceleration.x";
-    let words = [
-        "export",
-        "test.mcap",
-        "-o",
-        "clean.csv",
-        "--force",
-        "--channels",
-        channels,
-    ];
+    let words = ["export", "test.mcap", "-o", "clean.csv", "--force", "--channels", channels];
     done(folder, &words);
     let text = fs::read_to_string(folder.join("clean.csv")).unwrap();
     let mut lines = text.lines().filter(|l| !l.starts_with('#'));
     let head = lines.next().unwrap();
-    let mut rows: Vec<Vec<f64>> = lines
-        .map(|l| l.split(',').map(|c| c.parse().unwrap()).collect())
-        .collect();
+    let mut rows: Vec<Vec<f64>> = lines.map(|l| l.split(',').map(|c| c.parse().unwrap()).collect()).collect();
     let columns = rows[0].len();
     for column in 1..columns {
         let peak = rows.iter().map(|r| r[column].abs()).fold(0.0, f64::max);
@@ -146,7 +124,5 @@ fn parameter<'a>(found: &'a Value, name: &str) -> &'a Value {
 }
 
 fn number(value: &Value) -> f64 {
-    value
-        .as_f64()
-        .unwrap_or_else(|| panic!("{value} is no number"))
+    value.as_f64().unwrap_or_else(|| panic!("{value} is no number"))
 }

@@ -39,10 +39,7 @@ fn with_noise_intervals_hold_the_hidden_numbers_whatever_the_seed() {
         let study = STUDY.replace("seed = 5", &format!("seed = {seed}"));
         fs::write(at.join("study.toml"), study).unwrap();
         let out = format!("out-{seed}");
-        done(
-            at,
-            &["fit", "study.toml", "--to", &name, "-o", &out, "--quiet"],
-        );
+        done(at, &["fit", "study.toml", "--to", &name, "-o", &out, "--quiet"]);
         let found = found(at, &out);
         for (name, planted) in [("lap", 90e3), ("slack", 0.035)] {
             let p = parameter(&found, name);
@@ -85,19 +82,12 @@ range = { from = 0.5, to = 2, scale = "log" }
         assert_eq!(p["verdict"], "not_identified", "{said}");
         assert_eq!(p["compensated_by"], serde_json::json!([other]), "{said}");
     }
-    assert_eq!(
-        parameter(&found, "slack")["verdict"],
-        "identified",
-        "{said}"
-    );
+    assert_eq!(parameter(&found, "slack")["verdict"], "identified", "{said}");
     let pair = &found["correlations"][1];
     assert_eq!(pair["between"], serde_json::json!(["lap", "anchorage"]));
     // measured: -0.966
     assert!(number(&pair["correlation"]) < -0.95, "{pair}");
-    assert!(
-        said.contains("lap and anchorage compensate each other"),
-        "{said}"
-    );
+    assert!(said.contains("lap and anchorage compensate each other"), "{said}");
     let text = fs::read_to_string(at.join("out/fitted.toml")).unwrap();
     assert!(text.contains("not identified"), "{text}");
 }
@@ -110,11 +100,7 @@ fn a_best_value_beyond_the_range_is_at_its_bound() {
     measure(at, "test.csv", &HIDDEN, 0.0, 0);
     let said = done(at, &["fit", "study.toml", "--to", "test.csv", "-o", "out"]);
     let found = found(at, "out");
-    assert_eq!(
-        parameter(&found, "lap")["verdict"],
-        "at_upper_bound",
-        "{said}"
-    );
+    assert_eq!(parameter(&found, "lap")["verdict"], "at_upper_bound", "{said}");
     assert!(said.contains("lap is at its upper bound"), "{said}");
 }
 
@@ -138,12 +124,7 @@ weight = 0.5
     let folder = folder_with(&study);
     let at = folder.path();
     measure(at, "fast.csv", &HIDDEN, 0.02, 1);
-    let slow = [
-        HIDDEN[0],
-        HIDDEN[1],
-        "path.speed=30 km/h",
-        "path.delta_v=30 km/h",
-    ];
+    let slow = [HIDDEN[0], HIDDEN[1], "path.speed=30 km/h", "path.delta_v=30 km/h"];
     measure(at, "slow.csv", &slow, 0.02, 2);
     let said = done(at, &["fit", "study.toml", "--to", "slow.csv", "-o", "out"]);
     let found = found(at, "out");
@@ -152,10 +133,8 @@ weight = 0.5
         assert!(error < 0.03, "{name}: {error}\n{said}");
     }
     let channels = found["score"]["channels"].as_array().unwrap();
-    let names: Vec<String> = channels
-        .iter()
-        .map(|c| format!("{} {} {}", c["test"], c["channel"], c["weight"]).replace('"', ""))
-        .collect();
+    let names: Vec<String> =
+        channels.iter().map(|c| format!("{} {} {}", c["test"], c["channel"], c["weight"]).replace('"', "")).collect();
     assert_eq!(
         names,
         [
@@ -165,12 +144,7 @@ weight = 0.5
             "slow belt.torso.force 1.0"
         ]
     );
-    for name in [
-        "fitted/fast.toml",
-        "fitted/slow.toml",
-        "plots/fast.svg",
-        "plots/slow.svg",
-    ] {
+    for name in ["fitted/fast.toml", "fitted/slow.toml", "plots/fast.svg", "plots/slow.svg"] {
         assert!(at.join("out").join(name).is_file(), "{name}");
     }
     let slow = fs::read_to_string(at.join("out/fitted/slow.toml")).unwrap();

@@ -13,48 +13,25 @@ const FIT: [&str; 6] = ["fit", "study.toml", "--to", "test.csv", "-o", "out"];
 
 #[test]
 fn everything_that_is_wrong_is_told_at_once_with_its_place() {
-    let study = STUDY.replace(
-        "[fit]",
-        "[fit]\nchannels = [{ channel = \"belt.lap.forse\" }]",
-    );
+    let study = STUDY.replace("[fit]", "[fit]\nchannels = [{ channel = \"belt.lap.forse\" }]");
     let folder = folder_with(&study.replace("belts.lap.k1", "belts.lab.k1"));
     let at = folder.path();
-    fs::write(
-        at.join("test.csv"),
-        "time[s],belt.lap.force[N]\n0,1\n0.001,x\n",
-    )
-    .unwrap();
+    fs::write(at.join("test.csv"), "time[s],belt.lap.force[N]\n0,1\n0.001,x\n").unwrap();
     let said = refusal(at, &FIT);
-    for words in [
-        "study.toml:9:8",
-        "did you mean `lap`?",
-        "test.csv:3",
-        "`x`",
-        "2 errors, nothing was run",
-    ] {
+    for words in ["study.toml:9:8", "did you mean `lap`?", "test.csv:3", "`x`", "2 errors, nothing was run"] {
         assert!(said.contains(words), "{words} in\n{said}");
     }
     let folder = folder_with(&study);
     let at = folder.path();
-    fs::write(
-        at.join("test.csv"),
-        "time[s],belt.lap.force[N]\n0,1\n0.1,2\n",
-    )
-    .unwrap();
+    fs::write(at.join("test.csv"), "time[s],belt.lap.force[N]\n0,1\n0.1,2\n").unwrap();
     let said = refusal(at, &FIT);
-    assert!(
-        said.contains("there is no channel `belt.lap.forse`"),
-        "{said}"
-    );
+    assert!(said.contains("there is no channel `belt.lap.forse`"), "{said}");
     assert!(said.contains("did you mean `belt.lap.force`?"), "{said}");
 }
 
 #[test]
 fn wrong_words_of_the_fit_are_told_with_line_and_column() {
-    let study = STUDY.replace(
-        "budget = 160",
-        "budget = 0\nobjektive = \"rms\"\nobjective = \"best\"",
-    );
+    let study = STUDY.replace("budget = 160", "budget = 0\nobjektive = \"rms\"\nobjective = \"best\"");
     let folder = folder_with(&study);
     let said = refusal(folder.path(), &FIT);
     for words in [
@@ -72,36 +49,21 @@ fn wrong_words_of_the_fit_are_told_with_line_and_column() {
     let study = STUDY.replace("budget = 160", "budget = 99_000_000\nnear = -1");
     let said = refusal(folder_with(&study).path(), &FIT);
     assert!(said.contains("at most 10000000"), "{said}");
-    assert!(
-        said.contains("a number above 0") && said.contains("near = -1"),
-        "{said}"
-    );
+    assert!(said.contains("a number above 0") && said.contains("near = -1"), "{said}");
 }
 
 #[test]
 fn a_parameter_without_ends_and_a_missing_test_are_told() {
     let list = "list = [\"60 kN/m\", \"90 kN/m\"]";
-    let study = STUDY.replace(
-        "range = { from = \"35 kN/m\", to = \"140 kN/m\", scale = \"log\" }",
-        list,
-    );
+    let study = STUDY.replace("range = { from = \"35 kN/m\", to = \"140 kN/m\", scale = \"log\" }", list);
     let folder = folder_with(&study);
     let said = refusal(folder.path(), &FIT);
-    assert!(
-        said.contains("`lap` has no ends between which to look"),
-        "{said}"
-    );
-    assert!(
-        said.contains("a `range`, a `grid`, or a distribution"),
-        "{said}"
-    );
+    assert!(said.contains("`lap` has no ends between which to look"), "{said}");
+    assert!(said.contains("a `range`, a `grid`, or a distribution"), "{said}");
     assert!(said.contains("test.csv cannot be read"), "{said}");
     let folder = folder_with(STUDY);
     let said = refusal(folder.path(), &["fit", "study.toml", "-o", "out"]);
-    assert!(
-        said.contains("no test to fit to") && said.contains("--to test.csv"),
-        "{said}"
-    );
+    assert!(said.contains("no test to fit to") && said.contains("--to test.csv"), "{said}");
 }
 
 #[test]
@@ -115,18 +77,12 @@ fn signals_that_do_not_fit_the_run_are_told() {
     };
     table("chest[g]", 0.0);
     let said = refusal(at, &FIT);
-    assert!(
-        said.contains("no signal of test.csv belongs to a channel"),
-        "{said}"
-    );
+    assert!(said.contains("no signal of test.csv belongs to a channel"), "{said}");
     let mapped = [&FIT[..], &["--map", "chest=belt.lap.force"]].concat();
     assert!(refusal(at, &mapped).contains("chest is in g, but belt.lap.force in N"));
     table("belt.lap.force[N]", 5.0);
     let said = refusal(at, &FIT);
-    assert!(
-        said.contains("no common time") && said.contains("belt.lap.force of test.csv"),
-        "{said}"
-    );
+    assert!(said.contains("no common time") && said.contains("belt.lap.force of test.csv"), "{said}");
     // a class that the outputs are too sparse for
     let study = STUDY.replace("CFC60", "CFC1000");
     fs::write(at.join("study.toml"), study).unwrap();
@@ -140,10 +96,7 @@ fn a_fit_in_which_nothing_runs_says_why() {
     // damping beyond any stable step
     let study = STUDY
         .replace("belts.lap.k1", "joints.neck.damping")
-        .replace(
-            "from = \"35 kN/m\", to = \"140 kN/m\"",
-            "from = \"1e5 N m s/rad\", to = \"1e6 N m s/rad\"",
-        )
+        .replace("from = \"35 kN/m\", to = \"140 kN/m\"", "from = \"1e5 N m s/rad\", to = \"1e6 N m s/rad\"")
         .replace("budget = 160", "budget = 16");
     let folder = folder_with(&study);
     let at = folder.path();
@@ -151,10 +104,7 @@ fn a_fit_in_which_nothing_runs_says_why() {
     let output = answer(at, &FIT);
     let said = err(&output);
     assert_eq!(output.status.code(), Some(1), "{said}");
-    assert!(
-        said.contains("none of 17 candidates could be run"),
-        "{said}"
-    );
+    assert!(said.contains("none of 17 candidates could be run"), "{said}");
     assert!(said.contains("narrow the ranges"), "{said}");
 }
 

@@ -24,13 +24,8 @@ fn rated(folder: &Path, words: &[&str]) -> Value {
 }
 
 fn close(value: &Value, expected: f64, bound: f64) {
-    let found = value
-        .as_f64()
-        .unwrap_or_else(|| panic!("{value} is no number"));
-    assert!(
-        (found - expected).abs() < bound,
-        "{found} instead of {expected}"
-    );
+    let found = value.as_f64().unwrap_or_else(|| panic!("{value} is no number"));
+    assert!((found - expected).abs() < bound, "{found} instead of {expected}");
 }
 
 /// The vectors that the open-source OpenVT implementation of ISO/TS 18571 gives, through the command.
@@ -42,13 +37,7 @@ fn iso_18571_scores_are_those_of_another_implementation() {
     signal(here, "c.csv", 1500, |t| 1.3 * (20.0 * t).sin());
     let scores = |answer: &Value, [r, z, p, m, s]: [f64; 5]| {
         let iso = &answer["pairs"][0]["iso18571"];
-        for (name, expected) in [
-            ("overall", r),
-            ("corridor", z),
-            ("phase", p),
-            ("magnitude", m),
-            ("slope", s),
-        ] {
+        for (name, expected) in [("overall", r), ("corridor", z), ("phase", p), ("magnitude", m), ("slope", s)] {
             close(&iso[name], expected, 1e-6);
         }
     };
@@ -66,22 +55,9 @@ fn iso_18571_scores_are_those_of_another_implementation() {
     close(&answer["pairs"][0]["iso18571"]["lag_s"], 0.003, 1e-9);
     // a pair of files without headings
     let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../occupant-core/tests/data");
-    let [computed, reference] =
-        ["computed", "reference"].map(|n| data.join(format!("iso18571_{n}.csv")));
-    let answer = rated(
-        here,
-        &[computed.to_str().unwrap(), reference.to_str().unwrap()],
-    );
-    scores(
-        &answer,
-        [
-            0.830_957_7,
-            0.652_890_7,
-            0.941_666_7,
-            0.950_654_0,
-            0.956_686_5,
-        ],
-    );
+    let [computed, reference] = ["computed", "reference"].map(|n| data.join(format!("iso18571_{n}.csv")));
+    let answer = rated(here, &[computed.to_str().unwrap(), reference.to_str().unwrap()]);
+    scores(&answer, [0.830_957_7, 0.652_890_7, 0.941_666_7, 0.950_654_0, 0.956_686_5]);
 }
 
 #[test]
@@ -99,11 +75,7 @@ fn sprague_geers_and_anova_are_closed_forms() {
     close(&larger["sprague_geers"]["phase"], 0.0, 1e-7);
     close(&larger["anova"]["mean"], 0.0, 1e-9);
     // 0.3/√2, over n − 1
-    close(
-        &larger["anova"]["standard_deviation"],
-        0.3 * (1000.0_f64 / 1999.0).sqrt(),
-        1e-9,
-    );
+    close(&larger["anova"]["standard_deviation"], 0.3 * (1000.0_f64 / 1999.0).sqrt(), 1e-9);
     let late = of("late.csv");
     close(&late["sprague_geers"]["magnitude"], 0.2, 1e-9);
     close(&late["sprague_geers"]["phase"], 0.2, 1e-7);
@@ -117,19 +89,7 @@ fn a_run_against_its_own_export_is_perfect_whatever_the_units() {
     let run = coarse();
     let run = run.to_str().unwrap();
     let channels = "head.acceleration.resultant,vehicle.acceleration.x";
-    well(
-        folder.path(),
-        &[
-            "export",
-            run,
-            "-o",
-            "own.csv",
-            "--units",
-            "g",
-            "--channels",
-            channels,
-        ],
-    );
+    well(folder.path(), &["export", run, "-o", "own.csv", "--units", "g", "--channels", channels]);
     let answer = rated(folder.path(), &[run, "own.csv"]);
     let pairs = answer["pairs"].as_array().unwrap();
     assert_eq!(pairs.len(), 2);
@@ -143,14 +103,7 @@ fn a_run_against_its_own_export_is_perfect_whatever_the_units() {
     assert_eq!(answer["measured"]["file"], "own.csv");
     // as a table, with the runs' names
     let text = String::from_utf8(well(folder.path(), &["compare", run, "own.csv"]).stdout).unwrap();
-    for words in [
-        "ISO/TS 18571",
-        "1.000 excellent",
-        "CORA",
-        "Sprague–Geers",
-        "ANOVA",
-        "10 kHz",
-    ] {
+    for words in ["ISO/TS 18571", "1.000 excellent", "CORA", "Sprague–Geers", "ANOVA", "10 kHz"] {
         assert!(text.contains(words), "{words} in\n{text}");
     }
 }
@@ -160,17 +113,7 @@ fn maps_choose_columns_units_signs_and_clocks() {
     let folder = tempfile::tempdir().unwrap();
     let run = coarse();
     let run = run.to_str().unwrap();
-    well(
-        folder.path(),
-        &[
-            "export",
-            run,
-            "-o",
-            "own.csv",
-            "--channels",
-            "head.acceleration.z",
-        ],
-    );
+    well(folder.path(), &["export", run, "-o", "own.csv", "--channels", "head.acceleration.z"]);
     let values = column(&folder.path().join("own.csv"), "head.acceleration.z[m/s^2]");
     let times = column(&folder.path().join("own.csv"), "time[s]");
     let mut text = "time (ms);down\n".to_owned();
@@ -181,42 +124,13 @@ fn maps_choose_columns_units_signs_and_clocks() {
     let map = ["--map", "down[g]=-head.acceleration.z", "--shift=-2"];
     let answer = rated(folder.path(), &[&[run, "lab.csv"], &map[..]].concat());
     close(&answer["pairs"][0]["iso18571"]["overall"], 1.0, 1e-9);
-    let answer = rated(
-        folder.path(),
-        &[
-            &[run, "lab.csv"],
-            &map[..],
-            &["--from", "0", "--to", "20 ms"],
-        ]
-        .concat(),
-    );
+    let answer = rated(folder.path(), &[&[run, "lab.csv"], &map[..], &["--from", "0", "--to", "20 ms"]].concat());
     assert_eq!(answer["pairs"][0]["samples"], 201);
-    let said = refused(
-        folder.path(),
-        &[
-            "compare",
-            run,
-            "lab.csv",
-            "--map",
-            "down[kN]=head.acceleration.z",
-        ],
-    );
-    assert!(
-        said.contains("is in kN, but head.acceleration.z in m/s²"),
-        "{said}"
-    );
-    let said = refused(
-        folder.path(),
-        &["compare", run, "lab.csv", "--map", "up=head.acceleration.z"],
-    );
-    assert!(
-        said.contains("no column `up`") && said.contains("it has down"),
-        "{said}"
-    );
-    let said = refused(
-        folder.path(),
-        &["compare", run, "lab.csv", "--map", "down[g]=head.z"],
-    );
+    let said = refused(folder.path(), &["compare", run, "lab.csv", "--map", "down[kN]=head.acceleration.z"]);
+    assert!(said.contains("is in kN, but head.acceleration.z in m/s²"), "{said}");
+    let said = refused(folder.path(), &["compare", run, "lab.csv", "--map", "up=head.acceleration.z"]);
+    assert!(said.contains("no column `up`") && said.contains("it has down"), "{said}");
+    let said = refused(folder.path(), &["compare", run, "lab.csv", "--map", "down[g]=head.z"]);
     assert!(said.contains("`head.z`"), "{said}");
     assert!(refused(folder.path(), &["compare", run, "lab.csv"]).contains("--map"));
 }
@@ -228,15 +142,9 @@ fn two_runs_are_compared_by_names() {
     let answer = rated(folder.path(), &[a.to_str().unwrap(), b.to_str().unwrap()]);
     let pairs = answer["pairs"].as_array().unwrap();
     assert!(pairs.len() > 15, "{}", pairs.len());
-    let head = pairs
-        .iter()
-        .find(|p| p["channel"] == "head.acceleration.resultant")
-        .unwrap();
+    let head = pairs.iter().find(|p| p["channel"] == "head.acceleration.resultant").unwrap();
     // the same motion seen at two rates (0.996)
-    assert!(
-        head["iso18571"]["overall"].as_f64().unwrap() > 0.98,
-        "{head}"
-    );
+    assert!(head["iso18571"]["overall"].as_f64().unwrap() > 0.98, "{head}");
 }
 
 #[test]
@@ -246,16 +154,10 @@ fn broken_tests_are_refused_with_their_lines() {
     let run = run.to_str().unwrap();
     for (content, expected) in [
         ("t[s],head.acceleration.x[g]\n0,1\n0.01,two\n", "bad.csv:3"),
-        (
-            "t[s],head.acceleration.x[furlong]\n0,1\n0.01,2\n",
-            "`furlong`",
-        ),
+        ("t[s],head.acceleration.x[furlong]\n0,1\n0.01,2\n", "`furlong`"),
         ("t[s],head.acceleration.x[kN]\n0,1\n0.01,2\n", "is in kN"),
         ("t[s],head.acceleration.x[g]\n5,1\n6,2\n", "no common time"),
-        (
-            "t[s],head.acceleration.x[g]\n0,1\n0.005,NaN\n0.01,2\n",
-            "no value at 0.005 s",
-        ),
+        ("t[s],head.acceleration.x[g]\n0,1\n0.005,NaN\n0.01,2\n", "no value at 0.005 s"),
         ("", "empty table"),
     ] {
         std::fs::write(folder.path().join("bad.csv"), content).unwrap();

@@ -18,26 +18,16 @@ fn a_table_has_all_channels_and_says_what_they_are() {
     assert!(headings.len() > 300, "{}", headings.len());
     // from −10 ms to 29.5 ms, the end included
     assert_eq!(columns[0].len(), 41);
-    assert_eq!(
-        (columns[0][0], columns[0][1], columns[0][40]),
-        (-0.01, -0.009, 0.0295)
-    );
-    let about: serde_json::Value =
-        serde_json::from_str(&text(&folder.path().join("all.csv-metadata.json"))).unwrap();
+    assert_eq!((columns[0][0], columns[0][1], columns[0][40]), (-0.01, -0.009, 0.0295));
+    let about: serde_json::Value = serde_json::from_str(&text(&folder.path().join("all.csv-metadata.json"))).unwrap();
     assert_eq!(about["url"], "all.csv");
     let described = about["tableSchema"]["columns"].as_array().unwrap();
     assert_eq!(described.len(), headings.len());
     for (one, heading) in described.iter().zip(&headings) {
         assert_eq!(one["titles"].as_str(), Some(heading.as_str()));
     }
-    let head = described
-        .iter()
-        .find(|c| c["name"] == "head.acceleration.z")
-        .unwrap();
-    assert_eq!(
-        (head["unit"].as_str(), head["frame"].as_str()),
-        (Some("m/s^2"), Some("segment"))
-    );
+    let head = described.iter().find(|c| c["name"] == "head.acceleration.z").unwrap();
+    assert_eq!((head["unit"].as_str(), head["frame"].as_str()), (Some("m/s^2"), Some("segment")));
 }
 
 #[test]
@@ -60,12 +50,7 @@ fn units_are_those_asked_for() {
         close(inch * 0.0254, *si);
     }
     let (headings, _) = table(&folder.path().join("in.csv"));
-    assert!(
-        headings
-            .iter()
-            .any(|h| h.starts_with("belt.") && h.ends_with(".force[lbf]")),
-        "{headings:?}"
-    );
+    assert!(headings.iter().any(|h| h.starts_with("belt.") && h.ends_with(".force[lbf]")), "{headings:?}");
 }
 
 #[test]
@@ -74,21 +59,10 @@ fn parquet_holds_the_same_numbers_with_their_metadata() {
     let run = coarse();
     let run = run.to_str().unwrap();
     let channels = "head.acceleration.*,energy.balance";
-    well(
-        folder.path(),
-        &["export", run, "-o", "a.csv", "--channels", channels],
-    );
-    well(
-        folder.path(),
-        &["export", run, "-o", "a.parquet", "--channels", channels],
-    );
-    let file =
-        SerializedFileReader::new(File::open(folder.path().join("a.parquet")).unwrap()).unwrap();
-    let about = file
-        .metadata()
-        .file_metadata()
-        .key_value_metadata()
-        .unwrap();
+    well(folder.path(), &["export", run, "-o", "a.csv", "--channels", channels]);
+    well(folder.path(), &["export", run, "-o", "a.parquet", "--channels", channels]);
+    let file = SerializedFileReader::new(File::open(folder.path().join("a.parquet")).unwrap()).unwrap();
+    let about = file.metadata().file_metadata().key_value_metadata().unwrap();
     let about = about.iter().find(|kv| kv.key == "occupant").unwrap();
     let about: serde_json::Value = serde_json::from_str(about.value.as_ref().unwrap()).unwrap();
     assert_eq!(about["columns"][1]["name"], "head.acceleration.x");
@@ -111,33 +85,16 @@ fn a_filtered_resultant_is_that_of_filtered_components() {
     let folder = tempfile::tempdir().unwrap();
     let run = fine();
     let run = run.to_str().unwrap();
-    let words = [
-        "export",
-        run,
-        "-o",
-        "f.csv",
-        "--filter",
-        "CFC180",
-        "--channels",
-        "head.acceleration.*",
-    ];
+    let words = ["export", run, "-o", "f.csv", "--filter", "CFC180", "--channels", "head.acceleration.*"];
     well(folder.path(), &words);
-    let at = |name: &str| {
-        column(
-            &folder.path().join("f.csv"),
-            &format!("head.acceleration.{name}[m/s^2]"),
-        )
-    };
+    let at = |name: &str| column(&folder.path().join("f.csv"), &format!("head.acceleration.{name}[m/s^2]"));
     let (x, y, z, r) = (at("x"), at("y"), at("z"), at("resultant"));
     for i in 0..x.len() {
         let sum = (x[i] * x[i] + y[i] * y[i] + z[i] * z[i]).sqrt();
         assert!((sum - r[i]).abs() <= 1e-12 * r[i], "{sum} {}", r[i]);
     }
     let about = text(&folder.path().join("f.csv-metadata.json"));
-    assert!(
-        about.contains("\"filter\": \"CFC 180\"") && about.contains("ISO 6487"),
-        "{about}"
-    );
+    assert!(about.contains("\"filter\": \"CFC 180\"") && about.contains("ISO 6487"), "{about}");
 }
 
 #[test]
@@ -147,45 +104,17 @@ fn an_iso_mme_test_has_codes_units_and_j211_signs() {
     let run = run.to_str().unwrap();
     let all = ["export", run, "-o", "T1.mme", "--filter", "CFC180"];
     let said = crate::err(&well(folder.path(), &all));
-    assert!(
-        said.contains("T1.mme") && said.contains("no code for"),
-        "{said}"
-    );
-    let words = [
-        "export",
-        run,
-        "-o",
-        "t.csv",
-        "--filter",
-        "CFC180",
-        "--channels",
-        "head.acceleration.*",
-    ];
+    assert!(said.contains("T1.mme") && said.contains("no code for"), "{said}");
+    let words = ["export", run, "-o", "t.csv", "--filter", "CFC180", "--channels", "head.acceleration.*"];
     well(folder.path(), &words);
     let chn = text(&folder.path().join("T1/Channel/T1.chn"));
-    for code in [
-        "10VEHCCG0000ACXC",
-        "11HEADCG0000ACZC",
-        "11NECKUP0000FOZC",
-        "11SEBE0000B6FO0C",
-        "11FEMRLE0000FOZC",
-    ] {
+    for code in ["10VEHCCG0000ACXC", "11HEADCG0000ACZC", "11NECKUP0000FOZC", "11SEBE0000B6FO0C", "11FEMRLE0000FOZC"] {
         assert!(chn.contains(code), "{code} in\n{chn}");
     }
-    let line = chn
-        .lines()
-        .find(|l| l.contains("11HEADCG0000ACZC"))
-        .unwrap();
-    let number = line
-        .trim_start_matches("Name of channel ")
-        .split_whitespace()
-        .next()
-        .unwrap();
+    let line = chn.lines().find(|l| l.contains("11HEADCG0000ACZC")).unwrap();
+    let number = line.trim_start_matches("Name of channel ").split_whitespace().next().unwrap();
     let file = text(&folder.path().join(format!("T1/Channel/T1.{number}")));
-    assert!(
-        file.contains("Channel frequency class     :180\n") && file.contains(":m/(s*s)\n"),
-        "{file}"
-    );
+    assert!(file.contains("Channel frequency class     :180\n") && file.contains(":m/(s*s)\n"), "{file}");
     let theirs: Vec<f64> = file.lines().filter_map(|l| l.parse().ok()).collect();
     let ours = column(&folder.path().join("t.csv"), "head.acceleration.z[m/s^2]");
     assert_eq!(theirs.len(), ours.len());
@@ -197,19 +126,12 @@ fn an_iso_mme_test_has_codes_units_and_j211_signs() {
     }
     // all comes back as it was, signs included
     let words = ["compare", run, "T1", "--filter", "CFC180", "--json"];
-    let answer: serde_json::Value =
-        serde_json::from_slice(&well(folder.path(), &words).stdout).unwrap();
+    let answer: serde_json::Value = serde_json::from_slice(&well(folder.path(), &words).stdout).unwrap();
     let pairs = answer["pairs"].as_array().unwrap();
     assert!(pairs.len() > 20, "{}", pairs.len());
-    let head = pairs
-        .iter()
-        .find(|p| p["channel"] == "head.acceleration.z")
-        .unwrap();
+    let head = pairs.iter().find(|p| p["channel"] == "head.acceleration.z").unwrap();
     // the test is filtered twice, hence not 1 (0.9986)
-    assert!(
-        head["iso18571"]["overall"].as_f64().unwrap() > 0.97,
-        "{head}"
-    );
+    assert!(head["iso18571"]["overall"].as_f64().unwrap() > 0.97, "{head}");
     // a second time only by force, and never over a folder that holds something else
     assert!(refused(folder.path(), &all).contains("T1 exists"));
     well(folder.path(), &[&all[..], &["--force"]].concat());
@@ -222,32 +144,14 @@ fn a_class_that_the_outputs_are_too_coarse_for_is_refused() {
     let folder = tempfile::tempdir().unwrap();
     let run = coarse();
     let run = run.to_str().unwrap();
-    let said = refused(
-        folder.path(),
-        &["export", run, "-o", "a.csv", "--filter", "j211"],
-    );
-    assert!(
-        said.contains("CFC 1000 needs more than") && said.contains("samples are 1000 a second"),
-        "{said}"
-    );
+    let said = refused(folder.path(), &["export", run, "-o", "a.csv", "--filter", "j211"]);
+    assert!(said.contains("CFC 1000 needs more than") && said.contains("samples are 1000 a second"), "{said}");
     assert!(said.contains("output.interval"), "{said}");
     assert!(!folder.path().join("a.csv").exists());
     // the outputs end off the grid: the last one cannot be filtered with the others
-    let words = [
-        "export",
-        run,
-        "-o",
-        "a.csv",
-        "--filter",
-        "CFC60",
-        "--channels",
-        "belt.*.force",
-    ];
+    let words = ["export", run, "-o", "a.csv", "--filter", "CFC60", "--channels", "belt.*.force"];
     let said = crate::err(&well(folder.path(), &words));
-    assert!(
-        said.contains("0.0295 s") && said.contains("left out"),
-        "{said}"
-    );
+    assert!(said.contains("0.0295 s") && said.contains("left out"), "{said}");
 }
 
 #[test]
@@ -256,50 +160,13 @@ fn what_cannot_be_exported_is_said() {
     let run = coarse();
     let run = run.to_str().unwrap();
     for (words, expected) in [
-        (
-            vec!["export", run, "-o", "a.xlsx"],
-            ".csv, .parquet or .mme",
-        ),
-        (
-            vec![
-                "export",
-                run,
-                "-o",
-                "a.csv",
-                "--channels",
-                "head.aceleration.x",
-            ],
-            "did you mean `head.acceleration.x`",
-        ),
-        (
-            vec!["export", run, "-o", "a.csv", "--channels", "nose.*"],
-            "no channel is called `nose.*`",
-        ),
-        (
-            vec!["export", run, "-o", "a.csv", "--interval", "0"],
-            "above zero",
-        ),
-        (
-            vec!["export", run, "-o", "a.csv", "--interval", "1 kg"],
-            "--interval",
-        ),
-        (
-            vec!["export", run, "-o", "a.csv", "--filter", "CFC90"],
-            "CFC60",
-        ),
-        (
-            vec![
-                "export",
-                run,
-                "-o",
-                "a.mme",
-                "--channels",
-                "energy.*",
-                "--interval",
-                "1 ms",
-            ],
-            "none of these channels",
-        ),
+        (vec!["export", run, "-o", "a.xlsx"], ".csv, .parquet or .mme"),
+        (vec!["export", run, "-o", "a.csv", "--channels", "head.aceleration.x"], "did you mean `head.acceleration.x`"),
+        (vec!["export", run, "-o", "a.csv", "--channels", "nose.*"], "no channel is called `nose.*`"),
+        (vec!["export", run, "-o", "a.csv", "--interval", "0"], "above zero"),
+        (vec!["export", run, "-o", "a.csv", "--interval", "1 kg"], "--interval"),
+        (vec!["export", run, "-o", "a.csv", "--filter", "CFC90"], "CFC60"),
+        (vec!["export", run, "-o", "a.mme", "--channels", "energy.*", "--interval", "1 ms"], "none of these channels"),
         (vec!["export", run, "-o", "a.mme"], "equally spaced"),
         (vec!["export", "none.mcap", "-o", "a.csv"], "cannot be read"),
     ] {

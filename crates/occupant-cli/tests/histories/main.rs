@@ -42,11 +42,7 @@ fn fine() -> PathBuf {
 /// Runs the command with these words in a folder.
 fn answer(folder: &Path, words: &[&str]) -> Output {
     let mut command = Command::new(assert_cmd::cargo::cargo_bin!("occupant"));
-    command
-        .current_dir(folder)
-        .args(words)
-        .output()
-        .expect("the command starts")
+    command.current_dir(folder).args(words).output().expect("the command starts")
 }
 
 /// The same, which must succeed.
@@ -76,12 +72,7 @@ fn text(path: &Path) -> String {
 fn table(path: &Path) -> (Vec<String>, Vec<Vec<f64>>) {
     let text = text(path);
     let mut lines = text.lines();
-    let headings: Vec<String> = lines
-        .next()
-        .expect("headings")
-        .split(',')
-        .map(str::to_owned)
-        .collect();
+    let headings: Vec<String> = lines.next().expect("headings").split(',').map(str::to_owned).collect();
     let mut columns = vec![Vec::new(); headings.len()];
     for line in lines {
         let cells: Vec<&str> = line.split(',').collect();

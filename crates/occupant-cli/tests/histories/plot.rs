@@ -32,19 +32,11 @@ fn a_sheet_has_the_fourteen_plots() {
     assert_eq!(svg.matches(">time, ms</text>").count(), 14);
     assert_eq!(svg.matches(">acceleration, g</text>").count(), 10);
     assert!(svg.contains("Short") && svg.contains("not filtered"));
-    well(
-        folder.path(),
-        &["plot", run, "-o", "plots.png", "--pixels", "0.5"],
-    );
+    well(folder.path(), &["plot", run, "-o", "plots.png", "--pixels", "0.5"]);
     let png = std::fs::read(folder.path().join("plots.png")).unwrap();
     assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
     well(folder.path(), &["plot", run, "--each", "single"]);
-    assert_eq!(
-        std::fs::read_dir(folder.path().join("single"))
-            .unwrap()
-            .count(),
-        14
-    );
+    assert_eq!(std::fs::read_dir(folder.path().join("single")).unwrap().count(), 14);
     assert!(folder.path().join("single/11-belt-loads.svg").exists());
 }
 
@@ -54,37 +46,16 @@ fn runs_tests_and_limits_lie_over_each_other() {
     let (a, b) = (coarse(), fine());
     let (a, b) = (a.to_str().unwrap(), b.to_str().unwrap());
     let channel = "head.acceleration.resultant";
-    std::fs::write(
-        folder.path().join("lab.csv"),
-        "t[ms],head[g]\n-5,1\n0,1\n10,3\n20,NaN\n29,2\n",
-    )
-    .unwrap();
+    std::fs::write(folder.path().join("lab.csv"), "t[ms],head[g]\n-5,1\n0,1\n10,3\n20,NaN\n29,2\n").unwrap();
     let map = format!("head={channel}");
     let limit = format!("{channel}=80 g");
-    let words = [
-        "plot",
-        a,
-        b,
-        "-o",
-        "p.svg",
-        "--channel",
-        channel,
-        "--test",
-        "lab.csv",
-        "--map",
-        &map,
-        "--limit",
-        &limit,
-    ];
+    let words =
+        ["plot", a, b, "-o", "p.svg", "--channel", channel, "--test", "lab.csv", "--map", &map, "--limit", &limit];
     well(folder.path(), &words);
     let svg = text(&folder.path().join("p.svg"));
-    for label in [
-        ">coarse</text>",
-        ">fine</text>",
-        ">test: head (lab.csv)</text>",
-        ">limit 80 g</text>",
-        ">2 runs</text>",
-    ] {
+    for label in
+        [">coarse</text>", ">fine</text>", ">test: head (lab.csv)</text>", ">limit 80 g</text>", ">2 runs</text>"]
+    {
         assert!(svg.contains(label), "{label}");
     }
     // the limit is in the range of the axis
@@ -98,18 +69,7 @@ fn a_channel_may_lie_across() {
     let folder = tempfile::tempdir().unwrap();
     let run = coarse();
     let run = run.to_str().unwrap();
-    let words = [
-        "plot",
-        run,
-        "-o",
-        "p.svg",
-        "--channel",
-        "belt.*.force",
-        "--x",
-        "head.position.x",
-        "--units",
-        "si",
-    ];
+    let words = ["plot", run, "-o", "p.svg", "--channel", "belt.*.force", "--x", "head.position.x", "--units", "si"];
     well(folder.path(), &words);
     let svg = text(&folder.path().join("p.svg"));
     assert!(svg.contains(">head.position.x, m</text>") && svg.contains(">force, N</text>"));
@@ -123,50 +83,13 @@ fn what_cannot_be_plotted_is_said() {
     for (words, expected) in [
         (vec!["plot", run, "-o", "p.pdf"], ".svg or .png"),
         (vec!["plot", run], "--output"),
-        (
-            vec!["plot", run, "-o", "p.svg", "--channel", "head.*"],
-            "one plot has one axis",
-        ),
-        (
-            vec![
-                "plot",
-                run,
-                "-o",
-                "p.svg",
-                "--channel",
-                "hed.acceleration.x",
-            ],
-            "did you mean",
-        ),
-        (
-            vec!["plot", run, "-o", "p.svg", "--limit", "neck.force.z=4 kN"],
-            "no plot shows",
-        ),
-        (
-            vec![
-                "plot",
-                run,
-                "-o",
-                "p.svg",
-                "--limit",
-                "head.acceleration.x=4 kN",
-            ],
-            "not a unit of this channel",
-        ),
-        (
-            vec![
-                "plot", run, "-o", "p.svg", "--from", "20 ms", "--to", "10 ms",
-            ],
-            "not before",
-        ),
-        (
-            vec!["plot", run, "-o", "p.svg", "--test", "none.csv"],
-            "none.csv cannot be read",
-        ),
-        (
-            vec!["plot", run, "-o", "p.svg", "--filter", "CFC1000"],
-            "CFC 1000 needs",
-        ),
+        (vec!["plot", run, "-o", "p.svg", "--channel", "head.*"], "one plot has one axis"),
+        (vec!["plot", run, "-o", "p.svg", "--channel", "hed.acceleration.x"], "did you mean"),
+        (vec!["plot", run, "-o", "p.svg", "--limit", "neck.force.z=4 kN"], "no plot shows"),
+        (vec!["plot", run, "-o", "p.svg", "--limit", "head.acceleration.x=4 kN"], "not a unit of this channel"),
+        (vec!["plot", run, "-o", "p.svg", "--from", "20 ms", "--to", "10 ms"], "not before"),
+        (vec!["plot", run, "-o", "p.svg", "--test", "none.csv"], "none.csv cannot be read"),
+        (vec!["plot", run, "-o", "p.svg", "--filter", "CFC1000"], "CFC 1000 needs"),
     ] {
         let said = refused(folder.path(), &words);
         assert!(said.contains(expected), "{words:?}: {said}");

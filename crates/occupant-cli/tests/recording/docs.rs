@@ -10,12 +10,7 @@ const DOCS: &str = include_str!("../../docs/mcap.md");
 fn every_topic_is_documented() {
     let (bytes, _) = record(&model(), ());
     for topic in read(&bytes).keys() {
-        let parents = [
-            "/occupant/segment/",
-            "/occupant/sphere/",
-            "/occupant/joint/",
-            "/belt/",
-        ];
+        let parents = ["/occupant/segment/", "/occupant/sphere/", "/occupant/joint/", "/belt/"];
         let parent = parents.iter().find(|p| topic.starts_with(*p));
         let name = parent.map_or(format!("`{topic}`"), |p| format!("`{p}<"));
         assert!(DOCS.contains(&name), "{name}");
@@ -27,19 +22,11 @@ fn every_field_is_documented() {
     for group in groups::ALL {
         assert!(DOCS.contains(&format!("`{}`", group.message)));
         for column in group.columns {
-            assert!(
-                DOCS.contains(&format!("`{}`", column.name)),
-                "{}",
-                column.name
-            );
+            assert!(DOCS.contains(&format!("`{}`", column.name)), "{}", column.name);
         }
     }
     for field in column::TOUCH {
-        assert!(
-            DOCS.contains(&format!("`{}`", field.name)),
-            "{}",
-            field.name
-        );
+        assert!(DOCS.contains(&format!("`{}`", field.name)), "{}", field.name);
     }
 }
 
@@ -49,12 +36,7 @@ fn field_numbers_and_names_are_unique() {
     for group in groups::ALL {
         for (i, a) in group.columns.iter().enumerate() {
             for b in &group.columns[i + 1..] {
-                assert!(
-                    a.number != b.number && a.name != b.name,
-                    "{}.{}",
-                    group.message,
-                    a.name
-                );
+                assert!(a.number != b.number && a.name != b.name, "{}.{}", group.message, a.name);
             }
         }
     }

@@ -35,9 +35,7 @@ type Entry = (String, BTreeMap<String, String>);
 
 /// Metadata records in the file's order, as far as it can be read, and the number of messages.
 fn scan(bytes: &[u8]) -> (Vec<Entry>, usize) {
-    let options = LinearReaderOptions::default()
-        .with_validate_chunk_crcs(true)
-        .with_validate_data_section_crc(true);
+    let options = LinearReaderOptions::default().with_validate_chunk_crcs(true).with_validate_data_section_crc(true);
     let mut reader = LinearReader::new_with_options(options);
     let (mut metadata, mut messages, mut rest) = (Vec::new(), 0, bytes);
     while let Some(event) = reader.next_event() {
@@ -48,13 +46,11 @@ fn scan(bytes: &[u8]) -> (Vec<Entry>, usize) {
                 reader.notify_read(count);
                 rest = &rest[count..];
             }
-            Ok(LinearReadEvent::Record { data, opcode }) => {
-                match mcap::parse_record(opcode, data).unwrap() {
-                    Record::Metadata(m) => metadata.push((m.name, m.metadata)),
-                    Record::Message { .. } => messages += 1,
-                    _ => {}
-                }
-            }
+            Ok(LinearReadEvent::Record { data, opcode }) => match mcap::parse_record(opcode, data).unwrap() {
+                Record::Metadata(m) => metadata.push((m.name, m.metadata)),
+                Record::Message { .. } => messages += 1,
+                _ => {}
+            },
             Err(_) => break,
         }
     }
@@ -96,11 +92,8 @@ fn a_complete_run_says_so_last() {
 fn the_scenario_and_a_layout_are_attached() {
     let (bytes, _) = record(&model(), ());
     let summary = mcap::Summary::read(&bytes).unwrap().unwrap();
-    let attachments: Vec<_> = summary
-        .attachment_indexes
-        .iter()
-        .map(|index| mcap::read::attachment(&bytes, index).unwrap())
-        .collect();
+    let attachments: Vec<_> =
+        summary.attachment_indexes.iter().map(|index| mcap::read::attachment(&bytes, index).unwrap()).collect();
     let names: Vec<_> = attachments.iter().map(|a| a.name.as_str()).collect();
     assert_eq!(names, ["short.toml", "layout.json"]);
     assert_eq!(attachments[0].data.as_ref(), SCENARIO.as_bytes());
@@ -108,11 +101,7 @@ fn the_scenario_and_a_layout_are_attached() {
     let topics = read(&bytes);
     let panels = layout["configById"].as_object().unwrap();
     let mut paths = 0;
-    for path in panels
-        .values()
-        .filter_map(|p| p["paths"].as_array())
-        .flatten()
-    {
+    for path in panels.values().filter_map(|p| p["paths"].as_array()).flatten() {
         let (topic, name) = path["value"].as_str().unwrap().rsplit_once('.').unwrap();
         field(&topics[topic][0].message, name);
         paths += 1;
@@ -133,17 +122,11 @@ fn the_same_scenario_gives_the_same_bytes() {
 
 #[test]
 fn a_stopped_run_says_so() {
-    let halt = Halt {
-        at: 10,
-        breaks: false,
-    };
+    let halt = Halt { at: 10, breaks: false };
     let (bytes, outcome) = record(&model(), halt);
     assert_eq!(outcome.status, Status::Stopped);
     let result = result_of(&bytes).unwrap();
-    assert_eq!(
-        (result["status"].as_str(), result["outputs"].as_str()),
-        ("stopped", "11")
-    );
+    assert_eq!((result["status"].as_str(), result["outputs"].as_str()), ("stopped", "11"));
 }
 
 #[test]
@@ -157,9 +140,7 @@ fn a_failed_run_says_when_and_why() {
         max_step_s: 1e-3,
     };
     let (bytes, outcome) = record(&Model::new(setup).unwrap(), ());
-    let Status::Failed(error) = &outcome.status else {
-        panic!("{:?}", outcome.status)
-    };
+    let Status::Failed(error) = &outcome.status else { panic!("{:?}", outcome.status) };
     let result = result_of(&bytes).unwrap();
     assert_eq!(result["status"], "failed");
     assert_eq!(result["reason"], error.to_string());
@@ -174,10 +155,7 @@ fn first_touches_are_logged_at_their_times() {
     let model = model();
     let (bytes, outcome) = record(&model, ());
     let log = &read(&bytes)["/log"];
-    let touches: Vec<_> = log
-        .iter()
-        .filter(|l| text(&l.message, "message").contains(" touches "))
-        .collect();
+    let touches: Vec<_> = log.iter().filter(|l| text(&l.message, "message").contains(" touches ")).collect();
     assert_eq!(touches.len(), outcome.first_touches.len());
     assert!(!touches.is_empty());
     for (line, touch) in touches.iter().zip(&outcome.first_touches) {
@@ -194,10 +172,7 @@ fn a_file_dropped_before_the_end_is_readable_and_has_no_result() {
     let mut file = tempfile::tempfile().unwrap();
     {
         let mut recorder = recorder_into(file.try_clone().unwrap());
-        let halt = Halt {
-            at: 30,
-            breaks: true,
-        };
+        let halt = Halt { at: 30, breaks: true };
         assert!(simulate(&model, (&mut recorder, halt)).is_err());
     }
     let mut bytes = Vec::new();
@@ -212,10 +187,7 @@ fn what_a_killed_run_wrote_is_readable_to_the_last_chunk() {
     let model = model();
     let (whole, _) = record(&model, ());
     let mut cut = recorder();
-    let halt = Halt {
-        at: 40,
-        breaks: true,
-    };
+    let halt = Halt { at: 40, breaks: true };
     assert!(simulate(&model, (&mut cut, halt)).is_err());
     // as the process left it: nothing is finished
     let bytes = cut.into_inner().unwrap().into_inner();

@@ -19,10 +19,7 @@ fn isometry(translation: &DynamicMessage, rotation: &DynamicMessage) -> Isometry
     let q = Quaternion::new(q[3], q[0], q[1], q[2]);
     // measured: 2.3e-16
     assert!((q.norm() - 1.0).abs() < 1e-14, "{}", q.norm());
-    Isometry3::from_parts(
-        Translation3::from(point(translation)),
-        UnitQuaternion::new_unchecked(q),
-    )
+    Isometry3::from_parts(Translation3::from(point(translation)), UnitQuaternion::new_unchecked(q))
 }
 
 /// T1 is the upper end of the middle torso; every segment's upper end in space, from the sample and through the frames.
@@ -110,12 +107,7 @@ fn surfaces_are_drawn_with_their_area_and_side() {
         let plate = &parts(entity, "triangles")[0];
         let points: Vec<_> = parts(plate, "points").iter().map(point).collect();
         let value = field(plate, "indices");
-        let indices: Vec<usize> = value
-            .as_list()
-            .unwrap()
-            .iter()
-            .map(|i| i.as_u32().unwrap() as usize)
-            .collect();
+        let indices: Vec<usize> = value.as_list().unwrap().iter().map(|i| i.as_u32().unwrap() as usize).collect();
         assert_eq!(indices.len(), 3 * (points.len() - 2));
         let area = |t: &[usize]| {
             let [a, b, c] = [points[t[0]], points[t[1]], points[t[2]]];
@@ -147,10 +139,7 @@ fn belts_go_from_anchor_to_anchor_round_the_sphere() {
             let centre = s.sphere_centre_m(belt.sphere);
             let course = course_m(belt, radius, centre, action);
             let last = course.len() - 1;
-            assert_eq!(
-                (course[0], course[last]),
-                (belt.anchors_m[0], belt.anchors_m[1])
-            );
+            assert_eq!((course[0], course[last]), (belt.anchors_m[0], belt.anchors_m[1]));
             for p in &course[1..last] {
                 assert!(((p - centre).norm() - radius).abs() < 1e-12);
             }
@@ -193,19 +182,11 @@ fn arrows_are_the_forces() {
         });
         let belts = setup.belts.iter().zip(s.belts);
         let belts = belts.map(|(b, a)| (format!("belt__{}", b.name), a.force.to_vector()));
-        samples.push(
-            contacts
-                .chain(belts)
-                .filter(|(_, f)| f.norm() >= 10.0)
-                .collect(),
-        );
+        samples.push(contacts.chain(belts).filter(|(_, f)| f.norm() >= 10.0).collect());
     });
     let (bytes, _) = record(&model, watch);
     let (mut drawn, mut worst) = (0, 0.0_f64);
-    for (frame, forces) in read(&bytes)["/scene/forces"]
-        .iter()
-        .zip(samples.iter().step_by(2))
-    {
+    for (frame, forces) in read(&bytes)["/scene/forces"].iter().zip(samples.iter().step_by(2)) {
         let entities = parts(&frame.message, "entities");
         assert_eq!(entities.len(), forces.len());
         for (entity, (id, force)) in entities.iter().zip(forces) {

@@ -19,8 +19,8 @@ pub const SCENARIO: &str = include_str!("short.toml");
 /// Its plain data.
 pub fn setup() -> Setup {
     let no_files = |name: &str| Err(format!("{name}: there are no files here"));
-    let loaded = Scenario::from_text(SCENARIO, Format::Toml, "short.toml", &no_files)
-        .unwrap_or_else(|d| panic!("{d:?}"));
+    let loaded =
+        Scenario::from_text(SCENARIO, Format::Toml, "short.toml", &no_files).unwrap_or_else(|d| panic!("{d:?}"));
     loaded.build().unwrap_or_else(|d| panic!("{d:?}")).0
 }
 
@@ -46,10 +46,7 @@ pub fn recorder_into<W: Write + Seek + Send + 'static>(target: W) -> McapRecorde
         resolved: None,
         notes: BTreeMap::from([("overrides".to_owned(), "none".to_owned())]),
     };
-    let options = McapOptions {
-        outputs_per_chunk: NonZeroU32::new(20).unwrap(),
-        ..McapOptions::default()
-    };
+    let options = McapOptions { outputs_per_chunk: NonZeroU32::new(20).unwrap(), ..McapOptions::default() };
     McapRecorder::new(target, about, options).unwrap()
 }
 
@@ -81,9 +78,7 @@ pub fn read(bytes: &[u8]) -> BTreeMap<String, Vec<Read>> {
         assert_eq!(channel.message_encoding, "protobuf", "{}", channel.topic);
         assert_eq!(schema.encoding, "protobuf", "{}", channel.topic);
         assert_eq!(message.log_time, message.publish_time);
-        let pool = pools
-            .entry(schema.id)
-            .or_insert_with(|| DescriptorPool::decode(schema.data.as_ref()).unwrap());
+        let pool = pools.entry(schema.id).or_insert_with(|| DescriptorPool::decode(schema.data.as_ref()).unwrap());
         let kind = pool.get_message_by_name(&schema.name).expect("its message");
         let content = DynamicMessage::decode(kind, message.data.as_ref()).unwrap();
         assert_eq!(content.unknown_fields().count(), 0, "{}", channel.topic);
@@ -105,18 +100,14 @@ pub fn field(message: &DynamicMessage, name: &str) -> Value {
 
 /// A message within a message.
 pub fn part(message: &DynamicMessage, name: &str) -> DynamicMessage {
-    field(message, name)
-        .as_message()
-        .expect("a message")
-        .clone()
+    field(message, name).as_message().expect("a message").clone()
 }
 
 /// A list of messages.
 pub fn parts(message: &DynamicMessage, name: &str) -> Vec<DynamicMessage> {
     let value = field(message, name);
     let list = value.as_list().expect("a list").iter();
-    list.map(|v| v.as_message().expect("a message").clone())
-        .collect()
+    list.map(|v| v.as_message().expect("a message").clone()).collect()
 }
 
 /// A text.

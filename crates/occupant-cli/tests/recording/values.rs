@@ -34,23 +34,11 @@ fn vehicle(s: &Sample<'_>) -> Fields {
         ("pitch_rad", vec![attitude.pitch_rad]),
         ("yaw_rad", vec![attitude.yaw_rad]),
         ("velocity_space_m_s", v(m.velocity_m_s)),
-        (
-            "velocity_vehicle_m_s",
-            v(m.rotation.tr_mul(&m.velocity_m_s)),
-        ),
+        ("velocity_vehicle_m_s", v(m.rotation.tr_mul(&m.velocity_m_s))),
         ("acceleration_space_m_s2", v(m.acceleration_m_s2)),
-        (
-            "acceleration_vehicle_m_s2",
-            v(m.rotation.tr_mul(&m.acceleration_m_s2)),
-        ),
-        (
-            "angular_velocity_vehicle_rad_s",
-            v(m.rotation.tr_mul(&m.angular_velocity_rad_s)),
-        ),
-        (
-            "angular_acceleration_vehicle_rad_s2",
-            v(m.rotation.tr_mul(&m.angular_acceleration_rad_s2)),
-        ),
+        ("acceleration_vehicle_m_s2", v(m.rotation.tr_mul(&m.acceleration_m_s2))),
+        ("angular_velocity_vehicle_rad_s", v(m.rotation.tr_mul(&m.angular_velocity_rad_s))),
+        ("angular_acceleration_vehicle_rad_s2", v(m.rotation.tr_mul(&m.angular_acceleration_rad_s2))),
     ]
 }
 
@@ -63,20 +51,11 @@ fn segment(s: &Sample<'_>, segment: Segment) -> Fields {
         ("lower_end_vehicle_m", v(lower.coords)),
         ("cg_vehicle_m", v(s.cg_m(segment).coords)),
         ("orientation_in_vehicle", q(s.orientation(segment))),
-        (
-            "cg_acceleration_segment_m_s2",
-            v(s.cg_acceleration_m_s2(segment)),
-        ),
+        ("cg_acceleration_segment_m_s2", v(s.cg_acceleration_m_s2(segment))),
         ("accelerometer_segment_m_s2", v(reading)),
         ("accelerometer_resultant_m_s2", vec![reading.norm()]),
-        (
-            "angular_acceleration_segment_rad_s2",
-            v(s.angular_acceleration_rad_s2(segment)),
-        ),
-        (
-            "angular_velocity_segment_rad_s",
-            v(s.angular_velocity_rad_s(segment)),
-        ),
+        ("angular_acceleration_segment_rad_s2", v(s.angular_acceleration_rad_s2(segment))),
+        ("angular_velocity_segment_rad_s", v(s.angular_velocity_rad_s(segment))),
         ("cg_velocity_space_m_s", v(s.cg_velocity_m_s(segment))),
     ]
 }
@@ -127,11 +106,7 @@ fn joints(s: &Sample<'_>) -> Fields {
 
 fn joint_load(s: &Sample<'_>, joint: Joint) -> Fields {
     let load = reaction(s, joint);
-    vec![
-        ("time_s", vec![s.time_s]),
-        ("force_segment_n", v(load.force_n)),
-        ("moment_segment_n_m", v(load.moment_n_m)),
-    ]
+    vec![("time_s", vec![s.time_s]), ("force_segment_n", v(load.force_n)), ("moment_segment_n_m", v(load.moment_n_m))]
 }
 
 fn instruments(s: &Sample<'_>) -> Fields {
@@ -142,14 +117,8 @@ fn instruments(s: &Sample<'_>) -> Fields {
         ("time_s", vec![s.time_s]),
         ("neck_force_j211_n", j211(neck.force_n)),
         ("neck_moment_j211_n_m", j211(neck.moment_n_m)),
-        (
-            "right_femur_axial_n",
-            vec![femur_axial_n(s, Segment::RightThigh)],
-        ),
-        (
-            "left_femur_axial_n",
-            vec![femur_axial_n(s, Segment::LeftThigh)],
-        ),
+        ("right_femur_axial_n", vec![femur_axial_n(s, Segment::RightThigh)]),
+        ("left_femur_axial_n", vec![femur_axial_n(s, Segment::LeftThigh)]),
     ]
 }
 
@@ -184,11 +153,7 @@ fn solver(s: &Sample<'_>) -> Fields {
 
 fn coordinates(s: &Sample<'_>) -> Fields {
     let c = s.report_coordinates();
-    vec![
-        ("time_s", vec![s.time_s]),
-        ("q_m_or_rad", c.q.to_vec()),
-        ("q_rate_m_s_or_rad_s", c.rates.to_vec()),
-    ]
+    vec![("time_s", vec![s.time_s]), ("q_m_or_rad", c.q.to_vec()), ("q_rate_m_s_or_rad_s", c.rates.to_vec())]
 }
 
 /// All groups of a sample by topic.
@@ -232,27 +197,12 @@ fn every_number_comes_back_to_the_bit() {
     for (k, groups) in samples.iter().enumerate() {
         for (topic, fields) in groups {
             assert_eq!(topics[topic].len(), 41, "{topic}");
-            let Read {
-                ns,
-                sequence,
-                message,
-            } = &topics[topic][k];
-            assert_eq!(
-                *ns,
-                if k < 40 {
-                    k as u64 * 1_000_000
-                } else {
-                    39_500_000
-                }
-            );
+            let Read { ns, sequence, message } = &topics[topic][k];
+            assert_eq!(*ns, if k < 40 { k as u64 * 1_000_000 } else { 39_500_000 });
             assert_eq!(*sequence, k as u32);
             for (name, numbers_then) in fields {
                 let now = numbers(&field(message, name));
-                assert_eq!(
-                    bits(&now),
-                    bits(numbers_then),
-                    "{topic}.{name} at output {k}"
-                );
+                assert_eq!(bits(&now), bits(numbers_then), "{topic}.{name} at output {k}");
             }
             assert_all_named(topic, message, fields);
         }
@@ -260,14 +210,7 @@ fn every_number_comes_back_to_the_bit() {
     let groups: BTreeSet<_> = samples[0].keys().collect();
     let others = topics.keys().filter(|t| !groups.contains(t));
     let others: Vec<_> = others.map(String::as_str).collect();
-    let scenes = [
-        "belts",
-        "body",
-        "compartment",
-        "forces",
-        "labels",
-        "spheres",
-    ];
+    let scenes = ["belts", "body", "compartment", "forces", "labels", "spheres"];
     let scenes = scenes.map(|s| format!("/scene/{s}"));
     let mut known: Vec<&str> = scenes.iter().map(String::as_str).collect();
     known.splice(0..0, ["/checkpoint", "/log"]);
@@ -283,10 +226,7 @@ fn every_checkpoint_comes_back_to_the_bit() {
     let (bytes, _) = record(&model(), watch);
     let stored = StoredRun::read(&bytes).unwrap();
     assert_eq!(stored.checkpoints.len(), 41);
-    assert_eq!(
-        format!("{:?}", stored.checkpoints),
-        format!("{checkpoints:?}")
-    );
+    assert_eq!(format!("{:?}", stored.checkpoints), format!("{checkpoints:?}"));
 }
 
 /// Every field of the message is one that the test knows, apart from those with tests of their own.
@@ -294,11 +234,7 @@ fn assert_all_named(topic: &str, message: &DynamicMessage, fields: &Fields) {
     for own in message.descriptor().fields() {
         let elsewhere = ["touches", "application_point_segment_m"].contains(&own.name());
         let known = fields.iter().any(|(name, _)| *name == own.name());
-        assert!(
-            known || elsewhere,
-            "{topic}.{} is tested by nothing",
-            own.name()
-        );
+        assert!(known || elsewhere, "{topic}.{} is tested by nothing", own.name());
     }
 }
 
@@ -313,20 +249,7 @@ fn touches_come_back_one_by_one() {
             let own = s.contacts().filter(|c| c.sphere == i);
             let touches = own.map(|c| {
                 let (f, r, p) = (c.force_n, c.friction_n, c.point_m);
-                let numbers = [
-                    c.depth_m,
-                    c.normal_force_n,
-                    f.x,
-                    f.y,
-                    f.z,
-                    r.x,
-                    r.y,
-                    r.z,
-                    p.x,
-                    p.y,
-                    p.z,
-                    c.slip_m_s,
-                ];
+                let numbers = [c.depth_m, c.normal_force_n, f.x, f.y, f.z, r.x, r.y, r.z, p.x, p.y, p.z, c.slip_m_s];
                 (s.model.setup().surfaces[c.surface].name.clone(), numbers)
             });
             (touches.collect(), s.application_point_m(i).map(v))
@@ -342,10 +265,7 @@ fn touches_come_back_one_by_one() {
             let message = &topics[&topic][k].message;
             let read: Vec<Touch> = parts(message, "touches").iter().map(read_touch).collect();
             assert_eq!(&read, touches, "{topic} at output {k}");
-            assert_eq!(
-                message.has_field_by_name("application_point_segment_m"),
-                point.is_some()
-            );
+            assert_eq!(message.has_field_by_name("application_point_segment_m"), point.is_some());
             if let Some(point) = point {
                 let now = numbers(&field(message, "application_point_segment_m"));
                 assert_eq!(bits(&now), bits(point));
@@ -354,10 +274,7 @@ fn touches_come_back_one_by_one() {
         }
     }
     // the test would say nothing of a run without contact
-    assert!(
-        seen.contains("Front cushion") && seen.len() >= 2,
-        "{seen:?}"
-    );
+    assert!(seen.contains("Front cushion") && seen.len() >= 2, "{seen:?}");
 }
 
 fn read_touch(message: &DynamicMessage) -> (String, [f64; 12]) {

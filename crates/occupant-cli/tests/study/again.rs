@@ -11,16 +11,8 @@ fn commands(page: &str) -> Vec<String> {
     let mut found: Vec<String> = Vec::new();
     for part in page.split("<pre class=\"command\">").skip(1) {
         let text = part.split("</pre>").next().expect("an end");
-        let marks = [
-            ("&lt;", "<"),
-            ("&gt;", ">"),
-            ("&quot;", "\""),
-            ("&#39;", "'"),
-            ("&amp;", "&"),
-        ];
-        let text = marks
-            .iter()
-            .fold(text.to_owned(), |t, (a, b)| t.replace(a, b));
+        let marks = [("&lt;", "<"), ("&gt;", ">"), ("&quot;", "\""), ("&#39;", "'"), ("&amp;", "&")];
+        let text = marks.iter().fold(text.to_owned(), |t, (a, b)| t.replace(a, b));
         if !found.contains(&text) {
             found.push(text);
         }
@@ -32,17 +24,9 @@ fn commands(page: &str) -> Vec<String> {
 fn shell(folder: &Path, command: &str) {
     let program = assert_cmd::cargo::cargo_bin!("occupant");
     let beside = program.parent().expect("a folder");
-    let path = format!(
-        "{}:{}",
-        beside.display(),
-        std::env::var("PATH").expect("a path")
-    );
-    let output = Command::new("sh")
-        .args(["-c", command])
-        .current_dir(folder)
-        .env("PATH", path)
-        .output()
-        .expect("a shell");
+    let path = format!("{}:{}", beside.display(), std::env::var("PATH").expect("a path"));
+    let output =
+        Command::new("sh").args(["-c", command]).current_dir(folder).env("PATH", path).output().expect("a shell");
     let said = String::from_utf8_lossy(&output.stderr).into_owned();
     assert_eq!(output.status.code(), Some(0), "{command}: {said}");
 }
@@ -58,9 +42,7 @@ fn all_give_their_rows(folder: &Path) -> usize {
     for command in &commands {
         shell(&out, command);
         let file = command.rsplit(' ').next().expect("a file");
-        let run: usize = file["sample-".len()..file.len() - ".mcap".len()]
-            .parse()
-            .expect("a number");
+        let run: usize = file["sample-".len()..file.len() - ".mcap".len()].parse().expect("a number");
         let row = &rows[run];
         assert_eq!(row[0], run.to_string(), "the table stands in order");
         let mut compared = 0;
@@ -69,10 +51,7 @@ fn all_give_their_rows(folder: &Path) -> usize {
             let cell = row[at.unwrap_or_else(|| panic!("no column {name}"))];
             let wanted: Option<f64> = cell.parse().ok();
             let (found, wanted) = (value.map(f64::to_bits), wanted.map(f64::to_bits));
-            assert_eq!(
-                found, wanted,
-                "{name} of run {run}: {value:?}, the row has {cell}"
-            );
+            assert_eq!(found, wanted, "{name} of run {run}: {value:?}, the row has {cell}");
             compared += 1;
         }
         assert!(compared > 60, "{compared}");
@@ -104,19 +83,8 @@ fn factors_offsets_words_and_shared_changes_come_again_to_the_bit() {
         distribution = { kind = "triangular", from = "15 mph", mode = "20 mph", to = "25 mph" }
     "#;
     let folder = folder_with(study);
-    let words = [
-        "sweep",
-        "study.toml",
-        "-o",
-        "out",
-        "--csv",
-        "--quiet",
-        "--set",
-    ];
-    done(
-        folder.path(),
-        &[&words[..], &["path.duration=70 ms"]].concat(),
-    );
+    let words = ["sweep", "study.toml", "-o", "out", "--csv", "--quiet", "--set"];
+    done(folder.path(), &[&words[..], &["path.duration=70 ms"]].concat());
     assert!(all_give_their_rows(folder.path()) >= 4);
 }
 
@@ -174,10 +142,7 @@ fn a_run_made_in_the_folder_of_a_study_does_it_no_harm() {
     let first = commands(&text)[0].clone();
     shell(&at.join("out"), &first);
     // the sweep's own folder still goes on being one
-    done(
-        at,
-        &["sweep", "study.toml", "-o", "out", "--csv", "--quiet"],
-    );
+    done(at, &["sweep", "study.toml", "-o", "out", "--csv", "--quiet"]);
     let again = answer(at, &["study", "report", "out"]);
     assert_eq!(again.status.code(), Some(2));
 }

@@ -27,9 +27,7 @@ fn column(file: &Path, name: &str) -> BTreeMap<String, Vec<Option<f64>>> {
     for row in reader.get_row_iter(None).unwrap() {
         let row = row.unwrap().into_columns();
         let at = |wanted: &str| &row.iter().find(|c| c.0 == wanted).unwrap().1;
-        let Field::Str(channel) = at("channel") else {
-            panic!("{row:?}")
-        };
+        let Field::Str(channel) = at("channel") else { panic!("{row:?}") };
         let value = match at(name) {
             Field::Double(x) => Some(*x),
             Field::Long(n) => Some(*n as f64),
@@ -43,15 +41,8 @@ fn column(file: &Path, name: &str) -> BTreeMap<String, Vec<Option<f64>>> {
 
 /// All files of bands, by name.
 fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
-    let entries = fs::read_dir(folder.join("out/bands"))
-        .unwrap()
-        .map(Result::unwrap);
-    let read = entries.map(|e| {
-        (
-            e.file_name().into_string().unwrap(),
-            fs::read(e.path()).unwrap(),
-        )
-    });
+    let entries = fs::read_dir(folder.join("out/bands")).unwrap().map(Result::unwrap);
+    let read = entries.map(|e| (e.file_name().into_string().unwrap(), fs::read(e.path()).unwrap()));
     read.collect()
 }
 
@@ -59,20 +50,8 @@ fn files(folder: &Path) -> BTreeMap<String, Vec<u8>> {
 fn the_bands_of_a_sample_are_those_of_its_ensemble_alone() {
     let folder = swept(STUDY);
     let at = folder.path();
-    done(
-        at,
-        &[
-            "study",
-            "bands",
-            "out",
-            "--channels",
-            "belt.*.force,head.acceleration.resultant",
-        ],
-    );
-    assert_eq!(
-        files(at).keys().collect::<Vec<_>>(),
-        ["000000.parquet", "000001.parquet", "000002.parquet"]
-    );
+    done(at, &["study", "bands", "out", "--channels", "belt.*.force,head.acceleration.resultant"]);
+    assert_eq!(files(at).keys().collect::<Vec<_>>(), ["000000.parquet", "000001.parquet", "000002.parquet"]);
     // the same ensemble, run by itself
     done(
         at,
@@ -97,37 +76,22 @@ fn the_bands_of_a_sample_are_those_of_its_ensemble_alone() {
             "alone.parquet",
         ],
     );
-    let (ours, alone) = (
-        at.join("out/bands/000001.parquet"),
-        at.join("alone.parquet"),
-    );
+    let (ours, alone) = (at.join("out/bands/000001.parquet"), at.join("alone.parquet"));
     for name in ["time_s", "nominal", "q05", "q25", "median", "q75", "q95"] {
         let (found, wanted) = (column(&ours, name), column(&alone, name));
         assert_eq!(found.len(), 3);
         assert!(found["belt.lap.force"].len() > 20);
         assert_eq!(found, wanted, "{name}");
     }
-    assert!(
-        column(&ours, "members")["belt.lap.force"]
-            .iter()
-            .all(|n| *n == Some(12.0))
-    );
-    assert!(
-        column(&ours, "sample")["belt.lap.force"]
-            .iter()
-            .all(|n| *n == Some(1.0))
-    );
+    assert!(column(&ours, "members")["belt.lap.force"].iter().all(|n| *n == Some(12.0)));
+    assert!(column(&ours, "sample")["belt.lap.force"].iter().all(|n| *n == Some(1.0)));
     // when the members part is the first time at which the middle 90 % is wider than the tolerance
     let (low, high) = (column(&ours, "q05"), column(&ours, "q95"));
     let (times, tolerance) = (column(&ours, "time_s"), column(&ours, "tolerance"));
     for (channel, lost) in column(&ours, "lost_at_s") {
-        let wide = |i: &usize| {
-            high[&channel][*i].unwrap() - low[&channel][*i].unwrap()
-                > tolerance[&channel][*i].unwrap()
-        };
-        let first = (0..times[&channel].len())
-            .find(wide)
-            .map(|i| times[&channel][i].unwrap());
+        let wide =
+            |i: &usize| high[&channel][*i].unwrap() - low[&channel][*i].unwrap() > tolerance[&channel][*i].unwrap();
+        let first = (0..times[&channel].len()).find(wide).map(|i| times[&channel][i].unwrap());
         assert_eq!(lost[0], first, "{channel}");
     }
 }
@@ -160,50 +124,15 @@ fn what_was_killed_goes_on_to_the_same_files() {
 fn what_cannot_have_bands_is_refused() {
     let folder = swept(STUDY);
     let at = folder.path();
-    let output = answer(
-        at,
-        &["study", "bands", "out", "--channels", "belt.lapp.force"],
-    );
+    let output = answer(at, &["study", "bands", "out", "--channels", "belt.lapp.force"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(
-        err(&output).contains("did you mean `belt.lap.force`"),
-        "{}",
-        err(&output)
-    );
+    assert!(err(&output).contains("did you mean `belt.lap.force`"), "{}", err(&output));
     assert!(!at.join("out/bands").exists());
-    done(
-        at,
-        &[
-            "study",
-            "bands",
-            "out",
-            "--channels",
-            "belt.lap.force",
-            "--quiet",
-        ],
-    );
-    let output = answer(
-        at,
-        &["study", "bands", "out", "--channels", "belt.torso.force"],
-    );
+    done(at, &["study", "bands", "out", "--channels", "belt.lap.force", "--quiet"]);
+    let output = answer(at, &["study", "bands", "out", "--channels", "belt.torso.force"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(
-        err(&output).contains("--force replaces them"),
-        "{}",
-        err(&output)
-    );
-    done(
-        at,
-        &[
-            "study",
-            "bands",
-            "out",
-            "--channels",
-            "belt.torso.force",
-            "--force",
-            "--quiet",
-        ],
-    );
+    assert!(err(&output).contains("--force replaces them"), "{}", err(&output));
+    done(at, &["study", "bands", "out", "--channels", "belt.torso.force", "--force", "--quiet"]);
     let plain = swept(super::STUDY);
     let output = answer(plain.path(), &["study", "bands", "out"]);
     assert_eq!(output.status.code(), Some(2));

@@ -41,9 +41,7 @@ fn table(study: &Study, runs: u64, f: impl Fn(&[f64]) -> f64) -> Samples {
         samples.add(study, run);
         let mut x = Vec::new();
         for (input, setting) in samples.inputs.iter_mut().zip(study.sample(run)) {
-            let Value::Number(value) = setting.value else {
-                panic!("{setting:?}")
-            };
+            let Value::Number(value) = setting.value else { panic!("{setting:?}") };
             input.values.push(value);
             x.push(value);
         }
@@ -62,10 +60,7 @@ fn sobol(samples: &Samples, study: &Study) -> SobolIndices {
 #[track_caller]
 fn inside(estimate: &Estimate, truth: f64) {
     let Estimate { value, low, high } = *estimate;
-    assert!(
-        low <= truth && truth <= high,
-        "{truth} is not in {low} to {high} ({value})"
-    );
+    assert!(low <= truth && truth <= high, "{truth} is not in {low} to {high} ({value})");
 }
 
 /// T. Ishigami, T. Homma (1990): sin x₁ + 7 sin² x₂ + 0.1 x₃⁴ sin x₁ on (−π, π)³.
@@ -92,11 +87,7 @@ fn ishigami_s_indices_lie_in_their_intervals() {
         inside(estimate, truth);
     }
     let analysis = Analysis::of(&samples, 0, &study);
-    assert_eq!(
-        analysis.order,
-        [0, 1, 2],
-        "by total index: 0.56, 0.44, 0.24"
-    );
+    assert_eq!(analysis.order, [0, 1, 2], "by total index: 0.56, 0.44, 0.24");
     // R² of the linear model is 3 (cov(x₁, y)/σ(x₁))²/v = 0.19: its coefficients are marked
     let (which, fit) = analysis.linear.regression.unwrap();
     assert_eq!((which.len(), fit.rows), (3, 2048));
@@ -109,9 +100,7 @@ fn the_g_function_s_indices_lie_in_their_intervals_second_order_rows_or_not() {
     let a = [0.0, 1.0, 4.5, 9.0, 99.0, 99.0];
     let g = |u: &[f64]| -> f64 {
         let factors = u.iter().zip(a);
-        factors
-            .map(|(u, a)| ((4.0 * u - 2.0).abs() + a) / (1.0 + a))
-            .product()
+        factors.map(|(u, a)| ((4.0 * u - 2.0).abs() + a) / (1.0 + a)).product()
     };
     let part = a.map(|a| 1.0 / (3.0 * (1.0 + a) * (1.0 + a)));
     let variance = part.iter().map(|v| 1.0 + v).product::<f64>() - 1.0;
@@ -137,25 +126,13 @@ fn half_of_a_study_and_failed_runs_leave_whole_points_only() {
     samples.responses[0].values[7] = f64::NAN;
     let found = sobol(&samples, &study);
     assert_eq!((found.points, found.dropped), (31, 1));
-    assert_eq!(
-        caution::index(
-            &Estimate {
-                value: 0.3,
-                low: 0.26,
-                high: 0.34
-            },
-            &found
-        ),
-        None
-    );
+    assert_eq!(caution::index(&Estimate { value: 0.3, low: 0.26, high: 0.34 }, &found), None);
     samples.responses[0].values[12] = f64::NAN;
     let found = sobol(&samples, &study);
     // 2 of 32 are more than 5 %: however narrow the interval, the index is marked
     assert!(caution::index(&found.first[0], &found).is_some());
     let few = table(&study, 70, ishigami);
-    let ByDesign::Sobol(Err(why)) = Analysis::of(&few, 0, &study).by_design else {
-        panic!("14 points are too few")
-    };
+    let ByDesign::Sobol(Err(why)) = Analysis::of(&few, 0, &study).by_design else { panic!("14 points are too few") };
     assert_eq!(why, "14 complete points; at least 16 are needed");
 }
 
@@ -179,18 +156,9 @@ fn morris_function(x: &[f64]) -> f64 {
             y += w[i - 1] * w[j - 1] * if j <= 6 { -15.0 } else { sign(i + j) };
         }
     }
-    for (i, j, l) in [
-        (0, 1, 2),
-        (0, 1, 3),
-        (0, 1, 4),
-        (0, 2, 3),
-        (0, 2, 4),
-        (0, 3, 4),
-        (1, 2, 3),
-        (1, 2, 4),
-        (1, 3, 4),
-        (2, 3, 4),
-    ] {
+    for (i, j, l) in
+        [(0, 1, 2), (0, 1, 3), (0, 1, 4), (0, 2, 3), (0, 2, 4), (0, 3, 4), (1, 2, 3), (1, 2, 4), (1, 3, 4), (2, 3, 4)]
+    {
         y -= 10.0 * w[i] * w[j] * w[l];
     }
     y + 5.0 * w[0] * w[1] * w[2] * w[3]
@@ -251,9 +219,7 @@ fn one_at_a_time_reaches_are_those_of_the_function() {
     let study = cube(2, "kind = \"one_at_a_time\"", 0);
     let f = |x: &[f64]| 10.0 + 4.0 * x[0] - x[1];
     let samples = table(&study, study.len(), f);
-    let ByDesign::OneAtATime(Ok(found)) = Analysis::of(&samples, 0, &study).by_design else {
-        panic!("no reaches")
-    };
+    let ByDesign::OneAtATime(Ok(found)) = Analysis::of(&samples, 0, &study).by_design else { panic!("no reaches") };
     // the base stands at 0
     assert_eq!(found[0].range(), [10.0, 14.0]);
     assert_eq!(found[1].range(), [9.0, 10.0]);

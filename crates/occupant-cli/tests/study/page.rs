@@ -36,10 +36,7 @@ fn number(row: &[(String, Field)], name: &str) -> Option<f64> {
 /// How often a quantity stands in the table of numbers, and how often marked.
 fn counted(at: &Path, quantity: &str) -> (usize, usize) {
     let rows = rows(&at.join("out/report.parquet"));
-    let ours: Vec<_> = rows
-        .iter()
-        .filter(|r| text(r, "quantity") == quantity)
-        .collect();
+    let ours: Vec<_> = rows.iter().filter(|r| text(r, "quantity") == quantity).collect();
     let marked = ours.iter().filter(|r| !text(r, "mark").is_empty());
     (ours.len(), marked.count())
 }
@@ -47,16 +44,9 @@ fn counted(at: &Path, quantity: &str) -> (usize, usize) {
 /// A page that is whole: every element that is opened is closed, nothing is fetched, nothing is `NaN`.
 #[track_caller]
 fn sane(page: &str) {
-    for tag in [
-        "svg", "table", "section", "figure", "pre", "h2", "div", "tr", "td",
-    ] {
-        let opened =
-            page.matches(&format!("<{tag} ")).count() + page.matches(&format!("<{tag}>")).count();
-        assert_eq!(
-            opened,
-            page.matches(&format!("</{tag}>")).count(),
-            "<{tag}>"
-        );
+    for tag in ["svg", "table", "section", "figure", "pre", "h2", "div", "tr", "td"] {
+        let opened = page.matches(&format!("<{tag} ")).count() + page.matches(&format!("<{tag}>")).count();
+        assert_eq!(opened, page.matches(&format!("</{tag}>")).count(), "<{tag}>");
     }
     for word in ["<script", "src=", "<link", "url(", "@import", "NaN", "inf "] {
         assert!(!page.contains(word), "{word}");
@@ -92,17 +82,12 @@ fn a_finished_study_has_all_its_sections() {
     assert!((6.7..11.2).contains(&speed), "{speed}");
     let (ranks, marked) = counted(at, "rank_correlation");
     // 24 rows are enough to rank
-    assert!(
-        ranks >= 2 && ranks % 2 == 0 && marked == 0,
-        "{ranks} {marked}"
-    );
+    assert!(ranks >= 2 && ranks % 2 == 0 && marked == 0, "{ranks} {marked}");
 }
 
 #[test]
 fn parameters_that_go_together_are_named() {
-    let study = format!(
-        "{STUDY}\n[[correlations]]\nbetween = [\"joints.neck.damping\", \"speed\"]\nrank = 0.9\n"
-    );
+    let study = format!("{STUDY}\n[[correlations]]\nbetween = [\"joints.neck.damping\", \"speed\"]\nrank = 0.9\n");
     let folder = swept(&study);
     done(folder.path(), &["study", "report", "out"]);
     let text = fs::read_to_string(folder.path().join("out/report.html")).unwrap();
@@ -117,24 +102,13 @@ fn parameters_that_go_together_are_named() {
 fn figures_can_be_chosen_and_constant_ones_say_so() {
     let folder = swept(STUDY);
     let at = folder.path();
-    let words = [
-        "study",
-        "report",
-        "out",
-        "-o",
-        "chosen.html",
-        "--to",
-        "contacts.head.peak,belts.*.peak",
-    ];
+    let words = ["study", "report", "out", "-o", "chosen.html", "--to", "contacts.head.peak,belts.*.peak"];
     done(at, &words);
     let shown = fs::read_to_string(at.join("chosen.html")).unwrap();
     sane(&shown);
     assert!(shown.contains("belts.torso.peak") && !shown.contains(">hic15<"));
     // the head touches nothing in 30 ms
-    assert!(
-        shown.contains("The same in all 24 samples: 0 N."),
-        "{shown}"
-    );
+    assert!(shown.contains("The same in all 24 samples: 0 N."), "{shown}");
     let rows = rows(&at.join("chosen.parquet"));
     assert!(rows.iter().all(|r| text(r, "response") != "hic15"));
 }
@@ -143,18 +117,7 @@ fn figures_can_be_chosen_and_constant_ones_say_so() {
 fn a_growing_study_says_how_much_of_it_is_there() {
     let folder = folder_with(STUDY);
     let at = folder.path();
-    done(
-        at,
-        &[
-            "sweep",
-            "study.toml",
-            "-o",
-            "out",
-            "--quiet",
-            "--shard",
-            "1/2",
-        ],
-    );
+    done(at, &["sweep", "study.toml", "-o", "out", "--quiet", "--shard", "1/2"]);
     let said = done(at, &["study", "report", "out"]);
     assert!(said.contains("not finished: 12 of 24 runs"), "{said}");
     let text = fs::read_to_string(at.join("out/report.html")).unwrap();
@@ -165,10 +128,7 @@ fn a_growing_study_says_how_much_of_it_is_there() {
     assert!(ranks > 0 && marked == ranks, "{ranks} {marked}");
     // a row that was being written when the process was killed
     let journal = fs::read_dir(at.join("out/journal")).unwrap();
-    let piece = journal
-        .map(|e| e.unwrap().path())
-        .find(|p| p.extension().is_some_and(|e| e == "rows"))
-        .unwrap();
+    let piece = journal.map(|e| e.unwrap().path()).find(|p| p.extension().is_some_and(|e| e == "rows")).unwrap();
     let bytes = fs::read(&piece).unwrap();
     fs::write(&piece, &bytes[..bytes.len() - 5]).unwrap();
     let said = done(at, &["study", "report", "out", "--force"]);
@@ -180,15 +140,7 @@ fn a_sweep_at_work_and_a_killed_one_can_be_reported_on() {
     let folder = folder_with(&STUDY.replace("samples = 24", "samples = 2000"));
     let at = folder.path();
     let mut sweep = occupant(at)
-        .args([
-            "sweep",
-            "study.toml",
-            "-o",
-            "out",
-            "--quiet",
-            "--threads",
-            "1",
-        ])
+        .args(["sweep", "study.toml", "-o", "out", "--quiet", "--threads", "1"])
         .stdout(Stdio::null())
         .spawn()
         .unwrap();
@@ -244,9 +196,7 @@ fn failed_and_refused_runs_are_counted_with_their_reasons() {
     // half of the runs are missing: what is said of the rest is marked
     let (median, marked) = counted(folder.path(), "median");
     assert!(median > 0 && marked == median);
-    assert!(
-        text.contains("samples have no such figure: what is said holds for the others only\">")
-    );
+    assert!(text.contains("samples have no such figure: what is said holds for the others only\">"));
 }
 
 #[test]
@@ -264,7 +214,8 @@ fn one_parameter_thirty_parameters_and_words_give_a_page() {
     assert!(text.contains("words have no order") && text.contains("haversine"));
 
     let joints = ["neck", "upper_back", "lower_back"];
-    let mut many = "set = { \"time.end\" = \"3 ms\" }\ndesign = { kind = \"latin_hypercube\", samples = 80 }\n".to_owned();
+    let mut many =
+        "set = { \"time.end\" = \"3 ms\" }\ndesign = { kind = \"latin_hypercube\", samples = 80 }\n".to_owned();
     for i in 0..30 {
         let joint = joints[i % 3];
         many += &format!(
@@ -273,23 +224,14 @@ fn one_parameter_thirty_parameters_and_words_give_a_page() {
     }
     let folder = swept(&many);
     let at = folder.path();
-    let words = [
-        "study",
-        "report",
-        "out",
-        "--to",
-        "energy.greatest_kinetic,head.peak",
-    ];
+    let words = ["study", "report", "out", "--to", "energy.greatest_kinetic,head.peak"];
     done(at, &words);
     let text = fs::read_to_string(at.join("out/report.html")).unwrap();
     sane(&text);
     assert!(text.contains("The 9 that matter most of 30"));
     let (coefficients, marked) = counted(at, "regression_coefficient");
     // 80 rows of 30 parameters are fewer than ten each
-    assert!(
-        coefficients >= 30 && marked == coefficients,
-        "{coefficients} {marked}"
-    );
+    assert!(coefficients >= 30 && marked == coefficients, "{coefficients} {marked}");
     assert!(text.len() < 2_000_000, "{}", text.len());
 }
 
@@ -304,27 +246,14 @@ fn each_design_has_its_own_table() {
         list = ["half_sine", "square"]
     "#;
     let designs = [
-        (
-            "saltelli\", samples = 16, second_order = true",
-            "Sobol indices",
-            "sobol_total",
-        ),
+        ("saltelli\", samples = 16, second_order = true", "Sobol indices", "sobol_total"),
         ("saltelli\", samples = 4", "too few numbers", "median"),
-        (
-            "morris\", trajectories = 5",
-            "elementary effects",
-            "morris_sigma",
-        ),
+        ("morris\", trajectories = 5", "elementary effects", "morris_sigma"),
         ("morris\", trajectories = 2", "too few numbers", "median"),
-        (
-            "one_at_a_time\"",
-            "One parameter at a time",
-            "alone_nominal",
-        ),
+        ("one_at_a_time\"", "One parameter at a time", "alone_nominal"),
     ];
     for (design, words, quantity) in designs {
-        let head =
-            format!("set = {{ \"time.end\" = \"12 ms\" }}\ndesign = {{ kind = \"{design} }}\n");
+        let head = format!("set = {{ \"time.end\" = \"12 ms\" }}\ndesign = {{ kind = \"{design} }}\n");
         let folder = swept(&(head + parameters));
         let text = page(folder.path());
         sane(&text);
@@ -347,39 +276,14 @@ fn shards_in_several_folders_are_one_study() {
     let folder = folder_with(STUDY);
     let at = folder.path();
     for (shard, out) in [("1/2", "a"), ("2/2", "b")] {
-        done(
-            at,
-            &[
-                "sweep",
-                "study.toml",
-                "-o",
-                out,
-                "--quiet",
-                "--shard",
-                shard,
-            ],
-        );
+        done(at, &["sweep", "study.toml", "-o", out, "--quiet", "--shard", shard]);
     }
     done(at, &["study", "report", "a", "b", "-o", "both.html"]);
     let text = fs::read_to_string(at.join("both.html")).unwrap();
     assert!(text.contains("24 of 24 runs finished"));
     let other = swept(&STUDY.replace("seed = 3", "seed = 4"));
     let theirs = other.path().join("out");
-    let output = answer(
-        at,
-        &[
-            "study",
-            "report",
-            "a",
-            theirs.to_str().unwrap(),
-            "-o",
-            "no.html",
-        ],
-    );
+    let output = answer(at, &["study", "report", "a", theirs.to_str().unwrap(), "-o", "no.html"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(
-        err(&output).contains("different sweeps"),
-        "{}",
-        err(&output)
-    );
+    assert!(err(&output).contains("different sweeps"), "{}", err(&output));
 }

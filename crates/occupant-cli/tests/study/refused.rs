@@ -12,22 +12,14 @@ fn files_that_exist_are_replaced_only_by_force() {
     let before = fs::read(at.join("out/report.html")).unwrap();
     let output = answer(at, &["study", "report", "out"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(
-        err(&output).contains("--force replaces it"),
-        "{}",
-        err(&output)
-    );
+    assert!(err(&output).contains("--force replaces it"), "{}", err(&output));
     done(at, &["study", "report", "out", "--force"]);
     // the same rows give the same page
     assert!(before == fs::read(at.join("out/report.html")).unwrap());
     // a table alone is in the way, too
     fs::remove_file(at.join("out/report.html")).unwrap();
     let output = answer(at, &["study", "report", "out"]);
-    assert!(
-        err(&output).contains("report.parquet exists"),
-        "{}",
-        err(&output)
-    );
+    assert!(err(&output).contains("report.parquet exists"), "{}", err(&output));
     assert!(!at.join("out/report.html").exists());
 }
 
@@ -39,11 +31,7 @@ fn the_tables_of_the_sweep_are_safe() {
     for name in ["out/results.html", "out/../out/results.html"] {
         let output = answer(at, &["study", "report", "out", "-o", name, "--force"]);
         assert_eq!(output.status.code(), Some(2), "{name}");
-        assert!(
-            err(&output).contains("is a table of the sweep"),
-            "{}",
-            err(&output)
-        );
+        assert!(err(&output).contains("is a table of the sweep"), "{}", err(&output));
     }
     assert!(before == fs::read(at.join("out/results.parquet")).unwrap());
     let output = answer(at, &["study", "report", "out", "-o", "page.pdf"]);
@@ -77,11 +65,7 @@ fn a_figure_that_is_none_is_told_with_the_nearest() {
     let at = folder.path();
     let output = answer(at, &["study", "report", "out", "--to", "head.peak,hic51"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(
-        err(&output).contains("did you mean `hic15`"),
-        "{}",
-        err(&output)
-    );
+    assert!(err(&output).contains("did you mean `hic15`"), "{}", err(&output));
     let output = answer(at, &["study", "report", "out", "--to", "zzzzzzzzzz"]);
     assert!(err(&output).contains("the figures are"), "{}", err(&output));
     assert!(!at.join("out/report.html").exists() && !at.join("out/report.parquet").exists());

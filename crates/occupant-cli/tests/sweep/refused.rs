@@ -20,10 +20,7 @@ fn another_study_in_the_same_folder_is_refused_and_the_difference_named() {
     assert!(said.contains("--set: none → path.duration=70 ms"), "{said}");
     fs::write(at.join("study.toml"), STUDY.replace("25 mph", "26 mph")).unwrap();
     let said = refused(&words);
-    assert!(
-        said.contains("study.toml, line 17: ") && said.contains("26 mph"),
-        "{said}"
-    );
+    assert!(said.contains("study.toml, line 17: ") && said.contains("26 mph"), "{said}");
     assert!(said.contains("--restart"), "{said}");
     fs::write(at.join("study.toml"), STUDY).unwrap();
     let case = fs::read_to_string(at.join("case.toml")).unwrap();
@@ -44,16 +41,9 @@ fn a_folder_with_other_files_is_left_alone() {
         let words = [&["sweep", "study.toml", "-o", "out"][..], more].concat();
         let output = answer(at, &words);
         assert_eq!(output.status.code(), Some(2));
-        assert!(
-            err(&output).contains("holds files that are no sweep's"),
-            "{}",
-            err(&output)
-        );
+        assert!(err(&output).contains("holds files that are no sweep's"), "{}", err(&output));
     }
-    assert_eq!(
-        fs::read_to_string(at.join("out/thesis.tex")).unwrap(),
-        "years of work"
-    );
+    assert_eq!(fs::read_to_string(at.join("out/thesis.tex")).unwrap(), "years of work");
 }
 
 #[test]
@@ -67,17 +57,11 @@ fn flags_that_make_no_sense_are_refused_in_words() {
         (&["--keep", "24"], "there is no sample 24"),
         (&["--keep", "worst 2 by hick"], "no measure is named `hick`"),
         (&["--shard", "1/2", "--csv"], "a shard writes no table"),
-        (
-            &["--shard", "1/2", "--restart"],
-            "would remove the results of the others",
-        ),
+        (&["--shard", "1/2", "--restart"], "would remove the results of the others"),
         (&["--threads", "0"], "invalid value '0'"),
         (&["--set", "path.sped=3"], "sped"),
     ] {
-        let output = answer(
-            at,
-            &[&["sweep", "study.toml", "-o", "out"][..], more].concat(),
-        );
+        let output = answer(at, &[&["sweep", "study.toml", "-o", "out"][..], more].concat());
         assert_eq!(output.status.code(), Some(2), "{more:?}");
         assert!(err(&output).contains(said), "{more:?}: {}", err(&output));
     }
@@ -86,9 +70,5 @@ fn flags_that_make_no_sense_are_refused_in_words() {
     assert!(err(&output).contains("holds no sweep"), "{}", err(&output));
     let output = answer(at, &["sweep", "nowhere.toml", "-o", "out"]);
     assert_eq!(output.status.code(), Some(2));
-    assert!(
-        err(&output).contains("nowhere.toml cannot be read"),
-        "{}",
-        err(&output)
-    );
+    assert!(err(&output).contains("nowhere.toml cannot be read"), "{}", err(&output));
 }

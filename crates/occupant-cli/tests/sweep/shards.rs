@@ -10,10 +10,7 @@ use super::{STUDY, answer, done, err, folder_with, occupant, rows};
 fn shards_merged_are_the_sweep_and_what_is_missing_is_named() {
     let folder = folder_with(STUDY);
     let at = folder.path();
-    done(
-        at,
-        &["sweep", "study.toml", "-o", "whole", "--csv", "--quiet"],
-    );
+    done(at, &["sweep", "study.toml", "-o", "whole", "--csv", "--quiet"]);
     done(at, &["sweep", "study.toml", "-o", "out", "--shard", "3/3"]);
     let slurm = occupant(at)
         .args(["sweep", "study.toml", "-o", "out"])
@@ -23,11 +20,7 @@ fn shards_merged_are_the_sweep_and_what_is_missing_is_named() {
         .output()
         .unwrap();
     assert_eq!(slurm.status.code(), Some(0), "{}", err(&slurm));
-    assert!(
-        err(&slurm).contains("shard 1/3, as SLURM_ARRAY_TASK_ID says"),
-        "{}",
-        err(&slurm)
-    );
+    assert!(err(&slurm).contains("shard 1/3, as SLURM_ARRAY_TASK_ID says"), "{}", err(&slurm));
     let early = answer(at, &["sweep", "merge", "out"]);
     assert_eq!(early.status.code(), Some(1));
     let said = err(&early);
@@ -36,18 +29,7 @@ fn shards_merged_are_the_sweep_and_what_is_missing_is_named() {
     assert!(!at.join("out/results.parquet").exists());
     // the same shard twice computes nothing the second time
     for _ in 0..2 {
-        done(
-            at,
-            &[
-                "sweep",
-                "study.toml",
-                "-o",
-                "out",
-                "--shard",
-                "2/3",
-                "--quiet",
-            ],
-        );
+        done(at, &["sweep", "study.toml", "-o", "out", "--shard", "2/3", "--quiet"]);
     }
     done(at, &["sweep", "merge", "out", "--csv"]);
     assert_eq!(rows(at, "out"), rows(at, "whole"));
@@ -57,62 +39,21 @@ fn shards_merged_are_the_sweep_and_what_is_missing_is_named() {
 fn shards_in_folders_of_their_own_are_merged_too() {
     let folder = folder_with(STUDY);
     let at = folder.path();
-    done(
-        at,
-        &["sweep", "study.toml", "-o", "whole", "--csv", "--quiet"],
-    );
-    done(
-        at,
-        &[
-            "sweep",
-            "study.toml",
-            "-o",
-            "a",
-            "--shard",
-            "1/2",
-            "--quiet",
-        ],
-    );
-    done(
-        at,
-        &[
-            "sweep",
-            "study.toml",
-            "-o",
-            "b",
-            "--shard",
-            "2/2",
-            "--quiet",
-        ],
-    );
+    done(at, &["sweep", "study.toml", "-o", "whole", "--csv", "--quiet"]);
+    done(at, &["sweep", "study.toml", "-o", "a", "--shard", "1/2", "--quiet"]);
+    done(at, &["sweep", "study.toml", "-o", "b", "--shard", "2/2", "--quiet"]);
     done(at, &["sweep", "merge", "a", "b", "-o", "table", "--csv"]);
     assert_eq!(rows(at, "table"), rows(at, "whole"));
     // a table of something else is not replaced
     let again = answer(at, &["sweep", "merge", "a", "b", "-o", "table"]);
     assert_eq!(again.status.code(), Some(2));
     let said = err(&again);
-    assert!(
-        said.contains("results.parquet exists and is not of this sweep"),
-        "{said}"
-    );
-    let other = [
-        "sweep",
-        "study.toml",
-        "-o",
-        "c",
-        "--shard",
-        "2/2",
-        "--set",
-        "path.duration=70 ms",
-    ];
+    assert!(said.contains("results.parquet exists and is not of this sweep"), "{said}");
+    let other = ["sweep", "study.toml", "-o", "c", "--shard", "2/2", "--set", "path.duration=70 ms"];
     done(at, &other);
     let mixed = answer(at, &["sweep", "merge", "a", "c"]);
     assert_eq!(mixed.status.code(), Some(2));
-    assert!(
-        err(&mixed).contains("--set: none → path.duration=70 ms"),
-        "{}",
-        err(&mixed)
-    );
+    assert!(err(&mixed).contains("--set: none → path.duration=70 ms"), "{}", err(&mixed));
 }
 
 #[test]
@@ -121,17 +62,9 @@ fn two_processes_do_not_compute_the_same_shard_at_once() {
     let folder = folder_with(&study);
     let at = folder.path();
     let words = ["sweep", "study.toml", "-o", "out", "--threads", "1"];
-    let mut first = occupant(at)
-        .args(words)
-        .stdout(Stdio::null())
-        .stderr(Stdio::null())
-        .spawn()
-        .unwrap();
+    let mut first = occupant(at).args(words).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
     while !at.join("out/journal/shard-0001-of-0001.lock").exists() {
-        assert!(
-            first.try_wait().unwrap().is_none(),
-            "the first one has ended"
-        );
+        assert!(first.try_wait().unwrap().is_none(), "the first one has ended");
         sleep(Duration::from_millis(5));
     }
     sleep(Duration::from_millis(200));
@@ -139,10 +72,7 @@ fn two_processes_do_not_compute_the_same_shard_at_once() {
         let second = answer(at, &[&words[..], more].concat());
         assert_eq!(second.status.code(), Some(2), "{more:?}");
         let said = err(&second);
-        assert!(
-            said.contains("another process is at work in out: it computes shard 1/1"),
-            "{said}"
-        );
+        assert!(said.contains("another process is at work in out: it computes shard 1/1"), "{said}");
     }
     first.kill().unwrap();
     first.wait().unwrap();

@@ -10,32 +10,9 @@ use super::{STUDY, column, done, folder_with, rows};
 fn a_sweep_writes_a_row_for_each_sample_the_same_for_any_number_of_threads() {
     let folder = folder_with(STUDY);
     let at = folder.path();
-    let said = done(
-        at,
-        &[
-            "sweep",
-            "study.toml",
-            "-o",
-            "one",
-            "--threads",
-            "1",
-            "--csv",
-        ],
-    );
+    let said = done(at, &["sweep", "study.toml", "-o", "one", "--threads", "1", "--csv"]);
     assert!(said.contains("24 completed"), "{said}");
-    done(
-        at,
-        &[
-            "sweep",
-            "study.toml",
-            "-o",
-            "three",
-            "--threads",
-            "3",
-            "--csv",
-            "--quiet",
-        ],
-    );
+    done(at, &["sweep", "study.toml", "-o", "three", "--threads", "3", "--csv", "--quiet"]);
     let one = rows(at, "one");
     assert_eq!(one.len(), 25);
     assert_eq!(one, rows(at, "three"));
@@ -43,10 +20,7 @@ fn a_sweep_writes_a_row_for_each_sample_the_same_for_any_number_of_threads() {
     assert_eq!(column(&one, "index"), counted);
     let speeds = column(&one, "input.speed");
     let m_s = |text: &String| text.parse::<f64>().unwrap();
-    assert!(
-        speeds.iter().map(m_s).all(|v| (6.7..11.2).contains(&v)),
-        "{speeds:?}"
-    );
+    assert!(speeds.iter().map(m_s).all(|v| (6.7..11.2).contains(&v)), "{speeds:?}");
     let mut different = column(&one, "head.peak");
     different.dedup();
     assert_eq!(different.len(), 24, "the samples do differ");
@@ -77,42 +51,22 @@ fn the_parquet_file_holds_the_rows_and_says_what_they_are_of() {
 fn one_row_is_what_run_says_of_the_same_scenario() {
     let folder = folder_with(STUDY);
     let at = folder.path();
-    done(
-        at,
-        &[
-            "sweep",
-            "study.toml",
-            "-o",
-            "out",
-            "--csv",
-            "--set",
-            "path.duration=70 ms",
-        ],
-    );
+    done(at, &["sweep", "study.toml", "-o", "out", "--csv", "--set", "path.duration=70 ms"]);
     let table = rows(at, "out");
     let value = |name: &str| column(&table, name)[5].clone();
     let sets = [
         "time.end=30 ms".to_owned(),
         "path.duration=70 ms".to_owned(),
-        format!(
-            "joints.neck.damping={} N m s/rad",
-            value("input.joints.neck.damping")
-        ),
+        format!("joints.neck.damping={} N m s/rad", value("input.joints.neck.damping")),
         format!("path.speed={} m/s", value("input.speed")),
     ];
     let mut words = vec!["run", "case.toml", "--no-mcap", "--json", "--quiet"];
     sets.iter().for_each(|set| words.extend(["--set", set]));
     let run: serde_json::Value = serde_json::from_str(&done(at, &words)).unwrap();
     let number = |name: &str| value(name).parse::<f64>().unwrap();
-    assert_eq!(
-        run["accelerations"]["head"]["peak_m_s2"],
-        number("head.peak")
-    );
+    assert_eq!(run["accelerations"]["head"]["peak_m_s2"], number("head.peak"));
     assert_eq!(run["belts"][0]["loop_force_n"], number("belts.lap.peak"));
-    assert_eq!(
-        run["solver"]["evaluations"].as_f64(),
-        Some(number("solver.evaluations"))
-    );
+    assert_eq!(run["solver"]["evaluations"].as_f64(), Some(number("solver.evaluations")));
 }
 
 #[test]
@@ -138,24 +92,12 @@ fn a_sample_that_is_refused_or_fails_is_a_row_with_its_reason() {
     let end = start + text[start..].find("\n\n").unwrap();
     let adaptive = "[integrator]\nkind = \"adaptive\"\nmin_step = 1e-8\nmax_step = 1e-3\n\
         relative = 1e-9\nabsolute_length = 1e-12\nabsolute_speed = 1e-10";
-    fs::write(
-        &case,
-        format!("{}{adaptive}{}", &text[..start], &text[end..]),
-    )
-    .unwrap();
+    fs::write(&case, format!("{}{adaptive}{}", &text[..start], &text[end..])).unwrap();
     let said = done(at, &["sweep", "study.toml", "-o", "out", "--csv"]);
     let table = rows(at, "out");
-    assert_eq!(
-        column(&table, "status"),
-        ["completed", "failed", "refused", "refused"],
-        "{said}"
-    );
+    assert_eq!(column(&table, "status"), ["completed", "failed", "refused", "refused"], "{said}");
     assert!(said.contains("1 completed, 1 failed, 2 refused"), "{said}");
-    assert!(
-        table[2].contains("the error control asks for a step"),
-        "{}",
-        table[2]
-    );
+    assert!(table[2].contains("the error control asks for a step"), "{}", table[2]);
     assert!(table[3].contains("an end after the start"), "{}", table[3]);
     // a run that failed has the figures of its work and none else
     assert_eq!(column(&table, "head.peak")[1..], ["", "", ""]);

@@ -3,10 +3,7 @@
 //! Three sizes of the same problem: *bare* (the skeleton under given loads), *held* (joint moments and belts as well), *full*
 //! (all 17 × 25 contact pairs as well).
 
-#![allow(
-    dead_code,
-    reason = "each benchmark and each example compiles this file and takes what it wants"
-)]
+#![allow(dead_code, reason = "each benchmark and each example compiles this file and takes what it wants")]
 
 use occupant_core::body::SEGMENTS;
 use occupant_core::integrate::rk4::{self, Stage};
@@ -97,14 +94,12 @@ impl Instant {
 
     /// The rate of change, the history committed.
     pub fn commit(&mut self) -> State<f64> {
-        self.system
-            .rate_alone::<true>(&self.state, &self.frames, &mut self.history, &mut ())
+        self.system.rate_alone::<true>(&self.state, &self.frames, &mut self.history, &mut ())
     }
 
     /// The rate of change within a step.
     pub fn rate(&mut self) -> State<f64> {
-        self.system
-            .rate_alone::<false>(&self.state, &self.frames, &mut self.history, &mut ())
+        self.system.rate_alone::<false>(&self.state, &self.frames, &mut self.history, &mut ())
     }
 
     /// The skeleton alone: accelerations under given loads, which is what an articulated-body algorithm answers.
@@ -119,9 +114,7 @@ impl Instant {
         let (system, frames, history) = (&self.system, &self.frames, &mut self.history);
         rk4::step(&self.state, STEP_S, |stage, state| match stage {
             Stage::Start => system.rate_alone::<true>(state, frames, history, &mut ()),
-            Stage::Middle | Stage::End => {
-                system.rate_alone::<false>(state, frames, history, &mut ())
-            }
+            Stage::Middle | Stage::End => system.rate_alone::<false>(state, frames, history, &mut ()),
         })
     }
 
@@ -149,12 +142,7 @@ impl Instant {
     /// Number of pairs that exert a force.
     pub fn touches(&mut self) -> usize {
         let mut count = Count(0);
-        self.system.rate_observed::<false>(
-            &self.state,
-            &self.frames,
-            &mut self.history,
-            &mut count,
-        );
+        self.system.rate_observed::<false>(&self.state, &self.frames, &mut self.history, &mut count);
         count.0
     }
 }

@@ -14,10 +14,7 @@ pub fn anchors(model: &Model, now: &Instant) -> String {
     for (i, belt) in model.setup().belts.iter().enumerate() {
         for (end, anchor) in belt.anchors_m.iter().enumerate() {
             let place = in_space(now, V3::of(&anchor.coords));
-            text += &format!(
-                "<site name=\"anchor {i} {end}\" pos=\"{}\"/>\n",
-                list(&[place.x, place.y, place.z])
-            );
+            text += &format!("<site name=\"anchor {i} {end}\" pos=\"{}\"/>\n", list(&[place.x, place.y, place.z]));
         }
     }
     text
@@ -34,16 +31,11 @@ pub fn sides(model: &Model, now: &Instant, sphere: usize) -> String {
         if belt.sphere != sphere {
             continue;
         }
-        let [a, b] = belt
-            .anchors_m
-            .map(|anchor| in_space(now, V3::of(&anchor.coords)));
+        let [a, b] = belt.anchors_m.map(|anchor| in_space(now, V3::of(&anchor.coords)));
         let away = centre - (a + b) * 0.5;
         let away = away * (2.0 * site.radius / away.norm_squared().sqrt());
         let place = site.offset + k.axes[site.segment].into_frame(away);
-        text += &format!(
-            "<site name=\"side {i}\" pos=\"{}\"/>\n",
-            list(&[place.x, place.y, place.z])
-        );
+        text += &format!("<site name=\"side {i}\" pos=\"{}\"/>\n", list(&[place.x, place.y, place.z]));
     }
     text
 }
@@ -51,13 +43,7 @@ pub fn sides(model: &Model, now: &Instant, sphere: usize) -> String {
 /// The tendons.
 pub fn tendons(model: &Model) -> String {
     let mut text = String::new();
-    for (i, (belt, law)) in model
-        .setup()
-        .belts
-        .iter()
-        .zip(&model.system().belts)
-        .enumerate()
-    {
+    for (i, (belt, law)) in model.setup().belts.iter().zip(&model.system().belts).enumerate() {
         text += &format!(
             "<spatial name=\"belt {i}\" stiffness=\"{}\" springlength=\"0 {}\">\
              <site site=\"anchor {i} 0\"/><geom geom=\"sphere {}\" sidesite=\"side {i}\"/><site site=\"anchor {i} 1\"/>\

@@ -16,20 +16,8 @@ use occupant_core::model::Model;
 use crate::scene::Instant;
 
 /// Segment that carries each segment: the middle torso carries the upper one at the common root.
-pub const PARENTS: [Option<usize>; SEGMENTS] = [
-    None,
-    Some(0),
-    Some(1),
-    Some(0),
-    Some(1),
-    Some(1),
-    Some(4),
-    Some(5),
-    Some(3),
-    Some(3),
-    Some(8),
-    Some(9),
-];
+pub const PARENTS: [Option<usize>; SEGMENTS] =
+    [None, Some(0), Some(1), Some(0), Some(1), Some(1), Some(4), Some(5), Some(3), Some(3), Some(8), Some(9)];
 
 /// Segments depth first.
 pub const ORDER: [usize; SEGMENTS] = [0, 1, 2, 4, 6, 5, 7, 3, 8, 10, 9, 11];
@@ -77,10 +65,7 @@ fn seen_from_vehicle(state: &State<f64>, vehicle: &Moving<f64>, home: &Moving<f6
     seen.velocity = carry(state.velocity - vehicle.velocity_at(state.t1));
     for q in &mut seen.orientation {
         let turned = turn.into_inner() * quaternion(q);
-        *q = Quat {
-            w: turned.w,
-            v: V3::of(&turned.imag()),
-        };
+        *q = Quat { w: turned.w, v: V3::of(&turned.imag()) };
     }
     for omega in &mut seen.omega {
         *omega = carry(*omega - vehicle.omega);

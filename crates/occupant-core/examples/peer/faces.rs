@@ -20,18 +20,14 @@ pub fn geom(face: &FlatFace, friction: f64, frames: &Frames<f64>) -> String {
         Outline::Polygon(corners) => {
             let along = |axis: &Vector3<f64>| {
                 let along = corners.iter().map(|c| axis.dot(&c.coords));
-                let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), a| {
-                    (l.min(a), h.max(a))
-                });
+                let (low, high) = along.fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), a| (l.min(a), h.max(a)));
                 (0.5 * (low + high), 0.5 * (high - low))
             };
             let ((at_u, half_u), (at_v, half_v)) = (along(&u), along(&v));
             let centre = u * at_u + v * at_v + normal * (face.offset_m - HALF_THICKNESS_M);
             ("box", vec![half_u, half_v, HALF_THICKNESS_M], centre)
         }
-        Outline::Disc {
-            centre_m, radius_m, ..
-        } => {
+        Outline::Disc { centre_m, radius_m, .. } => {
             let centre = centre_m.coords - normal * HALF_THICKNESS_M;
             ("cylinder", vec![*radius_m, HALF_THICKNESS_M], centre)
         }

@@ -25,8 +25,7 @@ use mjcf::Parts;
 use occupant_core::model::Model;
 use occupant_core::scenario::{Format, Scenario};
 
-const USAGE: &str =
-    "peer mjcf SCENARIO SECONDS free|hinges|held|contact, or peer motion SCENARIO SECONDS";
+const USAGE: &str = "peer mjcf SCENARIO SECONDS free|hinges|held|contact, or peer motion SCENARIO SECONDS";
 
 #[allow(clippy::print_stdout, reason = "an example prints its result")]
 fn main() {
@@ -60,8 +59,5 @@ fn read(path: &Path) -> Model {
     };
     let loaded = Scenario::from_text(&text, format, &path.to_string_lossy(), &beside);
     let loaded = loaded.unwrap_or_else(|problems| panic!("{problems}"));
-    loaded
-        .model()
-        .unwrap_or_else(|problems| panic!("{problems}"))
-        .0
+    loaded.model().unwrap_or_else(|problems| panic!("{problems}")).0
 }

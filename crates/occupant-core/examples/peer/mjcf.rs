@@ -49,11 +49,7 @@ pub fn write(model: &Model, parts: Parts, instants: &Placed) -> String {
     };
     let key = |name: &str, now: &Instant| {
         let (q, v) = (positions(&now.state), speeds(&now.state));
-        format!(
-            "<key name=\"{name}\" qpos=\"{}\" qvel=\"{}\"/>\n",
-            list(&q),
-            list(&v)
-        )
+        format!("<key name=\"{name}\" qpos=\"{}\" qvel=\"{}\"/>\n", list(&q), list(&v))
     };
     format!(
         "<mujoco>\n<compiler angle=\"radian\" inertiafromgeom=\"false\"/>\n\
@@ -78,11 +74,7 @@ fn surfaces(model: &Model, now: &Instant) -> String {
     let setup = model.setup();
     let faces = model.faces().iter().zip(&setup.surfaces);
     let geom = |(face, surface): (_, &occupant_core::surface::Surface)| {
-        faces::geom(
-            face,
-            setup.materials[surface.material].friction,
-            &now.frames,
-        ) + "\n"
+        faces::geom(face, setup.materials[surface.material].friction, &now.frames) + "\n"
     };
     faces.map(geom).collect()
 }
@@ -161,14 +153,7 @@ fn joint(joints: &Joints, parts: Parts, n: usize) -> String {
     };
     match (PARENTS[n], limb(n)) {
         (None, _) => "<freejoint/>".to_owned(),
-        (_, Some(_)) => format!(
-            "<joint type=\"hinge\" axis=\"0 1 0\" damping=\"{}\"/>",
-            damping[n]
-        ),
-        (_, None) => format!(
-            "<joint type=\"ball\" damping=\"{}\" stiffness=\"{}\"/>",
-            damping[n],
-            stiffness(n)
-        ),
+        (_, Some(_)) => format!("<joint type=\"hinge\" axis=\"0 1 0\" damping=\"{}\"/>", damping[n]),
+        (_, None) => format!("<joint type=\"ball\" damping=\"{}\" stiffness=\"{}\"/>", damping[n], stiffness(n)),
     }
 }

@@ -62,9 +62,7 @@ fn places(model: &Model, now: &Instant) -> Vec<Vec<[f64; 3]>> {
     let mut found = vec![ends(&now)];
     for i in 1..=steps {
         let (system, frames, history) = (&now.system, &now.frames, &mut now.history);
-        now.state = rk4::step(&now.state, STEP_S, |_, state| {
-            system.rate::<false>(state, frames, history)
-        });
+        now.state = rk4::step(&now.state, STEP_S, |_, state| system.rate::<false>(state, frames, history));
         if i.is_multiple_of(STEPS_PER_PLACE) {
             found.push(ends(&now));
         }
@@ -75,10 +73,7 @@ fn places(model: &Model, now: &Instant) -> Vec<Vec<[f64; 3]>> {
 /// The body with nothing but its hinges' dampers.
 fn alone(model: &Model, now: &Instant) -> Instant {
     let setup = model.setup();
-    let damper = |joint: &HingeJoint| HingeJoint {
-        damping_n_m_s: joint.damping_n_m_s,
-        ..HingeJoint::default()
-    };
+    let damper = |joint: &HingeJoint| HingeJoint { damping_n_m_s: joint.damping_n_m_s, ..HingeJoint::default() };
     let loose = BallJoint::default();
     let j = &setup.joints;
     let joints = Joints {

@@ -35,12 +35,7 @@ impl Axis {
     fn over(values: impl Iterator<Item = f64> + Clone, from: f64, to: f64) -> Self {
         let low = values.clone().fold(f64::INFINITY, f64::min).log10();
         let high = values.fold(0.0, f64::max).log10();
-        Axis {
-            low: (low - 0.05).max(-6.0),
-            high: high + 0.05,
-            from,
-            to,
-        }
+        Axis { low: (low - 0.05).max(-6.0), high: high + 0.05, from, to }
     }
 
     fn at(&self, value: f64) -> f64 {
@@ -57,11 +52,7 @@ impl Axis {
             _ => &[1.0, 2.0, 5.0],
         };
         // read from text, so that 3e-1 is 0.3
-        let all = decades.flat_map(|d| {
-            steps
-                .iter()
-                .filter_map(move |s| format!("{s}e{d}").parse().ok())
-        });
+        let all = decades.flat_map(|d| steps.iter().filter_map(move |s| format!("{s}e{d}").parse().ok()));
         let inside = |v: &f64| (self.low..=self.high).contains(&v.log10());
         all.filter(inside).collect()
     }
@@ -118,10 +109,7 @@ fn panel(
     );
     if errors.clone().next().is_none() {
         let (x, y) = (x + 0.5 * WIDTH, y + 0.5 * HEIGHT);
-        let _ = writeln!(
-            svg,
-            "<text x=\"{x}\" y=\"{y}\" fill=\"#555\" text-anchor=\"middle\">no belt</text>"
-        );
+        let _ = writeln!(svg, "<text x=\"{x}\" y=\"{y}\" fill=\"#555\" text-anchor=\"middle\">no belt</text>");
         return;
     }
     let across = Axis::over(points.map(of), x, right);
@@ -136,11 +124,7 @@ fn panel(
     }
     for tick in up.ticks() {
         let y = up.at(tick);
-        let label = if tick < 1e-3 {
-            format!("{tick:e}")
-        } else {
-            format!("{tick}")
-        };
+        let label = if tick < 1e-3 { format!("{tick:e}") } else { format!("{tick}") };
         let _ = writeln!(
             svg,
             "<line x1=\"{x}\" y1=\"{y:.1}\" x2=\"{right}\" y2=\"{y:.1}\" stroke=\"#e5e5e5\"/><text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">{label}</text>",
@@ -157,23 +141,15 @@ fn panel(
     }
     for (points, colour) in lines.iter().zip(COLOURS) {
         let places = points.iter().filter(|p| error(p) > 0.0);
-        let places: Vec<_> = places
-            .map(|p| (across.at(of(p)), up.at(error(p))))
-            .collect();
-        let path: Vec<String> = places
-            .iter()
-            .map(|(x, y)| format!("{x:.1},{y:.1}"))
-            .collect();
+        let places: Vec<_> = places.map(|p| (across.at(of(p)), up.at(error(p)))).collect();
+        let path: Vec<String> = places.iter().map(|(x, y)| format!("{x:.1},{y:.1}")).collect();
         let _ = writeln!(
             svg,
             "<polyline points=\"{}\" fill=\"none\" stroke=\"{colour}\" stroke-width=\"1.6\"/>",
             path.join(" ")
         );
         for (x, y) in places {
-            let _ = writeln!(
-                svg,
-                "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2.6\" fill=\"{colour}\"/>"
-            );
+            let _ = writeln!(svg, "<circle cx=\"{x:.1}\" cy=\"{y:.1}\" r=\"2.6\" fill=\"{colour}\"/>");
         }
     }
 }

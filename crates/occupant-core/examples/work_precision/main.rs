@@ -20,35 +20,17 @@ use occupant_core::setup::Integrator;
 
 /// Cases and the ends of their runs, s: late in the rollover a touch of the start decides where an arm falls.
 const CASES: [(&str, &str, f64); 4] = [
-    (
-        "cart-unbelted",
-        include_str!("../../../../scenarios/cart-unbelted.toml"),
-        0.2,
-    ),
-    (
-        "cart-lap",
-        include_str!("../../../../scenarios/cart-lap.toml"),
-        0.2,
-    ),
-    (
-        "cart-lap-torso",
-        include_str!("../../../../scenarios/cart-lap-torso.toml"),
-        0.2,
-    ),
-    (
-        "rollover-quarter-turn",
-        include_str!("../../../../scenarios/rollover-quarter-turn.toml"),
-        0.6,
-    ),
+    ("cart-unbelted", include_str!("../../../../scenarios/cart-unbelted.toml"), 0.2),
+    ("cart-lap", include_str!("../../../../scenarios/cart-lap.toml"), 0.2),
+    ("cart-lap-torso", include_str!("../../../../scenarios/cart-lap-torso.toml"), 0.2),
+    ("rollover-quarter-turn", include_str!("../../../../scenarios/rollover-quarter-turn.toml"), 0.6),
 ];
 
 /// Steps of rk4 as parts of the output interval of 1 ms.
 const PARTS: [f64; 9] = [1.0, 2.0, 3.0, 4.0, 5.0, 8.0, 10.0, 20.0, 40.0];
 
 /// Tolerances: relative; a tenth of it in m, ten times it in m/s.
-const TOLERANCES: [f64; 11] = [
-    1e-2, 3e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5, 3e-6, 1e-6,
-];
+const TOLERANCES: [f64; 11] = [1e-2, 3e-3, 1e-3, 5e-4, 2e-4, 1e-4, 5e-5, 2e-5, 1e-5, 3e-6, 1e-6];
 
 /// The accuracy for which costs are compared: mm of the head's path and % of its peak acceleration.
 const WANTED: (f64, f64) = (1.0, 0.1);
@@ -66,26 +48,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         all.push((name, rk4.to_vec(), adaptive.to_vec()));
     }
     std::fs::write(directory.join("work-precision.csv"), csv(&all))?;
-    for (axis, of) in [
-        (
-            "evaluations",
-            (|p: &Point| p.evaluations) as fn(&Point) -> f64,
-        ),
-        ("milliseconds", |p| p.cpu_ms),
-    ] {
+    for (axis, of) in
+        [("evaluations", (|p: &Point| p.evaluations) as fn(&Point) -> f64), ("milliseconds", |p| p.cpu_ms)]
+    {
         let drawing = drawing::draw(&all, axis, of);
-        std::fs::write(
-            directory.join(format!("work-precision-{axis}.svg")),
-            drawing,
-        )?;
+        std::fs::write(directory.join(format!("work-precision-{axis}.svg")), drawing)?;
     }
     Ok(())
 }
 
 fn rk4(parts: f64) -> Integrator {
-    Integrator::Rk4 {
-        step_s: 1e-3 / parts,
-    }
+    Integrator::Rk4 { step_s: 1e-3 / parts }
 }
 
 /// The adaptive integrator with all tolerances in proportion.
@@ -137,7 +110,9 @@ fn say(name: &str, trust: Errors, rk4: &[Point], adaptive: &[Point]) {
 }
 
 fn csv(all: &[(&str, Vec<Point>, Vec<Point>)]) -> String {
-    let mut text = "case,integrator,evaluations,rejected,cpu_ms,head_path_mm,head_peak_percent,hic15_percent,belt_peak_percent\n".to_owned();
+    let mut text =
+        "case,integrator,evaluations,rejected,cpu_ms,head_path_mm,head_peak_percent,hic15_percent,belt_peak_percent\n"
+            .to_owned();
     for (case, rk4, adaptive) in all {
         for p in rk4.iter().chain(adaptive) {
             let e = &p.errors;

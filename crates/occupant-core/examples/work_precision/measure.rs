@@ -57,9 +57,7 @@ impl Case {
     pub fn new(name: &'static str, text: &str, end_s: f64) -> Result<Self, String> {
         let alone = |file: &str| Err(format!("no file beside the text: {file}"));
         let scenario = Scenario::from_text(text, Format::Toml, name, &alone);
-        let (mut base, _) = scenario
-            .and_then(|s| s.build())
-            .map_err(|problems| problems.to_string())?;
+        let (mut base, _) = scenario.and_then(|s| s.build()).map_err(|problems| problems.to_string())?;
         (base.time.end_s, base.time.output_s) = (end_s, 1e-3);
         let variants = VARIANTS.map(|factor| {
             let mut setup = base.clone();
@@ -70,10 +68,7 @@ impl Case {
             let reference = run(&setup, Integrator::Rk4 { step_s: 4e-6 });
             (setup, reference)
         });
-        Ok(Case {
-            name,
-            variants: variants.into(),
-        })
+        Ok(Case { name, variants: variants.into() })
     }
 
     /// How far the references are from another method with other steps.
@@ -101,22 +96,13 @@ impl Case {
             evaluations,
             rejected,
             cpu_ms: self.cpu_ms(integrator),
-            errors: Errors {
-                path_mm,
-                peak,
-                hic,
-                belt,
-            },
+            errors: Errors { path_mm, peak, hic, belt },
         }
     }
 
     /// Processor time of a run with its outputs at 1 kHz, ms: the least of several means over all variants.
     fn cpu_ms(&self, integrator: Integrator) -> f64 {
-        let models: Vec<Model> = self
-            .variants
-            .iter()
-            .map(|(setup, _)| model(setup, integrator))
-            .collect();
+        let models: Vec<Model> = self.variants.iter().map(|(setup, _)| model(setup, integrator)).collect();
         let mut best = f64::INFINITY;
         for _ in 0..3 {
             let clock = Clock::start();
@@ -198,10 +184,7 @@ struct Clock {
 
 impl Clock {
     fn start() -> Self {
-        Clock {
-            wall: Instant::now(),
-            cpu_ms: cpu_ms(),
-        }
+        Clock { wall: Instant::now(), cpu_ms: cpu_ms() }
     }
     fn wall_ms(&self) -> f64 {
         self.wall.elapsed().as_secs_f64() * 1e3

@@ -44,13 +44,7 @@ impl List {
             &format!("kinematic acceleration {cg}"),
             VehicleAcceleration,
         );
-        self.vector(
-            "vehicle.velocity",
-            Unit::MetrePerSecond,
-            v,
-            &format!("velocity {cg}"),
-            VehicleVelocity,
-        );
+        self.vector("vehicle.velocity", Unit::MetrePerSecond, v, &format!("velocity {cg}"), VehicleVelocity);
         self.vector(
             "vehicle.angular_velocity",
             Unit::RadianPerSecond,
@@ -59,27 +53,10 @@ impl List {
             VehicleAngularVelocity,
         );
         let space = Axes::VehicleSpace;
-        self.vector(
-            "vehicle.position",
-            Unit::Metre,
-            space,
-            &format!("place {cg}"),
-            VehiclePosition,
-        );
-        for (component, name) in [
-            (Component::X, "roll"),
-            (Component::Y, "pitch"),
-            (Component::Z, "yaw"),
-        ] {
+        self.vector("vehicle.position", Unit::Metre, space, &format!("place {cg}"), VehiclePosition);
+        for (component, name) in [(Component::X, "roll"), (Component::Y, "pitch"), (Component::Z, "yaw")] {
             let meaning = format!("{name} of the vehicle");
-            self.push(
-                format!("vehicle.{name}"),
-                Unit::Radian,
-                Axes::None,
-                meaning,
-                VehicleAttitude,
-                component,
-            );
+            self.push(format!("vehicle.{name}"), Unit::Radian, Axes::None, meaning, VehicleAttitude, component);
         }
     }
 
@@ -89,13 +66,7 @@ impl List {
         let words = name.replace('_', " ");
         let s = Axes::Segment;
         let mut add = |what: &str, unit, axes, meaning: &str, source| {
-            self.vector(
-                &format!("{name}.{what}"),
-                unit,
-                axes,
-                &format!("{meaning} of the {words}"),
-                source,
-            );
+            self.vector(&format!("{name}.{what}"), unit, axes, &format!("{meaning} of the {words}"), source);
         };
         add(
             "acceleration",
@@ -111,13 +82,7 @@ impl List {
             "kinematic acceleration of the centre of gravity",
             Acceleration(segment),
         );
-        add(
-            "angular_velocity",
-            Unit::RadianPerSecond,
-            s,
-            "absolute angular velocity",
-            AngularVelocity(segment),
-        );
+        add("angular_velocity", Unit::RadianPerSecond, s, "absolute angular velocity", AngularVelocity(segment));
         add(
             "angular_acceleration",
             Unit::RadianPerSecondSquared,
@@ -132,18 +97,18 @@ impl List {
             "absolute velocity of the centre of gravity",
             Velocity(segment),
         );
-        add(
-            "position",
-            Unit::Metre,
-            Axes::Vehicle,
-            "place of the centre of gravity",
-            Position(segment),
-        );
+        add("position", Unit::Metre, Axes::Vehicle, "place of the centre of gravity", Position(segment));
     }
 
     fn neck_and_femurs(&mut self) {
         let (force, moment) = (Source::NeckForce, Source::NeckMoment);
-        self.vector("neck.force", Unit::Newton, Axes::J211, "upper neck force on the head at its joint: +x shear that pushes the head ahead, +z tension", force);
+        self.vector(
+            "neck.force",
+            Unit::Newton,
+            Axes::J211,
+            "upper neck force on the head at its joint: +x shear that pushes the head ahead, +z tension",
+            force,
+        );
         self.vector(
             "neck.moment",
             Unit::NewtonMetre,
@@ -151,19 +116,9 @@ impl List {
             "upper neck moment on the head at its joint: +y in flexion",
             moment,
         );
-        for (thigh, name) in [
-            (Segment::RightThigh, "right_femur"),
-            (Segment::LeftThigh, "left_femur"),
-        ] {
+        for (thigh, name) in [(Segment::RightThigh, "right_femur"), (Segment::LeftThigh, "left_femur")] {
             let meaning = "axial force at the knee end of the thigh, tension positive".to_owned();
-            self.push(
-                format!("{name}.axial"),
-                Unit::Newton,
-                Axes::None,
-                meaning,
-                Source::Femur(thigh),
-                Component::X,
-            );
+            self.push(format!("{name}.axial"), Unit::Newton, Axes::None, meaning, Source::Femur(thigh), Component::X);
         }
     }
 
@@ -213,12 +168,7 @@ impl List {
             );
         };
         scalar("force", Unit::Newton, "loop force of", Source::LoopForce(i));
-        scalar(
-            "elongation",
-            Unit::Metre,
-            "elongation of",
-            Source::Elongation(i),
-        );
+        scalar("elongation", Unit::Metre, "elongation of", Source::Elongation(i));
         self.vector(
             &format!("belt.{name}.body_force"),
             Unit::Newton,
@@ -261,33 +211,17 @@ impl List {
         type Named = (&'static str, &'static str, fn(&EnergyLedger) -> f64);
         let energies: [Named; 12] = [
             ("kinetic", "kinetic energy in space", |e| e.kinetic_j),
-            (
-                "kinetic_relative",
-                "kinetic energy of the motion relative to the vehicle",
-                |e| e.kinetic_relative_j,
-            ),
-            (
-                "gravity",
-                "potential energy of gravity, zero at Z′ = 0",
-                |e| e.gravity_j,
-            ),
+            ("kinetic_relative", "kinetic energy of the motion relative to the vehicle", |e| e.kinetic_relative_j),
+            ("gravity", "potential energy of gravity, zero at Z′ = 0", |e| e.gravity_j),
             ("spine", "stored in the joints' springs", |e| e.spine_j),
             ("contacts", "stored in contacts", |e| e.contacts_j),
             ("belts", "stored in belts", |e| e.belts_j),
-            ("lost_contacts", "dissipated by contacts", |e| {
-                e.lost_contacts_j
-            }),
-            ("lost_friction", "dissipated by friction", |e| {
-                e.lost_friction_j
-            }),
+            ("lost_contacts", "dissipated by contacts", |e| e.lost_contacts_j),
+            ("lost_friction", "dissipated by friction", |e| e.lost_friction_j),
             ("lost_joints", "dissipated by joints", |e| e.lost_joints_j),
             ("lost_belts", "dissipated by belts", |e| e.lost_belts_j),
-            ("vehicle_work", "work of the vehicle on the occupant", |e| {
-                e.vehicle_work_j
-            }),
-            ("balance", "present sum less the sum at the start", |e| {
-                e.balance_j
-            }),
+            ("vehicle_work", "work of the vehicle on the occupant", |e| e.vehicle_work_j),
+            ("balance", "present sum less the sum at the start", |e| e.balance_j),
         ];
         for (name, meaning, of) in energies {
             self.push(
@@ -313,22 +247,7 @@ impl List {
         }
     }
 
-    fn push(
-        &mut self,
-        name: String,
-        unit: Unit,
-        axes: Axes,
-        meaning: String,
-        source: Source,
-        component: Component,
-    ) {
-        self.0.push(Channel {
-            name,
-            unit,
-            axes,
-            meaning,
-            source,
-            component,
-        });
+    fn push(&mut self, name: String, unit: Unit, axes: Axes, meaning: String, source: Source, component: Component) {
+        self.0.push(Channel { name, unit, axes, meaning, source, component });
     }
 }

@@ -121,12 +121,8 @@ pub(super) enum Component {
 }
 
 impl Component {
-    pub const ALL: [(Component, &'static str); 4] = [
-        (Component::X, "x"),
-        (Component::Y, "y"),
-        (Component::Z, "z"),
-        (Component::Resultant, "resultant"),
-    ];
+    pub const ALL: [(Component, &'static str); 4] =
+        [(Component::X, "x"), (Component::Y, "y"), (Component::Z, "z"), (Component::Resultant, "resultant")];
 
     pub fn of(self, v: &Vector3<f64>) -> f64 {
         match self {

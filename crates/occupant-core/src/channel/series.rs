@@ -21,11 +21,7 @@ impl Series {
     /// Nothing seen yet.
     pub fn new(channels: Vec<Channel>) -> Self {
         let values = vec![Vec::new(); channels.len()];
-        Series {
-            channels,
-            time_s: Vec::new(),
-            values,
-        }
+        Series { channels, time_s: Vec::new(), values }
     }
 
     /// Values of the channel of this name, if it was chosen.

@@ -36,18 +36,11 @@ impl Anova {
 pub fn anova(measured: &[f64], computed: &[f64]) -> Result<Anova, SignalError> {
     require_pair(measured, computed, 1.0, 2)?;
     let peak = measured.iter().fold(0.0f64, |most, m| most.max(m.abs()));
-    let residuals: Vec<f64> = measured
-        .iter()
-        .zip(computed)
-        .map(|(m, c)| (m - c) / peak)
-        .collect();
+    let residuals: Vec<f64> = measured.iter().zip(computed).map(|(m, c)| (m - c) / peak).collect();
     let n = residuals.len() as f64;
     let mean = residuals.iter().sum::<f64>() / n;
     let squares: f64 = residuals.iter().map(|e| (e - mean) * (e - mean)).sum();
-    Ok(Anova {
-        mean,
-        standard_deviation: (squares / (n - 1.0)).sqrt(),
-    })
+    Ok(Anova { mean, standard_deviation: (squares / (n - 1.0)).sqrt() })
 }
 
 #[cfg(test)]
@@ -58,25 +51,15 @@ mod tests {
     #[test]
     fn closed_forms() {
         // a constant offset of −2 on a peak of 10
-        let measured: Vec<f64> = (0..100)
-            .map(|i| 10.0 * (2.0 * PI * f64::from(i) / 100.0).sin())
-            .collect();
+        let measured: Vec<f64> = (0..100).map(|i| 10.0 * (2.0 * PI * f64::from(i) / 100.0).sin()).collect();
         let offset: Vec<f64> = measured.iter().map(|m| m - 2.0).collect();
         let found = anova(&measured, &offset).unwrap();
-        assert!(
-            (found.mean - 0.2).abs() < 1e-12
-                && found.standard_deviation < 1e-12
-                && !found.accepted()
-        );
+        assert!((found.mean - 0.2).abs() < 1e-12 && found.standard_deviation < 1e-12 && !found.accepted());
         // 1.3 times: residual −0.3 sin, mean 0, variance 0.09/2·n/(n − 1)
         let scaled: Vec<f64> = measured.iter().map(|m| 1.3 * m).collect();
         let found = anova(&measured, &scaled).unwrap();
         let expected = (0.045f64 * 100.0 / 99.0).sqrt();
-        assert!(
-            found.mean.abs() < 1e-12
-                && (found.standard_deviation - expected).abs() < 1e-12
-                && found.accepted()
-        );
+        assert!(found.mean.abs() < 1e-12 && (found.standard_deviation - expected).abs() < 1e-12 && found.accepted());
         assert!(anova(&[0.0, 0.0], &[1.0, 1.0]).is_err());
     }
 }

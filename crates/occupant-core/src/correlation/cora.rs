@@ -59,11 +59,7 @@ pub struct CoraSettings {
 impl Default for CoraSettings {
     fn default() -> Self {
         Self {
-            interval: CoraInterval::Automatic {
-                start_threshold: 0.03,
-                end_threshold: 0.075,
-                extension: 0.01,
-            },
+            interval: CoraInterval::Automatic { start_threshold: 0.03, end_threshold: 0.075, extension: 0.01 },
             inner_corridor: 0.05,
             outer_corridor: 0.5,
             corridor_exponent: 2.0,
@@ -103,41 +99,21 @@ pub struct Cora {
 /// # Errors
 /// Fewer than five samples in the record or the interval, different lengths, a sample that is not
 /// finite, an interval that is not positive, a reference without content, settings out of order.
-pub fn cora(
-    reference: &[f64],
-    computed: &[f64],
-    dt_s: f64,
-    settings: &CoraSettings,
-) -> Result<Cora, SignalError> {
+pub fn cora(reference: &[f64], computed: &[f64], dt_s: f64, settings: &CoraSettings) -> Result<Cora, SignalError> {
     require_pair(reference, computed, dt_s, 5)?;
     require_order(settings)?;
     let norm = largest(reference);
     let (first, last) = evaluation_interval(reference, dt_s, settings.interval);
     if last < first + 4 {
         let found = (last + 1).saturating_sub(first);
-        return Err(SignalError::TooShort {
-            what: "interval of evaluation",
-            found,
-            needed: 5,
-        });
+        return Err(SignalError::TooShort { what: "interval of evaluation", found, needed: 5 });
     }
     let (reference, computed) = (&reference[first..=last], &computed[first..=last]);
     if largest(reference) == 0.0 {
-        return Err(SignalError::NoContent {
-            what: "reference signal in the interval of evaluation",
-        });
+        return Err(SignalError::NoContent { what: "reference signal in the interval of evaluation" });
     }
-    let (inner, outer) = (
-        settings.inner_corridor * norm,
-        settings.outer_corridor * norm,
-    );
-    let corridor = corridor_mean(
-        reference,
-        computed,
-        inner,
-        outer,
-        settings.corridor_exponent,
-    );
+    let (inner, outer) = (settings.inner_corridor * norm, settings.outer_corridor * norm);
+    let corridor = corridor_mean(reference, computed, inner, outer, settings.corridor_exponent);
 
     let cross = cross_ratings(reference, computed, settings);
     Ok(Cora {
@@ -172,37 +148,20 @@ fn cross_ratings(reference: &[f64], computed: &[f64], settings: &CoraSettings) -
     let shifted = best_shift(reference, computed, most, cross_correlation);
     // V = (½(K + 1))^k; a computed signal of zeros has no K
     let progression = if shifted.agreement.is_finite() {
-        libm::pow(
-            0.5 * (shifted.agreement + 1.0),
-            settings.progression_exponent,
-        )
+        libm::pow(0.5 * (shifted.agreement + 1.0), settings.progression_exponent)
     } else {
         0.0
     };
-    let size = libm::pow(
-        size_ratio(shifted.reference, shifted.computed),
-        settings.size_exponent,
-    );
+    let size = libm::pow(size_ratio(shifted.reference, shifted.computed), settings.size_exponent);
     let shift = shifted.lag.unsigned_abs() as f64 / steps;
     let in_time = (settings.largest_shift - shift) / (settings.largest_shift - settings.free_shift);
     let phase = libm::pow(in_time.clamp(0.0, 1.0), settings.phase_exponent);
-    CrossRatings {
-        progression,
-        size,
-        phase,
-        lag: shifted.lag,
-    }
+    CrossRatings { progression, size, phase, lag: shifted.lag }
 }
 
 /// Mean over the samples of 1 up to the inner distance, 0 beyond the outer one and
 /// ((outer − |d|)/(outer − inner))^exponent between.
-pub(super) fn corridor_mean(
-    reference: &[f64],
-    computed: &[f64],
-    inner: f64,
-    outer: f64,
-    exponent: f64,
-) -> f64 {
+pub(super) fn corridor_mean(reference: &[f64], computed: &[f64], inner: f64, outer: f64, exponent: f64) -> f64 {
     let rate = |distance: f64| {
         if distance < inner {
             1.0
@@ -212,40 +171,22 @@ pub(super) fn corridor_mean(
             libm::pow((outer - distance) / (outer - inner), exponent)
         }
     };
-    reference
-        .iter()
-        .zip(computed)
-        .map(|(m, c)| rate((c - m).abs()))
-        .sum::<f64>()
-        / reference.len() as f64
+    reference.iter().zip(computed).map(|(m, c)| rate((c - m).abs())).sum::<f64>() / reference.len() as f64
 }
 
 fn require_order(settings: &CoraSettings) -> Result<(), SignalError> {
     require_positive("inner corridor a0", settings.inner_corridor)?;
-    require_positive(
-        "outer corridor minus inner",
-        settings.outer_corridor - settings.inner_corridor,
-    )?;
-    require_positive(
-        "largest shift minus free shift",
-        settings.largest_shift - settings.free_shift,
-    )?;
-    for exponent in [
-        settings.corridor_exponent,
-        settings.progression_exponent,
-        settings.size_exponent,
-        settings.phase_exponent,
-    ] {
+    require_positive("outer corridor minus inner", settings.outer_corridor - settings.inner_corridor)?;
+    require_positive("largest shift minus free shift", settings.largest_shift - settings.free_shift)?;
+    for exponent in
+        [settings.corridor_exponent, settings.progression_exponent, settings.size_exponent, settings.phase_exponent]
+    {
         require_positive("exponent", exponent)?;
     }
     if (0.0..=1.0).contains(&settings.least_overlap) {
         return Ok(());
     }
-    Err(SignalError::OutOfRange {
-        what: "least overlap",
-        found: settings.least_overlap,
-        expected: "0 to 1",
-    })
+    Err(SignalError::OutOfRange { what: "least overlap", found: settings.least_overlap, expected: "0 to 1" })
 }
 
 /// First and last sample of the interval.
@@ -256,27 +197,12 @@ fn evaluation_interval(reference: &[f64], dt_s: f64, interval: CoraInterval) -> 
             let sample = |t_s: f64| (t_s / dt_s).round().clamp(0.0, end as f64) as usize;
             (sample(start_s), sample(end_s))
         }
-        CoraInterval::Automatic {
-            start_threshold,
-            end_threshold,
-            extension,
-        } => {
+        CoraInterval::Automatic { start_threshold, end_threshold, extension } => {
             let norm = largest(reference);
-            let first = reference
-                .iter()
-                .position(|m| m.abs() >= start_threshold * norm)
-                .unwrap_or(0);
-            let last = reference
-                .iter()
-                .rposition(|m| m.abs() >= end_threshold * norm)
-                .unwrap_or(end);
-            let more = (extension * last.saturating_sub(first) as f64)
-                .round()
-                .max(0.0) as usize;
-            (
-                first.saturating_sub(more),
-                last.saturating_add(more).min(end),
-            )
+            let first = reference.iter().position(|m| m.abs() >= start_threshold * norm).unwrap_or(0);
+            let last = reference.iter().rposition(|m| m.abs() >= end_threshold * norm).unwrap_or(end);
+            let more = (extension * last.saturating_sub(first) as f64).round().max(0.0) as usize;
+            (first.saturating_sub(more), last.saturating_add(more).min(end))
         }
     }
 }
@@ -295,11 +221,7 @@ fn cross_correlation(x: &[f64], y: &[f64]) -> f64 {
 fn size_ratio(x: &[f64], y: &[f64]) -> f64 {
     let square = |values: &[f64]| values.iter().map(|v| v * v).sum::<f64>();
     let (of_x, of_y) = (square(x), square(y));
-    if of_x.max(of_y) == 0.0 {
-        0.0
-    } else {
-        of_x.min(of_y) / of_x.max(of_y)
-    }
+    if of_x.max(of_y) == 0.0 { 0.0 } else { of_x.min(of_y) / of_x.max(of_y) }
 }
 
 #[cfg(test)]

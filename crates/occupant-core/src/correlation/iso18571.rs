@@ -68,23 +68,12 @@ pub fn iso18571(reference: &[f64], computed: &[f64], dt_s: f64) -> Result<Iso185
     require_positive("sample interval (s)", dt_s)?;
     if (dt_s / INTERVAL_S - 1.0).abs() > 1e-3 {
         let expected = "0.0001 s (10 kHz): resample first";
-        return Err(SignalError::OutOfRange {
-            what: "sample interval (s)",
-            found: dt_s,
-            expected,
-        });
+        return Err(SignalError::OutOfRange { what: "sample interval (s)", found: dt_s, expected });
     }
     require_pair(reference, computed, dt_s, 20)?;
     if reference.len() > MOST_SAMPLES {
-        let (found, expected) = (
-            reference.len() as f64,
-            "at most 20000 (2 s): cut to the event",
-        );
-        return Err(SignalError::OutOfRange {
-            what: "number of samples",
-            found,
-            expected,
-        });
+        let (found, expected) = (reference.len() as f64, "at most 20000 (2 s): cut to the event");
+        return Err(SignalError::OutOfRange { what: "number of samples", found, expected });
     }
     let n = reference.len() as f64;
     // floor(0.2 N) in whole numbers
@@ -94,26 +83,13 @@ pub fn iso18571(reference: &[f64], computed: &[f64], dt_s: f64) -> Result<Iso185
     let magnitude = magnitude_score(shifted.reference, shifted.computed)?;
     let slope = slope_score(shifted.reference, shifted.computed)?;
     let overall = 0.4 * corridor + 0.2 * (phase + magnitude + slope);
-    Ok(Iso18571 {
-        overall,
-        corridor,
-        phase,
-        magnitude,
-        slope,
-        lag_s: shifted.lag as f64 * dt_s,
-    })
+    Ok(Iso18571 { overall, corridor, phase, magnitude, slope, lag_s: shifted.lag as f64 * dt_s })
 }
 
 /// Z: mean of 1 inside the inner corridor, 0 outside the outer one, a parabola between.
 fn corridor_score(reference: &[f64], computed: &[f64]) -> f64 {
     let norm = reference.iter().fold(0.0f64, |most, m| most.max(m.abs()));
-    super::cora::corridor_mean(
-        reference,
-        computed,
-        INNER_CORRIDOR * norm,
-        OUTER_CORRIDOR * norm,
-        2.0,
-    )
+    super::cora::corridor_mean(reference, computed, INNER_CORRIDOR * norm, OUTER_CORRIDOR * norm, 2.0)
 }
 
 /// EM: mean distance of the signals warped onto each other, over the reference.
@@ -129,11 +105,7 @@ fn magnitude_score(reference: &[f64], computed: &[f64]) -> Result<f64, SignalErr
 /// ES: distance of the smoothed derivatives, over that of the reference.
 fn slope_score(reference: &[f64], computed: &[f64]) -> Result<f64, SignalError> {
     let (of_reference, of_computed) = (smoothed_slope(reference), smoothed_slope(computed));
-    let difference: f64 = of_computed
-        .iter()
-        .zip(&of_reference)
-        .map(|(c, m)| (c - m).abs())
-        .sum();
+    let difference: f64 = of_computed.iter().zip(&of_reference).map(|(c, m)| (c - m).abs()).sum();
     let size: f64 = of_reference.iter().map(|m| m.abs()).sum();
     score(difference, size, LARGEST_SLOPE_ERROR)
 }
@@ -141,9 +113,7 @@ fn slope_score(reference: &[f64], computed: &[f64]) -> Result<f64, SignalError> 
 /// 1 − (difference/size)/largest, not below zero.
 fn score(difference: f64, size: f64, largest: f64) -> Result<f64, SignalError> {
     if size == 0.0 {
-        return Err(SignalError::NoContent {
-            what: "overlapping part of the reference signal",
-        });
+        return Err(SignalError::NoContent { what: "overlapping part of the reference signal" });
     }
     Ok((1.0 - difference / size / largest).max(0.0))
 }
@@ -200,20 +170,11 @@ fn warping_path(x: &[f64], y: &[f64]) -> Vec<(usize, usize)> {
     let mut above = vec![f64::INFINITY; width];
     for i in 0..n {
         let mut row = vec![f64::INFINITY; width];
-        for (j, yj) in y
-            .iter()
-            .enumerate()
-            .take(i + band + 1)
-            .skip(i.saturating_sub(band))
-        {
+        for (j, yj) in y.iter().enumerate().take(i + band + 1).skip(i.saturating_sub(band)) {
             let column = j + band - i;
             let from = [
                 above.get(column + 1).copied().unwrap_or(f64::INFINITY),
-                if column > 0 {
-                    row[column - 1]
-                } else {
-                    f64::INFINITY
-                },
+                if column > 0 { row[column - 1] } else { f64::INFINITY },
                 above[column],
             ];
             let step = (1..3).fold(0, |best, k| if from[k] < from[best] { k } else { best });

@@ -20,20 +20,13 @@ use crate::signal::{SignalError, require_same_length, require_samples};
 
 /// Checks a pair of signals: equally long, at least `needed` samples, finite, a reference that is not
 /// zero throughout.
-pub(crate) fn require_pair(
-    reference: &[f64],
-    computed: &[f64],
-    dt_s: f64,
-    needed: usize,
-) -> Result<(), SignalError> {
+pub(crate) fn require_pair(reference: &[f64], computed: &[f64], dt_s: f64, needed: usize) -> Result<(), SignalError> {
     require_samples("reference signal", reference, dt_s, needed)?;
     require_samples("computed signal", computed, dt_s, needed)?;
     require_same_length("computed signal", computed, reference)?;
     // squares of smaller values vanish
     if reference.iter().all(|m| m.abs() < 1e-100) {
-        return Err(SignalError::NoContent {
-            what: "reference signal",
-        });
+        return Err(SignalError::NoContent { what: "reference signal" });
     }
     Ok(())
 }

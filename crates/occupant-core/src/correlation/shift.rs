@@ -22,21 +22,11 @@ pub(super) fn best_shift<'a>(
     agreement: impl Fn(&[f64], &[f64]) -> f64,
 ) -> Shifted<'a> {
     let n = reference.len();
-    let mut best = Shifted {
-        reference,
-        computed,
-        lag: 0,
-        agreement: agreement(reference, computed),
-    };
+    let mut best = Shifted { reference, computed, lag: 0, agreement: agreement(reference, computed) };
     let mut consider = |reference: &'a [f64], computed: &'a [f64], lag: isize| {
         let agreement = agreement(reference, computed);
         if agreement > best.agreement {
-            best = Shifted {
-                reference,
-                computed,
-                lag,
-                agreement,
-            };
+            best = Shifted { reference, computed, lag, agreement };
         }
     };
     for lag in 1..=most.min(n.saturating_sub(2)) {

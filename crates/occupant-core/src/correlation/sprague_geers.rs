@@ -25,9 +25,7 @@ impl SpragueGeers {
     /// Whether all three errors are within [`W179_LARGEST_ERROR`].
     #[must_use]
     pub fn accepted(&self) -> bool {
-        [self.magnitude, self.phase, self.combined]
-            .iter()
-            .all(|error| error.abs() <= W179_LARGEST_ERROR)
+        [self.magnitude, self.phase, self.combined].iter().all(|error| error.abs() <= W179_LARGEST_ERROR)
     }
 }
 
@@ -38,25 +36,15 @@ impl SpragueGeers {
 pub fn sprague_geers(measured: &[f64], computed: &[f64]) -> Result<SpragueGeers, SignalError> {
     require_pair(measured, computed, 1.0, 1)?;
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    let (mm, cc, cm) = (
-        dot(measured, measured),
-        dot(computed, computed),
-        dot(computed, measured),
-    );
+    let (mm, cc, cm) = (dot(measured, measured), dot(computed, computed), dot(computed, measured));
     if cc == 0.0 {
-        return Err(SignalError::NoContent {
-            what: "computed signal",
-        });
+        return Err(SignalError::NoContent { what: "computed signal" });
     }
     let magnitude = (cc / mm).sqrt() - 1.0;
     // rounding may carry the cosine just past one
     let cosine = (cm / (cc.sqrt() * mm.sqrt())).clamp(-1.0, 1.0);
     let phase = trig::acos(cosine) / std::f64::consts::PI;
-    Ok(SpragueGeers {
-        magnitude,
-        phase,
-        combined: (magnitude * magnitude + phase * phase).sqrt(),
-    })
+    Ok(SpragueGeers { magnitude, phase, combined: (magnitude * magnitude + phase * phase).sqrt() })
 }
 
 #[cfg(test)]
@@ -66,24 +54,17 @@ mod tests {
 
     /// Two full periods in 1 s at 1 kHz, later by `lag` periods.
     fn sine(scale: f64, lag: f64) -> Vec<f64> {
-        (0..1000)
-            .map(|i| scale * (2.0 * PI * (2.0 * f64::from(i) / 1000.0 - lag)).sin())
-            .collect()
+        (0..1000).map(|i| scale * (2.0 * PI * (2.0 * f64::from(i) / 1000.0 - lag)).sin()).collect()
     }
 
     #[test]
     fn closed_forms() {
-        for (scale, lag, m, p, c) in [
-            (1.3, 0.0, 0.3, 0.0, 0.3),
-            (1.0, 0.1, 0.0, 0.2, 0.2),
-            (1.2, 0.1, 0.2, 0.2, 0.08f64.sqrt()),
-        ] {
+        for (scale, lag, m, p, c) in
+            [(1.3, 0.0, 0.3, 0.0, 0.3), (1.0, 0.1, 0.0, 0.2, 0.2), (1.2, 0.1, 0.2, 0.2, 0.08f64.sqrt())]
+        {
             let found = sprague_geers(&sine(1.0, 0.0), &sine(scale, lag)).unwrap();
             // acos near one turns a rounding of 1e−16 into 1e−8 (measured 1.6e−8)
-            assert!(
-                (found.magnitude - m).abs() < 1e-12 && (found.phase - p).abs() < 5e-8,
-                "{found:?}"
-            );
+            assert!((found.magnitude - m).abs() < 1e-12 && (found.phase - p).abs() < 5e-8, "{found:?}");
             assert!((found.combined - c).abs() < 1e-12);
             assert!(found.accepted());
         }
@@ -93,13 +74,7 @@ mod tests {
 
     #[test]
     fn silence_is_an_error() {
-        assert!(matches!(
-            sprague_geers(&[0.0; 5], &[1.0; 5]),
-            Err(SignalError::NoContent { .. })
-        ));
-        assert!(matches!(
-            sprague_geers(&[1.0; 5], &[0.0; 5]),
-            Err(SignalError::NoContent { .. })
-        ));
+        assert!(matches!(sprague_geers(&[0.0; 5], &[1.0; 5]), Err(SignalError::NoContent { .. })));
+        assert!(matches!(sprague_geers(&[1.0; 5], &[0.0; 5]), Err(SignalError::NoContent { .. })));
     }
 }

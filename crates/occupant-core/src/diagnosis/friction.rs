@@ -85,10 +85,7 @@ impl FrictionWatch {
         for material in &model.setup().materials {
             let own = || found.iter().filter(|f| f.material == material.name);
             if let Some(worst) = own().max_by(|a, b| a.number.total_cmp(&b.number)) {
-                let others: Vec<&str> = own()
-                    .filter(|f| f.sphere != worst.sphere)
-                    .map(|f| f.sphere.as_str())
-                    .collect();
+                let others: Vec<&str> = own().filter(|f| f.sphere != worst.sphere).map(|f| f.sphere.as_str()).collect();
                 warn(&mut problems, worst, &others);
             }
         }
@@ -104,12 +101,7 @@ impl FrictionWatch {
         let material = setup.surfaces[surface].material;
         let worst = &mut self.worst[sphere * setup.materials.len() + material];
         if number > worst.number {
-            *worst = Worst {
-                number,
-                time_s,
-                normal_force_n: force_n,
-                surface,
-            };
+            *worst = Worst { number, time_s, normal_force_n: force_n, surface };
         }
     }
 }
@@ -159,13 +151,7 @@ impl Recorder for FrictionWatch {
             return Ok(Flow::Continue);
         }
         for contact in sample.contacts() {
-            self.see(
-                sample.model,
-                contact.sphere,
-                contact.surface,
-                contact.normal_force_n,
-                sample.time_s,
-            );
+            self.see(sample.model, contact.sphere, contact.surface, contact.normal_force_n, sample.time_s);
         }
         Ok(Flow::Continue)
     }

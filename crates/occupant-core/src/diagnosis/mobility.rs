@@ -26,19 +26,10 @@ impl<'a> Mobility<'a> {
         let skeleton = &model.system().skeleton;
         let start = &model.start().state;
         let zero = State::zero();
-        let still = State {
-            velocity: zero.velocity,
-            omega: zero.omega,
-            hinge_rate: zero.hinge_rate,
-            ..*start
-        };
+        let still = State { velocity: zero.velocity, omega: zero.omega, hinge_rate: zero.hinge_rate, ..*start };
         let kinematics = Kinematics::new(skeleton, &still);
         let unloaded = solve(skeleton, &kinematics, &[0.0; 4], &[Wrench::zero(); 12]);
-        Mobility {
-            skeleton,
-            kinematics,
-            unloaded,
-        }
+        Mobility { skeleton, kinematics, unloaded }
     }
 
     /// Places at the start.
@@ -51,10 +42,7 @@ impl<'a> Mobility<'a> {
         let arm = point - self.kinematics.joint[segment];
         let column = |force: V3<f64>| {
             let mut loads = [Wrench::zero(); 12];
-            loads[segment] = Wrench {
-                force,
-                moment: arm.cross(force),
-            };
+            loads[segment] = Wrench { force, moment: arm.cross(force) };
             let loaded = self.loaded(&loads);
             let joint = loaded.joint[segment] - self.unloaded.joint[segment];
             let alpha = loaded.alpha[segment] - self.unloaded.alpha[segment];
@@ -121,12 +109,7 @@ mod tests {
         let mobility = Mobility::new(&model);
         for segment in Segment::ALL {
             let n = segment.index();
-            let point = mobility.kinematics().joint[n]
-                + V3 {
-                    x: 0.03,
-                    y: -0.05,
-                    z: 0.1,
-                };
+            let point = mobility.kinematics().joint[n] + V3 { x: 0.03, y: -0.05, z: 0.1 };
             let raw = mobility.of_point(n, point);
             let eigenvalues = SymmetricEigen::new(raw).eigenvalues;
             assert!(eigenvalues.min() > 0.0, "{segment:?}: {eigenvalues}");
@@ -145,15 +128,8 @@ mod tests {
         let skeleton = &model.system().skeleton;
         let mut loads = [Wrench::zero(); 12];
         for (n, link) in skeleton.links.iter().enumerate() {
-            let force = V3 {
-                x: link.mass,
-                y: 0.0,
-                z: 0.0,
-            };
-            loads[n] = Wrench {
-                force,
-                moment: (k.cg(skeleton, n) - k.joint[n]).cross(force),
-            };
+            let force = V3 { x: link.mass, y: 0.0, z: 0.0 };
+            loads[n] = Wrench { force, moment: (k.cg(skeleton, n) - k.joint[n]).cross(force) };
         }
         let a = mobility.loaded(&loads);
         for segment in Segment::ALL {

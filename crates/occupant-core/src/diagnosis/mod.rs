@@ -117,8 +117,7 @@ pub struct VehicleFigures {
 impl Diagnosis {
     /// False if the fixed step is too long for the fastest rate; true where it is not known to be.
     pub fn step_is_stable(&self) -> bool {
-        self.step_by_time_scale
-            .is_none_or(|number| number < RK4_STABILITY_LIMIT)
+        self.step_by_time_scale.is_none_or(|number| number < RK4_STABILITY_LIMIT)
     }
 }
 
@@ -136,12 +135,8 @@ pub fn diagnose(model: &Model) -> Diagnosis {
     let mut other_rates = start.belt_rates;
     other_rates.extend(rates::of_joints(model, &mobility));
     let all = sphere_rates.iter().map(|s| &s.rate).chain(&other_rates);
-    let fastest = all
-        .min_by(|a, b| a.time_scale_s.total_cmp(&b.time_scale_s))
-        .cloned();
-    let step_by_time_scale = step_s
-        .zip(fastest.as_ref())
-        .map(|(h, r)| h / r.time_scale_s);
+    let fastest = all.min_by(|a, b| a.time_scale_s.total_cmp(&b.time_scale_s)).cloned();
+    let step_by_time_scale = step_s.zip(fastest.as_ref()).map(|(h, r)| h / r.time_scale_s);
     Diagnosis {
         title: setup.title.clone(),
         body: body(model),
@@ -189,8 +184,7 @@ fn body(model: &Model) -> BodyFigures {
 fn vehicle(model: &Model) -> VehicleFigures {
     let setup = model.setup();
     let mut cursor = PathCursor::default();
-    let mut velocity =
-        |t: f64| -> Vector3<f64> { setup.path.motion(t, t, &mut cursor).velocity_m_s };
+    let mut velocity = |t: f64| -> Vector3<f64> { setup.path.motion(t, t, &mut cursor).velocity_m_s };
     let (first, last) = (velocity(setup.time.start_s), velocity(setup.time.end_s));
     VehicleFigures {
         path: match setup.path {

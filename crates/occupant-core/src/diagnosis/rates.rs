@@ -65,24 +65,13 @@ impl FrictionMasses {
         let surfaces = model.faces().len();
         let mut tangential_kg = vec![0.0; surfaces * model.body().spheres.len()];
         for (sphere, surface) in pairs(model) {
-            tangential_kg[sphere * surfaces + surface] =
-                tangential(model, mobility, sphere, surface);
+            tangential_kg[sphere * surfaces + surface] = tangential(model, mobility, sphere, surface);
         }
-        FrictionMasses {
-            surfaces,
-            tangential_kg,
-        }
+        FrictionMasses { surfaces, tangential_kg }
     }
 
     /// step·f·wF/(v_s·m_eff), the friction's rate times the step; unstable above 2.
-    pub fn number(
-        &self,
-        model: &Model,
-        sphere: usize,
-        surface: usize,
-        normal_force_n: f64,
-        step_s: f64,
-    ) -> f64 {
+    pub fn number(&self, model: &Model, sphere: usize, surface: usize, normal_force_n: f64, step_s: f64) -> f64 {
         let per_newton = self.per_newton(model, sphere, surface, step_s);
         normal_force_n * per_newton
     }
@@ -91,11 +80,7 @@ impl FrictionMasses {
         let mass_kg = self.tangential_kg[sphere * self.surfaces + surface];
         let setup = model.setup();
         let material = material_of(setup, surface);
-        if mass_kg > 0.0 {
-            step_s * material.friction / (material.friction_speed_m_s * mass_kg)
-        } else {
-            0.0
-        }
+        if mass_kg > 0.0 { step_s * material.friction / (material.friction_speed_m_s * mass_kg) } else { 0.0 }
     }
 }
 
@@ -103,9 +88,7 @@ impl FrictionMasses {
 fn pairs(model: &Model) -> impl Iterator<Item = (usize, usize)> + '_ {
     let contacts = &model.system().contacts;
     contacts.groups().iter().flat_map(move |group| {
-        let parts = contacts.pairs()[group.pairs.clone()]
-            .iter()
-            .flat_map(|p| &p.parts);
+        let parts = contacts.pairs()[group.pairs.clone()].iter().flat_map(|p| &p.parts);
         parts.map(move |part| (group.sphere, part.surface))
     })
 }
@@ -143,19 +126,14 @@ pub(super) fn of_spheres(
 ) -> Vec<SphereRate> {
     let setup = model.setup();
     let one = |sphere: usize| {
-        let own = || {
-            pairs(model)
-                .filter(move |&(s, _)| s == sphere)
-                .map(|(_, f)| f)
-        };
+        let own = || pairs(model).filter(move |&(s, _)| s == sphere).map(|(_, f)| f);
         let slope = |&surface: &usize| steepest(&material_of(setup, surface).spring);
         let stiffest = own().max_by(|a, b| slope(a).total_cmp(&slope(b)))?;
         let site = &model.system().contacts.sites[sphere];
         let (_, centre, _) = model.system().sphere(mobility.kinematics(), sphere);
         let mass_kg = 1.0 / greatest(mobility.of_point(site.segment, centre));
         let friction = step_s.and_then(|step_s| {
-            let worst =
-                |surface: usize| (masses.per_newton(model, sphere, surface, step_s), surface);
+            let worst = |surface: usize| (masses.per_newton(model, sphere, surface, step_s), surface);
             let (per_newton, surface) = own().map(worst).max_by(|a, b| a.0.total_cmp(&b.0))?;
             (per_newton > 0.0).then_some((super::friction::LIMIT / per_newton, surface))
         });
@@ -182,20 +160,12 @@ pub(super) fn of_belts(sample: &Sample<'_>, mobility: &Mobility<'_>) -> Vec<Rate
     let vehicle: Moving<f64> = Moving::of(sample.vehicle);
     let one = |(belt, action): (&crate::belt::Belt, &crate::kernel::belts::BeltAction<f64>)| {
         // −gradient of the length with respect to the centre
-        let gradient = vehicle
-            .axes
-            .out(action.free[0] + action.free[1])
-            .to_vector();
+        let gradient = vehicle.axes.out(action.free[0] + action.free[1]).to_vector();
         let site = &model.system().contacts.sites[belt.sphere];
         let (_, centre, _) = model.system().sphere(mobility.kinematics(), belt.sphere);
         let give = gradient.dot(&(mobility.of_point(site.segment, centre) * gradient));
         let sphere = &setup.body.spheres[belt.sphere].name;
-        spring_rate(
-            belt.name.clone(),
-            format!("on {sphere}"),
-            1.0 / give,
-            steepest(&belt.webbing),
-        )
+        spring_rate(belt.name.clone(), format!("on {sphere}"), 1.0 / give, steepest(&belt.webbing))
     };
     setup.belts.iter().zip(sample.belts).map(one).collect()
 }
@@ -221,18 +191,11 @@ pub(super) fn of_joints(model: &Model, mobility: &Mobility<'_>) -> Vec<Rate> {
     let mut rates = Vec::new();
     for ((name, joint), &(inner, outer)) in balls.into_iter().zip(&BALLS) {
         let relative = mobility.of_joint(inner, outer);
-        rates.extend(ball_rates(
-            name, joint, &relative, mobility, inner, outer, j.epsilon,
-        ));
+        rates.extend(ball_rates(name, joint, &relative, mobility, inner, outer, j.epsilon));
     }
     for (limb, (name, joint)) in hinges.into_iter().enumerate() {
         let stops = [joint.lower_stop, joint.upper_stop];
-        let strongest = stops
-            .iter()
-            .flatten()
-            .fold(joint.damping_n_m_s, |most, stop| {
-                most.max(stop.damping_n_m_s)
-            });
+        let strongest = stops.iter().flatten().fold(joint.damping_n_m_s, |most, stop| most.max(stop.damping_n_m_s));
         rates.extend(damper_rate(name, 1.0 / mobility.of_hinge(limb), strongest));
     }
     rates
@@ -254,43 +217,24 @@ fn ball_rates(
     // T = −J·C·ω with C = [n nᵀ + ε²(1 − Z_k Z_kᵀ)]/(s² + ε²)
     let plane = Matrix3::identity() - z_k * z_k.transpose();
     let shape = (n * n.transpose() + plane * (epsilon * epsilon)) / sine_squared;
-    let damping = joint.stop.map_or(joint.damping_n_m_s, |s| {
-        s.damping_n_m_s.max(joint.damping_n_m_s)
-    });
+    let damping = joint.stop.map_or(joint.damping_n_m_s, |s| s.damping_n_m_s.max(joint.damping_n_m_s));
     // the eigenvalues of C·W are those of LᵀCL, W = L·Lᵀ
-    let give = relative
-        .cholesky()
-        .map_or(0.0, |c| greatest(c.l().transpose() * shape * c.l()));
+    let give = relative.cholesky().map_or(0.0, |c| greatest(c.l().transpose() * shape * c.l()));
     let mut rates = Vec::new();
     if give > 0.0 {
         rates.extend(damper_rate(name, 1.0 / give, damping));
     }
     let twist = z_l.dot(&(relative * z_l));
-    rates.extend(damper_rate(
-        &format!("{name}, twist"),
-        1.0 / twist,
-        joint.twist_damping_n_m_s,
-    ));
+    rates.extend(damper_rate(&format!("{name}, twist"), 1.0 / twist, joint.twist_damping_n_m_s));
     let bend = n.dot(&(relative * n)) / sine_squared;
     if let Some(spring) = joint.spring.filter(|s| s.stiffness_n_m > 0.0 && bend > 0.0) {
-        rates.push(spring_rate(
-            name.to_owned(),
-            "spring".to_owned(),
-            1.0 / bend,
-            spring.stiffness_n_m,
-        ));
+        rates.push(spring_rate(name.to_owned(), "spring".to_owned(), 1.0 / bend, spring.stiffness_n_m));
     }
     rates
 }
 
 fn spring_rate(of: String, by: String, effective: f64, stiffness: f64) -> Rate {
-    Rate {
-        of,
-        by,
-        effective,
-        coefficient: stiffness,
-        time_scale_s: (effective / stiffness).sqrt(),
-    }
+    Rate { of, by, effective, coefficient: stiffness, time_scale_s: (effective / stiffness).sqrt() }
 }
 
 fn damper_rate(of: &str, inertia_kg_m2: f64, damping_n_m_s: f64) -> Option<Rate> {

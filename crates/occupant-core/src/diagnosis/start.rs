@@ -102,10 +102,7 @@ pub(super) struct Look {
 
 /// Takes the first sample of a run and ends it there.
 pub(super) fn look(model: &Model, mobility: &Mobility<'_>) -> Look {
-    let mut first = First {
-        mobility,
-        look: Look::default(),
-    };
+    let mut first = First { mobility, look: Look::default() };
     // the recorder never fails, so neither does the run
     let _outcome = simulate(model, &mut first);
     first.look
@@ -187,10 +184,7 @@ pub(super) fn behind(model: &Model, mobility: &Mobility<'_>) -> Vec<SphereBehind
     for group in contacts.groups() {
         let (_, centre, _) = model.system().sphere(mobility.kinematics(), group.sphere);
         let radius_m = setup.body.spheres[group.sphere].radius_m;
-        let passed = group
-            .pairs
-            .clone()
-            .filter(|&i| model.start().history.pairs[i].phase == PASSED);
+        let passed = group.pairs.clone().filter(|&i| model.start().history.pairs[i].phase == PASSED);
         for part in passed.flat_map(|i| &contacts.pairs()[i].parts) {
             let plane = &model.faces()[part.surface];
             let place = match plane.frame {
@@ -220,14 +214,9 @@ fn beside_m(plane: &FlatFace, point: &V3<f64>) -> f64 {
             let corners: Vec<[f64; 2]> = corners.iter().map(|c| flat(&c.coords)).collect();
             face::Outline::polygon(&corners)
         }
-        Outline::Disc {
-            centre_m, radius_m, ..
-        } => {
+        Outline::Disc { centre_m, radius_m, .. } => {
             let [u, v] = flat(&centre_m.coords);
-            face::Outline::Disc {
-                centre: face::V2 { u, v },
-                radius: *radius_m,
-            }
+            face::Outline::Disc { centre: face::V2 { u, v }, radius: *radius_m }
         }
         Outline::Unbounded { .. } => face::Outline::Unbounded,
     };

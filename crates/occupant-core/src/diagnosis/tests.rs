@@ -14,17 +14,12 @@ use crate::simulate::simulate;
 pub(crate) fn model_of(text: &str) -> Model {
     let loaded = Scenario::from_text(text, Format::Toml, "test", &|_| Err("none".into()));
     let loaded = loaded.unwrap_or_else(|problems| panic!("{problems}"));
-    loaded
-        .model()
-        .map(|(model, _)| model)
-        .unwrap_or_else(|problems| panic!("{problems}"))
+    loaded.model().map(|(model, _)| model).unwrap_or_else(|problems| panic!("{problems}"))
 }
 
 /// A body in a crooked posture that nothing touches.
 pub(crate) fn free_body() -> Model {
-    let q: Vec<String> = (0..31)
-        .map(|i| format!("{:.2}", 0.3 + 0.07 * f64::from(i)))
-        .collect();
+    let q: Vec<String> = (0..31).map(|i| format!("{:.2}", 0.3 + 0.07 * f64::from(i))).collect();
     let rates = ["0.0"; 31].join(", ");
     model_of(&format!(
         "title = \"free\"\ntime = {{ end = 0.1 }}\npath = {{ kind = \"fixed\" }}\nbody = {{ preset = \"male50\" }}\n\
@@ -47,9 +42,7 @@ pub(crate) fn lowest_m() -> f64 {
 
 /// The same body over a floor in space that its lowest spheres press by a little.
 fn standing_on(friction: f64, step: &str) -> Model {
-    let q: Vec<String> = (0..31)
-        .map(|i| format!("{:.2}", 0.3 + 0.07 * f64::from(i)))
-        .collect();
+    let q: Vec<String> = (0..31).map(|i| format!("{:.2}", 0.3 + 0.07 * f64::from(i))).collect();
     let rates = ["0.0"; 31].join(", ");
     model_of(&format!(
         "title = \"floor\"\ntime = {{ end = 0.02 }}\npath = {{ kind = \"fixed\" }}\nbody = {{ preset = \"male50\" }}\n\
@@ -73,22 +66,10 @@ fn an_impulse_at_a_point_gives_the_kinetic_energy_that_its_mobility_says() {
     let force = Vector3::new(0.7, -1.1, 0.4);
     for segment in Segment::ALL {
         let n = segment.index();
-        let arm = V3 {
-            x: 0.05,
-            y: -0.02,
-            z: 0.11,
-        };
+        let arm = V3 { x: 0.05, y: -0.02, z: 0.11 };
         let mut loads = [Wrench::zero(); 12];
-        loads[n] = Wrench {
-            force: V3::of(&force),
-            moment: arm.cross(V3::of(&force)),
-        };
-        let still = State {
-            velocity: V3::zero(),
-            omega: [V3::zero(); 8],
-            hinge_rate: [0.0; 4],
-            ..model.start().state
-        };
+        loads[n] = Wrench { force: V3::of(&force), moment: arm.cross(V3::of(&force)) };
+        let still = State { velocity: V3::zero(), omega: [V3::zero(); 8], hinge_rate: [0.0; 4], ..model.start().state };
         let base = solve(skeleton, k, &[0.0; 4], &[Wrench::zero(); 12]);
         let pushed = solve(skeleton, k, &[0.0; 4], &loads);
         let moving = State {
@@ -97,17 +78,10 @@ fn an_impulse_at_a_point_gives_the_kinetic_energy_that_its_mobility_says() {
             hinge_rate: std::array::from_fn(|i| pushed.hinge[i] - base.hinge[i]),
             ..still
         };
-        let energy_j = kinetic(
-            skeleton,
-            &Kinematics::new(skeleton, &moving),
-            &Moving::space(),
-        );
+        let energy_j = kinetic(skeleton, &Kinematics::new(skeleton, &moving), &Moving::space());
         let by_mobility = 0.5 * force.dot(&(mobility.of_point(n, k.joint[n] + arm) * force));
         // measured: 4.6e-15
-        assert!(
-            (energy_j / by_mobility - 1.0).abs() < 1e-11,
-            "{segment:?}: {energy_j} against {by_mobility}"
-        );
+        assert!((energy_j / by_mobility - 1.0).abs() < 1e-11, "{segment:?}: {energy_j} against {by_mobility}");
     }
 }
 
@@ -155,23 +129,14 @@ fn friction_warns_where_its_stability_number_passes_two() {
     let d = diagnose(&slippery);
     assert!(!found.is_empty());
     for f in &found {
-        let sphere = d
-            .sphere_rates
-            .iter()
-            .find(|s| s.rate.of == f.sphere)
-            .unwrap();
+        let sphere = d.sphere_rates.iter().find(|s| s.rate.of == f.sphere).unwrap();
         let limit_n = sphere.friction_limit_n.unwrap();
         let expected = friction::LIMIT * f.normal_force_n / limit_n;
         assert!((f.number / expected - 1.0).abs() < 1e-12);
         assert!(f.number > friction::LIMIT);
     }
-    let spheres: std::collections::BTreeSet<&str> =
-        found.iter().map(|f| f.sphere.as_str()).collect();
-    assert_eq!(
-        spheres.len(),
-        found.len(),
-        "once for each sphere and material"
-    );
+    let spheres: std::collections::BTreeSet<&str> = found.iter().map(|f| f.sphere.as_str()).collect();
+    assert_eq!(spheres.len(), found.len(), "once for each sphere and material");
 }
 
 #[test]
@@ -181,13 +146,8 @@ fn contacts_at_the_start_are_those_of_the_first_output() {
     for c in &d.contacts {
         assert_eq!(c.surface, "floor");
         // on the loading curve: F = K₁Δ
-        assert!(
-            (c.normal_force_n - 5e4 * c.depth_m).abs() < 1e-9 * c.normal_force_n,
-            "{c:?}"
-        );
+        assert!((c.normal_force_n - 5e4 * c.depth_m).abs() < 1e-9 * c.normal_force_n, "{c:?}");
     }
     assert_eq!(d.body.degrees_of_freedom, 31);
-    assert!(
-        (d.body.segments.iter().map(|s| s.mass_kg).sum::<f64>() - d.body.mass_kg).abs() < 1e-12
-    );
+    assert!((d.body.segments.iter().map(|s| s.mass_kg).sum::<f64>() - d.body.mass_kg).abs() < 1e-12);
 }

@@ -41,10 +41,7 @@ pub struct Options {
 impl Default for Options {
     /// Hybrid III 50M, unfiltered.
     fn default() -> Self {
-        Options {
-            dummy: Dummy::HybridIii50M,
-            filtering: Filtering::None,
-        }
+        Options { dummy: Dummy::HybridIii50M, filtering: Filtering::None }
     }
 }
 
@@ -101,12 +98,7 @@ pub struct Risk {
 }
 
 /// Rules whose limits apply to an occupant.
-pub const RULES: [Rule; 4] = [
-    Rule::Fmvss208,
-    Rule::UnR94,
-    Rule::UnR137,
-    Rule::SeverityIndex,
-];
+pub const RULES: [Rule; 4] = [Rule::Fmvss208, Rule::UnR94, Rule::UnR137, Rule::SeverityIndex];
 
 impl Measure {
     /// Compares the value with the limits of all [`RULES`] for a quantity.
@@ -114,9 +106,7 @@ impl Measure {
         let Some(value) = self.value else {
             return;
         };
-        let known = RULES
-            .into_iter()
-            .flat_map(|rule| crate::measure::limits(rule, dummy));
+        let known = RULES.into_iter().flat_map(|rule| crate::measure::limits(rule, dummy));
         let judged = known.filter(|l| l.quantity == quantity && l.grade == Grade::Maximum);
         self.limits = judged
             .map(|limit| {

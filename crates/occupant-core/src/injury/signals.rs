@@ -100,22 +100,10 @@ impl Recorder for Signals {
             self.start_s = s.time_s;
         }
         push(&mut self.head_m_s2, s.specific_force_m_s2(Segment::Head));
-        push(
-            &mut self.chest_m_s2,
-            s.specific_force_m_s2(Segment::UpperTorso),
-        );
-        push(
-            &mut self.pelvis_m_s2,
-            s.specific_force_m_s2(Segment::LowerTorso),
-        );
-        push(
-            &mut self.head_rad_s,
-            s.angular_velocity_rad_s(Segment::Head),
-        );
-        push(
-            &mut self.head_rad_s2,
-            s.angular_acceleration_rad_s2(Segment::Head),
-        );
+        push(&mut self.chest_m_s2, s.specific_force_m_s2(Segment::UpperTorso));
+        push(&mut self.pelvis_m_s2, s.specific_force_m_s2(Segment::LowerTorso));
+        push(&mut self.head_rad_s, s.angular_velocity_rad_s(Segment::Head));
+        push(&mut self.head_rad_s2, s.angular_acceleration_rad_s2(Segment::Head));
         let neck = reaction(s, Joint::Neck);
         push(&mut self.neck_n, neck.force_n);
         push(&mut self.neck_n_m, neck.moment_n_m);

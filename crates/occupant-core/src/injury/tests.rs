@@ -10,8 +10,7 @@ fn dummy() -> Signals {
         true => (PI * (t - 0.01) / 0.04).sin(),
         false => 0.0,
     };
-    let history =
-        |of: &dyn Fn(f64) -> f64| -> Vec<f64> { (0..1000).map(|i| of(time(i))).collect() };
+    let history = |of: &dyn Fn(f64) -> f64| -> Vec<f64> { (0..1000).map(|i| of(time(i))).collect() };
     let still = || history(&|_| 0.0);
     let acceleration = || [history(&|t| -60.0 * G * pulse(t)), still(), still()];
     Signals {
@@ -35,10 +34,7 @@ fn of<'m>(measures: &'m [Measure], name: &str) -> &'m Measure {
 #[track_caller]
 fn near(measures: &[Measure], name: &str, expected: f64, relative: f64) {
     let value = of(measures, name).value.unwrap();
-    assert!(
-        (value / expected - 1.0).abs() < relative,
-        "{name}: {value} {expected}"
-    );
+    assert!((value / expected - 1.0).abs() < relative, "{name}: {value} {expected}");
 }
 
 #[test]
@@ -80,13 +76,8 @@ fn limits_are_judged_with_their_margins() {
     let found = assess(&signals, &Options::default());
     let hic = of(&found, "hic15");
     let value = hic.value.unwrap();
-    let [judged] = hic.limits[..] else {
-        panic!("{:?}", hic.limits)
-    };
-    assert_eq!(
-        (judged.rule, judged.most, judged.passed),
-        ("FMVSS 208", 700.0, false)
-    );
+    let [judged] = hic.limits[..] else { panic!("{:?}", hic.limits) };
+    assert_eq!((judged.rule, judged.most, judged.passed), ("FMVSS 208", 700.0, false));
     assert_eq!(judged.margin, 700.0 - value);
     let tension = of(&found, "neck_tension").limits[0];
     assert!(tension.passed && tension.most == 4170.0);
@@ -104,16 +95,10 @@ fn what_a_rigid_thorax_lacks_is_said_and_what_filters_need_too() {
         *values = values.iter().copied().step_by(10).collect();
     }
     coarse.interval_s = 1e-3;
-    let options = Options {
-        filtering: Filtering::Classes(CfcFamily::Iso6487),
-        ..Options::default()
-    };
+    let options = Options { filtering: Filtering::Classes(CfcFamily::Iso6487), ..Options::default() };
     let found = assess(&coarse, &options);
     let hic = of(&found, "hic15");
-    assert_eq!(
-        (hic.value, hic.filter_class, hic.limits.len()),
-        (None, 1000, 0)
-    );
+    assert_eq!((hic.value, hic.filter_class, hic.limits.len()), (None, 1000, 0));
     assert!(hic.remark.is_some());
     let chest = of(&found, "chest_peak");
     assert_eq!(chest.filter_class, 180);
@@ -122,10 +107,7 @@ fn what_a_rigid_thorax_lacks_is_said_and_what_filters_need_too() {
 
 #[test]
 fn filtered_measures_are_those_of_filtered_channels() {
-    let options = Options {
-        filtering: Filtering::Classes(CfcFamily::SaeJ211),
-        ..Options::default()
-    };
+    let options = Options { filtering: Filtering::Classes(CfcFamily::SaeJ211), ..Options::default() };
     let found = assess(&dummy(), &options);
     let chest = crate::signal::filter_cfc(
         &dummy().chest_m_s2[0],
@@ -140,13 +122,9 @@ fn filtered_measures_are_those_of_filtered_channels() {
 
 #[test]
 fn too_little_to_measure_is_no_panic() {
-    for options in [
-        Options::default(),
-        Options {
-            filtering: Filtering::Classes(CfcFamily::Iso6487),
-            ..Options::default()
-        },
-    ] {
+    for options in
+        [Options::default(), Options { filtering: Filtering::Classes(CfcFamily::Iso6487), ..Options::default() }]
+    {
         let found = assess(&Signals::new(), &options);
         assert_eq!(found.len(), assess(&dummy(), &options).len());
         for m in &found {

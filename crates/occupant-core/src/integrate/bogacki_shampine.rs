@@ -61,11 +61,7 @@ pub fn attempt(
         .advanced(h / 12.0, &k2)
         .advanced(h / 9.0, &k3)
         .advanced(h / -8.0, &k4);
-    Trial {
-        error: norm(&error, state, &end, tolerance),
-        state: end,
-        rate: k4,
-    }
+    Trial { error: norm(&error, state, &end, tolerance), state: end, rate: k4 }
 }
 
 /// The state after a step `h` (s) and the rates of the three later stages, the last of them at its end.
@@ -143,11 +139,7 @@ mod tests {
 
     /// T1 swings about the origin with 1 rad/s; all else stands still.
     fn swing(state: &State<f64>) -> State<f64> {
-        State {
-            t1: state.velocity,
-            velocity: state.t1 * -1.0,
-            ..State::zero()
-        }
+        State { t1: state.velocity, velocity: state.t1 * -1.0, ..State::zero() }
     }
 
     fn start() -> State<f64> {
@@ -161,19 +153,11 @@ mod tests {
 
     /// Errors of one step, in its middle and at its end, m, and its estimate in units of 1 m.
     fn errors(h: f64) -> [f64; 3] {
-        let tolerance = Tolerance {
-            relative: 0.0,
-            absolute_m: 1.0,
-            absolute_m_s: 1.0,
-        };
+        let tolerance = Tolerance { relative: 0.0, absolute_m: 1.0, absolute_m_s: 1.0 };
         let (start, k1) = (start(), swing(&start()));
         let trial = attempt(&start, &k1, h, &tolerance, |_, state| swing(state));
         let middle = within([&start, &k1], [&trial.state, &trial.rate], h, 0.5);
-        [
-            (middle.t1.x - (0.5 * h).cos()).abs(),
-            (trial.state.t1.x - h.cos()).abs(),
-            trial.error,
-        ]
+        [(middle.t1.x - (0.5 * h).cos()).abs(), (trial.state.t1.x - h.cos()).abs(), trial.error]
     }
 
     #[test]

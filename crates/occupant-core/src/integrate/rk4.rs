@@ -18,11 +18,7 @@ pub enum Stage {
 
 /// The state after a step `h` (s); `rate` is called four times, first with [`Stage::Start`].
 #[inline(always)]
-pub fn step<S: Scalar>(
-    state: &State<S>,
-    h: S,
-    mut rate: impl FnMut(Stage, &State<S>) -> State<S>,
-) -> State<S> {
+pub fn step<S: Scalar>(state: &State<S>, h: S, mut rate: impl FnMut(Stage, &State<S>) -> State<S>) -> State<S> {
     let half = h * S::of(0.5);
     let two = S::of(2.0);
     let k1 = rate(Stage::Start, state); // (115), (116)

@@ -48,11 +48,7 @@ impl<S: Scalar> ContactSystem<S> {
                 }
                 let pairs = first..system.pairs.len();
                 if !pairs.is_empty() {
-                    system.groups.push(Group {
-                        sphere,
-                        frame: index,
-                        pairs,
-                    });
+                    system.groups.push(Group { sphere, frame: index, pairs });
                 }
             }
         }
@@ -62,27 +58,14 @@ impl<S: Scalar> ContactSystem<S> {
 
 fn site<S: Scalar>(body: &Body, sphere: &ContactSphere) -> Site<S> {
     // the proximal joint of a hanging segment is its upper end
-    let joint = if sphere.segment.hangs() {
-        body.segment(sphere.segment).length_m
-    } else {
-        0.0
-    };
+    let joint = if sphere.segment.hangs() { body.segment(sphere.segment).length_m } else { 0.0 };
     let mut offset = sphere.centre_from_lower_end_m.coords;
     offset.z -= joint;
-    Site {
-        segment: sphere.segment.index(),
-        offset: V3::of(&offset),
-        radius: S::of(sphere.radius_m),
-    }
+    Site { segment: sphere.segment.index(), offset: V3::of(&offset), radius: S::of(sphere.radius_m) }
 }
 
 /// Faces of `frame` that `sphere` can touch, in groups that act as one; in order of their first surface.
-fn joined(
-    sphere: usize,
-    frame: Frame,
-    surfaces: &[Surface],
-    faces: &[FlatFace],
-) -> Vec<Vec<usize>> {
+fn joined(sphere: usize, frame: Frame, surfaces: &[Surface], faces: &[FlatFace]) -> Vec<Vec<usize>> {
     let mut groups: Vec<Vec<usize>> = Vec::new();
     for (i, surface) in surfaces.iter().enumerate() {
         let reachable = surface.spheres.as_ref().is_none_or(|s| s.contains(&sphere));
@@ -102,38 +85,20 @@ fn joined(
 }
 
 fn plane<S: Scalar>(face: &FlatFace, radius_m: f64) -> Plane<S> {
-    Plane {
-        normal: V3::of(&face.normal),
-        reach: S::of(radius_m + face.offset_m),
-    }
+    Plane { normal: V3::of(&face.normal), reach: S::of(radius_m + face.offset_m) }
 }
 
-fn pair<S: Scalar>(
-    parts: &[usize],
-    surfaces: &[Surface],
-    faces: &[FlatFace],
-    materials: &[Material],
-) -> Pair<S> {
+fn pair<S: Scalar>(parts: &[usize], surfaces: &[Surface], faces: &[FlatFace], materials: &[Material]) -> Pair<S> {
     let first = &faces[parts[0]];
     let (u, v) = first.plane_axes();
     let flat = |p: &Point3<f64>| [u.dot(&p.coords), v.dot(&p.coords)];
     let part = |&i: &usize| {
         let material = &materials[surfaces[i].material];
         let outline = match &faces[i].outline {
-            FaceOutline::Polygon(corners) => {
-                Outline::polygon(&corners.iter().map(flat).collect::<Vec<_>>())
-            }
-            FaceOutline::Disc {
-                centre_m, radius_m, ..
-            } => {
+            FaceOutline::Polygon(corners) => Outline::polygon(&corners.iter().map(flat).collect::<Vec<_>>()),
+            FaceOutline::Disc { centre_m, radius_m, .. } => {
                 let [u, v] = flat(centre_m);
-                Outline::Disc {
-                    centre: V2 {
-                        u: S::of(u),
-                        v: S::of(v),
-                    },
-                    radius: S::of(*radius_m),
-                }
+                Outline::Disc { centre: V2 { u: S::of(u), v: S::of(v) }, radius: S::of(*radius_m) }
             }
             FaceOutline::Unbounded { .. } => Outline::Unbounded,
         };
@@ -145,9 +110,7 @@ fn pair<S: Scalar>(
             friction_speed_squared: S::of(material.friction_speed_m_s.powi(2)),
         }
     };
-    let retains = parts
-        .iter()
-        .any(|&i| materials[surfaces[i].material].memory == Memory::Retain);
+    let retains = parts.iter().any(|&i| materials[surfaces[i].material].memory == Memory::Retain);
     Pair {
         u: V3::of(&u),
         v: V3::of(&v),

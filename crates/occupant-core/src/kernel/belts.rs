@@ -73,10 +73,7 @@ impl<S: Scalar> BeltLaw<S> {
     pub fn new(belt: &Belt, radius_m: f64, rest_length_m: f64) -> Self {
         BeltLaw {
             sphere: belt.sphere,
-            anchors: [
-                V3::of(&belt.anchors_m[0].coords),
-                V3::of(&belt.anchors_m[1].coords),
-            ],
+            anchors: [V3::of(&belt.anchors_m[0].coords), V3::of(&belt.anchors_m[1].coords)],
             radius: S::of(radius_m),
             rest_length: S::of(rest_length_m),
             webbing: Spring::new(&belt.webbing),
@@ -86,10 +83,7 @@ impl<S: Scalar> BeltLaw<S> {
     /// The normal of the plane through the anchors and `centre` for which θ₃ lies in (0, π).
     pub fn initial_history(&self, centre: V3<S>) -> BeltHistory<S> {
         let normal = (self.anchors[0] - centre).cross(self.anchors[1] - centre);
-        BeltHistory {
-            normal: unit(normal),
-            greatest: S::zero(),
-        }
+        BeltHistory { normal: unit(normal), greatest: S::zero() }
     }
 
     /// Shape and force for the sphere's centre in vehicle axes.
@@ -134,11 +128,7 @@ impl<S: Scalar> BeltLaw<S> {
     pub fn commit(&self, action: &BeltAction<S>, history: &mut BeltHistory<S>) {
         history.normal = action.normal;
         let pulls = action.wrap.gt(S::zero());
-        history.greatest = S::select(
-            pulls,
-            history.greatest.max(action.elongation),
-            history.greatest,
-        );
+        history.greatest = S::select(pulls, history.greatest.max(action.elongation), history.greatest);
     }
 
     /// α = ½|θ₁ + θ₂ + θ₃ − π| of Eq. 99, from the wrap angle, rad.

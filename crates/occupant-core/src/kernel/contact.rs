@@ -174,10 +174,7 @@ impl<S: Scalar> ContactSystem<S> {
             true => (PASSED, o),
             false => (TOUCHING, depth),
         };
-        PairHistory {
-            phase: S::select(contact, S::of(phase), S::of(OPEN)),
-            greatest: S::select(contact, greatest, o),
-        }
+        PairHistory { phase: S::select(contact, S::of(phase), S::of(OPEN)), greatest: S::select(contact, greatest, o) }
     }
 
     /// True if the pair can exert a force before the next commit: not passed, and within reach of a step.
@@ -213,17 +210,7 @@ impl<S: Scalar> ContactSystem<S> {
         if !S::any(w.gt(o)) {
             return None;
         }
-        Some(pair.press(
-            group,
-            i,
-            nearest,
-            approach,
-            radius,
-            depth,
-            w,
-            &offset,
-            history.greatest,
-        ))
+        Some(pair.press(group, i, nearest, approach, radius, depth, w, &offset, history.greatest))
     }
 
     /// Opens a pair that is apart, and forgets its crush unless its material keeps it.
@@ -244,10 +231,7 @@ impl<S: Scalar> Pair<S> {
     /// Offset from the union of the parts, and the index of the nearest part in each lane (as a number).
     #[inline(always)]
     fn nearest(&self, centre: V3<S>) -> (Offset<S>, S) {
-        let point = V2 {
-            u: self.u.dot(centre),
-            v: self.v.dot(centre),
-        };
+        let point = V2 { u: self.u.dot(centre), v: self.v.dot(centre) };
         let mut best = self.parts[0].outline.offset(point);
         let mut index = S::zero();
         for (i, part) in self.parts.iter().enumerate().skip(1) {
@@ -267,10 +251,7 @@ impl<S: Scalar> Pair<S> {
 
     /// Forces at deformation `depth` and weight `w` > 0.
     #[inline(always)]
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "one call; the values are already in registers"
-    )]
+    #[expect(clippy::too_many_arguments, reason = "one call; the values are already in registers")]
     fn press(
         &self,
         group: &Group,
@@ -317,12 +298,7 @@ impl<S: Scalar> Pair<S> {
         let of = |p: &Part<S>| {
             let (force, energy) = p.spring.respond(depth, greatest);
             let (friction, friction_speed_squared) = (p.friction, p.friction_speed_squared);
-            Law {
-                force,
-                energy,
-                friction,
-                friction_speed_squared,
-            }
+            Law { force, energy, friction, friction_speed_squared }
         };
         let mut law = of(&self.parts[0]);
         for (i, p) in self.parts.iter().enumerate().skip(1) {
@@ -333,11 +309,7 @@ impl<S: Scalar> Pair<S> {
                     force: S::select(here, l.force, law.force),
                     energy: S::select(here, l.energy, law.energy),
                     friction: S::select(here, l.friction, law.friction),
-                    friction_speed_squared: S::select(
-                        here,
-                        l.friction_speed_squared,
-                        law.friction_speed_squared,
-                    ),
+                    friction_speed_squared: S::select(here, l.friction_speed_squared, law.friction_speed_squared),
                 };
             }
         }

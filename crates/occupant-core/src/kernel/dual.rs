@@ -30,10 +30,7 @@ impl<const N: usize> Dual<N> {
     /// A function of this number: its value and its derivative.
     #[inline(always)]
     fn through(self, value: f64, derivative: f64) -> Self {
-        Dual {
-            value,
-            slopes: self.slopes.map(|s| s * derivative),
-        }
+        Dual { value, slopes: self.slopes.map(|s| s * derivative) }
     }
 }
 
@@ -41,10 +38,7 @@ impl<const N: usize> Add for Dual<N> {
     type Output = Self;
     #[inline(always)]
     fn add(self, b: Self) -> Self {
-        Dual {
-            value: self.value + b.value,
-            slopes: from_fn(|i| self.slopes[i] + b.slopes[i]),
-        }
+        Dual { value: self.value + b.value, slopes: from_fn(|i| self.slopes[i] + b.slopes[i]) }
     }
 }
 
@@ -52,10 +46,7 @@ impl<const N: usize> Sub for Dual<N> {
     type Output = Self;
     #[inline(always)]
     fn sub(self, b: Self) -> Self {
-        Dual {
-            value: self.value - b.value,
-            slopes: from_fn(|i| self.slopes[i] - b.slopes[i]),
-        }
+        Dual { value: self.value - b.value, slopes: from_fn(|i| self.slopes[i] - b.slopes[i]) }
     }
 }
 
@@ -63,15 +54,9 @@ impl<const N: usize> Mul for Dual<N> {
     type Output = Self;
     /// (ab)′ = a′b + ab′.
     #[inline(always)]
-    #[expect(
-        clippy::suspicious_arithmetic_impl,
-        reason = "the product rule is a sum"
-    )]
+    #[expect(clippy::suspicious_arithmetic_impl, reason = "the product rule is a sum")]
     fn mul(self, b: Self) -> Self {
-        Dual {
-            value: self.value * b.value,
-            slopes: from_fn(|i| self.slopes[i] * b.value + self.value * b.slopes[i]),
-        }
+        Dual { value: self.value * b.value, slopes: from_fn(|i| self.slopes[i] * b.value + self.value * b.slopes[i]) }
     }
 }
 
@@ -82,10 +67,7 @@ impl<const N: usize> Div for Dual<N> {
     fn div(self, b: Self) -> Self {
         let value = self.value / b.value;
         let inverse = 1.0 / b.value;
-        Dual {
-            value,
-            slopes: from_fn(|i| (self.slopes[i] - value * b.slopes[i]) * inverse),
-        }
+        Dual { value, slopes: from_fn(|i| (self.slopes[i] - value * b.slopes[i]) * inverse) }
     }
 }
 
@@ -93,10 +75,7 @@ impl<const N: usize> Neg for Dual<N> {
     type Output = Self;
     #[inline(always)]
     fn neg(self) -> Self {
-        Dual {
-            value: -self.value,
-            slopes: self.slopes.map(|s| -s),
-        }
+        Dual { value: -self.value, slopes: self.slopes.map(|s| -s) }
     }
 }
 
@@ -119,10 +98,7 @@ impl<const N: usize> Scalar for Dual<N> {
 
     #[inline(always)]
     fn of(value: f64) -> Self {
-        Dual {
-            value,
-            slopes: [0.0; N],
-        }
+        Dual { value, slopes: [0.0; N] }
     }
 
     /// (√x)′ = x′/(2√x); 0 at 0.
@@ -141,20 +117,12 @@ impl<const N: usize> Scalar for Dual<N> {
 
     #[inline(always)]
     fn max(self, other: Self) -> Self {
-        if self.value < other.value {
-            other
-        } else {
-            self
-        }
+        if self.value < other.value { other } else { self }
     }
 
     #[inline(always)]
     fn min(self, other: Self) -> Self {
-        if other.value < self.value {
-            other
-        } else {
-            self
-        }
+        if other.value < self.value { other } else { self }
     }
 
     #[inline(always)]
@@ -170,21 +138,14 @@ impl<const N: usize> Scalar for Dual<N> {
         let squared = x.value * x.value + y.value * y.value;
         let inverse = if squared > 0.0 { 1.0 / squared } else { 0.0 };
         let (by_y, by_x) = (x.value * inverse, y.value * inverse);
-        Dual {
-            value,
-            slopes: from_fn(|i| by_y * y.slopes[i] - by_x * x.slopes[i]),
-        }
+        Dual { value, slopes: from_fn(|i| by_y * y.slopes[i] - by_x * x.slopes[i]) }
     }
 
     /// (arccos x)′ = −x′/√(1 − x²); 0 at ±1.
     #[inline(always)]
     fn acos(self) -> Self {
         let squared = 1.0 - self.value * self.value;
-        let derivative = if squared > 0.0 {
-            -1.0 / squared.sqrt()
-        } else {
-            0.0
-        };
+        let derivative = if squared > 0.0 { -1.0 / squared.sqrt() } else { 0.0 };
         self.through(Scalar::acos(self.value), derivative)
     }
 

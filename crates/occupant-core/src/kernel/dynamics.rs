@@ -40,10 +40,7 @@ impl<S: Scalar> Wrench<S> {
     /// No load.
     #[inline(always)]
     pub fn zero() -> Self {
-        Wrench {
-            force: V3::zero(),
-            moment: V3::zero(),
-        }
+        Wrench { force: V3::zero(), moment: V3::zero() }
     }
 }
 
@@ -110,42 +107,23 @@ pub fn solve<S: Scalar>(
     ];
     let head = limb::reduce_head(&body.links[2], k, &wrench[2]);
     let hang = |n: usize, parent: usize| k.joint[n] - k.joint[parent];
-    let pelvis = reduce(
-        &body.links[3],
-        k,
-        3,
-        &wrench[3],
-        &[(hang(8, 3), limbs[2].demand), (hang(9, 3), limbs[3].demand)],
-    );
+    let pelvis =
+        reduce(&body.links[3], k, 3, &wrench[3], &[(hang(8, 3), limbs[2].demand), (hang(9, 3), limbs[3].demand)]);
     let chest = reduce(
         &body.links[1],
         k,
         1,
         &wrench[1],
-        &[
-            (hang(2, 1), head.demand),
-            (hang(4, 1), limbs[0].demand),
-            (hang(5, 1), limbs[1].demand),
-        ],
+        &[(hang(2, 1), head.demand), (hang(4, 1), limbs[0].demand), (hang(5, 1), limbs[1].demand)],
     );
-    let middle = reduce(
-        &body.links[0],
-        k,
-        0,
-        &wrench[0],
-        &[(hang(3, 0), pelvis.demand)],
-    );
+    let middle = reduce(&body.links[0], k, 0, &wrench[0], &[(hang(3, 0), pelvis.demand)]);
 
     // root: the forces that both halves ask of T1 vanish together
     let root = (middle.demand.mass + chest.demand.mass).inverse();
     let a_root = -root.mul(middle.demand.bias + chest.demand.bias);
 
     // outward
-    let mut out = Accelerations {
-        joint: [a_root; SEGMENTS],
-        alpha: [V3::zero(); SEGMENTS],
-        hinge: [S::zero(); 4],
-    };
+    let mut out = Accelerations { joint: [a_root; SEGMENTS], alpha: [V3::zero(); SEGMENTS], hinge: [S::zero(); 4] };
     out.alpha[0] = middle.alpha(a_root);
     out.alpha[1] = chest.alpha(a_root);
     out.carry(k, 3, 0);
@@ -157,9 +135,8 @@ pub fn solve<S: Scalar>(
         out.alpha[upper] = limbs[i].alpha(k, upper, out.joint[upper]);
         out.carry(k, lower, upper);
         out.hinge[i] = limbs[i].hinge_acceleration(k, upper, out.alpha[upper], out.joint[lower]);
-        out.alpha[lower] = out.alpha[upper]
-            + k.axes[upper].y * out.hinge[i]
-            + k.omega[upper].cross(k.axes[upper].y) * hinge_rate[i];
+        out.alpha[lower] =
+            out.alpha[upper] + k.axes[upper].y * out.hinge[i] + k.omega[upper].cross(k.axes[upper].y) * hinge_rate[i];
     }
     let gravity = v3(S::zero(), S::zero(), -body.gravity);
     for a in &mut out.joint {
@@ -213,11 +190,7 @@ fn reduce<S: Scalar>(
     for (c, demand) in children {
         mass = mass + demand.mass;
         let m = &demand.mass;
-        let (gx, gy, gz) = (
-            m.row_x().cross(*c),
-            m.row_y().cross(*c),
-            m.row_z().cross(*c),
-        );
+        let (gx, gy, gz) = (m.row_x().cross(*c), m.row_y().cross(*c), m.row_z().cross(*c));
         b_x += gx;
         b_y += gy;
         b_z += gz;
@@ -240,16 +213,7 @@ fn reduce<S: Scalar>(
     mass.xy -= k_x.dot(b_y);
     mass.xz -= k_x.dot(b_z);
     mass.yz -= k_y.dot(b_z);
-    let gain = M3 {
-        x: k_x,
-        y: k_y,
-        z: k_z,
-    };
+    let gain = M3 { x: k_x, y: k_y, z: k_z };
     let bias = bias_force - gain.into_frame(moment);
-    Trunk {
-        inverse_inertia: inverse,
-        moment,
-        gain,
-        demand: Demand { mass, bias },
-    }
+    Trunk { inverse_inertia: inverse, moment, gain, demand: Demand { mass, bias } }
 }

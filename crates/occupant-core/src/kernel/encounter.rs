@@ -46,27 +46,12 @@ struct Load<S: Scalar> {
 impl<'a, S: Scalar> Sphere<'a, S> {
     /// The sphere of `group`, with no load yet.
     #[inline(always)]
-    pub fn new(
-        contacts: &'a ContactSystem<S>,
-        group: &'a Group,
-        k: &'a Kinematics<S>,
-        frame: &'a Moving<S>,
-    ) -> Self {
+    pub fn new(contacts: &'a ContactSystem<S>, group: &'a Group, k: &'a Kinematics<S>, frame: &'a Moving<S>) -> Self {
         let site = &contacts.sites[group.sphere];
         let arm = k.axes[site.segment].out(site.offset);
         let centre = k.joint[site.segment] + arm;
         let centre_f = frame.axes.into_frame(centre - frame.origin);
-        Sphere {
-            contacts,
-            group,
-            site,
-            frame,
-            k,
-            arm,
-            centre,
-            centre_f,
-            load: None,
-        }
+        Sphere { contacts, group, site, frame, k, arm, centre, centre_f, load: None }
     }
 
     /// Takes the present position, that of an accepted step, over into the history of pair `i` and adds its forces; returns
@@ -107,9 +92,7 @@ impl<'a, S: Scalar> Sphere<'a, S> {
             return;
         }
         let approach = self.approach();
-        let touch = self
-            .contacts
-            .touch::<COMMIT>(self.group, i, depth, live, &approach, history);
+        let touch = self.contacts.touch::<COMMIT>(self.group, i, depth, live, &approach, history);
         let (Some(t), Some(load)) = (touch, &mut self.load) else {
             return;
         };
@@ -158,12 +141,7 @@ impl<'a, S: Scalar> Sphere<'a, S> {
             velocity: frame.axes.into_frame(velocity - frame.velocity_at(centre)),
             omega: frame.axes.into_frame(k.omega[n] - frame.omega),
         };
-        self.load = Some(Load {
-            approach,
-            force: V3::zero(),
-            twist: V3::zero(),
-            lanes: S::truth(false),
-        });
+        self.load = Some(Load { approach, force: V3::zero(), twist: V3::zero(), lanes: S::truth(false) });
         approach
     }
 }

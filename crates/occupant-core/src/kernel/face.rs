@@ -49,21 +49,14 @@ pub struct Offset<S> {
 
 impl<S: Copy> V2<S> {
     fn zip<A: Copy, T>(&self, other: &V2<A>, f: &impl Fn(S, A) -> T) -> V2<T> {
-        V2 {
-            u: f(self.u, other.u),
-            v: f(self.v, other.v),
-        }
+        V2 { u: f(self.u, other.u), v: f(self.v, other.v) }
     }
 }
 
 impl<S: Copy> Outline<S> {
     /// f applied to every number and the one in the same place of `other`; none if that is of another kind or has another
     /// number of sides.
-    pub fn zip<A: Copy, T>(
-        &self,
-        other: &Outline<A>,
-        f: &impl Fn(S, A) -> T,
-    ) -> Option<Outline<T>> {
+    pub fn zip<A: Copy, T>(&self, other: &Outline<A>, f: &impl Fn(S, A) -> T) -> Option<Outline<T>> {
         match (self, other) {
             (Outline::Polygon(a), Outline::Polygon(b)) if a.len() == b.len() => {
                 let edge = |(a, b): (&Edge<S>, &Edge<A>)| Edge {
@@ -73,16 +66,9 @@ impl<S: Copy> Outline<S> {
                 };
                 Some(Outline::Polygon(a.iter().zip(b).map(edge).collect()))
             }
-            (
-                Outline::Disc { centre, radius },
-                Outline::Disc {
-                    centre: centre_b,
-                    radius: radius_b,
-                },
-            ) => Some(Outline::Disc {
-                centre: centre.zip(centre_b, f),
-                radius: f(*radius, *radius_b),
-            }),
+            (Outline::Disc { centre, radius }, Outline::Disc { centre: centre_b, radius: radius_b }) => {
+                Some(Outline::Disc { centre: centre.zip(centre_b, f), radius: f(*radius, *radius_b) })
+            }
             (Outline::Unbounded, Outline::Unbounded) => Some(Outline::Unbounded),
             _ => None,
         }
@@ -96,14 +82,8 @@ impl<S: Scalar> Outline<S> {
             let ([u, v], [u2, v2]) = (corners[i], corners[(i + 1) % corners.len()]);
             let length = ((u2 - u).powi(2) + (v2 - v).powi(2)).sqrt();
             Edge {
-                start: V2 {
-                    u: S::of(u),
-                    v: S::of(v),
-                },
-                direction: V2 {
-                    u: S::of((u2 - u) / length),
-                    v: S::of((v2 - v) / length),
-                },
+                start: V2 { u: S::of(u), v: S::of(v) },
+                direction: V2 { u: S::of((u2 - u) / length), v: S::of((v2 - v) / length) },
                 length: S::of(length),
             }
         });
@@ -115,22 +95,13 @@ impl<S: Scalar> Outline<S> {
     pub fn offset(&self, point: V2<S>) -> Offset<S> {
         let o = S::zero();
         match self {
-            Outline::Unbounded => Offset {
-                distance: o,
-                away: V2 { u: o, v: o },
-            },
+            Outline::Unbounded => Offset { distance: o, away: V2 { u: o, v: o } },
             Outline::Disc { centre, radius } => {
                 let (u, v) = (point.u - centre.u, point.v - centre.v);
                 let from_centre = (u * u + v * v).sqrt();
                 let inverse = S::one() / from_centre.max(*radius);
                 let distance = (from_centre - *radius).max(o);
-                outside(
-                    distance,
-                    V2 {
-                        u: u * inverse,
-                        v: v * inverse,
-                    },
-                )
+                outside(distance, V2 { u: u * inverse, v: v * inverse })
             }
             Outline::Polygon(edges) => from_polygon(edges, point),
         }
@@ -142,13 +113,7 @@ impl<S: Scalar> Outline<S> {
 fn outside<S: Scalar>(distance: S, away: V2<S>) -> Offset<S> {
     let o = S::zero();
     let out = distance.gt(o);
-    Offset {
-        distance,
-        away: V2 {
-            u: S::select(out, away.u, o),
-            v: S::select(out, away.v, o),
-        },
-    }
+    Offset { distance, away: V2 { u: S::select(out, away.u, o), v: S::select(out, away.v, o) } }
 }
 
 #[inline(always)]
@@ -161,10 +126,7 @@ fn from_polygon<S: Scalar>(edges: &[Edge<S>], p: V2<S>) -> Offset<S> {
     }
     let out = greatest.gt(o);
     if !S::any(out) {
-        return Offset {
-            distance: o,
-            away: V2 { u: o, v: o },
-        };
+        return Offset { distance: o, away: V2 { u: o, v: o } };
     }
     let mut least = S::of(f64::INFINITY);
     let mut from = V2 { u: o, v: o };
@@ -173,20 +135,11 @@ fn from_polygon<S: Scalar>(edges: &[Edge<S>], p: V2<S>) -> Offset<S> {
         let squared = gap.u * gap.u + gap.v * gap.v;
         let nearer = squared.lt(least);
         least = S::select(nearer, squared, least);
-        from = V2 {
-            u: S::select(nearer, gap.u, from.u),
-            v: S::select(nearer, gap.v, from.v),
-        };
+        from = V2 { u: S::select(nearer, gap.u, from.u), v: S::select(nearer, gap.v, from.v) };
     }
     let distance = S::select(out, least.sqrt(), o);
     let inverse = S::one() / distance.max(S::of(1e-300));
-    outside(
-        distance,
-        V2 {
-            u: from.u * inverse,
-            v: from.v * inverse,
-        },
-    )
+    outside(distance, V2 { u: from.u * inverse, v: from.v * inverse })
 }
 
 impl<S: Scalar> Edge<S> {
@@ -200,12 +153,7 @@ impl<S: Scalar> Edge<S> {
     #[inline(always)]
     fn gap(&self, p: V2<S>) -> V2<S> {
         let (u, v) = (p.u - self.start.u, p.v - self.start.v);
-        let along = (u * self.direction.u + v * self.direction.v)
-            .max(S::zero())
-            .min(self.length);
-        V2 {
-            u: u - along * self.direction.u,
-            v: v - along * self.direction.v,
-        }
+        let along = (u * self.direction.u + v * self.direction.v).max(S::zero()).min(self.length);
+        V2 { u: u - along * self.direction.u, v: v - along * self.direction.v }
     }
 }

@@ -60,12 +60,7 @@ impl<S> Moving<S> {
 impl<S: Scalar> Moving<S> {
     /// Space itself.
     pub fn space() -> Self {
-        Moving {
-            origin: V3::zero(),
-            axes: M3::identity(),
-            velocity: V3::zero(),
-            omega: V3::zero(),
-        }
+        Moving { origin: V3::zero(), axes: M3::identity(), velocity: V3::zero(), omega: V3::zero() }
     }
 
     /// The same motion in every lane.

@@ -58,11 +58,7 @@ pub(super) struct Look<S> {
 
 impl<S: Scalar> History<S> {
     /// A history in which every pair counts as near until the first commit.
-    pub fn new(
-        contacts: &ContactSystem<S>,
-        pairs: Vec<PairHistory<S>>,
-        belts: Vec<BeltHistory<S>>,
-    ) -> Self {
+    pub fn new(contacts: &ContactSystem<S>, pairs: Vec<PairHistory<S>>, belts: Vec<BeltHistory<S>>) -> Self {
         let lanes = S::truth(true);
         let all = 0..pairs.len() as u32;
         let looks = contacts.groups.iter().map(|group| Look {
@@ -82,14 +78,8 @@ impl<S: Scalar> History<S> {
 
     /// A history of the shape of `other` whose numbers are all `value`.
     pub fn like<A: Scalar>(contacts: &ContactSystem<S>, other: &History<A>, value: S) -> Self {
-        let pair = PairHistory {
-            phase: value,
-            greatest: value,
-        };
-        let belt = BeltHistory {
-            normal: v3(value, value, value),
-            greatest: value,
-        };
+        let pair = PairHistory { phase: value, greatest: value };
+        let belt = BeltHistory { normal: v3(value, value, value), greatest: value };
         let pairs = vec![pair; other.pairs.len()];
         History::new(contacts, pairs, vec![belt; other.belts.len()])
     }
@@ -157,21 +147,12 @@ pub(super) struct Nearing {
 impl Nearing {
     #[inline(always)]
     pub fn new(group: &Group) -> Self {
-        Nearing {
-            first: group.pairs.start,
-            count: 0,
-        }
+        Nearing { first: group.pairs.start, count: 0 }
     }
 
     /// Decides whether pair `i`, committed at deformation `depth`, is near.
     #[inline(always)]
-    pub fn at<S: Scalar>(
-        &mut self,
-        i: usize,
-        depth: S,
-        contacts: &ContactSystem<S>,
-        history: &mut History<S>,
-    ) {
+    pub fn at<S: Scalar>(&mut self, i: usize, depth: S, contacts: &ContactSystem<S>, history: &mut History<S>) {
         let lanes = contacts.is_near(depth, &history.pairs[i]);
         if S::any(lanes) {
             let pair = i as u32;
@@ -198,23 +179,13 @@ pub(super) struct Looking<S> {
 impl<S: Scalar> Looking<S> {
     #[inline(always)]
     pub fn new(group: &Group) -> Self {
-        Looking {
-            first: group.pairs.start,
-            count: 0,
-            least: S::of(f64::INFINITY),
-        }
+        Looking { first: group.pairs.start, count: 0, least: S::of(f64::INFINITY) }
     }
 
     /// Decides whether pair `i`, committed at deformation `depth`, is watched: an open one until the sphere comes near, a
     /// passed one until the sphere comes back, one that touches always.
     #[inline(always)]
-    pub fn at(
-        &mut self,
-        i: usize,
-        depth: S,
-        contacts: &ContactSystem<S>,
-        history: &mut History<S>,
-    ) {
+    pub fn at(&mut self, i: usize, depth: S, contacts: &ContactSystem<S>, history: &mut History<S>) {
         let phase = history.pairs[i].phase;
         let touches = phase.gt(S::of(OPEN)) & phase.lt(S::of(PASSED));
         let (off, enough) = (depth.abs(), contacts.reach_of_a_step + S::of(LEAST_WAY_M));
@@ -228,13 +199,7 @@ impl<S: Scalar> Looking<S> {
 
     /// Remembers the look of `sphere` at group `g`.
     #[inline(always)]
-    pub fn end(
-        self,
-        g: usize,
-        sphere: &Sphere<'_, S>,
-        contacts: &ContactSystem<S>,
-        history: &mut History<S>,
-    ) {
+    pub fn end(self, g: usize, sphere: &Sphere<'_, S>, contacts: &ContactSystem<S>, history: &mut History<S>) {
         let way = (self.least - contacts.reach_of_a_step - S::of(MARGIN_M)).max(S::zero());
         let look = &mut history.looks[g];
         look.watched = self.count;

@@ -29,11 +29,7 @@ struct Limit<S> {
 
 impl<S: Copy> Limit<S> {
     fn zip<A: Copy, T>(&self, other: &Limit<A>, f: &impl Fn(S, A) -> T) -> Limit<T> {
-        Limit {
-            begin: f(self.begin, other.begin),
-            slope: f(self.slope, other.slope),
-            rise: f(self.rise, other.rise),
-        }
+        Limit { begin: f(self.begin, other.begin), slope: f(self.slope, other.slope), rise: f(self.rise, other.rise) }
     }
 }
 
@@ -41,11 +37,7 @@ impl<S: Scalar> Limit<S> {
     /// `sign` is −1 for a stop met by falling angles.
     fn new(stop: Option<Stop>, damping: f64, sign: f64) -> Self {
         // far outside any angle where there is no stop
-        let none = Limit {
-            begin: S::of(1e9),
-            slope: S::one(),
-            rise: S::zero(),
-        };
+        let none = Limit { begin: S::of(1e9), slope: S::one(), rise: S::zero() };
         stop.map_or(none, |s| Limit {
             begin: S::of(sign * s.begin_rad),
             slope: S::of(1.0 / (sign * (s.full_rad - s.begin_rad)).max(1e-9)),
@@ -128,11 +120,7 @@ impl<S: Copy> Hinge<S> {
 
 impl<S: Copy> JointSystem<S> {
     /// f applied to every number and the one in the same place of `other`, which has springs in the same joints.
-    pub fn zip<A: Copy, T>(
-        &self,
-        other: &JointSystem<A>,
-        f: &impl Fn(S, A) -> T,
-    ) -> JointSystem<T> {
+    pub fn zip<A: Copy, T>(&self, other: &JointSystem<A>, f: &impl Fn(S, A) -> T) -> JointSystem<T> {
         JointSystem {
             balls: from_fn(|i| self.balls[i].zip(&other.balls[i], f)),
             hinges: from_fn(|i| self.hinges[i].zip(&other.hinges[i], f)),
@@ -150,15 +138,8 @@ impl<S: Scalar> JointSystem<S> {
     /// Constants from data; `rest_rad` are the β₀ of the ball joints that do not give their own.
     pub fn new(joints: &Joints, rest_rad: &[f64; 7]) -> Self {
         let j = joints;
-        let balls = [
-            &j.neck,
-            &j.right_shoulder,
-            &j.left_shoulder,
-            &j.upper_back,
-            &j.lower_back,
-            &j.right_hip,
-            &j.left_hip,
-        ];
+        let balls =
+            [&j.neck, &j.right_shoulder, &j.left_shoulder, &j.upper_back, &j.lower_back, &j.right_hip, &j.left_hip];
         let hinges = [&j.left_elbow, &j.right_elbow, &j.left_knee, &j.right_knee];
         JointSystem {
             balls: from_fn(|i| ball(balls[i], rest_rad[i], j.epsilon)),
@@ -169,12 +150,7 @@ impl<S: Scalar> JointSystem<S> {
 
     /// Adds all joint moments to `wrench`; returns the power that they dissipate, W.
     #[inline(always)]
-    pub fn apply(
-        &self,
-        k: &Kinematics<S>,
-        state: &State<S>,
-        wrench: &mut [Wrench<S>; SEGMENTS],
-    ) -> S {
+    pub fn apply(&self, k: &Kinematics<S>, state: &State<S>, wrench: &mut [Wrench<S>; SEGMENTS]) -> S {
         let mut dissipated = S::zero();
         for (i, &(inner, outer)) in BALLS.iter().enumerate() {
             let action = self.ball(i, k);
@@ -209,11 +185,7 @@ impl<S: Scalar> JointSystem<S> {
 
         let stopping = cosine.lt(joint.stop_cosine) & bending.gt(S::zero());
         let near_stop = S::any(stopping);
-        let beta = if near_stop || joint.has_spring {
-            sine_squared.sqrt().atan2(cosine)
-        } else {
-            S::zero()
-        };
+        let beta = if near_stop || joint.has_spring { sine_squared.sqrt().atan2(cosine) } else { S::zero() };
         let mut damping = joint.damping;
         if near_stop {
             damping = S::select(stopping, damping + joint.stop.extra(beta), damping);
@@ -222,8 +194,7 @@ impl<S: Scalar> JointSystem<S> {
         let across = omega - z_k * z_k.dot(omega);
         let scale = damping * inverse;
         let mut moment = -(normal * (scale * bending) + across * (scale * self.epsilon_squared));
-        let mut dissipated =
-            scale * (bending * bending + self.epsilon_squared * across.norm_squared());
+        let mut dissipated = scale * (bending * bending + self.epsilon_squared * across.norm_squared());
         // T = −J_t Z_l (Z_l·ω)
         let twisting = z_l.dot(omega);
         moment -= z_l * (joint.twist * twisting);
@@ -235,11 +206,7 @@ impl<S: Scalar> JointSystem<S> {
             moment -= normal * (bent * inverse.sqrt());
             stored = S::of(0.5) * bent * (beta - joint.rest);
         }
-        BallAction {
-            moment,
-            stored,
-            dissipated,
-        }
+        BallAction { moment, stored, dissipated }
     }
 
     /// β of ball joint `i` of [`BALLS`], rad.
@@ -272,12 +239,8 @@ impl<S: Scalar> Hinge<S> {
 }
 
 fn ball<S: Scalar>(data: &BallJoint, rest_rad: f64, epsilon: f64) -> Ball<S> {
-    let (stiffness, rest) = data.spring.map_or((0.0, 0.0), |s| {
-        (s.stiffness_n_m, s.rest_rad.unwrap_or(rest_rad))
-    });
-    let stop_cosine = data.stop.map_or(-2.0, |s| {
-        trig::sin_cos(s.begin_rad).1 * (1.0 + epsilon * epsilon).sqrt()
-    });
+    let (stiffness, rest) = data.spring.map_or((0.0, 0.0), |s| (s.stiffness_n_m, s.rest_rad.unwrap_or(rest_rad)));
+    let stop_cosine = data.stop.map_or(-2.0, |s| trig::sin_cos(s.begin_rad).1 * (1.0 + epsilon * epsilon).sqrt());
     Ball {
         damping: S::of(data.damping_n_m_s),
         twist: S::of(data.twist_damping_n_m_s),

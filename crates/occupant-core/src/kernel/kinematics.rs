@@ -55,11 +55,7 @@ impl<S: Scalar> Kinematics<S> {
         let (s, c) = state.hinge[limb].sin_cos();
         let M3 { x, y, z } = self.axes[upper];
         self.hinge_sin_cos[limb] = (s, c);
-        self.axes[lower] = M3 {
-            x: x * c - z * s,
-            y,
-            z: x * s + z * c,
-        };
+        self.axes[lower] = M3 { x: x * c - z * s, y, z: x * s + z * c };
         self.omega[lower] = self.omega[upper] + y * state.hinge_rate[limb];
     }
 

@@ -84,11 +84,7 @@ pub fn reduce<S: Scalar>(
     let hinge_bias = (l.ix - l.iz) * wl.z * wl.x - moment_l.y;
     let n_x = (l.iz - l.iy) * turning * wl.z - l.ix * hinge_rate * wl.z - moment_l.x;
     let n_z = (l.iy - l.ix) * wl.x * turning + l.iz * hinge_rate * wl.x - moment_l.z;
-    let swing = v3(
-        wl.x * wl.z,
-        turning * wl.z + hinge_rate * wl.z,
-        -(wl.x * wl.x + turning * turning),
-    ) * l.sigma;
+    let swing = v3(wl.x * wl.z, turning * wl.z + hinge_rate * wl.z, -(wl.x * wl.x + turning * turning)) * l.sigma;
     let hinge_release = l.sigma * l.inverse_iy * hinge_bias;
     let f_0 = into_upper(v3(swing.x - hinge_release, swing.y, swing.z)) - force_l;
     let n_0 = into_upper(v3(n_x, S::zero(), n_z));
@@ -98,20 +94,11 @@ pub fn reduce<S: Scalar>(
     let centripetal = v3(w.x * w.z, w.y * w.z, -(w.x * w.x + w.y * w.y));
     let at_hinge = centripetal * lambda;
     let along_x = kappa * (c * at_hinge.x - s * at_hinge.z);
-    let u = v3(
-        l.mass * at_hinge.x - along_x * c,
-        l.mass * at_hinge.y,
-        l.mass * at_hinge.z + along_x * s,
-    ) + f_0;
+    let u = v3(l.mass * at_hinge.x - along_x * c, l.mass * at_hinge.y, l.mass * at_hinge.z + along_x * s) + f_0;
     let bias_force = centripetal * m.sigma + u - force_m;
-    let gyroscopic = v3(
-        (m.iz - m.iy) * w.y * w.z,
-        (m.ix - m.iz) * w.z * w.x,
-        (m.iy - m.ix) * w.x * w.y,
-    );
+    let gyroscopic = v3((m.iz - m.iy) * w.y * w.z, (m.ix - m.iz) * w.z * w.x, (m.iy - m.ix) * w.x * w.y);
     let coupled = l.sigma * at_hinge.y;
-    let moment =
-        moment_m - gyroscopic - n_0 - v3(-lambda * u.y - coupled * c, lambda * u.x, coupled * s);
+    let moment = moment_m - gyroscopic - n_0 - v3(-lambda * u.y - coupled * c, lambda * u.x, coupled * s);
 
     let first = m.sigma + l.mass * lambda;
     let b = Gain {
@@ -136,11 +123,8 @@ pub fn reduce<S: Scalar>(
         yx: b.yx * inv_xx + b.yz * inv_xz,
         yz: b.yx * inv_xz + b.yz * inv_zz,
     };
-    let alpha_free = v3(
-        inv_xx * moment.x + inv_xz * moment.z,
-        inv_yy * moment.y,
-        inv_xz * moment.x + inv_zz * moment.z,
-    );
+    let alpha_free =
+        v3(inv_xx * moment.x + inv_xz * moment.z, inv_yy * moment.y, inv_xz * moment.x + inv_zz * moment.z);
     let total = m.mass + l.mass;
     let mass = PlaneMass {
         xx: total - kappa * cc - gain.xy * b.xy,
@@ -148,17 +132,9 @@ pub fn reduce<S: Scalar>(
         zz: total - kappa * ss - gain.zy * b.zy,
         yy: total - gain.yx * b.yx - gain.yz * b.yz,
     };
-    let bias = bias_force
-        - v3(
-            gain.xy * moment.y,
-            gain.yx * moment.x + gain.yz * moment.z,
-            gain.zy * moment.y,
-        );
+    let bias = bias_force - v3(gain.xy * moment.y, gain.yx * moment.x + gain.yz * moment.z, gain.zy * moment.y);
     Limb {
-        demand: Demand {
-            mass: mass.out(axes),
-            bias: axes.out(bias),
-        },
+        demand: Demand { mass: mass.out(axes), bias: axes.out(bias) },
         alpha_free,
         gain,
         hinge_bias,
@@ -214,38 +190,13 @@ pub fn reduce_head<S: Scalar>(h: &Link<S>, k: &Kinematics<S>, wrench: &Wrench<S>
     let w = axes.into_frame(k.omega[2]);
     let force = axes.into_frame(wrench.force);
     let moment = axes.into_frame(wrench.moment)
-        - v3(
-            (h.iz - h.iy) * w.y * w.z,
-            (h.ix - h.iz) * w.z * w.x,
-            (h.iy - h.ix) * w.x * w.y,
-        );
+        - v3((h.iz - h.iy) * w.y * w.z, (h.ix - h.iz) * w.z * w.x, (h.iy - h.ix) * w.x * w.y);
     let one = S::one();
     let inverse_ix = one / h.ix;
-    let gain = Gain {
-        xy: -(h.sigma * h.inverse_iy),
-        zy: S::zero(),
-        yx: h.sigma * inverse_ix,
-        yz: S::zero(),
-    };
-    let alpha_free = v3(
-        moment.x * inverse_ix,
-        moment.y * h.inverse_iy,
-        moment.z / h.iz,
-    );
-    let mass = PlaneMass {
-        xx: h.mass + gain.xy * h.sigma,
-        xz: S::zero(),
-        zz: h.mass,
-        yy: h.mass - gain.yx * h.sigma,
-    };
+    let gain = Gain { xy: -(h.sigma * h.inverse_iy), zy: S::zero(), yx: h.sigma * inverse_ix, yz: S::zero() };
+    let alpha_free = v3(moment.x * inverse_ix, moment.y * h.inverse_iy, moment.z / h.iz);
+    let mass = PlaneMass { xx: h.mass + gain.xy * h.sigma, xz: S::zero(), zz: h.mass, yy: h.mass - gain.yx * h.sigma };
     let swing = v3(w.x * w.z, w.y * w.z, -(w.x * w.x + w.y * w.y)) * h.sigma;
     let bias = swing - force - v3(gain.xy * moment.y, gain.yx * moment.x, S::zero());
-    Head {
-        demand: Demand {
-            mass: mass.out(axes),
-            bias: axes.out(bias),
-        },
-        alpha_free,
-        gain,
-    }
+    Head { demand: Demand { mass: mass.out(axes), bias: axes.out(bias) }, alpha_free, gain }
 }

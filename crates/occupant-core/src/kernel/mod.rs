@@ -90,12 +90,7 @@ impl<S: Scalar> System<S> {
     /// Rate of change of `state`. With `COMMIT` the history first takes over the present position, which must be that of
     /// an accepted step; without it the history is only read.
     #[inline]
-    pub fn rate<const COMMIT: bool>(
-        &self,
-        state: &State<S>,
-        frames: &Frames<S>,
-        history: &mut History<S>,
-    ) -> State<S> {
+    pub fn rate<const COMMIT: bool>(&self, state: &State<S>, frames: &Frames<S>, history: &mut History<S>) -> State<S> {
         self.rate_observed::<COMMIT>(state, frames, history, &mut ())
     }
 
@@ -137,14 +132,8 @@ impl<S: Scalar> System<S> {
     ) -> Evaluation<S> {
         let kinematics = Kinematics::new(&self.skeleton, state);
         let (wrench, power) = self.loads::<COMMIT>(&kinematics, state, frames, history, observer);
-        let accelerations =
-            dynamics::solve(&self.skeleton, &kinematics, &state.hinge_rate, &wrench);
-        Evaluation {
-            kinematics,
-            wrench,
-            accelerations,
-            power,
-        }
+        let accelerations = dynamics::solve(&self.skeleton, &kinematics, &state.hinge_rate, &wrench);
+        Evaluation { kinematics, wrench, accelerations, power }
     }
 
     /// All loads on the segments but gravity, and their powers.
@@ -267,10 +256,6 @@ impl<S: Scalar> System<S> {
         let site = &self.contacts.sites[sphere];
         let n = site.segment;
         let arm = k.axes[n].out(site.offset);
-        (
-            arm,
-            k.joint[n] + arm,
-            k.joint_velocity[n] + k.omega[n].cross(arm),
-        )
+        (arm, k.joint[n] + arm, k.joint_velocity[n] + k.omega[n].cross(arm))
     }
 }

@@ -22,11 +22,7 @@ pub trait Scalar:
     + SubAssign
 {
     /// One truth value per lane.
-    type Mask: Copy
-        + Debug
-        + BitAnd<Output = Self::Mask>
-        + BitOr<Output = Self::Mask>
-        + Not<Output = Self::Mask>;
+    type Mask: Copy + Debug + BitAnd<Output = Self::Mask> + BitOr<Output = Self::Mask> + Not<Output = Self::Mask>;
 
     /// The same constant in every lane.
     fn of(value: f64) -> Self;

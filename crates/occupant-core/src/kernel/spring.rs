@@ -44,10 +44,7 @@ impl<S: Copy> Spring<S> {
 impl<S: Scalar> Spring<S> {
     /// Constants from data; fractions below [`LEAST_FRACTION`] are raised to it.
     pub fn new(data: &BilinearSpring) -> Self {
-        let (mu1, mu2) = (
-            data.returned_1.max(LEAST_FRACTION),
-            data.returned_2.max(LEAST_FRACTION),
-        );
+        let (mu1, mu2) = (data.returned_1.max(LEAST_FRACTION), data.returned_2.max(LEAST_FRACTION));
         Spring {
             k1: S::of(data.k1_n_per_m),
             k2: S::of(data.k2_n_per_m),

@@ -35,10 +35,7 @@ impl<S: Copy> Quat<S> {
     /// f applied to every number and the one in the same place of `other`.
     #[inline(always)]
     pub fn zip<A: Copy, T>(&self, other: &Quat<A>, f: &impl Fn(S, A) -> T) -> Quat<T> {
-        Quat {
-            w: f(self.w, other.w),
-            v: self.v.zip(&other.v, f),
-        }
+        Quat { w: f(self.w, other.w), v: self.v.zip(&other.v, f) }
     }
 }
 
@@ -47,10 +44,7 @@ impl<S: Scalar> Quat<S> {
     #[inline(always)]
     pub fn rate(&self, omega: V3<S>) -> Self {
         let half = omega * S::of(0.5);
-        Quat {
-            w: -half.dot(self.v),
-            v: half * self.w + half.cross(self.v),
-        }
+        Quat { w: -half.dot(self.v), v: half * self.w + half.cross(self.v) }
     }
 
     /// q·q.
@@ -104,13 +98,7 @@ impl<S: Scalar> Work<S> {
     #[inline(always)]
     pub fn zero() -> Self {
         let o = S::zero();
-        Work {
-            contact: o,
-            friction: o,
-            joints: o,
-            belts: o,
-            vehicle: o,
-        }
+        Work { contact: o, friction: o, joints: o, belts: o, vehicle: o }
     }
 }
 
@@ -164,10 +152,7 @@ impl<S: Scalar> State<S> {
         let o = S::zero();
         State {
             t1: V3::zero(),
-            orientation: [Quat {
-                w: o,
-                v: V3::zero(),
-            }; 8],
+            orientation: [Quat { w: o, v: V3::zero() }; 8],
             hinge: [o; 4],
             velocity: V3::zero(),
             omega: [V3::zero(); 8],
@@ -203,10 +188,7 @@ impl<S: Scalar> State<S> {
     pub fn normalize(&mut self) {
         for q in &mut self.orientation {
             let k = S::one() / q.norm_squared().sqrt();
-            *q = Quat {
-                w: q.w * k,
-                v: q.v * k,
-            };
+            *q = Quat { w: q.w * k, v: q.v * k };
         }
     }
 }
@@ -235,21 +217,12 @@ impl State<f64> {
         let vector = |i: usize| v3(n(i), n(i + 1), n(i + 2));
         State {
             t1: vector(0),
-            orientation: from_fn(|k| Quat {
-                w: n(3 + 4 * k),
-                v: vector(4 + 4 * k),
-            }),
+            orientation: from_fn(|k| Quat { w: n(3 + 4 * k), v: vector(4 + 4 * k) }),
             hinge: from_fn(|k| n(35 + k)),
             velocity: vector(39),
             omega: from_fn(|k| vector(42 + 3 * k)),
             hinge_rate: from_fn(|k| n(66 + k)),
-            work: Work {
-                contact: n(70),
-                friction: n(71),
-                joints: n(72),
-                belts: n(73),
-                vehicle: n(74),
-            },
+            work: Work { contact: n(70), friction: n(71), joints: n(72), belts: n(73), vehicle: n(74) },
         }
     }
 

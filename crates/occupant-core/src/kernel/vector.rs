@@ -53,11 +53,7 @@ impl<S: Scalar> V3<S> {
     /// a × b.
     #[inline(always)]
     pub fn cross(self, b: Self) -> Self {
-        v3(
-            self.y * b.z - self.z * b.y,
-            self.z * b.x - self.x * b.z,
-            self.x * b.y - self.y * b.x,
-        )
+        v3(self.y * b.z - self.z * b.y, self.z * b.x - self.x * b.z, self.x * b.y - self.y * b.x)
     }
 
     /// a · a.
@@ -69,11 +65,7 @@ impl<S: Scalar> V3<S> {
     /// `yes` where the mask is true, else `no`.
     #[inline(always)]
     pub fn select(mask: S::Mask, yes: Self, no: Self) -> Self {
-        v3(
-            S::select(mask, yes.x, no.x),
-            S::select(mask, yes.y, no.y),
-            S::select(mask, yes.z, no.z),
-        )
+        v3(S::select(mask, yes.x, no.x), S::select(mask, yes.y, no.y), S::select(mask, yes.z, no.z))
     }
 }
 
@@ -145,11 +137,7 @@ impl<S: Copy> M3<S> {
     /// f applied to every number and the one in the same place of `other`.
     #[inline(always)]
     pub fn zip<A: Copy, T>(&self, other: &M3<A>, f: &impl Fn(S, A) -> T) -> M3<T> {
-        M3 {
-            x: self.x.zip(&other.x, f),
-            y: self.y.zip(&other.y, f),
-            z: self.z.zip(&other.z, f),
-        }
+        M3 { x: self.x.zip(&other.x, f), y: self.y.zip(&other.y, f), z: self.z.zip(&other.z, f) }
     }
 }
 
@@ -157,11 +145,7 @@ impl<S: Scalar> M3<S> {
     /// The same constant matrix in every lane.
     #[inline(always)]
     pub fn of(m: &Matrix3<f64>) -> Self {
-        M3 {
-            x: V3::of(&m.column(0).into()),
-            y: V3::of(&m.column(1).into()),
-            z: V3::of(&m.column(2).into()),
-        }
+        M3 { x: V3::of(&m.column(0).into()), y: V3::of(&m.column(1).into()), z: V3::of(&m.column(2).into()) }
     }
 
     /// The unit matrix.
@@ -212,14 +196,7 @@ impl<S: Scalar> Sym3<S> {
     #[inline(always)]
     pub fn scaled_identity(k: S) -> Self {
         let o = S::zero();
-        Sym3 {
-            xx: k,
-            yy: k,
-            zz: k,
-            xy: o,
-            xz: o,
-            yz: o,
-        }
+        Sym3 { xx: k, yy: k, zz: k, xy: o, xz: o, yz: o }
     }
 
     /// Adds k v vᵀ.
@@ -249,11 +226,7 @@ impl<S: Scalar> Sym3<S> {
     /// M v.
     #[inline(always)]
     pub fn mul(&self, v: V3<S>) -> V3<S> {
-        v3(
-            self.row_x().dot(v),
-            self.row_y().dot(v),
-            self.row_z().dot(v),
-        )
+        v3(self.row_x().dot(v), self.row_y().dot(v), self.row_z().dot(v))
     }
 
     /// First row.

@@ -42,18 +42,12 @@ impl<S: Copy> System<S> {
     ///
     /// # Errors
     /// Systems of unlike structure.
-    pub fn zip<A: Copy, T>(
-        &self,
-        other: &System<A>,
-        f: impl Fn(S, A) -> T,
-    ) -> Result<System<T>, Unlike> {
+    pub fn zip<A: Copy, T>(&self, other: &System<A>, f: impl Fn(S, A) -> T) -> Result<System<T>, Unlike> {
         if self.joints.springs() != other.joints.springs() {
             return Err(Unlike::Springs);
         }
         let spheres = |belts: &mut dyn Iterator<Item = usize>| belts.collect::<Vec<_>>();
-        if spheres(&mut self.belts.iter().map(|b| b.sphere))
-            != spheres(&mut other.belts.iter().map(|b| b.sphere))
-        {
+        if spheres(&mut self.belts.iter().map(|b| b.sphere)) != spheres(&mut other.belts.iter().map(|b| b.sphere)) {
             return Err(Unlike::Belts);
         }
         let belts = self.belts.iter().zip(&other.belts);
@@ -67,11 +61,7 @@ impl<S: Copy> System<S> {
 }
 
 impl<S: Copy> ContactSystem<S> {
-    fn zip<A: Copy, T>(
-        &self,
-        other: &ContactSystem<A>,
-        f: &impl Fn(S, A) -> T,
-    ) -> Result<ContactSystem<T>, Unlike> {
+    fn zip<A: Copy, T>(&self, other: &ContactSystem<A>, f: &impl Fn(S, A) -> T) -> Result<ContactSystem<T>, Unlike> {
         let on = |a: &Site<S>, b: &Site<A>| a.segment == b.segment;
         let same = self.sites.iter().zip(&other.sites).all(|(a, b)| on(a, b));
         if self.sites.len() != other.sites.len() || !same {
@@ -96,20 +86,13 @@ impl<S: Copy> ContactSystem<S> {
 
 impl<S: Copy> Site<S> {
     fn zip<A: Copy, T>(&self, other: &Site<A>, f: &impl Fn(S, A) -> T) -> Site<T> {
-        Site {
-            segment: self.segment,
-            offset: self.offset.zip(&other.offset, f),
-            radius: f(self.radius, other.radius),
-        }
+        Site { segment: self.segment, offset: self.offset.zip(&other.offset, f), radius: f(self.radius, other.radius) }
     }
 }
 
 impl<S: Copy> Plane<S> {
     fn zip<A: Copy, T>(&self, other: &Plane<A>, f: &impl Fn(S, A) -> T) -> Plane<T> {
-        Plane {
-            normal: self.normal.zip(&other.normal, f),
-            reach: f(self.reach, other.reach),
-        }
+        Plane { normal: self.normal.zip(&other.normal, f), reach: f(self.reach, other.reach) }
     }
 }
 

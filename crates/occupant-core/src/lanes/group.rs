@@ -30,12 +30,7 @@ pub(super) struct Group<L: Machine, T, R> {
 impl<L: Machine, T, R: Recorder> Group<L, T, R> {
     /// No runs yet.
     pub fn new(kernel: Kernel) -> Self {
-        Group {
-            kernel,
-            bench: None,
-            state: State::zero(),
-            places: (0..L::COUNT).map(|_| None).collect(),
-        }
+        Group { kernel, bench: None, state: State::zero(), places: (0..L::COUNT).map(|_| None).collect() }
     }
 
     /// Runs all `jobs`; `on_end` gets each when it has ended.
@@ -85,10 +80,7 @@ impl<L: Machine, T, R: Recorder> Group<L, T, R> {
     fn make_room(&mut self, i: usize, model: &Model) -> bool {
         let alone = self.places.iter().all(Option::is_none);
         let put = |lanes: L, x: f64| lanes.with_lane(i, x);
-        let joined = self
-            .bench
-            .as_ref()
-            .map(|b| b.system.zip(model.system(), put));
+        let joined = self.bench.as_ref().map(|b| b.system.zip(model.system(), put));
         match (&mut self.bench, joined) {
             (Some(bench), Some(Ok(joined))) => {
                 bench.system = joined;
@@ -121,9 +113,7 @@ impl<L: Machine, T, R: Recorder> Group<L, T, R> {
             let frames = step.frames(&place.model, &mut place.run.cursor);
             for (lanes, frames) in bench.frames.iter_mut().zip(&frames) {
                 // space stands still
-                lanes[VEHICLE].each(&frames[VEHICLE], &mut |lanes: &mut L, x| {
-                    lanes.set_lane(i, x)
-                });
+                lanes[VEHICLE].each(&frames[VEHICLE], &mut |lanes: &mut L, x| lanes.set_lane(i, x));
             }
         }
         let mut witness = Witness(&mut self.places);
@@ -201,10 +191,7 @@ impl<L: Machine, T, R: Recorder> Group<L, T, R> {
     }
 
     /// Finishes the only run left with the scalar kernel.
-    fn finish_the_last(
-        &mut self,
-        on_end: &mut impl FnMut(Ended<T, R>) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
+    fn finish_the_last(&mut self, on_end: &mut impl FnMut(Ended<T, R>) -> ControlFlow<()>) -> ControlFlow<()> {
         for i in 0..L::COUNT {
             let Some(mut place) = self.places[i].take() else {
                 continue;
@@ -229,9 +216,5 @@ fn new_bench<L: Machine>(model: &Model) -> Option<Bench<L>> {
     let start_s = model.setup().time.start_s;
     let frames = model.frames(start_s, start_s, &mut cursor);
     let frames = frames.map(|frame| frame.zip(&frame, &|x, _| L::of(x)));
-    Some(Bench {
-        system,
-        history,
-        frames: [frames; 3],
-    })
+    Some(Bench { system, history, frames: [frames; 3] })
 }

@@ -144,13 +144,7 @@ pub fn simulate_many_with<T, R: Recorder>(
 /// A run with the scalar kernel.
 fn run_alone<T, R: Recorder>(mut job: Job<T, R>) -> Ended<T, R> {
     let outcome = simulate(&job.model, &mut job.recorder);
-    Ended {
-        tag: job.tag,
-        model: job.model,
-        recorder: job.recorder,
-        outcome,
-        kernel: Kernel::Scalar,
-    }
+    Ended { tag: job.tag, model: job.model, recorder: job.recorder, outcome, kernel: Kernel::Scalar }
 }
 
 #[cfg(test)]

@@ -83,13 +83,7 @@ impl<T, R: Recorder> Place<T, R> {
 
     pub fn end(mut self, kernel: Kernel, status: Result<Status, RecordingFailed>) -> Ended<T, R> {
         let outcome = status.and_then(|status| self.run.end(status, &mut self.recorder));
-        Ended {
-            tag: self.tag,
-            model: self.model,
-            recorder: self.recorder,
-            outcome,
-            kernel,
-        }
+        Ended { tag: self.tag, model: self.model, recorder: self.recorder, outcome, kernel }
     }
 }
 

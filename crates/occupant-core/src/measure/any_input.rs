@@ -3,8 +3,7 @@
 use super::*;
 use crate::correlation::{CoraSettings, anova, cora, iso18571, sprague_geers};
 use crate::signal::{
-    CfcFamily, ChannelClass, Interpolant, Interpolation, filter_cfc, integrate, moving_average,
-    resample,
+    CfcFamily, ChannelClass, Interpolant, Interpolation, filter_cfc, integrate, moving_average, resample,
 };
 
 fn exercise(signal: &[f64], other: &[f64], dt_s: f64) -> usize {
@@ -16,15 +15,7 @@ fn exercise(signal: &[f64], other: &[f64], dt_s: f64) -> usize {
     count(three_ms_contiguous(signal, dt_s).is_ok());
     count(three_ms_cumulative(signal, dt_s).is_ok());
     count(severity_index(signal, dt_s).is_ok());
-    count(
-        nij(
-            signal,
-            other,
-            dt_s,
-            &NeckIntercepts::of(Dummy::HybridIii50M),
-        )
-        .is_ok(),
-    );
+    count(nij(signal, other, dt_s, &NeckIntercepts::of(Dummy::HybridIii50M)).is_ok());
     count(bric(signal, other, signal, dt_s, BricBasis::Average).is_ok());
     count(damage(signal, other, signal, dt_s).is_ok());
     count(viscous_criterion(signal, dt_s, ChestSize::HYBRID_III_50M).is_ok());
@@ -41,10 +32,7 @@ fn exercise(signal: &[f64], other: &[f64], dt_s: f64) -> usize {
         count(filter_cfc(signal, dt_s, class, CfcFamily::Iso6487).is_ok());
     }
     count(resample(signal, dt_s, 1e-3).is_ok());
-    count(
-        Interpolant::new(other, signal, Interpolation::MonotoneCubic)
-            .is_ok_and(|i| i.value_at(0.1).is_finite()),
-    );
+    count(Interpolant::new(other, signal, Interpolation::MonotoneCubic).is_ok_and(|i| i.value_at(0.1).is_finite()));
     count(iso18571(signal, other, dt_s).is_ok());
     count(cora(signal, other, dt_s, &CoraSettings::default()).is_ok());
     count(sprague_geers(signal, other).is_ok());
@@ -54,70 +42,31 @@ fn exercise(signal: &[f64], other: &[f64], dt_s: f64) -> usize {
 
 /// Bits of a linear congruential generator.
 fn random(seed: &mut u64) -> u64 {
-    *seed = seed
-        .wrapping_mul(6_364_136_223_846_793_005)
-        .wrapping_add(1_442_695_040_888_963_407);
+    *seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
     *seed >> 11
 }
 
 #[test]
 fn broken_signals_never_panic() {
-    let oddities = [
-        0.0,
-        -0.0,
-        1.0,
-        -1.0,
-        1e-308,
-        1e308,
-        -1e308,
-        5e-324,
-        f64::NAN,
-        f64::INFINITY,
-        1e9,
-        -3.0,
-    ];
-    let intervals_s = [
-        1e-4,
-        1e-3,
-        0.02,
-        1e-9,
-        1e-300,
-        1e300,
-        0.0,
-        -1.0,
-        f64::NAN,
-        f64::INFINITY,
-    ];
+    let oddities = [0.0, -0.0, 1.0, -1.0, 1e-308, 1e308, -1e308, 5e-324, f64::NAN, f64::INFINITY, 1e9, -3.0];
+    let intervals_s = [1e-4, 1e-3, 0.02, 1e-9, 1e-300, 1e300, 0.0, -1.0, f64::NAN, f64::INFINITY];
     let mut seed = 2026;
     let mut values = 0;
     for case in 0..250 {
         // a few cases with every oddity, most with finite ones only
-        let kinds = if case % 4 == 0 {
-            12
-        } else {
-            4 + 2 * (case % 3)
-        };
+        let kinds = if case % 4 == 0 { 12 } else { 4 + 2 * (case % 3) };
         let length = [0, 1, 2, 3, 5, 40, 300][(random(&mut seed) % 7) as usize];
-        let mut draw = || -> Vec<f64> {
-            (0..length)
-                .map(|_| oddities[(random(&mut seed) % kinds) as usize])
-                .collect()
-        };
+        let mut draw = || -> Vec<f64> { (0..length).map(|_| oddities[(random(&mut seed) % kinds) as usize]).collect() };
         let (signal, other) = (draw(), draw());
         let dt_s = intervals_s[(random(&mut seed) % 10) as usize];
         values += exercise(&signal, &other, dt_s);
     }
-    assert!(
-        values > 500,
-        "the sweep must also reach the arithmetic: {values} values"
-    );
+    assert!(values > 500, "the sweep must also reach the arithmetic: {values} values");
 }
 
 #[test]
 fn a_sound_signal_reaches_every_function() {
-    let signal: Vec<f64> = (0..4000)
-        .map(|i| -200.0 * (f64::from(i) * 1e-3).sin())
-        .collect();
+    let signal: Vec<f64> = (0..4000).map(|i| -200.0 * (f64::from(i) * 1e-3).sin()).collect();
     let time_s: Vec<f64> = (0..4000).map(|i| f64::from(i) * 1e-4).collect();
     assert_eq!(exercise(&signal, &time_s, 1e-4), 29);
 }

@@ -8,8 +8,8 @@
 
 use super::{Peak, peak::maximum};
 use crate::signal::{
-    Continuation, LowPass, STANDARD_GRAVITY_MPS2, SignalError, moving_average, require_same_length,
-    require_samples, whole_steps,
+    Continuation, LowPass, STANDARD_GRAVITY_MPS2, SignalError, moving_average, require_same_length, require_samples,
+    whole_steps,
 };
 
 /// Which edition smooths how.
@@ -36,10 +36,7 @@ impl SeverityClass {
     /// The class of an index; none above 1.9. THIV is limited too and not looked at here.
     #[must_use]
     pub fn of(asi: f64) -> Option<Self> {
-        [(1.0, Self::A), (1.4, Self::B), (1.9, Self::C)]
-            .into_iter()
-            .find(|(most, _)| asi <= *most)
-            .map(|(_, c)| c)
+        [(1.0, Self::A), (1.4, Self::B), (1.9, Self::C)].into_iter().find(|(most, _)| asi <= *most).map(|(_, c)| c)
     }
 }
 
@@ -69,12 +66,8 @@ pub fn asi(
         require_same_length(what, a_mps2, ax_mps2)?;
         match edition {
             AsiEdition::Edition1998 => moving_average(a_mps2, dt_s, 0.050),
-            AsiEdition::Edition2010 => LowPass::with_two_pass_cutoff(13.0, dt_s)?.filter_phaseless(
-                a_mps2,
-                Continuation::Hold {
-                    samples: whole_steps(0.5, dt_s),
-                },
-            ),
+            AsiEdition::Edition2010 => LowPass::with_two_pass_cutoff(13.0, dt_s)?
+                .filter_phaseless(a_mps2, Continuation::Hold { samples: whole_steps(0.5, dt_s) }),
         }
     };
     let x = smooth("longitudinal acceleration", ax_mps2)?;
@@ -103,16 +96,7 @@ mod tests {
     #[test]
     fn constant_accelerations_give_the_formula_in_both_editions() {
         let of = |x: f64, y: f64, z: f64, edition| {
-            asi(
-                &vec![x * G; 300],
-                &vec![y * G; 300],
-                &vec![z * G; 300],
-                1e-3,
-                edition,
-            )
-            .unwrap()
-            .peak
-            .value
+            asi(&vec![x * G; 300], &vec![y * G; 300], &vec![z * G; 300], 1e-3, edition).unwrap().peak.value
         };
         for edition in [AsiEdition::Edition1998, AsiEdition::Edition2010] {
             assert!((of(-12.0, 0.0, 0.0, edition) - 1.0).abs() < 1e-9);
@@ -123,19 +107,14 @@ mod tests {
     #[test]
     fn a_half_sine_pulse_in_both_editions() {
         // 15 g, 100 ms, between zeros
-        let pulse: Vec<f64> = (0..6000)
-            .map(|i| {
-                if (2000..=3000).contains(&i) {
-                    -15.0 * G * (PI * f64::from(i - 2000) / 1000.0).sin()
-                } else {
-                    0.0
-                }
-            })
-            .collect();
+        let pulse: Vec<f64> =
+            (0..6000)
+                .map(|i| {
+                    if (2000..=3000).contains(&i) { -15.0 * G * (PI * f64::from(i - 2000) / 1000.0).sin() } else { 0.0 }
+                })
+                .collect();
         let zero = vec![0.0; pulse.len()];
-        let old = asi(&pulse, &zero, &zero, 1e-4, AsiEdition::Edition1998)
-            .unwrap()
-            .peak;
+        let old = asi(&pulse, &zero, &zero, 1e-4, AsiEdition::Edition1998).unwrap().peak;
         // middle half of the half-sine over 12 g
         assert!((old.value - 15.0 / 12.0 * (4.0 / PI) * (PI / 4.0).sin()).abs() < 2e-6);
         assert!((old.time_s - 0.25).abs() < 1e-9);
@@ -145,24 +124,13 @@ mod tests {
         let corner_hz = 13.0 * (2f64.sqrt() - 1.0).powf(-0.25);
         let spectrum = |f: f64| {
             let x = 2.0 * f * 0.1;
-            let shape = if (x - 1.0).abs() < 1e-9 {
-                PI / 4.0
-            } else {
-                (PI * f * 0.1).cos() / (1.0 - x * x)
-            };
+            let shape = if (x - 1.0).abs() < 1e-9 { PI / 4.0 } else { (PI * f * 0.1).cos() / (1.0 - x * x) };
             0.1 * (2.0 / PI) * shape / (1.0 + (f / corner_hz).powi(4))
         };
         let df = 1e-3;
-        let peak: f64 = (0..200_000)
-            .map(|k| 2.0 * df * spectrum((f64::from(k) + 0.5) * df))
-            .sum();
+        let peak: f64 = (0..200_000).map(|k| 2.0 * df * spectrum((f64::from(k) + 0.5) * df)).sum();
         // measured 8.0e-7
-        assert!(
-            (new.peak.value / (15.0 / 12.0 * peak) - 1.0).abs() < 1e-5,
-            "{} {}",
-            new.peak.value,
-            1.25 * peak
-        );
+        assert!((new.peak.value / (15.0 / 12.0 * peak) - 1.0).abs() < 1e-5, "{} {}", new.peak.value, 1.25 * peak);
         assert!((new.peak.time_s - 0.25).abs() < 1e-9);
         assert_eq!(new.history.len(), pulse.len());
     }
@@ -170,9 +138,7 @@ mod tests {
     #[test]
     fn classes() {
         assert_eq!(
-            [0.9, 1.0, 1.2, 1.9, 2.0]
-                .map(SeverityClass::of)
-                .map(|c| c.map(|c| c as u8)),
+            [0.9, 1.0, 1.2, 1.9, 2.0].map(SeverityClass::of).map(|c| c.map(|c| c as u8)),
             [Some(0), Some(0), Some(1), Some(2), None]
         );
         assert_eq!(SeverityClass::of(f64::NAN), None);

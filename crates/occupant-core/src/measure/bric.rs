@@ -43,27 +43,11 @@ pub struct Bric {
 ///
 /// # Errors
 /// No sample, a sample that is not finite, an interval that is not positive.
-pub fn bric(
-    wx_rps: &[f64],
-    wy_rps: &[f64],
-    wz_rps: &[f64],
-    dt_s: f64,
-    basis: BricBasis,
-) -> Result<Bric, SignalError> {
-    let peaks_rps = [
-        largest_magnitude(wx_rps, dt_s)?,
-        largest_magnitude(wy_rps, dt_s)?,
-        largest_magnitude(wz_rps, dt_s)?,
-    ];
-    let sum: f64 = peaks_rps
-        .iter()
-        .zip(basis.critical_rps())
-        .map(|(w, c)| (w.value / c) * (w.value / c))
-        .sum();
-    Ok(Bric {
-        value: sum.sqrt(),
-        peaks_rps,
-    })
+pub fn bric(wx_rps: &[f64], wy_rps: &[f64], wz_rps: &[f64], dt_s: f64, basis: BricBasis) -> Result<Bric, SignalError> {
+    let peaks_rps =
+        [largest_magnitude(wx_rps, dt_s)?, largest_magnitude(wy_rps, dt_s)?, largest_magnitude(wz_rps, dt_s)?];
+    let sum: f64 = peaks_rps.iter().zip(basis.critical_rps()).map(|(w, c)| (w.value / c) * (w.value / c)).sum();
+    Ok(Bric { value: sum.sqrt(), peaks_rps })
 }
 
 #[cfg(test)]

@@ -20,11 +20,7 @@ pub struct DurationLimit {
 
 impl DurationLimit {
     /// Femur compression of UN R94, N.
-    pub const FEMUR_R94_N: Self = Self {
-        at_once: 9070.0,
-        settled: 7580.0,
-        settled_s: 0.010,
-    };
+    pub const FEMUR_R94_N: Self = Self { at_once: 9070.0, settled: 7580.0, settled_s: 0.010 };
 
     /// The limit for a load that lasts `duration_s`.
     #[must_use]
@@ -51,18 +47,10 @@ pub struct DurationUse {
 ///
 /// # Errors
 /// Fewer than two samples, a sample that is not finite, an interval that is not positive.
-pub fn duration_use(
-    load: &[f64],
-    dt_s: f64,
-    limit: &DurationLimit,
-) -> Result<DurationUse, SignalError> {
+pub fn duration_use(load: &[f64], dt_s: f64, limit: &DurationLimit) -> Result<DurationUse, SignalError> {
     const DIVISIONS: u32 = 20;
     let peak = maximum(load, dt_s)?.value;
-    let mut worst = DurationUse {
-        ratio: peak / limit.at(0.0),
-        duration_s: 0.0,
-        level: peak,
-    };
+    let mut worst = DurationUse { ratio: peak / limit.at(0.0), duration_s: 0.0, level: peak };
     let record_s = load.len().saturating_sub(1) as f64 * dt_s;
     for k in 1..=DIVISIONS {
         let duration_s = limit.settled_s * f64::from(k) / f64::from(DIVISIONS);
@@ -72,11 +60,7 @@ pub fn duration_use(
         let level = clip_cumulative(load, dt_s, duration_s)?.level_mps2;
         let ratio = level / limit.at(duration_s);
         if ratio > worst.ratio {
-            worst = DurationUse {
-                ratio,
-                duration_s,
-                level,
-            };
+            worst = DurationUse { ratio, duration_s, level };
         }
     }
     Ok(worst)

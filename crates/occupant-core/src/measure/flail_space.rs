@@ -10,9 +10,7 @@
 //! The record must start at first contact. The manuals were not read as a whole: limits and lengths
 //! come from sources that quote them. [`mod@super::thiv`] adds the yaw that is missing here.
 
-use crate::signal::{
-    CumulativeIntegral, MovingAverage, SignalError, WindowExtreme, require_same_length,
-};
+use crate::signal::{CumulativeIntegral, MovingAverage, SignalError, WindowExtreme, require_same_length};
 
 /// Free distances of the occupant, m.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,10 +24,7 @@ pub struct FlailDistances {
 impl Default for FlailDistances {
     /// 0.6 m and 0.3 m.
     fn default() -> Self {
-        Self {
-            longitudinal_m: 0.6,
-            lateral_m: 0.3,
-        }
+        Self { longitudinal_m: 0.6, lateral_m: 0.3 }
     }
 }
 
@@ -63,19 +58,14 @@ pub fn flail_space(
     require_same_length("lateral acceleration", ay_mps2, ax_mps2)?;
     let x = CumulativeIntegral::new(ax_mps2, dt_s)?;
     let y = CumulativeIntegral::new(ay_mps2, dt_s)?;
-    let impact_s = [
-        first_excursion(&x, dt_s, distances.longitudinal_m),
-        first_excursion(&y, dt_s, distances.lateral_m),
-    ]
-    .into_iter()
-    .flatten()
-    .reduce(f64::min);
+    let impact_s =
+        [first_excursion(&x, dt_s, distances.longitudinal_m), first_excursion(&y, dt_s, distances.lateral_m)]
+            .into_iter()
+            .flatten()
+            .reduce(f64::min);
     let at_s = impact_s.unwrap_or(x.duration_s());
     let ridedown = |a_mps2: &[f64]| -> Option<WindowExtreme> {
-        MovingAverage::new(a_mps2, dt_s, 0.010)
-            .ok()?
-            .extreme_from(impact_s?)
-            .ok()
+        MovingAverage::new(a_mps2, dt_s, 0.010).ok()?.extreme_from(impact_s?).ok()
     };
     Ok(FlailSpace {
         impact_s,
@@ -109,13 +99,7 @@ mod tests {
 
     fn constant(x_g: f64, y_g: f64, length_s: f64) -> FlailSpace {
         let n = (length_s / 1e-3) as usize + 1;
-        flail_space(
-            &vec![x_g * G; n],
-            &vec![y_g * G; n],
-            1e-3,
-            FlailDistances::default(),
-        )
-        .unwrap()
+        flail_space(&vec![x_g * G; n], &vec![y_g * G; n], 1e-3, FlailDistances::default()).unwrap()
     }
 
     #[test]
@@ -141,14 +125,10 @@ mod tests {
         // 20 g for 80 ms (0.6 m after 78.2 ms), then 4 g
         let mut ax = vec![-20.0 * G; 81];
         ax.extend(vec![-4.0 * G; 100]);
-        let found =
-            flail_space(&ax, &vec![0.0; ax.len()], 1e-3, FlailDistances::default()).unwrap();
+        let found = flail_space(&ax, &vec![0.0; ax.len()], 1e-3, FlailDistances::default()).unwrap();
         let ora = found.ora_x.unwrap();
         assert!((found.impact_s.unwrap() - (1.2 / (20.0 * G)).sqrt()).abs() < 1e-12);
-        assert!(
-            ora.start_s >= found.impact_s.unwrap() && ora.value < -4.0 * G && ora.value > -9.0 * G,
-            "{ora:?}"
-        );
+        assert!(ora.start_s >= found.impact_s.unwrap() && ora.value < -4.0 * G && ora.value > -9.0 * G, "{ora:?}");
     }
 
     #[test]

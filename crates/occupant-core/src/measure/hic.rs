@@ -11,9 +11,7 @@
 //! line through them. Known property of the optimum, used as a test: a(t₁) = a(t₂) = 0.6 · mean, or
 //! a(t₁) = a(t₂) where the window is at its limit.
 
-use crate::signal::{
-    CumulativeIntegral, STANDARD_GRAVITY_MPS2, SignalError, require_positive, whole_steps,
-};
+use crate::signal::{CumulativeIntegral, STANDARD_GRAVITY_MPS2, SignalError, require_positive, whole_steps};
 
 /// Longest window allowed.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,28 +61,13 @@ pub fn hic(resultant_mps2: &[f64], dt_s: f64, window: HicWindow) -> Result<Hic, 
     let integral = CumulativeIntegral::new(resultant_mps2, dt_s)?;
     let longest = whole_steps(limit_s, dt_s).min(resultant_mps2.len() - 1);
     if longest == 0 {
-        return Err(SignalError::TooBrief {
-            what: "HIC window",
-            found_s: limit_s,
-            needed_s: dt_s,
-        });
+        return Err(SignalError::TooBrief { what: "HIC window", found_s: limit_s, needed_s: dt_s });
     }
-    let Some((start, end)) =
-        best_sampled_window(resultant_mps2, integral.at_samples(), dt_s, longest)
-    else {
-        return Ok(Hic {
-            value: 0.0,
-            start_s: 0.0,
-            end_s: 0.0,
-        });
+    let Some((start, end)) = best_sampled_window(resultant_mps2, integral.at_samples(), dt_s, longest) else {
+        return Ok(Hic { value: 0.0, start_s: 0.0, end_s: 0.0 });
     };
     let sampled = hic_of_window(&integral, start as f64 * dt_s, end as f64 * dt_s);
-    Ok(refine(
-        &integral,
-        sampled,
-        dt_s,
-        limit_s.min(integral.duration_s()),
-    ))
+    Ok(refine(&integral, sampled, dt_s, limit_s.min(integral.duration_s())))
 }
 
 /// HIC of a free-motion headform, HIC(d) = 0.75446·HIC + 166.4.
@@ -94,26 +77,14 @@ pub fn hic_d(hic: f64) -> f64 {
 }
 
 /// Best window that starts and ends on samples, as indices; none if no window has a positive integral.
-fn best_sampled_window(
-    a: &[f64],
-    integral: &[f64],
-    dt_s: f64,
-    longest: usize,
-) -> Option<(usize, usize)> {
+fn best_sampled_window(a: &[f64], integral: &[f64], dt_s: f64, longest: usize) -> Option<(usize, usize)> {
     let peak = a.iter().copied().fold(0.0, f64::max);
     if peak <= 0.0 {
         return None;
     }
-    let tau_06: Vec<f64> = (0..=longest)
-        .map(|lag| libm::pow(lag as f64 * dt_s, 0.6))
-        .collect();
-    let mut search = WindowSearch {
-        integral,
-        tau_06: &tau_06,
-        per_gain: 1.0 / (peak * dt_s),
-        best_04: 0.0,
-        window: None,
-    };
+    let tau_06: Vec<f64> = (0..=longest).map(|lag| libm::pow(lag as f64 * dt_s, 0.6)).collect();
+    let mut search =
+        WindowSearch { integral, tau_06: &tau_06, per_gain: 1.0 / (peak * dt_s), best_04: 0.0, window: None };
     // a coarse pass first: a good best lets the full pass skip most windows
     let coarse = (longest / 16).max(1);
     for start in (0..a.len() - 1).step_by(coarse) {
@@ -158,32 +129,16 @@ fn hic_of_window(integral: &CumulativeIntegral, start_s: f64, end_s: f64) -> Hic
     let tau_s = end_s - start_s;
     let gain_mps = integral.at(end_s) - integral.at(start_s);
     if tau_s <= 0.0 || gain_mps <= 0.0 {
-        return Hic {
-            value: 0.0,
-            start_s,
-            end_s,
-        };
+        return Hic { value: 0.0, start_s, end_s };
     }
     let mean_g = gain_mps / (tau_s * STANDARD_GRAVITY_MPS2);
-    Hic {
-        value: tau_s * mean_g * mean_g * mean_g.sqrt(),
-        start_s,
-        end_s,
-    }
+    Hic { value: tau_s * mean_g * mean_g * mean_g.sqrt(), start_s, end_s }
 }
 
 /// Moves both ends between samples by steps that halve while no move helps.
 fn refine(integral: &CumulativeIntegral, sampled: Hic, dt_s: f64, limit_s: f64) -> Hic {
-    const MOVES: [(f64, f64); 8] = [
-        (-1., 0.),
-        (1., 0.),
-        (0., -1.),
-        (0., 1.),
-        (-1., -1.),
-        (1., 1.),
-        (-1., 1.),
-        (1., -1.),
-    ];
+    const MOVES: [(f64, f64); 8] =
+        [(-1., 0.), (1., 0.), (0., -1.), (0., 1.), (-1., -1.), (1., 1.), (-1., 1.), (1., -1.)];
     let mut best = sampled;
     let mut step_s = 0.5 * dt_s;
     while step_s > 1e-6 * dt_s {
@@ -191,9 +146,7 @@ fn refine(integral: &CumulativeIntegral, sampled: Hic, dt_s: f64, limit_s: f64) 
         let mut improved = false;
         for (at_start, at_end) in MOVES {
             let end_s = (best.end_s + at_end * step_s).min(integral.duration_s());
-            let start_s = (best.start_s + at_start * step_s)
-                .max(end_s - limit_s)
-                .max(0.0);
+            let start_s = (best.start_s + at_start * step_s).max(end_s - limit_s).max(0.0);
             let tried = hic_of_window(integral, start_s, end_s.min(start_s + limit_s));
             if tried.value > moved.value {
                 moved = tried;

@@ -144,37 +144,17 @@ impl Limit {
     #[must_use]
     pub fn judge(&self, value: f64) -> Verdict {
         let margin = self.most - value;
-        Verdict {
-            passed: value.is_finite() && margin >= 0.0,
-            margin,
-            relative_margin: margin / self.most,
-        }
+        Verdict { passed: value.is_finite() && margin >= 0.0, margin, relative_margin: margin / self.most }
     }
 }
 
 /// The limits of a rule that hold for a dummy, those for any dummy included.
 pub fn limits(rule: Rule, dummy: Dummy) -> impl Iterator<Item = &'static Limit> {
-    LIMITS
-        .iter()
-        .filter(move |limit| limit.rule == rule && limit.dummy.is_none_or(|d| d == dummy))
+    LIMITS.iter().filter(move |limit| limit.rule == rule && limit.dummy.is_none_or(|d| d == dummy))
 }
 
-const fn entry(
-    rule: Rule,
-    dummy: Option<Dummy>,
-    quantity: Quantity,
-    most: f64,
-    grade: Grade,
-    basis: Basis,
-) -> Limit {
-    Limit {
-        rule,
-        dummy,
-        quantity,
-        most,
-        grade,
-        basis,
-    }
+const fn entry(rule: Rule, dummy: Option<Dummy>, quantity: Quantity, most: f64, grade: Grade, basis: Basis) -> Limit {
+    Limit { rule, dummy, quantity, most, grade, basis }
 }
 
 const MALE: Option<Dummy> = Some(Dummy::HybridIii50M);
@@ -183,14 +163,10 @@ const FEMALE: Option<Dummy> = Some(Dummy::HybridIii5F);
 use Basis::{CommonKnowledge, SecondarySource};
 use Grade::{ClassA, ClassB, ClassC, Maximum, Preferred};
 use Quantity::{
-    Asi, ChestDeflection, ChestThreeMsCumulative, FemurAxial, FemurDurationUse,
-    HeadThreeMsCumulative, Hic15, Hic36, NeckCompression, NeckTension, OccupantImpactVelocity, Phd,
-    RidedownAcceleration, Thiv, ViscousCriterion,
+    Asi, ChestDeflection, ChestThreeMsCumulative, FemurAxial, FemurDurationUse, HeadThreeMsCumulative, Hic15, Hic36,
+    NeckCompression, NeckTension, OccupantImpactVelocity, Phd, RidedownAcceleration, Thiv, ViscousCriterion,
 };
-use Rule::{
-    En1317Edition1998, En1317Edition2010, Fmvss208, Mash2016, Mash2016Supports, Nchrp350, UnR94,
-    UnR137,
-};
+use Rule::{En1317Edition1998, En1317Edition2010, Fmvss208, Mash2016, Mash2016Supports, Nchrp350, UnR94, UnR137};
 
 /// Every limit known here.
 #[rustfmt::skip] // a table: one limit a line
@@ -245,9 +221,7 @@ mod tests {
 
     #[test]
     fn the_limit_itself_passes_and_beyond_fails() {
-        let hic = limits(Fmvss208, Dummy::HybridIii50M)
-            .find(|l| l.quantity == Hic15)
-            .unwrap();
+        let hic = limits(Fmvss208, Dummy::HybridIii50M).find(|l| l.quantity == Hic15).unwrap();
         let at = hic.judge(700.0);
         assert!(at.passed && at.margin == 0.0);
         let beyond = hic.judge(770.0);
@@ -258,10 +232,7 @@ mod tests {
     #[test]
     fn each_dummy_gets_its_own_limits_and_the_common_ones() {
         let of = |dummy, quantity| -> Vec<f64> {
-            limits(Fmvss208, dummy)
-                .filter(|l| l.quantity == quantity)
-                .map(|l| l.most)
-                .collect()
+            limits(Fmvss208, dummy).filter(|l| l.quantity == quantity).map(|l| l.most).collect()
         };
         assert_eq!(of(Dummy::HybridIii50M, FemurAxial), [10_008.0]);
         assert_eq!(of(Dummy::HybridIii5F, FemurAxial), [6805.0]);
@@ -274,11 +245,7 @@ mod tests {
         for rule in [Mash2016, Mash2016Supports, Nchrp350] {
             for quantity in [OccupantImpactVelocity, RidedownAcceleration] {
                 let most = |grade| {
-                    LIMITS
-                        .iter()
-                        .find(|l| l.rule == rule && l.quantity == quantity && l.grade == grade)
-                        .unwrap()
-                        .most
+                    LIMITS.iter().find(|l| l.rule == rule && l.quantity == quantity && l.grade == grade).unwrap().most
                 };
                 assert!(most(Preferred) < most(Maximum));
             }

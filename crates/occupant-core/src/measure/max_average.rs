@@ -18,9 +18,7 @@ mod tests {
     #[test]
     fn half_sine_pulse() {
         // −A sin(πt/T), T = 100 ms: the middle half averages A·(2/π)·sin(π/4)/(1/2)
-        let pulse: Vec<f64> = (0..=1000)
-            .map(|i| -150.0 * (PI * f64::from(i) / 1000.0).sin())
-            .collect();
+        let pulse: Vec<f64> = (0..=1000).map(|i| -150.0 * (PI * f64::from(i) / 1000.0).sin()).collect();
         let found = max_50ms_average(&pulse, 1e-4).unwrap();
         let expected = -150.0 * (2.0 / PI) * (PI / 4.0).sin() / 0.5;
         assert!((found.value / expected - 1.0).abs() < 1e-6); // measured 8.2e-7

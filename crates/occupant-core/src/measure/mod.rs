@@ -44,6 +44,4 @@ pub use risk::Severity;
 pub use severity_index::severity_index;
 pub use thiv::{HeadFlight, Thiv, thiv};
 pub use thorax::{ChestSize, combined_thoracic_index, viscous_criterion};
-pub use three_ms::{
-    ThreeMs, clip_contiguous, clip_cumulative, three_ms_contiguous, three_ms_cumulative,
-};
+pub use three_ms::{ThreeMs, clip_contiguous, clip_cumulative, three_ms_contiguous, three_ms_cumulative};

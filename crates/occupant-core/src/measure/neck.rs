@@ -27,12 +27,8 @@ pub struct NeckIntercepts {
 
 impl NeckIntercepts {
     /// Hybrid III 5F out of position.
-    pub const HYBRID_III_5F_OUT_OF_POSITION: Self = Self {
-        tension_n: 3880.0,
-        compression_n: 3880.0,
-        flexion_nm: 155.0,
-        extension_nm: 61.0,
-    };
+    pub const HYBRID_III_5F_OUT_OF_POSITION: Self =
+        Self { tension_n: 3880.0, compression_n: 3880.0, flexion_nm: 155.0, extension_nm: 61.0 };
 
     /// The in-position intercepts of a dummy.
     #[must_use]
@@ -42,12 +38,7 @@ impl NeckIntercepts {
             Dummy::HybridIii5F => [4287.0, 3880.0, 155.0, 67.0],
             Dummy::Thor50M => [4200.0, 6400.0, 88.1, 117.0],
         };
-        Self {
-            tension_n,
-            compression_n,
-            flexion_nm,
-            extension_nm,
-        }
+        Self { tension_n, compression_n, flexion_nm, extension_nm }
     }
 }
 
@@ -82,38 +73,20 @@ pub struct Nij {
 ///
 /// # Errors
 /// Signals of different length.
-pub fn condyle_moment(
-    moment_y_nm: &[f64],
-    force_x_n: &[f64],
-    offset_m: f64,
-) -> Result<Vec<f64>, SignalError> {
+pub fn condyle_moment(moment_y_nm: &[f64], force_x_n: &[f64], offset_m: f64) -> Result<Vec<f64>, SignalError> {
     require_same_length("neck shear force", force_x_n, moment_y_nm)?;
-    Ok(moment_y_nm
-        .iter()
-        .zip(force_x_n)
-        .map(|(m, f)| m - offset_m * f)
-        .collect())
+    Ok(moment_y_nm.iter().zip(force_x_n).map(|(m, f)| m - offset_m * f).collect())
 }
 
 /// Nij of axial force (tension positive) and moment about the condyles (flexion positive).
 ///
 /// # Errors
 /// No sample, different lengths, a sample that is not finite, an interval that is not positive.
-pub fn nij(
-    force_z_n: &[f64],
-    moment_y_nm: &[f64],
-    dt_s: f64,
-    intercepts: &NeckIntercepts,
-) -> Result<Nij, SignalError> {
+pub fn nij(force_z_n: &[f64], moment_y_nm: &[f64], dt_s: f64, intercepts: &NeckIntercepts) -> Result<Nij, SignalError> {
     require_samples("neck axial force", force_z_n, dt_s, 1)?;
     require_samples("neck moment", moment_y_nm, dt_s, 1)?;
     require_same_length("neck moment", moment_y_nm, force_z_n)?;
-    let mut found = Nij {
-        value: 0.0,
-        time_s: 0.0,
-        mode: NeckMode::TensionFlexion,
-        by_mode: [0.0; 4],
-    };
+    let mut found = Nij { value: 0.0, time_s: 0.0, mode: NeckMode::TensionFlexion, by_mode: [0.0; 4] };
     for (i, (&force_n, &moment_nm)) in force_z_n.iter().zip(moment_y_nm).enumerate() {
         let (value, mode) = nij_of_sample(force_n, moment_nm, intercepts);
         let of_mode = &mut found.by_mode[mode as usize];
@@ -132,28 +105,15 @@ pub fn nij(
 pub fn neck_axial_peaks(force_z_n: &[f64], dt_s: f64) -> Result<(Peak, Peak), SignalError> {
     let tension = super::peak::maximum(force_z_n, dt_s)?;
     let compression = super::peak::minimum(force_z_n, dt_s)?;
-    let positive = |peak: Peak, sign: f64| Peak {
-        value: (sign * peak.value).max(0.0),
-        time_s: peak.time_s,
-    };
+    let positive = |peak: Peak, sign: f64| Peak { value: (sign * peak.value).max(0.0), time_s: peak.time_s };
     Ok((positive(tension, 1.0), positive(compression, -1.0)))
 }
 
 fn nij_of_sample(force_n: f64, moment_nm: f64, c: &NeckIntercepts) -> (f64, NeckMode) {
     let tension = force_n >= 0.0;
     let flexion = moment_nm >= 0.0;
-    let force_part = force_n.abs()
-        / if tension {
-            c.tension_n
-        } else {
-            c.compression_n
-        };
-    let moment_part = moment_nm.abs()
-        / if flexion {
-            c.flexion_nm
-        } else {
-            c.extension_nm
-        };
+    let force_part = force_n.abs() / if tension { c.tension_n } else { c.compression_n };
+    let moment_part = moment_nm.abs() / if flexion { c.flexion_nm } else { c.extension_nm };
     let mode = match (tension, flexion) {
         (true, true) => NeckMode::TensionFlexion,
         (true, false) => NeckMode::TensionExtension,
@@ -170,18 +130,12 @@ mod tests {
 
     #[test]
     fn half_sines_of_tension_and_extension() {
-        let half_sine = |peak: f64| -> Vec<f64> {
-            (0..=100)
-                .map(|i| peak * (PI * f64::from(i) / 100.0).sin())
-                .collect()
-        };
+        let half_sine =
+            |peak: f64| -> Vec<f64> { (0..=100).map(|i| peak * (PI * f64::from(i) / 100.0).sin()).collect() };
         let c = NeckIntercepts::of(Dummy::HybridIii50M);
         let found = nij(&half_sine(2000.0), &half_sine(-50.0), 1e-3, &c).unwrap();
         assert!((found.value - 0.664_229).abs() < 5e-7);
-        assert_eq!(
-            (found.mode, found.time_s),
-            (NeckMode::TensionExtension, 0.05)
-        );
+        assert_eq!((found.mode, found.time_s), (NeckMode::TensionExtension, 0.05));
         assert_eq!(found.by_mode[1], found.value);
         // the end of the sine rounds to a tiny moment of the other sign
         assert!(found.by_mode[0] < 1e-12 && found.by_mode[2] < 1e-12 && found.by_mode[3] < 1e-12);
@@ -189,17 +143,9 @@ mod tests {
 
     #[test]
     fn each_quadrant_uses_its_own_intercepts() {
-        let c = NeckIntercepts {
-            tension_n: 10.0,
-            compression_n: 20.0,
-            flexion_nm: 4.0,
-            extension_nm: 8.0,
-        };
+        let c = NeckIntercepts { tension_n: 10.0, compression_n: 20.0, flexion_nm: 4.0, extension_nm: 8.0 };
         let found = nij(&[1.0, 1.0, -1.0, -1.0], &[1.0, -1.0, 1.0, -1.0], 1e-3, &c).unwrap();
-        assert_eq!(
-            found.by_mode,
-            [0.1 + 0.25, 0.1 + 0.125, 0.05 + 0.25, 0.05 + 0.125]
-        );
+        assert_eq!(found.by_mode, [0.1 + 0.25, 0.1 + 0.125, 0.05 + 0.25, 0.05 + 0.125]);
     }
 
     #[test]
@@ -209,14 +155,6 @@ mod tests {
         let (tension, compression) = neck_axial_peaks(&[0.0, 300.0, -500.0], 0.1).unwrap();
         assert_eq!((tension.value, compression.value), (300.0, 500.0));
         assert_eq!(neck_axial_peaks(&[1.0, 2.0], 0.1).unwrap().1.value, 0.0);
-        assert!(
-            nij(
-                &[1.0],
-                &[1.0, 2.0],
-                1e-3,
-                &NeckIntercepts::of(Dummy::Thor50M)
-            )
-            .is_err()
-        );
+        assert!(nij(&[1.0], &[1.0, 2.0], 1e-3, &NeckIntercepts::of(Dummy::Thor50M)).is_err());
     }
 }

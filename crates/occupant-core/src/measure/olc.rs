@@ -31,28 +31,10 @@ pub fn olc(ax_mps2: &[f64], dt_s: f64) -> Result<Olc, SignalError> {
     let a = CumulativeIntegral::new(ax_mps2, dt_s)?;
     let second = a.second_at_samples();
     let flight = |t_s: f64| -a.second_at(&second, t_s);
-    let start_s = first_reach(
-        &flight,
-        FREE_FLIGHT_M,
-        0.0,
-        dt_s,
-        a.duration_s(),
-        "OLC: free flight (m)",
-    )?;
+    let start_s = first_reach(&flight, FREE_FLIGHT_M, 0.0, dt_s, a.duration_s(), "OLC: free flight (m)")?;
     let relative = |t_s: f64| flight(t_s) + 0.5 * a.at(t_s) * (t_s - start_s);
-    let end_s = first_reach(
-        &relative,
-        TOTAL_M,
-        start_s,
-        dt_s,
-        a.duration_s(),
-        "OLC: flight and restraint (m)",
-    )?;
-    Ok(Olc {
-        olc_mps2: -a.at(end_s) / (end_s - start_s),
-        free_flight_end_s: start_s,
-        end_s,
-    })
+    let end_s = first_reach(&relative, TOTAL_M, start_s, dt_s, a.duration_s(), "OLC: flight and restraint (m)")?;
+    Ok(Olc { olc_mps2: -a.at(end_s) / (end_s - start_s), free_flight_end_s: start_s, end_s })
 }
 
 /// First time after `from_s` at which `distance` reaches `needed`: by samples, then by bisection.
@@ -73,21 +55,13 @@ fn first_reach(
         }
         low_s = high_s;
     }
-    Err(SignalError::NeverReached {
-        what,
-        reached,
-        needed,
-    })
+    Err(SignalError::NeverReached { what, reached, needed })
 }
 
 fn bisect(distance: &impl Fn(f64) -> f64, needed: f64, mut low_s: f64, mut high_s: f64) -> f64 {
     for _ in 0..60 {
         let middle_s = 0.5 * (low_s + high_s);
-        if distance(middle_s) >= needed {
-            high_s = middle_s
-        } else {
-            low_s = middle_s
-        }
+        if distance(middle_s) >= needed { high_s = middle_s } else { low_s = middle_s }
     }
     high_s
 }
@@ -104,18 +78,13 @@ mod tests {
         let found = olc(&vec![-a; 200], 1e-3).unwrap();
         let t1 = (0.13 / a).sqrt();
         assert!((found.olc_mps2 / (60.0 / 47.0 * a) - 1.0).abs() < 1e-12);
-        assert!(
-            (found.free_flight_end_s - t1).abs() < 1e-12
-                && (found.end_s - 60.0 / 13.0 * t1).abs() < 1e-12
-        );
+        assert!((found.free_flight_end_s - t1).abs() < 1e-12 && (found.end_s - 60.0 / 13.0 * t1).abs() < 1e-12);
         assert!((found.olc_mps2 / G - 25.532).abs() < 5e-4);
     }
 
     #[test]
     fn the_occupant_of_a_half_sine_pulse_travels_300_mm() {
-        let pulse: Vec<f64> = (0..=1000)
-            .map(|i| -35.0 * G * (PI * f64::from(i) / 1000.0).sin())
-            .collect();
+        let pulse: Vec<f64> = (0..=1000).map(|i| -35.0 * G * (PI * f64::from(i) / 1000.0).sin()).collect();
         let found = olc(&pulse, 1e-4).unwrap();
         // travel by time stepping of both, independent of the formula
         let (mut travel_m, mut vehicle_mps, mut occupant_mps, dt) = (0.0, 0.0, 0.0, 1e-6);
@@ -130,10 +99,7 @@ mod tests {
         }
         // measured 4.2e-6 m and 3.9e-5 m/s, the error of the steps
         assert!((travel_m - 0.3).abs() < 2e-5, "{travel_m}");
-        assert!(
-            (occupant_mps - vehicle_mps).abs() < 2e-4,
-            "{occupant_mps} {vehicle_mps}"
-        );
+        assert!((occupant_mps - vehicle_mps).abs() < 2e-4, "{occupant_mps} {vehicle_mps}");
     }
 
     #[test]

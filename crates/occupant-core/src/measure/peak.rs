@@ -43,10 +43,7 @@ fn extreme(values: &[f64], dt_s: f64, rank: impl Fn(f64) -> f64) -> Result<Peak,
             best = i;
         }
     }
-    Ok(Peak {
-        value: values[best],
-        time_s: best as f64 * dt_s,
-    })
+    Ok(Peak { value: values[best], time_s: best as f64 * dt_s })
 }
 
 #[cfg(test)]
@@ -56,21 +53,9 @@ mod tests {
     #[test]
     fn extremes_keep_sign_and_time() {
         let values = [0.0, 3.0, -7.0, 3.0];
-        assert_eq!(
-            maximum(&values, 0.1).unwrap(),
-            Peak {
-                value: 3.0,
-                time_s: 0.1
-            }
-        );
+        assert_eq!(maximum(&values, 0.1).unwrap(), Peak { value: 3.0, time_s: 0.1 });
         assert_eq!(minimum(&values, 0.1).unwrap().value, -7.0);
-        assert_eq!(
-            largest_magnitude(&values, 0.1).unwrap(),
-            Peak {
-                value: -7.0,
-                time_s: 0.2
-            }
-        );
+        assert_eq!(largest_magnitude(&values, 0.1).unwrap(), Peak { value: -7.0, time_s: 0.2 });
         assert!(maximum(&[], 0.1).is_err());
     }
 }

@@ -34,11 +34,7 @@ pub fn hic_risk(hic: f64, severity: Severity) -> Option<f64> {
         Severity::Ais4 => (7.656_05, 0.605_80),
         _ => return None,
     };
-    Some(if hic > 0.0 {
-        normal_cdf((libm::log(hic) - mu) / sigma)
-    } else {
-        0.0
-    })
+    Some(if hic > 0.0 { normal_cdf((libm::log(hic) - mu) / sigma) } else { 0.0 })
 }
 
 /// Head risk from HIC, expanded Prasad–Mertz curves: 1/(1 + exp(a + 200/H − bH)).
@@ -52,11 +48,7 @@ pub fn hic_risk_prasad_mertz(hic: f64, severity: Severity) -> f64 {
         Severity::Ais5 => (7.82, 0.004_29),
         Severity::Fatal => (12.24, 0.005_65),
     };
-    if hic > 0.0 {
-        logistic(a + 200.0 / hic, b * hic)
-    } else {
-        0.0
-    }
+    if hic > 0.0 { logistic(a + 200.0 / hic, b * hic) } else { 0.0 }
 }
 
 /// Neck risk from Nij; AIS 2+ to 5+.
@@ -91,19 +83,13 @@ pub fn chest_deflection_risk(deflection_m: f64, dummy: Dummy) -> Option<f64> {
         Dummy::HybridIii5F => 1.7212,
         Dummy::Thor50M => return None,
     };
-    Some(logistic(
-        10.5456,
-        b * libm::pow(1000.0 * deflection_m.max(0.0), 0.4612),
-    ))
+    Some(logistic(10.5456, b * libm::pow(1000.0 * deflection_m.max(0.0), 0.4612)))
 }
 
 /// Chest AIS 3+ risk from a measured deflection, m, and age in years; Hybrid III 50M.
 #[must_use]
 pub fn chest_deflection_risk_at_age(deflection_m: f64, age_years: f64) -> f64 {
-    logistic(
-        12.597 - 0.058_61 * age_years,
-        1.568 * libm::pow(1000.0 * deflection_m.max(0.0), 0.4612),
-    )
+    logistic(12.597 - 0.058_61 * age_years, 1.568 * libm::pow(1000.0 * deflection_m.max(0.0), 0.4612))
 }
 
 /// Chest AIS 3+ risk from the 3 ms level of the chest resultant, m/s².
@@ -137,11 +123,7 @@ pub fn bric_risk(bric: f64, severity: Severity) -> Option<f64> {
         Severity::Ais4 => 0.647,
         _ => return None,
     };
-    Some(if bric > 0.523 {
-        1.0 - trig::exp(-libm::pow((bric - 0.523) / scale, 1.8))
-    } else {
-        0.0
-    })
+    Some(if bric > 0.523 { 1.0 - trig::exp(-libm::pow((bric - 0.523) / scale, 1.8)) } else { 0.0 })
 }
 
 /// Probability of at least one of several independent injuries: 1 − Π(1 − Pᵢ).
@@ -160,10 +142,7 @@ pub fn us_ncap_frontal_stars(joint_risk: f64) -> Option<u8> {
         return None;
     }
     let relative = joint_risk / 0.15;
-    Some([2.67, 1.33, 1.00, 0.67].iter().fold(
-        1,
-        |stars, &bound| if relative < bound { stars + 1 } else { stars },
-    ))
+    Some([2.67, 1.33, 1.00, 0.67].iter().fold(1, |stars, &bound| if relative < bound { stars + 1 } else { stars }))
 }
 
 /// 1/(1 + exp(a − x))
@@ -194,28 +173,18 @@ mod tests {
         close(nij_risk(1.0, Severity::Ais3).unwrap(), 0.221_301);
         close(chest_three_ms_risk(40.0 * STANDARD_GRAVITY_MPS2), 0.347_669);
         close(chest_three_ms_risk(60.0 * STANDARD_GRAVITY_MPS2), 0.652_648);
-        close(
-            chest_deflection_risk(0.040, Dummy::HybridIii50M).unwrap(),
-            0.124_424,
-        );
+        close(chest_deflection_risk(0.040, Dummy::HybridIii50M).unwrap(), 0.124_424);
         close(femur_risk(6000.0, Dummy::HybridIii50M).unwrap(), 0.064_320);
-        close(
-            femur_risk(10_000.0, Dummy::HybridIii50M).unwrap(),
-            0.354_573,
-        );
+        close(femur_risk(10_000.0, Dummy::HybridIii50M).unwrap(), 0.354_573);
     }
 
     #[test]
     fn curves_rise_from_low_to_high_and_order_by_severity() {
         use Severity::{Ais1, Ais2, Ais3, Ais4, Ais5, Fatal};
         for load in [100.0, 500.0, 1000.0, 2000.0] {
-            let risks =
-                [Ais1, Ais2, Ais3, Ais4, Ais5, Fatal].map(|s| hic_risk_prasad_mertz(load, s));
+            let risks = [Ais1, Ais2, Ais3, Ais4, Ais5, Fatal].map(|s| hic_risk_prasad_mertz(load, s));
             assert!(risks.windows(2).all(|w| w[1] < w[0]), "{load}: {risks:?}");
-            assert!(
-                hic_risk(load, Ais4) < hic_risk(load, Ais3)
-                    && hic_risk(load, Ais3) < hic_risk(load, Ais2)
-            );
+            assert!(hic_risk(load, Ais4) < hic_risk(load, Ais3) && hic_risk(load, Ais3) < hic_risk(load, Ais2));
             assert!(hic_risk(2.0 * load, Ais3) > hic_risk(load, Ais3));
         }
         assert_eq!(hic_risk(0.0, Ais3), Some(0.0));
@@ -226,10 +195,7 @@ mod tests {
         let at_35 = chest_deflection_risk_at_age(0.040, 35.0);
         assert!((at_35 - chest_deflection_risk(0.040, Dummy::HybridIii50M).unwrap()).abs() < 1e-5);
         assert_eq!(bric_risk(0.5, Ais3), Some(0.0));
-        close(
-            bric_risk(0.523 + 0.531, Ais3).unwrap(),
-            1.0 - (-1.0f64).exp(),
-        );
+        close(bric_risk(0.523 + 0.531, Ais3).unwrap(), 1.0 - (-1.0f64).exp());
     }
 
     #[test]
@@ -241,11 +207,7 @@ mod tests {
             (3.5, 0.999_767_370_920_964_5),
             (-6.0, 9.865_876_450_377e-10),
         ] {
-            assert!(
-                (normal_cdf(x) - p).abs() < 1e-15,
-                "{x}: {:e}",
-                normal_cdf(x) - p
-            );
+            assert!((normal_cdf(x) - p).abs() < 1e-15, "{x}: {:e}", normal_cdf(x) - p);
         }
         assert_eq!((normal_cdf(40.0), normal_cdf(-40.0)), (1.0, 0.0));
     }
@@ -253,10 +215,7 @@ mod tests {
     #[test]
     fn joint_risk_and_stars() {
         assert!((joint_risk(&[0.1, 0.2, 0.0]) - 0.28).abs() < 1e-15);
-        assert_eq!(
-            [0.05, 0.12, 0.18, 0.30, 0.60].map(us_ncap_frontal_stars),
-            [5, 4, 3, 2, 1].map(Some)
-        );
+        assert_eq!([0.05, 0.12, 0.18, 0.30, 0.60].map(us_ncap_frontal_stars), [5, 4, 3, 2, 1].map(Some));
         assert_eq!(us_ncap_frontal_stars(f64::NAN), None);
     }
 }

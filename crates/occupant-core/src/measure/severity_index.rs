@@ -18,10 +18,8 @@ pub fn severity_index(resultant_mps2: &[f64], dt_s: f64) -> Result<f64, SignalEr
         let a_g = (a_mps2 / STANDARD_GRAVITY_MPS2).max(0.0);
         a_g * a_g * a_g.sqrt()
     };
-    let sum: f64 = resultant_mps2
-        .windows(2)
-        .map(|w| power(w[0]) + 4.0 * power(0.5 * (w[0] + w[1])) + power(w[1]))
-        .sum();
+    let sum: f64 =
+        resultant_mps2.windows(2).map(|w| power(w[0]) + 4.0 * power(0.5 * (w[0] + w[1])) + power(w[1])).sum();
     Ok(sum * dt_s / 6.0)
 }
 
@@ -36,9 +34,7 @@ mod tests {
     fn closed_forms_of_four_pulses() {
         let (a_g, length_s, dt_s) = (60.0, 0.04, 1e-5);
         let sampled = |shape: Shape| -> Vec<f64> {
-            (0..=4000)
-                .map(|i| STANDARD_GRAVITY_MPS2 * a_g * shape(f64::from(i) / 4000.0))
-                .collect()
+            (0..=4000).map(|i| STANDARD_GRAVITY_MPS2 * a_g * shape(f64::from(i) / 4000.0)).collect()
         };
         let unit = f64::powf(a_g, 2.5) * length_s;
         let cases: [(Shape, f64); 4] = [
@@ -48,8 +44,7 @@ mod tests {
             (|x| 1.0 - (2.0 * x - 1.0).abs(), 2.0 / 7.0),
         ];
         for (shape, factor) in cases {
-            let error =
-                (severity_index(&sampled(shape), dt_s).unwrap() / (factor * unit) - 1.0).abs();
+            let error = (severity_index(&sampled(shape), dt_s).unwrap() / (factor * unit) - 1.0).abs();
             // measured 1.9e-7 (haversine)
             assert!(error < 1e-6, "{factor}: {error:e}");
         }

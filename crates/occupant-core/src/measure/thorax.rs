@@ -18,20 +18,11 @@ pub struct ChestSize {
 
 impl ChestSize {
     /// Hybrid III 50M.
-    pub const HYBRID_III_50M: Self = Self {
-        scale: 1.3,
-        depth_m: 0.229,
-    };
+    pub const HYBRID_III_50M: Self = Self { scale: 1.3, depth_m: 0.229 };
     /// Hybrid III 5F.
-    pub const HYBRID_III_5F: Self = Self {
-        scale: 1.3,
-        depth_m: 0.187,
-    };
+    pub const HYBRID_III_5F: Self = Self { scale: 1.3, depth_m: 0.187 };
     /// Hybrid III 95M.
-    pub const HYBRID_III_95M: Self = Self {
-        scale: 1.3,
-        depth_m: 0.254,
-    };
+    pub const HYBRID_III_95M: Self = Self { scale: 1.3, depth_m: 0.254 };
 }
 
 /// Viscous criterion VC = s·Ḋ·D/D_c, m/s, of a measured compression D in m (positive inward).
@@ -41,26 +32,16 @@ impl ChestSize {
 ///
 /// # Errors
 /// Fewer than five samples, a sample that is not finite, an interval or depth that is not positive.
-pub fn viscous_criterion(
-    compression_m: &[f64],
-    dt_s: f64,
-    chest: ChestSize,
-) -> Result<Peak, SignalError> {
+pub fn viscous_criterion(compression_m: &[f64], dt_s: f64, chest: ChestSize) -> Result<Peak, SignalError> {
     require_samples("chest compression", compression_m, dt_s, 5)?;
     require_positive("chest depth (m)", chest.depth_m)?;
     let d = compression_m;
-    let mut worst = Peak {
-        value: 0.0,
-        time_s: 0.0,
-    };
+    let mut worst = Peak { value: 0.0, time_s: 0.0 };
     for i in 2..d.len() - 2 {
         let rate_mps = (8.0 * (d[i + 1] - d[i - 1]) - (d[i + 2] - d[i - 2])) / (12.0 * dt_s);
         let value = chest.scale * rate_mps * d[i] / chest.depth_m;
         if value > worst.value {
-            worst = Peak {
-                value,
-                time_s: i as f64 * dt_s,
-            };
+            worst = Peak { value, time_s: i as f64 * dt_s };
         }
     }
     Ok(worst)
@@ -78,9 +59,8 @@ mod tests {
 
     #[test]
     fn viscous_criterion_of_a_haversine_of_compression() {
-        let compression_m: Vec<f64> = (0..=100)
-            .map(|i| 0.040 * (std::f64::consts::PI * f64::from(i) / 100.0).sin().powi(2))
-            .collect();
+        let compression_m: Vec<f64> =
+            (0..=100).map(|i| 0.040 * (std::f64::consts::PI * f64::from(i) / 100.0).sin().powi(2)).collect();
         let found = viscous_criterion(&compression_m, 1e-3, ChestSize::HYBRID_III_50M).unwrap();
         // analytic: s A²ω/D_c · max sin²x·sin 2x = s A² π/(T D_c) · 3√3/8
         assert!((found.value - 0.185_259).abs() < 5e-7, "{}", found.value);
@@ -89,8 +69,6 @@ mod tests {
 
     #[test]
     fn combined_index_adds_its_parts() {
-        assert!(
-            (combined_thoracic_index(45.0 * STANDARD_GRAVITY_MPS2, 0.0515) - 1.0).abs() < 1e-12
-        );
+        assert!((combined_thoracic_index(45.0 * STANDARD_GRAVITY_MPS2, 0.0515) - 1.0).abs() < 1e-12);
     }
 }

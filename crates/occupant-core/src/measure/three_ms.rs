@@ -71,52 +71,31 @@ struct Above {
     loss_s: f64,
 }
 
-fn clip(
-    values: &[f64],
-    dt_s: f64,
-    duration_s: f64,
-    counting: Counting,
-) -> Result<ThreeMs, SignalError> {
+fn clip(values: &[f64], dt_s: f64, duration_s: f64, counting: Counting) -> Result<ThreeMs, SignalError> {
     require_positive("duration (s)", duration_s)?;
     require_samples("signal to clip", values, dt_s, 2)?;
     let found_s = (values.len() - 1) as f64 * dt_s;
     // exact multiples of the interval must not fail by rounding
     let needed_s = duration_s * (1.0 - 1e-9);
     if found_s < needed_s {
-        return Err(SignalError::TooBrief {
-            what: "signal to clip",
-            found_s,
-            needed_s: duration_s,
-        });
+        return Err(SignalError::TooBrief { what: "signal to clip", found_s, needed_s: duration_s });
     }
     let mut levels = values.to_vec();
     levels.sort_by(f64::total_cmp);
     levels.dedup();
     // the lowest level holds throughout; find the first sample value that does not hold long enough
-    let failing =
-        levels.partition_point(|&level| longest(values, dt_s, level, counting).time_s >= needed_s);
+    let failing = levels.partition_point(|&level| longest(values, dt_s, level, counting).time_s >= needed_s);
     let lower = levels[failing.saturating_sub(1)];
     let level = match levels.get(failing) {
         Some(&upper) => solve_between(values, dt_s, needed_s, lower, upper, counting),
         None => lower,
     };
     let interval = longest(values, dt_s, level, counting);
-    Ok(ThreeMs {
-        level_mps2: level,
-        start_s: interval.start_s,
-        end_s: interval.end_s,
-    })
+    Ok(ThreeMs { level_mps2: level, start_s: interval.start_s, end_s: interval.end_s })
 }
 
 /// Highest level in [lower, upper) held for `needed_s`, where no sample lies between the two.
-fn solve_between(
-    values: &[f64],
-    dt_s: f64,
-    needed_s: f64,
-    lower: f64,
-    upper: f64,
-    counting: Counting,
-) -> f64 {
+fn solve_between(values: &[f64], dt_s: f64, needed_s: f64, lower: f64, upper: f64, counting: Counting) -> f64 {
     let middle = 0.5 * (lower + upper);
     let mut level = lower;
     intervals_above(values, dt_s, middle, counting, |above| {
@@ -130,12 +109,7 @@ fn solve_between(
 
 /// The longest interval at or above `level` (the total, where cumulative).
 fn longest(values: &[f64], dt_s: f64, level: f64, counting: Counting) -> Above {
-    let mut longest = Above {
-        start_s: 0.0,
-        end_s: 0.0,
-        time_s: -1.0,
-        loss_s: 0.0,
-    };
+    let mut longest = Above { start_s: 0.0, end_s: 0.0, time_s: -1.0, loss_s: 0.0 };
     intervals_above(values, dt_s, level, counting, |above| {
         if above.time_s > longest.time_s {
             longest = above;
@@ -145,13 +119,7 @@ fn longest(values: &[f64], dt_s: f64, level: f64, counting: Counting) -> Above {
 }
 
 /// Calls `each` with every interval at or above `level`, or once with their sum where cumulative.
-fn intervals_above(
-    values: &[f64],
-    dt_s: f64,
-    level: f64,
-    counting: Counting,
-    mut each: impl FnMut(Above),
-) {
+fn intervals_above(values: &[f64], dt_s: f64, level: f64, counting: Counting, mut each: impl FnMut(Above)) {
     let mut total: Option<Above> = None;
     let mut close = |above: Above| match (counting, &mut total) {
         (Counting::Contiguous, _) => each(above),
@@ -182,12 +150,7 @@ fn intervals_above(
     }
     if let Some((start_s, loss_s)) = open {
         let end_s = (values.len() - 1) as f64 * dt_s;
-        close(Above {
-            start_s,
-            end_s,
-            time_s: end_s - start_s,
-            loss_s,
-        });
+        close(Above { start_s, end_s, time_s: end_s - start_s, loss_s });
     }
     if let Some(sum) = total {
         each(sum);
@@ -209,16 +172,11 @@ mod tests {
         let (a, length_s, dt_s) = (60.0, 0.04, 1e-5);
         let half_sine = sampled(length_s, dt_s, |t| a * (PI * t / length_s).sin());
         let haversine = sampled(length_s, dt_s, |t| a * (PI * t / length_s).sin().powi(2));
-        let triangle = sampled(length_s, dt_s, |t| {
-            a * (1.0 - (2.0 * t / length_s - 1.0).abs())
-        });
+        let triangle = sampled(length_s, dt_s, |t| a * (1.0 - (2.0 * t / length_s - 1.0).abs()));
         let square = sampled(length_s, dt_s, |_| a);
         let cases = [
             (half_sine, a * (PI * 0.003 / (2.0 * length_s)).cos()),
-            (
-                haversine,
-                a * (PI * (length_s - 0.003) / (2.0 * length_s)).sin().powi(2),
-            ),
+            (haversine, a * (PI * (length_s - 0.003) / (2.0 * length_s)).sin().powi(2)),
             (triangle, a * (1.0 - 0.003 / length_s)),
             (square, a),
         ];
@@ -226,10 +184,7 @@ mod tests {
             let contiguous = three_ms_contiguous(&signal, dt_s).unwrap();
             let cumulative = three_ms_cumulative(&signal, dt_s).unwrap();
             // measured 8.1e-11: the crossings fall on samples
-            assert!(
-                (contiguous.level_mps2 / expected - 1.0).abs() < 1e-9,
-                "{contiguous:?} {expected}"
-            );
+            assert!((contiguous.level_mps2 / expected - 1.0).abs() < 1e-9, "{contiguous:?} {expected}");
             assert!((cumulative.level_mps2 / contiguous.level_mps2 - 1.0).abs() < 1e-12);
             if expected < a {
                 assert!((contiguous.end_s - contiguous.start_s - 0.003).abs() < 1e-9);
@@ -255,10 +210,7 @@ mod tests {
         assert!((three_ms_contiguous(&signal, dt_s).unwrap().level_mps2 - 25.0).abs() < 1e-6);
         let cumulative = three_ms_cumulative(&signal, dt_s).unwrap();
         assert!((cumulative.level_mps2 - 62.5).abs() < 1e-6);
-        assert!(
-            (cumulative.start_s - 0.00125).abs() < 1e-9
-                && (cumulative.end_s - 0.00875).abs() < 1e-9
-        );
+        assert!((cumulative.start_s - 0.00125).abs() < 1e-9 && (cumulative.end_s - 0.00875).abs() < 1e-9);
     }
 
     #[test]
@@ -268,31 +220,20 @@ mod tests {
         assert_eq!(three_ms_contiguous(&plateau, 1e-3).unwrap().level_mps2, 7.0);
         // a minimum that touches the level does not interrupt
         let touching = [5., 9., 5., 9., 5., 1., 1.];
-        assert_eq!(
-            three_ms_contiguous(&touching, 1e-3).unwrap().level_mps2,
-            5.0
-        );
+        assert_eq!(three_ms_contiguous(&touching, 1e-3).unwrap().level_mps2, 5.0);
         let constant = [4.0; 20];
-        assert_eq!(
-            three_ms_cumulative(&constant, 1e-3).unwrap().level_mps2,
-            4.0
-        );
+        assert_eq!(three_ms_cumulative(&constant, 1e-3).unwrap().level_mps2, 4.0);
     }
 
     #[test]
     fn agrees_with_a_bisection_on_the_level() {
-        let signal: Vec<f64> = (0..2500)
-            .map(|i| 40.0 + 30.0 * (i as f64 * 0.013).sin() + 20.0 * (i as f64 * 0.171).cos())
-            .collect();
+        let signal: Vec<f64> =
+            (0..2500).map(|i| 40.0 + 30.0 * (i as f64 * 0.013).sin() + 20.0 * (i as f64 * 0.171).cos()).collect();
         for counting in [Counting::Contiguous, Counting::Cumulative] {
             let (mut low, mut high) = (-20.0, 100.0);
             for _ in 0..60 {
                 let middle = 0.5 * (low + high);
-                if longest(&signal, 1e-4, middle, counting).time_s >= 0.003 {
-                    low = middle
-                } else {
-                    high = middle
-                }
+                if longest(&signal, 1e-4, middle, counting).time_s >= 0.003 { low = middle } else { high = middle }
             }
             let found = clip(&signal, 1e-4, 0.003, counting).unwrap().level_mps2;
             assert!((found - low).abs() < 1e-6, "{found} {low}");
@@ -301,17 +242,8 @@ mod tests {
 
     #[test]
     fn unusable_signals_are_named() {
-        assert!(matches!(
-            three_ms_contiguous(&[1.0, 2.0], 1e-3),
-            Err(SignalError::TooBrief { .. })
-        ));
-        assert!(matches!(
-            three_ms_cumulative(&[1.0; 9], f64::NAN),
-            Err(SignalError::OutOfRange { .. })
-        ));
-        assert!(matches!(
-            clip_cumulative(&[1.0, f64::NAN, 1.0], 1e-3, 1e-3),
-            Err(SignalError::NotFinite { .. })
-        ));
+        assert!(matches!(three_ms_contiguous(&[1.0, 2.0], 1e-3), Err(SignalError::TooBrief { .. })));
+        assert!(matches!(three_ms_cumulative(&[1.0; 9], f64::NAN), Err(SignalError::OutOfRange { .. })));
+        assert!(matches!(clip_cumulative(&[1.0, f64::NAN, 1.0], 1e-3, 1e-3), Err(SignalError::NotFinite { .. })));
     }
 }

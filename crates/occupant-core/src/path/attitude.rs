@@ -49,17 +49,9 @@ impl Attitude {
             (near.roll_rad, near.roll_rad - trig::atan2(a(1, 2), a(2, 2)))
         } else {
             // θ = −π/2: A₁₂ = −sin(φ + ψ) (79b), A₂₂ = cos(φ + ψ) (79e)
-            (
-                near.roll_rad,
-                trig::atan2(-a(1, 2), a(2, 2)) - near.roll_rad,
-            )
+            (near.roll_rad, trig::atan2(-a(1, 2), a(2, 2)) - near.roll_rad)
         };
-        Attitude {
-            roll_rad,
-            pitch_rad,
-            yaw_rad,
-        }
-        .unwrapped_after(near)
+        Attitude { roll_rad, pitch_rad, yaw_rad }.unwrapped_after(near)
     }
 
     /// The same attitude, told with the roll, pitch and yaw that are nearest to those of `previous`.
@@ -70,13 +62,8 @@ impl Attitude {
         let reference = previous.to_vector();
         let nearest = |angles: Vector3<f64>| angles.zip_map(&reference, nearest_turn);
         let plain = nearest(self.to_vector());
-        let other = nearest(Vector3::new(
-            self.roll_rad + PI,
-            PI - self.pitch_rad,
-            self.yaw_rad + PI,
-        ));
-        let other_is_nearer =
-            (other - reference).norm_squared() < (plain - reference).norm_squared();
+        let other = nearest(Vector3::new(self.roll_rad + PI, PI - self.pitch_rad, self.yaw_rad + PI));
+        let other_is_nearer = (other - reference).norm_squared() < (plain - reference).norm_squared();
         Attitude::from_vector(if other_is_nearer { other } else { plain })
     }
 
@@ -87,11 +74,7 @@ impl Attitude {
 
     /// From (φ, θ, ψ), rad.
     pub(super) fn from_vector(angles: Vector3<f64>) -> Self {
-        Attitude {
-            roll_rad: angles.x,
-            pitch_rad: angles.y,
-            yaw_rad: angles.z,
-        }
+        Attitude { roll_rad: angles.x, pitch_rad: angles.y, yaw_rad: angles.z }
     }
 }
 
@@ -112,11 +95,7 @@ pub(super) struct Turning {
 
 /// Matrix, angular velocity and angular acceleration of an attitude whose angles (φ, θ, ψ) have the first and second
 /// derivatives `rates` and `second_rates`, in vehicle-space axes.
-pub(super) fn turning(
-    angles: Vector3<f64>,
-    rates: Vector3<f64>,
-    second_rates: Vector3<f64>,
-) -> Turning {
+pub(super) fn turning(angles: Vector3<f64>, rates: Vector3<f64>, second_rates: Vector3<f64>) -> Turning {
     let trigonometry = Trigonometry::of(angles);
     let [roll_axis, pitch_axis, yaw_axis] = trigonometry.axes();
     // ω = φ̇ e_φ + θ̇ e_θ + ψ̇ e_ψ
@@ -146,17 +125,12 @@ struct Trigonometry {
 
 impl Trigonometry {
     fn of(angles: Vector3<f64>) -> Self {
-        Trigonometry {
-            roll: trig::sin_cos(angles.x),
-            pitch: trig::sin_cos(angles.y),
-            yaw: trig::sin_cos(angles.z),
-        }
+        Trigonometry { roll: trig::sin_cos(angles.x), pitch: trig::sin_cos(angles.y), yaw: trig::sin_cos(angles.z) }
     }
 
     /// A (Eq. 79), element by element.
     fn matrix(&self) -> Matrix3<f64> {
-        let ((s_phi, c_phi), (s_theta, c_theta), (s_psi, c_psi)) =
-            (self.roll, self.pitch, self.yaw);
+        let ((s_phi, c_phi), (s_theta, c_theta), (s_psi, c_psi)) = (self.roll, self.pitch, self.yaw);
         Matrix3::new(
             c_psi * c_theta,                          // A₁₁ = cos ψ cos θ (79a)
             -s_psi * c_phi + c_psi * s_theta * s_phi, // A₁₂ = −sin ψ cos φ + cos ψ sin θ sin φ (79b)
@@ -187,14 +161,8 @@ pub(super) fn rotation_by(turn_rad: Vector3<f64>) -> Matrix3<f64> {
     let (sine, _) = trig::sin_cos(angle);
     let (half_sine, _) = trig::sin_cos(0.5 * angle);
     // sin a / a and (1 − cos a) / a², whose limits at a = 0 are 1 and ½
-    let (first, second) = if angle > 1e-8 {
-        (
-            sine / angle,
-            2.0 * (half_sine / angle) * (half_sine / angle),
-        )
-    } else {
-        (1.0, 0.5)
-    };
+    let (first, second) =
+        if angle > 1e-8 { (sine / angle, 2.0 * (half_sine / angle) * (half_sine / angle)) } else { (1.0, 0.5) };
     let cross = turn_rad.cross_matrix();
     // exp[u]× = 1 + (sin a / a) [u]× + ((1 − cos a) / a²) [u]×²
     Matrix3::identity() + cross * first + cross * cross * second

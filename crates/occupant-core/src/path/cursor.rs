@@ -14,9 +14,7 @@ impl PathCursor {
     /// each of `count` pieces in increasing order; `count` is at least 1.
     pub(super) fn locate(&mut self, count: usize, at: f64, starts: impl Fn(usize) -> f64) -> usize {
         let holds = |piece: usize| {
-            piece < count
-                && (piece == 0 || starts(piece) <= at)
-                && (piece + 1 == count || at < starts(piece + 1))
+            piece < count && (piece == 0 || starts(piece) <= at) && (piece + 1 == count || at < starts(piece + 1))
         };
         let hint = self.piece;
         self.piece = if holds(hint) {
@@ -53,25 +51,12 @@ mod tests {
     #[test]
     fn every_cursor_finds_the_same_piece() {
         let starts = [0.0, 0.5, 0.7, 2.0, 2.5];
-        let at_and_piece = [
-            (-1.0, 0),
-            (0.0, 0),
-            (0.49, 0),
-            (0.5, 1),
-            (0.7, 2),
-            (1.99, 2),
-            (2.0, 3),
-            (2.5, 4),
-            (9.0, 4),
-        ];
+        let at_and_piece =
+            [(-1.0, 0), (0.0, 0), (0.49, 0), (0.5, 1), (0.7, 2), (1.99, 2), (2.0, 3), (2.5, 4), (9.0, 4)];
         for (at, piece) in at_and_piece {
             for hint in 0..8 {
                 let mut cursor = PathCursor { piece: hint };
-                assert_eq!(
-                    cursor.locate(starts.len(), at, |i| starts[i]),
-                    piece,
-                    "at {at} from {hint}"
-                );
+                assert_eq!(cursor.locate(starts.len(), at, |i| starts[i]), piece, "at {at} from {hint}");
             }
         }
     }

@@ -24,14 +24,7 @@ impl FixedPath {
         }
         let origin_m = to_space(pose.position_m);
         let rotation = rotation_to_space(pose.attitude.matrix());
-        Ok(FixedPath {
-            pose,
-            motion: FrameMotion {
-                origin_m,
-                rotation,
-                ..FrameMotion::space()
-            },
-        })
+        Ok(FixedPath { pose, motion: FrameMotion { origin_m, rotation, ..FrameMotion::space() } })
     }
 
     /// Where it stands.

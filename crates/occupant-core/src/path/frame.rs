@@ -60,10 +60,7 @@ impl FrameMotion {
     /// Velocity in space, m/s, of the point of the frame that is at `point_space_m` now.
     pub fn velocity_at(&self, point_space_m: Vector3<f64>) -> Vector3<f64> {
         // v + ω × r
-        self.velocity_m_s
-            + self
-                .angular_velocity_rad_s
-                .cross(&(point_space_m - self.origin_m))
+        self.velocity_m_s + self.angular_velocity_rad_s.cross(&(point_space_m - self.origin_m))
     }
 
     /// Acceleration in space, m/s², of the point of the frame that is at `point_space_m` now.
@@ -71,9 +68,7 @@ impl FrameMotion {
         // a + α × r + ω × (ω × r)
         let arm_m = point_space_m - self.origin_m;
         let omega = self.angular_velocity_rad_s;
-        self.acceleration_m_s2
-            + self.angular_acceleration_rad_s2.cross(&arm_m)
-            + omega.cross(&omega.cross(&arm_m))
+        self.acceleration_m_s2 + self.angular_acceleration_rad_s2.cross(&arm_m) + omega.cross(&omega.cross(&arm_m))
     }
 
     /// The same frame `duration_s` later, its velocity and angular velocity in space unchanged.
@@ -89,11 +84,7 @@ impl FrameMotion {
 
     /// The same pose, at rest.
     pub(super) fn held(&self) -> Self {
-        FrameMotion {
-            origin_m: self.origin_m,
-            rotation: self.rotation,
-            ..FrameMotion::space()
-        }
+        FrameMotion { origin_m: self.origin_m, rotation: self.rotation, ..FrameMotion::space() }
     }
 }
 

@@ -36,12 +36,8 @@ pub use cursor::PathCursor;
 pub use fixed::FixedPath;
 pub use frame::FrameMotion;
 pub use problem::PathProblem;
-pub use pulse::{
-    DecelerationPoint, PulseDefinition, PulsePath, PulseShape, Stop, Strength, TravelDirection,
-};
-pub use sensors::{
-    AccelerationRecord, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord,
-};
+pub use pulse::{DecelerationPoint, PulseDefinition, PulsePath, PulseShape, Stop, Strength, TravelDirection};
+pub use sensors::{AccelerationRecord, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord};
 pub use station::{Station, unwrap_angles};
 pub use table::{AfterEnd, Interpolation, TablePath};
 
@@ -57,10 +53,7 @@ pub struct VehiclePose {
 impl Default for VehiclePose {
     /// At the origin, level, heading forward.
     fn default() -> Self {
-        VehiclePose {
-            position_m: Vector3::zeros(),
-            attitude: Attitude::default(),
-        }
+        VehiclePose { position_m: Vector3::zeros(), attitude: Attitude::default() }
     }
 }
 
@@ -149,14 +142,7 @@ impl VehiclePath {
 
 /// Adds a problem for every number of `pose` that is not finite.
 fn expect_finite_pose(problems: &mut Vec<PathProblem>, pose: &VehiclePose) {
-    let names = [
-        "position x",
-        "position y",
-        "position z",
-        "roll",
-        "pitch",
-        "yaw",
-    ];
+    let names = ["position x", "position y", "position z", "roll", "pitch", "yaw"];
     let angles = pose.attitude.to_vector();
     for (quantity, value) in names.into_iter().zip(pose.position_m.iter().chain(&angles)) {
         problem::expect_finite(problems, quantity, *value);

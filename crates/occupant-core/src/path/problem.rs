@@ -161,32 +161,15 @@ impl fmt::Display for PathProblem {
         use PathProblem as P;
         match *self {
             P::TooFewStations { found } => write!(f, "found {found} stations, expected at least 2"),
-            P::TimeNotIncreasing {
-                station,
-                time_s,
-                previous_s,
-            } => write!(
+            P::TimeNotIncreasing { station, time_s, previous_s } => write!(
                 f,
                 "station {}: found t = {time_s} s, expected a time after that of the station before ({previous_s} s)",
                 station + 1
             ),
-            P::StationNotFinite {
-                station,
-                quantity,
-                value,
-            } => {
-                write!(
-                    f,
-                    "station {}: found {quantity} = {value}, expected a finite number",
-                    station + 1
-                )
+            P::StationNotFinite { station, quantity, value } => {
+                write!(f, "station {}: found {quantity} = {value}, expected a finite number", station + 1)
             }
-            P::AngleJump {
-                station,
-                angle,
-                from_rad,
-                to_rad,
-            } => write!(
+            P::AngleJump { station, angle, from_rad, to_rad } => write!(
                 f,
                 "station {}: {angle} goes from {:.3}° to {:.3}°, expected less than half a turn between stations; unwrap \
                  the angles (add or take whole turns) or give more stations",
@@ -209,42 +192,27 @@ impl fmt::Display for PathProblem {
             P::Negative { quantity, value } => {
                 write!(f, "found {quantity} = {value}, expected 0 or more")
             }
-            P::NoDirection => write!(
-                f,
-                "the direction of travel is zero, expected a vector with a length"
-            ),
+            P::NoDirection => write!(f, "the direction of travel is zero, expected a vector with a length"),
             P::PeakFractionOutside { value } => {
-                write!(
-                    f,
-                    "found a peak at the fraction {value} of the pulse, expected 0 to 1"
-                )
+                write!(f, "found a peak at the fraction {value} of the pulse, expected 0 to 1")
             }
             P::PulseBeforeZero { begin_s } => write!(
                 f,
                 "the pulse begins at {begin_s} s, expected 0 s or later: the initial speed and position are those at 0 s"
             ),
-            P::PulseIsZero => write!(
-                f,
-                "the pulse is zero throughout, expected a deceleration somewhere"
-            ),
+            P::PulseIsZero => write!(f, "the pulse is zero throughout, expected a deceleration somewhere"),
             P::PulseHoldsBack { stop_s } => write!(
                 f,
                 "the initial speed is 0 and the pulse decelerates before it has set the vehicle going, so that the \
                  vehicle stands still from {stop_s} s on; give an initial speed, or a negative deceleration for a \
                  vehicle that is accelerated, or a rebound for one that may move back"
             ),
-            P::NoSensorChannel => write!(
-                f,
-                "found no channel that moves the vehicle, expected accelerations, rates or velocity changes"
-            ),
-            P::ChannelLength {
-                quantity,
-                found,
-                expected,
-            } => write!(
-                f,
-                "found {found} samples of {quantity}, expected {expected}, one for each time"
-            ),
+            P::NoSensorChannel => {
+                write!(f, "found no channel that moves the vehicle, expected accelerations, rates or velocity changes")
+            }
+            P::ChannelLength { quantity, found, expected } => {
+                write!(f, "found {found} samples of {quantity}, expected {expected}, one for each time")
+            }
             P::TurnsTooFar { station, turn_rad } => write!(
                 f,
                 "station {}: the vehicle turns by {:.1}° since the sample before, expected at most 90°; give rates in \
@@ -252,44 +220,27 @@ impl fmt::Display for PathProblem {
                 station + 1,
                 turn_rad.to_degrees()
             ),
-            P::NotUniform {
-                station,
-                time_s,
-                expected_s,
-            } => write!(
+            P::NotUniform { station, time_s, expected_s } => write!(
                 f,
                 "station {}: found t = {time_s} s, expected {expected_s} s, for a filter needs samples evenly spaced \
                  in time; resample the record, or leave `filter` out",
                 station + 1
             ),
-            P::FilterTooFast {
-                corner_hz,
-                nyquist_hz,
-            } => write!(
+            P::FilterTooFast { corner_hz, nyquist_hz } => write!(
                 f,
                 "the filter's corner is {corner_hz:.1} Hz, expected less than half the sample rate, {nyquist_hz:.1} Hz; \
                  use a lower class or a record with more samples a second, or leave `filter` out"
             ),
-            P::StartOutsideRecord {
-                start_s,
-                first_s,
-                last_s,
-            } => write!(
+            P::StartOutsideRecord { start_s, first_s, last_s } => write!(
                 f,
                 "the path starts at {start_s} s, expected a time of the record, from {first_s} s to before {last_s} s"
             ),
-            P::BaselineOutsideRecord {
-                baseline_s,
-                samples,
-            } => write!(
+            P::BaselineOutsideRecord { baseline_s, samples } => write!(
                 f,
                 "the baseline of {baseline_s} s has {samples} samples, expected at least 2, and fewer than the record has"
             ),
             P::StartsBeforePath { start_s, first_s } => {
-                write!(
-                    f,
-                    "the run starts at {start_s} s, expected at or after the first station at {first_s} s"
-                )
+                write!(f, "the run starts at {start_s} s, expected at or after the first station at {first_s} s")
             }
             P::EndsAfterPath { end_s, last_s } => write!(
                 f,

@@ -100,20 +100,14 @@ impl PulsePath {
         let stop_after_loss = |speed_m_s: f64| {
             let since_s = time_of_loss(&profile, speed_m_s)?;
             let lost_m = profile.loss(since_s, &mut PathCursor::default()).distance_m;
-            Some(Stop {
-                time_s: begin_s + since_s,
-                distance_m: definition.initial_speed_m_s * since_s - lost_m,
-            })
+            Some(Stop { time_s: begin_s + since_s, distance_m: definition.initial_speed_m_s * since_s - lost_m })
         };
         let stop = stop_after_loss(definition.initial_speed_m_s);
-        let floor =
-            stop_after_loss(definition.initial_speed_m_s + definition.rebound_m_s.unwrap_or(0.0));
+        let floor = stop_after_loss(definition.initial_speed_m_s + definition.rebound_m_s.unwrap_or(0.0));
         if let Some(floor) = floor.filter(|_| definition.initial_speed_m_s == 0.0)
             && holds_back(&profile, floor.time_s - begin_s, floor.distance_m)
         {
-            return Err(vec![PathProblem::PulseHoldsBack {
-                stop_s: floor.time_s,
-            }]);
+            return Err(vec![PathProblem::PulseHoldsBack { stop_s: floor.time_s }]);
         }
         let at_rest = FrameMotion {
             origin_m: to_space(definition.initial.position_m),
@@ -121,16 +115,7 @@ impl PulsePath {
             ..FrameMotion::space()
         };
         let direction_space = to_space(direction);
-        Ok(PulsePath {
-            definition,
-            direction,
-            profile,
-            begin_s,
-            stop,
-            floor,
-            at_rest,
-            direction_space,
-        })
+        Ok(PulsePath { definition, direction, profile, begin_s, stop, floor, at_rest, direction_space })
     }
 
     /// What the path was built from.
@@ -150,17 +135,13 @@ impl PulsePath {
 
     /// The change of velocity that the whole pulse prescribes, m/s; the vehicle may stop before.
     pub fn pulse_delta_v_m_s(&self) -> f64 {
-        self.profile
-            .loss(self.profile.duration_s(), &mut PathCursor::default())
-            .speed_m_s
+        self.profile.loss(self.profile.duration_s(), &mut PathCursor::default()).speed_m_s
     }
 
     /// The change of velocity that the vehicle undergoes, m/s: initial minus final speed.
     pub fn delta_v_m_s(&self) -> f64 {
         match self.floor {
-            Some(_) => {
-                self.definition.initial_speed_m_s + self.definition.rebound_m_s.unwrap_or(0.0)
-            }
+            Some(_) => self.definition.initial_speed_m_s + self.definition.rebound_m_s.unwrap_or(0.0),
             None => self.pulse_delta_v_m_s(),
         }
     }
@@ -194,10 +175,7 @@ impl PulsePath {
     /// Place and attitude at `t_s`, for output.
     pub fn pose(&self, t_s: f64, cursor: &mut PathCursor) -> VehiclePose {
         let initial = self.definition.initial;
-        VehiclePose {
-            position_m: initial.position_m + self.direction * self.travel(t_s, cursor).distance_m,
-            ..initial
-        }
+        VehiclePose { position_m: initial.position_m + self.direction * self.travel(t_s, cursor).distance_m, ..initial }
     }
 
     /// Times at which the acceleration, or its slope, jumps, s, in increasing order.
@@ -220,13 +198,8 @@ impl PulsePath {
         let initial_m_s = self.definition.initial_speed_m_s;
         if let Some(floor) = self.floor.filter(|floor| t_s >= floor.time_s) {
             let speed_m_s = 0.0 - self.definition.rebound_m_s.unwrap_or(0.0);
-            let distance_m =
-                initial_m_s * self.begin_s + floor.distance_m + speed_m_s * (t_s - floor.time_s);
-            return Travel {
-                distance_m,
-                speed_m_s,
-                acceleration_m_s2: 0.0,
-            };
+            let distance_m = initial_m_s * self.begin_s + floor.distance_m + speed_m_s * (t_s - floor.time_s);
+            return Travel { distance_m, speed_m_s, acceleration_m_s2: 0.0 };
         }
         let loss = self.profile.loss(t_s - self.begin_s, cursor);
         Travel {

@@ -110,17 +110,9 @@ impl SensorPath {
         let end_s = readings.time_s[readings.time_s.len() - 1];
         let rise = last_attitude.to_vector() - last.attitude.to_vector();
         let offset_m = definition.offset_m;
-        let ends = [(first, first.start_s), (last, end_s)]
-            .map(|(piece, t_s)| motion_of(piece, offset_m, t_s));
+        let ends = [(first, first.start_s), (last, end_s)].map(|(piece, t_s)| motion_of(piece, offset_m, t_s));
         let last_rates_rad_s = rise / (end_s - last.start_s);
-        Ok(SensorPath {
-            definition,
-            pieces,
-            end_s,
-            ends,
-            last_attitude,
-            last_rates_rad_s,
-        })
+        Ok(SensorPath { definition, pieces, end_s, ends, last_attitude, last_rates_rad_s })
     }
 
     /// What the path was built from.
@@ -149,11 +141,7 @@ impl SensorPath {
         } else {
             self.ends[1].coasted(t_s - last_s)
         };
-        if holds && step_middle_s > last_s {
-            motion.held()
-        } else {
-            motion
-        }
+        if holds && step_middle_s > last_s { motion.held() } else { motion }
     }
 
     /// Place and attitude at `t_s`, for output.
@@ -207,10 +195,7 @@ fn check_start(definition: &SensorDefinition, problems: &mut Vec<PathProblem>) -
     for (quantity, value) in names.into_iter().zip(definition.offset_m.iter()) {
         expect_finite(problems, quantity, *value);
     }
-    for (quantity, value) in [
-        ("speed", definition.initial_speed_m_s),
-        ("gravity", definition.gravity_m_s2),
-    ] {
+    for (quantity, value) in [("speed", definition.initial_speed_m_s), ("gravity", definition.gravity_m_s2)] {
         expect_finite(problems, quantity, value);
         if value < 0.0 {
             problems.push(PathProblem::Negative { quantity, value });
@@ -226,18 +211,13 @@ fn check_start(definition: &SensorDefinition, problems: &mut Vec<PathProblem>) -
 fn motion_of(piece: &Piece, offset_m: Vector3<f64>, t_s: f64) -> FrameMotion {
     let sensor = piece.at(t_s);
     let arm_m = sensor.rotation * offset_m;
-    let (omega, alpha) = (
-        sensor.angular_velocity_rad_s,
-        sensor.angular_acceleration_rad_s2,
-    );
+    let (omega, alpha) = (sensor.angular_velocity_rad_s, sensor.angular_acceleration_rad_s2);
     FrameMotion {
         origin_m: to_space(sensor.place_m - arm_m),
         rotation: rotation_to_space(sensor.rotation),
         velocity_m_s: to_space(sensor.velocity_m_s - omega.cross(&arm_m)),
         angular_velocity_rad_s: to_space(omega),
-        acceleration_m_s2: to_space(
-            sensor.acceleration_m_s2 - alpha.cross(&arm_m) - omega.cross(&omega.cross(&arm_m)),
-        ),
+        acceleration_m_s2: to_space(sensor.acceleration_m_s2 - alpha.cross(&arm_m) - omega.cross(&omega.cross(&arm_m))),
         angular_acceleration_rad_s2: to_space(alpha),
     }
 }

@@ -21,13 +21,7 @@ impl Station {
     /// A station at `time_s` (s) from (x, y, z) in vehicle-space (m) and (roll, pitch, yaw) (rad).
     pub fn new(time_s: f64, position_m: [f64; 3], roll_pitch_yaw_rad: [f64; 3]) -> Self {
         let attitude = Attitude::from_vector(Vector3::from(roll_pitch_yaw_rad));
-        Station {
-            time_s,
-            pose: VehiclePose {
-                position_m: Vector3::from(position_m),
-                attitude,
-            },
-        }
+        Station { time_s, pose: VehiclePose { position_m: Vector3::from(position_m), attitude } }
     }
 
     /// (x, y, z, roll, pitch, yaw).
@@ -43,10 +37,7 @@ const COLUMNS: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
 /// one before it. For tables whose angles were written between −180° and 180°.
 pub fn unwrap_angles(stations: &mut [Station]) {
     for i in 1..stations.len() {
-        stations[i].pose.attitude = stations[i]
-            .pose
-            .attitude
-            .unwrapped_after(&stations[i - 1].pose.attitude);
+        stations[i].pose.attitude = stations[i].pose.attitude.unwrapped_after(&stations[i - 1].pose.attitude);
     }
 }
 
@@ -54,21 +45,18 @@ pub fn unwrap_angles(stations: &mut [Station]) {
 pub(super) fn problems_of(stations: &[Station]) -> Vec<PathProblem> {
     let mut problems = Vec::new();
     if stations.len() < 2 {
-        problems.push(PathProblem::TooFewStations {
-            found: stations.len(),
-        });
+        problems.push(PathProblem::TooFewStations { found: stations.len() });
     }
     for (station, here) in stations.iter().enumerate() {
         let values = here.channels();
-        let numbers = std::iter::once(("t", here.time_s))
-            .chain(COLUMNS.into_iter().zip(values.iter().copied()));
-        problems.extend(numbers.filter(|(_, value)| !value.is_finite()).map(
-            |(quantity, value)| PathProblem::StationNotFinite {
+        let numbers = std::iter::once(("t", here.time_s)).chain(COLUMNS.into_iter().zip(values.iter().copied()));
+        problems.extend(
+            numbers.filter(|(_, value)| !value.is_finite()).map(|(quantity, value)| PathProblem::StationNotFinite {
                 station,
                 quantity,
                 value,
-            },
-        ));
+            }),
+        );
         if station > 0 {
             compare_with_previous(station, &stations[station - 1], here, &mut problems);
         }
@@ -77,19 +65,10 @@ pub(super) fn problems_of(stations: &[Station]) -> Vec<PathProblem> {
 }
 
 /// What is wrong with a station only in the light of the one before it.
-fn compare_with_previous(
-    station: usize,
-    previous: &Station,
-    here: &Station,
-    problems: &mut Vec<PathProblem>,
-) {
+fn compare_with_previous(station: usize, previous: &Station, here: &Station, problems: &mut Vec<PathProblem>) {
     let (time_s, previous_s) = (here.time_s, previous.time_s);
     if time_s <= previous_s {
-        problems.push(PathProblem::TimeNotIncreasing {
-            station,
-            time_s,
-            previous_s,
-        });
+        problems.push(PathProblem::TimeNotIncreasing { station, time_s, previous_s });
     }
     let (before, now) = (previous.channels(), here.channels());
     let length_s = time_s - previous_s;
@@ -103,12 +82,7 @@ fn compare_with_previous(
             problems.push(PathProblem::TooSteep { station, quantity });
         }
         if channel >= 3 && (to - from).abs() > PI {
-            problems.push(PathProblem::AngleJump {
-                station,
-                angle: quantity,
-                from_rad: from,
-                to_rad: to,
-            });
+            problems.push(PathProblem::AngleJump { station, angle: quantity, from_rad: from, to_rad: to });
         }
     }
 }

@@ -66,19 +66,9 @@ impl TablePath {
         };
         let (first, last) = (&pieces[0], &pieces[pieces.len() - 1]);
         let (first_s, last_s) = (times_s[0], times_s[times_s.len() - 1]);
-        let ends = [
-            motion_of(first, first, first_s),
-            motion_of(last, last, last_s),
-        ];
+        let ends = [motion_of(first, first, first_s), motion_of(last, last, last_s)];
         let last_rates_rad_s = last.rate(last_s).fixed_rows::<3>(3).into_owned();
-        Ok(TablePath {
-            stations,
-            interpolation,
-            after,
-            pieces,
-            ends,
-            last_rates_rad_s,
-        })
+        Ok(TablePath { stations, interpolation, after, pieces, ends, last_rates_rad_s })
     }
 
     /// The stations.
@@ -98,10 +88,7 @@ impl TablePath {
 
     /// Times of the first and the last station, s.
     pub fn span_s(&self) -> (f64, f64) {
-        (
-            self.stations[0].time_s,
-            self.stations[self.stations.len() - 1].time_s,
-        )
+        (self.stations[0].time_s, self.stations[self.stations.len() - 1].time_s)
     }
 
     /// Pose and motion at `t_s`, in space axes.
@@ -122,22 +109,14 @@ impl TablePath {
         if t_s != inside_s {
             let end = &self.ends[usize::from(t_s > last_s)];
             let stands = t_s > last_s && self.after == AfterEnd::Hold;
-            let carried = if stands {
-                end.held()
-            } else {
-                end.coasted(t_s - inside_s)
-            };
+            let carried = if stands { end.held() } else { end.coasted(t_s - inside_s) };
             motion = FrameMotion {
                 velocity_m_s: motion.velocity_m_s,
                 angular_velocity_rad_s: motion.angular_velocity_rad_s,
                 ..carried
             };
         }
-        if self.after == AfterEnd::Hold && step_middle_s > last_s {
-            motion.held()
-        } else {
-            motion
-        }
+        if self.after == AfterEnd::Hold && step_middle_s > last_s { motion.held() } else { motion }
     }
 
     /// Place and attitude at `t_s` as the table tells them, for output.
@@ -146,10 +125,8 @@ impl TablePath {
         let inside_s = t_s.clamp(first_s, last_s);
         let values = self.piece_at(inside_s, cursor).value(inside_s);
         let angles = values.fixed_rows::<3>(3).into_owned();
-        let pose = VehiclePose {
-            position_m: values.fixed_rows::<3>(0).into_owned(),
-            attitude: Attitude::from_vector(angles),
-        };
+        let pose =
+            VehiclePose { position_m: values.fixed_rows::<3>(0).into_owned(), attitude: Attitude::from_vector(angles) };
         if t_s == inside_s || (t_s > last_s && self.after == AfterEnd::Hold) {
             return pose;
         }

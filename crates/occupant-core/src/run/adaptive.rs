@@ -26,10 +26,7 @@ pub(crate) struct Memory {
 impl Memory {
     /// Before any step.
     pub fn new(first_step_s: f64) -> Self {
-        Memory {
-            wanted_s: first_step_s,
-            error: 1.0,
-        }
+        Memory { wanted_s: first_step_s, error: 1.0 }
     }
 
     /// After a step of length `h` was accepted; `is_full`: nothing but the error control bounded it.
@@ -42,21 +39,13 @@ impl Memory {
         // what was just found too long is not tried at once again
         let most = if was_rejected { 1.0 } else { 5.0 };
         let next_s = h * growth.clamp(0.2, most);
-        self.wanted_s = if is_full {
-            next_s
-        } else {
-            self.wanted_s.max(next_s)
-        };
+        self.wanted_s = if is_full { next_s } else { self.wanted_s.max(next_s) };
         self.error = error.max(1e-4);
     }
 
     /// After a step of length `h` was rejected; a trial that is not a number asks for a tenth.
     fn reject(&mut self, h: f64, error: f64) {
-        let shrink = if error.is_finite() {
-            (0.9 * trig::pow(error, -1.0 / ERROR_ORDER)).clamp(0.1, 0.9)
-        } else {
-            0.1
-        };
+        let shrink = if error.is_finite() { (0.9 * trig::pow(error, -1.0 / ERROR_ORDER)).clamp(0.1, 0.9) } else { 0.1 };
         self.wanted_s = h * shrink;
     }
 }
@@ -91,12 +80,7 @@ impl Run {
     }
 
     /// One accepted step of the front.
-    fn step_on(
-        &mut self,
-        model: &Model,
-        front: &mut Front,
-        control: &Control,
-    ) -> Result<(), StepError> {
+    fn step_on(&mut self, model: &Model, front: &mut Front, control: &Control) -> Result<(), StepError> {
         let start_s = front.step.end_s;
         let mut breaks = self.breaks_s.iter().copied();
         let stop_s = breaks.find(|&b| b > start_s).unwrap_or(f64::INFINITY);
@@ -160,10 +144,5 @@ fn end_of_step(start_s: f64, wanted_s: f64, stop_s: f64) -> f64 {
 }
 
 fn too_small(time_s: f64, step_s: f64, control: &Control, error: f64) -> StepError {
-    StepError::StepTooSmall {
-        time_s,
-        step_s,
-        min_step_s: control.min_step_s,
-        error,
-    }
+    StepError::StepTooSmall { time_s, step_s, min_step_s: control.min_step_s, error }
 }

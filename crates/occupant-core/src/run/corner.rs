@@ -31,11 +31,7 @@ pub(super) struct Touching {
 impl From<&Touch<f64>> for Touching {
     #[inline(always)]
     fn from(touch: &Touch<f64>) -> Self {
-        Touching {
-            meeting: touch.into(),
-            depth_m: touch.depth,
-            force_n: touch.normal_force,
-        }
+        Touching { meeting: touch.into(), depth_m: touch.depth, force_n: touch.normal_force }
     }
 }
 
@@ -58,9 +54,8 @@ impl Crossing<'_> {
             start.map_or_else(|| self.beginning(end), |start| self.turn(start, end))
         });
         let started = self.at_start.iter();
-        let ended = started
-            .filter(|start| partner(self.at_end, start).is_none())
-            .filter_map(|start| self.ending(start));
+        let ended =
+            started.filter(|start| partner(self.at_end, start).is_none()).filter_map(|start| self.ending(start));
         let first = begun.chain(ended).fold(f64::INFINITY, f64::min);
         let end_s = self.step.start_s + (first + BEHIND) * self.step.length_s();
         first.is_finite().then_some(end_s)

@@ -28,13 +28,7 @@ pub(crate) struct Step {
 impl Stretch {
     /// Steps of `step_s`, the last one shortened to end at the target.
     pub fn new(from_s: f64, target_s: f64, step_s: f64) -> Self {
-        Stretch {
-            from_s,
-            target_s,
-            step_s,
-            count: (((target_s - from_s) / step_s) - 1e-9).ceil().max(1.0),
-            done: 0.0,
-        }
+        Stretch { from_s, target_s, step_s, count: (((target_s - from_s) / step_s) - 1e-9).ceil().max(1.0), done: 0.0 }
     }
 }
 
@@ -56,11 +50,7 @@ impl Iterator for Stretch {
             return None;
         }
         self.done = i + 1.0;
-        let end_s = if self.done < self.count {
-            self.from_s + self.done * self.step_s
-        } else {
-            self.target_s
-        };
+        let end_s = if self.done < self.count { self.from_s + self.done * self.step_s } else { self.target_s };
         let start_s = self.from_s + i * self.step_s;
         Some(Step { start_s, end_s })
     }
@@ -89,11 +79,7 @@ impl Run {
             let [at_start, at_middle, at_end] = step.frames(model, &mut self.cursor);
             let (history, seen) = (&mut self.history, &mut self.seen);
             let time_s = step.start_s;
-            let mut observer = SeenAt {
-                model,
-                seen,
-                time_s,
-            };
+            let mut observer = SeenAt { model, seen, time_s };
             let next = rk4::step(&self.state, step.length_s(), |stage, state| match stage {
                 Stage::Start => system.rate_alone::<true>(state, &at_start, history, &mut observer),
                 Stage::Middle => system.rate_alone::<false>(state, &at_middle, history, &mut ()),

@@ -43,10 +43,7 @@ impl Front {
     /// Standing at `state`, before any step.
     pub fn new(time_s: f64, state: &State<f64>, history: &History<f64>) -> Self {
         Front {
-            step: Step {
-                start_s: time_s,
-                end_s: time_s,
-            },
+            step: Step { start_s: time_s, end_s: time_s },
             from: *state,
             to: *state,
             rates: [State::zero(); 2],
@@ -71,13 +68,7 @@ impl Front {
     }
 
     /// Takes the step again of which only the start is known.
-    pub fn complete(
-        &mut self,
-        model: &Model,
-        tolerance: &Tolerance,
-        breaks_s: &[f64],
-        cursor: &mut PathCursor,
-    ) {
+    pub fn complete(&mut self, model: &Model, tolerance: &Tolerance, breaks_s: &[f64], cursor: &mut PathCursor) {
         if self.is_half_known {
             self.is_half_known = false;
             let step = self.step;
@@ -102,34 +93,22 @@ impl Front {
     }
 
     /// Tries `step`, which begins where the front stands.
-    pub fn attempt(
-        &mut self,
-        model: &Model,
-        step: Step,
-        tolerance: &Tolerance,
-        cursor: &mut PathCursor,
-    ) -> Trial {
+    pub fn attempt(&mut self, model: &Model, step: Step, tolerance: &Tolerance, cursor: &mut PathCursor) -> Trial {
         let (system, h) = (model.system(), step.length_s());
         let middle_s = 0.5 * (step.start_s + step.end_s);
         self.trial.take_over(&self.after);
         self.met_in_trial.clear();
         let (history, met) = (&mut self.trial, &mut self.met_in_trial);
-        attempt(
-            &self.to,
-            &self.rates[1],
-            h,
-            tolerance,
-            |stage, state| match stage {
-                Stage::Within(s) => {
-                    let frames = model.frames(step.start_s + s * h, middle_s, cursor);
-                    system.rate_alone::<false>(state, &frames, history, &mut ())
-                }
-                Stage::End => {
-                    let frames = model.frames(step.end_s, middle_s, cursor);
-                    system.rate_alone::<true>(state, &frames, history, &mut Met(met))
-                }
-            },
-        )
+        attempt(&self.to, &self.rates[1], h, tolerance, |stage, state| match stage {
+            Stage::Within(s) => {
+                let frames = model.frames(step.start_s + s * h, middle_s, cursor);
+                system.rate_alone::<false>(state, &frames, history, &mut ())
+            }
+            Stage::End => {
+                let frames = model.frames(step.end_s, middle_s, cursor);
+                system.rate_alone::<true>(state, &frames, history, &mut Met(met))
+            }
+        })
     }
 
     /// Accepts `trial` of `step`; `at_break`: the velocity of the vehicle may jump at its end.
@@ -145,20 +124,9 @@ impl Front {
     }
 
     /// Where to end `step` instead, which was just tried: just behind its first corner that matters, s.
-    pub fn end_behind_corner(
-        &self,
-        model: &Model,
-        step: Step,
-        tolerance: &Tolerance,
-    ) -> Option<f64> {
-        let crossing = Crossing {
-            model,
-            step,
-            at_start: &self.met,
-            at_end: &self.met_in_trial,
-            history: &self.after,
-            tolerance,
-        };
+    pub fn end_behind_corner(&self, model: &Model, step: Step, tolerance: &Tolerance) -> Option<f64> {
+        let crossing =
+            Crossing { model, step, at_start: &self.met, at_end: &self.met_in_trial, history: &self.after, tolerance };
         crossing.end_behind_corner()
     }
 
@@ -177,23 +145,14 @@ impl Front {
             self.to
         } else {
             let s = (time_s - self.step.start_s) / h;
-            within(
-                [&self.from, &self.rates[0]],
-                [&self.to, &self.rates[1]],
-                h,
-                s,
-            )
+            within([&self.from, &self.rates[0]], [&self.to, &self.rates[1]], h, s)
         };
         history.take_over(&self.before);
     }
 
     /// The start of the step, if it goes on beyond `time_s`.
     pub fn under_way(&self, time_s: f64) -> Option<StepUnderWay<'_>> {
-        let at = if self.is_half_known {
-            &self.to
-        } else {
-            &self.from
-        };
+        let at = if self.is_half_known { &self.to } else { &self.from };
         (time_s < self.step.end_s).then_some(StepUnderWay {
             start_s: self.step.start_s,
             end_s: self.step.end_s,

@@ -95,10 +95,7 @@ impl Run {
         run.state = from.state;
         run.history = History::new(&model.system().contacts, pairs, belts);
         run.effort = progress.effort;
-        run.control = Memory {
-            wanted_s: progress.wanted_s,
-            error: progress.step_error,
-        };
+        run.control = Memory { wanted_s: progress.wanted_s, error: progress.step_error };
         run.front = run.front.map(|_| {
             let step = from.under_way.as_ref();
             Box::new(match step {
@@ -114,20 +111,12 @@ impl Run {
     }
 
     /// Tells `recorder` that the run begins.
-    pub fn begin(
-        &self,
-        model: &Model,
-        recorder: &mut impl Recorder,
-    ) -> Result<(), RecordingFailed> {
+    pub fn begin(&self, model: &Model, recorder: &mut impl Recorder) -> Result<(), RecordingFailed> {
         recorder.begin(model).map_err(|e| self.unrecorded(e))
     }
 
     /// Evaluates the present state with all details and hands it to the recorder as the next output.
-    pub fn record(
-        &mut self,
-        model: &Model,
-        recorder: &mut impl Recorder,
-    ) -> Result<Flow, RecordingFailed> {
+    pub fn record(&mut self, model: &Model, recorder: &mut impl Recorder) -> Result<Flow, RecordingFailed> {
         let t = self.time_s;
         let path = &model.setup().path;
         let vehicle = path.motion(t, t, &mut self.cursor);
@@ -135,8 +124,7 @@ impl Run {
         let frames = frames(&vehicle);
         let system = model.system();
         self.touches.clear();
-        let evaluation =
-            system.evaluate::<true>(&self.state, &frames, &mut self.history, &mut self.touches);
+        let evaluation = system.evaluate::<true>(&self.state, &frames, &mut self.history, &mut self.touches);
         for touch in &self.touches.pairs {
             self.seen.note(model, t, touch.into());
         }
@@ -155,9 +143,7 @@ impl Run {
                 start,
             )
         };
-        let energy_start = *self
-            .energy_start
-            .get_or_insert_with(|| ledger(&EnergyStart::default()).as_start());
+        let energy_start = *self.energy_start.get_or_insert_with(|| ledger(&EnergyStart::default()).as_start());
         let energy = ledger(&energy_start);
         self.greatest_kinetic_j = self.greatest_kinetic_j.max(energy.kinetic_relative_j);
         self.greatest_imbalance_j = self.greatest_imbalance_j.max(energy.balance_j.abs());
@@ -203,22 +189,9 @@ impl Run {
                 let stretch = Stretch::new(self.time_s, target_s, step_s);
                 self.advance_rk4(model, stretch)
             }
-            Integrator::Adaptive {
-                relative,
-                absolute_m,
-                absolute_m_s,
-                min_step_s,
-                max_step_s,
-            } => {
-                let control = Control {
-                    tolerance: Tolerance {
-                        relative,
-                        absolute_m,
-                        absolute_m_s,
-                    },
-                    min_step_s,
-                    max_step_s,
-                };
+            Integrator::Adaptive { relative, absolute_m, absolute_m_s, min_step_s, max_step_s } => {
+                let control =
+                    Control { tolerance: Tolerance { relative, absolute_m, absolute_m_s }, min_step_s, max_step_s };
                 self.advance_adaptive(model, target_s, &control)
             }
         }
@@ -254,11 +227,7 @@ impl Run {
     }
 
     /// Ends the run and tells `recorder` how.
-    pub fn end(
-        self,
-        status: Status,
-        recorder: &mut impl Recorder,
-    ) -> Result<Outcome, RecordingFailed> {
+    pub fn end(self, status: Status, recorder: &mut impl Recorder) -> Result<Outcome, RecordingFailed> {
         let time_s = self.time_s;
         let outcome = self.outcome(status);
         match recorder.end(&outcome) {
@@ -275,11 +244,7 @@ impl Run {
             effort: self.effort,
             first_touches: self.seen.touches,
             greatest_kinetic_j: greatest,
-            balance_error: if greatest > 0.0 {
-                self.greatest_imbalance_j / greatest
-            } else {
-                0.0
-            },
+            balance_error: if greatest > 0.0 { self.greatest_imbalance_j / greatest } else { 0.0 },
         }
     }
 
@@ -292,11 +257,7 @@ impl Run {
 fn first_step(integrator: &Integrator) -> f64 {
     match *integrator {
         Integrator::Rk4 { step_s } => step_s,
-        Integrator::Adaptive {
-            min_step_s,
-            max_step_s,
-            ..
-        } => (10.0 * min_step_s).min(max_step_s),
+        Integrator::Adaptive { min_step_s, max_step_s, .. } => (10.0 * min_step_s).min(max_step_s),
     }
 }
 
@@ -306,10 +267,7 @@ fn broken_component(state: &State<f64>) -> String {
     for (slot, &n) in FREE.iter().enumerate() {
         let (q, w) = (&state.orientation[slot], &state.omega[slot]);
         if bad(q.v.x, q.v.y, q.v.z) || bad(w.x, w.y, w.z) || !q.w.is_finite() {
-            return format!(
-                "orientation or angular velocity of the {}",
-                Segment::ALL[n].name()
-            );
+            return format!("orientation or angular velocity of the {}", Segment::ALL[n].name());
         }
     }
     for (slot, &n) in HINGED.iter().enumerate() {

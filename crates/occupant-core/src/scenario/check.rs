@@ -26,12 +26,7 @@ pub fn check(sources: &Sources, root: &Node) -> Diagnostics {
 }
 
 /// All that is wrong with the words of another kind of document; `what` is what messages call it.
-pub(crate) fn check_words(
-    sources: &Sources,
-    root: &Node,
-    schema: &'static Json,
-    what: &'static str,
-) -> Diagnostics {
+pub(crate) fn check_words(sources: &Sources, root: &Node, schema: &'static Json, what: &'static str) -> Diagnostics {
     let mut checker = Checker::new(sources, schema, what, units_of(root));
     checker.document(root);
     checker.problems
@@ -54,19 +49,8 @@ pub(super) struct Checker<'a> {
 }
 
 impl<'a> Checker<'a> {
-    fn new(
-        sources: &'a Sources,
-        root: &'static Json,
-        what: &'static str,
-        units: UnitSystem,
-    ) -> Self {
-        Checker {
-            sources,
-            root,
-            what,
-            units,
-            problems: Diagnostics::new(),
-        }
+    fn new(sources: &'a Sources, root: &'static Json, what: &'static str, units: UnitSystem) -> Self {
+        Checker { sources, root, what, units, problems: Diagnostics::new() }
     }
 
     fn document(&mut self, root: &Node) {
@@ -166,9 +150,7 @@ impl Checker<'_> {
             Some(inner) if inner == text => Some(1),
             _ => (literal == text).then_some(0),
         };
-        let span = quotes.map_or(node.span, |q| {
-            node.span.part(error.start + q, error.end + q)
-        });
+        let span = quotes.map_or(node.span, |q| node.span.part(error.start + q, error.end + q));
         self.report(span, path, error.found, error.expected, error.hint);
     }
 
@@ -183,8 +165,7 @@ impl Checker<'_> {
         .find_map(|(word, words, sign, strict)| {
             let limit = bound(word)?;
             let excess = sign * (value - limit);
-            (excess > 0.0 || (strict && excess == 0.0))
-                .then(|| format!("{} {words} {limit}", kind.noun))
+            (excess > 0.0 || (strict && excess == 0.0)).then(|| format!("{} {words} {limit}", kind.noun))
         });
         if let Some(expected) = expected {
             let found = format!("`{}` is out of range", self.sources.slice(node.span));
@@ -197,8 +178,7 @@ impl Checker<'_> {
         match &node.value {
             Value::String(text) if names.contains(&text.as_str()) => {}
             Value::String(text) => {
-                let hint =
-                    nearest(text, names.iter().copied()).map(|n| format!("did you mean \"{n}\"?"));
+                let hint = nearest(text, names.iter().copied()).map(|n| format!("did you mean \"{n}\"?"));
                 let found = format!("\"{text}\" is not a value of `{}`", last_key(path));
                 self.report(node.span, path, found, expected, hint);
             }
@@ -222,9 +202,7 @@ impl Checker<'_> {
             let found = format!("`{path}` has no key `kind`");
             return self.report(node.span, path, found, expected, None);
         };
-        let case = cases
-            .iter()
-            .find(|(name, _)| tag.node.as_str() == Some(name));
+        let case = cases.iter().find(|(name, _)| tag.node.as_str() == Some(name));
         match case {
             Some((_, view)) => self.table(view, node, table, path),
             None => self.name(&names, &tag.node, &with_key(path, "kind")),
@@ -278,18 +256,11 @@ impl Checker<'_> {
 
     fn unknown_key(&mut self, view: &View, entry: &Entry, path: &str) {
         let keys = view.keys();
-        let hint =
-            nearest(&entry.key, keys.iter().copied()).map(|n| format!("did you mean `{n}`?"));
+        let hint = nearest(&entry.key, keys.iter().copied()).map(|n| format!("did you mean `{n}`?"));
         let found = format!("unknown key `{}`", entry.key);
         let expected = one_of(&keys, '`');
         let parent = &path[..path.len() - with_key("", &entry.key).len()];
-        self.report(
-            entry.key_span,
-            parent.trim_end_matches('.'),
-            found,
-            expected,
-            hint,
-        );
+        self.report(entry.key_span, parent.trim_end_matches('.'), found, expected, hint);
     }
 
     fn array(&mut self, view: &View, node: &Node, items: &[Node], path: &str) {
@@ -318,19 +289,12 @@ impl Checker<'_> {
         hint: Option<String>,
     ) {
         let problem = error(path, found.into(), expected.into(), hint);
-        self.problems
-            .push(Diagnostic::at(self.sources, span, problem));
+        self.problems.push(Diagnostic::at(self.sources, span, problem));
     }
 }
 
 fn error(path: &str, found: String, expected: String, hint: Option<String>) -> Problem {
-    Problem {
-        severity: Severity::Error,
-        path: path.to_owned(),
-        found,
-        expected,
-        hint,
-    }
+    Problem { severity: Severity::Error, path: path.to_owned(), found, expected, hint }
 }
 
 /// The kind of quantity with this name.

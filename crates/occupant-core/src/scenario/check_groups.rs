@@ -15,24 +15,15 @@ impl Checker<'_> {
         };
         self.exclusive_groups(object, node, table, path);
         for group in groups(object, "x-together") {
-            let (given, absent): (Vec<&str>, Vec<&str>) =
-                group.iter().partition(|k| table.get(k).is_some());
-            if let (Some(first), false) =
-                (given.first().and_then(|k| table.get(k)), absent.is_empty())
-            {
+            let (given, absent): (Vec<&str>, Vec<&str>) = group.iter().partition(|k| table.get(k).is_some());
+            if let (Some(first), false) = (given.first().and_then(|k| table.get(k)), absent.is_empty()) {
                 let found = format!("{} without {}", quoted(&given, '`'), quoted(&absent, '`'));
                 self.report(first.key_span, path, found, "both or neither", None);
             }
         }
     }
 
-    fn exclusive_groups(
-        &mut self,
-        object: &Map<String, Json>,
-        node: &Node,
-        table: &Table,
-        path: &str,
-    ) {
+    fn exclusive_groups(&mut self, object: &Map<String, Json>, node: &Node, table: &Table, path: &str) {
         for (word, needed) in [("x-exactly-one", true), ("x-at-most-one", false)] {
             for group in groups(object, word) {
                 let mut given: Vec<&Entry> = group.iter().filter_map(|k| table.get(k)).collect();

@@ -16,10 +16,7 @@ impl Checker<'_> {
         let materials = keys("materials");
         let surfaces = keys("surfaces");
         let mut spheres = SPHERE_NAMES.to_vec();
-        let own = root
-            .get("body")
-            .and_then(|b| b.get("spheres"))
-            .and_then(Node::as_table);
+        let own = root.get("body").and_then(|b| b.get("spheres")).and_then(Node::as_table);
         spheres.extend(own.iter().flat_map(|t| t.iter()).map(|e| &*e.key));
         for entry in entries(root, "surfaces") {
             let path = with_key("surfaces", &entry.key);
@@ -67,20 +64,11 @@ impl Checker<'_> {
             [] => format!("a {what}; the scenario has none"),
             _ => one_of(names, '"'),
         };
-        self.report(
-            node.span,
-            path,
-            format!("no {what} is named \"{name}\""),
-            expected,
-            hint,
-        );
+        self.report(node.span, path, format!("no {what} is named \"{name}\""), expected, hint);
     }
 }
 
 /// Entries of a table of the scenario.
 fn entries<'n>(root: &'n Node, table: &str) -> impl Iterator<Item = &'n Entry> {
-    root.get(table)
-        .and_then(Node::as_table)
-        .into_iter()
-        .flat_map(|t| t.iter())
+    root.get(table).and_then(Node::as_table).into_iter().flat_map(|t| t.iter())
 }

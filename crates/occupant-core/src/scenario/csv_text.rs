@@ -13,10 +13,7 @@ pub(crate) struct Cell<'a> {
 /// `x[m]` → `x` and `m`.
 pub(crate) fn name_and_unit(text: &str) -> (&str, Option<&str>) {
     match text.split_once('[') {
-        Some((name, rest)) => (
-            name.trim(),
-            Some(rest.trim_end().strip_suffix(']').unwrap_or(rest).trim()),
-        ),
+        Some((name, rest)) => (name.trim(), Some(rest.trim_end().strip_suffix(']').unwrap_or(rest).trim())),
         None => (text.trim(), None),
     }
 }
@@ -36,11 +33,7 @@ pub(crate) fn lines(sources: &Sources, id: SourceId) -> impl Iterator<Item = Spa
             let line = line.trim_start_matches('\u{feff}').trim();
             !line.is_empty() && !line.starts_with('#')
         })
-        .map(move |(line, from)| Span {
-            source: id,
-            start: from,
-            end: from + line.trim_end().len(),
-        })
+        .map(move |(line, from)| Span { source: id, start: from, end: from + line.trim_end().len() })
 }
 
 /// The cells of a line, trimmed. A byte-order mark is no part of the first.
@@ -56,16 +49,8 @@ pub(crate) fn cells(sources: &Sources, line: Span) -> Vec<Cell<'_>> {
             let text = raw.trim_matches(blank);
             let lead = raw.len() - raw.trim_start_matches(blank).len();
             let span = match text {
-                "" => Span {
-                    source: line.source,
-                    start: from,
-                    end: from + raw.len(),
-                },
-                _ => Span {
-                    source: line.source,
-                    start: from + lead,
-                    end: from + lead + text.len(),
-                },
+                "" => Span { source: line.source, start: from, end: from + raw.len() },
+                _ => Span { source: line.source, start: from + lead, end: from + lead + text.len() },
             };
             Cell { text, span }
         })

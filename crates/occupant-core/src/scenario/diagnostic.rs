@@ -43,43 +43,20 @@ impl Diagnostic {
 
     /// A problem of a text as a whole.
     pub fn of(source: impl Into<String>, problem: Problem) -> Self {
-        Diagnostic {
-            problem,
-            source: source.into(),
-            position: None,
-            words: String::new(),
-            line: String::new(),
-        }
+        Diagnostic { problem, source: source.into(), position: None, words: String::new(), line: String::new() }
     }
 
     /// The line, shortened around the words if long, and the two columns (characters) between which the caret runs.
     fn excerpt(&self, column: usize) -> (String, usize, usize) {
-        let chars: Vec<char> = self
-            .line
-            .chars()
-            .map(|c| if c.is_control() { ' ' } else { c })
-            .collect();
+        let chars: Vec<char> = self.line.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
         let start = (column - 1).min(chars.len());
         let end = (start + self.words.chars().count()).min(chars.len());
-        let from = if chars.len() > 2 * CONTEXT_CHARS {
-            start.saturating_sub(CONTEXT_CHARS)
-        } else {
-            0
-        };
-        let to = chars
-            .len()
-            .min(end.min(start + CONTEXT_CHARS) + CONTEXT_CHARS);
-        let (lead, tail) = (
-            if from > 0 { "…" } else { "" },
-            if to < chars.len() { "…" } else { "" },
-        );
+        let from = if chars.len() > 2 * CONTEXT_CHARS { start.saturating_sub(CONTEXT_CHARS) } else { 0 };
+        let to = chars.len().min(end.min(start + CONTEXT_CHARS) + CONTEXT_CHARS);
+        let (lead, tail) = (if from > 0 { "…" } else { "" }, if to < chars.len() { "…" } else { "" });
         let text: String = chars[from..to].iter().collect();
         let shift = lead.chars().count();
-        (
-            format!("{lead}{text}{tail}").trim_end().to_owned(),
-            start - from + shift,
-            end.min(to) - from + shift,
-        )
+        (format!("{lead}{text}{tail}").trim_end().to_owned(), start - from + shift, end.min(to) - from + shift)
     }
 }
 

@@ -17,11 +17,7 @@ pub enum Format {
 impl Format {
     /// JSON if the first character that is not a blank opens an object, else TOML: no TOML document starts with `{`.
     pub fn of_text(text: &str) -> Format {
-        match text
-            .trim_start_matches('\u{feff}')
-            .trim_start()
-            .starts_with('{')
-        {
+        match text.trim_start_matches('\u{feff}').trim_start().starts_with('{') {
             true => Format::Json,
             false => Format::Toml,
         }
@@ -127,31 +123,20 @@ impl Node {
     /// The same tree as if it had been read from another text.
     pub(super) fn moved_to(&self, source: SourceId) -> Node {
         let value = match &self.value {
-            Value::Array(items) => {
-                Value::Array(items.iter().map(|item| item.moved_to(source)).collect())
-            }
+            Value::Array(items) => Value::Array(items.iter().map(|item| item.moved_to(source)).collect()),
             Value::Table(table) => Value::Table(Table(
                 table
                     .iter()
                     .map(|entry| Entry {
                         key: entry.key.clone(),
-                        key_span: Span {
-                            source,
-                            ..entry.key_span
-                        },
+                        key_span: Span { source, ..entry.key_span },
                         node: entry.node.moved_to(source),
                     })
                     .collect(),
             )),
             plain => plain.clone(),
         };
-        Node {
-            span: Span {
-                source,
-                ..self.span
-            },
-            value,
-        }
+        Node { span: Span { source, ..self.span }, value }
     }
 
     /// The same tree without places. A number that JSON cannot hold (`inf`, `nan`) becomes null.
@@ -164,12 +149,7 @@ impl Node {
             Value::Float(x) => Json::from(*x),
             Value::String(s) => Json::String(s.clone()),
             Value::Array(items) => items.iter().map(Node::to_json).collect(),
-            Value::Table(table) => Json::Object(
-                table
-                    .iter()
-                    .map(|e| (e.key.clone(), e.node.to_json()))
-                    .collect(),
-            ),
+            Value::Table(table) => Json::Object(table.iter().map(|e| (e.key.clone(), e.node.to_json())).collect()),
         }
     }
 }

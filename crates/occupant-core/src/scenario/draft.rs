@@ -30,22 +30,14 @@ impl Draft {
         let mut sources = Sources::new();
         let main = sources.add(name, text);
         let root = document::parse(&sources, main, format)?;
-        Ok(Draft {
-            sources,
-            main,
-            root,
-        })
+        Ok(Draft { sources, main, root })
     }
 
     /// Reads bytes that should be UTF-8 text; the format is told by [`Format::of_text`] unless given.
     ///
     /// # Errors
     /// The place of the first byte that is not UTF-8; else as [`Draft::read`].
-    pub fn read_bytes(
-        bytes: &[u8],
-        format: Option<Format>,
-        name: &str,
-    ) -> Result<Draft, Diagnostics> {
+    pub fn read_bytes(bytes: &[u8], format: Option<Format>, name: &str) -> Result<Draft, Diagnostics> {
         let text = text_of(bytes, name)?;
         Draft::read(text, format.unwrap_or_else(|| Format::of_text(text)), name)
     }
@@ -58,11 +50,7 @@ impl Draft {
     pub fn set(&mut self, assignment: &str) -> Result<(), Diagnostics> {
         match assignment.split_once('=') {
             Some((path, value)) => self.set_value(path.trim(), value.trim()),
-            None => Err(refuse(
-                "override",
-                format!("`{assignment}` has no `=`"),
-                "path.to.key=value",
-            )),
+            None => Err(refuse("override", format!("`{assignment}` has no `=`"), "path.to.key=value")),
         }
     }
 
@@ -72,12 +60,11 @@ impl Draft {
     /// A path that cannot be read or leads nowhere.
     pub fn set_value(&mut self, path: &str, value: &str) -> Result<(), Diagnostics> {
         let name = format!("override of {path}");
-        let steps = path_text::parse(path)
-            .map_err(|found| refuse(&name, found, "a path such as belts.lap.anchors[1]"))?;
+        let steps =
+            path_text::parse(path).map_err(|found| refuse(&name, found, "a path such as belts.lap.anchors[1]"))?;
         let id = self.sources.add(&name, value);
         let value = self.value(id);
-        let explicit =
-            needs_explicit(&self.root, &steps).then(|| expand(&mut self.sources, &self.root));
+        let explicit = needs_explicit(&self.root, &steps).then(|| expand(&mut self.sources, &self.root));
         let places = targets(explicit.as_ref().unwrap_or(&self.root), &steps);
         if places.is_empty() {
             let found = format!("`{path}` leads to nothing in this scenario");
@@ -116,8 +103,7 @@ impl Draft {
     /// # Errors
     /// A path that cannot be read or leads nowhere.
     pub fn get(&mut self, path: &str) -> Result<Vec<(String, Value)>, Diagnostics> {
-        let steps = path_text::parse(path)
-            .map_err(|found| refuse(path, found, "a path such as belts.lap.slack"))?;
+        let steps = path_text::parse(path).map_err(|found| refuse(path, found, "a path such as belts.lap.slack"))?;
         let explicit = expand(&mut self.sources, &self.root);
         let found: Vec<(String, Value)> = targets(&explicit, &steps)
             .iter()
@@ -127,11 +113,9 @@ impl Draft {
             })
             .collect();
         match found.is_empty() {
-            true => Err(refuse(
-                path,
-                format!("`{path}` leads to nothing in this scenario"),
-                "a path to at least one place",
-            )),
+            true => {
+                Err(refuse(path, format!("`{path}` leads to nothing in this scenario"), "a path to at least one place"))
+            }
             false => Ok(found),
         }
     }
@@ -160,10 +144,7 @@ impl Draft {
             let text = self.sources.text(id);
             let mut span = self.sources.start_of(id);
             span.end = text.len();
-            Node {
-                span,
-                value: Value::String(text.to_owned()),
-            }
+            Node { span, value: Value::String(text.to_owned()) }
         })
     }
 }
@@ -184,13 +165,7 @@ pub(crate) fn refuse(source: &str, found: String, expected: &str) -> Diagnostics
     let mut diagnostics = Diagnostics::new();
     diagnostics.push(Diagnostic::of(
         source,
-        Problem {
-            severity: Severity::Error,
-            path: String::new(),
-            found,
-            expected: expected.to_owned(),
-            hint: None,
-        },
+        Problem { severity: Severity::Error, path: String::new(), found, expected: expected.to_owned(), hint: None },
     ));
     diagnostics
 }

@@ -82,9 +82,7 @@ pub(super) fn expand(sources: &mut Sources, root: &Node) -> Node {
     let mut explicit = root.clone();
     let body = section(sources, root, "body", |layers| body(&layers));
     let sets = root.get("joint_sets").cloned();
-    let joints = section(sources, root, "joints", |layers| {
-        joints(&layers, sets.as_ref())
-    });
+    let joints = section(sources, root, "joints", |layers| joints(&layers, sets.as_ref()));
     if let Some(table) = explicit.as_table_mut() {
         for entry in [body, joints].into_iter().flatten() {
             table.insert(entry);
@@ -94,32 +92,19 @@ pub(super) fn expand(sources: &mut Sources, root: &Node) -> Node {
 }
 
 /// Replaces the table under `key` by what `explicit` makes of its layers.
-fn section(
-    sources: &mut Sources,
-    root: &Node,
-    key: &str,
-    explicit: impl FnOnce(Vec<Node>) -> Table,
-) -> Option<Entry> {
+fn section(sources: &mut Sources, root: &Node, key: &str, explicit: impl FnOnce(Vec<Node>) -> Table) -> Option<Entry> {
     let entry = root.as_table()?.get(key)?.clone();
     entry.node.as_table()?;
     let preset = entry.node.get("preset").and_then(Node::as_str);
     let base = preset.and_then(|name| preset_section(sources, name, key));
     let layers: Vec<Node> = base.into_iter().chain([entry.node.clone()]).collect();
-    Some(Entry {
-        node: Node {
-            span: entry.node.span,
-            value: Value::Table(explicit(layers)),
-        },
-        ..entry
-    })
+    Some(Entry { node: Node { span: entry.node.span, value: Value::Table(explicit(layers)) }, ..entry })
 }
 
 fn preset_section(sources: &mut Sources, name: &str, key: &str) -> Option<Node> {
     let preset = preset(name)?;
     let title = format!("preset {name}");
-    let id = sources
-        .named(&title)
-        .unwrap_or_else(|| sources.add(title, preset.text));
+    let id = sources.named(&title).unwrap_or_else(|| sources.add(title, preset.text));
     Some(preset.root.get(key)?.moved_to(id))
 }
 
@@ -131,24 +116,11 @@ fn body(layers: &[Node]) -> Table {
     };
     let segments = parts("segments");
     let names = Segment::ALL.iter().map(|s| s.name());
-    put(
-        &mut explicit,
-        "segments",
-        &segments,
-        members(&segments, names, &SEGMENT_PAIRS),
-    );
+    put(&mut explicit, "segments", &segments, members(&segments, names, &SEGMENT_PAIRS));
     let spheres = parts("spheres");
     let others = other_names(&spheres, &SPHERE_PAIRS, &SPHERE_NAMES);
-    let names = SPHERE_NAMES
-        .iter()
-        .copied()
-        .chain(others.iter().map(String::as_str));
-    put(
-        &mut explicit,
-        "spheres",
-        &spheres,
-        members(&spheres, names, &SPHERE_PAIRS),
-    );
+    let names = SPHERE_NAMES.iter().copied().chain(others.iter().map(String::as_str));
+    put(&mut explicit, "spheres", &spheres, members(&spheres, names, &SPHERE_PAIRS));
     explicit
 }
 
@@ -160,30 +132,20 @@ fn joints(layers: &[Node], sets: Option<&Node>) -> Table {
         explicit.remove(word);
     }
     for joint in Joint::ALL {
-        let pair = JOINT_PAIRS
-            .iter()
-            .find(|p| p.contains(&joint.name()))
-            .map(|p| p[0]);
+        let pair = JOINT_PAIRS.iter().find(|p| p.contains(&joint.name())).map(|p| p[0]);
         let mut merged: Option<Entry> = None;
         for layer in layers {
             for word in ["all"].into_iter().chain(pair).chain([joint.name()]) {
                 let entry = layer.as_table().and_then(|t| t.get(word));
                 if let Some(entry) = entry {
                     let entry = with_set(entry, sets);
-                    let entry = if word == "all" {
-                        fitting(entry, joint)
-                    } else {
-                        entry
-                    };
+                    let entry = if word == "all" { fitting(entry, joint) } else { entry };
                     merged = Some(laid_over(merged, entry));
                 }
             }
         }
         if let Some(entry) = merged {
-            explicit.insert(Entry {
-                key: joint.name().to_owned(),
-                ..entry
-            });
+            explicit.insert(Entry { key: joint.name().to_owned(), ..entry });
         }
     }
     explicit
@@ -222,11 +184,7 @@ fn with_set(entry: &Entry, sets: Option<&Node>) -> Entry {
 /// All keys of the layers but `preset` and `except`; later layers win.
 fn plain_keys(layers: &[Node], except: &[&str]) -> Table {
     let mut plain = Table::new();
-    for entry in layers
-        .iter()
-        .filter_map(Node::as_table)
-        .flat_map(Table::iter)
-    {
+    for entry in layers.iter().filter_map(Node::as_table).flat_map(Table::iter) {
         if entry.key != "preset" && !except.contains(&entry.key.as_str()) {
             plain.insert(entry.clone());
         }
@@ -237,11 +195,7 @@ fn plain_keys(layers: &[Node], except: &[&str]) -> Table {
 /// Names in the layers that are neither a pair's word nor among `known`, in order of appearance.
 fn other_names(layers: &[Node], pairs: &[[&str; 3]], known: &[&str]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
-    for entry in layers
-        .iter()
-        .filter_map(Node::as_table)
-        .flat_map(Table::iter)
-    {
+    for entry in layers.iter().filter_map(Node::as_table).flat_map(Table::iter) {
         let key = entry.key.as_str();
         let is_pair = pairs.iter().any(|p| p[0] == key);
         if !is_pair && !known.contains(&key) && !names.iter().any(|n| n == key) {
@@ -252,11 +206,7 @@ fn other_names(layers: &[Node], pairs: &[[&str; 3]], known: &[&str]) -> Vec<Stri
 }
 
 /// One merged entry for each of `names` that any layer speaks of, itself or through its pair.
-fn members<'a>(
-    layers: &[Node],
-    names: impl Iterator<Item = &'a str>,
-    pairs: &[[&str; 3]],
-) -> Vec<Entry> {
+fn members<'a>(layers: &[Node], names: impl Iterator<Item = &'a str>, pairs: &[[&str; 3]]) -> Vec<Entry> {
     names
         .filter_map(|name| {
             let pair = pairs.iter().find(|p| p[1..].contains(&name)).map(|p| p[0]);
@@ -268,10 +218,7 @@ fn members<'a>(
                     }
                 }
             }
-            merged.map(|entry| Entry {
-                key: name.to_owned(),
-                ..entry
-            })
+            merged.map(|entry| Entry { key: name.to_owned(), ..entry })
         })
         .collect()
 }
@@ -285,10 +232,7 @@ fn put(explicit: &mut Table, key: &str, layers: &[Node], members: Vec<Entry>) {
     explicit.insert(Entry {
         key: key.to_owned(),
         key_span: last.span,
-        node: Node {
-            span: last.span,
-            value: Value::Table(table),
-        },
+        node: Node { span: last.span, value: Value::Table(table) },
     });
 }
 

@@ -29,19 +29,11 @@ const STRICT: ParseOptions = ParseOptions {
 /// # Errors
 /// The first syntax error; keys that stand twice in one object; a root that is no object.
 pub fn parse(sources: &Sources, id: SourceId) -> Result<Node, Diagnostics> {
-    let mut reader = Reader {
-        sources,
-        id,
-        problems: Diagnostics::new(),
-    };
+    let mut reader = Reader { sources, id, problems: Diagnostics::new() };
     let node = match parse_to_ast(sources.text(id), &CollectOptions::default(), &STRICT) {
         Ok(parsed) => match parsed.value {
             Some(Ast::Object(object)) => reader.object(object),
-            _ => reader.reject(
-                sources.start_of(id),
-                "no JSON object",
-                "{ \"title\": …, … }",
-            ),
+            _ => reader.reject(sources.start_of(id), "no JSON object", "{ \"title\": …, … }"),
         },
         Err(error) => {
             let span = reader.span(&error.range());
@@ -62,20 +54,12 @@ struct Reader<'a> {
 
 impl Reader<'_> {
     fn span(&self, ranged: &impl Ranged) -> Span {
-        Span {
-            source: self.id,
-            start: ranged.start(),
-            end: ranged.end(),
-        }
+        Span { source: self.id, start: ranged.start(), end: ranged.end() }
     }
 
     fn reject(&mut self, span: Span, found: &str, expected: &str) -> Node {
-        self.problems
-            .push(syntax_error(self.sources, span, found, expected));
-        Node {
-            span,
-            value: Value::Null,
-        }
+        self.problems.push(syntax_error(self.sources, span, found, expected));
+        Node { span, value: Value::Null }
     }
 
     fn object(&mut self, object: Object<'_>) -> Node {
@@ -91,25 +75,16 @@ impl Reader<'_> {
                 continue;
             }
             let node = self.node(property.value);
-            table.push(Entry {
-                key,
-                key_span,
-                node,
-            });
+            table.push(Entry { key, key_span, node });
         }
-        Node {
-            span,
-            value: Value::Table(table),
-        }
+        Node { span, value: Value::Table(table) }
     }
 
     fn node(&mut self, ast: Ast<'_>) -> Node {
         let span = self.span(&ast);
         let value = match ast {
             Ast::Object(object) => return self.object(object),
-            Ast::Array(array) => {
-                Value::Array(array.elements.into_iter().map(|e| self.node(e)).collect())
-            }
+            Ast::Array(array) => Value::Array(array.elements.into_iter().map(|e| self.node(e)).collect()),
             Ast::StringLit(text) => Value::String(text.value.into_owned()),
             Ast::BooleanLit(b) => Value::Bool(b.value),
             Ast::NullKeyword(_) => Value::Null,
@@ -140,10 +115,7 @@ mod tests {
     #[test]
     fn reads_values_and_rejects_duplicates() {
         let node = read(r#"{"a": [1, 2.5, "x\u00e9"], "b": {"c": null, "d": true}}"#).unwrap();
-        assert_eq!(
-            node.to_json().to_string(),
-            r#"{"a":[1,2.5,"xé"],"b":{"c":null,"d":true}}"#
-        );
+        assert_eq!(node.to_json().to_string(), r#"{"a":[1,2.5,"xé"],"b":{"c":null,"d":true}}"#);
         let error = read("{\"a\": 1,\n \"a\": 2}").unwrap_err().to_string();
         assert_eq!(
             error,
@@ -153,16 +125,7 @@ mod tests {
 
     #[test]
     fn is_strict_and_survives_nonsense() {
-        for text in [
-            "",
-            "[]",
-            "{a: 1}",
-            "{\"a\": 1,}",
-            "{\"a\": 0x1}",
-            "{\"a\": 1} x",
-            "{\"a\": NaN}",
-            "// c\n{}",
-        ] {
+        for text in ["", "[]", "{a: 1}", "{\"a\": 1,}", "{\"a\": 0x1}", "{\"a\": 1} x", "{\"a\": NaN}", "// c\n{}"] {
             assert!(read(text).is_err(), "{text}");
         }
         assert!(read(&"[".repeat(100_000)).is_err());

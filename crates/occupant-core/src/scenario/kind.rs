@@ -18,30 +18,20 @@ pub struct Dimension {
 impl Dimension {
     /// A dimension from its four exponents.
     pub const fn new(length: i32, mass: i32, time: i32, angle: i32) -> Self {
-        Dimension {
-            length,
-            mass,
-            time,
-            angle,
-        }
+        Dimension { length, mass, time, angle }
     }
 
     /// Whether a value of dimension `self` may stand where `wanted` is expected.
     ///
     /// The radian of "per radian" may be left out, as in `5.73 in·lbf·s` for a rotational damper.
     pub fn serves_as(self, wanted: Dimension) -> bool {
-        let silent_radian = Dimension {
-            angle: wanted.angle,
-            ..self
-        };
+        let silent_radian = Dimension { angle: wanted.angle, ..self };
         self == wanted || (wanted.angle < 0 && self.angle == 0 && silent_radian == wanted)
     }
 }
 
 /// Which units bare numbers have.
-#[derive(
-    Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema,
-)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
 pub enum UnitSystem {
     /// Metre, kilogram, second; angles in degrees.
     #[default]
@@ -87,14 +77,7 @@ const fn kind(
     example: &'static str,
 ) -> Kind {
     let [length, mass, time, angle] = exponents;
-    Kind {
-        name,
-        noun,
-        dimension: Dimension::new(length, mass, time, angle),
-        si,
-        inch_pound,
-        example,
-    }
+    Kind { name, noun, dimension: Dimension::new(length, mass, time, angle), si, inch_pound, example }
 }
 
 /// Index of "length" in [`KINDS`]; the names below likewise.

@@ -35,12 +35,7 @@ impl Scenario {
     ///
     /// # Errors
     /// Everything that is wrong with it.
-    pub fn from_text(
-        text: &str,
-        format: Format,
-        name: &str,
-        resolver: Resolver,
-    ) -> Result<Loaded, Diagnostics> {
+    pub fn from_text(text: &str, format: Format, name: &str, resolver: Resolver) -> Result<Loaded, Diagnostics> {
         Draft::read(text, format, name)?.load(resolver)
     }
 
@@ -63,11 +58,7 @@ impl Scenario {
 
 impl Loaded {
     pub(super) fn from_draft(draft: Draft, resolver: Resolver) -> Result<Loaded, Diagnostics> {
-        let Draft {
-            mut sources,
-            main,
-            root,
-        } = draft;
+        let Draft { mut sources, main, root } = draft;
         let problems = check(&sources, &root);
         if problems.has_errors() {
             return Err(problems);
@@ -76,14 +67,7 @@ impl Loaded {
         let scenario = model_of(&sources, main, &root)?;
         let explicit_scenario = model_of(&sources, main, &explicit)?;
         let path_table = read_path_table(&mut sources, &explicit, &scenario, resolver)?;
-        Ok(Loaded {
-            scenario,
-            sources,
-            main,
-            explicit,
-            explicit_scenario,
-            path_table,
-        })
+        Ok(Loaded { scenario, sources, main, explicit, explicit_scenario, path_table })
     }
 
     /// The plain data of the scenario, with warnings.
@@ -91,13 +75,7 @@ impl Loaded {
     /// # Errors
     /// Everything that does not fit together: names that lead nowhere, keys that are missing or have no meaning here.
     pub fn build(&self) -> Result<(Setup, Diagnostics), Diagnostics> {
-        build(
-            &self.scenario,
-            &self.explicit_scenario,
-            &self.explicit,
-            &self.sources,
-            self.path_table,
-        )
+        build(&self.scenario, &self.explicit_scenario, &self.explicit, &self.sources, self.path_table)
     }
 
     /// The model of the scenario, ready to be run, with warnings.
@@ -122,12 +100,7 @@ impl Loaded {
     pub fn diagnose(&self, problems: &Problems) -> Diagnostics {
         let mut placed = Diagnostics::new();
         for problem in problems.iter() {
-            placed.push(place(
-                &self.sources,
-                self.main,
-                &self.explicit,
-                problem.clone(),
-            ));
+            placed.push(place(&self.sources, self.main, &self.explicit, problem.clone()));
         }
         placed
     }
@@ -150,12 +123,7 @@ impl Loaded {
 }
 
 /// Finds the words that a problem's path points at.
-pub(crate) fn place(
-    sources: &Sources,
-    main: SourceId,
-    root: &Node,
-    problem: Problem,
-) -> Diagnostic {
+pub(crate) fn place(sources: &Sources, main: SourceId, root: &Node, problem: Problem) -> Diagnostic {
     match locate(root, &problem.path) {
         Some(span) => Diagnostic::at(sources, span, problem),
         None => Diagnostic::of(sources.name(main), problem),
@@ -164,13 +132,8 @@ pub(crate) fn place(
 
 /// The serde model of a checked tree. A difference between checker and model is reported, not a panic.
 fn model_of(sources: &Sources, main: SourceId, root: &Node) -> Result<Scenario, Diagnostics> {
-    Scenario::deserialize(root.to_json()).map_err(|error| {
-        refuse(
-            sources.name(main),
-            format!("the scenario cannot be read: {error}"),
-            "a scenario",
-        )
-    })
+    Scenario::deserialize(root.to_json())
+        .map_err(|error| refuse(sources.name(main), format!("the scenario cannot be read: {error}"), "a scenario"))
 }
 
 /// Reads the CSV file that the vehicle path names.
@@ -198,12 +161,7 @@ fn read_path_table(
         );
         let mut placed = Diagnostics::new();
         for problem in problems.iter() {
-            placed.push(place(
-                sources,
-                explicit.span.source,
-                explicit,
-                problem.clone(),
-            ));
+            placed.push(place(sources, explicit.span.source, explicit, problem.clone()));
         }
         placed
     })?;

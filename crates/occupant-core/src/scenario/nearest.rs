@@ -5,9 +5,7 @@
 pub fn nearest<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
     let candidates: Vec<&str> = candidates.collect();
     alike(word, candidates.iter().copied()).or_else(|| {
-        let mut longer = candidates
-            .iter()
-            .filter(|c| word.len() > 3 && c.contains(word));
+        let mut longer = candidates.iter().filter(|c| word.len() > 3 && c.contains(word));
         longer.next().filter(|_| longer.next().is_none()).copied()
     })
 }
@@ -25,11 +23,7 @@ fn alike<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'
 
 /// Letters in lower case, `-` and blanks as `_`.
 fn normal(word: &str) -> Vec<char> {
-    word.chars()
-        .take(80)
-        .flat_map(char::to_lowercase)
-        .map(|c| if c == '-' || c == ' ' { '_' } else { c })
-        .collect()
+    word.chars().take(80).flat_map(char::to_lowercase).map(|c| if c == '-' || c == ' ' { '_' } else { c }).collect()
 }
 
 /// Damerau–Levenshtein distance (optimal string alignment): insertions, deletions, replacements, swaps of neighbours.
@@ -40,9 +34,7 @@ fn distance(a: &[char], b: &[char]) -> usize {
         let mut row = vec![i; b.len() + 1];
         for j in 1..=b.len() {
             let same = a[i - 1] == b[j - 1];
-            row[j] = (last[j] + 1)
-                .min(row[j - 1] + 1)
-                .min(last[j - 1] + usize::from(!same));
+            row[j] = (last[j] + 1).min(row[j - 1] + 1).min(last[j - 1] + usize::from(!same));
             if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
                 row[j] = row[j].min(before_last[j - 2] + 1);
             }

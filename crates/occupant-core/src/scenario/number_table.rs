@@ -41,12 +41,7 @@ pub(super) struct NumberTable {
 
 impl NumberTable {
     fn new(header: Span) -> Self {
-        NumberTable {
-            rows: Vec::new(),
-            row_spans: Vec::new(),
-            header,
-            present: Vec::new(),
-        }
+        NumberTable { rows: Vec::new(), row_spans: Vec::new(), header, present: Vec::new() }
     }
 
     /// A column in SI, if it is there.
@@ -59,20 +54,11 @@ impl NumberTable {
 ///
 /// # Errors
 /// Unknown, doubled and missing columns, wrong units, lines with too few or too many cells, cells that are no number.
-pub(super) fn read_csv(
-    sources: &Sources,
-    id: SourceId,
-    columns: &[Column],
-) -> Result<NumberTable, Diagnostics> {
+pub(super) fn read_csv(sources: &Sources, id: SourceId, columns: &[Column]) -> Result<NumberTable, Diagnostics> {
     let mut reader = Reader::new(sources, columns);
     let mut lines = lines(sources, id);
     let Some(header) = lines.next() else {
-        reader.error(
-            sources.start_of(id),
-            "an empty table",
-            "a line that names the columns",
-            None,
-        );
+        reader.error(sources.start_of(id), "an empty table", "a line that names the columns", None);
         return Err(reader.problems);
     };
     reader.header(&cells(sources, header), header);
@@ -89,20 +75,14 @@ pub(super) fn read_csv(
 ///
 /// # Errors
 /// As for [`read_csv`].
-pub(super) fn read_inline(
-    sources: &Sources,
-    section: &Node,
-    columns: &[Column],
-) -> Result<NumberTable, Diagnostics> {
+pub(super) fn read_inline(sources: &Sources, section: &Node, columns: &[Column]) -> Result<NumberTable, Diagnostics> {
     let mut reader = Reader::new(sources, columns);
     let items = |key: &str| match section.get(key).map(|n| &n.value) {
         Some(Value::Array(items)) => items.as_slice(),
         _ => &[],
     };
-    let header: Vec<Cell> = items("columns")
-        .iter()
-        .filter_map(|n| n.as_str().map(|text| Cell { text, span: n.span }))
-        .collect();
+    let header: Vec<Cell> =
+        items("columns").iter().filter_map(|n| n.as_str().map(|text| Cell { text, span: n.span })).collect();
     let span = section.get("columns").map_or(section.span, |n| n.span);
     reader.header(&header, span);
     let mut table = NumberTable::new(span);
@@ -133,12 +113,7 @@ struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     fn new(sources: &'a Sources, wanted: &'a [Column]) -> Self {
-        Reader {
-            sources,
-            wanted,
-            found: Vec::new(),
-            problems: Diagnostics::new(),
-        }
+        Reader { sources, wanted, found: Vec::new(), problems: Diagnostics::new() }
     }
 
     fn finish(self, mut table: NumberTable) -> Result<NumberTable, Diagnostics> {
@@ -150,13 +125,7 @@ impl<'a> Reader<'a> {
         }
     }
 
-    fn error(
-        &mut self,
-        span: Span,
-        found: impl Into<String>,
-        expected: impl Into<String>,
-        hint: Option<String>,
-    ) {
+    fn error(&mut self, span: Span, found: impl Into<String>, expected: impl Into<String>, hint: Option<String>) {
         let problem = Problem {
             severity: Severity::Error,
             path: String::new(),
@@ -164,8 +133,7 @@ impl<'a> Reader<'a> {
             expected: expected.into(),
             hint,
         };
-        self.problems
-            .push(Diagnostic::at(self.sources, span, problem));
+        self.problems.push(Diagnostic::at(self.sources, span, problem));
     }
 
     fn header(&mut self, cells: &[Cell], span: Span) {
@@ -190,21 +158,11 @@ impl<'a> Reader<'a> {
         let wanted = |c: &Column| c.name == name || (c.alias == name && !name.is_empty());
         let Some(i) = self.wanted.iter().position(wanted) else {
             let hint = nearest(name, names.iter().copied()).map(|n| format!("did you mean `{n}`?"));
-            self.error(
-                cell.span,
-                format!("unknown column `{name}`"),
-                one_of(&names, '`'),
-                hint,
-            );
+            self.error(cell.span, format!("unknown column `{name}`"), one_of(&names, '`'), hint);
             return None;
         };
         if self.found.iter().flatten().any(|(at, _)| *at == i) {
-            self.error(
-                cell.span,
-                format!("column `{name}` a second time"),
-                "each column once",
-                None,
-            );
+            self.error(cell.span, format!("column `{name}` a second time"), "each column once", None);
             return None;
         }
         let kind = &KINDS[self.wanted[i].kind];
@@ -212,24 +170,10 @@ impl<'a> Reader<'a> {
         Some((i, factor))
     }
 
-    fn factor(
-        &mut self,
-        cell: &Cell,
-        name: &str,
-        unit_text: Option<&str>,
-        kind: &Kind,
-    ) -> Option<f64> {
-        let expected = format!(
-            "the unit of {} in brackets, such as `{name}[{}]`",
-            kind.noun, kind.si
-        );
+    fn factor(&mut self, cell: &Cell, name: &str, unit_text: Option<&str>, kind: &Kind) -> Option<f64> {
+        let expected = format!("the unit of {} in brackets, such as `{name}[{}]`", kind.noun, kind.si);
         let Some(unit_text) = unit_text else {
-            self.error(
-                cell.span,
-                format!("column `{name}` without a unit"),
-                expected,
-                None,
-            );
+            self.error(cell.span, format!("column `{name}` without a unit"), expected, None);
             return None;
         };
         match unit_expression::parse(unit_text, 0) {

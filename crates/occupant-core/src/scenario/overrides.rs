@@ -9,8 +9,7 @@ use super::source::Span;
 /// is not written.
 pub(super) fn needs_explicit(root: &Node, steps: &[Step]) -> bool {
     let written = || steps.iter().try_fold(root, child_of).is_some();
-    steps.contains(&Step::Every)
-        || (steps.iter().any(|s| matches!(s, Step::Index(_))) && !written())
+    steps.contains(&Step::Every) || (steps.iter().any(|s| matches!(s, Step::Index(_))) && !written())
 }
 
 /// The places a path with wildcards leads to in the explicit form of a scenario, as paths without wildcards.
@@ -31,9 +30,7 @@ fn collect(node: &Node, rest: &[Step], path: &mut Vec<Step>, found: &mut Vec<Vec
         return;
     };
     let next: Vec<Step> = match (step, &node.value) {
-        (Step::Every, Value::Table(table)) => {
-            table.iter().map(|e| Step::Key(e.key.clone())).collect()
-        }
+        (Step::Every, Value::Table(table)) => table.iter().map(|e| Step::Key(e.key.clone())).collect(),
         (Step::Every, Value::Array(items)) => (0..items.len()).map(Step::Index).collect(),
         _ => vec![step.clone()],
     };
@@ -52,12 +49,7 @@ fn collect(node: &Node, rest: &[Step], path: &mut Vec<Step>, found: &mut Vec<Vec
 ///
 /// # Errors
 /// The part of the path that leads nowhere.
-pub(super) fn put(
-    root: &mut Node,
-    explicit: Option<&Node>,
-    steps: &[Step],
-    value: Node,
-) -> Result<(), String> {
+pub(super) fn put(root: &mut Node, explicit: Option<&Node>, steps: &[Step], value: Node) -> Result<(), String> {
     let mut node = root;
     let mut shadow = explicit;
     let mut path = String::new();
@@ -107,10 +99,7 @@ fn blank(key: &str, span: Span, next: Option<&Step>, shadow: Option<&Node>) -> E
     Entry {
         key: key.to_owned(),
         key_span: span,
-        node: Node {
-            span,
-            value: copied.unwrap_or(Value::Table(Table::new())),
-        },
+        node: Node { span, value: copied.unwrap_or(Value::Table(Table::new())) },
     }
 }
 
@@ -118,9 +107,9 @@ fn below_mut<'a>(node: &'a mut Node, step: &Step) -> Option<&'a mut Node> {
     match (&mut node.value, step) {
         (Value::Table(table), Step::Key(key)) => table.get_mut(key).map(|e| &mut e.node),
         (Value::Array(items), Step::Index(i)) => items.get_mut(*i),
-        (Value::Array(items), Step::Key(key)) => items
-            .iter_mut()
-            .find(|item| item.get("name").and_then(Node::as_str) == Some(key)),
+        (Value::Array(items), Step::Key(key)) => {
+            items.iter_mut().find(|item| item.get("name").and_then(Node::as_str) == Some(key))
+        }
         _ => None,
     }
 }

@@ -59,34 +59,23 @@ pub fn parse(text: &str) -> Result<Vec<Step>, String> {
 }
 
 fn index_step(text: &str) -> Result<(Step, usize), String> {
-    let end = text
-        .find(']')
-        .ok_or_else(|| format!("`[` without `]` in `{text}`"))?;
+    let end = text.find(']').ok_or_else(|| format!("`[` without `]` in `{text}`"))?;
     let inner = text[1..end].trim();
     let step = match inner {
         "*" => Step::Every,
-        _ => Step::Index(
-            inner
-                .parse()
-                .map_err(|_| format!("`{inner}` in brackets is no index, which counts from 0"))?,
-        ),
+        _ => Step::Index(inner.parse().map_err(|_| format!("`{inner}` in brackets is no index, which counts from 0"))?),
     };
     Ok((step, end + 1))
 }
 
 fn quoted_step(text: &str) -> Result<(Step, usize), String> {
-    let inner = text[1..]
-        .find('"')
-        .ok_or_else(|| format!("a quote without its second one in `{text}`"))?;
+    let inner = text[1..].find('"').ok_or_else(|| format!("a quote without its second one in `{text}`"))?;
     Ok((Step::Key(text[1..=inner].to_owned()), inner + 2))
 }
 
 /// A path with one more key.
 pub fn with_key(path: &str, key: &str) -> String {
-    let plain = !key.is_empty()
-        && key
-            .chars()
-            .all(|c| c.is_alphanumeric() || c == '_' || c == '-');
+    let plain = !key.is_empty() && key.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-');
     let key = match plain {
         true => key.to_owned(),
         false => format!("\"{key}\""),
@@ -112,9 +101,9 @@ pub fn child<'a>(node: &'a Node, step: &Step) -> Option<&'a Node> {
     match (&node.value, step) {
         (Value::Table(table), Step::Key(key)) => table.get(key).map(|e| &e.node),
         (Value::Array(items), Step::Index(i)) => items.get(*i),
-        (Value::Array(items), Step::Key(key)) => items
-            .iter()
-            .find(|item| item.get("name").and_then(Node::as_str) == Some(key)),
+        (Value::Array(items), Step::Key(key)) => {
+            items.iter().find(|item| item.get("name").and_then(Node::as_str) == Some(key))
+        }
         _ => None,
     }
 }
@@ -150,23 +139,12 @@ mod tests {
         let key = |k: &str| Step::Key(k.into());
         assert_eq!(
             parse("belts.lap.anchors[1][0]").unwrap(),
-            [
-                key("belts"),
-                key("lap"),
-                key("anchors"),
-                Step::Index(1),
-                Step::Index(0)
-            ]
+            [key("belts"), key("lap"), key("anchors"), Step::Index(1), Step::Index(0)]
         );
-        assert_eq!(
-            parse("joints.*.damping").unwrap(),
-            [key("joints"), Step::Every, key("damping")]
-        );
+        assert_eq!(parse("joints.*.damping").unwrap(), [key("joints"), Step::Every, key("damping")]);
         let quoted = "surfaces.\"front. cushion\".material";
         assert_eq!(to_text(&parse(quoted).unwrap()), quoted);
-        for wrong in [
-            "", ".", "a.", "a..b", "a[", "a[x]", "a[0]b", "a.\"b", "a.\"\"",
-        ] {
+        for wrong in ["", ".", "a.", "a..b", "a[", "a[x]", "a[0]b", "a.\"b", "a.\"\""] {
             assert!(parse(wrong).is_err(), "{wrong}");
         }
     }

@@ -58,11 +58,7 @@ pub struct Misplaced {
 
 impl Misplaced {
     fn new(found: impl Into<String>, expected: impl Into<String>, hint: Option<String>) -> Self {
-        Misplaced {
-            found: found.into(),
-            expected: expected.into(),
-            hint,
-        }
+        Misplaced { found: found.into(), expected: expected.into(), hint }
     }
 }
 
@@ -73,8 +69,7 @@ impl Draft {
     /// # Errors
     /// A path that cannot be read, leads nowhere, or leads to a whole table or list.
     pub fn places(&self, path: &str) -> Result<Vec<Place>, Misplaced> {
-        let steps = parse(path)
-            .map_err(|found| Misplaced::new(found, "a path such as belts.lap.slack", None))?;
+        let steps = parse(path).map_err(|found| Misplaced::new(found, "a path such as belts.lap.slack", None))?;
         let explicit = expand(&mut self.sources.clone(), &self.root);
         let found = targets(&explicit, &steps);
         if found.is_empty() {
@@ -101,9 +96,7 @@ impl Draft {
             let below = node.and_then(|n| child(n, step));
             view = match step {
                 Step::Key(key) => match above.property(root, key) {
-                    Some(view) if below.is_some() || above.keys().contains(&key.as_str()) => {
-                        Some(view)
-                    }
+                    Some(view) if below.is_some() || above.keys().contains(&key.as_str()) => Some(view),
                     _ => return Err(unknown(&above, node, steps, i)),
                 },
                 _ if below.is_some() => above.items(root),
@@ -114,12 +107,7 @@ impl Draft {
         let view = view.ok_or_else(|| no_value(steps))?;
         let wanted = wanted(&view).ok_or_else(|| no_value(steps))?;
         let si = node.and_then(|n| self.si(n, &wanted));
-        Ok(Place {
-            path: to_text(steps),
-            wanted,
-            value: node.map(|n| n.value.clone()),
-            si,
-        })
+        Ok(Place { path: to_text(steps), wanted, value: node.map(|n| n.value.clone()), si })
     }
 
     /// A value as a number in SI units.
@@ -131,9 +119,7 @@ impl Draft {
             _ => return None,
         };
         match (wanted, written) {
-            (Wanted::Quantity(kind), written) => {
-                si_value(&written, kind, units_of(&self.root)).ok()
-            }
+            (Wanted::Quantity(kind), written) => si_value(&written, kind, units_of(&self.root)).ok(),
             (Wanted::Number, Written::Integer(i)) => Some(i as f64),
             (Wanted::Number, Written::Float(x)) => Some(x),
             _ => None,
@@ -141,19 +127,11 @@ impl Draft {
     }
 
     /// The values of the explicit scenario that change when something is written at a place where nothing stands.
-    fn changed_by(
-        &self,
-        explicit: &Node,
-        steps: &[Step],
-        place: Place,
-    ) -> Result<Vec<Place>, Misplaced> {
+    fn changed_by(&self, explicit: &Node, steps: &[Step], place: Place) -> Result<Vec<Place>, Misplaced> {
         // any value that stands nowhere yet will do: it is only looked for again
         let mark = Value::String("\u{0}".to_owned());
         let mut root = self.root.clone();
-        let node = Node {
-            span: root.span,
-            value: mark.clone(),
-        };
+        let node = Node { span: root.span, value: mark.clone() };
         put(&mut root, Some(explicit), steps, node)
             .map_err(|found| Misplaced::new(found, "a path that exists in the scenario", None))?;
         let marked = expand(&mut self.sources.clone(), &root);
@@ -176,15 +154,9 @@ impl Draft {
 /// Why a path with wildcards matches nothing: the first of its names that stands under none of what is before it.
 fn nowhere(explicit: &Node, path: &str, steps: &[Step]) -> Misplaced {
     let reached = |n: usize| -> Vec<&Node> {
-        targets(explicit, &steps[..n])
-            .iter()
-            .filter_map(|place| place.iter().try_fold(explicit, child_of))
-            .collect()
+        targets(explicit, &steps[..n]).iter().filter_map(|place| place.iter().try_fold(explicit, child_of)).collect()
     };
-    let good = (1..=steps.len())
-        .take_while(|n| !reached(*n).is_empty())
-        .last()
-        .unwrap_or(0);
+    let good = (1..=steps.len()).take_while(|n| !reached(*n).is_empty()).last().unwrap_or(0);
     let beside = reached(good);
     let mut names: Vec<&str> = beside
         .iter()
@@ -229,10 +201,7 @@ fn wanted(view: &View) -> Option<Wanted> {
 
 fn no_value(steps: &[Step]) -> Misplaced {
     Misplaced::new(
-        format!(
-            "`{}` leads to a table or list, not to a single value",
-            to_text(steps)
-        ),
+        format!("`{}` leads to a table or list, not to a single value", to_text(steps)),
         "a path to numbers or names",
         None,
     )
@@ -271,15 +240,8 @@ fn collect(node: &Node, wanted: &Value, path: &mut Vec<Step>, found: &mut Vec<Ve
         found.push(path.clone());
     }
     let below: Vec<(Step, &Node)> = match &node.value {
-        Value::Table(table) => table
-            .iter()
-            .map(|e| (Step::Key(e.key.clone()), &e.node))
-            .collect(),
-        Value::Array(items) => items
-            .iter()
-            .enumerate()
-            .map(|(i, n)| (Step::Index(i), n))
-            .collect(),
+        Value::Table(table) => table.iter().map(|e| (Step::Key(e.key.clone()), &e.node)).collect(),
+        Value::Array(items) => items.iter().enumerate().map(|(i, n)| (Step::Index(i), n)).collect(),
         _ => Vec::new(),
     };
     for (step, node) in below {

@@ -32,16 +32,12 @@ impl<const KIND: usize> Quantity<KIND> {
 
     /// A bare number in the file's units.
     pub fn bare(value: f64) -> Self {
-        Quantity {
-            written: Written::Float(value),
-        }
+        Quantity { written: Written::Float(value) }
     }
 
     /// A number with its unit.
     pub fn text(text: impl Into<String>) -> Self {
-        Quantity {
-            written: Written::Text(text.into()),
-        }
+        Quantity { written: Written::Text(text.into()) }
     }
 
     /// As it was written.
@@ -82,53 +78,31 @@ fn bare_si(value: f64, kind: &Kind, units: UnitSystem) -> Result<f64, UnitError>
     if unit.is_empty() {
         return finite(value, &value.to_string());
     }
-    finite(
-        value * unit_expression::parse(unit, 0)?.factor,
-        &value.to_string(),
-    )
+    finite(value * unit_expression::parse(unit, 0)?.factor, &value.to_string())
 }
 
 fn finite(value: f64, text: &str) -> Result<f64, UnitError> {
     match value.is_finite() {
         true => Ok(value),
-        false => Err(whole(
-            text,
-            format!("`{text}` is not finite"),
-            "a finite number".into(),
-        )),
+        false => Err(whole(text, format!("`{text}` is not finite"), "a finite number".into())),
     }
 }
 
 /// An error about a whole text.
 fn whole(text: &str, found: String, expected: String) -> UnitError {
-    UnitError {
-        start: 0,
-        end: text.len(),
-        found,
-        expected,
-        hint: None,
-    }
+    UnitError { start: 0, end: text.len(), found, expected, hint: None }
 }
 
 /// Reads `"48 lbf/in"` and the like.
 fn text_si(text: &str, kind: &Kind) -> Result<f64, UnitError> {
     let expected = || format!("{}: {}", kind.noun, kind.example);
-    let (number, unit_start) = split_number(text).ok_or_else(|| {
-        whole(
-            text,
-            format!("`{text}` does not start with a number"),
-            expected(),
-        )
-    })?;
+    let (number, unit_start) =
+        split_number(text).ok_or_else(|| whole(text, format!("`{text}` does not start with a number"), expected()))?;
     let unit_text = text[unit_start..].trim_end();
     if unit_text.is_empty() {
         return Err(UnitError {
             hint: Some(format!("write {} without quotes", text.trim())),
-            ..whole(
-                text,
-                format!("a number without unit in quotes, `{text}`"),
-                expected(),
-            )
+            ..whole(text, format!("a number without unit in quotes, `{text}`"), expected())
         });
     }
     if unit_text.starts_with(',') {
@@ -162,12 +136,7 @@ pub(super) fn split_number(text: &str) -> Option<(f64, usize)> {
     };
     let digits = &body[body_start..];
     let bytes = digits.as_bytes();
-    let run = |from: usize| {
-        bytes[from..]
-            .iter()
-            .take_while(|b| b.is_ascii_digit())
-            .count()
-    };
+    let run = |from: usize| bytes[from..].iter().take_while(|b| b.is_ascii_digit()).count();
     let mut length = run(0);
     if bytes.get(length) == Some(&b'.') {
         length += 1 + run(length + 1);
@@ -190,27 +159,15 @@ fn pound_hint(number: f64, unit_text: &str, scale: Scale, kind: &Kind) -> Option
     if kind.name == "ratio" || scale.dimension == kind.dimension {
         return None;
     }
-    [
-        ("lbf", "lb", "mass"),
-        ("lb", "lbf", "force"),
-        ("lbs", "lbf", "force"),
-    ]
-    .into_iter()
-    .find_map(|(wrong, right, what)| {
-        let swapped: Vec<String> = words(unit_text)
-            .map(|w| {
-                if w == wrong {
-                    right.to_owned()
-                } else {
-                    w.to_owned()
-                }
-            })
-            .collect();
-        let swapped = swapped.concat();
-        let fits = unit_expression::parse(&swapped, 0)
-            .is_ok_and(|s| s.dimension.serves_as(kind.dimension));
-        fits.then(|| format!("the pound of {what} is `{right}`: \"{number} {swapped}\""))
-    })
+    [("lbf", "lb", "mass"), ("lb", "lbf", "force"), ("lbs", "lbf", "force")].into_iter().find_map(
+        |(wrong, right, what)| {
+            let swapped: Vec<String> =
+                words(unit_text).map(|w| if w == wrong { right.to_owned() } else { w.to_owned() }).collect();
+            let swapped = swapped.concat();
+            let fits = unit_expression::parse(&swapped, 0).is_ok_and(|s| s.dimension.serves_as(kind.dimension));
+            fits.then(|| format!("the pound of {what} is `{right}`: \"{number} {swapped}\""))
+        },
+    )
 }
 
 /// Splits into runs of letters and single other characters.
@@ -219,9 +176,7 @@ fn words(text: &str) -> impl Iterator<Item = &str> {
     std::iter::from_fn(move || {
         let first = rest.chars().next()?;
         let length = match first.is_alphabetic() {
-            true => rest
-                .find(|c: char| !c.is_alphabetic())
-                .unwrap_or(rest.len()),
+            true => rest.find(|c: char| !c.is_alphabetic()).unwrap_or(rest.len()),
             false => first.len_utf8(),
         };
         let (word, tail) = rest.split_at(length);
@@ -242,9 +197,7 @@ impl<const KIND: usize> Serialize for Quantity<KIND> {
 
 impl<'de, const KIND: usize> Deserialize<'de> for Quantity<KIND> {
     fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
-        deserializer
-            .deserialize_any(Visitor)
-            .map(|written| Quantity { written })
+        deserializer.deserialize_any(Visitor).map(|written| Quantity { written })
     }
 }
 

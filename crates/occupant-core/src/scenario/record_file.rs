@@ -48,13 +48,7 @@ pub fn read_record(bytes: &[u8], name: &str) -> Result<RecordFile, Diagnostics> 
 
 impl RecordFile {
     /// A problem of the sample `station`, at its line.
-    pub fn at(
-        &self,
-        station: usize,
-        found: String,
-        expected: &str,
-        hint: Option<&str>,
-    ) -> Diagnostic {
+    pub fn at(&self, station: usize, found: String, expected: &str, hint: Option<&str>) -> Diagnostic {
         let span = self.rows.get(station).copied().unwrap_or(self.header);
         let problem = Problem {
             severity: Severity::Error,
@@ -69,19 +63,10 @@ impl RecordFile {
     fn problems(&self) -> Diagnostics {
         let mut problems = Diagnostics::new();
         let time_s = &self.record.time_s;
-        let channels = self
-            .record
-            .acceleration_m_s2
-            .iter()
-            .chain(&self.record.rate_rad_s);
+        let channels = self.record.acceleration_m_s2.iter().chain(&self.record.rate_rad_s);
         if channels.flatten().next().is_none() {
             let expected = "at least one of `ax`, `ay`, `az`, `wx`, `wy`, `wz` with its unit";
-            problems.push(self.at(
-                usize::MAX,
-                "no acceleration and no rate".into(),
-                expected,
-                None,
-            ));
+            problems.push(self.at(usize::MAX, "no acceleration and no rate".into(), expected, None));
         }
         if time_s.len() < 2 {
             let found = format!("{} lines of numbers", time_s.len());

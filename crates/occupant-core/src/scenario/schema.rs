@@ -24,10 +24,7 @@ pub(crate) fn schema_of<T: JsonSchema>(title: &str) -> Value {
         s.transforms.push(Box::new(WithoutNull));
         s.transforms.push(Box::new(StandardGroups));
     });
-    let mut schema = settings
-        .into_generator()
-        .into_root_schema_for::<T>()
-        .to_value();
+    let mut schema = settings.into_generator().into_root_schema_for::<T>().to_value();
     if let Some(root) = schema.as_object_mut() {
         root.insert("title".into(), json!(title));
     }
@@ -115,9 +112,6 @@ fn at_most_one(keys: &[&str]) -> Value {
 }
 
 fn together(keys: &[&str]) -> Value {
-    let each: Map<String, Value> = keys
-        .iter()
-        .map(|k| ((*k).to_owned(), json!(keys)))
-        .collect();
+    let each: Map<String, Value> = keys.iter().map(|k| ((*k).to_owned(), json!(keys))).collect();
     json!({ "dependentRequired": each })
 }

@@ -21,11 +21,7 @@ pub struct Span {
 impl Span {
     /// A part of this span: bytes `from..to` counted from its start.
     pub fn part(self, from: usize, to: usize) -> Span {
-        Span {
-            source: self.source,
-            start: (self.start + from).min(self.end),
-            end: (self.start + to).min(self.end),
-        }
+        Span { source: self.source, start: (self.start + from).min(self.end), end: (self.start + to).min(self.end) }
     }
 }
 
@@ -59,10 +55,7 @@ impl Sources {
 
     /// Adds a text.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> SourceId {
-        self.0.push(Source {
-            name: name.into(),
-            text: text.into(),
-        });
+        self.0.push(Source { name: name.into(), text: text.into() });
         SourceId(self.0.len() - 1)
     }
 
@@ -83,18 +76,12 @@ impl Sources {
 
     /// A span that covers the first character of a text.
     pub fn start_of(&self, id: SourceId) -> Span {
-        Span {
-            source: id,
-            start: 0,
-            end: self.text(id).chars().next().map_or(0, char::len_utf8),
-        }
+        Span { source: id, start: 0, end: self.text(id).chars().next().map_or(0, char::len_utf8) }
     }
 
     /// The words of a span; empty if it lies outside its text or splits a character.
     pub fn slice(&self, span: Span) -> &str {
-        self.text(span.source)
-            .get(span.start..span.end)
-            .unwrap_or("")
+        self.text(span.source).get(span.start..span.end).unwrap_or("")
     }
 
     /// Line and column where the span starts.
@@ -102,10 +89,7 @@ impl Sources {
         let text = self.text(span.source);
         let before = &text[..floor_char_boundary(text, span.start)];
         let line_start = before.rfind('\n').map_or(0, |i| i + 1);
-        Position {
-            line: before.matches('\n').count() + 1,
-            column: before[line_start..].chars().count() + 1,
-        }
+        Position { line: before.matches('\n').count() + 1, column: before[line_start..].chars().count() + 1 }
     }
 
     /// The whole line where the span starts, without its line end.
@@ -135,20 +119,10 @@ mod tests {
     fn positions_count_lines_and_characters_from_one() {
         let mut sources = Sources::new();
         let id = sources.add("f", "ab\r\nγδ = 1\n");
-        let span = |start, end| Span {
-            source: id,
-            start,
-            end,
-        };
-        assert_eq!(
-            sources.position(span(0, 1)),
-            Position { line: 1, column: 1 }
-        );
+        let span = |start, end| Span { source: id, start, end };
+        assert_eq!(sources.position(span(0, 1)), Position { line: 1, column: 1 });
         // γ is two bytes: δ starts at byte 6 but is the second character.
-        assert_eq!(
-            sources.position(span(6, 8)),
-            Position { line: 2, column: 2 }
-        );
+        assert_eq!(sources.position(span(6, 8)), Position { line: 2, column: 2 });
         assert_eq!(sources.line(span(0, 1)), "ab");
         assert_eq!(sources.line(span(6, 8)), "γδ = 1");
         assert_eq!(sources.slice(span(6, 8)), "δ");

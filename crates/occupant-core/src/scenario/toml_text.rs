@@ -14,10 +14,7 @@ pub fn parse(sources: &Sources, id: SourceId) -> Result<Node, Diagnostics> {
     let (table, errors) = DeTable::parse_recoverable(sources.text(id));
     let mut reader = Reader::new(sources, id);
     reader.add(errors);
-    let root = Node {
-        span: sources.start_of(id),
-        value: reader.table(table.into_inner()),
-    };
+    let root = Node { span: sources.start_of(id), value: reader.table(table.into_inner()) };
     reader.finish(root)
 }
 
@@ -42,11 +39,7 @@ struct Reader<'a> {
 
 impl<'a> Reader<'a> {
     fn new(sources: &'a Sources, id: SourceId) -> Self {
-        Reader {
-            sources,
-            id,
-            problems: Diagnostics::new(),
-        }
+        Reader { sources, id, problems: Diagnostics::new() }
     }
 
     fn add(&mut self, errors: Vec<Error>) {
@@ -61,8 +54,7 @@ impl<'a> Reader<'a> {
                 Some((found, expected)) => (found, expected),
                 None => (message, "valid TOML"),
             };
-            self.problems
-                .push(syntax_error(self.sources, span, found, expected));
+            self.problems.push(syntax_error(self.sources, span, found, expected));
         }
     }
 
@@ -74,11 +66,7 @@ impl<'a> Reader<'a> {
     }
 
     fn span(&self, range: std::ops::Range<usize>) -> Span {
-        Span {
-            source: self.id,
-            start: range.start,
-            end: range.end,
-        }
+        Span { source: self.id, start: range.start, end: range.end }
     }
 
     fn table(&mut self, source: DeTable<'_>) -> Value {
@@ -91,11 +79,7 @@ impl<'a> Reader<'a> {
             if span.start == span.end && matches!(value, DeValue::Table(_) | DeValue::Array(_)) {
                 span = key_span;
             }
-            table.push(Entry {
-                key: key.into_inner().into_owned(),
-                key_span,
-                node: self.node(span, value),
-            });
+            table.push(Entry { key: key.into_inner().into_owned(), key_span, node: self.node(span, value) });
         }
         Value::Table(table)
     }
@@ -114,30 +98,21 @@ impl<'a> Reader<'a> {
                     })
                     .collect(),
             ),
-            DeValue::Integer(number) => {
-                match i64::from_str_radix(number.as_str(), number.radix()) {
-                    Ok(i) => Value::Integer(i),
-                    Err(_) => {
-                        self.reject(span, "a whole number too large to read", "at most 64 bits")
-                    }
-                }
-            }
+            DeValue::Integer(number) => match i64::from_str_radix(number.as_str(), number.radix()) {
+                Ok(i) => Value::Integer(i),
+                Err(_) => self.reject(span, "a whole number too large to read", "at most 64 bits"),
+            },
             DeValue::Float(number) => match number.as_str().parse() {
                 Ok(x) => Value::Float(x),
                 Err(_) => self.reject(span, "a number that cannot be read", "a decimal number"),
             },
-            DeValue::Datetime(_) => self.reject(
-                span,
-                "a date or time of day",
-                "a text, in quotes, or a number",
-            ),
+            DeValue::Datetime(_) => self.reject(span, "a date or time of day", "a text, in quotes, or a number"),
         };
         Node { span, value }
     }
 
     fn reject(&mut self, span: Span, found: &str, expected: &str) -> Value {
-        self.problems
-            .push(syntax_error(self.sources, span, found, expected));
+        self.problems.push(syntax_error(self.sources, span, found, expected));
         Value::Null
     }
 }
@@ -159,18 +134,9 @@ mod tests {
         let node = node.unwrap();
         let keys: Vec<_> = node.as_table().unwrap().iter().map(|e| &e.key).collect();
         assert_eq!(keys, ["z", "a", "m"]);
-        let k1 = node
-            .get("m")
-            .unwrap()
-            .get("seat")
-            .unwrap()
-            .get("k1")
-            .unwrap();
+        let k1 = node.get("m").unwrap().get("seat").unwrap().get("k1").unwrap();
         assert_eq!(sources.slice(k1.span), "4.80");
-        assert_eq!(
-            sources.slice(node.get("m").unwrap().get("seat").unwrap().span),
-            "[m.seat]"
-        );
+        assert_eq!(sources.slice(node.get("m").unwrap().get("seat").unwrap().span), "[m.seat]");
         assert_eq!(sources.slice(node.get("m").unwrap().span), "m");
     }
 

@@ -18,16 +18,8 @@ pub struct Unit {
     pub factor: f64,
 }
 
-const fn unit(
-    names: &'static [&'static str],
-    [length, mass, time, angle]: [i32; 4],
-    factor: f64,
-) -> Unit {
-    Unit {
-        names,
-        dimension: Dimension::new(length, mass, time, angle),
-        factor,
-    }
+const fn unit(names: &'static [&'static str], [length, mass, time, angle]: [i32; 4], factor: f64) -> Unit {
+    Unit { names, dimension: Dimension::new(length, mass, time, angle), factor }
 }
 
 /// International pound, kg (exact, 1959).
@@ -116,22 +108,16 @@ pub(super) const MAX_EXPONENT: i32 = 9;
 /// No unit has this name; `start` and `end` say where it stands.
 pub(super) fn named(name: &str, start: usize, end: usize) -> Result<Scale, UnitError> {
     let known = UNITS.iter().find(|u| u.names.contains(&name));
-    known
-        .map(|u| Scale {
-            dimension: u.dimension,
-            factor: u.factor,
-        })
-        .ok_or_else(|| {
-            let all = UNITS.iter().flat_map(|u| u.names.iter().copied());
-            UnitError {
-                start,
-                end,
-                found: format!("unknown unit `{name}`"),
-                expected: "a unit such as m, in, s, deg, mph, g, kg, lb (mass), N, lbf (force)"
-                    .into(),
-                hint: nearest(name, all).map(|n| format!("did you mean `{n}`?")),
-            }
-        })
+    known.map(|u| Scale { dimension: u.dimension, factor: u.factor }).ok_or_else(|| {
+        let all = UNITS.iter().flat_map(|u| u.names.iter().copied());
+        UnitError {
+            start,
+            end,
+            found: format!("unknown unit `{name}`"),
+            expected: "a unit such as m, in, s, deg, mph, g, kg, lb (mass), N, lbf (force)".into(),
+            hint: nearest(name, all).map(|n| format!("did you mean `{n}`?")),
+        }
+    })
 }
 
 impl Scale {
@@ -149,12 +135,7 @@ impl Scale {
     pub(super) fn times(self, other: Scale) -> Option<Scale> {
         let (a, b) = (self.dimension, other.dimension);
         let product = Scale {
-            dimension: Dimension::new(
-                a.length + b.length,
-                a.mass + b.mass,
-                a.time + b.time,
-                a.angle + b.angle,
-            ),
+            dimension: Dimension::new(a.length + b.length, a.mass + b.mass, a.time + b.time, a.angle + b.angle),
             factor: self.factor * other.factor,
         };
         product.is_sensible().then_some(product)
@@ -162,9 +143,6 @@ impl Scale {
 
     fn is_sensible(&self) -> bool {
         let d = self.dimension;
-        [d.length, d.mass, d.time, d.angle]
-            .iter()
-            .all(|n| n.abs() <= MAX_EXPONENT)
-            && self.factor.is_normal()
+        [d.length, d.mass, d.time, d.angle].iter().all(|n| n.abs() <= MAX_EXPONENT) && self.factor.is_normal()
     }
 }

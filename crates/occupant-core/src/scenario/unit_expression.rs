@@ -15,11 +15,7 @@ const MAX_DEPTH: usize = 8;
 /// # Errors
 /// Unknown units, misplaced signs, ambiguous quotients.
 pub fn parse(text: &str, offset: usize) -> Result<Scale, UnitError> {
-    let mut parser = Parser {
-        tokens: tokens(text, offset)?,
-        at: 0,
-        end: offset + text.len(),
-    };
+    let mut parser = Parser { tokens: tokens(text, offset)?, at: 0, end: offset + text.len() };
     let scale = parser.expression(0)?;
     match parser.peek() {
         None => Ok(scale),
@@ -46,13 +42,7 @@ struct Token<'a> {
 
 impl Token<'_> {
     fn error(&self, found: impl Into<String>, expected: impl Into<String>) -> UnitError {
-        UnitError {
-            start: self.start,
-            end: self.end,
-            found: found.into(),
-            expected: expected.into(),
-            hint: None,
-        }
+        UnitError { start: self.start, end: self.end, found: found.into(), expected: expected.into(), hint: None }
     }
 }
 
@@ -76,23 +66,12 @@ fn tokens(text: &str, offset: usize) -> Result<Vec<Token<'_>>, UnitError> {
                 (Some(Word::Name(&rest[..length])), length)
             }
             _ => {
-                let token = Token {
-                    word: Word::Times,
-                    start,
-                    end: start + c.len_utf8(),
-                };
-                return Err(token.error(
-                    format!("`{c}` in a unit"),
-                    "units such as in, lbf, s joined by `·`, `/`, `^`",
-                ));
+                let token = Token { word: Word::Times, start, end: start + c.len_utf8() };
+                return Err(token.error(format!("`{c}` in a unit"), "units such as in, lbf, s joined by `·`, `/`, `^`"));
             }
         };
         if let Some(word) = word {
-            tokens.push(Token {
-                word,
-                start,
-                end: start + length,
-            });
+            tokens.push(Token { word, start, end: start + length });
         }
         rest = &rest[length..];
     }
@@ -122,16 +101,9 @@ fn raised(c: char) -> Option<char> {
 }
 
 /// `^2`, `^-1`, `**2`: `digits` follows the sign of `sign_length` bytes at `start`.
-fn power(
-    digits: &str,
-    sign_length: usize,
-    start: usize,
-) -> Result<(Option<Word<'static>>, usize), UnitError> {
+fn power(digits: &str, sign_length: usize, start: usize) -> Result<(Option<Word<'static>>, usize), UnitError> {
     let minus = usize::from(digits.starts_with('-'));
-    let length = digits[minus..]
-        .find(|c: char| !c.is_ascii_digit())
-        .unwrap_or(digits.len() - minus)
-        + minus;
+    let length = digits[minus..].find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len() - minus) + minus;
     exponent(&digits[..length], start, sign_length + length)
 }
 
@@ -141,11 +113,7 @@ fn raised_power(text: &str, start: usize) -> Result<(Option<Word<'static>>, usiz
     exponent(&digits, start, length)
 }
 
-fn exponent(
-    digits: &str,
-    start: usize,
-    length: usize,
-) -> Result<(Option<Word<'static>>, usize), UnitError> {
+fn exponent(digits: &str, start: usize, length: usize) -> Result<(Option<Word<'static>>, usize), UnitError> {
     match digits.parse::<i32>() {
         Ok(n) if n.abs() <= MAX_EXPONENT => Ok((Some(Word::Power(n)), length)),
         _ => Err(UnitError {
@@ -184,10 +152,7 @@ impl<'a> Parser<'a> {
                 Word::Times | Word::Name(_) | Word::Open | Word::Power(_) if divided => {
                     return Err(UnitError {
                         hint: Some("write a/(b·c) if both divide, a·c/b if only b does".into()),
-                        ..token.error(
-                            "a product after `/`",
-                            "parentheses that say what is divided",
-                        )
+                        ..token.error("a product after `/`", "parentheses that say what is divided")
                     });
                 }
                 Word::Times => {
@@ -197,10 +162,7 @@ impl<'a> Parser<'a> {
                 _ => 1,
             };
             let factor = self.factor(depth)?;
-            product = factor
-                .power(sign)
-                .and_then(|f| product.times(f))
-                .ok_or_else(|| too_high(&token))?;
+            product = factor.power(sign).and_then(|f| product.times(f)).ok_or_else(|| too_high(&token))?;
         }
         Ok(product)
     }
@@ -228,17 +190,11 @@ impl<'a> Parser<'a> {
                 inner
             }
             _ => {
-                return Err(token.error(
-                    "a sign where a unit should stand",
-                    "a unit such as in, lbf, s",
-                ));
+                return Err(token.error("a sign where a unit should stand", "a unit such as in, lbf, s"));
             }
         };
         match self.peek().copied() {
-            Some(Token {
-                word: Word::Power(n),
-                ..
-            }) => {
+            Some(Token { word: Word::Power(n), .. }) => {
                 self.at += 1;
                 base.power(n).ok_or_else(|| too_high(&token))
             }
@@ -248,8 +204,5 @@ impl<'a> Parser<'a> {
 }
 
 fn too_high(token: &Token<'_>) -> UnitError {
-    token.error(
-        "too high a power",
-        format!("powers of at most {MAX_EXPONENT}"),
-    )
+    token.error("too high a power", format!("powers of at most {MAX_EXPONENT}"))
 }

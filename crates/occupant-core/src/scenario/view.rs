@@ -17,18 +17,14 @@ impl View {
     pub(super) fn of(root: &'static Json, schema: &'static Json) -> Option<View> {
         let own = schema.as_object()?;
         let name = own.get("$ref").and_then(Json::as_str);
-        let base = name
-            .and_then(|r| r.strip_prefix('#'))
-            .and_then(|pointer| root.pointer(pointer))
-            .and_then(Json::as_object);
+        let base =
+            name.and_then(|r| r.strip_prefix('#')).and_then(|pointer| root.pointer(pointer)).and_then(Json::as_object);
         Some(View { own, base })
     }
 
     /// A word of the schema.
     pub(super) fn get(&self, word: &str) -> Option<&'static Json> {
-        self.own
-            .get(word)
-            .or_else(|| self.base.and_then(|b| b.get(word)))
+        self.own.get(word).or_else(|| self.base.and_then(|b| b.get(word)))
     }
 
     /// The kind of quantity, if it is one.
@@ -82,10 +78,7 @@ impl View {
     /// The keys a table may have.
     pub(super) fn keys(&self) -> Vec<&'static str> {
         let properties = self.get("properties").and_then(Json::as_object);
-        properties
-            .into_iter()
-            .flat_map(|p| p.keys().map(String::as_str))
-            .collect()
+        properties.into_iter().flat_map(|p| p.keys().map(String::as_str)).collect()
     }
 
     /// The keys a table must have.
@@ -102,14 +95,9 @@ impl View {
     /// The layer that carries rules about groups of keys.
     pub(super) fn object_with_groups(&self) -> Option<&'static Map<String, Json>> {
         let has = |object: &Map<String, Json>| {
-            ["x-exactly-one", "x-at-most-one", "x-together"]
-                .iter()
-                .any(|word| object.contains_key(*word))
+            ["x-exactly-one", "x-at-most-one", "x-together"].iter().any(|word| object.contains_key(*word))
         };
-        [Some(self.own), self.base]
-            .into_iter()
-            .flatten()
-            .find(|o| has(o))
+        [Some(self.own), self.base].into_iter().flatten().find(|o| has(o))
     }
 
     /// What is expected here in two or three words.

@@ -73,19 +73,9 @@ impl Built {
         let mut notes = Vec::new();
         if let Some(reason) = &family.one_sided {
             let reason = reason.lines().next().unwrap_or_default();
-            notes.push(format!(
-                "{}: a derivative to one side only, as the other is refused: {reason}",
-                parameter.name
-            ));
+            notes.push(format!("{}: a derivative to one side only, as the other is refused: {reason}", parameter.name));
         }
-        let phases = |m: &Model| {
-            m.start()
-                .history
-                .pairs
-                .iter()
-                .map(|p| p.phase.to_bits())
-                .collect()
-        };
+        let phases = |m: &Model| m.start().history.pairs.iter().map(|p| p.phase.to_bits()).collect();
         let at_base: Vec<u64> = phases(base);
         if family.models.iter().any(|m| phases(m) != at_base) {
             notes.push(format!(
@@ -95,19 +85,9 @@ impl Built {
             ));
         }
         if doubt.is_nan() || doubt > ROUGH {
-            return Err(Trouble::Rough {
-                parameter: parameter.name.clone(),
-                doubt,
-            });
+            return Err(Trouble::Rough { parameter: parameter.name.clone(), doubt });
         }
-        Ok(Built {
-            system,
-            state,
-            history,
-            path: Path::new(base, family, parameter.size),
-            doubt,
-            notes,
-        })
+        Ok(Built { system, state, history, path: Path::new(base, family, parameter.size), doubt, notes })
     }
 
     /// Greatest distance of two extrapolations of the vehicle's motion and its time, s; none if the parameter leaves the
@@ -129,11 +109,7 @@ fn relative(slope: &Slope, value: f64, size: f64) -> f64 {
 impl Path {
     fn new(base: &Model, family: Family, size: f64) -> Option<Self> {
         let base = &base.setup().path;
-        let paths: Vec<VehiclePath> = family
-            .models
-            .iter()
-            .map(|m| m.setup().path.clone())
-            .collect();
+        let paths: Vec<VehiclePath> = family.models.iter().map(|m| m.setup().path.clone()).collect();
         if paths.iter().all(|path| path == base) {
             return None;
         }
@@ -181,9 +157,7 @@ fn remembered(history: &History<f64>) -> Vec<f64> {
         pair.phase = 0.0;
     }
     let mut list = Vec::new();
-    history
-        .clone()
-        .each(&mut history, &mut |x: &mut f64, _| list.push(*x));
+    history.clone().each(&mut history, &mut |x: &mut f64, _| list.push(*x));
     list
 }
 
@@ -199,21 +173,14 @@ fn motion_numbers(motion: &Moving<f64>) -> [f64; MOTION] {
 }
 
 /// The dual number of place `at`, which goes on by one.
-fn next<const N: usize>(
-    value: f64,
-    at: &Cell<usize>,
-    slope: impl Fn(usize, usize) -> f64,
-) -> Dual<N> {
+fn next<const N: usize>(value: f64, at: &Cell<usize>, slope: impl Fn(usize, usize) -> f64) -> Dual<N> {
     let place = at.get();
     at.set(place + 1);
     Dual::new(value, from_fn(|k| slope(k, place)))
 }
 
 /// The system of `model` in duals; direction k is that of `built[k]`, directions beyond stand still.
-pub(super) fn dual_system<const N: usize>(
-    model: &Model,
-    built: &[Built],
-) -> Result<System<Dual<N>>, Trouble> {
+pub(super) fn dual_system<const N: usize>(model: &Model, built: &[Built]) -> Result<System<Dual<N>>, Trouble> {
     let at = Cell::new(0);
     let slope = |k: usize, i: usize| built.get(k).map_or(0.0, |b| b.system[i]);
     let system = model.system();
@@ -227,9 +194,7 @@ pub(super) fn dual_state<const N: usize>(model: &Model, built: &[Built]) -> Stat
     let slopes = |k: usize| {
         let numbers = built.get(k).map_or_else(Vec::new, |b| b.state.clone());
         let mut all = [0.0; crate::kernel::state::NUMBERS];
-        all.iter_mut()
-            .zip(numbers)
-            .for_each(|(to, from)| *to = from);
+        all.iter_mut().zip(numbers).for_each(|(to, from)| *to = from);
         State::from_numbers(&all)
     };
     let start = &model.start().state;

@@ -130,11 +130,7 @@ impl Happening {
     pub fn words(&self, model: &Model) -> String {
         let setup = model.setup();
         match *self {
-            Happening::Contact {
-                sphere,
-                surface,
-                what,
-            } => {
+            Happening::Contact { sphere, surface, what } => {
                 let name = |i: usize| setup.body.spheres.get(i).map_or("?", |s| s.name.as_str());
                 let face = |i: usize| setup.surfaces.get(i).map_or("?", |s| s.name.as_str());
                 let verb = match what {
@@ -287,24 +283,14 @@ impl<const N: usize> Lookout<N> {
         self.look_at_stops(model, scene);
     }
 
-    fn look_at_pair(
-        &mut self,
-        model: &Model,
-        t: f64,
-        touch: &Touch<Dual<N>>,
-        history: &History<Dual<N>>,
-    ) {
+    fn look_at_pair(&mut self, model: &Model, t: f64, touch: &Touch<Dual<N>>, history: &History<Dual<N>>) {
         let setup = model.setup();
         let part = &model.system().contacts.pairs()[touch.pair].parts[touch.part.value as usize];
         let (sphere, surface) = (touch.sphere, part.surface);
         let material = &setup.materials[setup.surfaces[surface].material];
         let before = self.pairs[touch.pair];
         let begins = before.seen + 1 != self.looks;
-        let slip = V3 {
-            x: touch.slip.x.value,
-            y: touch.slip.y.value,
-            z: touch.slip.z.value,
-        };
+        let slip = V3 { x: touch.slip.x.value, y: touch.slip.y.value, z: touch.slip.z.value };
         let edge_n = length(&touch.edge);
         let depth = touch.depth.value;
         let now = PairNow {
@@ -318,11 +304,7 @@ impl<const N: usize> Lookout<N> {
             edge_n,
         };
         self.pairs[touch.pair] = now;
-        let contact = |what: Touching| Happening::Contact {
-            sphere,
-            surface,
-            what,
-        };
+        let contact = |what: Touching| Happening::Contact { sphere, surface, what };
         let none = [0.0; N];
         if begins {
             self.touching.push(touch.pair);
@@ -379,11 +361,7 @@ impl<const N: usize> Lookout<N> {
                 true => (Touching::Passes, Some(pair.edge_n)),
                 false => (Touching::Ends, None),
             };
-            let happening = Happening::Contact {
-                sphere: pair.sphere,
-                surface: pair.surface,
-                what,
-            };
+            let happening = Happening::Contact { sphere: pair.sphere, surface: pair.surface, what };
             self.note(t, happening, jump_n, [0.0; N]);
         }
     }
@@ -443,15 +421,9 @@ impl<const N: usize> Lookout<N> {
 
 /// Adds the shifts that another pass over the same run has found.
 pub(super) fn join(events: &mut [Event], more: &[Event]) -> Result<(), Trouble> {
-    let same = events.len() == more.len()
-        && events
-            .iter()
-            .zip(more)
-            .all(|(a, b)| a.happening == b.happening);
+    let same = events.len() == more.len() && events.iter().zip(more).all(|(a, b)| a.happening == b.happening);
     if !same {
-        return Err(Trouble::Output(
-            "two passes over one run saw other events".to_owned(),
-        ));
+        return Err(Trouble::Output("two passes over one run saw other events".to_owned()));
     }
     for (event, more) in events.iter_mut().zip(more) {
         event.shift.extend_from_slice(&more.shift);

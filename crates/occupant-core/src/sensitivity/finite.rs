@@ -69,11 +69,7 @@ pub fn finite_changes(parameter: &Parameter<'_>, parts: &[f64], figures: &[Strin
     let none = vec![f64::NAN; figures.len()];
     let mut all: Vec<Finite> = parts
         .iter()
-        .map(|part| Finite {
-            part: *part,
-            change: part * parameter.size,
-            figures: [none.clone(), none.clone()],
-        })
+        .map(|part| Finite { part: *part, change: part * parameter.size, figures: [none.clone(), none.clone()] })
         .collect();
     let places = (0..parts.len()).flat_map(|i| [(i, 0), (i, 1)]);
     let changes: Vec<f64> = all.iter().map(|f| f.change).collect();
@@ -81,11 +77,7 @@ pub fn finite_changes(parameter: &Parameter<'_>, parts: &[f64], figures: &[Strin
         let change = if side == 0 { -changes[i] } else { changes[i] };
         // a value that the scenario refuses has no run
         let model = (parameter.model_at)(parameter.nominal + change).ok()?;
-        Some(Job {
-            tag: (i, side),
-            model,
-            recorder: Summarizer::new(),
-        })
+        Some(Job { tag: (i, side), model, recorder: Summarizer::new() })
     });
     simulate_many(jobs, |ended: Ended<(usize, usize), Summarizer>| {
         let completed = matches!(&ended.outcome, Ok(o) if o.status == Status::Completed);
@@ -104,10 +96,7 @@ pub fn compare(slope: &Slope, value: f64, size: f64, finite: &[Finite], i: usize
         let change = if side == 0 { -f.change } else { f.change };
         (f.figures[side][i] - value) / change
     };
-    let secants: Vec<[f64; 2]> = finite
-        .iter()
-        .map(|f| [secant(f, 0), secant(f, 1)])
-        .collect();
+    let secants: Vec<[f64; 2]> = finite.iter().map(|f| [secant(f, 0), secant(f, 1)]).collect();
     let scale = value.abs() / size;
     let base = slope.value.abs().max(LEAST * scale);
     let off: Vec<f64> = secants
@@ -120,26 +109,14 @@ pub fn compare(slope: &Slope, value: f64, size: f64, finite: &[Finite], i: usize
         })
         .collect();
     let still = |s: f64| s.abs() <= NO_INFLUENCE * scale || s == 0.0;
-    let all_still = still(slope.value)
-        && secants
-            .iter()
-            .flatten()
-            .all(|s| !s.is_finite() || still(*s));
+    let all_still = still(slope.value) && secants.iter().flatten().all(|s| !s.is_finite() || still(*s));
     let verdict = verdict(finite, &off, all_still);
-    Comparison {
-        secants,
-        off,
-        verdict,
-    }
+    Comparison { secants, off, verdict }
 }
 
 fn verdict(finite: &[Finite], off: &[f64], all_still: bool) -> Verdict {
-    let mut known: Vec<(f64, f64)> = finite
-        .iter()
-        .zip(off)
-        .filter(|(_, off)| off.is_finite())
-        .map(|(f, off)| (f.part, *off))
-        .collect();
+    let mut known: Vec<(f64, f64)> =
+        finite.iter().zip(off).filter(|(_, off)| off.is_finite()).map(|(f, off)| (f.part, *off)).collect();
     known.sort_by(|a, b| a.0.total_cmp(&b.0));
     let Some(&(at, first)) = known.first() else {
         return Verdict::Unchecked;
@@ -154,10 +131,7 @@ fn verdict(finite: &[Finite], off: &[f64], all_still: bool) -> Verdict {
         if worst > HOLDS {
             break;
         }
-        verdict = Verdict::Holds {
-            off: worst,
-            up_to: part,
-        };
+        verdict = Verdict::Holds { off: worst, up_to: part };
     }
     verdict
 }

@@ -23,10 +23,7 @@ pub struct Slope {
 
 impl Slope {
     /// Of something that does not change.
-    pub const ZERO: Slope = Slope {
-        value: 0.0,
-        doubt: 0.0,
-    };
+    pub const ZERO: Slope = Slope { value: 0.0, doubt: 0.0 };
 }
 
 /// Most points of a ladder.
@@ -79,10 +76,7 @@ impl Ladder {
             true => 0.0,
             false => f64::EPSILON * (at_base / (p[p.len() - 1] - self.base)).abs(),
         };
-        Slope {
-            value,
-            doubt: (value - other).abs() + rounding,
-        }
+        Slope { value, doubt: (value - other).abs() + rounding }
     }
 
     /// The slopes of several functions at once; `values` by point.

@@ -67,10 +67,7 @@ pub fn derivatives(
 ) -> Result<Derivatives, Trouble> {
     let reach = trajectory.reach(k);
     if !reach.is_finite() {
-        return Err(Trouble::Output(format!(
-            "the derivative by `{}` grows beyond all numbers",
-            parameter.name
-        )));
+        return Err(Trouble::Output(format!("the derivative by `{}` grows beyond all numbers", parameter.name)));
     }
     let at_base = plain_values(model, trajectory, wish)?;
     let mut best: Option<Derivatives> = None;
@@ -99,9 +96,7 @@ fn displaced(
     let models = family.models.iter().zip(&ladder.points);
     let around = models.map(|(model, point)| {
         let by = point - parameter.nominal;
-        values(model, trajectory, wish, |output| {
-            trajectory.displaced(k, output, by)
-        })
+        values(model, trajectory, wish, |output| trajectory.displaced(k, output, by))
     });
     let around: Vec<Values> = around.collect::<Result<_, _>>()?;
     let slopes = |of: &dyn Fn(&Values) -> Vec<f64>| {
@@ -110,9 +105,7 @@ fn displaced(
     };
     Ok(Derivatives {
         figures: slopes(&|v| v.figures.clone()),
-        channels: (0..wish.channels.len())
-            .map(|c| slopes(&|v| v.channels[c].clone()))
-            .collect(),
+        channels: (0..wish.channels.len()).map(|c| slopes(&|v| v.channels[c].clone())).collect(),
     })
 }
 
@@ -134,14 +127,8 @@ impl Derivatives {
 ///
 /// # Errors
 /// An output that cannot be evaluated.
-pub fn plain_values(
-    model: &Model,
-    trajectory: &Trajectory,
-    wish: &Wish,
-) -> Result<Values, Trouble> {
-    values(model, trajectory, wish, |output| {
-        trajectory.checkpoints[output].clone()
-    })
+pub fn plain_values(model: &Model, trajectory: &Trajectory, wish: &Wish) -> Result<Values, Trouble> {
+    values(model, trajectory, wish, |output| trajectory.checkpoints[output].clone())
 }
 
 /// Values of outputs of `model` that need not be those of its own run.
@@ -163,8 +150,7 @@ fn values(
         let mut carry = Watch(|sample: &crate::sample::Sample<'_>| {
             progress = Some(sample.progress);
         });
-        replay(model, &checkpoint, &mut (&mut recorder, &mut carry))
-            .map_err(|e| Trouble::Output(e.to_string()))?;
+        replay(model, &checkpoint, &mut (&mut recorder, &mut carry)).map_err(|e| Trouble::Output(e.to_string()))?;
     }
     let mut outcome = trajectory.outcome.clone();
     if let Some(progress) = progress {
@@ -174,10 +160,7 @@ fn values(
     let (summarizer, series) = recorder;
     let summary = summarizer.summary(None);
     let figures = summary.map_or_else(Vec::new, |s| s.figures(model));
-    Ok(Values {
-        figures: pick(&figures, &wish.figures),
-        channels: series.values,
-    })
+    Ok(Values { figures: pick(&figures, &wish.figures), channels: series.values })
 }
 
 /// The sums and extremes of a run that begins here.
@@ -209,26 +192,17 @@ pub(super) fn pick(figures: &[Figure], names: &[String]) -> Vec<f64> {
 /// # Errors
 /// A name or a pattern that fits none; a figure that the run has not, or that has no derivative.
 pub fn chosen(figures: &[Figure], name: &str) -> Result<Vec<String>, Misplaced> {
-    let refuse = |found: String, expected: &str, hint: Option<String>| Misplaced {
-        found,
-        expected: expected.to_owned(),
-        hint,
-    };
+    let refuse =
+        |found: String, expected: &str, hint: Option<String>| Misplaced { found, expected: expected.to_owned(), hint };
     if name.contains('*') {
         let pieces: Vec<&str> = name.split('*').collect();
         let fits = |f: &&Figure| matches(&f.name, &pieces);
         let all: Vec<&Figure> = figures.iter().filter(fits).collect();
-        let usable = all
-            .iter()
-            .filter(|f| f.value.is_some() && without_derivative(&f.name).is_none());
+        let usable = all.iter().filter(|f| f.value.is_some() && without_derivative(&f.name).is_none());
         let found: Vec<String> = usable.map(|f| f.name.clone()).collect();
         return match (found.is_empty(), all.is_empty()) {
             (false, _) => Ok(found),
-            (true, true) => Err(refuse(
-                format!("no measure is called `{name}`"),
-                "a measure of the run",
-                None,
-            )),
+            (true, true) => Err(refuse(format!("no measure is called `{name}`"), "a measure of the run", None)),
             (true, false) => Err(refuse(
                 format!("no measure called `{name}` has a value and a derivative in this run"),
                 "a measure that the run has",

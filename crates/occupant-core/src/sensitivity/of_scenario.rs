@@ -10,11 +10,7 @@ use crate::study::{Assignment, Target, Value};
 ///
 /// # Errors
 /// A path that leads nowhere, to no number, or to numbers that a factor does not change.
-pub fn parameter<'a>(
-    draft: &'a Draft,
-    path: &str,
-    resolver: Resolver<'a>,
-) -> Result<Parameter<'a>, Misplaced> {
+pub fn parameter<'a>(draft: &'a Draft, path: &str, resolver: Resolver<'a>) -> Result<Parameter<'a>, Misplaced> {
     let places = draft.places(path)?;
     let refuse = |found: String, hint: Option<&str>| Misplaced {
         found,
@@ -46,10 +42,7 @@ pub fn parameter<'a>(
         [only] => (base(only), unit_of(only)),
         several if several.iter().all(|t| base(t) == 0.0) => {
             return Err(refuse(
-                format!(
-                    "`{path}` leads to {} numbers, all 0, which no factor changes",
-                    several.len()
-                ),
+                format!("`{path}` leads to {} numbers, all 0, which no factor changes", several.len()),
                 Some("name one of them"),
             ));
         }
@@ -59,31 +52,15 @@ pub fn parameter<'a>(
     let model_at = move |value: f64| {
         let mut draft = draft.clone();
         for target in &targets {
-            let value = if is_factor {
-                base(target) * value
-            } else {
-                value
-            };
-            let put = Assignment {
-                path: target.path.clone(),
-                value: Value::Number(value),
-                unit: target.unit,
-            };
-            draft
-                .set_value(&put.path, &put.text())
-                .map_err(|e| e.to_string())?;
+            let value = if is_factor { base(target) * value } else { value };
+            let put = Assignment { path: target.path.clone(), value: Value::Number(value), unit: target.unit };
+            draft.set_value(&put.path, &put.text()).map_err(|e| e.to_string())?;
         }
         let loaded = draft.load(resolver).map_err(|e| e.to_string())?;
         let (model, _) = loaded.model().map_err(|e| e.to_string())?;
         Ok(model)
     };
-    Ok(Parameter {
-        name: path.to_owned(),
-        size: size_of(nominal, &unit),
-        unit,
-        nominal,
-        model_at: Box::new(model_at),
-    })
+    Ok(Parameter { name: path.to_owned(), size: size_of(nominal, &unit), unit, nominal, model_at: Box::new(model_at) })
 }
 
 fn unit_of(target: &Target) -> String {

@@ -25,10 +25,7 @@ pub struct Parameter<'a> {
 
 impl fmt::Debug for Parameter<'_> {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.debug_struct("Parameter")
-            .field("name", &self.name)
-            .field("nominal", &self.nominal)
-            .finish_non_exhaustive()
+        f.debug_struct("Parameter").field("name", &self.name).field("nominal", &self.nominal).finish_non_exhaustive()
     }
 }
 
@@ -53,26 +50,15 @@ pub(super) struct Family {
 impl Family {
     /// Models of the structure and the times of `base` at steps of `h` about it.
     pub fn new(base: &Model, parameter: &Parameter<'_>, h: f64) -> Result<Self, Trouble> {
-        let refused = |reason: String| Trouble::Refused {
-            parameter: parameter.name.clone(),
-            reason,
-        };
+        let refused = |reason: String| Trouble::Refused { parameter: parameter.name.clone(), reason };
         let make = |side: Side| -> Result<Family, String> {
             let ladder = Ladder::new(parameter.nominal, h, side);
             let models = ladder.points.iter().map(|p| (parameter.model_at)(*p));
-            Ok(Family {
-                models: models.collect::<Result<_, _>>()?,
-                ladder,
-                one_sided: None,
-            })
+            Ok(Family { models: models.collect::<Result<_, _>>()?, ladder, one_sided: None })
         };
         let family = make(Side::Both).or_else(|reason| {
             let side = make(Side::Above).or_else(|_| make(Side::Below));
-            side.map(|family| Family {
-                one_sided: Some(reason.clone()),
-                ..family
-            })
-            .map_err(|_| reason)
+            side.map(|family| Family { one_sided: Some(reason.clone()), ..family }).map_err(|_| reason)
         });
         let family = family.map_err(refused)?;
         for model in &family.models {
@@ -86,13 +72,8 @@ impl Family {
 fn compare(base: &Model, other: &Model, parameter: &str) -> Result<(), Trouble> {
     let (a, b) = (base.setup(), other.setup());
     if a.time != b.time || a.integrator != b.integrator {
-        return Err(Trouble::Times {
-            parameter: parameter.to_owned(),
-        });
+        return Err(Trouble::Times { parameter: parameter.to_owned() });
     }
     let alike = base.system().zip(other.system(), |_, _| ());
-    alike.map(|_| ()).map_err(|unlike| Trouble::Structure {
-        parameter: parameter.to_owned(),
-        unlike,
-    })
+    alike.map(|_| ()).map_err(|unlike| Trouble::Structure { parameter: parameter.to_owned(), unlike })
 }

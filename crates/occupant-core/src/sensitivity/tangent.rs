@@ -50,10 +50,7 @@ impl<'a, const N: usize> Tangent<'a, N> {
         let history = dual_history(model, &system, built);
         let time_s = model.setup().time.start_s;
         let front = Front {
-            step: Step {
-                start_s: time_s,
-                end_s: time_s,
-            },
+            step: Step { start_s: time_s, end_s: time_s },
             from: state,
             to: state,
             rates: [State::zero(); 2],
@@ -62,15 +59,7 @@ impl<'a, const N: usize> Tangent<'a, N> {
             after: history.clone(),
             spare: history.clone(),
         };
-        Ok(Tangent {
-            state,
-            history,
-            system,
-            model,
-            built,
-            cursor: PathCursor::default(),
-            front,
-        })
+        Ok(Tangent { state, history, system, model, built, cursor: PathCursor::default(), front })
     }
 
     fn frames(&mut self, t_s: f64, middle_s: f64) -> Frames<Dual<N>> {
@@ -98,8 +87,7 @@ impl<'a, const N: usize> Tangent<'a, N> {
 
     fn rk4(&mut self, step: Step, scene: &mut Scene<N>) {
         let middle_s = 0.5 * (step.start_s + step.end_s);
-        let [start, middle, end] =
-            [step.start_s, middle_s, step.end_s].map(|t| self.frames(t, middle_s));
+        let [start, middle, end] = [step.start_s, middle_s, step.end_s].map(|t| self.frames(t, middle_s));
         let (system, history) = (&self.system, &mut self.history);
         let h = Dual::new(step.length_s(), [0.0; N]);
         scene.begin(step.start_s, &self.state);

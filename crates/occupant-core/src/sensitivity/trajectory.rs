@@ -132,15 +132,10 @@ fn compare<const N: usize>(tangent: &Tangent<'_, N>, run: &Run) -> Result<(), Tr
     let same = |dual: &Dual<N>, plain: f64| dual.value.to_bits() == plain.to_bits();
     let values = values(&tangent.state).to_numbers();
     let plain = run.state.to_numbers();
-    let state = values
-        .iter()
-        .zip(&plain)
-        .all(|(a, b)| a.to_bits() == b.to_bits());
+    let state = values.iter().zip(&plain).all(|(a, b)| a.to_bits() == b.to_bits());
     let history = &tangent.history;
     let pairs = history.pairs.iter().zip(&run.history.pairs);
-    let pairs = pairs
-        .into_iter()
-        .all(|(a, b)| same(&a.phase, b.phase) && same(&a.greatest, b.greatest));
+    let pairs = pairs.into_iter().all(|(a, b)| same(&a.phase, b.phase) && same(&a.greatest, b.greatest));
     let belts = history.belts.iter().zip(&run.history.belts);
     let belts = belts.into_iter().all(|(a, b)| {
         same(&a.greatest, b.greatest)
@@ -165,10 +160,7 @@ impl Displacement {
         let pairs = tangent.history.pairs.iter().enumerate();
         Displacement {
             state: state.to_numbers(),
-            pairs: pairs
-                .map(|(i, p)| (i as u32, p.greatest.slopes[k]))
-                .filter(|(_, slope)| *slope != 0.0)
-                .collect(),
+            pairs: pairs.map(|(i, p)| (i as u32, p.greatest.slopes[k])).filter(|(_, slope)| *slope != 0.0).collect(),
             belts: tangent
                 .history
                 .belts
@@ -197,11 +189,7 @@ impl Trajectory {
             d.state[..SPEEDS].iter().enumerate().map(scaled)
         });
         let worse = |a: f64, b: f64| {
-            if b.is_finite() {
-                a.max(b)
-            } else {
-                f64::INFINITY
-            }
+            if b.is_finite() { a.max(b) } else { f64::INFINITY }
         };
         greatest.fold(0.0, worse)
     }

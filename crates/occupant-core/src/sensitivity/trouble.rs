@@ -49,14 +49,12 @@ pub enum Trouble {
 impl fmt::Display for Trouble {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Trouble::Refused { parameter, reason } => write!(
-                f,
-                "there is no scenario a little above or below the value of `{parameter}`: {reason}"
-            ),
-            Trouble::Structure { parameter, unlike } => write!(
-                f,
-                "`{parameter}` changes the structure of the model, so there is no derivative: {unlike}"
-            ),
+            Trouble::Refused { parameter, reason } => {
+                write!(f, "there is no scenario a little above or below the value of `{parameter}`: {reason}")
+            }
+            Trouble::Structure { parameter, unlike } => {
+                write!(f, "`{parameter}` changes the structure of the model, so there is no derivative: {unlike}")
+            }
             Trouble::Times { parameter } => write!(
                 f,
                 "`{parameter}` changes the times or the steps of the run, of which there is no derivative here"
@@ -67,10 +65,9 @@ impl fmt::Display for Trouble {
                 doubt * 100.0
             ),
             Trouble::Run(reason) => write!(f, "the run was not completed: {reason}"),
-            Trouble::Apart { time_s } => write!(
-                f,
-                "the run in dual numbers left the plain run before t = {time_s} s: a defect of this program"
-            ),
+            Trouble::Apart { time_s } => {
+                write!(f, "the run in dual numbers left the plain run before t = {time_s} s: a defect of this program")
+            }
             Trouble::Output(reason) => write!(f, "an output cannot be evaluated: {reason}"),
         }
     }

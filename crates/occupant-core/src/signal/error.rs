@@ -94,88 +94,33 @@ pub enum SignalError {
 impl fmt::Display for SignalError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
-            Self::TooShort {
-                what,
-                found,
-                needed,
-            } => {
-                write!(
-                    f,
-                    "{what} has {found} samples, at least {needed} are needed"
-                )
+            Self::TooShort { what, found, needed } => {
+                write!(f, "{what} has {found} samples, at least {needed} are needed")
             }
-            Self::TooBrief {
-                what,
-                found_s,
-                needed_s,
-            } => {
-                write!(
-                    f,
-                    "{what} lasts {found_s} s, at least {needed_s} s are needed"
-                )
+            Self::TooBrief { what, found_s, needed_s } => {
+                write!(f, "{what} lasts {found_s} s, at least {needed_s} s are needed")
             }
             Self::NotFinite { what, index, found } => {
-                write!(
-                    f,
-                    "{what}: sample {index} is {found}, every sample must be a finite number within 1e100"
-                )
+                write!(f, "{what}: sample {index} is {found}, every sample must be a finite number within 1e100")
             }
-            Self::LengthMismatch {
-                what,
-                found,
-                expected,
-            } => {
-                write!(
-                    f,
-                    "{what} has {found} samples, expected {expected} like its companion"
-                )
+            Self::LengthMismatch { what, found, expected } => {
+                write!(f, "{what} has {found} samples, expected {expected} like its companion")
             }
-            Self::OutOfRange {
-                what,
-                found,
-                expected,
-            } => write!(f, "{what} is {found}, expected {expected}"),
-            Self::NotIncreasing {
-                index,
-                found_s,
-                previous_s,
-            } => {
-                write!(
-                    f,
-                    "time {index} is {found_s} s, it must be above the one before, {previous_s} s"
-                )
+            Self::OutOfRange { what, found, expected } => write!(f, "{what} is {found}, expected {expected}"),
+            Self::NotIncreasing { index, found_s, previous_s } => {
+                write!(f, "time {index} is {found_s} s, it must be above the one before, {previous_s} s")
             }
-            Self::NotUniform {
-                index,
-                found_s,
-                expected_s,
-            } => {
-                write!(
-                    f,
-                    "time {index} is {found_s} s, a uniform grid has {expected_s} s there: resample first"
-                )
+            Self::NotUniform { index, found_s, expected_s } => {
+                write!(f, "time {index} is {found_s} s, a uniform grid has {expected_s} s there: resample first")
             }
-            Self::CornerAboveNyquist {
-                corner_hz,
-                nyquist_hz,
-            } => write!(
+            Self::CornerAboveNyquist { corner_hz, nyquist_hz } => write!(
                 f,
                 "the filter's corner is {corner_hz} Hz, it must be below half the sample rate, {nyquist_hz} Hz: \
                  record with a shorter interval or use a lower class"
             ),
-            Self::NoContent { what } => write!(
-                f,
-                "{what} has no content to compare with: it never varies or is zero"
-            ),
-            Self::NeverReached {
-                what,
-                reached,
-                needed,
-            } => {
-                write!(
-                    f,
-                    "{what}: the signal reaches {reached}, {needed} is needed"
-                )
+            Self::NoContent { what } => write!(f, "{what} has no content to compare with: it never varies or is zero"),
+            Self::NeverReached { what, reached, needed } => {
+                write!(f, "{what}: the signal reaches {reached}, {needed} is needed")
             }
         }
     }

@@ -39,11 +39,7 @@ impl<'a> CumulativeIntegral<'a> {
     /// beyond the range of numbers.
     pub fn new(values: &'a [f64], dt_s: f64) -> Result<Self, SignalError> {
         require_samples("signal to integrate", values, dt_s, 2)?;
-        Ok(Self {
-            values,
-            dt_s,
-            first: integrate(values, dt_s, 0.0)?,
-        })
+        Ok(Self { values, dt_s, first: integrate(values, dt_s, 0.0)? })
     }
 
     /// Time of the last sample, s.
@@ -123,14 +119,8 @@ mod tests {
 
     #[test]
     fn unusable_signals_are_named() {
-        assert!(matches!(
-            integrate(&[], 0.1, 0.0),
-            Err(SignalError::TooShort { .. })
-        ));
-        assert!(matches!(
-            integrate(&[1.0], -0.1, 0.0),
-            Err(SignalError::OutOfRange { .. })
-        ));
+        assert!(matches!(integrate(&[], 0.1, 0.0), Err(SignalError::TooShort { .. })));
+        assert!(matches!(integrate(&[1.0], -0.1, 0.0), Err(SignalError::OutOfRange { .. })));
         let bad = integrate(&[1.0, f64::NAN], 0.1, 0.0).unwrap_err();
         assert!(bad.to_string().contains("sample 1 is NaN"));
     }

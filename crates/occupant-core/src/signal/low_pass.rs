@@ -51,22 +51,13 @@ impl LowPass {
         require_positive("sample interval (s)", dt_s)?;
         let nyquist_hz = 0.5 / dt_s;
         if corner_hz >= nyquist_hz {
-            return Err(SignalError::CornerAboveNyquist {
-                corner_hz,
-                nyquist_hz,
-            });
+            return Err(SignalError::CornerAboveNyquist { corner_hz, nyquist_hz });
         }
         // ω_d = 2π f,  ω_a = tan(ω_d T/2),  d = 1 + √2 ω_a + ω_a²
         let wa = libm::tan(PI * corner_hz * dt_s);
         let d = 1.0 + SQRT_2 * wa + wa * wa;
         let a0 = wa * wa / d;
-        Ok(Self {
-            a0,
-            a1: 2.0 * a0,
-            a2: a0,
-            b1: -2.0 * (wa * wa - 1.0) / d,
-            b2: (-1.0 + SQRT_2 * wa - wa * wa) / d,
-        })
+        Ok(Self { a0, a1: 2.0 * a0, a2: a0, b1: -2.0 * (wa * wa - 1.0) / d, b2: (-1.0 + SQRT_2 * wa - wa * wa) / d })
     }
 
     /// The four-pole filter whose −3 dB frequency after both passes is `cutoff_hz`.
@@ -81,11 +72,7 @@ impl LowPass {
     ///
     /// # Errors
     /// Fewer than two samples or a sample that is not finite.
-    pub fn filter_phaseless(
-        &self,
-        values: &[f64],
-        continuation: Continuation,
-    ) -> Result<Vec<f64>, SignalError> {
+    pub fn filter_phaseless(&self, values: &[f64], continuation: Continuation) -> Result<Vec<f64>, SignalError> {
         require_samples("signal to filter", values, 1.0, 2)?;
         let (mut work, added) = continued(values, continuation);
         let settling = match continuation {
@@ -128,25 +115,13 @@ fn continued(values: &[f64], continuation: Continuation) -> (Vec<f64>, usize) {
         Continuation::PointReflection { samples } => {
             let added = samples.min(values.len() - 1);
             let before = values[1..=added].iter().rev().map(|x| 2.0 * first - x);
-            let after = values[values.len() - 1 - added..values.len() - 1]
-                .iter()
-                .rev()
-                .map(|x| 2.0 * last - x);
-            (
-                before.chain(values.iter().copied()).chain(after).collect(),
-                added,
-            )
+            let after = values[values.len() - 1 - added..values.len() - 1].iter().rev().map(|x| 2.0 * last - x);
+            (before.chain(values.iter().copied()).chain(after).collect(), added)
         }
         Continuation::Hold { samples } => {
             let samples = samples.min(2_000_000);
             let held = |value| std::iter::repeat_n(value, samples);
-            (
-                held(first)
-                    .chain(values.iter().copied())
-                    .chain(held(last))
-                    .collect(),
-                samples,
-            )
+            (held(first).chain(values.iter().copied()).chain(held(last)).collect(), samples)
         }
     }
 }
@@ -164,19 +139,11 @@ mod tests {
     #[test]
     fn constants_and_ramps_pass_unchanged() {
         let filter = LowPass::with_corner(100.0, 1e-4).unwrap();
-        let constant = filter
-            .filter_phaseless(&[3.0; 500], Continuation::Hold { samples: 50 })
-            .unwrap();
+        let constant = filter.filter_phaseless(&[3.0; 500], Continuation::Hold { samples: 50 }).unwrap();
         assert!(constant.iter().all(|y| (y - 3.0).abs() < 1e-12));
         let ramp: Vec<f64> = (0..2000).map(|i| 0.5 * f64::from(i)).collect();
-        let same = filter
-            .filter_phaseless(&ramp, Continuation::PointReflection { samples: 1500 })
-            .unwrap();
-        let worst = same
-            .iter()
-            .zip(&ramp)
-            .map(|(y, x)| (y - x).abs())
-            .fold(0.0, f64::max);
+        let same = filter.filter_phaseless(&ramp, Continuation::PointReflection { samples: 1500 }).unwrap();
+        let worst = same.iter().zip(&ramp).map(|(y, x)| (y - x).abs()).fold(0.0, f64::max);
         assert!(worst < 1e-9, "{worst:e}"); // measured 3.9e-11
     }
 
@@ -184,24 +151,14 @@ mod tests {
     fn half_power_at_the_two_pass_cutoff() {
         let dt_s = 1e-4;
         let filter = LowPass::with_two_pass_cutoff(13.0, dt_s).unwrap();
-        let tone: Vec<f64> = (0..40_000)
-            .map(|i| (2.0 * PI * 13.0 * f64::from(i) * dt_s).sin())
-            .collect();
-        let out = filter
-            .filter_phaseless(&tone, Continuation::Hold { samples: 0 })
-            .unwrap();
-        let peak = out[10_000..30_000]
-            .iter()
-            .fold(0.0f64, |m, y| m.max(y.abs()));
+        let tone: Vec<f64> = (0..40_000).map(|i| (2.0 * PI * 13.0 * f64::from(i) * dt_s).sin()).collect();
+        let out = filter.filter_phaseless(&tone, Continuation::Hold { samples: 0 }).unwrap();
+        let peak = out[10_000..30_000].iter().fold(0.0f64, |m, y| m.max(y.abs()));
         // measured 2.6e-6: the corner is prewarped at 16.2 Hz, not at 13 Hz
         assert!((peak - 0.5f64.sqrt()).abs() < 1e-5, "{peak}");
         // no lag: the peak stands where the tone's stands
-        let at = (10_000..11_000)
-            .max_by(|&i, &j| out[i].total_cmp(&out[j]))
-            .unwrap();
-        let expected = (10_000..11_000)
-            .max_by(|&i, &j| tone[i].total_cmp(&tone[j]))
-            .unwrap();
+        let at = (10_000..11_000).max_by(|&i, &j| out[i].total_cmp(&out[j])).unwrap();
+        let expected = (10_000..11_000).max_by(|&i, &j| tone[i].total_cmp(&tone[j])).unwrap();
         assert_eq!(at, expected);
     }
 

@@ -36,17 +36,9 @@ impl<'a> MovingAverage<'a> {
         let integral = CumulativeIntegral::new(values, dt_s)?;
         let found_s = integral.duration_s();
         if found_s < window_s * (1.0 - 1e-9) {
-            return Err(SignalError::TooBrief {
-                what: "signal to average",
-                found_s,
-                needed_s: window_s,
-            });
+            return Err(SignalError::TooBrief { what: "signal to average", found_s, needed_s: window_s });
         }
-        Ok(Self {
-            integral,
-            window_s,
-            dt_s,
-        })
+        Ok(Self { integral, window_s, dt_s })
     }
 
     /// The average over [start, start + window].
@@ -88,8 +80,7 @@ impl<'a> MovingAverage<'a> {
         };
         let first = (earliest_s / self.dt_s).ceil() as usize;
         for i in first..self.integral.at_samples().len() {
-            let (as_start_s, as_end_s) =
-                (i as f64 * self.dt_s, i as f64 * self.dt_s - self.window_s);
+            let (as_start_s, as_end_s) = (i as f64 * self.dt_s, i as f64 * self.dt_s - self.window_s);
             if as_start_s <= last_s {
                 consider(as_start_s);
             }
@@ -97,11 +88,7 @@ impl<'a> MovingAverage<'a> {
                 consider(as_end_s);
             }
         }
-        Ok(WindowExtreme {
-            value: best,
-            start_s: best_start_s,
-            end_s: best_start_s + self.window_s,
-        })
+        Ok(WindowExtreme { value: best, start_s: best_start_s, end_s: best_start_s + self.window_s })
     }
 }
 
@@ -138,18 +125,10 @@ mod tests {
         values[20..60].fill(-50.0);
         let average = MovingAverage::new(&values, 1e-3, 0.010).unwrap();
         let first = average.extreme_from(0.0).unwrap();
-        assert!(
-            (first.value + 50.0).abs() < 1e-9 && first.start_s >= 0.0199 && first.end_s <= 0.0591
-        );
+        assert!((first.value + 50.0).abs() < 1e-9 && first.start_s >= 0.0199 && first.end_s <= 0.0591);
         let later = average.extreme_from(0.1).unwrap();
         assert!((later.value - 1.0).abs() < 1e-9);
-        assert!(matches!(
-            average.extreme_from(0.1985),
-            Err(SignalError::TooBrief { .. })
-        ));
-        assert!(matches!(
-            MovingAverage::new(&values, 1e-3, 0.3),
-            Err(SignalError::TooBrief { .. })
-        ));
+        assert!(matches!(average.extreme_from(0.1985), Err(SignalError::TooBrief { .. })));
+        assert!(matches!(MovingAverage::new(&values, 1e-3, 0.3), Err(SignalError::TooBrief { .. })));
     }
 }

@@ -34,30 +34,18 @@ impl<'a> Interpolant<'a> {
     /// # Errors
     /// Fewer than two samples, different lengths, a number that is not finite, times that do not
     /// increase.
-    pub fn new(
-        time_s: &'a [f64],
-        values: &'a [f64],
-        shape: Interpolation,
-    ) -> Result<Self, SignalError> {
+    pub fn new(time_s: &'a [f64], values: &'a [f64], shape: Interpolation) -> Result<Self, SignalError> {
         require_samples("signal to interpolate", values, 1.0, 2)?;
         require_samples("time", time_s, 1.0, 2)?;
         require_same_length("signal to interpolate", values, time_s)?;
         if let Some(index) = (1..time_s.len()).find(|&i| time_s[i] <= time_s[i - 1]) {
-            return Err(SignalError::NotIncreasing {
-                index,
-                found_s: time_s[index],
-                previous_s: time_s[index - 1],
-            });
+            return Err(SignalError::NotIncreasing { index, found_s: time_s[index], previous_s: time_s[index - 1] });
         }
         let slopes = match shape {
             Interpolation::Linear => None,
             Interpolation::MonotoneCubic => Some(monotone_slopes(time_s, values)),
         };
-        Ok(Self {
-            time_s,
-            values,
-            slopes,
-        })
+        Ok(Self { time_s, values, slopes })
     }
 
     /// The value at `time_s`; beyond the ends, the end value.
@@ -86,9 +74,7 @@ impl<'a> Interpolant<'a> {
         match &self.slopes {
             None => rise,
             Some(m) => {
-                6.0 * (s - s * s) * rise
-                    + (1.0 - 4.0 * s + 3.0 * s * s) * m[i]
-                    + (3.0 * s * s - 2.0 * s) * m[i + 1]
+                6.0 * (s - s * s) * rise + (1.0 - 4.0 * s + 3.0 * s * s) * m[i] + (3.0 * s * s - 2.0 * s) * m[i + 1]
             }
         }
     }
@@ -103,15 +89,9 @@ impl<'a> Interpolant<'a> {
         let steps = whole_steps(self.time_s[self.time_s.len() - 1] - start_s, dt_s);
         if steps > MOST_STEPS {
             let expected = "long enough for at most a hundred million samples";
-            return Err(SignalError::OutOfRange {
-                what: "new sample interval (s)",
-                found: dt_s,
-                expected,
-            });
+            return Err(SignalError::OutOfRange { what: "new sample interval (s)", found: dt_s, expected });
         }
-        Ok((0..=steps)
-            .map(|i| self.value_at(start_s + i as f64 * dt_s))
-            .collect())
+        Ok((0..=steps).map(|i| self.value_at(start_s + i as f64 * dt_s)).collect())
     }
 
     /// Interval index, its length and the place within it in 0..=1.
@@ -199,23 +179,15 @@ mod tests {
         assert!(fine.windows(2).all(|w| w[1] <= w[0] + 1e-12));
         assert!(fine.iter().all(|v| (-6.0 - 1e-12..=1e-12).contains(v)));
         // the derivative integrates back to the velocity change
-        let slopes: Vec<f64> = (0..=5000)
-            .map(|i| cubic.slope_at(f64::from(i) * 1e-5))
-            .collect();
-        let total = *super::super::integrate(&slopes, 1e-5, 0.0)
-            .unwrap()
-            .last()
-            .unwrap();
+        let slopes: Vec<f64> = (0..=5000).map(|i| cubic.slope_at(f64::from(i) * 1e-5)).collect();
+        let total = *super::super::integrate(&slopes, 1e-5, 0.0).unwrap().last().unwrap();
         assert!((total + 6.0).abs() < 1e-5, "{total}"); // measured 2.1e-6, trapezoids across corners
     }
 
     #[test]
     fn a_uniform_signal_keeps_its_samples() {
         let coarse = [0.0, 2.0, -1.0];
-        assert_eq!(
-            resample(&coarse, 1e-3, 5e-4).unwrap(),
-            [0.0, 1.0, 2.0, 0.5, -1.0]
-        );
+        assert_eq!(resample(&coarse, 1e-3, 5e-4).unwrap(), [0.0, 1.0, 2.0, 0.5, -1.0]);
         assert!(resample(&coarse, 1e-3, 0.0).is_err());
         assert!(resample(&coarse, 1e-3, 1e-15).is_err());
         let tied = Interpolant::new(&[0.0, 0.0], &[1.0, 2.0], Interpolation::Linear);

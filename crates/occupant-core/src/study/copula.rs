@@ -27,9 +27,7 @@ impl Copula {
     /// The copula of `n` parameters with rank correlations (i, j, r); none if the matrix is not positive definite.
     pub(super) fn new(n: usize, ranks: &[(usize, usize, f64)]) -> Option<Copula> {
         let entry = |i: usize, j: usize| {
-            let given = ranks
-                .iter()
-                .find(|(a, b, _)| (*a, *b) == (i, j) || (*a, *b) == (j, i));
+            let given = ranks.iter().find(|(a, b, _)| (*a, *b) == (i, j) || (*a, *b) == (j, i));
             match (i == j, given) {
                 (true, _) => 1.0,
                 (_, Some((.., rank))) => score_correlation(*rank),

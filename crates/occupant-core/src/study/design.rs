@@ -117,20 +117,13 @@ impl Design {
         let k = levels.len() as u64;
         let len = match self {
             Design::Single => Some(1),
-            Design::FullFactorial => levels
-                .iter()
-                .try_fold(1_u64, |n, l| n.checked_mul(l.unwrap_or(1))),
-            Design::LatinHypercube { samples }
-            | Design::Sobol { samples, .. }
-            | Design::MonteCarlo { samples } => Some(*samples),
-            Design::OneAtATime { .. } => levels
-                .iter()
-                .try_fold(1_u64, |n, l| n.checked_add(l.unwrap_or(2))),
+            Design::FullFactorial => levels.iter().try_fold(1_u64, |n, l| n.checked_mul(l.unwrap_or(1))),
+            Design::LatinHypercube { samples } | Design::Sobol { samples, .. } | Design::MonteCarlo { samples } => {
+                Some(*samples)
+            }
+            Design::OneAtATime { .. } => levels.iter().try_fold(1_u64, |n, l| n.checked_add(l.unwrap_or(2))),
             Design::Table { rows } => Some(rows.len() as u64),
-            Design::Saltelli {
-                samples,
-                second_order,
-            } => samples.checked_mul(saltelli::block_len(k, *second_order)),
+            Design::Saltelli { samples, second_order } => samples.checked_mul(saltelli::block_len(k, *second_order)),
             Design::Morris { trajectories, .. } => trajectories.checked_mul(k + 1),
         };
         len.filter(|n| *n <= 1 << 52)
@@ -152,11 +145,7 @@ impl Design {
                 let (trajectory, step) = morris::place(index, k);
                 let path = Trajectory::new(trajectory, k, *levels, seed);
                 let changed = step.checked_sub(1).and_then(|last| path.parameter_at(last));
-                Role::Morris {
-                    trajectory,
-                    step,
-                    changed,
-                }
+                Role::Morris { trajectory, step, changed }
             }
             _ => Role::Sample,
         }
@@ -181,12 +170,12 @@ impl Design {
         match self {
             Design::Single => vec![Coordinate::Nominal; k],
             Design::FullFactorial => full_factorial(index, of.laws),
-            Design::LatinHypercube { samples } => dimensions
-                .map(|d| Coordinate::Quantile(stratified(index, *samples, d, of.seed)))
-                .collect(),
-            Design::MonteCarlo { .. } => dimensions
-                .map(|d| Coordinate::Quantile(unit(of.seed, Purpose::MonteCarlo, index, d)))
-                .collect(),
+            Design::LatinHypercube { samples } => {
+                dimensions.map(|d| Coordinate::Quantile(stratified(index, *samples, d, of.seed))).collect()
+            }
+            Design::MonteCarlo { .. } => {
+                dimensions.map(|d| Coordinate::Quantile(unit(of.seed, Purpose::MonteCarlo, index, d))).collect()
+            }
             Design::Sobol { scramble, .. } => (0..k)
                 .map(|d| match scramble {
                     true => of.sobol.scrambled(index, d, of.seed),
@@ -210,9 +199,7 @@ impl Design {
             Design::Morris { levels, tail, .. } => {
                 let (trajectory, step) = morris::place(index, k);
                 let path = Trajectory::new(trajectory, k, *levels, of.seed);
-                (0..k)
-                    .map(|d| Coordinate::Bounded(path.coordinate(d, step), *tail))
-                    .collect()
+                (0..k).map(|d| Coordinate::Bounded(path.coordinate(d, step), *tail)).collect()
             }
         }
     }

@@ -28,12 +28,7 @@ pub struct Tolerances {
 impl Default for Tolerances {
     /// As well as a test can be set up: 1°, 5 mm, 1 %, 2 %.
     fn default() -> Self {
-        Tolerances {
-            posture_rad: std::f64::consts::PI / 180.0,
-            place_m: 0.005,
-            path: 0.01,
-            stiffness: 0.02,
-        }
+        Tolerances { posture_rad: std::f64::consts::PI / 180.0, place_m: 0.005, path: 0.01, stiffness: 0.02 }
     }
 }
 
@@ -92,35 +87,18 @@ impl Ensemble {
 /// One change for each of these paths that there is, each path on its own.
 fn each(base: &Draft, paths: &[String], change: Change) -> Vec<Perturbation> {
     let found = paths.iter().filter_map(|path| targets(base, path).ok());
-    found
-        .flatten()
-        .map(|target| Perturbation {
-            change,
-            targets: vec![target],
-        })
-        .collect()
+    found.flatten().map(|target| Perturbation { change, targets: vec![target] }).collect()
 }
 
 /// The numbers that a path leads to.
 pub(super) fn targets(base: &Draft, path: &str) -> Result<Vec<Target>, Misplaced> {
     let places = base.places(path)?;
-    Ok(places
-        .iter()
-        .filter(|p| p.si.is_some())
-        .map(Target::of)
-        .collect())
+    Ok(places.iter().filter(|p| p.si.is_some()).map(Target::of).collect())
 }
 
 /// Changes of each angle of the posture, or of the initial state.
 pub(super) fn posture(base: &Draft, most_rad: f64) -> Vec<Perturbation> {
-    let angles = [
-        "middle_torso",
-        "upper_torso",
-        "head",
-        "lower_torso",
-        "upper_arms",
-        "elbows",
-    ];
+    let angles = ["middle_torso", "upper_torso", "head", "lower_torso", "upper_arms", "elbows"];
     let written = angles.iter().map(|a| format!("posture.{a}"));
     // q₄ … q₃₁ are angles
     let exact = (3..31).map(|i| format!("initial_state.q[{i}]"));
@@ -137,11 +115,7 @@ pub(super) fn seat_place(base: &Draft, most_m: f64) -> Vec<Perturbation> {
         UnitSystem::Si => 1.0,
         UnitSystem::InchPound => 0.0254,
     };
-    [
-        each(base, &written, Change::Offset(most_m)),
-        each(base, &exact, Change::Offset(most_m / length_m)),
-    ]
-    .concat()
+    [each(base, &written, Change::Offset(most_m)), each(base, &exact, Change::Offset(most_m / length_m))].concat()
 }
 
 /// A change of the strength of the pulse, whether the base scenario or a parameter says it.
@@ -157,40 +131,27 @@ pub(super) fn path(base: &Draft, parameters: &[Parameter], most: f64) -> Vec<Per
     }
     match strengths.is_empty() {
         true => Vec::new(),
-        false => vec![Perturbation {
-            change: Change::Factor(most),
-            targets: strengths,
-        }],
+        false => vec![Perturbation { change: Change::Factor(most), targets: strengths }],
     }
 }
 
 /// A change of each material and each belt, both straight lines of one together.
 pub(super) fn stiffness(base: &Draft, most: f64) -> Vec<Perturbation> {
-    let firsts = ["materials.*.k1", "belts.*.k1"]
-        .iter()
-        .filter_map(|path| targets(base, path).ok())
-        .flatten();
+    let firsts = ["materials.*.k1", "belts.*.k1"].iter().filter_map(|path| targets(base, path).ok()).flatten();
     firsts
         .map(|first| {
             let second = first.path.strip_suffix('1').map(|p| format!("{p}2"));
             let second = second.and_then(|path| targets(base, &path).ok());
             Perturbation {
                 change: Change::Factor(most),
-                targets: [first]
-                    .into_iter()
-                    .chain(second.into_iter().flatten())
-                    .collect(),
+                targets: [first].into_iter().chain(second.into_iter().flatten()).collect(),
             }
         })
         .collect()
 }
 
 /// All standard changes that the scenario has a place for.
-pub(super) fn standard(
-    base: &Draft,
-    parameters: &[Parameter],
-    most: &Tolerances,
-) -> Vec<Perturbation> {
+pub(super) fn standard(base: &Draft, parameters: &[Parameter], most: &Tolerances) -> Vec<Perturbation> {
     [
         posture(base, most.posture_rad),
         seat_place(base, most.place_m),

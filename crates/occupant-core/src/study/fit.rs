@@ -104,9 +104,7 @@ impl Bounds {
             Law::Uniform { from, to } => bounds(from, to, false),
             Law::LogUniform { from, to } => bounds(from, to, true),
             Law::Grid { from, to, log, .. } => bounds(from, to, log),
-            Law::TruncatedNormal { from, to, .. } | Law::Triangular { from, to, .. } => {
-                bounds(from, to, false)
-            }
+            Law::TruncatedNormal { from, to, .. } | Law::Triangular { from, to, .. } => bounds(from, to, false),
             Law::Normal { .. } | Law::List(_) | Law::Table => None,
         }
     }

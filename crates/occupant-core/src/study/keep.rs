@@ -28,12 +28,12 @@ impl Keep {
     /// What was found that says nothing.
     pub(super) fn read(section: &KeepSection) -> Result<Keep, String> {
         match section {
-            KeepSection::Words(words) => Keep::from_words(words)
-                .ok_or_else(|| format!("\"{words}\" says nothing about which runs to keep")),
+            KeepSection::Words(words) => {
+                Keep::from_words(words).ok_or_else(|| format!("\"{words}\" says nothing about which runs to keep"))
+            }
             KeepSection::Indices(items) => {
                 let index = |item: &serde_json::Value| {
-                    item.as_u64()
-                        .ok_or_else(|| format!("`{item}` is no index, which counts from 0"))
+                    item.as_u64().ok_or_else(|| format!("`{item}` is no index, which counts from 0"))
                 };
                 let mut indices = items.iter().map(index).collect::<Result<Vec<u64>, _>>()?;
                 indices.sort_unstable();
@@ -48,10 +48,9 @@ impl Keep {
         match words.as_slice() {
             ["all"] => Some(Keep::All),
             ["none"] => Some(Keep::None),
-            ["worst", count, "by", measure] => Some(Keep::Worst {
-                count: count.parse().ok().filter(|n| *n > 0)?,
-                measure: (*measure).to_owned(),
-            }),
+            ["worst", count, "by", measure] => {
+                Some(Keep::Worst { count: count.parse().ok().filter(|n| *n > 0)?, measure: (*measure).to_owned() })
+            }
             _ => None,
         }
     }

@@ -95,12 +95,7 @@ impl Law {
                 let at = usize::try_from(i).map_or(last, |i| i.min(last));
                 values.get(at).cloned().unwrap_or(Value::Base)
             }
-            Law::Grid {
-                from,
-                to,
-                steps,
-                log,
-            } => Value::Number(grid_value(*from, *to, *steps, *log, i)),
+            Law::Grid { from, to, steps, log } => Value::Number(grid_value(*from, *to, *steps, *log, i)),
             _ => Value::Base,
         }
     }

@@ -67,11 +67,7 @@ impl Misfit {
 
 /// √(mean (c − m)²)/max |m|.
 fn rms(measured: &[f64], computed: &[f64]) -> f64 {
-    let square: f64 = measured
-        .iter()
-        .zip(computed)
-        .map(|(m, c)| (c - m) * (c - m))
-        .sum();
+    let square: f64 = measured.iter().zip(computed).map(|(m, c)| (c - m) * (c - m)).sum();
     (square / measured.len() as f64).sqrt() / greatest(measured)
 }
 
@@ -126,11 +122,7 @@ pub fn unrelated_samples(residuals: &[f64]) -> f64 {
     }
     let mut sum = 0.0;
     for lag in 1..n / 2 {
-        let product: f64 = residuals
-            .iter()
-            .zip(&residuals[lag..])
-            .map(|(a, b)| a * b)
-            .sum();
+        let product: f64 = residuals.iter().zip(&residuals[lag..]).map(|(a, b)| a * b).sum();
         let correlation = product / square;
         if correlation < UNRELATED {
             break;
@@ -188,9 +180,7 @@ mod tests {
 
     #[test]
     fn averaged_noise_is_worth_fewer_samples() {
-        let noise = |i: u64| {
-            crate::study::random::unit(1, crate::study::random::Purpose::MonteCarlo, i, 0) - 0.5
-        };
+        let noise = |i: u64| crate::study::random::unit(1, crate::study::random::Purpose::MonteCarlo, i, 0) - 0.5;
         let white: Vec<f64> = (0..4000).map(noise).collect();
         let found = unrelated_samples(&white);
         assert!((3500.0..=4000.0).contains(&found), "{found}");

@@ -137,10 +137,7 @@ impl Study {
             design: Design::Single,
             sobol: Sobol::new(0),
             copula: None,
-            ensemble: Some(Ensemble {
-                members: members.max(1),
-                perturbations,
-            }),
+            ensemble: Some(Ensemble { members: members.max(1), perturbations }),
             keep: Keep::None,
             csv: false,
             warnings: Diagnostics::new(),
@@ -177,14 +174,8 @@ impl Study {
     pub fn sample(&self, index: u64) -> Vec<Setting> {
         let (sample, _) = self.sample_and_member(index);
         let laws: Vec<&Law> = self.parameters.iter().map(|p| &p.law).collect();
-        let mut coordinates = self.design.coordinates(
-            sample,
-            &Context {
-                seed: self.seed,
-                laws: &laws,
-                sobol: &self.sobol,
-            },
-        );
+        let mut coordinates =
+            self.design.coordinates(sample, &Context { seed: self.seed, laws: &laws, sobol: &self.sobol });
         if let Some(copula) = &self.copula {
             correlate(copula, &mut coordinates);
         }
@@ -242,8 +233,7 @@ impl Study {
     /// for a run that is no such step.
     pub fn morris_step(&self, index: u64) -> Option<f64> {
         let (sample, _) = self.sample_and_member(index);
-        self.design
-            .morris_step(sample, self.parameters.len(), self.seed)
+        self.design.morris_step(sample, self.parameters.len(), self.seed)
     }
 
     /// What is varied.

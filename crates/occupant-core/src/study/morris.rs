@@ -23,12 +23,7 @@ pub(super) fn place(index: u64, parameters: usize) -> (u64, usize) {
 
 impl Trajectory {
     pub(super) fn new(number: u64, parameters: usize, levels: u64, seed: u64) -> Self {
-        Trajectory {
-            number,
-            parameters,
-            levels,
-            seed,
-        }
+        Trajectory { number, parameters, levels, seed }
     }
 
     /// The step at which a parameter changes, from 0.
@@ -51,11 +46,7 @@ impl Trajectory {
         let low = (draw >> 1) % half;
         let starts_high = draw & 1 == 1;
         let changed = self.turn(parameter) < steps;
-        let level = if starts_high != changed {
-            low + half
-        } else {
-            low
-        };
+        let level = if starts_high != changed { low + half } else { low };
         level as f64 / (self.levels - 1) as f64
     }
 }

@@ -85,11 +85,7 @@ mod tests {
             (0.5, 0.0),
         ] {
             // the published values have sixteen digits
-            assert!(
-                (quantile(p) - z).abs() <= 1e-15 * z.abs(),
-                "{p}: {}",
-                quantile(p)
-            );
+            assert!((quantile(p) - z).abs() <= 1e-15 * z.abs(), "{p}: {}", quantile(p));
         }
         assert_eq!(quantile(0.0), f64::NEG_INFINITY);
         assert_eq!(quantile(1.0), f64::INFINITY);

@@ -64,11 +64,7 @@ impl Target {
             Wanted::Quantity(kind) => si_unit(kind),
             _ => "",
         };
-        Target {
-            path: place.path.clone(),
-            unit,
-            base,
-        }
+        Target { path: place.path.clone(), unit, base }
     }
 }
 
@@ -119,10 +115,7 @@ impl Parameter {
 
 /// What stands at a target now, changed.
 pub(super) fn changed(target: &Target, list: &[Assignment], change: impl Fn(f64) -> f64) -> Value {
-    let earlier = list
-        .iter()
-        .find(|a| a.path == target.path)
-        .map(|a| &a.value);
+    let earlier = list.iter().find(|a| a.path == target.path).map(|a| &a.value);
     match earlier.unwrap_or(&target.base) {
         Value::Number(old) => Value::Number(change(*old)),
         _ => Value::Base,
@@ -136,10 +129,6 @@ pub(super) fn place(target: &Target, value: Value, list: &mut Vec<Assignment>) {
     }
     match list.iter_mut().find(|a| a.path == target.path) {
         Some(earlier) => earlier.value = value,
-        None => list.push(Assignment {
-            path: target.path.clone(),
-            value,
-            unit: target.unit,
-        }),
+        None => list.push(Assignment { path: target.path.clone(), value, unit: target.unit }),
     }
 }

@@ -72,10 +72,7 @@ mod tests {
             *counts.entry(order).or_insert(0_u32) += 1;
         }
         let mean = draws as f64 / 120.0;
-        let chi2: f64 = counts
-            .values()
-            .map(|c| (f64::from(*c) - mean).powi(2) / mean)
-            .sum();
+        let chi2: f64 = counts.values().map(|c| (f64::from(*c) - mean).powi(2) / mean).sum();
         assert_eq!(counts.len(), 120);
         // 99.9 % of truly random tables are below 173.6; measured: 115.2
         assert!(chi2 < 173.6, "{chi2}");

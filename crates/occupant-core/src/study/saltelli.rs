@@ -52,9 +52,7 @@ pub(super) fn place(index: u64, parameters: usize, second_order: bool) -> (u64, 
         0 => Block::A,
         _ if row as u64 + 1 == len => Block::B,
         _ if row <= parameters => Block::Ab { parameter: row - 1 },
-        _ => Block::Ba {
-            parameter: row - 1 - parameters,
-        },
+        _ => Block::Ba { parameter: row - 1 - parameters },
     };
     (index / len, block)
 }

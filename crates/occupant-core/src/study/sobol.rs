@@ -28,12 +28,7 @@ impl Sobol {
     pub(super) fn new(dimensions: usize) -> Self {
         let first = std::array::from_fn(|i| 1 << (BITS as usize - 1 - i));
         let others = DIRECTIONS.iter().map(|(a, m)| directions(*a, m));
-        Sobol {
-            directions: std::iter::once(first)
-                .chain(others)
-                .take(dimensions)
-                .collect(),
-        }
+        Sobol { directions: std::iter::once(first).chain(others).take(dimensions).collect() }
     }
 
     /// A coordinate as a 52-bit integer; 0 for a dimension that was not asked for.
@@ -42,10 +37,7 @@ impl Sobol {
         let Some(directions) = self.directions.get(dimension) else {
             return 0;
         };
-        let set = directions
-            .iter()
-            .enumerate()
-            .filter(|(i, _)| gray >> i & 1 == 1);
+        let set = directions.iter().enumerate().filter(|(i, _)| gray >> i & 1 == 1);
         set.fold(0, |x, (_, v)| x ^ v)
     }
 
@@ -56,11 +48,7 @@ impl Sobol {
 
     /// A scrambled coordinate in (0, 1).
     pub(super) fn scrambled(&self, index: u64, dimension: usize, seed: u64) -> f64 {
-        open_unit(scramble(
-            self.integer(index, dimension),
-            seed,
-            dimension as u32,
-        ))
+        open_unit(scramble(self.integer(index, dimension), seed, dimension as u32))
     }
 }
 
@@ -150,10 +138,7 @@ mod tests {
                     scrambled[(sobol.scrambled(i, d, 99) * n as f64) as usize] += 1;
                 }
                 assert!(plain.iter().all(|c| *c == 1), "dimension {d}");
-                assert!(
-                    scrambled.iter().all(|c| *c == 1),
-                    "dimension {d}, scrambled"
-                );
+                assert!(scrambled.iter().all(|c| *c == 1), "dimension {d}, scrambled");
             }
         }
     }
@@ -168,16 +153,11 @@ mod tests {
             let mut plain = vec![0; 1 << m];
             let mut scrambled = vec![0; 1 << m];
             for i in 0..1 << m {
-                let cell = |x: f64, y: f64| {
-                    (x * nx as f64) as usize * ny as usize + (y * ny as f64) as usize
-                };
+                let cell = |x: f64, y: f64| (x * nx as f64) as usize * ny as usize + (y * ny as f64) as usize;
                 plain[cell(sobol.plain(i, 0), sobol.plain(i, 1))] += 1;
                 scrambled[cell(sobol.scrambled(i, 0, 5), sobol.scrambled(i, 1, 5))] += 1;
             }
-            assert!(
-                plain.iter().chain(&scrambled).all(|c| *c == 1),
-                "{nx} by {ny}"
-            );
+            assert!(plain.iter().chain(&scrambled).all(|c| *c == 1), "{nx} by {ny}");
         }
     }
 

@@ -54,11 +54,7 @@ impl Default for Rule {
     /// The tenth is ours: a difference that changes no conclusion from a figure known to two digits. With fewer than ten
     /// members the middle 90 % is little else than the two outermost ones.
     fn default() -> Self {
-        Rule {
-            relative: 0.10,
-            absolute: 0.0,
-            least_members: 10,
-        }
+        Rule { relative: 0.10, absolute: 0.0, least_members: 10 }
     }
 }
 
@@ -198,14 +194,7 @@ mod tests {
     fn quantiles_are_those_of_numpy() {
         // numpy.quantile([3, 1, 10, 4], [0, 0.05, 0.25, 0.5, 0.95, 1])
         let x = [3.0, 1.0, 10.0, 4.0];
-        for (p, wanted) in [
-            (0.0, 1.0),
-            (0.05, 1.3),
-            (0.25, 2.5),
-            (0.5, 3.5),
-            (0.95, 9.1),
-            (1.0, 10.0),
-        ] {
+        for (p, wanted) in [(0.0, 1.0), (0.05, 1.3), (0.25, 2.5), (0.5, 3.5), (0.95, 9.1), (1.0, 10.0)] {
             let found = quantile(&x, p).unwrap();
             assert!((found - wanted).abs() < 1e-14, "{p}: {found}");
         }
@@ -237,14 +226,8 @@ mod tests {
         // about nothing: only the plain difference helps
         let around: Vec<f64> = (0..20).map(|i| 1e-3 * f64::from(i - 10)).collect();
         assert_eq!(verdict(&around), Verdict::NotStable);
-        let plain = Rule {
-            absolute: 0.1,
-            ..rule
-        };
-        assert_eq!(
-            Spread::of(&around).unwrap().verdict(&plain),
-            Verdict::Stable
-        );
+        let plain = Rule { absolute: 0.1, ..rule };
+        assert_eq!(Spread::of(&around).unwrap().verdict(&plain), Verdict::Stable);
     }
 
     /// Members x = a·eᵗ with a evenly spread over ±1e-3: the middle 90 % is 1.8e-3·eᵗ wide.

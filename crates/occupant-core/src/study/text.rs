@@ -38,23 +38,14 @@ impl StudyText {
             let found = format!("the study cannot be read: {error}");
             refuse(name, found, "a study")
         })?;
-        Ok(StudyText {
-            section,
-            sources,
-            main,
-            root,
-        })
+        Ok(StudyText { section, sources, main, root })
     }
 
     /// Reads bytes that should be UTF-8 text; the format is told by [`Format::of_text`] unless given.
     ///
     /// # Errors
     /// The place of the first byte that is not UTF-8; else as [`StudyText::read`].
-    pub fn read_bytes(
-        bytes: &[u8],
-        format: Option<Format>,
-        name: &str,
-    ) -> Result<StudyText, Diagnostics> {
+    pub fn read_bytes(bytes: &[u8], format: Option<Format>, name: &str) -> Result<StudyText, Diagnostics> {
         let text = text_of(bytes, name)?;
         StudyText::read(text, format.unwrap_or_else(|| Format::of_text(text)), name)
     }
@@ -90,11 +81,5 @@ pub(super) fn problem(
     expected: impl Into<String>,
     hint: Option<String>,
 ) -> Problem {
-    Problem {
-        severity,
-        path: path.to_owned(),
-        found: found.into(),
-        expected: expected.into(),
-        hint,
-    }
+    Problem { severity, path: path.to_owned(), found: found.into(), expected: expected.into(), hint }
 }

@@ -34,11 +34,7 @@ impl Summary {
     pub fn figures(&self, model: &Model) -> Vec<Figure> {
         let mut list = List::default();
         let a = &self.accelerations;
-        for (part, readings) in [
-            ("head", &a.head),
-            ("chest", &a.chest),
-            ("pelvis", &a.pelvis),
-        ] {
+        for (part, readings) in [("head", &a.head), ("chest", &a.chest), ("pelvis", &a.pelvis)] {
             list.acceleration(part, readings);
         }
         self.list_belts(&mut list);
@@ -46,20 +42,12 @@ impl Summary {
         if model.body().sphere("head").is_some() {
             list.excursion(self.head_excursion.as_ref());
         }
-        for measure in self
-            .measures
-            .iter()
-            .filter(|m| !ELSEWHERE.contains(&m.name))
-        {
+        for measure in self.measures.iter().filter(|m| !ELSEWHERE.contains(&m.name)) {
             list.add(measure.name, measure.unit.symbol(), measure.value);
         }
         list.add("run.reached", "s", self.reached_s);
         list.add("energy.balance_error", "1", self.energy.balance_error);
-        list.add(
-            "energy.greatest_kinetic",
-            "J",
-            self.energy.greatest_kinetic_j,
-        );
+        list.add("energy.greatest_kinetic", "J", self.energy.greatest_kinetic_j);
         list.add("solver.steps", "1", self.solver.steps as f64);
         list.add("solver.rejected", "1", self.solver.rejected as f64);
         list.add("solver.evaluations", "1", self.solver.evaluations as f64);

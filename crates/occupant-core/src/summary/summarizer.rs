@@ -3,8 +3,8 @@
 use nalgebra::{Point3, Vector3};
 
 use super::{
-    Acceleration, Accelerations, BeltPeak, ContactBegin, EnergyCheck, Excursion, FirstContact,
-    Level, Peak, RunStatus, Solver, SpherePeak, Summary,
+    Acceleration, Accelerations, BeltPeak, ContactBegin, EnergyCheck, Excursion, FirstContact, Level, Peak, RunStatus,
+    Solver, SpherePeak, Summary,
 };
 use crate::body::Segment;
 use crate::injury::{self, Signals, assess};
@@ -83,11 +83,7 @@ impl Summarizer {
             start_s: time.start_s,
             reached_s: outcome.time_s,
             end_s: time.end_s,
-            accelerations: Accelerations {
-                head,
-                chest,
-                pelvis,
-            },
+            accelerations: Accelerations { head, chest, pelvis },
             belts: self.belts(),
             first_contacts: self.first_contacts(&contacts),
             contacts,
@@ -116,10 +112,7 @@ impl Summarizer {
     }
 
     fn acceleration(&self, i: usize, time: &TimeSpan) -> Acceleration {
-        let peak = self.accelerations[i].unwrap_or(Peak {
-            value: 0.0,
-            time_s: time.start_s,
-        });
+        let peak = self.accelerations[i].unwrap_or(Peak { value: 0.0, time_s: time.start_s });
         let first_s = self.first_s.unwrap_or(time.start_s);
         let level = |found: ThreeMs| Level {
             level_m_s2: found.level_mps2,
@@ -164,15 +157,10 @@ impl Summarizer {
     }
 
     fn first_contacts(&self, contacts: &[ContactBegin]) -> Vec<FirstContact> {
-        let present = STRUCK
-            .iter()
-            .filter(|name| self.names.spheres.iter().any(|s| s == *name));
+        let present = STRUCK.iter().filter(|name| self.names.spheres.iter().any(|s| s == *name));
         let first = |name: &&str| FirstContact {
             sphere: (*name).to_owned(),
-            contact: contacts
-                .iter()
-                .find(|c| c.sphere == *name && !c.at_start)
-                .cloned(),
+            contact: contacts.iter().find(|c| c.sphere == *name && !c.at_start).cloned(),
         };
         present.map(first).collect()
     }
@@ -221,9 +209,7 @@ impl Summarizer {
         });
         for (i, segment) in MEASURED.into_iter().enumerate() {
             let resultant_m_s2 = sample.specific_force_m_s2(segment).norm();
-            self.accelerations[i]
-                .get_or_insert(Peak::NONE)
-                .see(resultant_m_s2, t);
+            self.accelerations[i].get_or_insert(Peak::NONE).see(resultant_m_s2, t);
             if regular {
                 self.resultants_m_s2[i].push(resultant_m_s2);
             }
@@ -284,16 +270,8 @@ impl Recorder for Summarizer {
             spheres: setup.body.spheres.iter().map(|s| s.name.clone()).collect(),
             surfaces: setup.surfaces.iter().map(|s| s.name.clone()).collect(),
         };
-        let belt = BeltTrack {
-            loop_force: Peak::NONE,
-            elongation: Peak::NONE,
-            body_force: Peak::NONE,
-        };
-        let sphere = SphereTrack {
-            force: Peak::NONE,
-            penetration: Peak::NONE,
-            surface: 0,
-        };
+        let belt = BeltTrack { loop_force: Peak::NONE, elongation: Peak::NONE, body_force: Peak::NONE };
+        let sphere = SphereTrack { force: Peak::NONE, penetration: Peak::NONE, surface: 0 };
         *self = Summarizer {
             signals: begun(model)?,
             integrator: match setup.integrator {
@@ -331,10 +309,7 @@ impl Recorder for Summarizer {
 fn ending(status: &Status) -> (RunStatus, Option<String>) {
     match status {
         Status::Completed => (RunStatus::Completed, None),
-        Status::Stopped => (
-            RunStatus::Interrupted,
-            Some("stopped before its end time".to_owned()),
-        ),
+        Status::Stopped => (RunStatus::Interrupted, Some("stopped before its end time".to_owned())),
         Status::Failed(error) => (RunStatus::Failed, Some(error.to_string())),
     }
 }

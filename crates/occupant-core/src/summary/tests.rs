@@ -7,9 +7,7 @@ use crate::sample::Sample;
 use crate::simulate::{output_count, simulate};
 
 fn falling(floor: &str, end_s: f64) -> Model {
-    let q: Vec<String> = (0..31)
-        .map(|i| format!("{:.2}", 0.3 + 0.07 * f64::from(i)))
-        .collect();
+    let q: Vec<String> = (0..31).map(|i| format!("{:.2}", 0.3 + 0.07 * f64::from(i))).collect();
     let rates = ["0.0"; 31].join(", ");
     model_of(&format!(
         "title = \"fall\"\ntime = {{ end = {end_s} }}\npath = {{ kind = \"fixed\" }}\nbody = {{ preset = \"male50\" }}\n\
@@ -42,19 +40,11 @@ fn a_free_fall_feels_nothing_and_goes_half_g_t_squared() {
     assert_eq!((s.reached_s, s.solver.outputs), (0.1, 101));
     let e = s.head_excursion.unwrap();
     // measured: 1.4e-16 m
-    assert!(
-        (e.down_m - 0.5 * 9.80665 * 0.01).abs() < 1e-12,
-        "{}",
-        e.down_m
-    );
+    assert!((e.down_m - 0.5 * 9.80665 * 0.01).abs() < 1e-12, "{}", e.down_m);
     assert_eq!(e.down_time_s, 0.1);
     assert_eq!(e.up_m, 0.0);
     assert!(e.forward_m < 1e-12 && e.left_m < 1e-12);
-    for a in [
-        s.accelerations.head,
-        s.accelerations.chest,
-        s.accelerations.pelvis,
-    ] {
+    for a in [s.accelerations.head, s.accelerations.chest, s.accelerations.pelvis] {
         // measured: 0 exactly, for the body falls as one
         assert!(a.peak_m_s2 < 1e-9 && a.three_ms_contiguous.unwrap().level_m_s2 < 1e-9);
     }
@@ -92,19 +82,12 @@ fn peaks_are_those_of_the_whole_record() {
     let s = summarizer.summary(Some(1.5)).unwrap();
     assert_eq!(s.solver.wall_time_s, Some(1.5));
 
-    let greatest =
-        all.head.iter().copied().fold(
-            (0.0, 0.0),
-            |best, next| if next.1 > best.1 { next } else { best },
-        );
+    let greatest = all.head.iter().copied().fold((0.0, 0.0), |best, next| if next.1 > best.1 { next } else { best });
     let head = s.accelerations.head;
     assert_eq!((head.peak_time_s, head.peak_m_s2), greatest);
     assert_eq!(head.peak_g, head.peak_m_s2 / 9.80665);
     // held longer than an instant means lower than the peak, and in total at least as high as in one piece
-    let (held, total) = (
-        head.three_ms_contiguous.unwrap(),
-        head.three_ms_cumulative.unwrap(),
-    );
+    let (held, total) = (head.three_ms_contiguous.unwrap(), head.three_ms_cumulative.unwrap());
     assert!(held.level_m_s2 <= total.level_m_s2 && total.level_m_s2 < head.peak_m_s2);
     assert!(held.to_s - held.from_s >= 0.003 - 1e-9);
 
@@ -113,18 +96,11 @@ fn peaks_are_those_of_the_whole_record() {
         let index = model.body().sphere(&peak.sphere).unwrap();
         let own = all.forces.iter().filter(|f| f.0 == index);
         let most = own.map(|f| f.2).fold(0.0, f64::max);
-        assert!(
-            (peak.force_n - most).abs() <= 1e-12 * most,
-            "{peak:?} against {most}"
-        );
+        assert!((peak.force_n - most).abs() <= 1e-12 * most, "{peak:?} against {most}");
         assert_eq!(peak.surface, "floor");
     }
     assert_eq!(s.contacts.len(), outcome.first_touches.len());
-    assert!(
-        s.contacts
-            .iter()
-            .all(|c| !c.at_start && c.closing_m_s > 0.0)
-    );
+    assert!(s.contacts.iter().all(|c| !c.at_start && c.closing_m_s > 0.0));
     for first in s.first_contacts.iter().filter_map(|f| f.contact.as_ref()) {
         let earliest = s.contacts.iter().filter(|c| c.sphere == first.sphere);
         let earliest = earliest.map(|c| c.time_s).fold(f64::INFINITY, f64::min);
@@ -173,10 +149,7 @@ fn a_last_output_between_two_regular_times_does_not_bend_the_levels() {
     assert_eq!(s.solver.outputs, output_count(&model));
     assert_eq!(s.reached_s, 0.2035);
     let whole = summary_of(&falling(&floor(), 0.203));
-    assert_eq!(
-        s.accelerations.head.three_ms_contiguous,
-        whole.accelerations.head.three_ms_contiguous
-    );
+    assert_eq!(s.accelerations.head.three_ms_contiguous, whole.accelerations.head.three_ms_contiguous);
 }
 
 #[test]
@@ -209,11 +182,7 @@ fn the_list_of_figures_holds_the_summary_under_the_same_names_for_every_run() {
     unique.sort();
     unique.dedup();
     assert_eq!(unique.len(), figures.len());
-    assert!(
-        figures
-            .iter()
-            .all(|f| !f.name.contains(char::is_whitespace) && !f.unit.is_empty())
-    );
+    assert!(figures.iter().all(|f| !f.name.contains(char::is_whitespace) && !f.unit.is_empty()));
 
     let value = |name: &str| figures.iter().find(|f| f.name == name).unwrap().value;
     assert_eq!(value("head.peak"), Some(fell.accelerations.head.peak_m_s2));
@@ -221,20 +190,13 @@ fn the_list_of_figures_holds_the_summary_under_the_same_names_for_every_run() {
     assert_eq!(value("chest.three_ms_cumulative"), Some(level.level_m_s2));
     let down = fell.head_excursion.unwrap();
     assert_eq!(value("head_excursion.down"), Some(down.down_m));
-    assert_eq!(
-        value("solver.evaluations"),
-        Some(fell.solver.evaluations as f64)
-    );
+    assert_eq!(value("solver.evaluations"), Some(fell.solver.evaluations as f64));
     // every force of the summary stands in the list; a sphere that touched nothing has none
     assert!(!fell.sphere_forces.is_empty());
     for sphere in &floored.body().spheres {
         let peak = fell.sphere_forces.iter().find(|p| p.sphere == sphere.name);
         let name = format!("contacts.{}.peak", sphere.name);
-        assert_eq!(
-            value(&name),
-            Some(peak.map_or(0.0, |p| p.force_n)),
-            "{name}"
-        );
+        assert_eq!(value(&name), Some(peak.map_or(0.0, |p| p.force_n)), "{name}");
         assert_eq!(value(&format!("{name}_time")), peak.map(|p| p.time_s));
     }
 }

@@ -12,10 +12,8 @@ pub(super) fn check_body(body: &Body, problems: &mut Problems) {
         let path = format!("body.segments.{}", segment.name());
         check_segment(body.segment(segment), &path, problems);
     }
-    for (key, value) in [
-        ("shoulder_half_width", body.shoulder_half_width_m),
-        ("hip_half_width", body.hip_half_width_m),
-    ] {
+    for (key, value) in [("shoulder_half_width", body.shoulder_half_width_m), ("hip_half_width", body.hip_half_width_m)]
+    {
         at_least_zero(problems, &format!("body.{key}"), value, "m");
     }
     for (i, sphere) in body.spheres.iter().enumerate() {
@@ -23,11 +21,7 @@ pub(super) fn check_body(body: &Body, problems: &mut Problems) {
         positive(problems, &format!("{path}.radius"), sphere.radius_m, "m");
         let twin = body.spheres[..i].iter().any(|s| s.name == sphere.name);
         if twin {
-            problems.error(
-                &path,
-                format!("a second sphere named {}", sphere.name),
-                "unique names",
-            );
+            problems.error(&path, format!("a second sphere named {}", sphere.name), "unique names");
         }
         let length = body.segment(sphere.segment).length_m;
         let centre = sphere.centre_from_lower_end_m;
@@ -36,11 +30,7 @@ pub(super) fn check_body(body: &Body, problems: &mut Problems) {
         let beside = centre.x.hypot(centre.y);
         let widest = length.max(WIDEST_M);
         if !reach.is_finite() {
-            problems.error(
-                &path,
-                "a centre that is not a finite number",
-                "finite coordinates",
-            );
+            problems.error(&path, "a centre that is not a finite number", "finite coordinates");
         } else if z < -0.5 * length || z > 1.5 * length || beside > widest {
             problems.error_with_hint(
                 &path,
@@ -65,22 +55,14 @@ fn check_segment(p: &SegmentProperties, path: &str, problems: &mut Problems) {
     if !(rho >= 0.0 && rho <= p.length_m) {
         problems.error(
             format!("{path}.cg"),
-            format!(
-                "ρ = {rho} m from the lower end of a segment of {} m",
-                p.length_m
-            ),
+            format!("ρ = {rho} m from the lower end of a segment of {} m", p.length_m),
             "a centre of gravity between the segment's ends",
         );
     }
     let inertia = p.inertia_kg_m2;
     let mut sound = true;
     for (axis, value) in ["x", "y", "z"].iter().zip(inertia.iter()) {
-        sound &= positive(
-            problems,
-            &format!("{path}.inertia"),
-            *value,
-            &format!("kg·m² about {axis}"),
-        );
+        sound &= positive(problems, &format!("{path}.inertia"), *value, &format!("kg·m² about {axis}"));
     }
     let sum: f64 = inertia.sum();
     for (axis, value) in ["I_x", "I_y", "I_z"].iter().zip(inertia.iter()) {
@@ -88,10 +70,7 @@ fn check_segment(p: &SegmentProperties, path: &str, problems: &mut Problems) {
         if sound && 2.0 * value > sum * (1.0 + 1e-9) {
             problems.error_with_hint(
                 format!("{path}.inertia"),
-                format!(
-                    "{axis} = {value:.6} kg·m² exceeds the sum of the other two, {:.6}",
-                    sum - value
-                ),
+                format!("{axis} = {value:.6} kg·m² exceeds the sum of the other two, {:.6}", sum - value),
                 "principal moments that obey the triangle inequality",
                 "no rigid body has such moments; look for a slipped digit or interchanged axes",
             );

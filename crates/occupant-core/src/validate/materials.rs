@@ -10,12 +10,7 @@ pub(super) fn check_materials(materials: &[Material], problems: &mut Problems) {
         let path = format!("materials.{}", m.name);
         check_spring(&m.spring, &path, problems);
         at_least_zero(problems, &format!("{path}.friction"), m.friction, "");
-        positive(
-            problems,
-            &format!("{path}.friction_speed"),
-            m.friction_speed_m_s,
-            "m/s",
-        );
+        positive(problems, &format!("{path}.friction_speed"), m.friction_speed_m_s, "m/s");
     }
 }
 
@@ -25,11 +20,7 @@ pub(super) fn check_spring(s: &BilinearSpring, path: &str, problems: &mut Proble
     at_least_zero(problems, &format!("{path}.break_at"), s.break_m, "m");
     for (key, value) in [("mu1", s.returned_1), ("mu2", s.returned_2)] {
         if !(0.0..=1.0).contains(&value) {
-            problems.error(
-                format!("{path}.{key}"),
-                format!("{value}"),
-                "a fraction of returned energy, from 0 to 1",
-            );
+            problems.error(format!("{path}.{key}"), format!("{value}"), "a fraction of returned energy, from 0 to 1");
         } else if value < LEAST_FRACTION {
             problems.warning(
                 format!("{path}.{key}"),

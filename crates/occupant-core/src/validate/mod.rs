@@ -28,21 +28,13 @@ pub fn check(setup: &Setup, problems: &mut Problems) {
 fn positive(problems: &mut Problems, path: &str, value: f64, unit: &str) -> bool {
     let good = value > 0.0 && value.is_finite();
     if !good {
-        problems.error(
-            path,
-            format!("{value} {unit}").trim_end().to_owned(),
-            "a positive number",
-        );
+        problems.error(path, format!("{value} {unit}").trim_end().to_owned(), "a positive number");
     }
     good
 }
 
 fn at_least_zero(problems: &mut Problems, path: &str, value: f64, unit: &str) {
     if !(value >= 0.0 && value.is_finite()) {
-        problems.error(
-            path,
-            format!("{value} {unit}").trim_end().to_owned(),
-            "zero or a positive number",
-        );
+        problems.error(path, format!("{value} {unit}").trim_end().to_owned(), "zero or a positive number");
     }
 }

@@ -22,10 +22,7 @@ pub(super) fn check_time(time: &TimeSpan, integrator: &Integrator, problems: &mu
         if positive(problems, path, interval_s, "s") && span_s / interval_s > most {
             problems.error(
                 path,
-                format!(
-                    "{interval_s} s, which makes {:.1e} {what}",
-                    span_s / interval_s
-                ),
+                format!("{interval_s} s, which makes {:.1e} {what}", span_s / interval_s),
                 format!("at most {most:.0e} {what}"),
             );
         }
@@ -33,13 +30,7 @@ pub(super) fn check_time(time: &TimeSpan, integrator: &Integrator, problems: &mu
     at_most("output.interval", time.output_s, MOST_OUTPUTS, "outputs");
     match *integrator {
         Integrator::Rk4 { step_s } => at_most("integrator.step", step_s, MOST_STEPS, "steps"),
-        Integrator::Adaptive {
-            relative,
-            absolute_m,
-            absolute_m_s,
-            min_step_s,
-            max_step_s,
-        } => {
+        Integrator::Adaptive { relative, absolute_m, absolute_m_s, min_step_s, max_step_s } => {
             at_most("integrator.max_step", max_step_s, MOST_STEPS, "steps");
             positive(problems, "integrator.relative", relative, "");
             positive(problems, "integrator.absolute_length", absolute_m, "m");

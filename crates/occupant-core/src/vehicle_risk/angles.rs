@@ -6,8 +6,8 @@ use super::VehicleSignals;
 use super::missing::{Measured, Missing};
 use crate::measure::{Peak, largest_magnitude};
 use crate::path::{
-    AccelerationRecord, AfterEnd, PathCursor, SensorDefinition, SensorGravity, SensorPath,
-    SensorRecord, TravelDirection, VehiclePose,
+    AccelerationRecord, AfterEnd, PathCursor, SensorDefinition, SensorGravity, SensorPath, SensorRecord,
+    TravelDirection, VehiclePose,
 };
 use crate::signal::integrate;
 
@@ -32,28 +32,20 @@ impl Angles {
             },
             false => [0, 1, 2].map(|axis| alone(signals, axis)),
         };
-        Angles {
-            largest: histories.map(|angle| Ok(largest_magnitude(&angle?, signals.dt_s)?)),
-            of_attitude,
-        }
+        Angles { largest: histories.map(|angle| Ok(largest_magnitude(&angle?, signals.dt_s)?)), of_attitude }
     }
 }
 
 /// Roll, pitch and yaw of the attitude that the three rates lead to.
 fn attitudes(signals: &VehicleSignals) -> Measured<[Vec<f64>; 3]> {
-    let time_s: Vec<f64> = (0..signals.samples())
-        .map(|i| i as f64 * signals.dt_s)
-        .collect();
+    let time_s: Vec<f64> = (0..signals.samples()).map(|i| i as f64 * signals.dt_s).collect();
     let path = SensorPath::new(SensorDefinition {
         record: SensorRecord::Accelerations(AccelerationRecord {
             time_s: time_s.clone(),
             acceleration_m_s2: [const { None }; 3],
             rate_rad_s: signals.rate_rad_s.clone(),
         }),
-        initial: VehiclePose {
-            attitude: signals.initial,
-            ..VehiclePose::default()
-        },
+        initial: VehiclePose { attitude: signals.initial, ..VehiclePose::default() },
         initial_speed_m_s: 0.0,
         direction: TravelDirection::Heading,
         offset_m: Vector3::zeros(),
@@ -69,10 +61,7 @@ fn attitudes(signals: &VehicleSignals) -> Measured<[Vec<f64>; 3]> {
         Missing::Turning(first.unwrap_or_default())
     })?;
     let mut cursor = PathCursor::default();
-    let attitudes: Vec<_> = time_s
-        .iter()
-        .map(|&t| path.pose(t, &mut cursor).attitude)
-        .collect();
+    let attitudes: Vec<_> = time_s.iter().map(|&t| path.pose(t, &mut cursor).attitude).collect();
     let heading_rad = signals.initial.yaw_rad;
     Ok([
         attitudes.iter().map(|a| a.roll_rad).collect(),

@@ -4,13 +4,8 @@ use super::VehicleRisk;
 use crate::measure::limits::{Grade, LIMITS, Limit, Quantity, Rule, Verdict};
 
 /// The rules that judge a vehicle's motion.
-pub const ROADSIDE_RULES: [Rule; 5] = [
-    Rule::Mash2016,
-    Rule::Mash2016Supports,
-    Rule::Nchrp350,
-    Rule::En1317Edition1998,
-    Rule::En1317Edition2010,
-];
+pub const ROADSIDE_RULES: [Rule; 5] =
+    [Rule::Mash2016, Rule::Mash2016Supports, Rule::Nchrp350, Rule::En1317Edition1998, Rule::En1317Edition2010];
 
 /// A measure against a limit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,12 +35,7 @@ pub fn judge(risk: &VehicleRisk, rules: &[Rule]) -> Vec<Judgement> {
         for limit in LIMITS.iter().filter(|limit| limit.rule == *rule) {
             for (measure, value) in values(risk, limit) {
                 let value = value.map(f64::abs);
-                judgements.push(Judgement {
-                    limit,
-                    measure,
-                    value,
-                    verdict: value.map(|value| limit.judge(value)),
-                });
+                judgements.push(Judgement { limit, measure, value, verdict: value.map(|value| limit.judge(value)) });
             }
         }
     }
@@ -57,10 +47,9 @@ fn values(risk: &VehicleRisk, limit: &Limit) -> Vec<(&'static str, Option<f64>)>
     let flail = risk.flail.as_ref().ok();
     let thiv = risk.thiv.as_ref().ok();
     match limit.quantity {
-        Quantity::OccupantImpactVelocity => vec![
-            ("OIV x", flail.map(|f| f.oiv_x_mps)),
-            ("OIV y", flail.map(|f| f.oiv_y_mps)),
-        ],
+        Quantity::OccupantImpactVelocity => {
+            vec![("OIV x", flail.map(|f| f.oiv_x_mps)), ("OIV y", flail.map(|f| f.oiv_y_mps))]
+        }
         Quantity::RidedownAcceleration => vec![
             ("ORA x", flail.and_then(|f| Some(f.ora_x?.value))),
             ("ORA y", flail.and_then(|f| Some(f.ora_y?.value))),

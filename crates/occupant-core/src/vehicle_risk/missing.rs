@@ -35,11 +35,7 @@ impl fmt::Display for Missing {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Missing::Channels(names) => {
-                write!(
-                    f,
-                    "needs {}, which the record does not have",
-                    names.join(" and ")
-                )
+                write!(f, "needs {}, which the record does not have", names.join(" and "))
             }
             Missing::Signal(error) => error.fmt(f),
             Missing::Turning(reason) => f.write_str(reason),
@@ -51,9 +47,7 @@ impl fmt::Display for Missing {
 pub(super) fn both<A, B>(a: Measured<A>, b: Measured<B>) -> Measured<(A, B)> {
     match (a, b) {
         (Ok(a), Ok(b)) => Ok((a, b)),
-        (Err(Missing::Channels(a)), Err(Missing::Channels(b))) => {
-            Err(Missing::Channels([a, b].concat()))
-        }
+        (Err(Missing::Channels(a)), Err(Missing::Channels(b))) => Err(Missing::Channels([a, b].concat())),
         (Err(missing), _) | (_, Err(missing)) => Err(missing),
     }
 }

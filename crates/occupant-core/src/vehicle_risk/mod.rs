@@ -16,8 +16,8 @@ mod prepare;
 mod sampled;
 
 use crate::measure::{
-    Asi, AsiEdition, FlailDistances, FlailSpace, HeadFlight, Olc, Peak, Thiv, asi, flail_space,
-    max_50ms_average, olc, thiv,
+    Asi, AsiEdition, FlailDistances, FlailSpace, HeadFlight, Olc, Peak, Thiv, asi, flail_space, max_50ms_average, olc,
+    thiv,
 };
 use crate::path::Attitude;
 use crate::signal::{CumulativeIntegral, WindowExtreme};
@@ -121,9 +121,7 @@ impl VehicleRisk {
             }),
             velocity_change: [0, 1, 2].map(|axis| velocity_change(signals, axis)),
             angles: Angles::of(signals),
-            olc: signals
-                .acceleration(0)
-                .and_then(|a| Ok(olc(a, signals.dt_s)?)),
+            olc: signals.acceleration(0).and_then(|a| Ok(olc(a, signals.dt_s)?)),
         }
     }
 }

@@ -7,8 +7,8 @@ use nalgebra::Vector3;
 use super::VehicleSignals;
 use crate::path::{AccelerationRecord, Attitude};
 use crate::signal::{
-    CfcFamily, ChannelClass, Interpolant, Interpolation, STANDARD_GRAVITY_MPS2, SignalError,
-    filter_cfc, uniform_interval,
+    CfcFamily, ChannelClass, Interpolant, Interpolation, STANDARD_GRAVITY_MPS2, SignalError, filter_cfc,
+    uniform_interval,
 };
 
 /// Gravity in the vertical channel.
@@ -79,12 +79,7 @@ impl fmt::Display for Unprepared {
                 missing.join(", "),
                 if missing.len() == 1 { "is" } else { "are" }
             ),
-            Unprepared::Window {
-                start_s,
-                end_s,
-                first_s,
-                last_s,
-            } => write!(
+            Unprepared::Window { start_s, end_s, first_s, last_s } => write!(
                 f,
                 "the window from {start_s} s to {end_s} s does not lie in the record, which goes from {first_s} s to \
                  {last_s} s"
@@ -109,10 +104,7 @@ const NAMES: [&str; 6] = ["ax", "ay", "az", "wx", "wy", "wz"];
 /// # Errors
 /// No channel; times that are not even, unless an interval is given; samples too coarse for the filter; an offset without the
 /// rates that it needs; a window outside the record.
-pub fn prepare(
-    record: &AccelerationRecord,
-    preparation: &Preparation,
-) -> Result<VehicleSignals, Unprepared> {
+pub fn prepare(record: &AccelerationRecord, preparation: &Preparation) -> Result<VehicleSignals, Unprepared> {
     let mut channels = even(record, preparation.interval_s)?;
     if let Some((class, family)) = preparation.filter {
         for (name, channel) in NAMES.into_iter().zip(&mut channels.samples) {
@@ -135,8 +127,7 @@ pub fn prepare(
 fn even(record: &AccelerationRecord, interval_s: Option<f64>) -> Result<Channels, Unprepared> {
     let of_time = |error| Unprepared::Channel { name: "t", error };
     let mut all = record.acceleration_m_s2.iter().chain(&record.rate_rad_s);
-    let given: [Option<&Vec<f64>>; 6] =
-        std::array::from_fn(|_| all.next().and_then(Option::as_ref));
+    let given: [Option<&Vec<f64>>; 6] = std::array::from_fn(|_| all.next().and_then(Option::as_ref));
     if given.iter().all(Option::is_none) {
         return Err(Unprepared::NoChannel);
     }
@@ -157,11 +148,7 @@ fn even(record: &AccelerationRecord, interval_s: Option<f64>) -> Result<Channels
         samples[i] = Some(even.map_err(|error| Unprepared::Channel { name, error })?);
     }
     let first_s = record.time_s.first().copied().unwrap_or(0.0);
-    Ok(Channels {
-        first_s,
-        dt_s,
-        samples,
-    })
+    Ok(Channels { first_s, dt_s, samples })
 }
 
 /// a_cg = a_s − ω̇ × r − ω × (ω × r), with ω̇ from central differences of the filtered rates.
@@ -169,9 +156,7 @@ fn move_to_centre(channels: &mut Channels, arm_m: Vector3<f64>) -> Result<(), Un
     let [ax, ay, az, wx, wy, wz] = &mut channels.samples;
     let (Some(wx), Some(wy), Some(wz)) = (wx, wy, wz) else {
         let missing = (3..6).filter(|&i| channels.samples[i].is_none());
-        return Err(Unprepared::OffsetNeedsRates {
-            missing: missing.map(|i| NAMES[i]).collect(),
-        });
+        return Err(Unprepared::OffsetNeedsRates { missing: missing.map(|i| NAMES[i]).collect() });
     };
     let omega = |i: usize| Vector3::new(wx[i], wy[i], wz[i]);
     let count = wx.len();
@@ -190,11 +175,7 @@ fn move_to_centre(channels: &mut Channels, arm_m: Vector3<f64>) -> Result<(), Un
 
 /// The part from first contact to the end; it starts at the first sample that is not before first contact.
 fn window(channels: Channels, preparation: &Preparation) -> Result<VehicleSignals, Unprepared> {
-    let Channels {
-        first_s,
-        dt_s,
-        samples,
-    } = channels;
+    let Channels { first_s, dt_s, samples } = channels;
     let count = samples.iter().flatten().map(Vec::len).max().unwrap_or(0);
     let last_s = first_s + count.saturating_sub(1) as f64 * dt_s;
     let start_s = preparation.start_s.unwrap_or(first_s);
@@ -205,16 +186,10 @@ fn window(channels: Channels, preparation: &Preparation) -> Result<VehicleSignal
     let slack_s = 1e-3 * dt_s;
     let inside = start_s >= first_s - slack_s && end_s <= last_s + slack_s;
     if !(inside && to > from && to < count as f64) {
-        return Err(Unprepared::Window {
-            start_s,
-            end_s,
-            first_s,
-            last_s,
-        });
+        return Err(Unprepared::Window { start_s, end_s, first_s, last_s });
     }
     let (from, to) = (from as usize, to as usize);
-    let [ax, ay, az, wx, wy, wz] =
-        samples.map(|channel| channel.map(|samples| samples[from..=to].to_vec()));
+    let [ax, ay, az, wx, wy, wz] = samples.map(|channel| channel.map(|samples| samples[from..=to].to_vec()));
     Ok(VehicleSignals {
         start_s: first_s + from as f64 * dt_s,
         dt_s,

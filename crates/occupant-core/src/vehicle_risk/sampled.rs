@@ -13,12 +13,7 @@ const MOST_SAMPLES: f64 = 1e7;
 /// Between the stations of a straight-line table the vehicle has no acceleration, and at them its velocity jumps. There the
 /// acceleration of a sample is the velocity change from half an interval before to half an interval after it, over the
 /// interval, so that its integral is the velocity change.
-pub fn sampled(
-    path: &VehiclePath,
-    start_s: f64,
-    end_s: f64,
-    dt_s: f64,
-) -> Option<AccelerationRecord> {
+pub fn sampled(path: &VehiclePath, start_s: f64, end_s: f64, dt_s: f64) -> Option<AccelerationRecord> {
     let steps = ((end_s - start_s) / dt_s + 1e-6).floor();
     if !(dt_s > 0.0 && (1.0..MOST_SAMPLES).contains(&steps)) {
         return None;

@@ -5,8 +5,8 @@ use nalgebra::Vector3;
 use super::*;
 use crate::measure::limits::{Grade, Rule};
 use crate::path::{
-    AccelerationRecord, AfterEnd, Interpolation, PulseDefinition, PulsePath, PulseShape, Station,
-    Strength, TablePath, TravelDirection, VehiclePath, VehiclePose,
+    AccelerationRecord, AfterEnd, Interpolation, PulseDefinition, PulsePath, PulseShape, Station, Strength, TablePath,
+    TravelDirection, VehiclePath, VehiclePose,
 };
 use crate::signal::{CfcFamily, ChannelClass, STANDARD_GRAVITY_MPS2 as G, SignalError};
 
@@ -22,10 +22,7 @@ fn steady(x_g: f64, y_g: f64, z_g: f64, yaw_rate: f64, dt_s: f64) -> Acceleratio
 }
 
 fn with_cfc(class: ChannelClass) -> Preparation {
-    Preparation {
-        filter: Some((class, CfcFamily::Iso6487)),
-        ..Preparation::default()
-    }
+    Preparation { filter: Some((class, CfcFamily::Iso6487)), ..Preparation::default() }
 }
 
 fn risk_of(record: &AccelerationRecord, preparation: &Preparation) -> VehicleRisk {
@@ -35,10 +32,7 @@ fn risk_of(record: &AccelerationRecord, preparation: &Preparation) -> VehicleRis
 
 #[test]
 fn steady_accelerations_give_the_closed_forms_through_filter_and_all() {
-    let risk = risk_of(
-        &steady(-10.0, 5.0, 1.0, 0.0, 1e-4),
-        &with_cfc(ChannelClass::Cfc180),
-    );
+    let risk = risk_of(&steady(-10.0, 5.0, 1.0, 0.0, 1e-4), &with_cfc(ChannelClass::Cfc180));
     let flail = risk.flail.unwrap();
     assert!((flail.impact_s.unwrap() - 0.110_619).abs() < 1e-6);
     assert!((flail.oiv_x_mps - 10.8480).abs() < 5e-5 && (flail.oiv_y_mps - 5.4240).abs() < 5e-5);
@@ -67,13 +61,7 @@ fn the_yawing_vector_of_thiv_comes_through() {
     let risk = risk_of(&record, &Preparation::default());
     assert!((risk.thiv.unwrap().speed_kmh() - 33.396_092).abs() < 2e-6);
     let signals = prepare(&record, &Preparation::default()).unwrap();
-    let ahead = Flight {
-        head: HeadFlight {
-            start_x_m: 0.3,
-            ..Default::default()
-        },
-        ..Flight::default()
-    };
+    let ahead = Flight { head: HeadFlight { start_x_m: 0.3, ..Default::default() }, ..Flight::default() };
     let risk = VehicleRisk::of(&signals, &ahead);
     assert!((risk.thiv.unwrap().speed_kmh() - 32.053_305).abs() < 2e-6);
     // 100 deg/s for 0.2 s
@@ -94,24 +82,14 @@ fn sensors_away_from_the_centre_are_moved_to_it() {
     let of = |f: &dyn Fn(f64) -> Vector3<f64>| {
         [0, 1, 2].map(|axis| Some(time_s.iter().map(|&t| f(t)[axis]).collect::<Vec<f64>>()))
     };
-    let record = AccelerationRecord {
-        acceleration_m_s2: of(&felt),
-        rate_rad_s: of(&omega),
-        time_s: time_s.clone(),
-    };
-    let preparation = Preparation {
-        offset_m: arm.into(),
-        ..Preparation::default()
-    };
+    let record = AccelerationRecord { acceleration_m_s2: of(&felt), rate_rad_s: of(&omega), time_s: time_s.clone() };
+    let preparation = Preparation { offset_m: arm.into(), ..Preparation::default() };
     let signals = prepare(&record, &preparation).unwrap();
     for channel in signals.acceleration_m_s2.iter().flatten() {
         // measured 2.1e-14
         assert!(channel.iter().all(|a| a.abs() < 1e-12), "{channel:?}");
     }
-    let planar = AccelerationRecord {
-        rate_rad_s: [None, None, record.rate_rad_s[2].clone()],
-        ..record
-    };
+    let planar = AccelerationRecord { rate_rad_s: [None, None, record.rate_rad_s[2].clone()], ..record };
     assert_eq!(
         prepare(&planar, &preparation).unwrap_err().to_string(),
         "sensors away from the centre of gravity need all three rates, and wx, wy are not there"
@@ -120,10 +98,7 @@ fn sensors_away_from_the_centre_are_moved_to_it() {
 
 #[test]
 fn gravity_in_the_vertical_channel_is_added_back() {
-    let preparation = Preparation {
-        gravity: VerticalGravity::Included,
-        ..Preparation::default()
-    };
+    let preparation = Preparation { gravity: VerticalGravity::Included, ..Preparation::default() };
     let risk = risk_of(&steady(-10.0, 0.0, -1.0, 0.0, 1e-3), &preparation);
     assert!(risk.max_50ms[2].clone().unwrap().value.abs() < 1e-12);
 }
@@ -137,10 +112,7 @@ fn missing_channels_leave_their_measures_out_with_the_reason() {
     assert!(risk.flail.is_ok() && risk.max_50ms[0].is_ok() && risk.olc.is_ok());
     assert_eq!(risk.thiv.unwrap_err(), Missing::channels(&["wz"]));
     assert_eq!(risk.asi_1998.unwrap_err(), Missing::channels(&["az"]));
-    assert_eq!(
-        risk.angles.largest[0].clone().unwrap_err().to_string(),
-        "needs wx, which the record does not have"
-    );
+    assert_eq!(risk.angles.largest[0].clone().unwrap_err().to_string(), "needs wx, which the record does not have");
     record.acceleration_m_s2[1] = None;
     let risk = risk_of(&record, &Preparation::default());
     assert_eq!(risk.thiv.unwrap_err(), Missing::channels(&["ay", "wz"]));
@@ -166,15 +138,9 @@ fn uneven_samples_are_refused_unless_an_interval_is_given() {
     record.time_s[100] += 4e-4;
     assert!(matches!(
         prepare(&record, &Preparation::default()),
-        Err(Unprepared::Channel {
-            name: "t",
-            error: SignalError::NotUniform { index: 100, .. }
-        })
+        Err(Unprepared::Channel { name: "t", error: SignalError::NotUniform { index: 100, .. } })
     ));
-    let preparation = Preparation {
-        interval_s: Some(5e-4),
-        ..with_cfc(ChannelClass::Cfc180)
-    };
+    let preparation = Preparation { interval_s: Some(5e-4), ..with_cfc(ChannelClass::Cfc180) };
     let flail = risk_of(&record, &preparation).flail.unwrap();
     assert!((flail.oiv_x_mps - 10.8480).abs() < 5e-5);
 }
@@ -184,10 +150,7 @@ fn samples_too_coarse_for_the_filter_are_refused() {
     let record = steady(-10.0, 0.0, 0.0, 0.0, 2e-3);
     assert!(matches!(
         prepare(&record, &with_cfc(ChannelClass::Cfc180)),
-        Err(Unprepared::Channel {
-            name: "ax",
-            error: SignalError::CornerAboveNyquist { .. }
-        })
+        Err(Unprepared::Channel { name: "ax", error: SignalError::CornerAboveNyquist { .. } })
     ));
     assert!(prepare(&record, &with_cfc(ChannelClass::Cfc60)).is_ok());
 }
@@ -197,24 +160,13 @@ fn the_record_is_cut_to_first_contact() {
     // 1 g before the contact at 0.1 s would move the occupant
     let mut record = steady(-10.0, 0.0, 0.0, 0.0, 1e-3);
     record.time_s.iter_mut().for_each(|t| *t -= 0.05);
-    let preparation = Preparation {
-        start_s: Some(0.0),
-        end_s: Some(0.14),
-        ..Preparation::default()
-    };
+    let preparation = Preparation { start_s: Some(0.0), end_s: Some(0.14), ..Preparation::default() };
     let signals = prepare(&record, &preparation).unwrap();
     assert_eq!(signals.samples(), 141);
     assert!(signals.start_s.abs() < 1e-12 && (signals.end_s() - 0.14).abs() < 1e-12);
     for (start_s, end_s) in [(-0.1, 0.1), (0.0, 0.3), (0.1, 0.1), (f64::NAN, 0.1)] {
-        let outside = Preparation {
-            start_s: Some(start_s),
-            end_s: Some(end_s),
-            ..Preparation::default()
-        };
-        assert!(matches!(
-            prepare(&record, &outside),
-            Err(Unprepared::Window { .. })
-        ));
+        let outside = Preparation { start_s: Some(start_s), end_s: Some(end_s), ..Preparation::default() };
+        assert!(matches!(prepare(&record, &outside), Err(Unprepared::Window { .. })));
     }
 }
 
@@ -226,10 +178,7 @@ fn a_pulse_gives_its_own_velocity_change_and_peak() {
             initial_speed_m_s: 15.0,
             direction: TravelDirection::Heading,
             starts_at_s: 0.0,
-            shape: PulseShape::HalfSine {
-                strength: Strength::DeltaV(15.0),
-                duration_s: 0.1,
-            },
+            shape: PulseShape::HalfSine { strength: Strength::DeltaV(15.0), duration_s: 0.1 },
             rebound_m_s: None,
         })
         .unwrap(),
@@ -266,18 +215,9 @@ fn straight_lines_between_stations_keep_their_velocity_change() {
 #[test]
 fn rules_judge_each_component_and_each_edition_its_own_index() {
     let risk = risk_of(&steady(-14.0, 4.0, 0.0, 0.0, 1e-4), &Preparation::default());
-    let all = judge(
-        &risk,
-        &[
-            Rule::Mash2016,
-            Rule::En1317Edition1998,
-            Rule::En1317Edition2010,
-        ],
-    );
+    let all = judge(&risk, &[Rule::Mash2016, Rule::En1317Edition1998, Rule::En1317Edition2010]);
     let of = |rule, measure, grade| {
-        let found = all
-            .iter()
-            .find(|j| j.limit.rule == rule && j.measure == measure && j.limit.grade == grade);
+        let found = all.iter().find(|j| j.limit.rule == rule && j.measure == measure && j.limit.grade == grade);
         *found.unwrap()
     };
     // √(2·14 g·0.6 m) = 12.84 m/s
@@ -290,27 +230,12 @@ fn rules_judge_each_component_and_each_edition_its_own_index() {
     // ASI √((14/12)² + (4/9)²) = 1.248: class B
     let class_a = of(Rule::En1317Edition2010, "ASI (2010)", Grade::ClassA);
     assert!(!class_a.verdict.unwrap().passed && !class_a.breaks_the_rule());
-    assert!(
-        of(Rule::En1317Edition1998, "ASI (1998)", Grade::ClassB)
-            .verdict
-            .unwrap()
-            .passed
-    );
-    assert!(
-        all.iter()
-            .all(|j| !(j.limit.rule == Rule::En1317Edition2010 && j.measure == "PHD"))
-    );
+    assert!(of(Rule::En1317Edition1998, "ASI (1998)", Grade::ClassB).verdict.unwrap().passed);
+    assert!(all.iter().all(|j| !(j.limit.rule == Rule::En1317Edition2010 && j.measure == "PHD")));
     let nothing = risk_of(
-        &AccelerationRecord {
-            acceleration_m_s2: [const { None }; 3],
-            ..steady(0.0, 0.0, 0.0, 0.0, 1e-3)
-        },
+        &AccelerationRecord { acceleration_m_s2: [const { None }; 3], ..steady(0.0, 0.0, 0.0, 0.0, 1e-3) },
         &Preparation::default(),
     );
     let unjudged = judge(&nothing, &ROADSIDE_RULES);
-    assert!(
-        unjudged
-            .iter()
-            .all(|j| j.value.is_none() && !j.breaks_the_rule())
-    );
+    assert!(unjudged.iter().all(|j| j.value.is_none() && !j.breaks_the_rule()));
 }

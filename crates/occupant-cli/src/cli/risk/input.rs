@@ -15,22 +15,15 @@ use crate::risk::Subject;
 const PATH_INTERVAL_S: f64 = 1e-4;
 
 /// What the file holds, and the signals that it gives.
-pub(super) fn measured(
-    args: &Args,
-    wanted: &Preparation,
-) -> Result<(Subject, VehicleSignals), Failure> {
+pub(super) fn measured(args: &Args, wanted: &Preparation) -> Result<(Subject, VehicleSignals), Failure> {
     let name = args.file.display().to_string();
     let extension = args.file.extension().unwrap_or_default();
     let extension = extension.to_string_lossy().to_ascii_lowercase();
     if matches!(extension.as_str(), "toml" | "json" | "mcap") {
         let subject = path_of(args, &name, &extension, wanted)?;
         // the path was sampled as asked, and it knows neither sensors nor gravity
-        let of_path = Preparation {
-            interval_s: None,
-            ..wanted.clone()
-        };
-        let mut signals =
-            prepare(&subject.record, &of_path).map_err(|error| unprepared(&name, None, &error))?;
+        let of_path = Preparation { interval_s: None, ..wanted.clone() };
+        let mut signals = prepare(&subject.record, &of_path).map_err(|error| unprepared(&name, None, &error))?;
         signals.initial = subject.initial;
         return Ok((subject, signals));
     }
@@ -42,18 +35,12 @@ pub(super) fn measured(
     }
     let file = recorded(args, &name)?;
     let subject = Subject::recorded(&name, &file);
-    let signals =
-        prepare(&subject.record, wanted).map_err(|error| unprepared(&name, Some(&file), &error))?;
+    let signals = prepare(&subject.record, wanted).map_err(|error| unprepared(&name, Some(&file), &error))?;
     Ok((subject, signals))
 }
 
 /// The path of the scenario or run in the file.
-fn path_of(
-    args: &Args,
-    name: &str,
-    extension: &str,
-    wanted: &Preparation,
-) -> Result<Subject, Failure> {
+fn path_of(args: &Args, name: &str, extension: &str, wanted: &Preparation) -> Result<Subject, Failure> {
     let foreign = [
         ("--offset", args.offset.is_some()),
         ("--gravity-included", args.gravity_included),
@@ -69,19 +56,17 @@ fn path_of(
     let model = match extension {
         "mcap" => {
             let bytes = read(args, name)?;
-            let run = StoredRun::read(&bytes)
-                .map_err(|reason| Failure::plain(format!("{name} cannot be read: {reason}")))?;
+            let run =
+                StoredRun::read(&bytes).map_err(|reason| Failure::plain(format!("{name} cannot be read: {reason}")))?;
             let loaded = scenario::stored(&args.file, &run)?;
-            let (model, _) = loaded.model().map_err(|problems| {
-                Failure::plain(format!("the scenario in {name} is refused:\n{problems}"))
-            })?;
+            let (model, _) = loaded
+                .model()
+                .map_err(|problems| Failure::plain(format!("the scenario in {name} is refused:\n{problems}")))?;
             model
         }
         _ => {
-            let opened = scenario::open(&ScenarioArgs {
-                scenario: args.file.clone(),
-                overrides: args.overrides.clone(),
-            })?;
+            let opened =
+                scenario::open(&ScenarioArgs { scenario: args.file.clone(), overrides: args.overrides.clone() })?;
             if !opened.warnings.is_empty() {
                 say(&format!("{}\n", opened.warnings));
             }
@@ -98,8 +83,7 @@ fn path_of(
 }
 
 fn read(args: &Args, name: &str) -> Result<Vec<u8>, Failure> {
-    std::fs::read(&args.file)
-        .map_err(|error| Failure::plain(format!("{name} cannot be read: {error}")))
+    std::fs::read(&args.file).map_err(|error| Failure::plain(format!("{name} cannot be read: {error}")))
 }
 
 /// The record in a CSV file, with its axes forward, right, down.
@@ -108,9 +92,7 @@ fn recorded(args: &Args, name: &str) -> Result<RecordFile, Failure> {
     let mut file = read_record(&bytes, name).map_err(|problems| {
         let count = problems.iter().count();
         let errors = if count == 1 { "error" } else { "errors" };
-        Failure::CouldNotRun(format!(
-            "{problems}\n\n{name}: {count} {errors}, nothing was measured"
-        ))
+        Failure::CouldNotRun(format!("{problems}\n\n{name}: {count} {errors}, nothing was measured"))
     })?;
     if args.z_up {
         let record = &mut file.record;
@@ -126,11 +108,7 @@ fn recorded(args: &Args, name: &str) -> Result<RecordFile, Failure> {
 /// Why a record cannot be measured, with the remedy.
 fn unprepared(name: &str, file: Option<&RecordFile>, error: &Unprepared) -> Failure {
     if let (Some(file), Unprepared::Channel { name: "t", error }) = (file, error)
-        && let SignalError::NotUniform {
-            index,
-            found_s,
-            expected_s,
-        } = error
+        && let SignalError::NotUniform { index, found_s, expected_s } = error
     {
         let mut problems = Diagnostics::new();
         problems.push(file.at(
@@ -142,10 +120,7 @@ fn unprepared(name: &str, file: Option<&RecordFile>, error: &Unprepared) -> Fail
         return Failure::CouldNotRun(problems.to_string());
     }
     let help = match error {
-        Unprepared::Channel {
-            error: SignalError::CornerAboveNyquist { .. },
-            ..
-        } => {
+        Unprepared::Channel { error: SignalError::CornerAboveNyquist { .. }, .. } => {
             "use a lower class, such as --cfc 60, or --cfc none for data that are filtered already"
         }
         Unprepared::Channel { .. } => "mend the record, or choose another interval or window",

@@ -60,10 +60,7 @@ pub(super) fn flight(args: &Args) -> Result<Flight, Failure> {
 
 /// A flag's quantity in SI; a bare number is in SI.
 fn quantity<const KIND: usize>(flag: &str, words: &Option<String>) -> Result<Option<f64>, Failure> {
-    words
-        .as_deref()
-        .map(|text| si::<KIND>(flag, text))
-        .transpose()
+    words.as_deref().map(|text| si::<KIND>(flag, text)).transpose()
 }
 
 fn si<const KIND: usize>(flag: &str, text: &str) -> Result<f64, Failure> {
@@ -74,22 +71,15 @@ fn si<const KIND: usize>(flag: &str, text: &str) -> Result<f64, Failure> {
     };
     match quantity.si(kind::UnitSystem::Si) {
         Ok(value) if value.is_finite() => Ok(value),
-        Ok(value) => Err(Failure::plain(format!(
-            "{flag} {text}: found {value}, expected a finite number"
-        ))),
-        Err(error) => Err(Failure::plain(format!(
-            "{flag} {text}: {}, expected {}",
-            error.found, error.expected
-        ))),
+        Ok(value) => Err(Failure::plain(format!("{flag} {text}: found {value}, expected a finite number"))),
+        Err(error) => Err(Failure::plain(format!("{flag} {text}: {}, expected {}", error.found, error.expected))),
     }
 }
 
 fn positive(flag: &str, value: f64) -> Result<f64, Failure> {
     match value > 0.0 {
         true => Ok(value),
-        false => Err(Failure::plain(format!(
-            "{flag}: found {value}, expected more than 0"
-        ))),
+        false => Err(Failure::plain(format!("{flag}: found {value}, expected more than 0"))),
     }
 }
 
@@ -100,10 +90,7 @@ fn offset(words: Option<&str>) -> Result<[f64; 3], Failure> {
     let parts: Vec<&str> = words.split(',').collect();
     let [x, y, z] = parts[..] else {
         return Err(Failure::with_help(
-            format!(
-                "--offset {words}: found {} lengths, expected 3",
-                parts.len()
-            ),
+            format!("--offset {words}: found {} lengths, expected 3", parts.len()),
             "give forward, right and down, such as --offset '-0.3 m,0,10 cm'",
         ));
     };

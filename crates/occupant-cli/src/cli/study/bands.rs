@@ -83,15 +83,11 @@ pub fn bands(args: &BandsArgs) -> Result<Done, Failure> {
             continue;
         }
         bands.write(sample).map_err(|failure| {
-            failure.with_done(&format!(
-                "the bands of {sample} of {samples} samples are there; the same command goes on"
-            ))
+            failure
+                .with_done(&format!("the bands of {sample} of {samples} samples are there; the same command goes on"))
         })?;
         if !args.quiet {
-            say(&format!(
-                "sample {sample}: {}",
-                bands.file(sample).display()
-            ));
+            say(&format!("sample {sample}: {}", bands.file(sample).display()));
         }
     }
     Ok(Done::Well)

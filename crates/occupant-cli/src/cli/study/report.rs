@@ -36,10 +36,7 @@ pub fn report(args: &ReportArgs) -> Result<Done, Failure> {
     let Some(first) = args.folders.first() else {
         return Err(Failure::plain("no folder was given"));
     };
-    let page_at = args
-        .output
-        .clone()
-        .unwrap_or_else(|| first.join("report.html"));
+    let page_at = args.output.clone().unwrap_or_else(|| first.join("report.html"));
     let tables = Tables::beside(&page_at);
     let opened = open(&args.folders)?;
     refuse(&page_at, &tables, args)?;
@@ -70,10 +67,7 @@ fn refuse(page: &Path, tables: &Tables, args: &ReportArgs) -> Result<(), Failure
         let mut ours = args.folders.iter().flat_map(|f| names.map(|n| f.join(n)));
         ours.any(|ours| same(&ours, table))
     };
-    if let Some(table) = [&tables.numbers, &tables.samples]
-        .into_iter()
-        .find(|t| own(t))
-    {
+    if let Some(table) = [&tables.numbers, &tables.samples].into_iter().find(|t| own(t)) {
         return Err(Failure::with_help(
             format!("{} is a table of the sweep", table.display()),
             "give the page another name",

@@ -14,12 +14,8 @@ use crate::sweep::shard::Shard;
 
 /// The part to compute, and the variable that says so.
 pub fn shard(given: Option<&str>) -> Result<(Shard, Option<&'static str>), Failure> {
-    let refused = |found: String| {
-        Failure::with_help(
-            found,
-            "--shard 1/1 computes everything, whatever the environment says",
-        )
-    };
+    let refused =
+        |found: String| Failure::with_help(found, "--shard 1/1 computes everything, whatever the environment says");
     if let Some(text) = given {
         let shard = Shard::parse(text).map_err(|e| refused(format!("--shard: {e}")))?;
         return Ok((shard, None));

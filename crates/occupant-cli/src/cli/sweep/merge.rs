@@ -56,20 +56,14 @@ pub fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     let gaps = journal.finished.gaps(0..manifest.samples);
     if !gaps.is_empty() {
         let shards = journal.lacking(manifest.samples);
-        return Err(told(Problem::Incomplete {
-            gaps,
-            samples: manifest.samples,
-            shards,
-        }));
+        return Err(told(Problem::Incomplete { gaps, samples: manifest.samples, shards }));
     }
     let target = match (&args.output, folders.first()) {
         (Some(output), _) => Folder::at(output),
         (None, Some(first)) => first.clone(),
         (None, None) => return Err(Failure::plain("no folder was given")),
     };
-    std::fs::create_dir_all(target.path())
-        .map_err(Problem::io("create", target.path()))
-        .map_err(told)?;
+    std::fs::create_dir_all(target.path()).map_err(Problem::io("create", target.path())).map_err(told)?;
     target.refuse_other_results(&manifest).map_err(told)?;
     let (plan, keep) = stored_plan(args, &folders, &manifest)?;
     kept::prepare(&keep, &target).map_err(told)?;
@@ -78,14 +72,7 @@ pub fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     let lacking = kept::missing(&target, &journal, census.worst()).map_err(told)?;
     let stop = AtomicBool::new(false);
     let kernel = Kernel::best();
-    kept::write(
-        &plan,
-        &target,
-        &lacking,
-        threads(args.threads),
-        kernel,
-        &stop,
-    )?;
+    kept::write(&plan, &target, &lacking, threads(args.threads), kernel, &stop)?;
     let ensembles = ensembles(&target, &manifest, csv)?;
     match args.quiet {
         true => Ok(Done::Well),
@@ -94,11 +81,7 @@ pub fn merge(args: &MergeArgs) -> Result<Done, Failure> {
 }
 
 /// The plan as the first folder holds it, and what is to be kept.
-fn stored_plan(
-    args: &MergeArgs,
-    folders: &[Folder],
-    manifest: &Manifest,
-) -> Result<(Plan, Keep), Failure> {
+fn stored_plan(args: &MergeArgs, folders: &[Folder], manifest: &Manifest) -> Result<(Plan, Keep), Failure> {
     let (Some(folder), Some(study)) = (folders.first(), manifest.texts.first()) else {
         return Err(Failure::plain("the folder holds no study"));
     };

@@ -15,11 +15,7 @@ use crate::sweep::plan::NoPlan;
 use crate::sweep::problem::Problem;
 
 /// Reads through the journals.
-pub fn read_journal(
-    folders: &[Folder],
-    sha256: &str,
-    manifest: &Manifest,
-) -> Result<Journal, Failure> {
+pub fn read_journal(folders: &[Folder], sha256: &str, manifest: &Manifest) -> Result<Journal, Failure> {
     Journal::read(folders, sha256, manifest.samples).map_err(told)
 }
 
@@ -30,18 +26,12 @@ pub fn sha256_of(manifest: &Manifest) -> Result<String, Failure> {
 }
 
 /// What is stable, where the study has ensembles: read from the finished table and written beside it.
-pub fn ensembles(
-    folder: &Folder,
-    manifest: &Manifest,
-    csv: bool,
-) -> Result<Option<Ensembles>, Failure> {
+pub fn ensembles(folder: &Folder, manifest: &Manifest, csv: bool) -> Result<Option<Ensembles>, Failure> {
     if !of_table::has_ensembles(manifest) {
         return Ok(None);
     }
     let found = of_table::write(&folder.parquet(), manifest, csv);
-    found
-        .map(Some)
-        .map_err(|reason| Failure::BrokeOff(format!("error: {reason}")))
+    found.map(Some).map_err(|reason| Failure::BrokeOff(format!("error: {reason}")))
 }
 
 /// What it came to.
@@ -52,11 +42,9 @@ pub fn tell(
     ensembles: Option<&Ensembles>,
 ) -> Result<Done, Failure> {
     let mut ended = vec![format!("{} completed", census.completed)];
-    for (count, word) in [
-        (census.failed, "failed"),
-        (census.refused, "refused"),
-        (census.broken, "on which the program broke off"),
-    ] {
+    for (count, word) in
+        [(census.failed, "failed"), (census.refused, "refused"), (census.broken, "on which the program broke off")]
+    {
         if count > 0 {
             ended.push(format!("{count} {word}"));
         }
@@ -66,8 +54,7 @@ pub fn tell(
         lines.push(("", format!("{index}: {reason}")));
     }
     if census.unbalanced > 0 {
-        let found =
-            "samples whose energy balance is off by more than 10 %: their figures mean nothing";
+        let found = "samples whose energy balance is off by more than 10 %: their figures mean nothing";
         lines.push(("doubtful", format!("{} {found}", census.unbalanced)));
     }
     lines.extend(work.map(|work| ("computed", work)));
@@ -90,10 +77,8 @@ pub fn no_plan(reason: NoPlan) -> Failure {
 /// A problem of the folder, in words.
 pub fn told(problem: Problem) -> Failure {
     let help = problem.help();
-    let broke_off = matches!(
-        problem,
-        Problem::Io { doing: "write", .. } | Problem::Table { .. } | Problem::Incomplete { .. }
-    );
+    let broke_off =
+        matches!(problem, Problem::Io { doing: "write", .. } | Problem::Table { .. } | Problem::Incomplete { .. });
     let help = help.map(|h| format!("\n = help: {h}")).unwrap_or_default();
     let message = format!("error: {problem}{help}");
     match broke_off {

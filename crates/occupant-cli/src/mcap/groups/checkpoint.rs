@@ -77,9 +77,7 @@ fn greatest(history: &History<f64>) -> Vec<f64> {
 
 fn normals(history: &History<f64>) -> Vec<f64> {
     let belts = history.belts.iter();
-    belts
-        .flat_map(|b| [b.normal.x, b.normal.y, b.normal.z])
-        .collect()
+    belts.flat_map(|b| [b.normal.x, b.normal.y, b.normal.z]).collect()
 }
 
 fn elongations(history: &History<f64>) -> Vec<f64> {

@@ -14,11 +14,6 @@ pub const REPORT_COORDINATES: Group = Group {
             Coordinates(|s| s.report_coordinates().q),
             "q1 to q31 in the report's order: q1 to q3 in m, the angles in rad",
         ),
-        column(
-            3,
-            "q_rate_m_s_or_rad_s",
-            Coordinates(|s| s.report_coordinates().rates),
-            "their rates",
-        ),
+        column(3, "q_rate_m_s_or_rad_s", Coordinates(|s| s.report_coordinates().rates), "their rates"),
     ],
 };

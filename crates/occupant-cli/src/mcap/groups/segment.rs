@@ -22,12 +22,7 @@ pub const SEGMENT: Group = Group {
             Vector(|s, i| s.end_points_m(Segment::ALL[i])[1].coords),
             "lower end; the far end of a limb (item 1)",
         ),
-        column(
-            4,
-            "cg_vehicle_m",
-            Vector(|s, i| s.cg_m(Segment::ALL[i]).coords),
-            "centre of gravity",
-        ),
+        column(4, "cg_vehicle_m", Vector(|s, i| s.cg_m(Segment::ALL[i]).coords), "centre of gravity"),
         column(
             5,
             "orientation_in_vehicle",

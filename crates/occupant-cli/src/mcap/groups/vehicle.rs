@@ -14,30 +14,10 @@ pub const VEHICLE: Group = Group {
             Vector(|s, _| s.vehicle_pose.position_m),
             "centre of gravity as the path gives it: forward, right, down",
         ),
-        column(
-            3,
-            "roll_rad",
-            Number(|s, _| s.vehicle_pose.attitude.roll_rad),
-            "roll, right side down positive",
-        ),
-        column(
-            4,
-            "pitch_rad",
-            Number(|s, _| s.vehicle_pose.attitude.pitch_rad),
-            "pitch, nose up positive",
-        ),
-        column(
-            5,
-            "yaw_rad",
-            Number(|s, _| s.vehicle_pose.attitude.yaw_rad),
-            "yaw, nose to the right positive",
-        ),
-        column(
-            6,
-            "velocity_space_m_s",
-            Vector(|s, _| s.vehicle.velocity_m_s),
-            "velocity of the centre of gravity",
-        ),
+        column(3, "roll_rad", Number(|s, _| s.vehicle_pose.attitude.roll_rad), "roll, right side down positive"),
+        column(4, "pitch_rad", Number(|s, _| s.vehicle_pose.attitude.pitch_rad), "pitch, nose up positive"),
+        column(5, "yaw_rad", Number(|s, _| s.vehicle_pose.attitude.yaw_rad), "yaw, nose to the right positive"),
+        column(6, "velocity_space_m_s", Vector(|s, _| s.vehicle.velocity_m_s), "velocity of the centre of gravity"),
         column(
             7,
             "velocity_vehicle_m_s",
@@ -65,10 +45,7 @@ pub const VEHICLE: Group = Group {
         column(
             11,
             "angular_acceleration_vehicle_rad_s2",
-            Vector(|s, _| {
-                s.vehicle
-                    .vector_to_frame(s.vehicle.angular_acceleration_rad_s2)
-            }),
+            Vector(|s, _| s.vehicle.vector_to_frame(s.vehicle.angular_acceleration_rad_s2)),
             "angular acceleration along the vehicle's axes",
         ),
     ],

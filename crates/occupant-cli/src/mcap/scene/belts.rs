@@ -32,12 +32,7 @@ pub fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>) {
 }
 
 /// Points of the belt from the first anchor to the second, vehicle axes; a straight line for a belt off the body.
-pub fn course_m(
-    belt: &Belt,
-    radius_m: f64,
-    centre_m: Point3<f64>,
-    action: &BeltAction<f64>,
-) -> Vec<Point3<f64>> {
+pub fn course_m(belt: &Belt, radius_m: f64, centre_m: Point3<f64>, action: &BeltAction<f64>) -> Vec<Point3<f64>> {
     let [first, second] = belt.anchors_m;
     let mut points = vec![first];
     if action.wrap > 0.0 {
@@ -57,12 +52,7 @@ pub fn course_m(
 }
 
 /// Where the free length from `anchor` along −`free` meets the sphere.
-fn tangent_point(
-    anchor: Point3<f64>,
-    centre: Point3<f64>,
-    radius_m: f64,
-    free: Vector3<f64>,
-) -> Point3<f64> {
+fn tangent_point(anchor: Point3<f64>, centre: Point3<f64>, radius_m: f64, free: Vector3<f64>) -> Point3<f64> {
     let square = (anchor - centre).norm_squared() - radius_m * radius_m;
     anchor - free * square.max(0.0).sqrt()
 }

@@ -94,11 +94,7 @@ fn girdle(wire: &mut Wire, height_m: f64, half_width_m: f64, radius_m: f64, colo
 /// a and b as drawn.
 fn half_axes_m(p: &SegmentProperties, segment: Segment) -> (f64, f64) {
     let i = p.inertia_kg_m2;
-    let width = if segment == Segment::Head {
-        SLIM * NECK
-    } else {
-        SLIM
-    };
+    let width = if segment == Segment::Head { SLIM * NECK } else { SLIM };
     let axis = |moment: f64| width * (2.0 * moment.max(0.0) / p.mass_kg).sqrt();
     (axis(i.z - i.x + i.y), axis(i.z + i.x - i.y))
 }

@@ -38,13 +38,7 @@ pub fn write(wire: &mut Wire, model: &Model) {
         let color = PALETTE[surface.material % PALETTE.len()];
         entity(wire, 0, frame_name(face.frame), &surface.name, |w| {
             polygon(w, &corners, color);
-            line(
-                w,
-                Closing::Closed,
-                &corners,
-                EDGE_M,
-                color.with_opacity(0.9),
-            );
+            line(w, Closing::Closed, &corners, EDGE_M, color.with_opacity(0.9));
         });
     }
 }
@@ -62,9 +56,7 @@ pub fn corners_m(face: &FlatFace) -> Vec<Point3<f64>> {
     let (u, v) = face.plane_axes();
     match &face.outline {
         Outline::Polygon(corners) => corners.clone(),
-        Outline::Disc {
-            centre_m, radius_m, ..
-        } => {
+        Outline::Disc { centre_m, radius_m, .. } => {
             let corner = |i| {
                 let angle = TAU * i as f64 / DISC_CORNERS as f64;
                 centre_m + (u * angle.cos() + v * angle.sin()) * *radius_m

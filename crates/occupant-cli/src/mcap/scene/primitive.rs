@@ -34,13 +34,7 @@ pub fn cylinder(
 }
 
 /// An arrow along `arrow_m`.
-pub fn arrow(
-    wire: &mut Wire,
-    start_m: Vector3<f64>,
-    arrow_m: Vector3<f64>,
-    diameter_m: f64,
-    color: Color,
-) {
+pub fn arrow(wire: &mut Wire, start_m: Vector3<f64>, arrow_m: Vector3<f64>, diameter_m: f64, color: Color) {
     let length_m = arrow_m.norm();
     let head_m = (3.0 * diameter_m).min(0.5 * length_m);
     // None for the half turn from X to −X
@@ -66,19 +60,11 @@ pub enum Closing {
 }
 
 /// A line through `points_m`.
-pub fn line(
-    wire: &mut Wire,
-    closing: Closing,
-    points_m: &[Point3<f64>],
-    thickness_m: f64,
-    color: Color,
-) {
+pub fn line(wire: &mut Wire, closing: Closing, points_m: &[Point3<f64>], thickness_m: f64, color: Color) {
     wire.message(11, |w| {
         w.count(1, closing as u64);
         // field 2 here, unlike the other primitives
-        w.message(2, |w| {
-            pose_fields(w, Vector3::zeros(), UnitQuaternion::identity())
-        });
+        w.message(2, |w| pose_fields(w, Vector3::zeros(), UnitQuaternion::identity()));
         w.number(3, thickness_m);
         w.flag(4, false);
         points_m.iter().for_each(|p| w.vector(5, &p.coords));

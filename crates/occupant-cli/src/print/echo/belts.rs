@@ -11,10 +11,7 @@ use crate::print::unit::{RATIO, Units};
 pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
     let (k, l) = (units.stiffness, units.length);
     let mut table = Table::new(
-        format!(
-            "BELTS ({}, {}); ANCHORS IN VEHICLE COORDINATES",
-            k.name, l.name
-        ),
+        format!("BELTS ({}, {}); ANCHORS IN VEHICLE COORDINATES", k.name, l.name),
         &[
             "<BELT",
             "<ROUND",
@@ -40,10 +37,7 @@ pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
             RestLength::Slack { slack_m } => format!("SLACK {}", l.show(slack_m)),
             RestLength::Given { length_m } => format!("GIVEN {}", l.show(length_m)),
         };
-        let first = [
-            belt.name.clone(),
-            round.map_or_else(String::new, |s| s.name.clone()),
-        ];
+        let first = [belt.name.clone(), round.map_or_else(String::new, |s| s.name.clone())];
         let last = [
             k.show(w.k1_n_per_m),
             k.show(w.k2_n_per_m),

@@ -16,24 +16,11 @@ pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
     let (l, m, i) = (units.length, units.mass, units.inertia);
     let mut table = Table::new(
         format!("BODY {name}: SEGMENTS ({}, {}, {})", l.name, m.name, i.name),
-        &[
-            "NO",
-            "<SEGMENT",
-            "LENGTH",
-            "MASS",
-            "C.G. FROM LOWER END",
-            "IX",
-            "IY",
-            "IZ",
-        ],
+        &["NO", "<SEGMENT", "LENGTH", "MASS", "C.G. FROM LOWER END", "IX", "IY", "IZ"],
     );
     for segment in Segment::ALL {
         let p = body.segment(segment);
-        let own = [
-            l.show(p.length_m),
-            m.show(p.mass_kg),
-            l.show(p.cg_from_lower_end_m),
-        ];
+        let own = [l.show(p.length_m), m.show(p.mass_kg), l.show(p.cg_from_lower_end_m)];
         let inertia = i.vector(p.inertia_kg_m2.into());
         table.row(label(segment).into_iter().chain(own).chain(inertia));
     }
@@ -53,19 +40,12 @@ pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
 fn spheres(case: &Case, units: &Units) -> Table {
     let l = units.length;
     let mut table = Table::new(
-        format!(
-            "CONTACT SPHERES ({}); CENTERS IN SEGMENT COORDINATES FROM THE SEGMENT'S LOWER END",
-            l.name
-        ),
+        format!("CONTACT SPHERES ({}); CENTERS IN SEGMENT COORDINATES FROM THE SEGMENT'S LOWER END", l.name),
         &["NO", "<SPHERE", "<ON SEGMENT", "RADIUS", "X", "Y", "Z"],
     );
     for (i, sphere) in case.model.body().spheres.iter().enumerate() {
-        let first = [
-            (i + 1).to_string(),
-            sphere.name.clone(),
-            sphere.segment.name().to_owned(),
-            l.show(sphere.radius_m),
-        ];
+        let first =
+            [(i + 1).to_string(), sphere.name.clone(), sphere.segment.name().to_owned(), l.show(sphere.radius_m)];
         let centre = l.vector(sphere.centre_from_lower_end_m.coords.into());
         table.row(first.into_iter().chain(centre));
     }

@@ -21,17 +21,7 @@ fn materials(case: &Case, units: &Units) -> Table {
     let (k, l, v) = (units.stiffness, units.length, units.speed);
     let mut table = Table::new(
         format!("MATERIALS ({}, {}, {})", k.name, l.name, v.name),
-        &[
-            "<MATERIAL",
-            "K1",
-            "K2",
-            "BREAK AT",
-            "RETURNED 1",
-            "RETURNED 2",
-            "FRICTION",
-            "FULL FROM",
-            "<AFTER OPENING",
-        ],
+        &["<MATERIAL", "K1", "K2", "BREAK AT", "RETURNED 1", "RETURNED 2", "FRICTION", "FULL FROM", "<AFTER OPENING"],
     );
     for material in &case.model.setup().materials {
         let s = &material.spring;
@@ -61,15 +51,7 @@ fn surfaces(case: &Case) -> Table {
     };
     let mut table = Table::new(
         format!("SURFACES ({numbers}); NORMALS TOWARDS THE OPEN SIDE"),
-        &[
-            "<NO SURFACE",
-            "<FIXED TO",
-            "<MATERIAL",
-            "NORMAL X",
-            "Y",
-            "Z",
-            "<SPHERES",
-        ],
+        &["<NO SURFACE", "<FIXED TO", "<MATERIAL", "NORMAL X", "Y", "Z", "<SPHERES"],
     );
     let setup = case.model.setup();
     for (i, (surface, face)) in setup.surfaces.iter().zip(case.model.faces()).enumerate() {
@@ -77,23 +59,12 @@ fn surfaces(case: &Case) -> Table {
             Frame::Vehicle => "VEHICLE",
             Frame::Space => "SPACE",
         };
-        let material = setup
-            .materials
-            .get(surface.material)
-            .map(|m| m.name.clone());
+        let material = setup.materials.get(surface.material).map(|m| m.name.clone());
         let spheres = match &surface.spheres {
             None => "ALL".to_owned(),
-            Some(list) => list
-                .iter()
-                .map(|s| (s + 1).to_string())
-                .collect::<Vec<_>>()
-                .join(" "),
+            Some(list) => list.iter().map(|s| (s + 1).to_string()).collect::<Vec<_>>().join(" "),
         };
-        let first = [
-            case.surface(i),
-            frame.to_owned(),
-            material.unwrap_or_default(),
-        ];
+        let first = [case.surface(i), frame.to_owned(), material.unwrap_or_default()];
         let normal = RATIO.vector(face.normal.into());
         table.row(first.into_iter().chain(normal).chain([spheres]));
     }
@@ -103,19 +74,12 @@ fn surfaces(case: &Case) -> Table {
 /// Corners, one line each.
 fn outlines(case: &Case, units: &Units) -> Table {
     let mut table = Table::new(
-        format!(
-            "OUTLINES OF THE SURFACES ({}), CORNERS COUNTER-CLOCKWISE SEEN FROM THE OPEN SIDE",
-            units.length.name
-        ),
+        format!("OUTLINES OF THE SURFACES ({}), CORNERS COUNTER-CLOCKWISE SEEN FROM THE OPEN SIDE", units.length.name),
         &["<NO SURFACE", "<", "X", "Y", "Z"],
     );
     for (i, face) in case.model.faces().iter().enumerate() {
         for (k, (what, point)) in points(face, units).into_iter().enumerate() {
-            let name = if k == 0 {
-                case.surface(i)
-            } else {
-                String::new()
-            };
+            let name = if k == 0 { case.surface(i) } else { String::new() };
             let place = units.length.vector(point.coords.into());
             table.row([name, what].into_iter().chain(place));
         }
@@ -125,13 +89,8 @@ fn outlines(case: &Case, units: &Units) -> Table {
 
 fn points(face: &FlatFace, units: &Units) -> Vec<(String, Point3<f64>)> {
     match &face.outline {
-        Outline::Polygon(corners) => (1..)
-            .zip(corners)
-            .map(|(n, corner)| (format!("CORNER {n}"), *corner))
-            .collect(),
-        Outline::Disc {
-            centre_m, radius_m, ..
-        } => {
+        Outline::Polygon(corners) => (1..).zip(corners).map(|(n, corner)| (format!("CORNER {n}"), *corner)).collect(),
+        Outline::Disc { centre_m, radius_m, .. } => {
             let radius = units.length.show(*radius_m);
             vec![(format!("DISC OF RADIUS {radius}, CENTER"), *centre_m)]
         }

@@ -17,21 +17,8 @@ pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
 fn balls(joints: &Joints, units: &Units) -> Table {
     let (d, k) = (units.joint_damping, units.joint_stiffness);
     let mut table = Table::new(
-        format!(
-            "BALL JOINTS ({}, DEG, {}); EPSILON OF BETA {}",
-            d.name, k.name, joints.epsilon
-        ),
-        &[
-            "NO",
-            "<JOINT",
-            "DAMPING",
-            "TWIST",
-            "STOP FROM",
-            "TO",
-            "DAMPING",
-            "SPRING",
-            "<REST",
-        ],
+        format!("BALL JOINTS ({}, DEG, {}); EPSILON OF BETA {}", d.name, k.name, joints.epsilon),
+        &["NO", "<JOINT", "DAMPING", "TWIST", "STOP FROM", "TO", "DAMPING", "SPRING", "<REST"],
     );
     for joint in Joint::ALL {
         let Some(ball) = ball(joints, joint) else {
@@ -42,10 +29,7 @@ fn balls(joints: &Joints, units: &Units) -> Table {
             None => "AS AT THE START".to_owned(),
         });
         let damping = [d.show(ball.damping_n_m_s), d.show(ball.twist_damping_n_m_s)];
-        let spring = [
-            k.perhaps(ball.spring.map(|s| s.stiffness_n_m)),
-            rest.unwrap_or_else(|| "-".to_owned()),
-        ];
+        let spring = [k.perhaps(ball.spring.map(|s| s.stiffness_n_m)), rest.unwrap_or_else(|| "-".to_owned())];
         let stop = stop(ball.stop, units);
         let cells = label(joint).into_iter().chain(damping);
         table.row(cells.chain(stop).chain(spring));
@@ -57,17 +41,7 @@ fn hinges(joints: &Joints, units: &Units) -> Table {
     let d = units.joint_damping;
     let mut table = Table::new(
         format!("HINGES ({}, DEG)", d.name),
-        &[
-            "NO",
-            "<JOINT",
-            "DAMPING",
-            "LOWER STOP FROM",
-            "TO",
-            "DAMPING",
-            "UPPER STOP FROM",
-            "TO",
-            "DAMPING",
-        ],
+        &["NO", "<JOINT", "DAMPING", "LOWER STOP FROM", "TO", "DAMPING", "UPPER STOP FROM", "TO", "DAMPING"],
     );
     for joint in Joint::ALL {
         let Some(hinge) = hinge(joints, joint) else {

@@ -1,8 +1,7 @@
 //! The path of the vehicle.
 
 use occupant_core::path::{
-    AfterEnd, Interpolation, PulsePath, PulseShape, Strength, TablePath, TravelDirection,
-    VehiclePath, VehiclePose,
+    AfterEnd, Interpolation, PulsePath, PulseShape, Strength, TablePath, TravelDirection, VehiclePath, VehiclePose,
 };
 
 use super::sensors;
@@ -45,14 +44,8 @@ fn pulse(pages: &mut Pages, path: &PulsePath, units: &Units) {
     pages.say(&format!("START          {}", pose(&d.initial, units)));
     pages.say(&format!("INITIAL SPEED  {}", speed(d.initial_speed_m_s)));
     pages.say(&format!("DIRECTION      {}", direction(&d.direction)));
-    pages.say(&format!(
-        "PULSE          {}, FROM {from_s:.6} TO {to_s:.6} SEC",
-        shape(&d.shape, units)
-    ));
-    pages.say(&format!(
-        "PEAK           {} G",
-        G.show(path.peak_deceleration_m_s2())
-    ));
+    pages.say(&format!("PULSE          {}, FROM {from_s:.6} TO {to_s:.6} SEC", shape(&d.shape, units)));
+    pages.say(&format!("PEAK           {} G", G.show(path.peak_deceleration_m_s2())));
     pages.say(&format!("DELTA-V        {}", speed(path.delta_v_m_s())));
     if let Some(rebound_m_s) = d.rebound_m_s {
         pages.say(&format!("REBOUND        {}", speed(rebound_m_s)));
@@ -66,15 +59,9 @@ fn pulse(pages: &mut Pages, path: &PulsePath, units: &Units) {
         ));
     }
     if let PulseShape::Tabulated { points } = &d.shape {
-        let mut table = Table::new(
-            "DECELERATION OVER TIME FROM THE START OF THE PULSE",
-            &["SEC", "G"],
-        );
+        let mut table = Table::new("DECELERATION OVER TIME FROM THE START OF THE PULSE", &["SEC", "G"]);
         for point in points {
-            table.row([
-                format!("{:.6}", point.time_s),
-                G.show(point.deceleration_m_s2),
-            ]);
+            table.row([format!("{:.6}", point.time_s), G.show(point.deceleration_m_s2)]);
         }
         table.write(pages);
     }
@@ -105,23 +92,12 @@ fn shape(shape: &PulseShape, units: &Units) -> String {
     match shape {
         PulseShape::HalfSine { strength, .. } => format!("HALF SINE, {}", strong(strength)),
         PulseShape::Haversine { strength, .. } => format!("HAVERSINE, {}", strong(strength)),
-        PulseShape::Triangle {
-            strength,
-            peak_fraction,
-            ..
-        } => format!(
-            "TRIANGLE, {}, PEAK AT {peak_fraction} OF ITS LENGTH",
-            strong(strength)
-        ),
-        PulseShape::Trapezoid {
-            strength,
-            rise_s,
-            plateau_s,
-            fall_s,
-        } => format!(
-            "TRAPEZOID, {}, RISE {rise_s}, PLATEAU {plateau_s}, FALL {fall_s} SEC",
-            strong(strength)
-        ),
+        PulseShape::Triangle { strength, peak_fraction, .. } => {
+            format!("TRIANGLE, {}, PEAK AT {peak_fraction} OF ITS LENGTH", strong(strength))
+        }
+        PulseShape::Trapezoid { strength, rise_s, plateau_s, fall_s } => {
+            format!("TRAPEZOID, {}, RISE {rise_s}, PLATEAU {plateau_s}, FALL {fall_s} SEC", strong(strength))
+        }
         PulseShape::Square { strength, .. } => format!("SQUARE, {}", strong(strength)),
         PulseShape::Tabulated { points } => format!("TABLE OF {} POINTS", points.len()),
     }
@@ -139,15 +115,7 @@ fn stations(pages: &mut Pages, path: &TablePath, units: &Units) {
             path.stations().len(),
             units.length.name
         ),
-        &[
-            "SEC",
-            "X FORWARD",
-            "Y RIGHT",
-            "Z DOWN",
-            "ROLL",
-            "PITCH",
-            "YAW",
-        ],
+        &["SEC", "X FORWARD", "Y RIGHT", "Z DOWN", "ROLL", "PITCH", "YAW"],
     );
     for station in path.stations() {
         let a = &station.pose.attitude;

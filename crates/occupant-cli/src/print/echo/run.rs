@@ -18,10 +18,7 @@ pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
     for (name, content) in &case.file.attachments {
         pages.say(&format!("ATTACHED       {name}, {} BYTES", content.len()));
     }
-    if let (Some(from), Some(at)) = (
-        case.file.run.get("resumed_from"),
-        case.file.run.get("resumed_at_s"),
-    ) {
+    if let (Some(from), Some(at)) = (case.file.run.get("resumed_from"), case.file.run.get("resumed_at_s")) {
         pages.say(&format!("RESUMED FROM   {from} AT {at} SEC"));
     }
     if let Some(overrides) = case.file.run.get("overrides") {
@@ -31,10 +28,7 @@ pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
     }
     pages.say(&format!("UNITS          {}", units.name));
     let gravity = units.acceleration.show(setup.gravity_m_s2);
-    pages.say(&format!(
-        "GRAVITY        {gravity} {}",
-        units.acceleration.name
-    ));
+    pages.say(&format!("GRAVITY        {gravity} {}", units.acceleration.name));
     let time = &setup.time;
     pages.say(&format!("START          {} SEC", time.start_s));
     pages.say(&format!("END            {} SEC", time.end_s));
@@ -64,13 +58,7 @@ pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
 fn integrator(integrator: &Integrator) -> String {
     match *integrator {
         Integrator::Rk4 { step_s } => format!("RUNGE-KUTTA, FOURTH ORDER, STEP {step_s} SEC"),
-        Integrator::Adaptive {
-            relative,
-            absolute_m,
-            absolute_m_s,
-            min_step_s,
-            max_step_s,
-        } => format!(
+        Integrator::Adaptive { relative, absolute_m, absolute_m_s, min_step_s, max_step_s } => format!(
             "RUNGE-KUTTA 5(4) WITH ERROR CONTROL: RELATIVE {relative:e}, ABSOLUTE {absolute_m:e} M AND {absolute_m_s:e} M/S, STEP FROM {min_step_s:e} TO {max_step_s:e} SEC"
         ),
     }

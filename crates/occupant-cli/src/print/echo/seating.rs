@@ -45,23 +45,14 @@ pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
     let q = ReportCoordinates::from_state(&start.state);
     coordinates(pages, units, "GENERALIZED COORDINATES AT THE START", &q);
     let passed = case.passed(&start.history.pairs);
-    pairs(
-        pages,
-        case,
-        "PAIRS WITH NARRY(J,K) = 0 AT THE START",
-        &passed,
-    );
+    pairs(pages, case, "PAIRS WITH NARRY(J,K) = 0 AT THE START", &passed);
 }
 
 fn read(pages: &mut Pages, case: &Case, units: &Units, seating: &Seating) {
     let l = units.length;
     pages.say(&format!("CUSHION        {}", case.surface(seating.cushion)));
     pages.say(&format!("SEAT BACK      {}", case.surface(seating.back)));
-    pages.say(&format!(
-        "LATERAL PLACE  {} {}",
-        l.show(seating.lateral_m),
-        l.name
-    ));
+    pages.say(&format!("LATERAL PLACE  {} {}", l.show(seating.lateral_m), l.name));
     let lean = seating.lean_rad.map(|x| DEGREE.show(x));
     pages.say(&format!(
         "LEAN (DEG)     MIDDLE TORSO {}, UPPER TORSO {}, HEAD {}, LOWER TORSO {}, UPPER ARMS {}, ELBOWS {}",
@@ -77,11 +68,9 @@ fn read(pages: &mut Pages, case: &Case, units: &Units, seating: &Seating) {
     let velocity = match case.model.setup().velocity {
         InitialVelocity::WithVehicle => "AS IF FIXED TO THE VEHICLE".to_owned(),
         InitialVelocity::VehicleOrigin => "THAT OF THE VEHICLE'S C.G., WITHOUT TURNING".to_owned(),
-        InitialVelocity::Given(v) => format!(
-            "{} {} ALONG THE VEHICLE'S AXES",
-            units.speed.point(v.into()),
-            units.speed.name
-        ),
+        InitialVelocity::Given(v) => {
+            format!("{} {} ALONG THE VEHICLE'S AXES", units.speed.point(v.into()), units.speed.name)
+        }
     };
     pages.say(&format!("VELOCITY       {velocity}"));
 }
@@ -97,15 +86,9 @@ fn computed(pages: &mut Pages, units: &Units, seated: &Seated) {
         l.show(seated.sink_m),
         l.name
     ));
-    pages.say(&format!(
-        "LEFT KNEE      AT {} {}",
-        l.point(seated.knee_m.into()),
-        l.name
-    ));
+    pages.say(&format!("LEFT KNEE      AT {} {}", l.point(seated.knee_m.into()), l.name));
     let [thighs, shanks] = seated.legs_rad.map(|x| DEGREE.show(x));
-    pages.say(&format!(
-        "LEGS           THIGHS LEAN {thighs}, LOWER LEGS {shanks} DEG"
-    ));
+    pages.say(&format!("LEGS           THIGHS LEAN {thighs}, LOWER LEGS {shanks} DEG"));
 }
 
 fn came_to_rest(pages: &mut Pages, units: &Units, settled: &Settled) {
@@ -127,10 +110,7 @@ fn came_to_rest(pages: &mut Pages, units: &Units, settled: &Settled) {
 /// q and their rates, four to a line, with the six decimals of cards.
 pub fn coordinates(pages: &mut Pages, units: &Units, title: &str, at: &ReportCoordinates) {
     let l = units.length;
-    let title = format!(
-        "{title}: Q(1) TO Q(3) ({}), THE REST (RAD), AND RATES (PER SEC)",
-        l.name
-    );
+    let title = format!("{title}: Q(1) TO Q(3) ({}), THE REST (RAD), AND RATES (PER SEC)", l.name);
     let head = ["NO", "Q", "RATE"];
     let mut table = Table::new(title, &[head, head, head, head].concat());
     let rows = DOF.div_ceil(4);

@@ -13,16 +13,8 @@ pub fn write(pages: &mut Pages, path: &SensorPath, units: &Units) {
     let (from_s, to_s) = path.span_s();
     pages.say("RECORDED MOTION, INTEGRATED");
     pages.say(&format!("START          {}", pose(&d.initial, units)));
-    pages.say(&format!(
-        "SPEED          {} {}, {}",
-        v.show(d.initial_speed_m_s),
-        v.name,
-        direction(&d.direction)
-    ));
-    pages.say(&format!(
-        "USED           FROM {from_s:.6} TO {to_s:.6} SEC, {} AFTER THAT",
-        after(d.after)
-    ));
+    pages.say(&format!("SPEED          {} {}, {}", v.show(d.initial_speed_m_s), v.name, direction(&d.direction)));
+    pages.say(&format!("USED           FROM {from_s:.6} TO {to_s:.6} SEC, {} AFTER THAT", after(d.after)));
     pages.say(&format!(
         "SENSORS        {} {} FROM THE CENTER OF GRAVITY (FORWARD, RIGHT, DOWN)",
         units.length.point(d.offset_m.into()),
@@ -52,24 +44,17 @@ pub fn write(pages: &mut Pages, path: &SensorPath, units: &Units) {
 /// The samples as they were read: accelerations in g, rates in deg/s, velocity changes in the printout's unit.
 fn record(pages: &mut Pages, record: &SensorRecord, units: &Units) {
     let channels = record.channels();
-    let head: Vec<String> = std::iter::once("SEC".to_owned())
-        .chain(channels.iter().map(|(name, _)| name.to_uppercase()))
-        .collect();
+    let head: Vec<String> =
+        std::iter::once("SEC".to_owned()).chain(channels.iter().map(|(name, _)| name.to_uppercase())).collect();
     let head: Vec<&str> = head.iter().map(String::as_str).collect();
-    let title = format!(
-        "{} SAMPLES AS READ (A IN G, W IN DEG/SEC, DV IN {})",
-        record.time_s().len(),
-        units.speed.name
-    );
+    let title = format!("{} SAMPLES AS READ (A IN G, W IN DEG/SEC, DV IN {})", record.time_s().len(), units.speed.name);
     let mut table = Table::new(title, &head);
     for (i, time_s) in record.time_s().iter().enumerate() {
-        let cells = channels
-            .iter()
-            .map(|(name, samples)| match name.as_bytes() {
-                [b'a', ..] => G.show(samples[i]),
-                [b'w', ..] => DEGREE.show(samples[i]),
-                _ => units.speed.show(samples[i]),
-            });
+        let cells = channels.iter().map(|(name, samples)| match name.as_bytes() {
+            [b'a', ..] => G.show(samples[i]),
+            [b'w', ..] => DEGREE.show(samples[i]),
+            _ => units.speed.show(samples[i]),
+        });
         table.row(std::iter::once(format!("{time_s:.6}")).chain(cells));
     }
     table.write(pages);

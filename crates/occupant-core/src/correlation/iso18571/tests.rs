@@ -20,21 +20,12 @@ fn check(found: Iso18571, corridor: f64, phase: f64, magnitude: f64, slope: f64,
 #[test]
 fn recorded_pair() {
     let column = |text: &str| -> Vec<f64> {
-        text.lines()
-            .map(|line| line.split_once(',').unwrap().1.parse().unwrap())
-            .collect()
+        text.lines().map(|line| line.split_once(',').unwrap().1.parse().unwrap()).collect()
     };
     let reference = column(include_str!("../../../tests/data/iso18571_reference.csv"));
     let computed = column(include_str!("../../../tests/data/iso18571_computed.csv"));
     let found = iso18571(&reference, &computed, 1e-4).unwrap();
-    check(
-        found,
-        0.652_890_7,
-        0.941_666_7,
-        0.950_654_0,
-        0.956_686_5,
-        0.830_957_7,
-    );
+    check(found, 0.652_890_7, 0.941_666_7, 0.950_654_0, 0.956_686_5, 0.830_957_7);
     assert!((found.lag_s.abs() - 7e-4).abs() < 1e-12);
     assert_eq!(found.grade(), Iso18571Grade::Good);
 }
@@ -51,18 +42,9 @@ fn scaled_sine() {
 #[test]
 fn late_half_sine() {
     let pulse = |t: f64| {
-        if (0.0..=0.08).contains(&t) {
-            50.0 * (std::f64::consts::PI * t / 0.08).sin()
-        } else {
-            0.0
-        }
+        if (0.0..=0.08).contains(&t) { 50.0 * (std::f64::consts::PI * t / 0.08).sin() } else { 0.0 }
     };
-    let found = iso18571(
-        &sampled(1000, pulse),
-        &sampled(1000, |t| 0.9 * pulse(t - 0.003)),
-        1e-4,
-    )
-    .unwrap();
+    let found = iso18571(&sampled(1000, pulse), &sampled(1000, |t| 0.9 * pulse(t - 0.003)), 1e-4).unwrap();
     check(found, 0.838_555_9, 0.85, 0.950_917_9, 0.95, 0.885_605_9);
     assert!((found.lag_s - 0.003).abs() < 1e-12);
 }
@@ -71,10 +53,7 @@ fn late_half_sine() {
 fn identical_signals_rate_one_and_opposite_ones_low() {
     let reference = sampled(600, |t| (60.0 * t).sin());
     let same = iso18571(&reference, &reference, 1e-4).unwrap();
-    assert_eq!(
-        (same.overall, same.grade()),
-        (1.0, Iso18571Grade::Excellent)
-    );
+    assert_eq!((same.overall, same.grade()), (1.0, Iso18571Grade::Excellent));
     let opposite: Vec<f64> = reference.iter().map(|m| -m).collect();
     let found = iso18571(&reference, &opposite, 1e-4).unwrap();
     assert_eq!(found.grade(), Iso18571Grade::Poor);
@@ -85,24 +64,9 @@ fn identical_signals_rate_one_and_opposite_ones_low() {
 #[test]
 fn unusable_pairs_are_named() {
     let signal = sampled(100, |t| t);
-    assert!(matches!(
-        iso18571(&signal, &signal, 1e-3),
-        Err(SignalError::OutOfRange { .. })
-    ));
-    assert!(matches!(
-        iso18571(&signal, &signal[1..], 1e-4),
-        Err(SignalError::LengthMismatch { .. })
-    ));
-    assert!(matches!(
-        iso18571(&[0.0; 100], &signal, 1e-4),
-        Err(SignalError::NoContent { .. })
-    ));
-    assert!(matches!(
-        iso18571(&[1.0; 100], &signal, 1e-4),
-        Err(SignalError::NoContent { .. })
-    ));
-    assert!(matches!(
-        iso18571(&signal[..9], &signal[..9], 1e-4),
-        Err(SignalError::TooShort { .. })
-    ));
+    assert!(matches!(iso18571(&signal, &signal, 1e-3), Err(SignalError::OutOfRange { .. })));
+    assert!(matches!(iso18571(&signal, &signal[1..], 1e-4), Err(SignalError::LengthMismatch { .. })));
+    assert!(matches!(iso18571(&[0.0; 100], &signal, 1e-4), Err(SignalError::NoContent { .. })));
+    assert!(matches!(iso18571(&[1.0; 100], &signal, 1e-4), Err(SignalError::NoContent { .. })));
+    assert!(matches!(iso18571(&signal[..9], &signal[..9], 1e-4), Err(SignalError::TooShort { .. })));
 }

@@ -23,15 +23,9 @@ pub(crate) struct Bench<L: Lanes> {
 impl<L: Lanes> Bench<L> {
     /// The rate at a stage of a step, in the instructions of the caller; with `START` the history takes over the state.
     #[inline(always)]
-    fn rate<const START: bool>(
-        &mut self,
-        stage: Stage,
-        state: &State<L>,
-        observer: &mut impl Observer<L>,
-    ) -> State<L> {
+    fn rate<const START: bool>(&mut self, stage: Stage, state: &State<L>, observer: &mut impl Observer<L>) -> State<L> {
         let frames = &self.frames[stage as usize];
-        self.system
-            .rate_observed::<START>(state, frames, &mut self.history, observer)
+        self.system.rate_observed::<START>(state, frames, &mut self.history, observer)
     }
 }
 
@@ -100,10 +94,7 @@ impl<const N: usize> Machine for super::Plain<N> {
 pub(crate) use x86_64::{has_avx2, has_avx512};
 
 #[cfg(target_arch = "x86_64")]
-#[allow(
-    unsafe_code,
-    reason = "a function for instructions that not every processor has is unsafe to call"
-)]
+#[allow(unsafe_code, reason = "a function for instructions that not every processor has is unsafe to call")]
 mod x86_64 {
     use super::*;
 

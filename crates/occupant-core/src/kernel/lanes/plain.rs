@@ -161,9 +161,6 @@ impl<const N: usize> Lanes for Plain<N> {
     }
     #[inline(always)]
     fn upper_half(self) -> Self {
-        Plain(
-            self.0
-                .map(|a| f64::from_bits(a.to_bits() & 0xFFFF_FFFF_0000_0000)),
-        )
+        Plain(self.0.map(|a| f64::from_bits(a.to_bits() & 0xFFFF_FFFF_0000_0000)))
     }
 }

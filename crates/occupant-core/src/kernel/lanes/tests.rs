@@ -7,10 +7,7 @@ struct Numbers(u64);
 impl Numbers {
     fn next(&mut self) -> f64 {
         // Knuth's linear congruential generator
-        self.0 = self
-            .0
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1);
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
         (self.0 >> 11) as f64 / (1_u64 << 53) as f64
     }
 }
@@ -41,33 +38,17 @@ fn numbers(scale: f64) -> Vec<f64> {
         f64::NEG_INFINITY,
         f64::NAN,
     ];
-    for word in [
-        0x3FE9_21FB_u64,
-        0x4002_D97C,
-        0x400F_6A7A,
-        0x3FF9_21FB,
-        0x4009_21FB,
-        0x3E46_A09E,
-        0x3FE0_0000,
-        0x3FF0_0000,
-    ] {
-        for bits in [
-            word << 32,
-            (word << 32) - 1,
-            (word + 1) << 32,
-            ((word + 1) << 32) - 1,
-        ] {
+    for word in
+        [0x3FE9_21FB_u64, 0x4002_D97C, 0x400F_6A7A, 0x3FF9_21FB, 0x4009_21FB, 0x3E46_A09E, 0x3FE0_0000, 0x3FF0_0000]
+    {
+        for bits in [word << 32, (word << 32) - 1, (word + 1) << 32, ((word + 1) << 32) - 1] {
             let x = f64::from_bits(bits);
             all.extend([x, -x]);
         }
     }
     let mut random = Numbers(7);
     for i in 0..40_000 {
-        let size = if i % 4 == 0 {
-            10_f64.powf(20.0 * random.next() - 14.0)
-        } else {
-            scale
-        };
+        let size = if i % 4 == 0 { 10_f64.powf(20.0 * random.next() - 14.0) } else { scale };
         all.push(size * (2.0 * random.next() - 1.0));
     }
     while all.len() % 8 != 0 {
@@ -86,11 +67,7 @@ fn gather<L: Lanes>(numbers: &[f64]) -> L {
 
 /// The bits, or one pattern for all that are not numbers: their sign and payload mean nothing.
 fn bits(x: f64) -> u64 {
-    if x.is_nan() {
-        f64::NAN.to_bits()
-    } else {
-        x.to_bits()
-    }
+    if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() }
 }
 
 /// Compares a function of lanes with that of numbers.
@@ -105,13 +82,7 @@ fn compare<L: Lanes>(
         for i in 0..L::COUNT {
             let expected = of_numbers(a[i], b[i]);
             let same = bits(found.lane(i)) == bits(expected);
-            assert!(
-                same,
-                "{name}({:e}, {:e}): {:e}, not {expected:e}",
-                a[i],
-                b[i],
-                found.lane(i)
-            );
+            assert!(same, "{name}({:e}, {:e}): {:e}, not {expected:e}", a[i], b[i], found.lane(i));
         }
     }
 }
@@ -147,29 +118,12 @@ fn check<L: Lanes>() {
     // the odd numbers above put most groups into the branch of one by one: ordinary ones alone as well
     let ordinary = |scale: f64, off: f64| -> Vec<f64> {
         let mut random = Numbers(11);
-        (0..80_000)
-            .map(|_| off + scale * (2.0 * random.next() - 1.0))
-            .collect()
+        (0..80_000).map(|_| off + scale * (2.0 * random.next() - 1.0)).collect()
     };
     let (x, y) = (ordinary(3.9, 0.0), ordinary(1.0, 1e-3));
-    compare::<L>(
-        "sin",
-        (&x, &y),
-        |a, _| a.sin_cos().0,
-        |a, _| trig::sin_cos(a).0,
-    );
-    compare::<L>(
-        "cos",
-        (&x, &y),
-        |a, _| a.sin_cos().1,
-        |a, _| trig::sin_cos(a).1,
-    );
-    compare::<L>(
-        "acos",
-        (&ordinary(0.999, 0.0), &y),
-        |a, _| a.acos(),
-        |a, _| trig::acos(a),
-    );
+    compare::<L>("sin", (&x, &y), |a, _| a.sin_cos().0, |a, _| trig::sin_cos(a).0);
+    compare::<L>("cos", (&x, &y), |a, _| a.sin_cos().1, |a, _| trig::sin_cos(a).1);
+    compare::<L>("acos", (&ordinary(0.999, 0.0), &y), |a, _| a.acos(), |a, _| trig::acos(a));
     let mut y = y;
     y.reverse();
     compare::<L>("atan2", (&x, &y), |a, b| a.atan2(b), trig::atan2);

@@ -27,8 +27,7 @@ pub fn sin_cos<L: Lanes>(x: L) -> (L, L) {
     let below = |upper: u32| size.lt(L::of(from_upper(upper)));
     // about π/4, 3π/4 and 5π/4, where the quarter turns begin; π/2 and π, where the reduction cancels
     let (first, second) = (below(0x3FE9_21FC), below(0x4002_D97D));
-    let cancels =
-        (!below(0x3FF9_21FB) & below(0x3FF9_21FC)) | (!below(0x4009_21FB) & below(0x4009_21FC));
+    let cancels = (!below(0x3FF9_21FB) & below(0x3FF9_21FC)) | (!below(0x4009_21FB) & below(0x4009_21FC));
     let tiny = below(0x3E46_A09E);
     if !L::all(below(0x400F_6A7B) & !cancels) {
         return sin_cos_one_by_one(x);
@@ -71,12 +70,8 @@ fn kernel_cos<L: Lanes>(x: L, y: L) -> L {
     let one = L::one();
     let z = x * x;
     let w = z * z;
-    let r = z
-        * (c(0x3FA5_5555_5555_554C)
-            + z * (c(0xBF56_C16C_16C1_5177) + z * c(0x3EFA_01A0_19CB_1590)))
-        + w * w
-            * (c(0xBE92_7E4F_809C_52AD)
-                + z * (c(0x3E21_EE9E_BDB4_B1C4) + z * c(0xBDA8_FAE9_BE88_38D4)));
+    let r = z * (c(0x3FA5_5555_5555_554C) + z * (c(0xBF56_C16C_16C1_5177) + z * c(0x3EFA_01A0_19CB_1590)))
+        + w * w * (c(0xBE92_7E4F_809C_52AD) + z * (c(0x3E21_EE9E_BDB4_B1C4) + z * c(0xBDA8_FAE9_BE88_38D4)));
     let hz = L::of(0.5) * z;
     let w = one - hz;
     w + (((one - w) - hz) + (z * r - x * y))
@@ -103,13 +98,8 @@ fn atan_of_positive<L: Lanes>(x: L) -> L {
     let (one, two, half3) = (L::one(), L::of(2.0), L::of(1.5));
     let below = |limit: f64| x.lt(L::of(limit));
     let (r0, r1, r2, r3) = (below(0.4375), below(0.6875), below(1.1875), below(2.4375));
-    let by_range = |a: L, b: L, c: L, d: L, e: L| {
-        L::select(
-            r0,
-            a,
-            L::select(r1, b, L::select(r2, c, L::select(r3, d, e))),
-        )
-    };
+    let by_range =
+        |a: L, b: L, c: L, d: L, e: L| L::select(r0, a, L::select(r1, b, L::select(r2, c, L::select(r3, d, e))));
     let over = by_range(x, two * x - one, x - one, x - half3, -one);
     let under = by_range(one, two + x, x + one, one + half3 * x, x);
     let bits = |b| L::of(f64::from_bits(b));
@@ -136,13 +126,11 @@ fn atan_of_positive<L: Lanes>(x: L) -> L {
         * (c(0x3FD5_5555_5555_550D)
             + w * (c(0x3FC2_4924_9200_83FF)
                 + w * (c(0x3FB7_45CD_C54C_206E)
-                    + w * (c(0x3FB1_0D66_A0D0_3D51)
-                        + w * (c(0x3FA9_7B4B_2476_0DEB) + w * c(0x3F90_AD3A_E322_DA11))))));
+                    + w * (c(0x3FB1_0D66_A0D0_3D51) + w * (c(0x3FA9_7B4B_2476_0DEB) + w * c(0x3F90_AD3A_E322_DA11))))));
     let s2 = w
         * (c(0xBFC9_9999_9998_EBC4)
             + w * (c(0xBFBC_71C6_FE23_1671)
-                + w * (c(0xBFB3_B0F2_AF74_9A6D)
-                    + w * (c(0xBFAD_DE2D_52DE_FD9A) + w * c(0xBFA2_B444_2C6A_6C2F)))));
+                + w * (c(0xBFB3_B0F2_AF74_9A6D) + w * (c(0xBFAD_DE2D_52DE_FD9A) + w * c(0xBFA2_B444_2C6A_6C2F)))));
     hi - (t * (s1 + s2) - lo - t)
 }
 
@@ -175,12 +163,10 @@ fn acos_rational<L: Lanes>(z: L) -> L {
         * (c(0x3FC5_5555_5555_5555)
             + z * (c(0xBFD4_D612_03EB_6F7D)
                 + z * (c(0x3FC9_C155_0E88_4455)
-                    + z * (c(0xBFA4_8228_B568_8F3B)
-                        + z * (c(0x3F49_EFE0_7501_B288) + z * c(0x3F02_3DE1_0DFD_F709))))));
+                    + z * (c(0xBFA4_8228_B568_8F3B) + z * (c(0x3F49_EFE0_7501_B288) + z * c(0x3F02_3DE1_0DFD_F709))))));
     let q = L::one()
         + z * (c(0xC003_3A27_1C8A_2D4B)
-            + z * (c(0x4000_2AE5_9C59_8AC8)
-                + z * (c(0xBFE6_066C_1B8D_0159) + z * c(0x3FB3_B8C5_B12E_9282))));
+            + z * (c(0x4000_2AE5_9C59_8AC8) + z * (c(0xBFE6_066C_1B8D_0159) + z * c(0x3FB3_B8C5_B12E_9282))));
     p / q
 }
 

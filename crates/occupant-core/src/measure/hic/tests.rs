@@ -22,11 +22,7 @@ fn unit(shape: Shape, x: f64) -> f64 {
 
 /// Pulse of `peak_g` and `length_s` between zeros (a square stands alone: its flanks are vertical).
 fn pulse(shape: Shape, peak_g: f64, length_s: f64, dt_s: f64) -> Vec<f64> {
-    let quiet = if matches!(shape, Shape::Square) {
-        0
-    } else {
-        whole_steps(0.01, dt_s)
-    };
+    let quiet = if matches!(shape, Shape::Square) { 0 } else { whole_steps(0.01, dt_s) };
     let n = (length_s / dt_s).round() as usize;
     let inside = (0..=n).map(|i| G * peak_g * unit(shape, i as f64 / n as f64));
     let zeros = || std::iter::repeat_n(0.0, quiet);
@@ -56,12 +52,7 @@ fn limited(shape: Shape, peak_g: f64, length_s: f64, u: f64) -> f64 {
 
 #[test]
 fn closed_forms_of_four_pulses_at_fine_sampling() {
-    for shape in [
-        Shape::Square,
-        Shape::HalfSine,
-        Shape::Haversine,
-        Shape::Triangle,
-    ] {
+    for shape in [Shape::Square, Shape::HalfSine, Shape::Haversine, Shape::Triangle] {
         for (peak_g, length_s) in [(100.0, 0.010), (150.0, 0.005), (60.0, 0.014)] {
             let signal = pulse(shape, peak_g, length_s, 2e-6);
             let found = hic(&signal, 2e-6, HicWindow::Ms15).unwrap();
@@ -71,21 +62,16 @@ fn closed_forms_of_four_pulses_at_fine_sampling() {
             // measured 5.1e-7 (haversine, 5 ms), the error of the chords
             assert!(error < 1e-6, "{shape:?} {peak_g} g: {error:e}");
             let window_error = (found.end_s - found.start_s - u * length_s).abs();
-            assert!(
-                window_error < 2e-6,
-                "{shape:?}: window off by {window_error:e} s"
-            );
+            assert!(window_error < 2e-6, "{shape:?}: window off by {window_error:e} s");
         }
     }
 }
 
 #[test]
 fn window_limited_closed_forms() {
-    for (shape, peak_g, length_s) in [
-        (Shape::HalfSine, 60.0, 0.04),
-        (Shape::HalfSine, 80.0, 0.1),
-        (Shape::Haversine, 80.0, 0.1),
-    ] {
+    for (shape, peak_g, length_s) in
+        [(Shape::HalfSine, 60.0, 0.04), (Shape::HalfSine, 80.0, 0.1), (Shape::Haversine, 80.0, 0.1)]
+    {
         for window in [HicWindow::Ms15, HicWindow::Ms36] {
             let u = (window.seconds() / length_s).min(closed_form(shape).1);
             let found = hic(&pulse(shape, peak_g, length_s, 1e-5), 1e-5, window).unwrap();
@@ -104,17 +90,11 @@ fn window_limited_closed_forms() {
 fn the_longest_window_is_not_always_the_best() {
     // a non-negative 100 g / 10 ms half-sine in a record of zeros: both windows give 414.6
     let signal = pulse(Shape::HalfSine, 100.0, 0.01, 1e-4);
-    let (w15, w36) = (
-        hic(&signal, 1e-4, HicWindow::Ms15),
-        hic(&signal, 1e-4, HicWindow::Ms36),
-    );
+    let (w15, w36) = (hic(&signal, 1e-4, HicWindow::Ms15), hic(&signal, 1e-4, HicWindow::Ms36));
     assert_eq!(w15, w36);
     let found = w15.unwrap();
     assert!((found.value - 414.6456).abs() < 0.1); // measured 414.5605 at 10 kHz
-    assert!(
-        found.value > 414.4650,
-        "at least the best of the sampled windows, 414.4651"
-    );
+    assert!(found.value > 414.4650, "at least the best of the sampled windows, 414.4651");
 }
 
 #[test]
@@ -124,12 +104,8 @@ fn skipping_finds_what_an_exhaustive_scan_finds() {
         let mut level = 0.0;
         let noise: Vec<f64> = (0..400)
             .map(|_| {
-                seed = seed
-                    .wrapping_mul(6364136223846793005)
-                    .wrapping_add(1442695040888963407);
-                level = 0.9 * level
-                    + ((seed >> 33) as f64 / (1u64 << 31) as f64 - 0.4 - 0.01 * case as f64)
-                        * 100.0;
+                seed = seed.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+                level = 0.9 * level + ((seed >> 33) as f64 / (1u64 << 31) as f64 - 0.4 - 0.01 * case as f64) * 100.0;
                 level
             })
             .collect();
@@ -137,18 +113,12 @@ fn skipping_finds_what_an_exhaustive_scan_finds() {
         let mut exhaustive: f64 = 0.0;
         for i in 0..noise.len() {
             for j in i + 1..noise.len().min(i + 151) {
-                exhaustive = exhaustive
-                    .max(hic_of_window(&integral, i as f64 * 1e-4, j as f64 * 1e-4).value);
+                exhaustive = exhaustive.max(hic_of_window(&integral, i as f64 * 1e-4, j as f64 * 1e-4).value);
             }
         }
         let sampled = best_sampled_window(&noise, integral.at_samples(), 1e-4, 150)
-            .map_or(0.0, |(i, j)| {
-                hic_of_window(&integral, i as f64 * 1e-4, j as f64 * 1e-4).value
-            });
-        assert!(
-            (sampled - exhaustive).abs() <= 1e-12 * exhaustive,
-            "case {case}: {sampled} {exhaustive}"
-        );
+            .map_or(0.0, |(i, j)| hic_of_window(&integral, i as f64 * 1e-4, j as f64 * 1e-4).value);
+        assert!((sampled - exhaustive).abs() <= 1e-12 * exhaustive, "case {case}: {sampled} {exhaustive}");
         let refined = hic(&noise, 1e-4, HicWindow::Ms15).unwrap().value;
         assert!(refined >= exhaustive * (1.0 - 1e-12));
     }
@@ -166,11 +136,7 @@ fn the_optimum_obeys_its_conditions() {
     let a = |s: f64| signal[(s / 1e-5).round() as usize] / G;
     let free = hic(&signal, 1e-5, HicWindow::Other(0.05)).unwrap();
     let mean = (free.value / (free.end_s - free.start_s)).powf(0.4);
-    assert!(
-        (a(free.start_s) / (0.6 * mean) - 1.0).abs() < 1e-3,
-        "{}",
-        a(free.start_s) / mean
-    );
+    assert!((a(free.start_s) / (0.6 * mean) - 1.0).abs() < 1e-3, "{}", a(free.start_s) / mean);
     assert!((a(free.end_s) / (0.6 * mean) - 1.0).abs() < 1e-3);
     assert!((free.value - 728.903).abs() < 2e-2); // computed elsewhere at 10 kHz: 728.9030
     let limited = hic(&signal, 1e-5, HicWindow::Ms15).unwrap();
@@ -183,28 +149,20 @@ fn the_optimum_obeys_its_conditions() {
 #[test]
 fn published_examples() {
     // sin(20πt) g, 0..0.05 s, window 30 ms: 0.02048 between 10 and 40 ms
-    let sine: Vec<f64> = (0..=500)
-        .map(|i| G * (20.0 * PI * i as f64 * 1e-4).sin())
-        .collect();
+    let sine: Vec<f64> = (0..=500).map(|i| G * (20.0 * PI * i as f64 * 1e-4).sin()).collect();
     let found = hic(&sine, 1e-4, HicWindow::Other(0.03)).unwrap();
     assert!((found.value - 0.020_480_2).abs() < 1e-7);
     assert!((found.start_s - 0.010).abs() < 1e-6 && (found.end_s - 0.040).abs() < 1e-6);
     // 10·sin t over half a period: the best 36 ms stand around the crest
-    let slow: Vec<f64> = (0..=3141)
-        .map(|i| 10.0 * G * (f64::from(i) * 1e-3).sin())
-        .collect();
+    let slow: Vec<f64> = (0..=3141).map(|i| 10.0 * G * (f64::from(i) * 1e-3).sin()).collect();
     let found = hic(&slow, 1e-3, HicWindow::Ms36).unwrap().value;
     let expected = 0.036 * (20.0 * 0.018f64.sin() / 0.036).powf(2.5);
     assert!((found / expected - 1.0).abs() < 1e-6); // measured 2.1e-7
     // 22000/((t − 74)² + 500), t in ms: the same head with an airbag, 10 kHz
-    let airbag: Vec<f64> = (0..=1500)
-        .map(|i| G * 22_000.0 / ((f64::from(i) * 0.1 - 74.0).powi(2) + 500.0))
-        .collect();
-    for (window, expected) in [
-        (HicWindow::Ms15, 176.141_965),
-        (HicWindow::Ms36, 300.728_307),
-        (HicWindow::Other(0.05), 315.247_615),
-    ] {
+    let airbag: Vec<f64> = (0..=1500).map(|i| G * 22_000.0 / ((f64::from(i) * 0.1 - 74.0).powi(2) + 500.0)).collect();
+    for (window, expected) in
+        [(HicWindow::Ms15, 176.141_965), (HicWindow::Ms36, 300.728_307), (HicWindow::Other(0.05), 315.247_615)]
+    {
         // measured 2e-8, 3e-7 and, where the free window ends between samples, 6.6e-4
         assert!((hic(&airbag, 1e-4, window).unwrap().value - expected).abs() < 1e-3);
     }
@@ -221,18 +179,9 @@ fn a_window_between_samples_is_used_in_full() {
 fn quiet_and_unusable_signals() {
     assert_eq!(hic(&[0.0; 10], 1e-3, HicWindow::Ms15).unwrap().value, 0.0);
     assert_eq!(hic(&[-5.0; 10], 1e-3, HicWindow::Ms15).unwrap().value, 0.0);
-    assert!(matches!(
-        hic(&[1.0], 1e-3, HicWindow::Ms15),
-        Err(SignalError::TooShort { .. })
-    ));
-    assert!(matches!(
-        hic(&[1.0; 9], 0.02, HicWindow::Ms15),
-        Err(SignalError::TooBrief { .. })
-    ));
-    assert!(matches!(
-        hic(&[1.0, f64::INFINITY], 1e-3, HicWindow::Ms15),
-        Err(SignalError::NotFinite { .. })
-    ));
+    assert!(matches!(hic(&[1.0], 1e-3, HicWindow::Ms15), Err(SignalError::TooShort { .. })));
+    assert!(matches!(hic(&[1.0; 9], 0.02, HicWindow::Ms15), Err(SignalError::TooBrief { .. })));
+    assert!(matches!(hic(&[1.0, f64::INFINITY], 1e-3, HicWindow::Ms15), Err(SignalError::NotFinite { .. })));
     assert!(hic(&[1.0; 9], 1e-3, HicWindow::Other(-1.0)).is_err());
     assert!((hic_d(1000.0) - 920.86).abs() < 1e-9);
 }
@@ -257,22 +206,13 @@ fn windows_on_samples_match_an_exhaustive_scan_made_elsewhere() {
         let signal = pulse(shape, peak_g, length_s, 1e-4);
         let integral = CumulativeIntegral::new(&signal, 1e-4).unwrap();
         for (longest, expected) in [(150, hic15), (360, hic36)] {
-            let (start, end) =
-                best_sampled_window(&signal, integral.at_samples(), 1e-4, longest).unwrap();
+            let (start, end) = best_sampled_window(&signal, integral.at_samples(), 1e-4, longest).unwrap();
             let found = hic_of_window(&integral, start as f64 * 1e-4, end as f64 * 1e-4).value;
-            assert!(
-                (found / expected - 1.0).abs() < 1e-10,
-                "{shape:?} {peak_g} g: {found} {expected}"
-            );
+            assert!((found / expected - 1.0).abs() < 1e-10, "{shape:?} {peak_g} g: {found} {expected}");
             // the refined window lies between that and the closed form, chords lying below the arc
             let u = (longest as f64 * 1e-4 / length_s).min(closed_form(shape).1);
-            let refined = hic(&signal, 1e-4, HicWindow::Other(longest as f64 * 1e-4))
-                .unwrap()
-                .value;
-            assert!(
-                refined >= found * (1.0 - 1e-12)
-                    && refined <= limited(shape, peak_g, length_s, u) * (1.0 + 1e-9)
-            );
+            let refined = hic(&signal, 1e-4, HicWindow::Other(longest as f64 * 1e-4)).unwrap().value;
+            assert!(refined >= found * (1.0 - 1e-12) && refined <= limited(shape, peak_g, length_s, u) * (1.0 + 1e-9));
         }
     }
 }

@@ -15,25 +15,15 @@ const SPEED_TOLERANCE: f64 = 1e-12;
 /// For a speed of zero it is the first time at which the vehicle would begin to lose speed below its initial one.
 pub(super) fn time_of_loss(profile: &Profile, speed_m_s: f64) -> Option<f64> {
     match profile {
-        Profile::HalfSine {
-            peak_m_s2,
-            duration_s,
-        } => {
+        Profile::HalfSine { peak_m_s2, duration_s } => {
             // (2PT/π) sin²(πτ/2T) = speed
             let whole_m_s = 2.0 * peak_m_s2 * duration_s / PI;
-            within(whole_m_s, *duration_s, speed_m_s, |fraction| {
-                2.0 * duration_s / PI * trig::asin(fraction.sqrt())
-            })
+            within(whole_m_s, *duration_s, speed_m_s, |fraction| 2.0 * duration_s / PI * trig::asin(fraction.sqrt()))
         }
-        Profile::Haversine {
-            peak_m_s2,
-            duration_s,
-        } => {
+        Profile::Haversine { peak_m_s2, duration_s } => {
             // ½P(τ − (T/2π) sin(2πτ/T)) = speed, or u − sin u = 2π·speed/whole with u = 2πτ/T
             let whole_m_s = 0.5 * peak_m_s2 * duration_s;
-            within(whole_m_s, *duration_s, speed_m_s, |fraction| {
-                haversine_phase(TAU * fraction) / TAU * duration_s
-            })
+            within(whole_m_s, *duration_s, speed_m_s, |fraction| haversine_phase(TAU * fraction) / TAU * duration_s)
         }
         Profile::Ramps(ramps) => on_ramps(ramps, speed_m_s),
     }
@@ -41,12 +31,7 @@ pub(super) fn time_of_loss(profile: &Profile, speed_m_s: f64) -> Option<f64> {
 
 /// Time at which a pulse that only takes has taken `speed_m_s` of the `whole_m_s` that it takes over `duration_s`;
 /// `time_at` answers for a fraction strictly inside.
-fn within(
-    whole_m_s: f64,
-    duration_s: f64,
-    speed_m_s: f64,
-    time_at: impl Fn(f64) -> f64,
-) -> Option<f64> {
+fn within(whole_m_s: f64, duration_s: f64, speed_m_s: f64, time_at: impl Fn(f64) -> f64) -> Option<f64> {
     let tolerance_m_s = SPEED_TOLERANCE * (whole_m_s.abs() + speed_m_s);
     if whole_m_s <= 0.0 || speed_m_s > whole_m_s + tolerance_m_s {
         None
@@ -75,22 +60,13 @@ fn haversine_phase(phase: f64) -> f64 {
 
 /// The first crossing on straight lines, ramp by ramp.
 fn on_ramps(ramps: &[Ramp], speed_m_s: f64) -> Option<f64> {
-    let taken_m_s: f64 = ramps
-        .iter()
-        .map(|ramp| 0.5 * (ramp.first_m_s2 + ramp.last_m_s2).abs() * ramp.length_s)
-        .sum();
+    let taken_m_s: f64 = ramps.iter().map(|ramp| 0.5 * (ramp.first_m_s2 + ramp.last_m_s2).abs() * ramp.length_s).sum();
     let tolerance_m_s = SPEED_TOLERANCE * (taken_m_s + speed_m_s);
     ramps.iter().find_map(|ramp| {
         let left_m_s = speed_m_s - ramp.speed_before_m_s;
         let left_after_m_s = speed_m_s - ramp.loss(ramp.length_s).speed_m_s;
-        let comes_to_rest = ramp.last_m_s2 >= 0.0
-            && left_m_s > tolerance_m_s
-            && left_after_m_s.abs() <= tolerance_m_s;
-        let since_s = if comes_to_rest {
-            Some(ramp.length_s)
-        } else {
-            on_ramp(ramp, left_m_s)
-        };
+        let comes_to_rest = ramp.last_m_s2 >= 0.0 && left_m_s > tolerance_m_s && left_after_m_s.abs() <= tolerance_m_s;
+        let since_s = if comes_to_rest { Some(ramp.length_s) } else { on_ramp(ramp, left_m_s) };
         since_s.map(|since_s| ramp.start_s + since_s)
     })
 }

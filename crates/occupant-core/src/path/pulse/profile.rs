@@ -45,8 +45,7 @@ impl Ramp {
             speed_m_s: self.speed_before_m_s + (first + 0.5 * slope * since_s) * since_s,
             // x = x₀ + v₀σ + ½ a₀σ² + ⅙ slope σ³
             distance_m: self.distance_before_m
-                + (self.speed_before_m_s + (0.5 * first + slope * since_s / 6.0) * since_s)
-                    * since_s,
+                + (self.speed_before_m_s + (0.5 * first + slope * since_s / 6.0) * since_s) * since_s,
         }
     }
 }
@@ -71,14 +70,7 @@ impl Profile {
             let ((start_s, first_m_s2), (end_s, last_m_s2)) = (pair[0], pair[1]);
             let length_s = end_s - start_s;
             if length_s > 0.0 {
-                let ramp = Ramp {
-                    start_s,
-                    length_s,
-                    first_m_s2,
-                    last_m_s2,
-                    speed_before_m_s,
-                    distance_before_m,
-                };
+                let ramp = Ramp { start_s, length_s, first_m_s2, last_m_s2, speed_before_m_s, distance_before_m };
                 let after = ramp.loss(length_s);
                 (speed_before_m_s, distance_before_m) = (after.speed_m_s, after.distance_m);
                 ramps.push(ramp);
@@ -90,31 +82,21 @@ impl Profile {
     /// Duration T, s.
     pub fn duration_s(&self) -> f64 {
         match self {
-            Profile::HalfSine { duration_s, .. } | Profile::Haversine { duration_s, .. } => {
-                *duration_s
-            }
-            Profile::Ramps(ramps) => ramps
-                .last()
-                .map_or(0.0, |ramp| ramp.start_s + ramp.length_s),
+            Profile::HalfSine { duration_s, .. } | Profile::Haversine { duration_s, .. } => *duration_s,
+            Profile::Ramps(ramps) => ramps.last().map_or(0.0, |ramp| ramp.start_s + ramp.length_s),
         }
     }
 
     /// The deceleration of greatest size, with its sign, m/s².
     pub fn peak_m_s2(&self) -> f64 {
         match self {
-            Profile::HalfSine { peak_m_s2, .. } | Profile::Haversine { peak_m_s2, .. } => {
-                *peak_m_s2
+            Profile::HalfSine { peak_m_s2, .. } | Profile::Haversine { peak_m_s2, .. } => *peak_m_s2,
+            Profile::Ramps(ramps) => {
+                ramps
+                    .iter()
+                    .flat_map(|ramp| [ramp.first_m_s2, ramp.last_m_s2])
+                    .fold(0.0, |peak: f64, value| if value.abs() > peak.abs() { value } else { peak })
             }
-            Profile::Ramps(ramps) => ramps
-                .iter()
-                .flat_map(|ramp| [ramp.first_m_s2, ramp.last_m_s2])
-                .fold(0.0, |peak: f64, value| {
-                    if value.abs() > peak.abs() {
-                        value
-                    } else {
-                        peak
-                    }
-                }),
         }
     }
 
@@ -135,20 +117,12 @@ impl Profile {
     pub fn loss(&self, since_s: f64, cursor: &mut PathCursor) -> Loss {
         let duration_s = self.duration_s();
         if since_s < 0.0 {
-            return Loss {
-                deceleration_m_s2: 0.0,
-                speed_m_s: 0.0,
-                distance_m: 0.0,
-            };
+            return Loss { deceleration_m_s2: 0.0, speed_m_s: 0.0, distance_m: 0.0 };
         }
         if since_s >= duration_s {
             let end = self.loss_inside(duration_s, cursor);
             let distance_m = end.distance_m + end.speed_m_s * (since_s - duration_s);
-            return Loss {
-                deceleration_m_s2: 0.0,
-                distance_m,
-                ..end
-            };
+            return Loss { deceleration_m_s2: 0.0, distance_m, ..end };
         }
         self.loss_inside(since_s, cursor)
     }
@@ -156,14 +130,8 @@ impl Profile {
     /// Loss at τ in [0, T].
     fn loss_inside(&self, since_s: f64, cursor: &mut PathCursor) -> Loss {
         match self {
-            Profile::HalfSine {
-                peak_m_s2,
-                duration_s,
-            } => half_sine(*peak_m_s2, *duration_s, since_s),
-            Profile::Haversine {
-                peak_m_s2,
-                duration_s,
-            } => haversine(*peak_m_s2, *duration_s, since_s),
+            Profile::HalfSine { peak_m_s2, duration_s } => half_sine(*peak_m_s2, *duration_s, since_s),
+            Profile::Haversine { peak_m_s2, duration_s } => haversine(*peak_m_s2, *duration_s, since_s),
             Profile::Ramps(ramps) => {
                 let ramp = &ramps[cursor.locate(ramps.len(), since_s, |ramp| ramps[ramp].start_s)];
                 ramp.loss(since_s - ramp.start_s)
@@ -192,9 +160,7 @@ fn haversine(peak_m_s2: f64, duration_s: f64, since_s: f64) -> Loss {
         deceleration_m_s2: peak_m_s2 * sine * sine,
         // sin(2x) = 2 sin x cos x
         speed_m_s: 0.5 * peak_m_s2 * (since_s - per_angle_s * sine * cosine),
-        distance_m: 0.25
-            * peak_m_s2
-            * (since_s * since_s - (per_angle_s * sine) * (per_angle_s * sine)),
+        distance_m: 0.25 * peak_m_s2 * (since_s * since_s - (per_angle_s * sine) * (per_angle_s * sine)),
     }
 }
 

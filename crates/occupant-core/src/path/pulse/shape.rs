@@ -102,59 +102,31 @@ impl PulseShape {
         expect_finite(&mut problems, "peak deceleration", profile.peak_m_s2());
         expect_finite(&mut problems, "delta-v", end.speed_m_s);
         expect_finite(&mut problems, "distance", end.distance_m);
-        if problems.is_empty() {
-            Ok(profile)
-        } else {
-            Err(problems)
-        }
+        if problems.is_empty() { Ok(profile) } else { Err(problems) }
     }
 
     fn unchecked_profile(&self) -> Profile {
         match *self {
-            PulseShape::HalfSine {
-                strength,
-                duration_s,
-            } => {
+            PulseShape::HalfSine { strength, duration_s } => {
                 // P = πΔv/(2T)
-                Profile::HalfSine {
-                    peak_m_s2: strength.peak_m_s2(2.0 * duration_s / PI),
-                    duration_s,
-                }
+                Profile::HalfSine { peak_m_s2: strength.peak_m_s2(2.0 * duration_s / PI), duration_s }
             }
-            PulseShape::Haversine {
-                strength,
-                duration_s,
-            } => {
+            PulseShape::Haversine { strength, duration_s } => {
                 // P = 2Δv/T
-                Profile::Haversine {
-                    peak_m_s2: strength.peak_m_s2(0.5 * duration_s),
-                    duration_s,
-                }
+                Profile::Haversine { peak_m_s2: strength.peak_m_s2(0.5 * duration_s), duration_s }
             }
-            PulseShape::Triangle {
-                strength,
-                duration_s,
-                peak_fraction,
-            } => {
+            PulseShape::Triangle { strength, duration_s, peak_fraction } => {
                 let rise_s = peak_fraction * duration_s;
                 trapezoid(strength, rise_s, 0.0, duration_s - rise_s)
             }
-            PulseShape::Trapezoid {
-                strength,
-                rise_s,
-                plateau_s,
-                fall_s,
-            } => trapezoid(strength, rise_s, plateau_s, fall_s),
-            PulseShape::Square {
-                strength,
-                duration_s,
-            } => trapezoid(strength, 0.0, duration_s, 0.0),
+            PulseShape::Trapezoid { strength, rise_s, plateau_s, fall_s } => {
+                trapezoid(strength, rise_s, plateau_s, fall_s)
+            }
+            PulseShape::Square { strength, duration_s } => trapezoid(strength, 0.0, duration_s, 0.0),
             PulseShape::Tabulated { ref points } => {
                 let delay_s = self.delay_s();
-                let from_zero: Vec<(f64, f64)> = points
-                    .iter()
-                    .map(|point| (point.time_s - delay_s, point.deceleration_m_s2))
-                    .collect();
+                let from_zero: Vec<(f64, f64)> =
+                    points.iter().map(|point| (point.time_s - delay_s, point.deceleration_m_s2)).collect();
                 Profile::through(&from_zero)
             }
         }
@@ -162,54 +134,27 @@ impl PulseShape {
 
     fn find_problems(&self, problems: &mut Vec<PathProblem>) {
         match self {
-            PulseShape::HalfSine {
-                strength,
-                duration_s,
-            }
-            | PulseShape::Haversine {
-                strength,
-                duration_s,
-            }
-            | PulseShape::Square {
-                strength,
-                duration_s,
-            } => {
+            PulseShape::HalfSine { strength, duration_s }
+            | PulseShape::Haversine { strength, duration_s }
+            | PulseShape::Square { strength, duration_s } => {
                 strength.find_problems(problems);
                 expect_positive(problems, "duration", *duration_s);
             }
-            PulseShape::Triangle {
-                strength,
-                duration_s,
-                peak_fraction,
-            } => {
+            PulseShape::Triangle { strength, duration_s, peak_fraction } => {
                 strength.find_problems(problems);
                 expect_positive(problems, "duration", *duration_s);
                 if !(0.0..=1.0).contains(peak_fraction) {
-                    problems.push(PathProblem::PeakFractionOutside {
-                        value: *peak_fraction,
-                    });
+                    problems.push(PathProblem::PeakFractionOutside { value: *peak_fraction });
                 }
             }
-            PulseShape::Trapezoid {
-                strength,
-                rise_s,
-                plateau_s,
-                fall_s,
-            } => {
+            PulseShape::Trapezoid { strength, rise_s, plateau_s, fall_s } => {
                 strength.find_problems(problems);
-                let parts = [
-                    ("rise", *rise_s),
-                    ("plateau", *plateau_s),
-                    ("fall", *fall_s),
-                ];
+                let parts = [("rise", *rise_s), ("plateau", *plateau_s), ("fall", *fall_s)];
                 for (quantity, value) in parts {
                     expect_not_negative(problems, quantity, value);
                 }
                 if parts.iter().all(|(_, value)| *value == 0.0) {
-                    problems.push(PathProblem::NotPositive {
-                        quantity: "rise + plateau + fall",
-                        value: 0.0,
-                    });
+                    problems.push(PathProblem::NotPositive { quantity: "rise + plateau + fall", value: 0.0 });
                 }
             }
             PulseShape::Tabulated { points } => find_point_problems(points, problems),
@@ -228,9 +173,7 @@ impl Strength {
 
     fn find_problems(self, problems: &mut Vec<PathProblem>) {
         match self {
-            Strength::PeakDeceleration(value) => {
-                expect_finite(problems, "peak deceleration", value)
-            }
+            Strength::PeakDeceleration(value) => expect_finite(problems, "peak deceleration", value),
             Strength::DeltaV(value) => expect_finite(problems, "delta-v", value),
         }
     }
@@ -241,40 +184,22 @@ fn trapezoid(strength: Strength, rise_s: f64, plateau_s: f64, fall_s: f64) -> Pr
     // P = 2Δv/(r + 2p + f)
     let peak = strength.peak_m_s2(0.5 * (rise_s + 2.0 * plateau_s + fall_s));
     let (top_s, down_s) = (rise_s, rise_s + plateau_s);
-    Profile::through(&[
-        (0.0, 0.0),
-        (top_s, peak),
-        (down_s, peak),
-        (down_s + fall_s, 0.0),
-    ])
+    Profile::through(&[(0.0, 0.0), (top_s, peak), (down_s, peak), (down_s + fall_s, 0.0)])
 }
 
 fn find_point_problems(points: &[DecelerationPoint], problems: &mut Vec<PathProblem>) {
     if points.len() < 2 {
-        problems.push(PathProblem::TooFewStations {
-            found: points.len(),
-        });
+        problems.push(PathProblem::TooFewStations { found: points.len() });
     }
     for (station, point) in points.iter().enumerate() {
-        for (quantity, value) in [
-            ("t", point.time_s),
-            ("deceleration", point.deceleration_m_s2),
-        ] {
+        for (quantity, value) in [("t", point.time_s), ("deceleration", point.deceleration_m_s2)] {
             if !value.is_finite() {
-                problems.push(PathProblem::StationNotFinite {
-                    station,
-                    quantity,
-                    value,
-                });
+                problems.push(PathProblem::StationNotFinite { station, quantity, value });
             }
         }
         if station > 0 && point.time_s <= points[station - 1].time_s {
             let (time_s, previous_s) = (point.time_s, points[station - 1].time_s);
-            problems.push(PathProblem::TimeNotIncreasing {
-                station,
-                time_s,
-                previous_s,
-            });
+            problems.push(PathProblem::TimeNotIncreasing { station, time_s, previous_s });
         }
     }
 }
@@ -288,11 +213,7 @@ fn expect_positive(problems: &mut Vec<PathProblem>, quantity: &'static str, valu
 }
 
 /// Adds a problem unless `value` is finite and zero or more.
-pub(super) fn expect_not_negative(
-    problems: &mut Vec<PathProblem>,
-    quantity: &'static str,
-    value: f64,
-) {
+pub(super) fn expect_not_negative(problems: &mut Vec<PathProblem>, quantity: &'static str, value: f64) {
     if value < 0.0 {
         problems.push(PathProblem::Negative { quantity, value });
     } else {

@@ -28,21 +28,14 @@ pub(super) fn read(record: &DeltaVRecord, start_s: f64) -> Result<Readings, Vec<
     if !problems.is_empty() {
         return Err(problems);
     }
-    let channels = Channels::new(record).map_err(|_| {
-        vec![PathProblem::NotFinite {
-            quantity: "velocity change",
-            value: f64::NAN,
-        }]
-    })?;
+    let channels = Channels::new(record)
+        .map_err(|_| vec![PathProblem::NotFinite { quantity: "velocity change", value: f64::NAN }])?;
     let time_s = nodes(&record.time_s, start_s);
     let at_nodes = |f: &dyn Fn(f64) -> Vector3<f64>| time_s.iter().map(|&t| f(t)).collect();
     Ok(Readings {
         acceleration_m_s2: at_nodes(&|t| channels.acceleration_m_s2(t)),
         rate_rad_s: at_nodes(&|t| channels.rate_rad_s(t)),
-        middle_m_s2: time_s
-            .windows(2)
-            .map(|pair| channels.acceleration_m_s2(0.5 * (pair[0] + pair[1])))
-            .collect(),
+        middle_m_s2: time_s.windows(2).map(|pair| channels.acceleration_m_s2(0.5 * (pair[0] + pair[1]))).collect(),
         present: [true; 3],
         time_s,
     })
@@ -59,9 +52,7 @@ impl<'a> Channels<'a> {
     fn new(record: &'a DeltaVRecord) -> Result<Self, SignalError> {
         let through = |channel: &'a Option<Vec<f64>>, shape| {
             let samples = channel.as_deref();
-            samples
-                .map(|samples| Interpolant::new(&record.time_s, samples, shape))
-                .transpose()
+            samples.map(|samples| Interpolant::new(&record.time_s, samples, shape)).transpose()
         };
         Ok(Channels {
             longitudinal: through(&record.longitudinal_m_s, Interpolation::MonotoneCubic)?,
@@ -80,11 +71,7 @@ impl<'a> Channels<'a> {
 
     fn rate_rad_s(&self, t_s: f64) -> Vector3<f64> {
         let yaw_rate = self.yaw_rate.as_ref();
-        Vector3::new(
-            0.0,
-            0.0,
-            yaw_rate.map_or(0.0, |through| through.value_at(t_s)),
-        )
+        Vector3::new(0.0, 0.0, yaw_rate.map_or(0.0, |through| through.value_at(t_s)))
     }
 }
 

@@ -40,9 +40,7 @@ pub(super) fn read(definition: &SensorDefinition) -> Result<Readings, Vec<PathPr
             if let Some(class) = definition.filter {
                 filter(&mut record, class)?;
             }
-            let norms: Vec<f64> = (0..record.time_s.len())
-                .map(|i| triple(&record.rate_rad_s, i).norm())
-                .collect();
+            let norms: Vec<f64> = (0..record.time_s.len()).map(|i| triple(&record.rate_rad_s, i).norm()).collect();
             check_turning(&record.time_s, &norms, &mut problems);
             match problems.is_empty() {
                 true => Ok(cut(&record, start_s)),
@@ -60,39 +58,27 @@ fn start(definition: &SensorDefinition, problems: &mut Vec<PathProblem>) -> f64 
     };
     let start_s = definition.starts_at_s.unwrap_or(first_s);
     if !(start_s >= first_s && start_s < last_s) && time_s.len() > 1 {
-        problems.push(PathProblem::StartOutsideRecord {
-            start_s,
-            first_s,
-            last_s,
-        });
+        problems.push(PathProblem::StartOutsideRecord { start_s, first_s, last_s });
     }
     start_s
 }
 
 /// Takes the zero errors away: what each channel reads on average over the rest at the beginning, less what it should
 /// read there.
-fn take_baseline(
-    definition: &SensorDefinition,
-    record: &mut AccelerationRecord,
-) -> Result<(), PathProblem> {
+fn take_baseline(definition: &SensorDefinition, record: &mut AccelerationRecord) -> Result<(), PathProblem> {
     let Some(baseline_s) = definition.baseline_s else {
         return Ok(());
     };
     let until_s = record.time_s[0] + baseline_s;
     let count = record.time_s.partition_point(|&t| t <= until_s);
     if baseline_s.is_nan() || baseline_s <= 0.0 || count < 2 || count == record.time_s.len() {
-        return Err(PathProblem::BaselineOutsideRecord {
-            baseline_s,
-            samples: count,
-        });
+        return Err(PathProblem::BaselineOutsideRecord { baseline_s, samples: count });
     }
     let rest = match definition.gravity {
         // at rest: f = −Aᵀ g, z down
-        SensorGravity::Included => -definition.initial.attitude.matrix().tr_mul(&Vector3::new(
-            0.0,
-            0.0,
-            definition.gravity_m_s2,
-        )),
+        SensorGravity::Included => {
+            -definition.initial.attitude.matrix().tr_mul(&Vector3::new(0.0, 0.0, definition.gravity_m_s2))
+        }
         SensorGravity::Zeroed | SensorGravity::Removed => Vector3::zeros(),
     };
     let zero = |channel: &mut Option<Vec<f64>>, should_read: f64| {
@@ -116,8 +102,8 @@ fn filter(record: &mut AccelerationRecord, class: ChannelClass) -> Result<(), Ve
     let rates = RATES.into_iter().zip(&mut record.rate_rad_s);
     for (name, channel) in accelerations.chain(rates) {
         if let Some(samples) = channel {
-            *samples = filter_cfc(samples, dt_s, class, CfcFamily::default())
-                .map_err(|e| vec![problem_of(&e, name)])?;
+            *samples =
+                filter_cfc(samples, dt_s, class, CfcFamily::default()).map_err(|e| vec![problem_of(&e, name)])?;
         }
     }
     Ok(())
@@ -126,31 +112,16 @@ fn filter(record: &mut AccelerationRecord, class: ChannelClass) -> Result<(), Ve
 /// What a filter's complaint means for a path.
 fn problem_of(error: &SignalError, quantity: &'static str) -> PathProblem {
     match *error {
-        SignalError::NotUniform {
-            index,
-            found_s,
-            expected_s,
-        } => PathProblem::NotUniform {
-            station: index,
-            time_s: found_s,
-            expected_s,
-        },
-        SignalError::CornerAboveNyquist {
-            corner_hz,
-            nyquist_hz,
-        } => PathProblem::FilterTooFast {
-            corner_hz,
-            nyquist_hz,
-        },
-        SignalError::NotFinite { index, found, .. } => PathProblem::StationNotFinite {
-            station: index,
-            quantity,
-            value: found,
-        },
-        _ => PathProblem::NotFinite {
-            quantity,
-            value: f64::NAN,
-        },
+        SignalError::NotUniform { index, found_s, expected_s } => {
+            PathProblem::NotUniform { station: index, time_s: found_s, expected_s }
+        }
+        SignalError::CornerAboveNyquist { corner_hz, nyquist_hz } => {
+            PathProblem::FilterTooFast { corner_hz, nyquist_hz }
+        }
+        SignalError::NotFinite { index, found, .. } => {
+            PathProblem::StationNotFinite { station: index, quantity, value: found }
+        }
+        _ => PathProblem::NotFinite { quantity, value: f64::NAN },
     }
 }
 
@@ -167,13 +138,8 @@ fn cut(record: &AccelerationRecord, start_s: f64) -> Readings {
     };
     let acceleration_m_s2 = nodes(&record.acceleration_m_s2);
     Readings {
-        time_s: std::iter::once(start_s)
-            .chain(record.time_s[after..].iter().copied())
-            .collect(),
-        middle_m_s2: acceleration_m_s2
-            .windows(2)
-            .map(|pair| (pair[0] + pair[1]) * 0.5)
-            .collect(),
+        time_s: std::iter::once(start_s).chain(record.time_s[after..].iter().copied()).collect(),
+        middle_m_s2: acceleration_m_s2.windows(2).map(|pair| (pair[0] + pair[1]) * 0.5).collect(),
         acceleration_m_s2,
         rate_rad_s: nodes(&record.rate_rad_s),
         present: [0, 1, 2].map(|axis| record.acceleration_m_s2[axis].is_some()),

@@ -61,16 +61,12 @@ impl SensorRecord {
                 .zip(&record.acceleration_m_s2)
                 .chain(RATES.into_iter().zip(&record.rate_rad_s))
                 .collect(),
-            SensorRecord::DeltaV(record) => vec![
-                ("dvx", &record.longitudinal_m_s),
-                ("dvy", &record.lateral_m_s),
-                ("wz", &record.yaw_rate_rad_s),
-            ],
+            SensorRecord::DeltaV(record) => {
+                vec![("dvx", &record.longitudinal_m_s), ("dvy", &record.lateral_m_s), ("wz", &record.yaw_rate_rad_s)]
+            }
         };
         let there = all.into_iter();
-        there
-            .filter_map(|(name, channel)| Some((name, channel.as_deref()?)))
-            .collect()
+        there.filter_map(|(name, channel)| Some((name, channel.as_deref()?))).collect()
     }
 
     /// Everything that is wrong with the samples, in their order.
@@ -81,32 +77,20 @@ impl SensorRecord {
             problems.push(PathProblem::NoSensorChannel);
         }
         if time_s.len() < 2 {
-            problems.push(PathProblem::TooFewStations {
-                found: time_s.len(),
-            });
+            problems.push(PathProblem::TooFewStations { found: time_s.len() });
         }
         for (quantity, samples) in &channels {
             if samples.len() != time_s.len() {
-                problems.push(PathProblem::ChannelLength {
-                    quantity,
-                    found: samples.len(),
-                    expected: time_s.len(),
-                });
+                problems.push(PathProblem::ChannelLength { quantity, found: samples.len(), expected: time_s.len() });
             }
         }
         for (station, &here_s) in time_s.iter().enumerate() {
-            let numbers = channels
-                .iter()
-                .filter_map(|(name, samples)| Some((*name, *samples.get(station)?)));
+            let numbers = channels.iter().filter_map(|(name, samples)| Some((*name, *samples.get(station)?)));
             problems.extend(
                 std::iter::once(("t", here_s))
                     .chain(numbers)
                     .filter(|(_, value)| value.is_nan() || value.abs() > LARGEST)
-                    .map(|(quantity, value)| PathProblem::StationNotFinite {
-                        station,
-                        quantity,
-                        value,
-                    }),
+                    .map(|(quantity, value)| PathProblem::StationNotFinite { station, quantity, value }),
             );
             if station > 0 && here_s <= time_s[station - 1] {
                 problems.push(PathProblem::TimeNotIncreasing {
@@ -125,11 +109,7 @@ const LARGEST: f64 = 1e60;
 
 /// Adds a problem for every interval in which the vehicle turns by more than a quarter turn: straight lines between
 /// such samples say little of the turning.
-pub(super) fn check_turning(
-    time_s: &[f64],
-    rate_norms_rad_s: &[f64],
-    problems: &mut Vec<PathProblem>,
-) {
+pub(super) fn check_turning(time_s: &[f64], rate_norms_rad_s: &[f64], problems: &mut Vec<PathProblem>) {
     for station in 1..time_s.len() {
         let mean_rad_s = 0.5 * (rate_norms_rad_s[station - 1] + rate_norms_rad_s[station]);
         let turn_rad = mean_rad_s * (time_s[station] - time_s[station - 1]);

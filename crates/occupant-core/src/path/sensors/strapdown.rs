@@ -70,8 +70,7 @@ impl Piece {
         SensorMotion {
             place_m: self.place_after(s),
             velocity_m_s: self.velocity_after(s),
-            acceleration_m_s2: self.acceleration[0]
-                + (self.acceleration[1] + self.acceleration[2] * s) * s,
+            acceleration_m_s2: self.acceleration[0] + (self.acceleration[1] + self.acceleration[2] * s) * s,
             rotation,
             angular_velocity_rad_s: rotation * (self.rate_rad_s + self.rate_slope_rad_s2 * s),
             // dω/dt along turning axes is that along fixed ones: ω × ω = 0
@@ -103,10 +102,7 @@ impl Piece {
 ///
 /// # Errors
 /// Readings so large that place or velocity are no numbers.
-pub(super) fn integrate(
-    readings: &Readings,
-    start: &Start,
-) -> Result<(Vec<Piece>, Attitude), Vec<PathProblem>> {
+pub(super) fn integrate(readings: &Readings, start: &Start) -> Result<(Vec<Piece>, Attitude), Vec<PathProblem>> {
     let field = Field::new(readings, start);
     let mut attitude = start.pose.attitude;
     let mut rotation = attitude.matrix();
@@ -138,10 +134,7 @@ pub(super) fn integrate(
         rotation = next;
         attitude = Attitude::from_matrix(&rotation, &attitude);
         if !(place_m.norm() + velocity_m_s.norm() + rotation.norm()).is_finite() {
-            return Err(vec![PathProblem::NotFinite {
-                quantity: "integrated place",
-                value: f64::NAN,
-            }]);
+            return Err(vec![PathProblem::NotFinite { quantity: "integrated place", value: f64::NAN }]);
         }
         pieces.push(piece);
     }
@@ -166,11 +159,7 @@ impl Field {
             SensorGravity::Zeroed => (down, at_start),
             SensorGravity::Removed => (Vector3::zeros(), Vector3::zeros()),
         };
-        Field {
-            present: readings.present,
-            gravity_m_s2,
-            zeroed_m_s2,
-        }
+        Field { present: readings.present, gravity_m_s2, zeroed_m_s2 }
     }
 
     /// a = A (f − f₀ + Aᵀ g), of the axes that were recorded; f₀ is what zeroing took away.
@@ -186,17 +175,8 @@ impl Field {
 }
 
 /// The parabola a₀ + a₁ s + a₂ s² through three values at 0, h/2 and h.
-fn parabola(
-    first: Vector3<f64>,
-    middle: Vector3<f64>,
-    last: Vector3<f64>,
-    h_s: f64,
-) -> [Vector3<f64>; 3] {
-    [
-        first,
-        (middle * 4.0 - first * 3.0 - last) / h_s,
-        (first - middle * 2.0 + last) * (2.0 / h_s / h_s),
-    ]
+fn parabola(first: Vector3<f64>, middle: Vector3<f64>, last: Vector3<f64>, h_s: f64) -> [Vector3<f64>; 3] {
+    [first, (middle * 4.0 - first * 3.0 - last) / h_s, (first - middle * 2.0 + last) * (2.0 / h_s / h_s)]
 }
 
 /// A product of rotations without what rounding has added: R ← ½ R (3 − RᵀR).

@@ -43,13 +43,7 @@ fn angular_velocity_turns_the_matrix() {
     for number in 0..300 {
         let angles = attitude(&mut seeded, number).to_vector();
         let (rates, seconds) = (seeded.vector(-3.0, 3.0), seeded.vector(-20.0, 20.0));
-        let at = |t: f64| {
-            turning(
-                angles + rates * t + seconds * (0.5 * t * t),
-                rates + seconds * t,
-                seconds,
-            )
-        };
+        let at = |t: f64| turning(angles + rates * t + seconds * (0.5 * t * t), rates + seconds * t, seconds);
         let derivative = differentiate(|t| at(t).matrix, 0.0, 1e-3);
         let now = at(0.0);
         let omega = omega_of(now.matrix, derivative, 1e-8);
@@ -81,18 +75,8 @@ fn angles_come_back_from_the_matrix_nearest_to_the_given_ones() {
 #[test]
 fn nose_up_and_nose_down_keep_the_roll_and_the_attitude() {
     for pitch_rad in [FRAC_PI_2, -FRAC_PI_2] {
-        let asked = Attitude {
-            roll_rad: 0.4,
-            pitch_rad,
-            yaw_rad: -1.1,
-        };
-        let found = Attitude::from_matrix(
-            &asked.matrix(),
-            &Attitude {
-                yaw_rad: -1.0,
-                ..asked
-            },
-        );
+        let asked = Attitude { roll_rad: 0.4, pitch_rad, yaw_rad: -1.1 };
+        let found = Attitude::from_matrix(&asked.matrix(), &Attitude { yaw_rad: -1.0, ..asked });
         assert_below("roll", (found.roll_rad - 0.4).abs(), 1e-14); // 0
         assert_below("yaw", (found.yaw_rad + 1.1).abs(), 1e-14); // 0
         assert_below("matrix", (found.matrix() - asked.matrix()).amax(), 1e-15); // 0
@@ -101,28 +85,12 @@ fn nose_up_and_nose_down_keep_the_roll_and_the_attitude() {
 
 #[test]
 fn unwrapping_adds_whole_turns_and_never_changes_the_attitude() {
-    let previous = Attitude {
-        roll_rad: 0.0,
-        pitch_rad: 0.0,
-        yaw_rad: 3.1,
-    };
-    let next = Attitude {
-        yaw_rad: -3.1,
-        ..previous
-    }
-    .unwrapped_after(&previous);
+    let previous = Attitude { roll_rad: 0.0, pitch_rad: 0.0, yaw_rad: 3.1 };
+    let next = Attitude { yaw_rad: -3.1, ..previous }.unwrapped_after(&previous);
     assert_below("yaw", (next.yaw_rad - (TAU - 3.1)).abs(), 1e-15); // 0
     // Past the vertical: (φ, θ, ψ) = (π, 1.5, π) is (0, π − 1.5, 0).
-    let rising = Attitude {
-        roll_rad: 0.0,
-        pitch_rad: 1.55,
-        yaw_rad: 0.0,
-    };
-    let over = Attitude {
-        roll_rad: PI,
-        pitch_rad: 1.5,
-        yaw_rad: PI,
-    };
+    let rising = Attitude { roll_rad: 0.0, pitch_rad: 1.55, yaw_rad: 0.0 };
+    let over = Attitude { roll_rad: PI, pitch_rad: 1.5, yaw_rad: PI };
     let named = over.unwrapped_after(&rising);
     assert_below(
         "angles",
@@ -141,8 +109,7 @@ fn the_exponential_is_the_rotation_about_its_axis() {
         let rotation = rotation_by(turn);
         skewed = skewed.max((rotation * rotation.transpose() - Matrix3::identity()).amax());
         let part = seeded.between(-1.0, 2.0);
-        composed = composed
-            .max((rotation_by(turn * part) * rotation_by(turn * (1.0 - part)) - rotation).amax());
+        composed = composed.max((rotation_by(turn * part) * rotation_by(turn * (1.0 - part)) - rotation).amax());
         let axis = (seeded.between(0.0, 3.0) as usize).min(2);
         let mut about_axis = Vector3::zeros();
         about_axis[axis] = turn.x;
@@ -153,7 +120,6 @@ fn the_exponential_is_the_rotation_about_its_axis() {
     assert_below("about an axis", apart, 1e-14); // 5.6e-16
     // Both sides of the switch to the limit at small angles.
     let tiny = Vector3::new(0.6, 0.0, 0.8);
-    let jump =
-        (rotation_by(tiny * 1.01e-8) - rotation_by(tiny * 0.99e-8)) / 2e-10 - tiny.cross_matrix();
+    let jump = (rotation_by(tiny * 1.01e-8) - rotation_by(tiny * 0.99e-8)) / 2e-10 - tiny.cross_matrix();
     assert_below("jump at the switch", jump.amax(), 1e-7); // 4.8e-09
 }

@@ -5,18 +5,9 @@ use super::*;
 pub(in super::super) fn profiles() -> Vec<Profile> {
     let mut seeded = Seeded(41);
     let mut profiles = vec![
-        Profile::HalfSine {
-            peak_m_s2: 170.0,
-            duration_s: 0.08,
-        },
-        Profile::Haversine {
-            peak_m_s2: 250.0,
-            duration_s: 0.11,
-        },
-        Profile::HalfSine {
-            peak_m_s2: -90.0,
-            duration_s: 0.2,
-        },
+        Profile::HalfSine { peak_m_s2: 170.0, duration_s: 0.08 },
+        Profile::Haversine { peak_m_s2: 250.0, duration_s: 0.11 },
+        Profile::HalfSine { peak_m_s2: -90.0, duration_s: 0.2 },
         Profile::through(&[(0.0, 0.0), (0.0, 120.0), (0.1, 120.0), (0.1, 0.0)]),
         Profile::through(&[(0.0, 0.0), (0.03, 200.0), (0.05, 200.0), (0.12, 0.0)]),
     ];
@@ -24,11 +15,7 @@ pub(in super::super) fn profiles() -> Vec<Profile> {
         let mut time_s = 0.0;
         let points: Vec<(f64, f64)> = (0..count)
             .map(|i| {
-                time_s += if i == 0 {
-                    0.0
-                } else {
-                    seeded.between(0.002, 0.02)
-                };
+                time_s += if i == 0 { 0.0 } else { seeded.between(0.002, 0.02) };
                 (time_s, seeded.between(-60.0, 150.0))
             })
             .collect();
@@ -50,11 +37,7 @@ fn speed_and_distance_lost_are_the_integrals_of_the_deceleration() {
         let to_s = profile.duration_s() * seeded.between(0.1, 1.0);
         let (mut quadrature, mut second) = (0.0, 0.0);
         for (i, from_s) in corners.iter().enumerate() {
-            let until_s = corners
-                .get(i + 1)
-                .copied()
-                .unwrap_or(profile.duration_s())
-                .min(to_s);
+            let until_s = corners.get(i + 1).copied().unwrap_or(profile.duration_s()).min(to_s);
             if until_s > *from_s {
                 quadrature += integrate(|t| at(t).deceleration_m_s2, *from_s, until_s, 8);
                 second += integrate(|t| at(t).speed_m_s, *from_s, until_s, 8);
@@ -90,22 +73,12 @@ fn speed_and_distance_run_on_across_corners_and_after_the_end() {
             );
         }
         let (end, later) = (at(profile.duration_s()), at(profile.duration_s() + 2.0));
-        assert_eq!(
-            (later.deceleration_m_s2, later.speed_m_s),
-            (0.0, end.speed_m_s)
-        );
+        assert_eq!((later.deceleration_m_s2, later.speed_m_s), (0.0, end.speed_m_s));
         assert_below(
             "distance, m",
             (later.distance_m - end.distance_m - 2.0 * end.speed_m_s).abs(),
             1e-13, // 3.6e-15
         );
-        assert_eq!(
-            at(-0.5),
-            Loss {
-                deceleration_m_s2: 0.0,
-                speed_m_s: 0.0,
-                distance_m: 0.0
-            }
-        );
+        assert_eq!(at(-0.5), Loss { deceleration_m_s2: 0.0, speed_m_s: 0.0, distance_m: 0.0 });
     }
 }

@@ -31,61 +31,17 @@ fn at(path: &PulsePath, t_s: f64) -> FrameMotion {
 /// (the first moment of the deceleration).
 fn shapes(strength: Strength) -> Vec<(PulseShape, f64)> {
     let duration_s = 0.1;
-    let trapezoid = PulseShape::Trapezoid {
-        strength,
-        rise_s: 0.02,
-        plateau_s: 0.05,
-        fall_s: 0.03,
-    };
+    let trapezoid = PulseShape::Trapezoid { strength, rise_s: 0.02, plateau_s: 0.05, fall_s: 0.03 };
     // Areas 0.01, 0.05, 0.015 about their centroids 0.0133, 0.045, 0.08 from the start; T − centroid of the whole.
     let centroid_s = (0.01 * 0.04 / 3.0 + 0.05 * 0.045 + 0.015 * 0.08) / 0.075;
     vec![
-        (
-            PulseShape::HalfSine {
-                strength,
-                duration_s,
-            },
-            0.5,
-        ),
-        (
-            PulseShape::Haversine {
-                strength,
-                duration_s,
-            },
-            0.5,
-        ),
-        (
-            PulseShape::Square {
-                strength,
-                duration_s,
-            },
-            0.5,
-        ),
+        (PulseShape::HalfSine { strength, duration_s }, 0.5),
+        (PulseShape::Haversine { strength, duration_s }, 0.5),
+        (PulseShape::Square { strength, duration_s }, 0.5),
         // Centroid of a triangle: (1 + peak fraction)/3.
-        (
-            PulseShape::Triangle {
-                strength,
-                duration_s,
-                peak_fraction: 0.2,
-            },
-            0.6,
-        ),
-        (
-            PulseShape::Triangle {
-                strength,
-                duration_s,
-                peak_fraction: 0.0,
-            },
-            2.0 / 3.0,
-        ),
-        (
-            PulseShape::Triangle {
-                strength,
-                duration_s,
-                peak_fraction: 1.0,
-            },
-            1.0 / 3.0,
-        ),
+        (PulseShape::Triangle { strength, duration_s, peak_fraction: 0.2 }, 0.6),
+        (PulseShape::Triangle { strength, duration_s, peak_fraction: 0.0 }, 2.0 / 3.0),
+        (PulseShape::Triangle { strength, duration_s, peak_fraction: 1.0 }, 1.0 / 3.0),
         (trapezoid, 1.0 - centroid_s / duration_s),
     ]
 }
@@ -93,8 +49,7 @@ fn shapes(strength: Strength) -> Vec<(PulseShape, f64)> {
 #[test]
 fn peaks_follow_from_delta_v() {
     let delta_v_m_s = 15.0;
-    let peaks =
-        [PI / 0.2, 20.0, 10.0, 20.0, 20.0, 20.0, 2.0 / 0.15].map(|per_s| per_s * delta_v_m_s);
+    let peaks = [PI / 0.2, 20.0, 10.0, 20.0, 20.0, 20.0, 2.0 / 0.15].map(|per_s| per_s * delta_v_m_s);
     for ((shape, _), peak) in shapes(Strength::DeltaV(delta_v_m_s)).into_iter().zip(peaks) {
         let found = path(ahead(20.0, shape));
         assert_below(
@@ -119,10 +74,7 @@ fn peaks_follow_from_delta_v() {
         );
         assert_eq!(found.stop(), None);
     }
-    for ((shape, _), peak) in shapes(Strength::PeakDeceleration(100.0))
-        .into_iter()
-        .zip(peaks)
-    {
+    for ((shape, _), peak) in shapes(Strength::PeakDeceleration(100.0)).into_iter().zip(peaks) {
         let found = path(ahead(20.0, shape)).pulse_delta_v_m_s();
         assert_below(
             "Δv from the peak, m/s",
@@ -153,10 +105,7 @@ fn a_pulse_as_strong_as_the_speed_stops_at_its_end_after_its_own_distance() {
 fn the_report_s_cart_stop_as_a_half_sine() {
     // 20 mph = 352 in/s to rest in 80 ms: πΔv/(2T) = 6911.5 in/s², 17.9 g at 386.04 in/s² to the g.
     let speed_m_s = 352.0 * INCH_M;
-    let shape = PulseShape::HalfSine {
-        strength: Strength::DeltaV(speed_m_s),
-        duration_s: 0.08,
-    };
+    let shape = PulseShape::HalfSine { strength: Strength::DeltaV(speed_m_s), duration_s: 0.08 };
     let found = path(ahead(speed_m_s, shape));
     let peak_g = found.peak_deceleration_m_s2() / INCH_M / 386.04;
     assert_below("peak, g", (peak_g - 17.9).abs(), 0.05); // 3.6e-03
@@ -172,10 +121,10 @@ fn the_report_s_cart_stop_as_a_half_sine() {
 fn a_volunteer_sled_pulse_has_its_change_of_velocity() {
     // Sled run of the ATB validation set human.lin: g every 4 ms; its own Δv is 20.5 mph.
     let pulse_g = [
-        0.03, 0.10, 0.0, 0.03, 0.0, 0.03, 0.10, 0.0, 0.03, 0.0, 0.03, 0.05, 0.02, 0.12, 0.22, 0.55,
-        1.76, 2.22, 2.75, 3.67, 4.61, 5.65, 6.59, 7.46, 8.38, 8.98, 9.40, 9.40, 9.42, 9.25, 9.18,
-        9.18, 8.98, 8.82, 8.62, 8.62, 8.57, 8.40, 8.14, 7.78, 7.41, 7.00, 6.57, 6.11, 5.72, 5.14,
-        4.47, 3.89, 3.26, 2.56, 1.81, 0.99, 0.26, 0.56, 0.51, 0.24, 0.0,
+        0.03, 0.10, 0.0, 0.03, 0.0, 0.03, 0.10, 0.0, 0.03, 0.0, 0.03, 0.05, 0.02, 0.12, 0.22, 0.55, 1.76, 2.22, 2.75,
+        3.67, 4.61, 5.65, 6.59, 7.46, 8.38, 8.98, 9.40, 9.40, 9.42, 9.25, 9.18, 9.18, 8.98, 8.82, 8.62, 8.62, 8.57,
+        8.40, 8.14, 7.78, 7.41, 7.00, 6.57, 6.11, 5.72, 5.14, 4.47, 3.89, 3.26, 2.56, 1.81, 0.99, 0.26, 0.56, 0.51,
+        0.24, 0.0,
     ];
     let table = |sign: f64| PulseShape::Tabulated {
         points: (0..pulse_g.len())
@@ -212,10 +161,7 @@ fn a_volunteer_sled_pulse_has_its_change_of_velocity() {
 #[test]
 fn a_stronger_pulse_stops_the_vehicle_on_the_way_and_for_good() {
     // Constant deceleration: stops at v/a after v²/2a.
-    let square = PulseShape::Square {
-        strength: Strength::PeakDeceleration(100.0),
-        duration_s: 0.5,
-    };
+    let square = PulseShape::Square { strength: Strength::PeakDeceleration(100.0), duration_s: 0.5 };
     let found = path(ahead(10.0, square));
     let stop = found.stop().expect("a stop");
     assert_below("stop time, s", (stop.time_s - 0.1).abs(), 1e-15); // 0
@@ -233,10 +179,7 @@ fn a_stronger_pulse_stops_the_vehicle_on_the_way_and_for_good() {
             (after.origin_m - before.origin_m).amax(),
             1e-15, // 1.1e-16
         );
-        assert_eq!(
-            (after.velocity_m_s, after.acceleration_m_s2),
-            (Vector3::zeros(), Vector3::zeros())
-        );
+        assert_eq!((after.velocity_m_s, after.acceleration_m_s2), (Vector3::zeros(), Vector3::zeros()));
         assert_eq!(at(&found, 5.0), after);
         assert_eq!(found.breaks_s().last(), Some(&stop.time_s));
     }
@@ -244,18 +187,9 @@ fn a_stronger_pulse_stops_the_vehicle_on_the_way_and_for_good() {
 
 #[test]
 fn a_table_that_would_drive_a_stopped_vehicle_on_leaves_it_at_rest() {
-    let points = [(0.0, 100.0), (0.2, 100.0), (0.25, -100.0), (0.4, -100.0)].map(
-        |(time_s, deceleration_m_s2)| DecelerationPoint {
-            time_s,
-            deceleration_m_s2,
-        },
-    );
-    let found = path(ahead(
-        10.0,
-        PulseShape::Tabulated {
-            points: points.to_vec(),
-        },
-    ));
+    let points = [(0.0, 100.0), (0.2, 100.0), (0.25, -100.0), (0.4, -100.0)]
+        .map(|(time_s, deceleration_m_s2)| DecelerationPoint { time_s, deceleration_m_s2 });
+    let found = path(ahead(10.0, PulseShape::Tabulated { points: points.to_vec() }));
     assert_below(
         "stop time, s",
         (found.stop_time_s().expect("a stop") - 0.1).abs(),
@@ -267,10 +201,7 @@ fn a_table_that_would_drive_a_stopped_vehicle_on_leaves_it_at_rest() {
 #[test]
 fn a_rebound_lets_the_vehicle_go_back_so_fast_and_no_faster() {
     for (shape, _) in shapes(Strength::DeltaV(20.0)) {
-        let found = path(PulseDefinition {
-            rebound_m_s: Some(3.0),
-            ..ahead(12.0, shape.clone())
-        });
+        let found = path(PulseDefinition { rebound_m_s: Some(3.0), ..ahead(12.0, shape.clone()) });
         let without = path(ahead(12.0, shape.clone()));
         assert_eq!(found.stop(), without.stop());
         assert_eq!(found.delta_v_m_s(), 15.0);
@@ -281,10 +212,7 @@ fn a_rebound_lets_the_vehicle_go_back_so_fast_and_no_faster() {
         let across = at(&found, floor_s + 1e-13).origin_m - at(&found, floor_s - 1e-13).origin_m;
         assert_below("place across the floor, m", across.amax(), 1e-11); // 6.0e-13
         // A rebound that the pulse does not reach leaves the vehicle with what the pulse gives.
-        let weak = path(PulseDefinition {
-            rebound_m_s: Some(50.0),
-            ..ahead(12.0, shape)
-        });
+        let weak = path(PulseDefinition { rebound_m_s: Some(50.0), ..ahead(12.0, shape) });
         assert_below(
             "final speed, m/s",
             (at(&weak, 1.0).velocity_m_s.x + 8.0).abs(),
@@ -296,10 +224,7 @@ fn a_rebound_lets_the_vehicle_go_back_so_fast_and_no_faster() {
 #[test]
 fn velocity_and_acceleration_are_the_derivatives_of_the_place() {
     for (shape, _) in shapes(Strength::DeltaV(20.0)) {
-        let found = path(PulseDefinition {
-            rebound_m_s: Some(3.0),
-            ..ahead(12.0, shape)
-        });
+        let found = path(PulseDefinition { rebound_m_s: Some(3.0), ..ahead(12.0, shape) });
         let breaks_s = found.breaks_s();
         let ends_s = [&breaks_s[..], &[breaks_s[breaks_s.len() - 1] + 0.05]].concat();
         for pair in ends_s.windows(2) {
@@ -322,15 +247,9 @@ fn velocity_and_acceleration_are_the_derivatives_of_the_place() {
 
 #[test]
 fn a_delayed_pulse_is_the_same_pulse_later_and_farther_on() {
-    let shape = PulseShape::Haversine {
-        strength: Strength::DeltaV(9.0),
-        duration_s: 0.1,
-    };
+    let shape = PulseShape::Haversine { strength: Strength::DeltaV(9.0), duration_s: 0.1 };
     let now = path(ahead(10.0, shape.clone()));
-    let later = path(PulseDefinition {
-        starts_at_s: 0.25,
-        ..ahead(10.0, shape)
-    });
+    let later = path(PulseDefinition { starts_at_s: 0.25, ..ahead(10.0, shape) });
     assert_eq!(later.pulse_span_s(), (0.25, 0.35));
     assert_eq!(at(&later, 0.0).origin_m, Vector3::zeros());
     assert_below(
@@ -344,39 +263,18 @@ fn a_delayed_pulse_is_the_same_pulse_later_and_farther_on() {
         assert_below("place, m", apart.abs(), 1e-14); // 8.9e-16
     }
     // A table whose first point is late delays the pulse just so.
-    let points = [0.25, 0.35].map(|time_s| DecelerationPoint {
-        time_s,
-        deceleration_m_s2: 50.0,
-    });
-    let table = path(ahead(
-        10.0,
-        PulseShape::Tabulated {
-            points: points.to_vec(),
-        },
-    ));
+    let points = [0.25, 0.35].map(|time_s| DecelerationPoint { time_s, deceleration_m_s2: 50.0 });
+    let table = path(ahead(10.0, PulseShape::Tabulated { points: points.to_vec() }));
     assert_eq!(table.pulse_span_s(), (0.25, 0.25 + (0.35 - 0.25)));
     assert_eq!(at(&table, 0.2).acceleration_m_s2, Vector3::zeros());
 }
 
 #[test]
 fn the_vehicle_travels_along_its_heading_or_the_direction_given() {
-    let attitude = Attitude {
-        roll_rad: 0.1,
-        pitch_rad: -0.2,
-        yaw_rad: 0.7,
-    };
-    let initial = VehiclePose {
-        position_m: Vector3::new(1.0, 2.0, -0.5),
-        attitude,
-    };
-    let shape = PulseShape::Square {
-        strength: Strength::DeltaV(4.0),
-        duration_s: 0.1,
-    };
-    let nose_first = path(PulseDefinition {
-        initial,
-        ..ahead(10.0, shape.clone())
-    });
+    let attitude = Attitude { roll_rad: 0.1, pitch_rad: -0.2, yaw_rad: 0.7 };
+    let initial = VehiclePose { position_m: Vector3::new(1.0, 2.0, -0.5), attitude };
+    let shape = PulseShape::Square { strength: Strength::DeltaV(4.0), duration_s: 0.1 };
+    let nose_first = path(PulseDefinition { initial, ..ahead(10.0, shape.clone()) });
     let motion = at(&nose_first, 0.05);
     let in_vehicle = motion.vector_to_frame(motion.velocity_m_s);
     assert_below(
@@ -386,11 +284,7 @@ fn the_vehicle_travels_along_its_heading_or_the_direction_given() {
     );
     // Sideways to the right, whatever the length of the vector.
     let direction = TravelDirection::Along(Vector3::new(0.0, 1e-3, 0.0));
-    let sideways = path(PulseDefinition {
-        initial,
-        direction,
-        ..ahead(10.0, shape)
-    });
+    let sideways = path(PulseDefinition { initial, direction, ..ahead(10.0, shape) });
     let motion = at(&sideways, 0.05);
     assert_below(
         "velocity, m/s",
@@ -420,29 +314,19 @@ fn the_vehicle_travels_along_its_heading_or_the_direction_given() {
 fn a_cursor_that_jumps_about_answers_like_a_fresh_one() {
     let mut seeded = Seeded(61);
     let points = (0..200)
-        .map(|i| DecelerationPoint {
-            time_s: 0.001 * f64::from(i),
-            deceleration_m_s2: seeded.between(-50.0, 120.0),
-        })
+        .map(|i| DecelerationPoint { time_s: 0.001 * f64::from(i), deceleration_m_s2: seeded.between(-50.0, 120.0) })
         .collect();
     let found = VehiclePath::Pulse(path(ahead(14.0, PulseShape::Tabulated { points })));
     let mut cursor = PathCursor::default();
     for _ in 0..2000 {
         let t_s = seeded.between(-0.1, 0.3);
-        assert_eq!(
-            found.motion(t_s, t_s, &mut cursor),
-            found.motion(t_s, 0.0, &mut PathCursor::default())
-        );
+        assert_eq!(found.motion(t_s, t_s, &mut cursor), found.motion(t_s, 0.0, &mut PathCursor::default()));
     }
 }
 
 #[test]
 fn everything_wrong_with_a_pulse_is_told_at_once() {
-    let shape = PulseShape::Triangle {
-        strength: Strength::DeltaV(f64::NAN),
-        duration_s: 0.0,
-        peak_fraction: 1.5,
-    };
+    let shape = PulseShape::Triangle { strength: Strength::DeltaV(f64::NAN), duration_s: 0.0, peak_fraction: 1.5 };
     let definition = PulseDefinition {
         initial_speed_m_s: -1.0,
         direction: TravelDirection::Along(Vector3::zeros()),
@@ -450,11 +334,8 @@ fn everything_wrong_with_a_pulse_is_told_at_once() {
         rebound_m_s: Some(-2.0),
         ..ahead(0.0, shape)
     };
-    let messages: Vec<String> = PulsePath::new(definition)
-        .expect_err("unsound")
-        .iter()
-        .map(ToString::to_string)
-        .collect();
+    let messages: Vec<String> =
+        PulsePath::new(definition).expect_err("unsound").iter().map(ToString::to_string).collect();
     let expected = [
         "found initial speed = -1, expected 0 or more",
         "found start of the pulse = inf, expected a finite number",
@@ -470,56 +351,21 @@ fn everything_wrong_with_a_pulse_is_told_at_once() {
 #[test]
 fn pulses_that_do_nothing_are_refused_with_their_reason() {
     let problem = |definition: PulseDefinition| PulsePath::new(definition).expect_err("refused");
-    let square = |strength| PulseShape::Square {
-        strength,
-        duration_s: 0.1,
-    };
-    assert_eq!(
-        problem(ahead(5.0, square(Strength::DeltaV(0.0)))),
-        [PathProblem::PulseIsZero]
-    );
-    assert_eq!(
-        problem(ahead(0.0, square(Strength::DeltaV(5.0)))),
-        [PathProblem::PulseHoldsBack { stop_s: 0.0 }]
-    );
-    let early = PulseDefinition {
-        starts_at_s: -0.1,
-        ..ahead(5.0, square(Strength::DeltaV(5.0)))
-    };
-    assert_eq!(
-        problem(early),
-        [PathProblem::PulseBeforeZero { begin_s: -0.1 }]
-    );
-    let nothing = PulseShape::Trapezoid {
-        strength: Strength::DeltaV(5.0),
-        rise_s: 0.0,
-        plateau_s: 0.0,
-        fall_s: 0.0,
-    };
-    let expected = [PathProblem::NotPositive {
-        quantity: "rise + plateau + fall",
-        value: 0.0,
-    }];
+    let square = |strength| PulseShape::Square { strength, duration_s: 0.1 };
+    assert_eq!(problem(ahead(5.0, square(Strength::DeltaV(0.0)))), [PathProblem::PulseIsZero]);
+    assert_eq!(problem(ahead(0.0, square(Strength::DeltaV(5.0)))), [PathProblem::PulseHoldsBack { stop_s: 0.0 }]);
+    let early = PulseDefinition { starts_at_s: -0.1, ..ahead(5.0, square(Strength::DeltaV(5.0))) };
+    assert_eq!(problem(early), [PathProblem::PulseBeforeZero { begin_s: -0.1 }]);
+    let nothing = PulseShape::Trapezoid { strength: Strength::DeltaV(5.0), rise_s: 0.0, plateau_s: 0.0, fall_s: 0.0 };
+    let expected = [PathProblem::NotPositive { quantity: "rise + plateau + fall", value: 0.0 }];
     assert_eq!(problem(ahead(5.0, nothing)), expected);
-    let points =
-        [(0.0, 1.0), (0.0, f64::NAN)].map(|(time_s, deceleration_m_s2)| DecelerationPoint {
-            time_s,
-            deceleration_m_s2,
-        });
-    let problems = problem(ahead(
-        5.0,
-        PulseShape::Tabulated {
-            points: points.to_vec(),
-        },
-    ));
+    let points = [(0.0, 1.0), (0.0, f64::NAN)]
+        .map(|(time_s, deceleration_m_s2)| DecelerationPoint { time_s, deceleration_m_s2 });
+    let problems = problem(ahead(5.0, PulseShape::Tabulated { points: points.to_vec() }));
     assert!(matches!(
         problems[..],
         [
-            PathProblem::StationNotFinite {
-                station: 1,
-                quantity: "deceleration",
-                ..
-            },
+            PathProblem::StationNotFinite { station: 1, quantity: "deceleration", .. },
             PathProblem::TimeNotIncreasing { station: 1, .. }
         ]
     ));
@@ -528,67 +374,25 @@ fn pulses_that_do_nothing_are_refused_with_their_reason() {
 #[test]
 fn a_measured_thrust_whose_noise_would_stop_the_sled_is_refused_unless_it_may_move_back() {
     // 0.1 s of thrust at 100 m/s² after noise of some hundredths of g.
-    let noisy = [
-        (0.0, -0.2),
-        (0.01, 0.3),
-        (0.02, -0.2),
-        (0.03, -100.0),
-        (0.13, -100.0),
-        (0.14, 0.0),
-    ]
-    .map(|(time_s, deceleration_m_s2)| DecelerationPoint {
-        time_s,
-        deceleration_m_s2,
-    });
-    let shape = PulseShape::Tabulated {
-        points: noisy.to_vec(),
-    };
+    let noisy = [(0.0, -0.2), (0.01, 0.3), (0.02, -0.2), (0.03, -100.0), (0.13, -100.0), (0.14, 0.0)]
+        .map(|(time_s, deceleration_m_s2)| DecelerationPoint { time_s, deceleration_m_s2 });
+    let shape = PulseShape::Tabulated { points: noisy.to_vec() };
     let problems = PulsePath::new(ahead(0.0, shape.clone())).expect_err("refused");
-    assert!(
-        matches!(problems[..], [PathProblem::PulseHoldsBack { stop_s }] if stop_s > 0.0 && stop_s < 0.02)
-    );
-    let found = path(PulseDefinition {
-        rebound_m_s: Some(0.1),
-        ..ahead(0.0, shape)
-    });
+    assert!(matches!(problems[..], [PathProblem::PulseHoldsBack { stop_s }] if stop_s > 0.0 && stop_s < 0.02));
+    let found = path(PulseDefinition { rebound_m_s: Some(0.1), ..ahead(0.0, shape) });
     // Areas of the ramps: −0.0005 − 0.0005 + 0.501 + 10 + 0.5 m/s.
-    assert_below(
-        "final speed, m/s",
-        (at(&found, 1.0).velocity_m_s.x - 11.0).abs(),
-        1e-14,
-    ); // 0
+    assert_below("final speed, m/s", (at(&found, 1.0).velocity_m_s.x - 11.0).abs(), 1e-14); // 0
     // Thrust and brake from rest to rest is no such case.
-    let there = [(0.0, -10.0), (1.0, -10.0), (2.0, 10.0), (3.0, 10.0)].map(
-        |(time_s, deceleration_m_s2)| DecelerationPoint {
-            time_s,
-            deceleration_m_s2,
-        },
-    );
-    let found = path(ahead(
-        0.0,
-        PulseShape::Tabulated {
-            points: there.to_vec(),
-        },
-    ));
+    let there = [(0.0, -10.0), (1.0, -10.0), (2.0, 10.0), (3.0, 10.0)]
+        .map(|(time_s, deceleration_m_s2)| DecelerationPoint { time_s, deceleration_m_s2 });
+    let found = path(ahead(0.0, PulseShape::Tabulated { points: there.to_vec() }));
     assert_eq!(found.stop_time_s(), Some(3.0));
     assert_eq!(at(&found, 4.0).velocity_m_s, Vector3::zeros());
 }
 
 #[test]
 fn numbers_too_great_to_be_integrated_are_refused() {
-    let shape = PulseShape::Square {
-        strength: Strength::PeakDeceleration(1e300),
-        duration_s: 1e100,
-    };
+    let shape = PulseShape::Square { strength: Strength::PeakDeceleration(1e300), duration_s: 1e100 };
     let problems = PulsePath::new(ahead(1.0, shape)).expect_err("refused");
-    assert!(
-        matches!(
-            problems[0],
-            PathProblem::NotFinite {
-                quantity: "delta-v",
-                ..
-            }
-        ),
-        "{problems:?}"
-    );
+    assert!(matches!(problems[0], PathProblem::NotFinite { quantity: "delta-v", .. }), "{problems:?}");
 }

@@ -20,14 +20,8 @@ fn recorded(
     acceleration: impl Fn(f64) -> Vector3<f64>,
     rate: impl Fn(f64) -> Vector3<f64>,
 ) -> AccelerationRecord {
-    let of = |f: &dyn Fn(f64) -> Vector3<f64>| {
-        [0, 1, 2].map(|axis| Some(time_s.iter().map(|&t| f(t)[axis]).collect()))
-    };
-    AccelerationRecord {
-        acceleration_m_s2: of(&acceleration),
-        rate_rad_s: of(&rate),
-        time_s,
-    }
+    let of = |f: &dyn Fn(f64) -> Vector3<f64>| [0, 1, 2].map(|axis| Some(time_s.iter().map(|&t| f(t)[axis]).collect()));
+    AccelerationRecord { acceleration_m_s2: of(&acceleration), rate_rad_s: of(&rate), time_s }
 }
 
 fn definition(record: AccelerationRecord) -> SensorDefinition {
@@ -55,27 +49,15 @@ fn constant(x: f64, y: f64, z: f64) -> impl Fn(f64) -> Vector3<f64> {
 }
 
 fn tilted() -> Attitude {
-    Attitude {
-        roll_rad: 0.3,
-        pitch_rad: -0.2,
-        yaw_rad: 1.1,
-    }
+    Attitude { roll_rad: 0.3, pitch_rad: -0.2, yaw_rad: 1.1 }
 }
 
 #[test]
 fn a_steady_turn_is_a_circle() {
     // ay = V r; the circle has the radius V/r
     let (v, r) = (20.0, 0.5);
-    let record = recorded(
-        times(1e-3, 4.0),
-        constant(0.0, v * r, 0.0),
-        constant(0.0, 0.0, r),
-    );
-    let path = SensorPath::new(SensorDefinition {
-        initial_speed_m_s: v,
-        ..definition(record)
-    })
-    .unwrap();
+    let record = recorded(times(1e-3, 4.0), constant(0.0, v * r, 0.0), constant(0.0, 0.0, r));
+    let path = SensorPath::new(SensorDefinition { initial_speed_m_s: v, ..definition(record) }).unwrap();
     let mut cursor = PathCursor::default();
     for t in [0.5, 1.2345, 4.0] {
         let (sin, cos) = (r * t).sin_cos();
@@ -100,10 +82,7 @@ fn a_level_of_gravity_at_rest_stays_at_rest_in_any_attitude() {
     ] {
         let record = recorded(times(1e-3, 1.0), move |_| reading, constant(0.0, 0.0, 0.0));
         let path = SensorPath::new(SensorDefinition {
-            initial: VehiclePose {
-                attitude,
-                ..VehiclePose::default()
-            },
+            initial: VehiclePose { attitude, ..VehiclePose::default() },
             offset_m: Vector3::new(0.4, -0.2, 0.1),
             gravity,
             ..definition(record)
@@ -118,16 +97,8 @@ fn a_level_of_gravity_at_rest_stays_at_rest_in_any_attitude() {
 
 #[test]
 fn sensors_that_feel_nothing_fall() {
-    let record = recorded(
-        times(1e-2, 1.0),
-        constant(0.0, 0.0, 0.0),
-        constant(0.7, 2.0, -1.0),
-    );
-    let path = SensorPath::new(SensorDefinition {
-        gravity: SensorGravity::Included,
-        ..definition(record)
-    })
-    .unwrap();
+    let record = recorded(times(1e-2, 1.0), constant(0.0, 0.0, 0.0), constant(0.7, 2.0, -1.0));
+    let path = SensorPath::new(SensorDefinition { gravity: SensorGravity::Included, ..definition(record) }).unwrap();
     let fall = pose(&path, 1.0).position_m - Vector3::new(0.0, 0.0, 0.5 * G);
     assert_below("fall while tumbling", fall.norm(), 1e-13); // 8.9e-16
 }
@@ -142,16 +113,10 @@ fn a_vehicle_that_spins_about_its_centre_leaves_it_where_it_is() {
     };
     let rate = move |t: f64| Vector3::z() * (3.0 + slope * t);
     let drift_of = |dt_s: f64| {
-        let path = SensorPath::new(SensorDefinition {
-            offset_m: arm,
-            ..definition(recorded(times(dt_s, 1.0), felt, rate))
-        })
-        .unwrap();
-        assert_below(
-            "yaw",
-            (pose(&path, 1.0).attitude.yaw_rad - 5.0).abs(),
-            1e-12,
-        );
+        let path =
+            SensorPath::new(SensorDefinition { offset_m: arm, ..definition(recorded(times(dt_s, 1.0), felt, rate)) })
+                .unwrap();
+        assert_below("yaw", (pose(&path, 1.0).attitude.yaw_rad - 5.0).abs(), 1e-12);
         pose(&path, 1.0).position_m.norm()
     };
     // the parabola ω(t)² between samples is read as a straight line: an error of order 2
@@ -168,11 +133,7 @@ fn zeroed_sensors_feel_gravity_come_in_as_the_vehicle_rolls() {
         Vector3::new(0.0, -G * sin, -G * cos + G)
     };
     let record = recorded(times(1e-3, 0.5), felt, constant(2.0, 0.0, 0.0));
-    let path = SensorPath::new(SensorDefinition {
-        gravity: SensorGravity::Zeroed,
-        ..definition(record)
-    })
-    .unwrap();
+    let path = SensorPath::new(SensorDefinition { gravity: SensorGravity::Zeroed, ..definition(record) }).unwrap();
     let end = pose(&path, 0.5);
     assert_below("drift", end.position_m.norm(), 1e-6); // 4.1e-7 m, order 2 in the interval
     assert_below("roll", (end.attitude.roll_rad - 1.0).abs(), 1e-12);
@@ -232,12 +193,7 @@ fn wild(seed: u64, t: f64) -> (Vector3<f64>, Vector3<f64>, Vector3<f64>, Attitud
         }
     };
     let (place, angles) = (waves(2.0), waves(0.8));
-    (
-        place(0),
-        place(1),
-        place(2),
-        Attitude::from_vector(angles(0)),
-    )
+    (place(0), place(1), place(2), Attitude::from_vector(angles(0)))
 }
 
 #[test]
@@ -259,10 +215,7 @@ fn sensors_on_a_tumbling_vehicle_give_its_path_back() {
         let error_of = |dt_s: f64| {
             let (place, velocity, _, attitude) = wild(seed, 0.0);
             let path = SensorPath::new(SensorDefinition {
-                initial: VehiclePose {
-                    position_m: place,
-                    attitude,
-                },
+                initial: VehiclePose { position_m: place, attitude },
                 initial_speed_m_s: velocity.norm(),
                 direction: TravelDirection::Along(velocity),
                 offset_m,
@@ -276,10 +229,7 @@ fn sensors_on_a_tumbling_vehicle_give_its_path_back() {
         };
         let (coarse, fine) = (error_of(2e-3), error_of(1e-3));
         assert_below("place (m) and attitude at the end", fine, 2e-4); // worst of the seeds: 2.5e-5
-        assert!(
-            (3.5..4.5).contains(&(coarse / fine)),
-            "order: {coarse:e} {fine:e}"
-        );
+        assert!((3.5..4.5).contains(&(coarse / fine)), "order: {coarse:e} {fine:e}");
     }
 }
 
@@ -311,19 +261,12 @@ fn velocities_are_the_derivatives_of_the_path() {
             assert_below("velocity", (velocity - here.velocity_m_s).norm(), 1e-4);
             let turning = differentiate(|t| motion(t).rotation, t, step);
             let omega = omega_of(here.rotation, turning, 1e-8);
-            assert_below(
-                "angular velocity",
-                (omega - here.angular_velocity_rad_s).norm(),
-                1e-4,
-            );
+            assert_below("angular velocity", (omega - here.angular_velocity_rad_s).norm(), 1e-4);
             let acceleration = differentiate(|t| motion(t).velocity_m_s, t, step);
             let error = (acceleration - here.acceleration_m_s2).norm();
             assert_below("acceleration", error, 2e-3); // 2.0e-4
         }
-        let (before, after) = (
-            motion(1e-3 * f64::from(i) - 1e-9),
-            motion(1e-3 * f64::from(i) + 1e-9),
-        );
+        let (before, after) = (motion(1e-3 * f64::from(i) - 1e-9), motion(1e-3 * f64::from(i) + 1e-9));
         let jump = (before.velocity_m_s - after.velocity_m_s).norm();
         assert_below("jump of the velocity at a sample", jump, 1e-4); // 1.2e-5
     }
@@ -344,11 +287,7 @@ fn a_channel_that_is_not_there_is_a_motion_that_is_not_there() {
     })
     .unwrap();
     let end = pose(&path, 1.0);
-    assert_below(
-        "place",
-        (end.position_m - Vector3::new(9.0, 0.0, 0.0)).norm(),
-        1e-12,
-    ); // 3.3e-13
+    assert_below("place", (end.position_m - Vector3::new(9.0, 0.0, 0.0)).norm(), 1e-12); // 3.3e-13
     assert_eq!(end.attitude, Attitude::default());
 }
 
@@ -356,11 +295,8 @@ fn a_channel_that_is_not_there_is_a_motion_that_is_not_there() {
 fn velocity_changes_come_back_at_every_point() {
     let delta_v = vec![0.0, -0.4, -3.0, -7.5, -11.0, -12.6, -12.6, -12.4];
     let time_s: Vec<f64> = (0..8).map(|i| 0.01 * f64::from(i)).collect();
-    let record = DeltaVRecord {
-        time_s: time_s.clone(),
-        longitudinal_m_s: Some(delta_v.clone()),
-        ..DeltaVRecord::default()
-    };
+    let record =
+        DeltaVRecord { time_s: time_s.clone(), longitudinal_m_s: Some(delta_v.clone()), ..DeltaVRecord::default() };
     let path = SensorPath::new(SensorDefinition {
         record: SensorRecord::DeltaV(record),
         initial_speed_m_s: 15.0,
@@ -412,10 +348,7 @@ fn a_baseline_takes_the_zero_errors_away() {
         let felt = move |t: f64| at_rest + brakes(t) + wrong;
         let record = recorded(times(1e-3, 0.4), felt, move |_| wrong * 0.1);
         SensorPath::new(SensorDefinition {
-            initial: VehiclePose {
-                attitude,
-                ..VehiclePose::default()
-            },
+            initial: VehiclePose { attitude, ..VehiclePose::default() },
             initial_speed_m_s: 10.0,
             gravity: SensorGravity::Included,
             baseline_s,
@@ -425,11 +358,7 @@ fn a_baseline_takes_the_zero_errors_away() {
     };
     let (ideal, mended) = (with(Vector3::zeros(), None), with(error, Some(0.05)));
     let (ideal, mended) = (pose(&ideal, 0.4), pose(&mended, 0.4));
-    assert_below(
-        "place",
-        (ideal.position_m - mended.position_m).norm(),
-        1e-12,
-    ); // 0
+    assert_below("place", (ideal.position_m - mended.position_m).norm(), 1e-12); // 0
     let turned = (ideal.attitude.to_vector() - mended.attitude.to_vector()).norm();
     assert_below("attitude", turned, 1e-12);
 }
@@ -438,12 +367,9 @@ fn a_baseline_takes_the_zero_errors_away() {
 fn a_path_may_start_inside_its_record() {
     let ramp = |t: f64| Vector3::new(-30.0 * t, 0.0, 0.0);
     let record = recorded(times(1e-2, 1.0), ramp, constant(0.0, 0.0, 0.0));
-    let path = SensorPath::new(SensorDefinition {
-        initial_speed_m_s: 20.0,
-        starts_at_s: Some(0.505),
-        ..definition(record)
-    })
-    .unwrap();
+    let path =
+        SensorPath::new(SensorDefinition { initial_speed_m_s: 20.0, starts_at_s: Some(0.505), ..definition(record) })
+            .unwrap();
     assert_eq!(path.span_s(), (0.505, 1.0));
     let end = path.motion(1.0, 1.0, &mut PathCursor::default());
     let lost = 15.0 * (1.0 - 0.505 * 0.505);
@@ -468,11 +394,7 @@ fn a_filter_keeps_a_level_and_takes_a_hum_away() {
 #[test]
 fn after_the_record_the_vehicle_coasts_or_stands_as_it_is_told() {
     let with = |after| {
-        let record = recorded(
-            times(1e-3, 0.5),
-            constant(-4.0, 0.0, 0.0),
-            constant(0.0, 0.0, 0.4),
-        );
+        let record = recorded(times(1e-3, 0.5), constant(-4.0, 0.0, 0.0), constant(0.0, 0.0, 0.4));
         VehiclePath::Sensors(Box::new(
             SensorPath::new(SensorDefinition {
                 initial_speed_m_s: 10.0,
@@ -484,25 +406,14 @@ fn after_the_record_the_vehicle_coasts_or_stands_as_it_is_told() {
         ))
     };
     assert!(with(AfterEnd::Error).check_span(0.0, 0.5).is_ok());
-    assert!(matches!(
-        with(AfterEnd::Error).check_span(0.0, 0.6),
-        Err(PathProblem::EndsAfterPath { .. })
-    ));
-    assert!(matches!(
-        with(AfterEnd::Coast).check_span(-0.1, 0.6),
-        Err(PathProblem::StartsBeforePath { .. })
-    ));
+    assert!(matches!(with(AfterEnd::Error).check_span(0.0, 0.6), Err(PathProblem::EndsAfterPath { .. })));
+    assert!(matches!(with(AfterEnd::Coast).check_span(-0.1, 0.6), Err(PathProblem::StartsBeforePath { .. })));
     let motion = |path: &VehiclePath, t: f64| path.motion(t, t, &mut PathCursor::default());
     let coasting = with(AfterEnd::Coast);
     let (end, later) = (motion(&coasting, 0.5), motion(&coasting, 0.8));
     let gone = later.origin_m - end.origin_m - end.velocity_m_s * 0.3;
     assert_below("coasting", gone.norm(), 1e-12);
-    let yaw = |t| {
-        coasting
-            .attitude(t, &mut PathCursor::default())
-            .attitude
-            .yaw_rad
-    };
+    let yaw = |t| coasting.attitude(t, &mut PathCursor::default()).attitude.yaw_rad;
     assert_below("yaw", (yaw(0.8) - 0.4 * 0.8).abs(), 1e-12);
     assert_below("yaw after turns", (yaw(50.0) - 0.4 * 50.0).abs(), 1e-9);
     let standing = with(AfterEnd::Hold);
@@ -513,11 +424,7 @@ fn after_the_record_the_vehicle_coasts_or_stands_as_it_is_told() {
 
 #[test]
 fn everything_wrong_is_said_at_once() {
-    let mut record = recorded(
-        times(0.1, 0.5),
-        constant(1.0, 0.0, 0.0),
-        constant(0.0, 0.0, 0.0),
-    );
+    let mut record = recorded(times(0.1, 0.5), constant(1.0, 0.0, 0.0), constant(0.0, 0.0, 0.0));
     record.time_s[2] = 0.05;
     record.acceleration_m_s2[1] = Some(vec![f64::NAN; 6]);
     record.rate_rad_s[2] = Some(vec![0.0; 4]);
@@ -529,35 +436,19 @@ fn everything_wrong_is_said_at_once() {
     })
     .unwrap_err();
     let count = |wanted: fn(&PathProblem) -> bool| problems.iter().filter(|p| wanted(p)).count();
-    assert_eq!(
-        count(|p| matches!(p, PathProblem::StationNotFinite { quantity: "ay", .. })),
-        6
-    );
-    assert_eq!(
-        count(|p| matches!(p, PathProblem::TimeNotIncreasing { station: 2, .. })),
-        1
-    );
-    assert_eq!(
-        count(|p| matches!(p, PathProblem::ChannelLength { quantity: "wz", .. })),
-        1
-    );
+    assert_eq!(count(|p| matches!(p, PathProblem::StationNotFinite { quantity: "ay", .. })), 6);
+    assert_eq!(count(|p| matches!(p, PathProblem::TimeNotIncreasing { station: 2, .. })), 1);
+    assert_eq!(count(|p| matches!(p, PathProblem::ChannelLength { quantity: "wz", .. })), 1);
     assert_eq!(count(|p| matches!(p, PathProblem::Negative { .. })), 1);
     assert_eq!(count(|p| matches!(p, PathProblem::NoDirection)), 1);
-    assert_eq!(
-        count(|p| matches!(p, PathProblem::StartOutsideRecord { .. })),
-        1
-    );
+    assert_eq!(count(|p| matches!(p, PathProblem::StartOutsideRecord { .. })), 1);
     assert_eq!(problems.len(), 11);
 }
 
 #[test]
 fn what_cannot_be_integrated_is_refused() {
     let refused = |change: &dyn Fn(&mut SensorDefinition)| {
-        let record = recorded(
-            times(0.01, 0.5),
-            constant(1.0, 0.0, 0.0),
-            constant(0.0, 0.0, 1.0),
-        );
+        let record = recorded(times(0.01, 0.5), constant(1.0, 0.0, 0.0), constant(0.0, 0.0, 1.0));
         let mut asked = definition(record);
         change(&mut asked);
         SensorPath::new(asked).unwrap_err()
@@ -587,12 +478,10 @@ fn what_cannot_be_integrated_is_refused() {
         [PathProblem::BaselineOutsideRecord { samples: 51, .. }]
     ));
     assert!(matches!(
-        refused(
-            &|d| d.record = SensorRecord::Accelerations(AccelerationRecord {
-                time_s: vec![0.0, 1.0],
-                ..AccelerationRecord::default()
-            })
-        )[..],
+        refused(&|d| d.record = SensorRecord::Accelerations(AccelerationRecord {
+            time_s: vec![0.0, 1.0],
+            ..AccelerationRecord::default()
+        }))[..],
         [PathProblem::NoSensorChannel]
     ));
 }

@@ -27,8 +27,7 @@ fn a_spline_meets_its_stations_with_continuous_slope_and_curvature() {
             if i > 0 {
                 let (before, after) = (&pieces[i - 1], &pieces[i]);
                 rate = rate.max((before.rate(times_s[i]) - after.rate(times_s[i])).amax());
-                second = second
-                    .max((before.second_rate(times_s[i]) - after.second_rate(times_s[i])).amax());
+                second = second.max((before.second_rate(times_s[i]) - after.second_rate(times_s[i])).amax());
             }
         }
         ends = ends.max(pieces[0].second_rate(times_s[0]).amax());
@@ -45,15 +44,9 @@ fn a_spline_meets_its_stations_with_continuous_slope_and_curvature() {
 fn a_straight_line_stays_straight() {
     let mut seeded = Seeded(12);
     let (times_s, _) = stations(&mut seeded, 30);
-    let (start, slope) = (
-        Vector6::repeat(-2.0),
-        Vector6::new(13.0, -0.5, 0.0, 0.1, 0.2, -3.0),
-    );
+    let (start, slope) = (Vector6::repeat(-2.0), Vector6::new(13.0, -0.5, 0.0, 0.1, 0.2, -3.0));
     let values: Vec<_> = times_s.iter().map(|t| start + slope * *t).collect();
-    for pieces in [
-        spline_pieces(&times_s, &values),
-        linear_pieces(&times_s, &values),
-    ] {
+    for pieces in [spline_pieces(&times_s, &values), linear_pieces(&times_s, &values)] {
         let (mut value, mut rate, mut second) = (0.0f64, 0.0f64, 0.0f64);
         for piece in &pieces {
             let t = piece.start_s + seeded.between(0.0, 0.02);

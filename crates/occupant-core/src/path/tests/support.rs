@@ -35,17 +35,9 @@ where
 }
 
 /// ω of a rotation R with derivative Ṙ: [ω]× = Ṙ Rᵀ. Also checks that ṘRᵀ is skew within `bound`.
-pub(super) fn omega_of(
-    rotation: Matrix3<f64>,
-    derivative: Matrix3<f64>,
-    bound: f64,
-) -> Vector3<f64> {
+pub(super) fn omega_of(rotation: Matrix3<f64>, derivative: Matrix3<f64>, bound: f64) -> Vector3<f64> {
     let spin = derivative * rotation.transpose();
-    assert_below(
-        "symmetric part of ṘRᵀ",
-        (spin + spin.transpose()).amax(),
-        bound,
-    );
+    assert_below("symmetric part of ṘRᵀ", (spin + spin.transpose()).amax(), bound);
     Vector3::new(spin[(2, 1)], spin[(0, 2)], spin[(1, 0)])
 }
 
@@ -55,16 +47,13 @@ pub(super) fn integrate(f: impl Fn(f64) -> f64, from: f64, to: f64, parts: usize
     let inner = (5.0 - 2.0 * (10.0f64 / 7.0).sqrt()).sqrt() / 3.0;
     let outer = (5.0 + 2.0 * (10.0f64 / 7.0).sqrt()).sqrt() / 3.0;
     let root = 70.0f64.sqrt();
-    let (inner_weight, outer_weight) =
-        ((322.0 + 13.0 * root) / 900.0, (322.0 - 13.0 * root) / 900.0);
+    let (inner_weight, outer_weight) = ((322.0 + 13.0 * root) / 900.0, (322.0 - 13.0 * root) / 900.0);
     let half = 0.5 * (to - from) / parts as f64;
     (0..parts)
         .map(|part| {
             let middle = from + half * (2 * part + 1) as f64;
             let pair = |x: f64| f(middle - half * x) + f(middle + half * x);
-            half * (128.0 / 225.0 * f(middle)
-                + inner_weight * pair(inner)
-                + outer_weight * pair(outer))
+            half * (128.0 / 225.0 * f(middle) + inner_weight * pair(inner) + outer_weight * pair(outer))
         })
         .sum()
 }
@@ -72,8 +61,5 @@ pub(super) fn integrate(f: impl Fn(f64) -> f64, from: f64, to: f64, parts: usize
 /// Fails with both numbers unless `found` is below `bound` (a NaN fails).
 #[track_caller]
 pub(super) fn assert_below(what: &str, found: f64, bound: f64) {
-    assert!(
-        found < bound,
-        "{what}: found {found:e}, expected below {bound:e}"
-    );
+    assert!(found < bound, "{what}: found {found:e}, expected below {bound:e}");
 }

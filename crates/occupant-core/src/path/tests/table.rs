@@ -13,11 +13,7 @@ const YAW_RATE_RAD_S: f64 = SPEED_M_S / RADIUS_M;
 /// A steady turn to the right, nose along the path.
 fn turn(t_s: f64) -> Station {
     let yaw = YAW_RATE_RAD_S * t_s;
-    Station::new(
-        t_s,
-        [RADIUS_M * yaw.sin(), RADIUS_M * (1.0 - yaw.cos()), 0.0],
-        [0.0, 0.0, yaw],
-    )
+    Station::new(t_s, [RADIUS_M * yaw.sin(), RADIUS_M * (1.0 - yaw.cos()), 0.0], [0.0, 0.0, yaw])
 }
 
 /// Stations of a vehicle that tumbles: every channel random, steps uneven.
@@ -44,9 +40,7 @@ fn fresh(path: &TablePath, t_s: f64) -> FrameMotion {
 
 /// Greatest errors of place and velocity over the middle of a steady turn of 2 s with this many steps.
 fn turn_errors(steps: usize) -> (f64, f64) {
-    let stations = (0..=steps)
-        .map(|i| turn(2.0 * i as f64 / steps as f64))
-        .collect();
+    let stations = (0..=steps).map(|i| turn(2.0 * i as f64 / steps as f64)).collect();
     let path = table(stations, Interpolation::Spline, AfterEnd::Error);
     let mut errors = (0.0f64, 0.0f64);
     for i in 0..1000 {
@@ -88,8 +82,7 @@ fn a_steady_turn_converges_at_the_fourth_order() {
 fn the_motion_of_a_spline_is_the_derivative_of_its_pose() {
     for seed in 0..5 {
         let path = table(tumble(seed, 12), Interpolation::Spline, AfterEnd::Error);
-        let (mut velocity, mut acceleration, mut omega, mut alpha) =
-            (0.0f64, 0.0f64, 0.0f64, 0.0f64);
+        let (mut velocity, mut acceleration, mut omega, mut alpha) = (0.0f64, 0.0f64, 0.0f64, 0.0f64);
         for pair in path.stations().windows(2) {
             // Inside one cubic, so that the differences see no corner of the third derivative.
             let t_s = 0.5 * (pair[0].time_s + pair[1].time_s);
@@ -100,8 +93,7 @@ fn the_motion_of_a_spline_is_the_derivative_of_its_pose() {
             let spun = differentiate(|t| fresh(&path, t).angular_velocity_rad_s, t_s, 1e-4);
             velocity = velocity.max((v - now.velocity_m_s).amax());
             acceleration = acceleration.max((a - now.acceleration_m_s2).amax());
-            omega = omega
-                .max((omega_of(now.rotation, turned, 1e-6) - now.angular_velocity_rad_s).amax());
+            omega = omega.max((omega_of(now.rotation, turned, 1e-6) - now.angular_velocity_rad_s).amax());
             alpha = alpha.max((spun - now.angular_acceleration_rad_s2).amax());
         }
         assert_below("velocity", velocity, 1e-10); // 4.5e-12
@@ -145,19 +137,13 @@ fn straight_lines_move_at_the_pace_of_the_interval_of_the_step_middle() {
     // A step from 0.9 s to 1.0 s: all its stages see the first interval, also the one at the station.
     for t_s in [0.9, 0.95, 1.0] {
         assert_eq!(at(t_s, 0.95).velocity_m_s, Vector3::new(10.0, -2.0, 0.0));
-        assert_eq!(
-            at(t_s, 0.95).angular_velocity_rad_s,
-            Vector3::new(0.0, 0.0, -0.5)
-        );
+        assert_eq!(at(t_s, 0.95).angular_velocity_rad_s, Vector3::new(0.0, 0.0, -0.5));
         assert_eq!(at(t_s, 0.95).acceleration_m_s2, Vector3::zeros());
     }
     // The next step, 1.0 s to 1.1 s, sees the second; so does one that straddles the station, for its larger part.
     for (t_s, middle_s) in [(1.0, 1.05), (0.99, 1.04)] {
         assert_eq!(at(t_s, middle_s).velocity_m_s, Vector3::new(1.0, 0.0, -2.0));
-        assert_eq!(
-            at(t_s, middle_s).angular_velocity_rad_s,
-            Vector3::new(0.0, 0.0, 0.5)
-        );
+        assert_eq!(at(t_s, middle_s).angular_velocity_rad_s, Vector3::new(0.0, 0.0, 0.5));
     }
     // The place always belongs to the time itself.
     assert_below(
@@ -181,8 +167,7 @@ fn straight_lines_turn_as_their_rotation_does() {
         let now = fresh(&path, t_s);
         let turned = differentiate(|t| fresh(&path, t).rotation, t_s, 1e-4);
         let spun = differentiate(|t| fresh(&path, t).angular_velocity_rad_s, t_s, 1e-4);
-        omega =
-            omega.max((omega_of(now.rotation, turned, 1e-7) - now.angular_velocity_rad_s).amax());
+        omega = omega.max((omega_of(now.rotation, turned, 1e-7) - now.angular_velocity_rad_s).amax());
         alpha = alpha.max((spun - now.angular_acceleration_rad_s2).amax());
     }
     assert_below("angular velocity", omega, 1e-11); // 1.8e-12
@@ -241,11 +226,7 @@ fn holding_stands_still_from_the_first_step_past_the_end() {
             assert_eq!(now, end.held());
         }
         // The stages of the step that ends at the last station still move.
-        assert_eq!(
-            path.motion(last_s, last_s - 0.005, &mut PathCursor::default())
-                .velocity_m_s,
-            end.velocity_m_s
-        );
+        assert_eq!(path.motion(last_s, last_s - 0.005, &mut PathCursor::default()).velocity_m_s, end.velocity_m_s);
     }
 }
 
@@ -259,10 +240,7 @@ fn the_attitude_for_output_is_the_attitude_of_the_motion() {
             let mut worst: f64 = 0.0;
             for i in 0..400 {
                 let t_s = first_s + (last_s - first_s) * f64::from(i) / 200.0;
-                let (pose, motion) = (
-                    path.pose(t_s, &mut PathCursor::default()),
-                    fresh(&path, t_s),
-                );
+                let (pose, motion) = (path.pose(t_s, &mut PathCursor::default()), fresh(&path, t_s));
                 worst = worst.max((f * pose.position_m - motion.origin_m).amax());
                 worst = worst.max((f * pose.attitude.matrix() - motion.rotation).amax());
             }
@@ -292,61 +270,28 @@ fn a_cursor_that_jumps_about_answers_like_a_fresh_one() {
             let t_s = seeded.between(first_s - 0.1, last_s + 0.1);
             let middle_s = t_s + seeded.between(-0.01, 0.01);
             let found = path.motion(t_s, middle_s, &mut cursor);
-            assert_eq!(
-                found,
-                path.motion(t_s, middle_s, &mut PathCursor::default())
-            );
-            assert_eq!(
-                path.attitude(t_s, &mut cursor),
-                path.attitude(t_s, &mut PathCursor::default())
-            );
+            assert_eq!(found, path.motion(t_s, middle_s, &mut PathCursor::default()));
+            assert_eq!(path.attitude(t_s, &mut cursor), path.attitude(t_s, &mut PathCursor::default()));
         }
     }
 }
 
 #[test]
 fn a_run_must_fit_the_table() {
-    let spanning = |after| {
-        VehiclePath::Table(table(
-            vec![turn(0.5), turn(1.0)],
-            Interpolation::Linear,
-            after,
-        ))
-    };
+    let spanning = |after| VehiclePath::Table(table(vec![turn(0.5), turn(1.0)], Interpolation::Linear, after));
     let path = spanning(AfterEnd::Error);
     assert_eq!(path.span_s(), (0.5, 1.0));
     assert_eq!(path.check_span(0.5, 1.0), Ok(()));
-    assert_eq!(
-        path.check_span(0.4, 1.0),
-        Err(PathProblem::StartsBeforePath {
-            start_s: 0.4,
-            first_s: 0.5
-        })
-    );
+    assert_eq!(path.check_span(0.4, 1.0), Err(PathProblem::StartsBeforePath { start_s: 0.4, first_s: 0.5 }));
     let past = path.check_span(0.5, 1.2);
-    assert_eq!(
-        past,
-        Err(PathProblem::EndsAfterPath {
-            end_s: 1.2,
-            last_s: 1.0
-        })
-    );
+    assert_eq!(past, Err(PathProblem::EndsAfterPath { end_s: 1.2, last_s: 1.0 }));
     let message = past.expect_err("past the end").to_string();
-    assert!(
-        message.contains("1.2 s") && message.contains("1 s") && message.contains("coast"),
-        "{message}"
-    );
+    assert!(message.contains("1.2 s") && message.contains("1 s") && message.contains("coast"), "{message}");
     for after in [AfterEnd::Coast, AfterEnd::Hold] {
         assert_eq!(spanning(after).check_span(0.5, 9.0), Ok(()));
         assert!(spanning(after).check_span(0.0, 9.0).is_err());
     }
-    assert!(matches!(
-        path.check_span(0.5, f64::NAN),
-        Err(PathProblem::NotFinite {
-            quantity: "end of the run",
-            ..
-        })
-    ));
+    assert!(matches!(path.check_span(0.5, f64::NAN), Err(PathProblem::NotFinite { quantity: "end of the run", .. })));
 }
 
 #[test]
@@ -356,55 +301,22 @@ fn everything_wrong_with_a_table_is_told_at_once() {
         Station::new(0.0, [0.0, f64::INFINITY, 0.0], [0.0, 0.0, -3.0]),
         Station::new(-1.0, [0.0; 3], [0.0, 0.0, -3.0]),
     ];
-    let problems = TablePath::new(stations, Interpolation::Spline, AfterEnd::Error)
-        .expect_err("an unsound table");
+    let problems = TablePath::new(stations, Interpolation::Spline, AfterEnd::Error).expect_err("an unsound table");
     let expected = vec![
-        PathProblem::StationNotFinite {
-            station: 1,
-            quantity: "y",
-            value: f64::INFINITY,
-        },
-        PathProblem::TimeNotIncreasing {
-            station: 1,
-            time_s: 0.0,
-            previous_s: 0.0,
-        },
-        PathProblem::AngleJump {
-            station: 1,
-            angle: "yaw",
-            from_rad: 3.0,
-            to_rad: -3.0,
-        },
-        PathProblem::TimeNotIncreasing {
-            station: 2,
-            time_s: -1.0,
-            previous_s: 0.0,
-        },
+        PathProblem::StationNotFinite { station: 1, quantity: "y", value: f64::INFINITY },
+        PathProblem::TimeNotIncreasing { station: 1, time_s: 0.0, previous_s: 0.0 },
+        PathProblem::AngleJump { station: 1, angle: "yaw", from_rad: 3.0, to_rad: -3.0 },
+        PathProblem::TimeNotIncreasing { station: 2, time_s: -1.0, previous_s: 0.0 },
     ];
     assert_eq!(problems, expected);
-    assert!(
-        problems[2]
-            .to_string()
-            .starts_with("station 2: yaw goes from 171.887° to -171.887°")
-    );
-    let steep = vec![
-        turn(0.0),
-        Station {
-            time_s: 1e-200,
-            ..turn(1.0)
-        },
-    ];
-    let problems =
-        TablePath::new(steep, Interpolation::Linear, AfterEnd::Error).expect_err("too steep");
-    let quantities = ["x", "y", "yaw"].map(|quantity| PathProblem::TooSteep {
-        station: 1,
-        quantity,
-    });
+    assert!(problems[2].to_string().starts_with("station 2: yaw goes from 171.887° to -171.887°"));
+    let steep = vec![turn(0.0), Station { time_s: 1e-200, ..turn(1.0) }];
+    let problems = TablePath::new(steep, Interpolation::Linear, AfterEnd::Error).expect_err("too steep");
+    let quantities = ["x", "y", "yaw"].map(|quantity| PathProblem::TooSteep { station: 1, quantity });
     assert_eq!(problems, quantities);
     for stations in [vec![], vec![turn(0.0)]] {
         let found = stations.len();
-        let problems = TablePath::new(stations, Interpolation::Linear, AfterEnd::Error)
-            .expect_err("too short");
+        let problems = TablePath::new(stations, Interpolation::Linear, AfterEnd::Error).expect_err("too short");
         assert_eq!(problems, [PathProblem::TooFewStations { found }]);
     }
 }

@@ -10,8 +10,7 @@ use crate::scenario::path_text::with_key;
 /// All belts, in the order written.
 pub(super) fn belts(b: &mut Builder, scenario: &Scenario, body: &Body) -> Vec<Belt> {
     let each = scenario.belts.iter();
-    each.map(|(name, section)| belt(b, body, name, section))
-        .collect()
+    each.map(|(name, section)| belt(b, body, name, section)).collect()
 }
 
 fn belt(b: &mut Builder, body: &Body, name: &str, section: &BeltSection) -> Belt {
@@ -20,26 +19,12 @@ fn belt(b: &mut Builder, body: &Body, name: &str, section: &BeltSection) -> Belt
     let returned_1 = b.optional(&with_key(&path, "mu1"), &section.mu1, 1.0);
     Belt {
         name: name.to_owned(),
-        sphere: b.index_of(
-            &with_key(&path, "sphere"),
-            "sphere",
-            &section.sphere,
-            spheres,
-        ),
+        sphere: b.index_of(&with_key(&path, "sphere"), "sphere", &section.sphere, spheres),
         anchors_m: [0, 1].map(|i| b.point(&format!("{path}.anchors[{i}]"), &section.anchors[i])),
-        webbing: spring(
-            b,
-            &path,
-            (&section.k1, &section.k2, &section.delta_b),
-            (returned_1, &section.mu2),
-        ),
+        webbing: spring(b, &path, (&section.k1, &section.k2, &section.delta_b), (returned_1, &section.mu2)),
         rest: match &section.length {
-            Some(length) => RestLength::Given {
-                length_m: b.si(&with_key(&path, "length"), length),
-            },
-            None => RestLength::Slack {
-                slack_m: b.optional(&with_key(&path, "slack"), &section.slack, 0.0),
-            },
+            Some(length) => RestLength::Given { length_m: b.si(&with_key(&path, "length"), length) },
+            None => RestLength::Slack { slack_m: b.optional(&with_key(&path, "slack"), &section.slack, 0.0) },
         },
     }
 }

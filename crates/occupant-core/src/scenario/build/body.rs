@@ -4,9 +4,7 @@ use indexmap::IndexMap;
 use nalgebra::{Point3, Vector3};
 
 use super::builder::Builder;
-use crate::body::{
-    Body, ContactSphere, SEGMENTS, SPHERE_NAMES, Segment, SegmentProperties, standard_spheres,
-};
+use crate::body::{Body, ContactSphere, SEGMENTS, SPHERE_NAMES, Segment, SegmentProperties, standard_spheres};
 use crate::scenario::model::{BodySection, Scenario, SegmentSection, Segments, SphereSection};
 use crate::scenario::path_text::with_key;
 use crate::setup::STANDARD_GRAVITY_M_S2;
@@ -74,11 +72,7 @@ fn segment(
     let inertia_kg_m2 = match &section.inertia {
         Some(inertia) => Vector3::from(b.triple(&with_key(&path, "inertia"), inertia)),
         None => {
-            b.error(
-                &path,
-                format!("`{path}` has no key `inertia`"),
-                "inertia = [I_x, I_y, I_z]",
-            );
+            b.error(&path, format!("`{path}` has no key `inertia`"), "inertia = [I_x, I_y, I_z]");
             Vector3::zeros()
         }
     };
@@ -131,10 +125,7 @@ fn moved(b: &mut Builder, mut sphere: ContactSphere, section: &SphereSection) ->
     } else if segment.is_some_and(|s| s != sphere.segment) {
         b.error(
             &with_key(&path, "segment"),
-            format!(
-                "`{}` moved to another segment without a place there",
-                sphere.name
-            ),
+            format!("`{}` moved to another segment without a place there", sphere.name),
             "centre = [x, y, z] from the lower end of that segment",
         );
     }
@@ -151,21 +142,14 @@ fn own_sphere(b: &mut Builder, name: &str, section: &SphereSection) -> Option<Co
             &path,
             found,
             "segment = the segment that carries it",
-            format!(
-                "only the report's 17 spheres know theirs: {}",
-                SPHERE_NAMES.join(", ")
-            ),
+            format!("only the report's 17 spheres know theirs: {}", SPHERE_NAMES.join(", ")),
         );
     }
     let centre = match &section.centre {
         Some(centre) => Some(b.point(&with_key(&path, "centre"), centre)),
         None => {
             let found = format!("sphere `{name}` without a centre");
-            b.error(
-                &path,
-                found,
-                "centre = [x, y, z] from the lower end of its segment",
-            );
+            b.error(&path, found, "centre = [x, y, z] from the lower end of its segment");
             None
         }
     };

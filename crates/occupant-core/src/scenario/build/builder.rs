@@ -24,12 +24,7 @@ pub(super) struct Builder<'a> {
 
 impl<'a> Builder<'a> {
     pub(super) fn new(sources: &'a Sources, root: &'a Node, units: UnitSystem) -> Self {
-        Builder {
-            sources,
-            root,
-            units,
-            problems: Diagnostics::new(),
-        }
+        Builder { sources, root, units, problems: Diagnostics::new() }
     }
 
     /// The value in SI units, angles in radians.
@@ -37,13 +32,7 @@ impl<'a> Builder<'a> {
         match quantity.si(self.units) {
             Ok(value) => value,
             Err(error) => {
-                self.report(
-                    Severity::Error,
-                    path,
-                    error.found,
-                    error.expected,
-                    error.hint,
-                );
+                self.report(Severity::Error, path, error.found, error.expected, error.hint);
                 f64::NAN
             }
         }
@@ -82,11 +71,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Three values.
-    pub(super) fn triple<const KIND: usize>(
-        &mut self,
-        path: &str,
-        triple: &[Quantity<KIND>; 3],
-    ) -> [f64; 3] {
+    pub(super) fn triple<const KIND: usize>(&mut self, path: &str, triple: &[Quantity<KIND>; 3]) -> [f64; 3] {
         std::array::from_fn(|i| self.si(&format!("{path}[{i}]"), &triple[i]))
     }
 
@@ -112,23 +97,12 @@ impl<'a> Builder<'a> {
             [] => format!("a {what}; the scenario has none"),
             _ => one_of(&all, '"'),
         };
-        self.report(
-            Severity::Error,
-            path,
-            format!("no {what} is named \"{name}\""),
-            expected,
-            hint,
-        );
+        self.report(Severity::Error, path, format!("no {what} is named \"{name}\""), expected, hint);
         0
     }
 
     /// Adds an error.
-    pub(super) fn error(
-        &mut self,
-        path: &str,
-        found: impl Into<String>,
-        expected: impl Into<String>,
-    ) {
+    pub(super) fn error(&mut self, path: &str, found: impl Into<String>, expected: impl Into<String>) {
         self.report(Severity::Error, path, found.into(), expected.into(), None);
     }
 
@@ -140,13 +114,7 @@ impl<'a> Builder<'a> {
         expected: impl Into<String>,
         hint: impl Into<String>,
     ) {
-        self.report(
-            Severity::Error,
-            path,
-            found.into(),
-            expected.into(),
-            Some(hint.into()),
-        );
+        self.report(Severity::Error, path, found.into(), expected.into(), Some(hint.into()));
     }
 
     /// Adds a warning with a remedy.
@@ -157,30 +125,11 @@ impl<'a> Builder<'a> {
         expected: impl Into<String>,
         hint: impl Into<String>,
     ) {
-        self.report(
-            Severity::Warning,
-            path,
-            found.into(),
-            expected.into(),
-            Some(hint.into()),
-        );
+        self.report(Severity::Warning, path, found.into(), expected.into(), Some(hint.into()));
     }
 
-    fn report(
-        &mut self,
-        severity: Severity,
-        path: &str,
-        found: String,
-        expected: String,
-        hint: Option<String>,
-    ) {
-        let problem = Problem {
-            severity,
-            path: path.to_owned(),
-            found,
-            expected,
-            hint,
-        };
+    fn report(&mut self, severity: Severity, path: &str, found: String, expected: String, hint: Option<String>) {
+        let problem = Problem { severity, path: path.to_owned(), found, expected, hint };
         let main = self.root.span.source;
         let placed = place(self.sources, main, self.root, problem);
         self.problems.push(placed);

@@ -21,11 +21,7 @@ pub(super) fn joints(b: &mut Builder, section: &JointsSection) -> Joints {
         left_hip: ball(b, Joint::LeftHip, section),
         right_knee: hinge(b, Joint::RightKnee, section),
         left_knee: hinge(b, Joint::LeftKnee, section),
-        epsilon: b.optional(
-            "joints.epsilon",
-            &section.epsilon,
-            Joints::default().epsilon,
-        ),
+        epsilon: b.optional("joints.epsilon", &section.epsilon, Joints::default().epsilon),
     }
 }
 
@@ -36,11 +32,7 @@ fn given<'s>(b: &mut Builder, joint: Joint, joints: &'s JointsSection) -> Option
         // Sets that exist have been laid under the joint: this one does not.
         let path = format!("joints.{}.set", joint.name());
         let sets = b.root.get("joint_sets").and_then(Node::as_table);
-        let names: Vec<&str> = sets
-            .into_iter()
-            .flat_map(Table::iter)
-            .map(|entry| entry.key.as_str())
-            .collect();
+        let names: Vec<&str> = sets.into_iter().flat_map(Table::iter).map(|entry| entry.key.as_str()).collect();
         b.index_of(&path, "joint set", name, names.into_iter());
     }
     section.damping.is_some().then_some(section)
@@ -76,40 +68,22 @@ fn ball(b: &mut Builder, joint: Joint, joints: &JointsSection) -> BallJoint {
         return BallJoint::default();
     };
     let path = format!("joints.{}", joint.name());
-    for (key, stop) in [
-        ("lower_stop", &section.lower_stop),
-        ("upper_stop", &section.upper_stop),
-    ] {
+    for (key, stop) in [("lower_stop", &section.lower_stop), ("upper_stop", &section.upper_stop)] {
         if stop.is_some() {
             let found = format!("`{key}` of a ball joint");
-            b.error(
-                &with_key(&path, key),
-                found,
-                "`stop`, the limit of the angle between its segments",
-            );
+            b.error(&with_key(&path, key), found, "`stop`, the limit of the angle between its segments");
         }
     }
     let spring = section.stiffness.as_ref().map(|stiffness| AngularSpring {
         stiffness_n_m: b.si(&with_key(&path, "stiffness"), stiffness),
-        rest_rad: section
-            .rest_angle
-            .as_ref()
-            .map(|angle| b.si(&with_key(&path, "rest_angle"), angle)),
+        rest_rad: section.rest_angle.as_ref().map(|angle| b.si(&with_key(&path, "rest_angle"), angle)),
     });
     if section.rest_angle.is_some() && spring.is_none() {
-        b.error(
-            &with_key(&path, "rest_angle"),
-            "`rest_angle` without `stiffness`",
-            "both or neither",
-        );
+        b.error(&with_key(&path, "rest_angle"), "`rest_angle` without `stiffness`", "both or neither");
     }
     BallJoint {
         damping_n_m_s: b.needed(&path, "damping", &section.damping),
-        twist_damping_n_m_s: b.optional(
-            &with_key(&path, "twist_damping"),
-            &section.twist_damping,
-            0.0,
-        ),
+        twist_damping_n_m_s: b.optional(&with_key(&path, "twist_damping"), &section.twist_damping, 0.0),
         stop: stop(b, &path, "stop", &section.stop),
         spring,
     }
@@ -129,11 +103,7 @@ fn hinge(b: &mut Builder, joint: Joint, joints: &JointsSection) -> HingeJoint {
     for (key, there) in foreign {
         if there {
             let expected = "`damping`, `lower_stop`, `upper_stop`: elbows and knees are hinges";
-            b.error(
-                &with_key(&path, key),
-                format!("`{key}` of a hinge"),
-                expected,
-            );
+            b.error(&with_key(&path, key), format!("`{key}` of a hinge"), expected);
         }
     }
     HingeJoint {

@@ -42,11 +42,7 @@ pub(super) fn build(
     let time = run::time(&mut b, explicit);
     let integrator = run::integrator(&mut b, explicit);
     let output = run::output(explicit);
-    let gravity_m_s2 = b.optional(
-        "gravity",
-        &explicit.gravity,
-        crate::setup::STANDARD_GRAVITY_M_S2,
-    );
+    let gravity_m_s2 = b.optional("gravity", &explicit.gravity, crate::setup::STANDARD_GRAVITY_M_S2);
     let path = path::path(&mut b, &explicit.path, path_table, gravity_m_s2);
     b.check_provenance(written);
     let title = explicit.title.clone();

@@ -4,8 +4,8 @@ use nalgebra::Vector3;
 
 use super::builder::Builder;
 use crate::path::{
-    AfterEnd, Attitude, DecelerationPoint, FixedPath, Interpolation, PathProblem, PulseDefinition,
-    PulsePath, Station, TablePath, TravelDirection, VehiclePath, VehiclePose,
+    AfterEnd, Attitude, DecelerationPoint, FixedPath, Interpolation, PathProblem, PulseDefinition, PulsePath, Station,
+    TablePath, TravelDirection, VehiclePath, VehiclePose,
 };
 use crate::problem::{Problem, Severity};
 use crate::scenario::diagnostic::Diagnostic;
@@ -29,18 +29,10 @@ const PATH_COLUMNS: [Column; 7] = [
 ];
 
 /// Columns of a tabulated pulse.
-const PULSE_COLUMNS: [Column; 2] = [
-    column("t", kind::TIME, true),
-    column("a", kind::ACCELERATION, true),
-];
+const PULSE_COLUMNS: [Column; 2] = [column("t", kind::TIME, true), column("a", kind::ACCELERATION, true)];
 
 pub(super) const fn column(name: &'static str, kind: usize, required: bool) -> Column {
-    Column {
-        name,
-        alias: "",
-        kind,
-        required,
-    }
+    Column { name, alias: "", kind, required }
 }
 
 /// The vehicle's path; `table` is the CSV text it names, if it names one, and `gravity_m_s2` that of the scenario.
@@ -54,9 +46,7 @@ pub(super) fn path(
         PathSection::Fixed(s) => {
             let pose = pose(b, &s.position, [&s.roll, &s.pitch, &s.yaw]);
             let path = FixedPath::new(pose);
-            path.map_err(|p| refuse(b, &p, None))
-                .ok()
-                .map(VehiclePath::Fixed)
+            path.map_err(|p| refuse(b, &p, None)).ok().map(VehiclePath::Fixed)
         }
         PathSection::Table(s) => table_path(b, s, table).map(VehiclePath::Table),
         PathSection::Pulse(s) => pulse_path(b, s, table).map(VehiclePath::Pulse),
@@ -67,11 +57,7 @@ pub(super) fn path(
     }
 }
 
-pub(super) fn pose(
-    b: &mut Builder,
-    position: &Option<[Length; 3]>,
-    angles: [&Option<Angle>; 3],
-) -> VehiclePose {
+pub(super) fn pose(b: &mut Builder, position: &Option<[Length; 3]>, angles: [&Option<Angle>; 3]) -> VehiclePose {
     let position_m = match position {
         Some(position) => Vector3::from(b.triple("path.position", position)),
         None => Vector3::zeros(),
@@ -89,11 +75,7 @@ pub(super) fn pose(
 
 fn table_path(b: &mut Builder, s: &TableSection, file: Option<SourceId>) -> Option<TablePath> {
     let table = numbers(b, file, &PATH_COLUMNS)?;
-    let stations = table
-        .rows
-        .iter()
-        .map(|r| Station::new(r[0], [r[1], r[2], r[3]], [r[4], r[5], r[6]]))
-        .collect();
+    let stations = table.rows.iter().map(|r| Station::new(r[0], [r[1], r[2], r[3]], [r[4], r[5], r[6]])).collect();
     let interpolation = match s.interpolation {
         Some(Interpolate::Linear) => Interpolation::Linear,
         Some(Interpolate::Spline) | None => Interpolation::Spline,
@@ -118,11 +100,7 @@ fn pulse_path(b: &mut Builder, s: &PulseSection, file: Option<SourceId>) -> Opti
     };
     let points = table.as_ref().map(|t| {
         let each = t.rows.iter();
-        each.map(|row| DecelerationPoint {
-            time_s: row[0],
-            deceleration_m_s2: row[1],
-        })
-        .collect()
+        each.map(|row| DecelerationPoint { time_s: row[0], deceleration_m_s2: row[1] }).collect()
     });
     let shape = pulse::shape(b, s, points)?;
     let direction = direction(b, &s.direction);
@@ -138,11 +116,7 @@ fn pulse_path(b: &mut Builder, s: &PulseSection, file: Option<SourceId>) -> Opti
     path.map_err(|p| refuse(b, &p, table.as_ref())).ok()
 }
 
-pub(super) fn numbers(
-    b: &mut Builder,
-    file: Option<SourceId>,
-    columns: &[Column],
-) -> Option<NumberTable> {
+pub(super) fn numbers(b: &mut Builder, file: Option<SourceId>, columns: &[Column]) -> Option<NumberTable> {
     let table = match (file, b.root.get("path")) {
         (Some(id), _) => read_csv(b.sources, id, columns),
         (None, Some(section)) => read_inline(b.sources, section, columns),
@@ -163,9 +137,7 @@ pub(super) fn refuse(b: &mut Builder, problems: &[PathProblem], table: Option<&N
     for problem in problems {
         let span = station_of(problem).and_then(|i| table?.row_spans.get(i).copied());
         let text = problem.to_string();
-        let (found, expected) = text
-            .split_once(", expected ")
-            .unwrap_or((&text, "a path that is possible"));
+        let (found, expected) = text.split_once(", expected ").unwrap_or((&text, "a path that is possible"));
         match span {
             None => b.error("path", found, expected),
             Some(span) => {

@@ -79,11 +79,7 @@ pub(super) fn check(b: &mut Builder, setup: &Setup, scenario: &Scenario) {
         warn_unless(b, one("gravity", setup.gravity_m_s2), &GRAVITY);
     }
     warn_unless(b, one("body.segments", setup.body.mass_kg()), &BODY_MASS);
-    warn_unless(
-        b,
-        one("time.end", setup.time.end_s - setup.time.start_s),
-        &END,
-    );
+    warn_unless(b, one("time.end", setup.time.end_s - setup.time.start_s), &END);
     warn_unless(b, radii(setup), &RADIUS);
     warn_unless(b, stiffnesses(setup), &STIFFNESS);
     warn_unless(b, places(setup), &PLACE);
@@ -95,9 +91,7 @@ pub(super) fn check(b: &mut Builder, setup: &Setup, scenario: &Scenario) {
 
 /// One warning for all values of a kind that are out of the usual range, at the first of them.
 fn warn_unless(b: &mut Builder, values: Values, usual: &Usual) {
-    let mut unusual = values
-        .into_iter()
-        .filter(|(_, v)| !(usual.low..=usual.high).contains(v));
+    let mut unusual = values.into_iter().filter(|(_, v)| !(usual.low..=usual.high).contains(v));
     let Some((path, value)) = unusual.next() else {
         return;
     };
@@ -121,10 +115,7 @@ fn stiffnesses(setup: &Setup) -> Values {
         let path = with_key(&with_key(group, name), "k1");
         (path, spring.k1_n_per_m)
     };
-    let materials = setup
-        .materials
-        .iter()
-        .map(|m| k1("materials", &m.name, &m.spring));
+    let materials = setup.materials.iter().map(|m| k1("materials", &m.name, &m.spring));
     let belts = setup.belts.iter().map(|b| k1("belts", &b.name, &b.webbing));
     materials.chain(belts).collect()
 }
@@ -156,20 +147,12 @@ fn bare_degrees(angle: &Angle) -> Option<f64> {
 fn look_like_radians(angles: &[&Angle]) -> bool {
     let degrees: Option<Vec<f64>> = angles.iter().map(|a| bare_degrees(a)).collect();
     degrees.is_some_and(|all| {
-        all.iter().all(|a| a.abs() <= std::f64::consts::PI)
-            && all.iter().any(|a| a.abs() > 0.05 && a.fract() != 0.0)
+        all.iter().all(|a| a.abs() <= std::f64::consts::PI) && all.iter().any(|a| a.abs() > 0.05 && a.fract() != 0.0)
     })
 }
 
 fn check_posture_angles(b: &mut Builder, p: &PostureSection) {
-    let angles = [
-        &p.middle_torso,
-        &p.upper_torso,
-        &p.head,
-        &p.lower_torso,
-        &p.upper_arms,
-        &p.elbows,
-    ];
+    let angles = [&p.middle_torso, &p.upper_torso, &p.head, &p.lower_torso, &p.upper_arms, &p.elbows];
     if look_like_radians(&angles) {
         b.warning(
             "posture",
@@ -185,16 +168,9 @@ fn check_stop_angles(b: &mut Builder, scenario: &Scenario) {
         let Some(section) = scenario.joints.of(joint) else {
             continue;
         };
-        let stops = [
-            ("stop", &section.stop),
-            ("lower_stop", &section.lower_stop),
-            ("upper_stop", &section.upper_stop),
-        ];
+        let stops = [("stop", &section.stop), ("lower_stop", &section.lower_stop), ("upper_stop", &section.upper_stop)];
         for (key, stop) in stops {
-            if stop
-                .as_ref()
-                .is_some_and(|s| look_like_radians(&[&s.begin, &s.full]))
-            {
+            if stop.as_ref().is_some_and(|s| look_like_radians(&[&s.begin, &s.full])) {
                 b.warning(
                     &format!("joints.{}.{key}", joint.name()),
                     "angles of a stop that are both below 3.2°, as if they were radians",

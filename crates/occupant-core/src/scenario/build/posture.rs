@@ -10,17 +10,10 @@ use crate::scenario::model::{InitialStateSection, PostureSection, Scenario};
 use crate::seating::{InitialPosture, InitialVelocity, Seating};
 
 /// Position and velocity at the start.
-pub(super) fn posture(
-    b: &mut Builder,
-    s: &Scenario,
-    body: &Body,
-) -> (Option<InitialPosture>, InitialVelocity) {
+pub(super) fn posture(b: &mut Builder, s: &Scenario, body: &Body) -> (Option<InitialPosture>, InitialVelocity) {
     check_seats(b, s);
     match (&s.posture, &s.initial_state) {
-        (Some(posture), _) => (
-            seating(b, s, posture).map(InitialPosture::Seated),
-            velocity(b, posture),
-        ),
+        (Some(posture), _) => (seating(b, s, posture).map(InitialPosture::Seated), velocity(b, posture)),
         (None, Some(state)) => (state_of(b, s, state, body), InitialVelocity::WithVehicle),
         (None, None) => (None, InitialVelocity::WithVehicle),
     }
@@ -52,10 +45,7 @@ fn seating(b: &mut Builder, s: &Scenario, p: &PostureSection) -> Option<Seating>
         ],
         upper_arms_rad: b.si("posture.upper_arms", &p.upper_arms),
         elbows_rad: b.si("posture.elbows", &p.elbows),
-        heels_m: [
-            b.si("posture.heels[0]", &p.heels[0]),
-            b.si("posture.heels[1]", &p.heels[1]),
-        ],
+        heels_m: [b.si("posture.heels[0]", &p.heels[0]), b.si("posture.heels[1]", &p.heels[1])],
         settle: p.settle.unwrap_or(false),
     })
 }
@@ -69,12 +59,7 @@ fn velocity(b: &mut Builder, p: &PostureSection) -> InitialVelocity {
 }
 
 /// The exact state, with the pairs that have passed where they are told.
-fn state_of(
-    b: &mut Builder,
-    s: &Scenario,
-    state: &InitialStateSection,
-    body: &Body,
-) -> Option<InitialPosture> {
+fn state_of(b: &mut Builder, s: &Scenario, state: &InitialStateSection, body: &Body) -> Option<InitialPosture> {
     let coordinates = Box::new(coordinates(b, state)?);
     let Some(pairs) = &state.passed else {
         return Some(InitialPosture::Coordinates(coordinates));
@@ -88,9 +73,7 @@ fn state_of(
         if meeting.is_some_and(|spheres| !spheres.contains(sphere)) {
             b.error_with_hint(
                 &path(0),
-                format!(
-                    "`{surface}` cannot be passed by `{sphere}`: it is not among its `spheres`"
-                ),
+                format!("`{surface}` cannot be passed by `{sphere}`: it is not among its `spheres`"),
                 format!("one of the spheres of `surfaces.{surface}.spheres`"),
                 format!("add \"{sphere}\" to them, or leave this pair out"),
             );
@@ -100,10 +83,7 @@ fn state_of(
             b.index_of(&path(1), "surface", surface, surfaces),
         ));
     }
-    Some(InitialPosture::Continued {
-        coordinates,
-        passed,
-    })
+    Some(InitialPosture::Continued { coordinates, passed })
 }
 
 /// q₁–q₃ are lengths in the file's unit, all others radians.
@@ -114,13 +94,8 @@ fn coordinates(b: &mut Builder, section: &InitialStateSection) -> Option<ReportC
     };
     let si = |values: &[f64]| -> Option<[f64; DOF]> {
         let scaled = values.iter().enumerate();
-        let scaled: Vec<f64> = scaled
-            .map(|(i, x)| if i < 3 { x * length_m } else { *x })
-            .collect();
+        let scaled: Vec<f64> = scaled.map(|(i, x)| if i < 3 { x * length_m } else { *x }).collect();
         scaled.try_into().ok()
     };
-    Some(ReportCoordinates {
-        q: si(&section.q)?,
-        rates: si(&section.rates)?,
-    })
+    Some(ReportCoordinates { q: si(&section.q)?, rates: si(&section.rates)? })
 }

@@ -16,19 +16,11 @@ fn keys_of(shape: Word) -> &'static [&'static str] {
 }
 
 /// The shape of the pulse; `points` are those of its table, if it has one.
-pub(super) fn shape(
-    b: &mut Builder,
-    s: &PulseSection,
-    points: Option<Vec<DecelerationPoint>>,
-) -> Option<PulseShape> {
+pub(super) fn shape(b: &mut Builder, s: &PulseSection, points: Option<Vec<DecelerationPoint>>) -> Option<PulseShape> {
     refuse_foreign_keys(b, s);
     if s.shape == Word::Tabulated {
         if points.is_none() {
-            b.error(
-                "path",
-                "a tabulated pulse without a table",
-                "`file`, or `columns` and `rows`",
-            );
+            b.error("path", "a tabulated pulse without a table", "`file`, or `columns` and `rows`");
         }
         return points.map(|points| PulseShape::Tabulated { points });
     }
@@ -44,23 +36,14 @@ pub(super) fn shape(
     let duration_s = b.needed("path", "duration", &s.duration);
     let strength = strength?;
     Some(match s.shape {
-        Word::HalfSine => PulseShape::HalfSine {
-            strength,
-            duration_s,
-        },
-        Word::Haversine => PulseShape::Haversine {
-            strength,
-            duration_s,
-        },
+        Word::HalfSine => PulseShape::HalfSine { strength, duration_s },
+        Word::Haversine => PulseShape::Haversine { strength, duration_s },
         Word::Triangle => PulseShape::Triangle {
             strength,
             duration_s,
             peak_fraction: b.optional("path.peak_fraction", &s.peak_fraction, 0.5),
         },
-        Word::Square | Word::Trapezoid | Word::Tabulated => PulseShape::Square {
-            strength,
-            duration_s,
-        },
+        Word::Square | Word::Trapezoid | Word::Tabulated => PulseShape::Square { strength, duration_s },
     })
 }
 
@@ -97,11 +80,7 @@ fn refuse_foreign_keys(b: &mut Builder, s: &PulseSection) {
     for (key, there) in given {
         if there && !known.contains(&key) {
             let found = format!("`{key}` has no meaning for this shape of pulse");
-            b.error(
-                &with_key("path", key),
-                found,
-                format!("of such keys only {}", known.join(", ")),
-            );
+            b.error(&with_key("path", key), found, format!("of such keys only {}", known.join(", ")));
         }
     }
 }

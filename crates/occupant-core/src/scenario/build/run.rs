@@ -26,18 +26,14 @@ pub(super) fn time(b: &mut Builder, s: &Scenario) -> TimeSpan {
 pub(super) fn integrator(b: &mut Builder, s: &Scenario) -> Integrator {
     match &s.integrator {
         None => adaptive(b, &AdaptiveSection::default()),
-        Some(IntegratorSection::Rk4(rk4)) => Integrator::Rk4 {
-            step_s: b.si("integrator.step", &rk4.step),
-        },
+        Some(IntegratorSection::Rk4(rk4)) => Integrator::Rk4 { step_s: b.si("integrator.step", &rk4.step) },
         Some(IntegratorSection::Adaptive(a)) => adaptive(b, a),
     }
 }
 
 fn adaptive(b: &mut Builder, a: &AdaptiveSection) -> Integrator {
-    let (min_step_s, max_step_s) = (
-        b.optional("integrator.min_step", &a.min_step, 1e-8),
-        b.optional("integrator.max_step", &a.max_step, 2e-3),
-    );
+    let (min_step_s, max_step_s) =
+        (b.optional("integrator.min_step", &a.min_step, 1e-8), b.optional("integrator.max_step", &a.max_step, 2e-3));
     if max_step_s < min_step_s {
         let found = format!("a largest step of {max_step_s} s below the smallest, {min_step_s} s");
         b.error("integrator.max_step", found, "min_step ≤ max_step");
@@ -61,7 +57,5 @@ pub(super) fn edge_force(s: &Scenario) -> EdgeForce {
 
 /// Extra outputs.
 pub(super) fn output(s: &Scenario) -> OutputOptions {
-    OutputOptions {
-        report_coordinates: s.output.as_ref().and_then(|o| o.report_coordinates) == Some(true),
-    }
+    OutputOptions { report_coordinates: s.output.as_ref().and_then(|o| o.report_coordinates) == Some(true) }
 }

@@ -4,9 +4,7 @@ use nalgebra::Vector3;
 
 use super::builder::Builder;
 use super::path::{after, column, direction, numbers, pose, refuse};
-use crate::path::{
-    AccelerationRecord, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord,
-};
+use crate::path::{AccelerationRecord, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord};
 use crate::problem::{Problem, Severity};
 use crate::scenario::diagnostic::Diagnostic;
 use crate::scenario::kind;
@@ -33,10 +31,7 @@ pub(in crate::scenario) const COLUMNS: [Column; 9] = [
 pub(in crate::scenario) const RECORDED: usize = 7;
 
 const fn rate(name: &'static str, alias: &'static str) -> Column {
-    Column {
-        alias,
-        ..column(name, kind::ANGULAR_VELOCITY, false)
-    }
+    Column { alias, ..column(name, kind::ANGULAR_VELOCITY, false) }
 }
 
 /// The path of a record; `file` is the CSV text the section names, if it names one.
@@ -135,19 +130,15 @@ fn check_delta_v(b: &mut Builder, s: &SensorsSection, table: &NumberTable) -> bo
             severity: Severity::Error,
             path: "path".into(),
             found: format!("`{}` beside velocity changes", COLUMNS[i].name),
-            expected:
-                "`t`, `dvx`, `dvy` and `wz`, or accelerations and rates without velocity changes"
-                    .into(),
+            expected: "`t`, `dvx`, `dvy` and `wz`, or accelerations and rates without velocity changes".into(),
             hint: None,
         };
         let placed = Diagnostic::at(b.sources, table.header, problem);
         b.push(placed);
     }
-    for (key, given) in [
-        ("gravity", s.gravity.is_some()),
-        ("filter", s.filter.is_some()),
-        ("baseline", s.baseline.is_some()),
-    ] {
+    for (key, given) in
+        [("gravity", s.gravity.is_some()), ("filter", s.filter.is_some()), ("baseline", s.baseline.is_some())]
+    {
         if given {
             b.error(
                 &format!("path.{key}"),

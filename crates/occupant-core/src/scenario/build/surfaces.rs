@@ -6,8 +6,7 @@ use super::builder::Builder;
 use crate::body::Body;
 use crate::material::{BilinearSpring, DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
 use crate::scenario::model::{
-    DiscSection, FrameChoice, Length, MaterialSection, MemoryChoice, Ratio, Scenario, Stiffness,
-    SurfaceSection,
+    DiscSection, FrameChoice, Length, MaterialSection, MemoryChoice, Ratio, Scenario, Stiffness, SurfaceSection,
 };
 use crate::scenario::path_text::with_key;
 use crate::surface::{Facing, Frame, Outline, Surface};
@@ -16,8 +15,7 @@ use crate::trig;
 /// All materials, in the order written.
 pub(super) fn materials(b: &mut Builder, scenario: &Scenario) -> Vec<Material> {
     let each = scenario.materials.iter();
-    each.map(|(name, section)| material(b, name, section))
-        .collect()
+    each.map(|(name, section)| material(b, name, section)).collect()
 }
 
 fn material(b: &mut Builder, name: &str, section: &MaterialSection) -> Material {
@@ -25,12 +23,7 @@ fn material(b: &mut Builder, name: &str, section: &MaterialSection) -> Material 
     let returned_1 = b.si(&with_key(&path, "mu1"), &section.mu1);
     Material {
         name: name.to_owned(),
-        spring: spring(
-            b,
-            &path,
-            (&section.k1, &section.k2, &section.delta_b),
-            (returned_1, &section.mu2),
-        ),
+        spring: spring(b, &path, (&section.k1, &section.k2, &section.delta_b), (returned_1, &section.mu2)),
         friction: b.si(&with_key(&path, "friction"), &section.friction),
         friction_speed_m_s: b.optional(
             &with_key(&path, "friction_speed"),
@@ -65,9 +58,7 @@ pub(super) fn spring(
 pub(super) fn surfaces(b: &mut Builder, scenario: &Scenario, body: &Body) -> Vec<Surface> {
     let mut undecided = Vec::new();
     let each = scenario.surfaces.iter();
-    let surfaces = each
-        .map(|(name, section)| surface(b, scenario, body, (name, section), &mut undecided))
-        .collect();
+    let surfaces = each.map(|(name, section)| surface(b, scenario, body, (name, section), &mut undecided)).collect();
     report_undecided(b, &undecided);
     surfaces
 }
@@ -81,12 +72,7 @@ fn surface(
 ) -> Surface {
     let path = with_key("surfaces", name);
     let names = scenario.materials.keys().map(String::as_str);
-    let material = b.index_of(
-        &with_key(&path, "material"),
-        "material",
-        &section.material,
-        names,
-    );
+    let material = b.index_of(&with_key(&path, "material"), "material", &section.material, names);
     let frame = match section.frame {
         Some(FrameChoice::Space) => Frame::Space,
         Some(FrameChoice::Vehicle) | None => Frame::Vehicle,
@@ -96,17 +82,9 @@ fn surface(
     let spheres = section.spheres.as_ref().map(|names| {
         let known = body.spheres.iter().map(|s| s.name.as_str());
         let each = names.iter().enumerate();
-        each.map(|(i, n)| b.index_of(&format!("{path}.spheres[{i}]"), "sphere", n, known.clone()))
-            .collect()
+        each.map(|(i, n)| b.index_of(&format!("{path}.spheres[{i}]"), "sphere", n, known.clone())).collect()
     });
-    Surface {
-        name: name.to_owned(),
-        frame,
-        outline,
-        facing,
-        material,
-        spheres,
-    }
+    Surface { name: name.to_owned(), frame, outline, facing, material, spheres }
 }
 
 fn outline(b: &mut Builder, path: &str, section: &SurfaceSection, frame: Frame) -> Outline {
@@ -117,11 +95,7 @@ fn outline(b: &mut Builder, path: &str, section: &SurfaceSection, frame: Frame) 
     ];
     for (key, there) in for_edges {
         if there && section.edge.is_none() {
-            b.error(
-                &with_key(path, key),
-                format!("`{key}` without `edge`"),
-                "`edge`, which it belongs to",
-            );
+            b.error(&with_key(path, key), format!("`{key}` without `edge`"), "`edge`, which it belongs to");
         }
     }
     if let Some(plane) = &section.plane {
@@ -137,27 +111,14 @@ fn outline(b: &mut Builder, path: &str, section: &SurfaceSection, frame: Frame) 
         return Outline::Polygon(strip(b, path, section, [from, to]));
     }
     let points = section.points.iter().flatten().enumerate();
-    Outline::Polygon(
-        points
-            .map(|(i, point)| b.point(&format!("{path}.points[{i}]"), point))
-            .collect(),
-    )
+    Outline::Polygon(points.map(|(i, point)| b.point(&format!("{path}.points[{i}]"), point)).collect())
 }
 
 /// The corners of a rectangle, trapezoid or triangle that looks like an edge from the side.
-fn strip(
-    b: &mut Builder,
-    path: &str,
-    section: &SurfaceSection,
-    edge: [&[Length; 2]; 2],
-) -> Vec<Point3<f64>> {
+fn strip(b: &mut Builder, path: &str, section: &SurfaceSection, edge: [&[Length; 2]; 2]) -> Vec<Point3<f64>> {
     let y = b.optional(&with_key(path, "y"), &section.y, 0.0);
     let near = b.needed(path, "half_width", &section.half_width);
-    let far = b.optional(
-        &with_key(path, "end_half_width"),
-        &section.end_half_width,
-        near,
-    );
+    let far = b.optional(&with_key(path, "end_half_width"), &section.end_half_width, near);
     let mut ends = edge.iter().enumerate().map(|(i, end)| {
         let x = b.si(&format!("{path}.edge[{i}][0]"), &end[0]);
         (x, b.si(&format!("{path}.edge[{i}][1]"), &end[1]))
@@ -203,11 +164,7 @@ fn facing(
 ) -> Facing {
     if let Some(inside) = &section.inside {
         if section.facing.is_some() {
-            b.error(
-                &with_key(path, "facing"),
-                "`facing` and `inside` together",
-                "one of them only",
-            );
+            b.error(&with_key(path, "facing"), "`facing` and `inside` together", "one of them only");
         }
         return Facing::Towards(b.point(&with_key(path, "inside"), inside));
     }

@@ -23,8 +23,8 @@ pub use contact::{ContactSection, EdgeForceChoice};
 pub use joint::{JointSection, JointsSection, StopSection};
 pub use material::{MaterialSection, MemoryChoice};
 pub use path::{
-    After, FilterClass, Interpolate, PathSection, PoseSection, PulseSection, PulseShape,
-    RecordedGravity, SensorAxes, SensorsSection, TableSection,
+    After, FilterClass, Interpolate, PathSection, PoseSection, PulseSection, PulseShape, RecordedGravity, SensorAxes,
+    SensorsSection, TableSection,
 };
 pub use posture::{InitialStateSection, PostureSection, SeatSection};
 pub use run::{AdaptiveSection, IntegratorSection, OutputSection, Rk4Section, TimeSection};

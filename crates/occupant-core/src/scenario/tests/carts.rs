@@ -15,19 +15,12 @@ fn cart(name: &str) -> Loaded {
 
 #[test]
 fn each_gives_a_model_without_a_warning() {
-    for (name, belts) in [
-        ("cart-lap-torso.toml", vec!["lap", "torso"]),
-        ("cart-lap.toml", vec!["lap"]),
-        ("cart-unbelted.toml", vec![]),
-    ] {
+    for (name, belts) in
+        [("cart-lap-torso.toml", vec!["lap", "torso"]), ("cart-lap.toml", vec!["lap"]), ("cart-unbelted.toml", vec![])]
+    {
         let (model, warnings) = cart(name).model().unwrap_or_else(|e| panic!("{e}"));
         assert!(warnings.is_empty(), "{name}: {warnings}");
-        let names: Vec<&str> = model
-            .setup()
-            .belts
-            .iter()
-            .map(|b| b.name.as_str())
-            .collect();
+        let names: Vec<&str> = model.setup().belts.iter().map(|b| b.name.as_str()).collect();
         assert_eq!(names, belts);
         assert_eq!(model.setup().surfaces.len(), 9);
     }
@@ -38,28 +31,12 @@ fn numbers_arrive_in_si() {
     let (setup, _) = cart("cart-lap-torso.toml").build().unwrap();
     // 173.55 lb over 386.04 in/s².
     let lbf_s2_per_in = 4.4482216152605 / 0.0254;
-    assert_relative_eq!(
-        setup.body.mass_kg(),
-        173.55 / 386.04 * lbf_s2_per_in,
-        max_relative = 1e-14
-    );
+    assert_relative_eq!(setup.body.mass_kg(), 173.55 / 386.04 * lbf_s2_per_in, max_relative = 1e-14);
     assert_eq!(setup.body.spheres.len(), 17);
     assert_relative_eq!(setup.gravity_m_s2, 386.04 * 0.0254, max_relative = 1e-15);
-    assert_relative_eq!(
-        setup.materials[0].spring.k1_n_per_m,
-        48.0 * lbf_s2_per_in,
-        max_relative = 1e-15
-    );
-    assert_relative_eq!(
-        setup.joints.neck.damping_n_m_s,
-        20.0 * 4.4482216152605 * 0.0254,
-        max_relative = 1e-15
-    );
-    assert_relative_eq!(
-        setup.joints.left_hip.damping_n_m_s,
-        6.0 * 4.4482216152605 * 0.0254,
-        max_relative = 1e-15
-    );
+    assert_relative_eq!(setup.materials[0].spring.k1_n_per_m, 48.0 * lbf_s2_per_in, max_relative = 1e-15);
+    assert_relative_eq!(setup.joints.neck.damping_n_m_s, 20.0 * 4.4482216152605 * 0.0254, max_relative = 1e-15);
+    assert_relative_eq!(setup.joints.left_hip.damping_n_m_s, 6.0 * 4.4482216152605 * 0.0254, max_relative = 1e-15);
     let knee = setup.joints.right_knee.lower_stop.unwrap();
     assert_relative_eq!(knee.begin_rad, 5f64.to_radians(), max_relative = 1e-15);
     assert_eq!(knee.full_rad, 0.0);
@@ -68,8 +45,5 @@ fn numbers_arrive_in_si() {
     assert_eq!(setup.body.spheres[torso.sphere].name, "chest");
     assert_relative_eq!(torso.anchors_m[0].z, -20.0 * 0.0254, max_relative = 1e-15);
     // Belts without fractions load and unload along one curve, as in the report.
-    assert_eq!(
-        (torso.webbing.returned_1, torso.webbing.returned_2),
-        (1.0, 1.0)
-    );
+    assert_eq!((torso.webbing.returned_1, torso.webbing.returned_2), (1.0, 1.0));
 }

@@ -33,16 +33,8 @@ damping = 4",
     assert_eq!(j.neck.damping_n_m_s, 4.0);
     assert_eq!(j.left_knee.damping_n_m_s, 5.0);
     // What nobody spoke of comes from the preset.
-    assert_relative_eq!(
-        j.neck.stop.unwrap().begin_rad,
-        45f64.to_radians(),
-        max_relative = 1e-15
-    );
-    assert_relative_eq!(
-        j.upper_back.spring.unwrap().stiffness_n_m,
-        112.9848290276167,
-        max_relative = 1e-14
-    );
+    assert_relative_eq!(j.neck.stop.unwrap().begin_rad, 45f64.to_radians(), max_relative = 1e-15);
+    assert_relative_eq!(j.upper_back.spring.unwrap().stiffness_n_m, 112.9848290276167, max_relative = 1e-14);
 }
 
 #[test]
@@ -55,10 +47,7 @@ all = { damping = 1, twist_damping = 0.2, stop = { begin = 50, full = 60, dampin
     ));
     assert_eq!(setup.joints.epsilon, 0.0);
     assert_eq!(setup.joints.left_hip.twist_damping_n_m_s, 0.2);
-    assert_relative_eq!(
-        setup.joints.left_hip.stop.unwrap().full_rad,
-        60f64.to_radians()
-    );
+    assert_relative_eq!(setup.joints.left_hip.stop.unwrap().full_rad, 60f64.to_radians());
     assert_eq!(setup.joints.left_knee.damping_n_m_s, 1.0);
     assert!(setup.joints.left_knee.upper_stop.is_none());
 }
@@ -75,10 +64,7 @@ fn defaults_are_those_of_the_description() {
         max_step_s: 2e-3,
     };
     assert_eq!(setup.integrator, adaptive);
-    assert_eq!(
-        (setup.time.start_s, setup.time.end_s, setup.time.output_s),
-        (0.0, 0.15, 1e-3)
-    );
+    assert_eq!((setup.time.start_s, setup.time.end_s, setup.time.output_s), (0.0, 0.15, 1e-3));
     assert_eq!(setup.velocity, InitialVelocity::WithVehicle);
     assert!(!setup.output.report_coordinates);
     let foam = &setup.materials[0];
@@ -103,15 +89,8 @@ nose = { segment = \"head\", centre = [0.1, 0, 0.18], radius = \"1 cm\" }",
     let names: Vec<&str> = setup.body.spheres.iter().map(|s| s.name.as_str()).collect();
     assert_eq!(names.len(), 16);
     assert_eq!((names[0], names[15]), ("head", "nose"));
-    assert_eq!(
-        setup.body.spheres[0].centre_from_lower_end_m,
-        Point3::new(0.02, 0.0, 0.2)
-    );
-    assert_relative_eq!(
-        setup.body.spheres[0].radius_m,
-        3.9 * 0.0254,
-        max_relative = 1e-15
-    );
+    assert_eq!(setup.body.spheres[0].centre_from_lower_end_m, Point3::new(0.02, 0.0, 0.2));
+    assert_relative_eq!(setup.body.spheres[0].radius_m, 3.9 * 0.0254, max_relative = 1e-15);
     let pelvis = &setup.body.spheres[setup.body.sphere("pelvis").unwrap()];
     assert_eq!(pelvis.centre_from_lower_end_m, Point3::origin());
 }
@@ -136,90 +115,50 @@ pane = { material = \"foam\", points = [[0, 0, 0], [1, 0, 0], [0, 1, 0]], facing
             corner(2.0, 0.0, 1.0)
         ])
     );
-    assert_eq!(
-        setup.surfaces[0].facing,
-        Facing::Towards(corner(0.1, 0.0, -0.3))
-    );
-    let Outline::Disc { axis, radius_m, .. } = &setup.surfaces[1].outline else {
-        panic!("no disc")
-    };
+    assert_eq!(setup.surfaces[0].facing, Facing::Towards(corner(0.1, 0.0, -0.3)));
+    let Outline::Disc { axis, radius_m, .. } = &setup.surfaces[1].outline else { panic!("no disc") };
     // Rearward and up.
     let expected = Vector3::new(-(0.75f64.sqrt()), 0.0, -0.5);
     assert_relative_eq!(*axis, expected, max_relative = 1e-15);
     assert_eq!(*radius_m, 0.2);
     // A point inside the vehicle says nothing about space.
-    assert_eq!(
-        (setup.surfaces[2].frame, setup.surfaces[2].facing),
-        (Frame::Space, Facing::Order)
-    );
+    assert_eq!((setup.surfaces[2].frame, setup.surfaces[2].facing), (Frame::Space, Facing::Order));
     assert_eq!(setup.surfaces[2].spheres, Some(vec![0]));
     assert_eq!(setup.surfaces[3].facing, Facing::Order);
 }
 
 #[test]
 fn an_exact_state_replaces_the_posture() {
-    let posture = super::SHORT
-        .split("[posture]")
-        .nth(1)
-        .unwrap()
-        .split("[belts")
-        .next()
-        .unwrap();
-    let numbers = |x: f64| {
-        (0..31)
-            .map(|_| x.to_string())
-            .collect::<Vec<_>>()
-            .join(", ")
-    };
+    let posture = super::SHORT.split("[posture]").nth(1).unwrap().split("[belts").next().unwrap();
+    let numbers = |x: f64| (0..31).map(|_| x.to_string()).collect::<Vec<_>>().join(", ");
     let text = super::SHORT.replace(
         &format!("[posture]{posture}"),
-        &format!(
-            "[initial_state]\nq = [{}]\nrates = [{}]\n\n",
-            numbers(0.5),
-            numbers(2.0)
-        ),
+        &format!("[initial_state]\nq = [{}]\nrates = [{}]\n\n", numbers(0.5), numbers(2.0)),
     );
     let in_metres = build(&text);
     let in_inches = build(&text.replace("title", "units = \"in-lbf-s\"\ntitle"));
-    let InitialPosture::Coordinates(metres) = &in_metres.posture else {
-        panic!("no coordinates")
-    };
-    let InitialPosture::Coordinates(inches) = &in_inches.posture else {
-        panic!("no coordinates")
-    };
+    let InitialPosture::Coordinates(metres) = &in_metres.posture else { panic!("no coordinates") };
+    let InitialPosture::Coordinates(inches) = &in_inches.posture else { panic!("no coordinates") };
     assert_eq!((metres.q[0], metres.q[5], metres.rates[1]), (0.5, 0.5, 2.0));
-    assert_eq!(
-        (inches.q[0], inches.q[5], inches.rates[1]),
-        (0.0127, 0.5, 0.0508)
-    );
+    assert_eq!((inches.q[0], inches.q[5], inches.rates[1]), (0.0127, 0.5, 0.0508));
     let with_passed = |pairs: &str| text.replace("rates =", &format!("passed = {pairs}\nrates ="));
     let continued = build(&with_passed(r#"[["left_hand", "cushion"]]"#));
-    let InitialPosture::Continued { passed, .. } = &continued.posture else {
-        panic!("no pairs")
-    };
-    let [(sphere, surface)] = passed.as_slice() else {
-        panic!("{passed:?}")
-    };
+    let InitialPosture::Continued { passed, .. } = &continued.posture else { panic!("no pairs") };
+    let [(sphere, surface)] = passed.as_slice() else { panic!("{passed:?}") };
     assert_eq!(continued.body.spheres[*sphere].name, "left_hand");
     assert_eq!(continued.surfaces[*surface].name, "cushion");
     let wrong = complaint(&with_passed(r#"[["left_hand", "cushon"]]"#));
     assert!(wrong.contains("no surface is named \"cushon\""), "{wrong}");
-    let never = with_passed(r#"[["left_hand", "cushion"]]"#)
-        .replace("cushion = {", "cushion = { spheres = [\"pelvis\"],");
+    let never =
+        with_passed(r#"[["left_hand", "cushion"]]"#).replace("cushion = {", "cushion = { spheres = [\"pelvis\"],");
     let wrong = complaint(&never);
-    assert!(
-        wrong.contains("`cushion` cannot be passed by `left_hand`"),
-        "{wrong}"
-    );
+    assert!(wrong.contains("`cushion` cannot be passed by `left_hand`"), "{wrong}");
 }
 
 #[test]
 fn velocities_at_the_start() {
     let posture = |line: &str| short_with("heels =", &format!("{line}\nheels ="));
-    assert_eq!(
-        build(&posture("moves_with_vehicle = false")).velocity,
-        InitialVelocity::VehicleOrigin
-    );
+    assert_eq!(build(&posture("moves_with_vehicle = false")).velocity, InitialVelocity::VehicleOrigin);
     assert_eq!(
         build(&posture("velocity = [\"36 km/h\", 0, 1]")).velocity,
         InitialVelocity::Given(Vector3::new(10.0, 0.0, 1.0))
@@ -258,17 +197,12 @@ fn slips_of_units_are_warned_of() {
 
 #[test]
 fn provenance_of_nothing_is_warned_of() {
-    let text = short_with(
-        "[body]",
-        "[provenance]\n\"materials.foan.k1\" = \"a guess\"\n\"the pulse\" = \"sled\"\n[body]",
-    );
+    let text =
+        short_with("[body]", "[provenance]\n\"materials.foan.k1\" = \"a guess\"\n\"the pulse\" = \"sled\"\n[body]");
     let warnings = load(&text).unwrap().build().unwrap().1;
     // The nearest part that exists is `materials`, so the path leads somewhere; a wrong section leads nowhere.
     assert!(warnings.is_empty(), "{warnings}");
-    let text = short_with(
-        "[body]",
-        "[provenance]\n\"material.foam.k1\" = \"a guess\"\n[body]",
-    );
+    let text = short_with("[body]", "[provenance]\n\"material.foam.k1\" = \"a guess\"\n[body]");
     let warnings = load(&text).unwrap().build().unwrap().1;
     assert_eq!(
         warnings.to_string(),

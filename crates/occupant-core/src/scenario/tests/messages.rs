@@ -221,11 +221,7 @@ fn problems_of_all_kinds_come_together() {
         .replace("head = 5", "haed = 5")
         .replace("\"70 kN/m\"", "[]")
         .replace("friction = 0.8", "friction = -1");
-    let lines: Vec<usize> = load(&text)
-        .unwrap_err()
-        .iter()
-        .map(|d| d.position.map_or(0, |p| p.line))
-        .collect();
+    let lines: Vec<usize> = load(&text).unwrap_err().iter().map(|d| d.position.map_or(0, |p| p.line)).collect();
     // speed; haed and the head that is missing; k1; friction.
     assert_eq!(lines, [8, 26, 22, 35, 38]);
 }
@@ -252,10 +248,7 @@ fn problems_of_the_model_point_into_the_text() {
     let text = short_with("heels = [0.69, 0.33]", "heels = [2.7, 0.33]");
     let problems = load(&text).unwrap().model().err().unwrap().to_string();
     assert!(problems.starts_with("error: heels "), "{problems}");
-    assert!(
-        problems.contains("\n30 | heels = [2.7, 0.33]\n   |         ^^^^^^^^^^^\n"),
-        "{problems}"
-    );
+    assert!(problems.contains("\n30 | heels = [2.7, 0.33]\n   |         ^^^^^^^^^^^\n"), "{problems}");
 }
 
 #[test]
@@ -276,24 +269,14 @@ fn long_lines_are_shortened_around_the_words() {
     assert!(line.starts_with("1 | …xxx"), "{found}");
     assert!(line.chars().count() < 140, "{found}");
     let caret = found.lines().nth(4).unwrap();
-    assert_eq!(
-        line.chars()
-            .nth(caret.chars().position(|c| c == '^').unwrap()),
-        Some(','),
-        "{found}"
-    );
+    assert_eq!(line.chars().nth(caret.chars().position(|c| c == '^').unwrap()), Some(','), "{found}");
 }
 
 #[test]
 fn bytes_that_are_no_text_are_placed() {
     let bytes = [SHORT.as_bytes(), b"\xff\xfe"].concat();
-    let found = Draft::read_bytes(&bytes, None, "s.toml")
-        .unwrap_err()
-        .to_string();
-    assert_eq!(
-        found,
-        "error: byte 0xff in line 44 is not UTF-8\n --> s.toml\n  = expected: a text in UTF-8"
-    );
+    let found = Draft::read_bytes(&bytes, None, "s.toml").unwrap_err().to_string();
+    assert_eq!(found, "error: byte 0xff in line 44 is not UTF-8\n --> s.toml\n  = expected: a text in UTF-8");
 }
 
 #[test]

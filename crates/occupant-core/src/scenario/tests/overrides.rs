@@ -28,16 +28,10 @@ fn values_are_toml_or_plain_text() {
     ])
     .unwrap();
     let belt = &setup.belts[0];
-    assert_eq!(
-        belt.rest,
-        crate::belt::RestLength::Slack { slack_m: 0.0254 }
-    );
+    assert_eq!(belt.rest, crate::belt::RestLength::Slack { slack_m: 0.0254 });
     assert_relative_eq!(belt.webbing.k1_n_per_m, 80e3);
     assert_eq!(belt.anchors_m[1].z, 0.25);
-    assert_eq!(
-        setup.integrator,
-        crate::setup::Integrator::Rk4 { step_s: 2e-4 }
-    );
+    assert_eq!(setup.integrator, crate::setup::Integrator::Rk4 { step_s: 2e-4 });
 }
 
 #[test]
@@ -53,10 +47,7 @@ fn wildcards_reach_what_a_preset_says() {
 
 #[test]
 fn one_number_of_a_presets_list_can_be_changed() {
-    let (setup, plain) = (
-        changed(&["body.segments.head.inertia[1]=0.5"]).unwrap(),
-        changed(&[]).unwrap(),
-    );
+    let (setup, plain) = (changed(&["body.segments.head.inertia[1]=0.5"]).unwrap(), changed(&[]).unwrap());
     let (head, before) = (setup.body.segments[2], plain.body.segments[2]);
     assert_eq!(head.inertia_kg_m2.y, 0.5);
     assert_eq!(head.inertia_kg_m2.x, before.inertia_kg_m2.x);
@@ -77,10 +68,7 @@ fn values_can_be_read_before_they_are_changed() {
     assert_eq!(found.len(), 11);
     assert_eq!(found[0].0, "joints.neck.damping");
     let found = draft.get("path.speed").unwrap();
-    assert_eq!(
-        found[0].1,
-        super::super::document::Value::String("30 km/h".into())
-    );
+    assert_eq!(found[0].1, super::super::document::Value::String("30 km/h".into()));
     assert!(draft.get("belts.*.slack").is_err());
 }
 
@@ -141,24 +129,12 @@ fn whole_groups_are_scaled_in_their_own_units() {
     let loaded = draft.load(&no_files).unwrap();
     let setup = loaded.build().unwrap().0;
     for (scaled, before) in [
-        (
-            setup.joints.neck.damping_n_m_s,
-            plain.joints.neck.damping_n_m_s,
-        ),
-        (
-            setup.joints.left_knee.damping_n_m_s,
-            plain.joints.left_knee.damping_n_m_s,
-        ),
+        (setup.joints.neck.damping_n_m_s, plain.joints.neck.damping_n_m_s),
+        (setup.joints.left_knee.damping_n_m_s, plain.joints.left_knee.damping_n_m_s),
     ] {
         assert_relative_eq!(scaled, 1.5 * before, max_relative = 1e-15);
     }
-    assert!(
-        loaded
-            .scenario
-            .to_toml()
-            .unwrap()
-            .contains("speed = \"60 km/h\"")
-    );
+    assert!(loaded.scenario.to_toml().unwrap().contains("speed = \"60 km/h\""));
     let mut draft = Draft::read(SHORT, Format::Toml, "s.toml").unwrap();
     assert!(draft.scale("title", 2.0).is_err());
     assert!(draft.scale("belts.lap.anchors", 2.0).is_err());

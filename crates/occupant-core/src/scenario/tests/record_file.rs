@@ -3,18 +3,14 @@
 use super::super::read_record;
 use crate::vehicle_risk::{Flight, Preparation, VehicleRisk, prepare};
 
-const SOUND: &[u8] =
-    b"t[ms],ax[g],ay[m/s^2],wz[deg/s]\n0,-1,2,3\n1,-1.5,2,3\n2,-2e0,2,3\n3,-1,2,4\n";
+const SOUND: &[u8] = b"t[ms],ax[g],ay[m/s^2],wz[deg/s]\n0,-1,2,3\n1,-1.5,2,3\n2,-2e0,2,3\n3,-1,2,4\n";
 
 #[test]
 fn channels_arrive_in_si_and_others_are_not_there() {
     let file = read_record(SOUND, "a.csv").unwrap();
     let record = &file.record;
     assert_eq!(record.time_s, [0.0, 0.001, 0.002, 0.003]);
-    assert_eq!(
-        record.acceleration_m_s2[0].as_ref().unwrap()[2],
-        -2.0 * 9.80665
-    );
+    assert_eq!(record.acceleration_m_s2[0].as_ref().unwrap()[2], -2.0 * 9.80665);
     assert_eq!(record.acceleration_m_s2[1].as_ref().unwrap()[0], 2.0);
     assert!(record.acceleration_m_s2[2].is_none() && record.rate_rad_s[0].is_none());
     assert_eq!(record.rate_rad_s[2].as_ref().unwrap()[0], 3f64.to_radians());
@@ -23,18 +19,9 @@ fn channels_arrive_in_si_and_others_are_not_there() {
 #[test]
 fn what_is_wrong_with_a_whole_file_is_said_at_its_header() {
     for (bytes, expected) in [
-        (
-            &b"t[s]\n0\n1\n"[..],
-            "error: no acceleration and no rate\n --> a.csv:1:1",
-        ),
-        (
-            b"t[s],ax[g]\n0,1\n",
-            "error: 1 lines of numbers\n --> a.csv:1:1",
-        ),
-        (
-            b"t[s],dvx[m/s]\n0,1\n",
-            "error: unknown column `dvx`\n --> a.csv:1:6",
-        ),
+        (&b"t[s]\n0\n1\n"[..], "error: no acceleration and no rate\n --> a.csv:1:1"),
+        (b"t[s],ax[g]\n0,1\n", "error: 1 lines of numbers\n --> a.csv:1:1"),
+        (b"t[s],dvx[m/s]\n0,1\n", "error: unknown column `dvx`\n --> a.csv:1:6"),
         (b"", "error: an empty table\n --> a.csv:1:1"),
     ] {
         let found = read_record(bytes, "a.csv").unwrap_err().to_string();
@@ -46,9 +33,7 @@ fn what_is_wrong_with_a_whole_file_is_said_at_its_header() {
 fn any_bytes_give_measures_or_reasons() {
     let mut seed = 7u64;
     let mut random = |below: usize| {
-        seed = seed
-            .wrapping_mul(6_364_136_223_846_793_005)
-            .wrapping_add(1_442_695_040_888_963_407);
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
         (seed >> 33) as usize % below
     };
     let spice = b"\n,[]#.-e0123456789tx\xff\xef\xbb\xbf ";

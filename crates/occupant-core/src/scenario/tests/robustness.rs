@@ -86,9 +86,7 @@ fn random_words_of_the_language() {
     let mut random = Random(7);
     for _ in 0..3000 {
         let count = random.below(40);
-        let text: Vec<&str> = (0..count)
-            .map(|_| words[random.below(words.len())])
-            .collect();
+        let text: Vec<&str> = (0..count).map(|_| words[random.below(words.len())]).collect();
         feed(text.concat().as_bytes());
     }
 }
@@ -116,14 +114,7 @@ fn mutated(text: &str, random: &mut Random) -> Vec<u8> {
             }
             _ => {
                 // Numbers of all sizes, in the place of digits.
-                let numbers: [&[u8]; 6] = [
-                    b"0",
-                    b"-1",
-                    b"1e300",
-                    b"-1e-300",
-                    b"inf",
-                    b"99999999999999999999",
-                ];
+                let numbers: [&[u8]; 6] = [b"0", b"-1", b"1e300", b"-1e-300", b"inf", b"99999999999999999999"];
                 if let Some(digit) = bytes[at..].iter().position(u8::is_ascii_digit) {
                     let number = numbers[random.below(6)].to_vec();
                     bytes.splice(at + digit..at + digit + 1, number);

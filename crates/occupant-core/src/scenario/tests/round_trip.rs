@@ -30,9 +30,7 @@ fn json_says_the_same_as_toml() {
 #[test]
 fn json_problems_have_their_places_too() {
     let json = load(SHORT).unwrap().scenario.to_json().unwrap();
-    let wrong = json
-        .replace("\"70 kN/m\"", "\"70 kN\"")
-        .replace("\"mu1\": 0.5", "\"mu1\": null");
+    let wrong = json.replace("\"70 kN/m\"", "\"70 kN\"").replace("\"mu1\": 0.5", "\"mu1\": null");
     let problems = Scenario::from_text(&wrong, Format::Json, "s.json", &no_files).unwrap_err();
     let lines: Vec<&str> = problems.iter().map(|d| d.line.trim()).collect();
     assert_eq!(lines, ["\"k1\": \"70 kN\"", "\"mu1\": null,"], "{problems}");
@@ -42,10 +40,7 @@ fn json_problems_have_their_places_too() {
 fn the_explicit_form_builds_the_same() {
     let loaded = load(SHORT).unwrap();
     let text = loaded.explicit().to_toml().unwrap();
-    let (mut again, _) = load(&text)
-        .unwrap_or_else(|e| panic!("{e}"))
-        .build()
-        .unwrap();
+    let (mut again, _) = load(&text).unwrap_or_else(|e| panic!("{e}")).build().unwrap();
     let first = loaded.build().unwrap().0;
     assert_eq!(again.body.name, "own");
     again.body.name = first.body.name.clone();
@@ -55,12 +50,7 @@ fn the_explicit_form_builds_the_same() {
 #[test]
 fn overrides_show_in_the_written_scenario() {
     let mut draft = Draft::read(SHORT, Format::Toml, "s.toml").unwrap();
-    draft
-        .set("joints.neck.damping = \"20 in lbf s/rad\"")
-        .unwrap();
+    draft.set("joints.neck.damping = \"20 in lbf s/rad\"").unwrap();
     let text = draft.load(&no_files).unwrap().scenario.to_toml().unwrap();
-    assert!(
-        text.contains("[joints.neck]\ndamping = \"20 in lbf s/rad\""),
-        "{text}"
-    );
+    assert!(text.contains("[joints.neck]\ndamping = \"20 in lbf s/rad\""), "{text}");
 }

@@ -17,11 +17,7 @@ fn sample(root: &Value, schema: &Value, case: usize) -> Value {
     for word in ["oneOf", "enum"] {
         if let Some(cases) = schema.get(word).and_then(Value::as_array) {
             let chosen = &cases[case.min(cases.len() - 1)];
-            return if word == "enum" {
-                chosen.clone()
-            } else {
-                sample(root, chosen, case)
-            };
+            return if word == "enum" { chosen.clone() } else { sample(root, chosen, case) };
         }
     }
     match schema["type"].as_str() {
@@ -37,9 +33,7 @@ fn sample(root: &Value, schema: &Value, case: usize) -> Value {
         }
         Some("array") => {
             let count = schema.get("minItems").and_then(Value::as_u64).unwrap_or(1);
-            (0..count)
-                .map(|_| sample(root, &schema["items"], case))
-                .collect()
+            (0..count).map(|_| sample(root, &schema["items"], case)).collect()
         }
         Some("string") => json!("text"),
         Some("boolean") => json!(true),
@@ -82,23 +76,14 @@ fn every_key_is_described() {
 
 #[test]
 fn it_is_2020_12_and_knows_no_null() {
-    assert_eq!(
-        schema()["$schema"],
-        "https://json-schema.org/draft/2020-12/schema"
-    );
+    assert_eq!(schema()["$schema"], "https://json-schema.org/draft/2020-12/schema");
     assert!(!schema().to_string().contains("\"null\""));
 }
 
 #[test]
 fn what_the_schema_calls_exclusive_is_so() {
-    let both = SHORT.replace(
-        "k1 = \"70 kN/m\"",
-        "k1 = \"70 kN/m\"\nslack = 0\nlength = 1",
-    );
+    let both = SHORT.replace("k1 = \"70 kN/m\"", "k1 = \"70 kN/m\"\nslack = 0\nlength = 1");
     let problems = load(&both).unwrap_err();
     assert_eq!(problems.len(), 1, "{problems}");
-    assert_eq!(
-        schema()["$defs"]["BeltSection"]["allOf"][0],
-        json!({"not": {"required": ["slack", "length"]}})
-    );
+    assert_eq!(schema()["$defs"]["BeltSection"]["allOf"][0], json!({"not": {"required": ["slack", "length"]}}));
 }

@@ -38,10 +38,8 @@ fn accelerations(path: &SensorPath) -> &crate::path::AccelerationRecord {
 
 #[test]
 fn a_record_in_its_own_units_gives_the_path() {
-    let csv =
-        "# from a test\nt[ms],az[g],ax[g],yaw_rate[deg/s]\n0,-1,-2,90\n100,-1,-4,90\n400,-1,0,0\n";
-    let keys =
-        "\ngravity = \"included\"\noffset = [\"-20 cm\", 0, 0.1]\nstart = \"50 ms\"\nyaw = 30";
+    let csv = "# from a test\nt[ms],az[g],ax[g],yaw_rate[deg/s]\n0,-1,-2,90\n100,-1,-4,90\n400,-1,0,0\n";
+    let keys = "\ngravity = \"included\"\noffset = [\"-20 cm\", 0, 0.1]\nstart = \"50 ms\"\nyaw = 30";
     let path = with_csv(&format!("{SENSORS}{keys}"), csv).unwrap();
     let record = accelerations(&path);
     assert_eq!(record.time_s, [0.0, 0.1, 0.4]);
@@ -50,19 +48,11 @@ fn a_record_in_its_own_units_gives_the_path() {
     assert_eq!(record.acceleration_m_s2[1], None);
     assert_eq!(record.rate_rad_s[0], None);
     let yaw_rate = record.rate_rad_s[2].as_ref().unwrap();
-    assert_relative_eq!(
-        yaw_rate[0],
-        std::f64::consts::FRAC_PI_2,
-        max_relative = 1e-15
-    );
+    assert_relative_eq!(yaw_rate[0], std::f64::consts::FRAC_PI_2, max_relative = 1e-15);
     let definition = path.definition();
     assert_eq!(definition.gravity, SensorGravity::Included);
     assert_eq!(definition.offset_m.as_slice(), [-0.2, 0.0, 0.1]);
-    assert_relative_eq!(
-        definition.initial.attitude.yaw_rad.to_degrees(),
-        30.0,
-        max_relative = 1e-15
-    );
+    assert_relative_eq!(definition.initial.attitude.yaw_rad.to_degrees(), 30.0, max_relative = 1e-15);
     assert_eq!(path.span_s(), (0.05, 0.4));
 }
 
@@ -72,8 +62,7 @@ fn axes_that_point_up_are_turned() {
     let keys = format!("{SENSORS}\ngravity = \"removed\"\naxes = \"z_up\"");
     let path = with_csv(&keys, csv).unwrap();
     let record = accelerations(&path);
-    let first =
-        |channels: &[Option<Vec<f64>>; 3]| [0, 1, 2].map(|i| channels[i].as_ref().unwrap()[0]);
+    let first = |channels: &[Option<Vec<f64>>; 3]| [0, 1, 2].map(|i| channels[i].as_ref().unwrap()[0]);
     assert_eq!(first(&record.acceleration_m_s2), [1.0, -2.0, -3.0]);
     assert_eq!(first(&record.rate_rad_s), [4.0, -5.0, -6.0]);
 }
@@ -81,8 +70,7 @@ fn axes_that_point_up_are_turned() {
 #[test]
 fn a_filter_and_a_baseline_are_passed_on() {
     let lines: String = (0..100).map(|i| format!("{i},0\n")).collect();
-    let keys =
-        format!("{SENSORS}\ngravity = \"zeroed\"\nfilter = \"cfc180\"\nbaseline = \"20 ms\"");
+    let keys = format!("{SENSORS}\ngravity = \"zeroed\"\nfilter = \"cfc180\"\nbaseline = \"20 ms\"");
     let path = with_csv(&keys, &format!("t[ms],ax[g]\n{lines}")).unwrap();
     assert_eq!(path.definition().filter, Some(ChannelClass::Cfc180));
     assert_eq!(path.definition().baseline_s, Some(0.02));
@@ -91,9 +79,7 @@ fn a_filter_and_a_baseline_are_passed_on() {
 #[test]
 fn velocity_changes_need_no_word_of_gravity() {
     let path = with_csv(SENSORS, "t[ms],dvx[km/h]\n0,0\n10,-3.6\n20,-7.2\n").unwrap();
-    let SensorRecord::DeltaV(record) = &path.definition().record else {
-        panic!("{path:?}")
-    };
+    let SensorRecord::DeltaV(record) = &path.definition().record else { panic!("{path:?}") };
     assert_relative_eq!(record.longitudinal_m_s.as_ref().unwrap()[2], -2.0);
     assert_eq!(record.lateral_m_s, None);
 }
@@ -103,10 +89,7 @@ fn rows_in_the_scenario_give_the_same_path() {
     let csv = "t[ms],dvx[km/h]\n0,0\n10,-3.6\n";
     let inline = "kind = \"sensors\"\nspeed = 10\nafter = \"coast\"
 columns = [\"t[ms]\", \"dvx[km/h]\"]\nrows = [[0, 0], [10, -3.6]]";
-    assert_eq!(
-        with_csv(SENSORS, csv).unwrap(),
-        with_csv(inline, "").unwrap()
-    );
+    assert_eq!(with_csv(SENSORS, csv).unwrap(), with_csv(inline, "").unwrap());
 }
 
 #[test]
@@ -198,10 +181,7 @@ error: `x`
 #[test]
 fn a_record_that_cannot_be_read_is_named() {
     let found = complaint(&short_with(PULSE, SENSORS));
-    assert!(
-        found.starts_with("error: `record.csv` cannot be read: there is no file record.csv"),
-        "{found}"
-    );
+    assert!(found.starts_with("error: `record.csv` cannot be read: there is no file record.csv"), "{found}");
 }
 
 #[test]

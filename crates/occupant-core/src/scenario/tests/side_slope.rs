@@ -18,9 +18,7 @@ fn folder() -> String {
 }
 
 fn scenario(name: &str) -> Loaded {
-    let read = |file: &str| {
-        std::fs::read(format!("{}/{file}", folder())).map_err(|error| error.to_string())
-    };
+    let read = |file: &str| std::fs::read(format!("{}/{file}", folder())).map_err(|error| error.to_string());
     let draft = Draft::read_bytes(&read(name).unwrap(), None, name);
     draft.unwrap().load(&read).unwrap_or_else(|e| panic!("{e}"))
 }
@@ -55,10 +53,8 @@ fn recorded(path: &VehiclePath, gravity_m_s2: f64, end_s: f64) -> String {
             }
         };
         csv.push_str(&format!("{t_s:.3}"));
-        felt.iter()
-            .for_each(|a| csv.push_str(&format!(",{}", digits(*a, 6))));
-        rate.iter()
-            .for_each(|w| csv.push_str(&format!(",{}", digits(*w, 5))));
+        felt.iter().for_each(|a| csv.push_str(&format!(",{}", digits(*a, 6))));
+        rate.iter().for_each(|w| csv.push_str(&format!(",{}", digits(*w, 5))));
         csv.push('\n');
     }
     csv
@@ -89,24 +85,15 @@ fn the_sensors_give_the_path_back() {
     for i in 0..=2400 {
         let t_s = f64::from(i) * 1e-3;
         let [first, second] = &mut cursors;
-        let (wanted, found) = (
-            original.motion(t_s, t_s, first),
-            again.motion(t_s, t_s, second),
-        );
+        let (wanted, found) = (original.motion(t_s, t_s, first), again.motion(t_s, t_s, second));
         place_m = place_m.max((wanted.origin_m - found.origin_m).norm());
         turn_rad = turn_rad.max((wanted.rotation - found.rotation).norm());
         speed_m_s = speed_m_s.max((wanted.velocity_m_s - found.velocity_m_s).norm());
     }
     // measured 8.3e-5 m, 2.5e-5, 7.8e-5 m/s: straight lines between 200 samples a second, six digits
-    assert!(
-        place_m < 2e-4 && turn_rad < 1e-4 && speed_m_s < 2e-4,
-        "{place_m:e} {turn_rad:e} {speed_m_s:e}"
-    );
+    assert!(place_m < 2e-4 && turn_rad < 1e-4 && speed_m_s < 2e-4, "{place_m:e} {turn_rad:e} {speed_m_s:e}");
     let (model, warnings) = scenario("side-slope-sensors.toml").model().unwrap();
     assert!(warnings.is_empty(), "{warnings}");
-    let seat = model
-        .setup()
-        .path
-        .motion(1.0, 1.0, &mut PathCursor::default());
+    let seat = model.setup().path.motion(1.0, 1.0, &mut PathCursor::default());
     assert!(seat.point_to_space(Point3::origin().coords).x > 25.0);
 }

@@ -22,20 +22,14 @@ fn with_csv(path: &str, csv: &str) -> Result<Setup, String> {
     };
     let text = short_with(PULSE, path);
     let loaded = Scenario::from_text(&text, Format::Toml, "s.toml", &files);
-    loaded
-        .and_then(|l| l.build())
-        .map(|(setup, _)| setup)
-        .map_err(|e| e.to_string())
+    loaded.and_then(|l| l.build()).map(|(setup, _)| setup).map_err(|e| e.to_string())
 }
 
 #[test]
 fn a_csv_file_gives_the_path_in_its_own_units() {
-    let csv =
-        "\u{feff}# a comment\n t[ms], x[ft], yaw[deg]\r\n0,0,0\r\n\r\n100, 10, 90\n200,20,180\n";
+    let csv = "\u{feff}# a comment\n t[ms], x[ft], yaw[deg]\r\n0,0,0\r\n\r\n100, 10, 90\n200,20,180\n";
     let setup = with_csv(TABLE, csv).unwrap();
-    let VehiclePath::Table(table) = &setup.path else {
-        panic!("{:?}", setup.path)
-    };
+    let VehiclePath::Table(table) = &setup.path else { panic!("{:?}", setup.path) };
     assert_eq!(table.interpolation(), Interpolation::Spline);
     let station = table.stations()[1];
     assert_relative_eq!(station.time_s, 0.1);
@@ -47,28 +41,17 @@ fn a_csv_file_gives_the_path_in_its_own_units() {
 #[test]
 fn an_inline_table_gives_the_same_path() {
     let csv = "t[ms],x[ft],yaw[deg]\n0,0,0\n100,10,90\n200,20,180\n";
-    let inline =
-        "kind = \"table\"\nafter = \"hold\"\ncolumns = [\"t[ms]\", \"x[ft]\", \"yaw[deg]\"]
+    let inline = "kind = \"table\"\nafter = \"hold\"\ncolumns = [\"t[ms]\", \"x[ft]\", \"yaw[deg]\"]
 rows = [[0, 0, 0], [100, 10, 90], [200, 20, 180.0]]";
-    assert_eq!(
-        with_csv(TABLE, csv).unwrap().path,
-        build(&short_with(PULSE, inline)).path
-    );
+    assert_eq!(with_csv(TABLE, csv).unwrap().path, build(&short_with(PULSE, inline)).path);
 }
 
 #[test]
 fn a_tabulated_pulse_is_in_g() {
-    let pulse =
-        "kind = \"pulse\"\nshape = \"tabulated\"\nspeed = 10\ncolumns = [\"t[ms]\", \"a[g]\"]
+    let pulse = "kind = \"pulse\"\nshape = \"tabulated\"\nspeed = 10\ncolumns = [\"t[ms]\", \"a[g]\"]
 rows = [[0, 0], [40, 20], [80, 0]]";
-    let VehiclePath::Pulse(path) = build(&short_with(PULSE, pulse)).path else {
-        panic!("no pulse")
-    };
-    assert_relative_eq!(
-        path.peak_deceleration_m_s2(),
-        20.0 * 9.80665,
-        max_relative = 1e-15
-    );
+    let VehiclePath::Pulse(path) = build(&short_with(PULSE, pulse)).path else { panic!("no pulse") };
+    assert_relative_eq!(path.peak_deceleration_m_s2(), 20.0 * 9.80665, max_relative = 1e-15);
 }
 
 #[test]

@@ -1,8 +1,8 @@
 //! Units: closed forms, spellings that mean the same, slips that are refused.
 
 use crate::scenario::kind::{
-    ACCELERATION, ANGLE, ANGULAR_VELOCITY, Dimension, FORCE, INERTIA, KINDS, LENGTH, MASS, RATIO,
-    ROTATIONAL_DAMPING, SPEED, STIFFNESS, TIME, UnitSystem,
+    ACCELERATION, ANGLE, ANGULAR_VELOCITY, Dimension, FORCE, INERTIA, KINDS, LENGTH, MASS, RATIO, ROTATIONAL_DAMPING,
+    SPEED, STIFFNESS, TIME, UnitSystem,
 };
 use crate::scenario::quantity::{Written, si_value};
 use crate::scenario::unit::{UNITS, UnitError};
@@ -18,10 +18,7 @@ fn value(text: &str, kind: usize) -> f64 {
 
 /// Relative difference at most 4 units in the last place; measured: at most 2.
 fn assert_same(a: f64, b: f64) {
-    assert!(
-        (a - b).abs() <= 4.0 * f64::EPSILON * b.abs(),
-        "{a:e} is not {b:e}"
-    );
+    assert!((a - b).abs() <= 4.0 * f64::EPSILON * b.abs(), "{a:e} is not {b:e}");
 }
 
 #[test]
@@ -45,11 +42,7 @@ fn definitions_are_exact() {
         ("1 slug", MASS, 4.4482216152605 / 0.3048),
         ("180 deg", ANGLE, std::f64::consts::PI),
         ("1 rev/s", ANGULAR_VELOCITY, std::f64::consts::TAU),
-        (
-            "1 in·lbf·s/rad",
-            ROTATIONAL_DAMPING,
-            4.4482216152605 * 0.0254,
-        ),
+        ("1 in·lbf·s/rad", ROTATIONAL_DAMPING, 4.4482216152605 * 0.0254),
         ("50 %", RATIO, 0.5),
         // A weight in pounds weighs that in pounds-force at one g.
         ("1 lb g", FORCE, 4.4482216152605),
@@ -72,35 +65,12 @@ fn spellings_mean_the_same() {
     for (kind, spellings) in [
         (
             STIFFNESS,
-            vec![
-                "48 lbf/in",
-                "48lbf/in",
-                "+48.0 lbf·in^-1",
-                "4.8e1 lbf in⁻¹",
-                "48 lbf/(in)",
-                " 48 lbf * in**-1 ",
-            ],
+            vec!["48 lbf/in", "48lbf/in", "+48.0 lbf·in^-1", "4.8e1 lbf in⁻¹", "48 lbf/(in)", " 48 lbf * in**-1 "],
         ),
-        (
-            ROTATIONAL_DAMPING,
-            vec![
-                "6 in lbf s/rad",
-                "6 in-lbf-s/rad",
-                "6 in·lbf·s",
-                "6 lbf in s rad^-1",
-                "6 s·lbf×in",
-            ],
-        ),
+        (ROTATIONAL_DAMPING, vec!["6 in lbf s/rad", "6 in-lbf-s/rad", "6 in·lbf·s", "6 lbf in s rad^-1", "6 s·lbf×in"]),
         (
             ACCELERATION,
-            vec![
-                "9.80665 m/s^2",
-                "9.80665 m/s²",
-                "9.80665 m/s/s",
-                "9.80665 m s⁻²",
-                "1 g",
-                "9.80665 m/(s·s)",
-            ],
+            vec!["9.80665 m/s^2", "9.80665 m/s²", "9.80665 m/s/s", "9.80665 m s⁻²", "1 g", "9.80665 m/(s·s)"],
         ),
         (LENGTH, vec!["-3 in", "−3 in", "-3inch", "-3e0 in"]),
     ] {
@@ -113,23 +83,13 @@ fn spellings_mean_the_same() {
 
 #[test]
 fn bare_numbers_follow_the_unit_system() {
-    let bare =
-        |x: f64, kind: usize, units| si_value(&Written::Float(x), &KINDS[kind], units).unwrap();
+    let bare = |x: f64, kind: usize, units| si_value(&Written::Float(x), &KINDS[kind], units).unwrap();
     assert_same(bare(2.0, LENGTH, UnitSystem::Si), 2.0);
     assert_same(bare(2.0, LENGTH, UnitSystem::InchPound), 0.0508);
-    assert_same(
-        bare(90.0, ANGLE, UnitSystem::Si),
-        std::f64::consts::FRAC_PI_2,
-    );
-    assert_same(
-        bare(90.0, ANGLE, UnitSystem::InchPound),
-        std::f64::consts::FRAC_PI_2,
-    );
+    assert_same(bare(90.0, ANGLE, UnitSystem::Si), std::f64::consts::FRAC_PI_2);
+    assert_same(bare(90.0, ANGLE, UnitSystem::InchPound), std::f64::consts::FRAC_PI_2);
     // lbf·s²/in, so that mass times in/s² is lbf.
-    let (m, a) = (
-        bare(1.0, MASS, UnitSystem::InchPound),
-        bare(1.0, ACCELERATION, UnitSystem::InchPound),
-    );
+    let (m, a) = (bare(1.0, MASS, UnitSystem::InchPound), bare(1.0, ACCELERATION, UnitSystem::InchPound));
     assert_same(m * a, bare(1.0, FORCE, UnitSystem::InchPound));
     // Damping is per radian though angles are in degrees.
     assert_same(bare(1.0, ROTATIONAL_DAMPING, UnitSystem::Si), 1.0);
@@ -140,12 +100,7 @@ fn every_bare_unit_measures_its_kind() {
     for kind in KINDS {
         for unit in [kind.si, kind.inch_pound] {
             if !unit.is_empty() {
-                assert_eq!(
-                    parse(unit, 0).unwrap().dimension,
-                    kind.dimension,
-                    "{}",
-                    kind.name
-                );
+                assert_eq!(parse(unit, 0).unwrap().dimension, kind.dimension, "{}", kind.name);
             }
         }
         for example in kind.example.split(", ") {
@@ -176,49 +131,13 @@ fn wrong_units_are_refused_with_their_place() {
             "`lb/in` is not the unit of a stiffness",
             Some("the pound of force is `lbf`: \"48 lbf/in\""),
         ),
-        (
-            "11.5 lbf",
-            MASS,
-            "lbf",
-            "`lbf` is not the unit of a mass",
-            Some("the pound of mass is `lb`: \"11.5 lb\""),
-        ),
-        (
-            "20 MPH",
-            SPEED,
-            "MPH",
-            "unknown unit `MPH`",
-            Some("did you mean `mph`?"),
-        ),
-        (
-            "5 kn",
-            FORCE,
-            "kn",
-            "unknown unit `kn`",
-            Some("did you mean `kN`?"),
-        ),
+        ("11.5 lbf", MASS, "lbf", "`lbf` is not the unit of a mass", Some("the pound of mass is `lb`: \"11.5 lb\"")),
+        ("20 MPH", SPEED, "MPH", "unknown unit `MPH`", Some("did you mean `mph`?")),
+        ("5 kn", FORCE, "kn", "unknown unit `kn`", Some("did you mean `kN`?")),
         ("3 blorp", LENGTH, "blorp", "unknown unit `blorp`", None),
-        (
-            "15",
-            ANGLE,
-            "15",
-            "a number without unit in quotes, `15`",
-            Some("write 15 without quotes"),
-        ),
-        (
-            "1,5 m",
-            LENGTH,
-            "1,5 m",
-            "a comma in the number `1,5 m`",
-            Some("decimals are written with a point"),
-        ),
-        (
-            "fast",
-            SPEED,
-            "fast",
-            "`fast` does not start with a number",
-            None,
-        ),
+        ("15", ANGLE, "15", "a number without unit in quotes, `15`", Some("write 15 without quotes")),
+        ("1,5 m", LENGTH, "1,5 m", "a comma in the number `1,5 m`", Some("decimals are written with a point")),
+        ("fast", SPEED, "fast", "`fast` does not start with a number", None),
         ("", SPEED, "", "`` does not start with a number", None),
         (
             "1 in/s·s",
@@ -232,29 +151,11 @@ fn wrong_units_are_refused_with_their_place() {
         ("1 m)", LENGTH, ")", "an unmatched `)`", None),
         ("1 m^99", LENGTH, "^99", "a power that cannot be read", None),
         ("1 m^x", LENGTH, "^", "a power that cannot be read", None),
-        (
-            "1 m^9^9",
-            LENGTH,
-            "^9",
-            "a sign where a unit should stand",
-            None,
-        ),
+        ("1 m^9^9", LENGTH, "^9", "a sign where a unit should stand", None),
         ("1 m^9·m", LENGTH, "·", "too high a power", None),
         ("1 $", LENGTH, "$", "`$` in a unit", None),
-        (
-            "1e999 m",
-            LENGTH,
-            "1e999 m",
-            "`1e999 m` is not finite",
-            None,
-        ),
-        (
-            "1 rad",
-            ROTATIONAL_DAMPING,
-            "rad",
-            "`rad` is not the unit of a rotational damping",
-            None,
-        ),
+        ("1e999 m", LENGTH, "1e999 m", "`1e999 m` is not finite", None),
+        ("1 rad", ROTATIONAL_DAMPING, "rad", "`rad` is not the unit of a rotational damping", None),
     ] {
         let error = read(text, kind).expect_err(text);
         assert_eq!(&text[error.start..error.end], words, "{text}: {error:?}");

@@ -15,12 +15,7 @@ pub fn resample(seed: u64, number: u64, rows: usize, into: &mut Vec<usize>) {
 }
 
 /// The 95 % intervals of several numbers made of the same rows; `of` makes them of row numbers.
-pub fn intervals(
-    seed: u64,
-    rows: usize,
-    count: usize,
-    of: impl Fn(&[usize]) -> Vec<f64>,
-) -> Vec<Estimate> {
+pub fn intervals(seed: u64, rows: usize, count: usize, of: impl Fn(&[usize]) -> Vec<f64>) -> Vec<Estimate> {
     let all: Vec<usize> = (0..rows).collect();
     let values = of(&all);
     let mut drawn: Vec<Vec<f64>> = vec![Vec::with_capacity(RESAMPLES as usize); count];

@@ -45,19 +45,11 @@ impl SobolIndices {
 ///
 /// # Errors
 /// Columns of different length, fewer than 16 complete points, a figure that is the same everywhere.
-pub fn sobol_indices(
-    a: &[f64],
-    b: &[f64],
-    ab: &[Vec<f64>],
-    seed: u64,
-) -> Result<SobolIndices, AnalysisError> {
+pub fn sobol_indices(a: &[f64], b: &[f64], ab: &[Vec<f64>], seed: u64) -> Result<SobolIndices, AnalysisError> {
     let columns = [a, b].into_iter().chain(ab.iter().map(Vec::as_slice));
     let rows = complete_rows(columns)?;
     if rows.len() < LEAST_POINTS {
-        return Err(AnalysisError::TooFew {
-            found: rows.len(),
-            needed: LEAST_POINTS,
-        });
+        return Err(AnalysisError::TooFew { found: rows.len(), needed: LEAST_POINTS });
     }
     let dropped = a.len() - rows.len();
     let kept = |column: &[f64]| -> Vec<f64> { rows.iter().map(|&r| column[r]).collect() };
@@ -77,14 +69,7 @@ pub fn sobol_indices(
     };
     let mut first = bootstrap::intervals(seed, rows.len(), 2 * ab.len(), of);
     let total = first.split_off(ab.len());
-    Ok(SobolIndices {
-        first,
-        total,
-        mean,
-        variance,
-        points: rows.len(),
-        dropped,
-    })
+    Ok(SobolIndices { first, total, mean, variance, points: rows.len(), dropped })
 }
 
 /// Mean and variance of both blocks at the given rows.

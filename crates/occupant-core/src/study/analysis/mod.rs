@@ -78,10 +78,7 @@ impl std::fmt::Display for AnalysisError {
                 write!(f, "parameter {} is the same in all rows", i + 1)
             }
             AnalysisError::Dependent => {
-                write!(
-                    f,
-                    "parameters that depend on one another cannot be told apart"
-                )
+                write!(f, "parameters that depend on one another cannot be told apart")
             }
         }
     }
@@ -90,9 +87,7 @@ impl std::fmt::Display for AnalysisError {
 impl std::error::Error for AnalysisError {}
 
 /// Rows in which every column has a finite number.
-fn complete_rows<'a>(
-    columns: impl Iterator<Item = &'a [f64]> + Clone,
-) -> Result<Vec<usize>, AnalysisError> {
+fn complete_rows<'a>(columns: impl Iterator<Item = &'a [f64]> + Clone) -> Result<Vec<usize>, AnalysisError> {
     let expected = columns.clone().next().map_or(0, <[f64]>::len);
     if let Some(odd) = columns.clone().find(|c| c.len() != expected) {
         let found = odd.len();

@@ -33,11 +33,7 @@ pub fn ranks(values: &[f64]) -> Vec<f64> {
     let mut ranks = vec![0.0; values.len()];
     let mut start = 0;
     while start < order.len() {
-        let tied = order[start..]
-            .iter()
-            .take_while(|&&i| values[i] == values[order[start]])
-            .count()
-            .max(1);
+        let tied = order[start..].iter().take_while(|&&i| values[i] == values[order[start]]).count().max(1);
         // ranks start + 1 to start + tied
         let rank = start as f64 + 0.5 * (tied as f64 + 1.0);
         for &i in &order[start..start + tied] {
@@ -52,10 +48,7 @@ pub fn ranks(values: &[f64]) -> Vec<f64> {
 ///
 /// # Errors
 /// Columns of different length, fewer than 5 complete rows, a column that is the same everywhere.
-pub fn rank_correlation(
-    parameter: &[f64],
-    figure: &[f64],
-) -> Result<RankCorrelation, AnalysisError> {
+pub fn rank_correlation(parameter: &[f64], figure: &[f64]) -> Result<RankCorrelation, AnalysisError> {
     let rows = enough([parameter, figure].into_iter(), 5)?;
     let [x, y] = [parameter, figure].map(|column| {
         let kept: Vec<f64> = rows.iter().map(|&r| column[r]).collect();
@@ -72,14 +65,7 @@ pub fn rank_correlation(
         true => z.signum(),
         false => tanh(z),
     };
-    Ok(RankCorrelation {
-        rho: Estimate {
-            value: rho,
-            low: end(z - half),
-            high: end(z + half),
-        },
-        rows: rows.len(),
-    })
+    Ok(RankCorrelation { rho: Estimate { value: rho, low: end(z - half), high: end(z + half) }, rows: rows.len() })
 }
 
 /// Standardised regression of a figure on all parameters at once.
@@ -87,28 +73,20 @@ pub fn rank_correlation(
 /// # Errors
 /// Columns of different length, fewer complete rows than twice the parameters and five, a column that is the same everywhere,
 /// parameters that depend on one another.
-pub fn regression(
-    parameters: &[Vec<f64>],
-    figure: &[f64],
-    seed: u64,
-) -> Result<Regression, AnalysisError> {
+pub fn regression(parameters: &[Vec<f64>], figure: &[f64], seed: u64) -> Result<Regression, AnalysisError> {
     let columns = parameters.iter().map(Vec::as_slice).chain([figure]);
     let rows = enough(columns, 2 * parameters.len() + 5)?;
     let column = |values: &[f64]| -> Vec<f64> { rows.iter().map(|&r| values[r]).collect() };
     let mut x = Vec::with_capacity(parameters.len());
     for (i, values) in parameters.iter().enumerate() {
-        let (standard, _) =
-            standardised(&column(values)).ok_or(AnalysisError::Constant { parameter: Some(i) })?;
+        let (standard, _) = standardised(&column(values)).ok_or(AnalysisError::Constant { parameter: Some(i) })?;
         x.push(standard);
     }
-    let (y, _) =
-        standardised(&column(figure)).ok_or(AnalysisError::Constant { parameter: None })?;
+    let (y, _) = standardised(&column(figure)).ok_or(AnalysisError::Constant { parameter: None })?;
     let every: Vec<usize> = (0..rows.len()).collect();
     let fitted = least_squares(&x, &y, &every).ok_or(AnalysisError::Dependent)?;
-    let error: f64 = every
-        .iter()
-        .map(|&r| (y[r] - (0..x.len()).map(|i| fitted[i] * x[i][r]).sum::<f64>()).powi(2))
-        .sum();
+    let error: f64 =
+        every.iter().map(|&r| (y[r] - (0..x.len()).map(|i| fitted[i] * x[i][r]).sum::<f64>()).powi(2)).sum();
     let nothing = vec![f64::NAN; x.len()];
     let of = |rows: &[usize]| least_squares(&x, &y, rows).unwrap_or_else(|| nothing.clone());
     Ok(Regression {
@@ -118,17 +96,11 @@ pub fn regression(
     })
 }
 
-fn enough<'a>(
-    columns: impl Iterator<Item = &'a [f64]> + Clone,
-    needed: usize,
-) -> Result<Vec<usize>, AnalysisError> {
+fn enough<'a>(columns: impl Iterator<Item = &'a [f64]> + Clone, needed: usize) -> Result<Vec<usize>, AnalysisError> {
     let rows = complete_rows(columns)?;
     match rows.len() >= needed {
         true => Ok(rows),
-        false => Err(AnalysisError::TooFew {
-            found: rows.len(),
-            needed,
-        }),
+        false => Err(AnalysisError::TooFew { found: rows.len(), needed }),
     }
 }
 

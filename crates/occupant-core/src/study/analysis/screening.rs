@@ -37,10 +37,7 @@ fn effect(all: &[f64], seed: u64) -> Result<Effect, AnalysisError> {
     let effects: Vec<f64> = all.iter().copied().filter(|e| e.is_finite()).collect();
     let found = effects.len();
     if found < LEAST_TRAJECTORIES {
-        return Err(AnalysisError::TooFew {
-            found,
-            needed: LEAST_TRAJECTORIES,
-        });
+        return Err(AnalysisError::TooFew { found, needed: LEAST_TRAJECTORIES });
     }
     let of = |rows: &[usize]| {
         let count = rows.len() as f64;

@@ -13,18 +13,11 @@ impl Binder<'_> {
         if sections.is_empty() {
             return None;
         }
-        let sampled = matches!(
-            design,
-            Design::LatinHypercube { .. } | Design::Sobol { .. } | Design::MonteCarlo { .. }
-        );
+        let sampled =
+            matches!(design, Design::LatinHypercube { .. } | Design::Sobol { .. } | Design::MonteCarlo { .. });
         if !sampled {
             let expected = "the design \"latin_hypercube\", \"sobol\" or \"monte_carlo\"";
-            self.error(
-                "correlations",
-                "correlations in a design that has none",
-                expected,
-                None,
-            );
+            self.error("correlations", "correlations in a design that has none", expected, None);
             return None;
         }
         let mut ranks: Vec<(usize, usize, f64)> = Vec::new();
@@ -33,17 +26,8 @@ impl Binder<'_> {
             let (Some(a), Some(b)) = (a, b) else { continue };
             if !(-1.0..=1.0).contains(&section.rank) {
                 let found = format!("a correlation of {}", section.rank);
-                self.error(
-                    &format!("correlations[{n}].rank"),
-                    found,
-                    "a number from -1 to 1",
-                    None,
-                );
-            } else if a == b
-                || ranks
-                    .iter()
-                    .any(|(x, y, _)| [*x, *y] == [a, b] || [*x, *y] == [b, a])
-            {
+                self.error(&format!("correlations[{n}].rank"), found, "a number from -1 to 1", None);
+            } else if a == b || ranks.iter().any(|(x, y, _)| [*x, *y] == [a, b] || [*x, *y] == [b, a]) {
                 let found = "a pair of parameters a second time, or one with itself";
                 self.error(&format!("correlations[{n}]"), found, "each pair once", None);
             } else {
@@ -52,27 +36,15 @@ impl Binder<'_> {
         }
         let copula = Copula::new(parameters.len(), &ranks);
         if copula.is_none() {
-            let hint =
-                "if a goes with b and b with c, then a must go with c to some degree".to_owned();
-            let found =
-                "correlations that contradict each other: their matrix is not positive definite";
-            self.error(
-                "correlations",
-                found,
-                "a positive definite matrix",
-                Some(hint),
-            );
+            let hint = "if a goes with b and b with c, then a must go with c to some degree".to_owned();
+            let found = "correlations that contradict each other: their matrix is not positive definite";
+            self.error("correlations", found, "a positive definite matrix", Some(hint));
         }
         copula
     }
 
     /// The parameter that one side of a correlation names.
-    pub(super) fn correlated(
-        &mut self,
-        parameters: &[Parameter],
-        n: usize,
-        side: usize,
-    ) -> Option<usize> {
+    pub(super) fn correlated(&mut self, parameters: &[Parameter], n: usize, side: usize) -> Option<usize> {
         let name = &self.text.section.correlations[n].between[side];
         let found = parameters.iter().position(|p| p.name == *name);
         // a parameter that was left out as broken has been told of already

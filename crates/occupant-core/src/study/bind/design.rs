@@ -18,9 +18,9 @@ impl Binder<'_> {
         let section = &self.text.section;
         match &section.design {
             None => self.without_design(),
-            Some(DesignSection::Table(table)) => Design::Table {
-                rows: table::rows(self, &table.file, parameters, resolver),
-            },
+            Some(DesignSection::Table(table)) => {
+                Design::Table { rows: table::rows(self, &table.file, parameters, resolver) }
+            }
             Some(design) => {
                 if section.parameters.is_empty() {
                     let expected = "`[[parameters]]`";
@@ -48,35 +48,20 @@ impl Binder<'_> {
     }
 
     /// Whether parameters and design fit each other in kind and number.
-    pub(super) fn sizes(
-        &mut self,
-        parameters: &[Parameter],
-        design: &Design,
-        ensemble: Option<&Ensemble>,
-    ) {
+    pub(super) fn sizes(&mut self, parameters: &[Parameter], design: &Design, ensemble: Option<&Ensemble>) {
         let levels: Vec<Option<u64>> = parameters.iter().map(|p| p.law.levels()).collect();
         if *design == Design::FullFactorial {
             for (parameter, _) in parameters.iter().zip(&levels).filter(|(_, l)| l.is_none()) {
                 let found = format!("`{}` has no values to go through", parameter.name);
                 let hint = "or choose another design, such as \"latin_hypercube\"".to_owned();
-                self.error(
-                    "design",
-                    found,
-                    "a `grid` or a `list` for each parameter",
-                    Some(hint),
-                );
+                self.error("design", found, "a `grid` or a `list` for each parameter", Some(hint));
             }
         }
         self.limits(parameters.len(), design);
         let members = ensemble.map_or(1, |e| e.members);
         let runs = design.len(&levels).and_then(|n| n.checked_mul(members));
         if runs.is_none_or(|n| n > 1 << 52) {
-            self.error(
-                "design",
-                "more runs than can be counted",
-                "at most 2^52 runs",
-                None,
-            );
+            self.error("design", "more runs than can be counted", "at most 2^52 runs", None);
         }
         self.power_of_two(design);
     }
@@ -90,33 +75,18 @@ impl Binder<'_> {
         };
         if parameters > most {
             let found = format!("{} parameters", parameters);
-            self.error(
-                "design",
-                found,
-                format!("at most {most} in this design"),
-                None,
-            );
+            self.error("design", found, format!("at most {most} in this design"), None);
         }
         if let Design::Morris { levels, .. } = design
             && levels % 2 == 1
         {
             let found = format!("`{levels}` is no even number");
-            self.error(
-                "design.levels",
-                found,
-                "an even number of levels, such as 4",
-                None,
-            );
+            self.error("design.levels", found, "an even number of levels, such as 4", None);
         }
         if let Design::Morris { tail, .. } | Design::OneAtATime { tail } = design
             && *tail >= 0.5
         {
-            self.error(
-                "design.tail",
-                format!("a tail of {tail}"),
-                "a part below 0.5",
-                None,
-            );
+            self.error("design.tail", format!("a tail of {tail}"), "a part below 0.5", None);
         }
     }
 
@@ -145,22 +115,14 @@ fn chosen(section: &DesignSection) -> Design {
         DesignSection::FullFactorial(_) => Design::FullFactorial,
         DesignSection::LatinHypercube(d) => Design::LatinHypercube { samples: d.samples },
         DesignSection::MonteCarlo(d) => Design::MonteCarlo { samples: d.samples },
-        DesignSection::Sobol(d) => Design::Sobol {
-            samples: d.samples,
-            scramble: d.scramble.unwrap_or(true),
-        },
-        DesignSection::OneAtATime(d) => Design::OneAtATime {
-            tail: tail(&d.tail),
-        },
-        DesignSection::Saltelli(d) => Design::Saltelli {
-            samples: d.samples,
-            second_order: d.second_order.unwrap_or(false),
-        },
-        DesignSection::Morris(d) => Design::Morris {
-            trajectories: d.trajectories,
-            levels: d.levels.unwrap_or(4),
-            tail: tail(&d.tail),
-        },
+        DesignSection::Sobol(d) => Design::Sobol { samples: d.samples, scramble: d.scramble.unwrap_or(true) },
+        DesignSection::OneAtATime(d) => Design::OneAtATime { tail: tail(&d.tail) },
+        DesignSection::Saltelli(d) => {
+            Design::Saltelli { samples: d.samples, second_order: d.second_order.unwrap_or(false) }
+        }
+        DesignSection::Morris(d) => {
+            Design::Morris { trajectories: d.trajectories, levels: d.levels.unwrap_or(4), tail: tail(&d.tail) }
+        }
         DesignSection::Table(_) => Design::Table { rows: Vec::new() },
     }
 }

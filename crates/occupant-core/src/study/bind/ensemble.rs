@@ -10,11 +10,7 @@ use crate::study::model::{ApplyChoice, EnsembleSection, PerturbationSection};
 use crate::study::parameter::{Parameter, Target};
 
 /// The ensemble of a study, if it has one. Without any tolerance it has the standard ones.
-pub(super) fn bind(
-    binder: &mut Binder,
-    base: &Draft,
-    parameters: &[Parameter],
-) -> Option<Ensemble> {
+pub(super) fn bind(binder: &mut Binder, base: &Draft, parameters: &[Parameter]) -> Option<Ensemble> {
     let section = binder.text.section.ensemble.as_ref()?;
     let mut perturbations = tolerances(binder, base, parameters, section);
     for (i, written) in section.perturbations.iter().enumerate() {
@@ -24,10 +20,7 @@ pub(super) fn bind(
     if !has_tolerances(section) {
         perturbations = ensemble::standard(base, parameters, &ensemble::Tolerances::default());
     }
-    Some(Ensemble {
-        members: section.members,
-        perturbations,
-    })
+    Some(Ensemble { members: section.members, perturbations })
 }
 
 fn has_tolerances(section: &EnsembleSection) -> bool {
@@ -50,26 +43,10 @@ fn tolerances(
     let path = section.path.as_ref().and_then(|t| t.si(units).ok());
     let stiffness = section.stiffness.as_ref().and_then(|t| t.si(units).ok());
     let groups = [
-        (
-            "posture",
-            posture.map(|most| ensemble::posture(base, most)),
-            "a posture",
-        ),
-        (
-            "place",
-            place.map(|most| ensemble::seat_place(base, most)),
-            "a posture",
-        ),
-        (
-            "path",
-            path.map(|most| ensemble::path(base, parameters, most)),
-            "a pulse with `peak` or `delta_v`",
-        ),
-        (
-            "stiffness",
-            stiffness.map(|most| ensemble::stiffness(base, most)),
-            "materials or belts",
-        ),
+        ("posture", posture.map(|most| ensemble::posture(base, most)), "a posture"),
+        ("place", place.map(|most| ensemble::seat_place(base, most)), "a posture"),
+        ("path", path.map(|most| ensemble::path(base, parameters, most)), "a pulse with `peak` or `delta_v`"),
+        ("stiffness", stiffness.map(|most| ensemble::stiffness(base, most)), "materials or belts"),
     ];
     let mut all = Vec::new();
     for (key, found, expected) in groups {
@@ -85,18 +62,12 @@ fn tolerances(
     all
 }
 
-fn perturbation(
-    binder: &mut Binder,
-    section: &PerturbationSection,
-    at: &str,
-) -> Option<Perturbation> {
+fn perturbation(binder: &mut Binder, section: &PerturbationSection, at: &str) -> Option<Perturbation> {
     let paths: Vec<(String, &str)> = match (&section.path, &section.paths) {
         (Some(path), _) => vec![(format!("{at}.path"), path)],
-        (None, Some(paths)) => paths
-            .iter()
-            .enumerate()
-            .map(|(i, p)| (format!("{at}.paths[{i}]"), p.as_str()))
-            .collect(),
+        (None, Some(paths)) => {
+            paths.iter().enumerate().map(|(i, p)| (format!("{at}.paths[{i}]"), p.as_str())).collect()
+        }
         (None, None) => return None,
     };
     let places = binder.places(&paths)?;
@@ -123,8 +94,5 @@ fn perturbation(
         }
         (None, None) => return None,
     };
-    Some(Perturbation {
-        change,
-        targets: places.iter().map(Target::of).collect(),
-    })
+    Some(Perturbation { change, targets: places.iter().map(Target::of).collect() })
 }

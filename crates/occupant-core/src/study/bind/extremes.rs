@@ -13,12 +13,7 @@ use crate::study::text::problem;
 const RARE: f64 = 1e-6;
 
 /// Checks every parameter, and that nothing is both given by hand and varied.
-pub(super) fn check(
-    binder: &mut Binder,
-    base: &Draft,
-    parameters: &[Parameter],
-    overrides: &[String],
-) {
+pub(super) fn check(binder: &mut Binder, base: &Draft, parameters: &[Parameter], overrides: &[String]) {
     let written = binder.text.section.parameters.len();
     for (i, parameter) in parameters.iter().enumerate() {
         // a broken parameter shifts the others; then point at the name only
@@ -61,10 +56,7 @@ fn extremes(law: &Law) -> Vec<Value> {
     match law {
         Law::List(values) => values.clone(),
         Law::Table => Vec::new(),
-        _ => vec![
-            law.bounded_quantile(0.0, RARE),
-            law.bounded_quantile(1.0, RARE),
-        ],
+        _ => vec![law.bounded_quantile(0.0, RARE), law.bounded_quantile(1.0, RARE)],
     }
 }
 
@@ -82,32 +74,16 @@ fn put_in(base: &Draft, list: &[Assignment]) -> Result<(), Diagnostics> {
 }
 
 /// Tells of an override that this parameter would undo.
-fn by_hand(
-    binder: &mut Binder,
-    base: &Draft,
-    parameter: &Parameter,
-    overrides: &[String],
-    at: &str,
-) {
+fn by_hand(binder: &mut Binder, base: &Draft, parameter: &Parameter, overrides: &[String], at: &str) {
     if parameter.apply != ApplyChoice::Value {
         return;
     }
     for path in overrides.iter().filter_map(|o| o.split_once('=')) {
         let places = base.places(path.0.trim()).unwrap_or_default();
-        let shared = |place: &crate::scenario::place::Place| {
-            parameter.targets.iter().any(|t| t.path == place.path)
-        };
+        let shared = |place: &crate::scenario::place::Place| parameter.targets.iter().any(|t| t.path == place.path);
         if let Some(place) = places.iter().find(|p| shared(p)) {
-            let found = format!(
-                "`{}` is given by hand and varied by `{}`",
-                place.path, parameter.name
-            );
-            binder.error(
-                at,
-                found,
-                "one of the two",
-                Some("leave the override out".into()),
-            );
+            let found = format!("`{}` is given by hand and varied by `{}`", place.path, parameter.name);
+            binder.error(at, found, "one of the two", Some("leave the override out".into()));
         }
     }
 }

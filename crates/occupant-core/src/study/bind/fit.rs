@@ -101,10 +101,8 @@ impl StudyText {
 impl Binder<'_> {
     /// Numbers that a search can work with.
     fn limits_of(&mut self, section: &FitSection) {
-        let counts = [
-            ("budget", section.budget, MOST_EVALUATIONS),
-            ("population", section.population, MOST_CANDIDATES),
-        ];
+        let counts =
+            [("budget", section.budget, MOST_EVALUATIONS), ("population", section.population, MOST_CANDIDATES)];
         for (key, count, most) in counts {
             if let Some(count) = count.filter(|n| *n > most) {
                 let at = format!("fit.{key}");
@@ -184,11 +182,7 @@ impl Binder<'_> {
             base: test.base.clone(),
             set: test.set.clone(),
             window_s: self.window([&test.from, &test.to], at),
-            shift_s: test
-                .shift
-                .as_ref()
-                .and_then(|t| t.si(units).ok())
-                .unwrap_or(0.0),
+            shift_s: test.shift.as_ref().and_then(|t| t.si(units).ok()).unwrap_or(0.0),
             weight: self.weight(test.weight, at),
             map: test.map.clone(),
             seat,

@@ -21,12 +21,7 @@ pub(super) struct Quantities<'w> {
 
 impl Quantities<'_> {
     /// The law that a parameter's section gives.
-    pub(super) fn law(
-        &self,
-        binder: &mut Binder,
-        section: &ParameterSection,
-        at: &str,
-    ) -> Option<Law> {
+    pub(super) fn law(&self, binder: &mut Binder, section: &ParameterSection, at: &str) -> Option<Law> {
         if let Some(list) = &section.list {
             return self.list(binder, list, &format!("{at}.list"));
         }
@@ -69,13 +64,7 @@ impl Quantities<'_> {
     }
 
     /// Two ends, the first below the second, both positive on a logarithmic scale.
-    fn ends(
-        &self,
-        binder: &mut Binder,
-        at: &str,
-        [from, to]: [&Free; 2],
-        log: bool,
-    ) -> Option<[f64; 2]> {
+    fn ends(&self, binder: &mut Binder, at: &str, [from, to]: [&Free; 2], log: bool) -> Option<[f64; 2]> {
         let from = self.number(binder, from, &format!("{at}.from"));
         let to = self.number(binder, to, &format!("{at}.to"));
         let (from, to) = (from?, to?);
@@ -99,20 +88,10 @@ impl Quantities<'_> {
     fn grid(&self, binder: &mut Binder, grid: &GridSection, at: &str) -> Option<Law> {
         let log = grid.scale == Some(ScaleChoice::Log);
         let [from, to] = self.ends(binder, at, [&grid.from, &grid.to], log)?;
-        Some(Law::Grid {
-            from,
-            to,
-            steps: grid.steps,
-            log,
-        })
+        Some(Law::Grid { from, to, steps: grid.steps, log })
     }
 
-    fn distribution(
-        &self,
-        binder: &mut Binder,
-        section: &DistributionSection,
-        at: &str,
-    ) -> Option<Law> {
+    fn distribution(&self, binder: &mut Binder, section: &DistributionSection, at: &str) -> Option<Law> {
         match section {
             DistributionSection::Uniform(s) => {
                 let [from, to] = self.ends(binder, at, [&s.from, &s.to], false)?;
@@ -144,12 +123,7 @@ impl Quantities<'_> {
                 let [from, to] = ends?;
                 if !(from..=to).contains(&mode) {
                     let expected = "a `mode` from `from` to `to`";
-                    binder.error(
-                        &format!("{at}.mode"),
-                        "`mode` outside the ends",
-                        expected,
-                        None,
-                    );
+                    binder.error(&format!("{at}.mode"), "`mode` outside the ends", expected, None);
                     return None;
                 }
                 Some(Law::Triangular { from, mode, to })
@@ -157,34 +131,20 @@ impl Quantities<'_> {
         }
     }
 
-    fn mean_and_sd(
-        &self,
-        binder: &mut Binder,
-        mean: &Free,
-        sd: &Free,
-        at: &str,
-    ) -> Option<[f64; 2]> {
+    fn mean_and_sd(&self, binder: &mut Binder, mean: &Free, sd: &Free, at: &str) -> Option<[f64; 2]> {
         let mean = self.number(binder, mean, &format!("{at}.mean"));
         let sd = self.number(binder, sd, &format!("{at}.sd"))?;
         if sd <= 0.0 {
             let found = "a standard deviation that is not above zero";
-            binder.error(
-                &format!("{at}.sd"),
-                found,
-                "a standard deviation above zero",
-                None,
-            );
+            binder.error(&format!("{at}.sd"), found, "a standard deviation above zero", None);
             return None;
         }
         Some([mean?, sd])
     }
 
     fn list(&self, binder: &mut Binder, list: &[Free], at: &str) -> Option<Law> {
-        let values: Vec<Option<Value>> = list
-            .iter()
-            .enumerate()
-            .map(|(i, free)| self.item(binder, free, &format!("{at}[{i}]")))
-            .collect();
+        let values: Vec<Option<Value>> =
+            list.iter().enumerate().map(|(i, free)| self.item(binder, free, &format!("{at}[{i}]"))).collect();
         values.into_iter().collect::<Option<_>>().map(Law::List)
     }
 
@@ -200,8 +160,7 @@ impl Quantities<'_> {
                 Some(Value::Text(text.clone()))
             }
             (Wanted::Names(names), Free::Text(text)) => {
-                let hint =
-                    nearest(text, names.iter().copied()).map(|n| format!("did you mean \"{n}\"?"));
+                let hint = nearest(text, names.iter().copied()).map(|n| format!("did you mean \"{n}\"?"));
                 let found = format!("\"{text}\" is not one of its names");
                 binder.error(at, found, one_of(names, '"'), hint);
                 None

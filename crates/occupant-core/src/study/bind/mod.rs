@@ -30,12 +30,7 @@ impl StudyText {
     ///
     /// # Errors
     /// Everything that is wrong with the base's words; else everything that is wrong with the study.
-    pub fn bind(
-        &self,
-        base: Draft,
-        overrides: &[String],
-        resolver: Resolver,
-    ) -> Result<Study, Diagnostics> {
+    pub fn bind(&self, base: Draft, overrides: &[String], resolver: Resolver) -> Result<Study, Diagnostics> {
         self.bind_for(Purpose::Sweep, base, overrides, resolver)
     }
 
@@ -84,12 +79,7 @@ impl StudyText {
             copula,
             ensemble,
             keep,
-            csv: self
-                .section
-                .output
-                .as_ref()
-                .and_then(|o| o.csv)
-                .unwrap_or(false),
+            csv: self.section.output.as_ref().and_then(|o| o.csv).unwrap_or(false),
             warnings,
         })
     }
@@ -120,13 +110,7 @@ pub(super) struct Binder<'a> {
 
 impl<'a> Binder<'a> {
     fn new(text: &'a StudyText, purpose: Purpose<'a>) -> Self {
-        Binder {
-            text,
-            purpose,
-            base: None,
-            changes: Vec::new(),
-            problems: Diagnostics::new(),
-        }
+        Binder { text, purpose, base: None, changes: Vec::new(), problems: Diagnostics::new() }
     }
 
     /// The units of bare numbers in the study.

@@ -26,11 +26,9 @@ impl Binder<'_> {
     pub(super) fn parameter(&mut self, section: &ParameterSection, at: &str) -> Option<Parameter> {
         let paths: Vec<(String, &str)> = match (&section.path, &section.paths) {
             (Some(path), _) => vec![(format!("{at}.path"), path)],
-            (None, Some(paths)) => paths
-                .iter()
-                .enumerate()
-                .map(|(i, p)| (format!("{at}.paths[{i}]"), p.as_str()))
-                .collect(),
+            (None, Some(paths)) => {
+                paths.iter().enumerate().map(|(i, p)| (format!("{at}.paths[{i}]"), p.as_str())).collect()
+            }
             (None, None) => return None,
         };
         let places = self.places(&paths)?;
@@ -45,10 +43,7 @@ impl Binder<'_> {
         }
         let law = self.law(section, at, apply, &wanted)?;
         Some(Parameter {
-            name: section
-                .name
-                .clone()
-                .unwrap_or_else(|| paths[0].1.to_owned()),
+            name: section.name.clone().unwrap_or_else(|| paths[0].1.to_owned()),
             unit: match apply {
                 ApplyChoice::Factor => "",
                 _ => kind.map_or("", si_unit),
@@ -89,13 +84,8 @@ impl Binder<'_> {
         match other {
             None => Some(first.wanted.clone()),
             Some(other) => {
-                let found = format!(
-                    "`{}` is {}, `{}` is {}",
-                    first.path,
-                    noun(&first.wanted),
-                    other.path,
-                    noun(&other.wanted)
-                );
+                let found =
+                    format!("`{}` is {}, `{}` is {}", first.path, noun(&first.wanted), other.path, noun(&other.wanted));
                 self.error(at, found, "places of one kind", None);
                 None
             }
@@ -116,12 +106,7 @@ impl Binder<'_> {
             None => "is not in the base scenario".to_owned(),
         };
         let found = format!("`{}` {what}, so it cannot be {word}", other.path);
-        self.error(
-            at,
-            found,
-            "a path to numbers that the base scenario has",
-            None,
-        );
+        self.error(at, found, "a path to numbers that the base scenario has", None);
         false
     }
 
@@ -132,20 +117,15 @@ impl Binder<'_> {
         apply: ApplyChoice,
         wanted: &Wanted,
     ) -> Option<Law> {
-        let by_table = matches!(self.purpose, Purpose::Sweep)
-            && matches!(self.text.section.design, Some(DesignSection::Table(_)));
+        let by_table =
+            matches!(self.purpose, Purpose::Sweep) && matches!(self.text.section.design, Some(DesignSection::Table(_)));
         let given = section.grid.is_some()
             || section.list.is_some()
             || section.range.is_some()
             || section.distribution.is_some();
         if by_table && given {
             let expected = "no `grid`, `list`, `range` or `distribution`";
-            self.error(
-                at,
-                "values for a parameter that the table of samples varies",
-                expected,
-                None,
-            );
+            self.error(at, "values for a parameter that the table of samples varies", expected, None);
             return None;
         }
         if by_table {
@@ -154,12 +134,7 @@ impl Binder<'_> {
         if !given {
             let hint = "grid = { from = …, to = …, steps = … }".to_owned();
             let expected = "`grid`, `list`, `range` or `distribution`";
-            self.error(
-                at,
-                "a parameter that does not say how it varies",
-                expected,
-                Some(hint),
-            );
+            self.error(at, "a parameter that does not say how it varies", expected, Some(hint));
             return None;
         }
         let kind = match (apply, wanted) {
@@ -168,11 +143,7 @@ impl Binder<'_> {
             (_, Wanted::Number) => Some(&KINDS[RATIO]),
             _ => None,
         };
-        let quantities = Quantities {
-            kind,
-            wanted,
-            units: self.units(),
-        };
+        let quantities = Quantities { kind, wanted, units: self.units() };
         quantities.law(self, section, at)
     }
 
@@ -186,19 +157,11 @@ impl Binder<'_> {
             return;
         }
         for other in earlier {
-            let shared = parameter
-                .targets
-                .iter()
-                .find(|t| other.targets.iter().any(|o| o.path == t.path));
+            let shared = parameter.targets.iter().find(|t| other.targets.iter().any(|o| o.path == t.path));
             if let Some(target) = shared {
                 let found = format!("`{}` is already varied by `{}`", target.path, other.name);
                 let hint = "a factor or an offset may follow a value, but not the other way round";
-                self.error(
-                    at,
-                    found,
-                    "each place varied by one value",
-                    Some(hint.into()),
-                );
+                self.error(at, found, "each place varied by one value", Some(hint.into()));
             }
         }
     }

@@ -33,12 +33,7 @@ pub(super) fn rows(
         Ok(bytes) => bytes,
         Err(reason) => {
             let found = format!("`{file}` cannot be read: {reason}");
-            binder.error(
-                "design.file",
-                found,
-                "a CSV file, its name relative to the study",
-                None,
-            );
+            binder.error("design.file", found, "a CSV file, its name relative to the study", None);
             return Vec::new();
         }
     };
@@ -51,10 +46,7 @@ pub(super) fn rows(
     };
     let mut sources = Sources::new();
     let id = sources.add(file, text);
-    let mut reader = Reader {
-        sources: &sources,
-        binder,
-    };
+    let mut reader = Reader { sources: &sources, binder };
     let mut lines = lines(&sources, id);
     let Some(header) = lines.next() else {
         let start = sources.start_of(id);
@@ -62,9 +54,7 @@ pub(super) fn rows(
         return Vec::new();
     };
     let columns = reader.header(header, parameters);
-    let rows: Vec<Vec<Value>> = lines
-        .filter_map(|line| reader.row(line, &columns, parameters.len()))
-        .collect();
+    let rows: Vec<Vec<Value>> = lines.filter_map(|line| reader.row(line, &columns, parameters.len())).collect();
     if rows.is_empty() && !reader.binder.problems.has_errors() {
         reader.error(header, "a table without samples", "a line for each sample");
     }
@@ -109,10 +99,7 @@ impl Reader<'_, '_, '_> {
         }
         let cells = cells(self.sources, line);
         for parameter in parameters.iter() {
-            if !cells
-                .iter()
-                .any(|c| name_and_unit(c.text).0 == parameter.name)
-            {
+            if !cells.iter().any(|c| name_and_unit(c.text).0 == parameter.name) {
                 let found = format!("no column `{}`", parameter.name);
                 self.error(line, found, "a column for each parameter");
             }
@@ -137,12 +124,7 @@ impl Reader<'_, '_, '_> {
             _ => None,
         };
         let factor = self.factor(cell, name, unit, kind)?;
-        Some(Column {
-            parameter,
-            wanted,
-            kind,
-            factor,
-        })
+        Some(Column { parameter, wanted, kind, factor })
     }
 
     /// What may stand at the places of a parameter.
@@ -164,11 +146,7 @@ impl Reader<'_, '_, '_> {
         };
         let wanted = places.first().map(|p| p.wanted.clone())?;
         if let Some(other) = places.iter().find(|p| p.wanted != wanted) {
-            let found = format!(
-                "`{}` is {}, others are not",
-                other.path,
-                noun(&other.wanted)
-            );
+            let found = format!("`{}` is {}, others are not", other.path, noun(&other.wanted));
             self.error(span, found, "places of one kind");
             return None;
         }
@@ -185,24 +163,14 @@ impl Reader<'_, '_, '_> {
     }
 
     /// SI units in one of the column's own.
-    fn factor(
-        &mut self,
-        cell: &Cell,
-        name: &str,
-        unit: Option<&str>,
-        kind: Option<&Kind>,
-    ) -> Option<f64> {
+    fn factor(&mut self, cell: &Cell, name: &str, unit: Option<&str>, kind: Option<&Kind>) -> Option<f64> {
         let plain = kind.is_none_or(|k| k.si.is_empty());
         match (unit.filter(|u| !u.is_empty()), kind) {
             (None, _) if plain => Some(1.0),
             (None, kind) => {
                 let (noun, si) = kind.map_or(("", ""), |k| (k.noun, k.si));
                 let expected = format!("the unit of {noun} in brackets, such as `{name}[{si}]`");
-                self.error(
-                    cell.span,
-                    format!("column `{name}` without a unit"),
-                    expected,
-                );
+                self.error(cell.span, format!("column `{name}` without a unit"), expected);
                 None
             }
             (Some(_), None) => {

@@ -101,9 +101,8 @@ impl Constants {
         let d_step = 1.0 + 2.0 * (((effective - 1.0) / (nf + 1.0)).sqrt() - 1.0).max(0.0) + c_step;
         let c_path = (4.0 + effective / nf) / (nf + 4.0 + 2.0 * effective / nf);
         let c_one = 2.0 / ((nf + 1.3) * (nf + 1.3) + effective);
-        let c_rank = (2.0 * (0.25 + effective + 1.0 / effective - 2.0)
-            / ((nf + 2.0) * (nf + 2.0) + effective))
-            .min(1.0 - c_one);
+        let c_rank =
+            (2.0 * (0.25 + effective + 1.0 / effective - 2.0) / ((nf + 2.0) * (nf + 2.0) + effective)).min(1.0 - c_one);
         // (50) to (53)
         let least = (1.0 + c_one / c_rank)
             .min(1.0 + 2.0 * effective_negative / (effective + 2.0))
@@ -163,12 +162,9 @@ impl Cma {
     fn candidate(&self, k: usize) -> Vec<f64> {
         let n = self.mean.len();
         let index = self.descent << 48 | self.generation << 20 | k as u64;
-        let drawn: Vec<f64> = (0..n)
-            .map(|d| quantile(unit(self.seed, Purpose::Search, index, d as u32)) * self.lengths[d])
-            .collect();
-        (0..n)
-            .map(|i| self.mean[i] + self.step * dot((0..n).map(|j| (self.axes[(i, j)], drawn[j]))))
-            .collect()
+        let drawn: Vec<f64> =
+            (0..n).map(|d| quantile(unit(self.seed, Purpose::Search, index, d as u32)) * self.lengths[d]).collect();
+        (0..n).map(|i| self.mean[i] + self.step * dot((0..n).map(|j| (self.axes[(i, j)], drawn[j])))).collect()
     }
 
     /// Learns from the values of the points that [`Cma::ask`] gave.
@@ -186,8 +182,7 @@ impl Cma {
         self.move_mean(&steps);
         self.adapt_covariance(&steps);
         self.decompose();
-        self.least
-            .push(order.first().map_or(f64::INFINITY, |k| values[*k]));
+        self.least.push(order.first().map_or(f64::INFINITY, |k| values[*k]));
         self.last = values.to_vec();
     }
 
@@ -216,11 +211,7 @@ impl Cma {
             *p = (1.0 - c.c_path) * *p + gain * y;
         }
         // what h_σ takes away is given back to C
-        let lost = if calm {
-            0.0
-        } else {
-            c.c_one * c.c_path * (2.0 - c.c_path)
-        };
+        let lost = if calm { 0.0 } else { c.c_one * c.c_path * (2.0 - c.c_path) };
         let rank: f64 = c.weights.iter().sum();
         self.covariance *= 1.0 + lost - c.c_one - c.c_rank * rank;
         self.step *= exp((c.c_step / c.d_step * (length / c.chi - 1.0)).min(1.0));
@@ -257,22 +248,15 @@ impl Cma {
         self.axes = eigen.eigenvectors;
         let greatest = eigen.eigenvalues.iter().fold(0.0_f64, |g, e| g.max(*e));
         let floor = greatest / WORST_CONDITION;
-        self.lengths = eigen
-            .eigenvalues
-            .iter()
-            .map(|e| e.max(floor).sqrt())
-            .collect();
+        self.lengths = eigen.eigenvalues.iter().map(|e| e.max(floor).sqrt()).collect();
     }
 
     /// C^(−½) y.
     fn whitened(&self, y: &[f64]) -> Vec<f64> {
         let n = y.len();
-        let along: Vec<f64> = (0..n)
-            .map(|j| dot((0..n).map(|i| (self.axes[(i, j)], y[i]))) / self.lengths[j])
-            .collect();
-        (0..n)
-            .map(|i| dot((0..n).map(|j| (self.axes[(i, j)], along[j]))))
-            .collect()
+        let along: Vec<f64> =
+            (0..n).map(|j| dot((0..n).map(|i| (self.axes[(i, j)], y[i]))) / self.lengths[j]).collect();
+        (0..n).map(|i| dot((0..n).map(|j| (self.axes[(i, j)], along[j])))).collect()
     }
 
     /// Whether the descent is at its end: all values of the last generation, and the least ones of the last 10 + 30n/λ
@@ -287,15 +271,12 @@ impl Cma {
                 return Some(Ending::Values);
             }
         }
-        let longest = (0..n)
-            .map(|i| self.covariance[(i, i)].sqrt().max(self.path[i].abs()))
-            .fold(0.0, f64::max);
+        let longest = (0..n).map(|i| self.covariance[(i, i)].sqrt().max(self.path[i].abs())).fold(0.0, f64::max);
         if self.step * longest < SHORTEST_STEP {
             return Some(Ending::Steps);
         }
         let lengths = self.lengths.iter();
-        let [short, long] =
-            lengths.fold([f64::INFINITY, 0.0_f64], |[s, l], d| [s.min(*d), l.max(*d)]);
+        let [short, long] = lengths.fold([f64::INFINITY, 0.0_f64], |[s, l], d| [s.min(*d), l.max(*d)]);
         let narrow = (long / short) * (long / short) >= 0.99 * WORST_CONDITION;
         (narrow || !self.step.is_finite()).then_some(Ending::Condition)
     }
@@ -303,9 +284,7 @@ impl Cma {
 
 /// Greatest less least.
 fn spread<'a>(values: impl Iterator<Item = &'a f64>) -> f64 {
-    let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| {
-        [l.min(*v), h.max(*v)]
-    });
+    let [low, high] = values.fold([f64::INFINITY, f64::NEG_INFINITY], |[l, h], v| [l.min(*v), h.max(*v)]);
     high - low
 }
 

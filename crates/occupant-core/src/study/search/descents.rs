@@ -71,15 +71,9 @@ pub fn descend<E>(
             break;
         }
     }
-    let nothing = Point {
-        at: how.start.clone(),
-        value: f64::INFINITY,
-    };
+    let nothing = Point { at: how.start.clone(), value: f64::INFINITY };
     let all = descents.iter().map(|d| d.best.clone());
-    Ok(Global {
-        best: all.fold(nothing, Point::lower),
-        descents,
-    })
+    Ok(Global { best: all.fold(nothing, Point::lower), descents })
 }
 
 fn start(how: &Descents, number: usize) -> Vec<f64> {
@@ -101,19 +95,13 @@ fn one<E>(
     left: u64,
     evaluate: &mut impl FnMut(Stage, &[Vec<f64>]) -> Result<Vec<f64>, E>,
 ) -> Result<Descent, E> {
-    let mut best = Point {
-        at: start.clone(),
-        value: f64::INFINITY,
-    };
+    let mut best = Point { at: start.clone(), value: f64::INFINITY };
     let mut cma = Cma::new(start, FIRST_STEP, population, how.seed, number as u64);
     let mut evaluations = 0;
     let mut generation = 0;
     let ending = loop {
         let asked = cma.ask();
-        let folded = asked
-            .iter()
-            .map(|x| x.iter().map(|x| fold(*x)).collect())
-            .collect();
+        let folded = asked.iter().map(|x| x.iter().map(|x| fold(*x)).collect()).collect();
         let stage = Stage::Descent { number, generation };
         let points = evaluated(stage, folded, evaluate)?;
         evaluations += points.len() as u64;
@@ -128,10 +116,5 @@ fn one<E>(
             break Ending::Budget;
         }
     };
-    Ok(Descent {
-        population,
-        evaluations,
-        best,
-        ending,
-    })
+    Ok(Descent { population, evaluations, best, ending })
 }

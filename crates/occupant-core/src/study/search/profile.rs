@@ -67,9 +67,8 @@ pub fn profile<E>(
     rise: f64,
     evaluate: &mut impl FnMut(Stage, &[Vec<f64>]) -> Result<Vec<f64>, E>,
 ) -> Result<Profiles, E> {
-    let mut chains: Vec<Chain> = (0..centre.at.len())
-        .flat_map(|i| [0, 1].map(|s| Chain::new(i, s, centre, &reaches[i], shape)))
-        .collect();
+    let mut chains: Vec<Chain> =
+        (0..centre.at.len()).flat_map(|i| [0, 1].map(|s| Chain::new(i, s, centre, &reaches[i], shape))).collect();
     for _ in 0..ROUNDS {
         begin(&mut chains, centre, evaluate)?;
         for _ in 0..WALKS {
@@ -79,17 +78,9 @@ pub fn profile<E>(
             chain.see(centre, rise);
         }
     }
-    let lowest = chains
-        .iter()
-        .map(|c| c.best.clone())
-        .fold(centre.clone(), Point::lower);
-    let ends = chains
-        .chunks(2)
-        .map(|both| [both[0].end(centre), both[1].end(centre)]);
-    Ok(Profiles {
-        ends: ends.collect(),
-        lowest,
-    })
+    let lowest = chains.iter().map(|c| c.best.clone()).fold(centre.clone(), Point::lower);
+    let ends = chains.chunks(2).map(|both| [both[0].end(centre), both[1].end(centre)]);
+    Ok(Profiles { ends: ends.collect(), lowest })
 }
 
 /// Sets every coordinate and lets the others follow as they did.
@@ -200,12 +191,7 @@ impl Chain {
 
     fn guess(&self, centre: &Point) -> Vec<f64> {
         let t = self.side.sign() * self.t;
-        let mut at: Vec<f64> = centre
-            .at
-            .iter()
-            .zip(&self.follow)
-            .map(|(u, f)| (u + f * t).clamp(0.0, 1.0))
-            .collect();
+        let mut at: Vec<f64> = centre.at.iter().zip(&self.follow).map(|(u, f)| (u + f * t).clamp(0.0, 1.0)).collect();
         at[self.coordinate] = (centre.at[self.coordinate] + t).clamp(0.0, 1.0);
         at
     }
@@ -236,11 +222,7 @@ impl Chain {
         for (j, f) in self.follow.iter_mut().enumerate() {
             *f = (self.best.at[j] - centre.at[j]) / moved;
         }
-        let end = End {
-            at: self.best.at[self.coordinate],
-            open: false,
-            point: self.best.clone(),
-        };
+        let end = End { at: self.best.at[self.coordinate], open: false, point: self.best.clone() };
         if risen < 1.0 && t >= self.room {
             self.end = Some(End { open: true, ..end });
             self.done = true;
@@ -276,11 +258,7 @@ impl Chain {
     /// The end, between its brackets where the rise was not met closely.
     fn end(&self, centre: &Point) -> End {
         let Some(end) = &self.end else {
-            return End {
-                at: centre.at[self.coordinate],
-                open: true,
-                point: centre.clone(),
-            };
+            return End { at: centre.at[self.coordinate], open: true, point: centre.clone() };
         };
         let mut end = end.clone();
         if !self.done {

@@ -37,10 +37,7 @@ pub fn explore<E>(
     evaluate: &mut impl FnMut(Stage, &[Vec<f64>]) -> Result<Vec<f64>, E>,
 ) -> Result<(Bowl, Vec<Point>), E> {
     let n = free.len();
-    let offsets: Vec<[f64; 2]> = free
-        .iter()
-        .map(|i| offsets(centre.at[*i], lengths[*i]))
-        .collect();
+    let offsets: Vec<[f64; 2]> = free.iter().map(|i| offsets(centre.at[*i], lengths[*i])).collect();
     let moved = |moves: &[(usize, f64)]| {
         let mut at = centre.at.clone();
         for (k, offset) in moves {
@@ -81,14 +78,7 @@ pub fn explore<E>(
         }
     }
     let free = free.to_vec();
-    Ok((
-        Bowl {
-            free,
-            slope,
-            curvature,
-        },
-        points,
-    ))
+    Ok((Bowl { free, slope, curvature }, points))
 }
 
 impl Bowl {

@@ -39,9 +39,8 @@ pub fn scan<E>(
     rise: f64,
     evaluate: &mut impl FnMut(Stage, &[Vec<f64>]) -> Result<Vec<f64>, E>,
 ) -> Result<(Vec<[Reach; 2]>, Point), E> {
-    let mut chains: Vec<Chain> = (0..centre.at.len())
-        .flat_map(|i| Side::BOTH.map(|side| Chain::new(i, side, centre)))
-        .collect();
+    let mut chains: Vec<Chain> =
+        (0..centre.at.len()).flat_map(|i| Side::BOTH.map(|side| Chain::new(i, side, centre))).collect();
     let mut lowest = centre.clone();
     for _ in 0..ROUNDS {
         let mut open: Vec<&mut Chain> = chains.iter_mut().filter(|c| c.found.is_none()).collect();
@@ -52,19 +51,14 @@ pub fn scan<E>(
             lowest = lowest.lower(point);
         }
     }
-    let reaches = chains
-        .chunks(2)
-        .map(|both| [both[0].reach(), both[1].reach()]);
+    let reaches = chains.chunks(2).map(|both| [both[0].reach(), both[1].reach()]);
     Ok((reaches.collect(), lowest))
 }
 
 impl Chain {
     fn new(coordinate: usize, side: Side, centre: &Point) -> Self {
         let room = side.room(centre.at[coordinate]);
-        let none = Reach {
-            length: 0.0,
-            open: true,
-        };
+        let none = Reach { length: 0.0, open: true };
         Chain {
             coordinate,
             side,
@@ -87,15 +81,9 @@ impl Chain {
     fn see(&mut self, rise: f64) {
         let t = self.next;
         if rise < 1.0 && t >= self.room {
-            self.found = Some(Reach {
-                length: self.room,
-                open: true,
-            });
+            self.found = Some(Reach { length: self.room, open: true });
         } else if (1.0 / GOOD..=GOOD).contains(&rise) {
-            self.found = Some(Reach {
-                length: t,
-                open: false,
-            });
+            self.found = Some(Reach { length: t, open: false });
         }
         // a bowl rises with the square
         let guess = t / rise.max(1e-6).sqrt();
@@ -111,9 +99,6 @@ impl Chain {
     }
 
     fn reach(&self) -> Reach {
-        self.found.unwrap_or(Reach {
-            length: self.high.unwrap_or(self.low),
-            open: false,
-        })
+        self.found.unwrap_or(Reach { length: self.high.unwrap_or(self.low), open: false })
     }
 }

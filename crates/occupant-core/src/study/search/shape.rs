@@ -53,22 +53,10 @@ impl Shape {
         // ½ λ s² = 1
         let reach = |e: usize| (2.0 / eigen.eigenvalues[e].max(FLATTEST)).sqrt();
         let along = |e: usize, k: usize| eigen.eigenvectors[(k, e)] * reach(e) * length(k);
-        let directions = order
-            .iter()
-            .map(|e| (0..n).map(|k| along(*e, k)).collect())
-            .collect();
-        let covariance = DMatrix::from_fn(n, n, |i, j| {
-            order
-                .iter()
-                .fold(0.0, |sum, e| sum + along(*e, i) * along(*e, j))
-        });
-        Shape {
-            free: bowl.free.clone(),
-            lengths,
-            curvature,
-            covariance,
-            directions,
-        }
+        let directions = order.iter().map(|e| (0..n).map(|k| along(*e, k)).collect()).collect();
+        let covariance =
+            DMatrix::from_fn(n, n, |i, j| order.iter().fold(0.0, |sum, e| sum + along(*e, i) * along(*e, j)));
+        Shape { free: bowl.free.clone(), lengths, curvature, covariance, directions }
     }
 
     /// The place of a coordinate among the free ones.

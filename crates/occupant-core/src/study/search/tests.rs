@@ -38,10 +38,7 @@ fn evaluations(
 fn median(count: impl Fn(u64) -> Option<u64>) -> (u64, usize) {
     let mut counts: Vec<u64> = (1..=21).filter_map(count).collect();
     counts.sort_unstable();
-    (
-        counts.get(counts.len() / 2).copied().unwrap_or(0),
-        counts.len(),
-    )
+    (counts.get(counts.len() / 2).copied().unwrap_or(0), counts.len())
 }
 
 fn sphere(x: &[f64]) -> f64 {
@@ -106,13 +103,7 @@ fn a_great_population_finds_its_way_through_a_rugged_landscape() {
 
 #[test]
 fn growing_populations_reach_what_the_first_descent_misses() {
-    let how = |seed| Descents {
-        start: vec![0.1; 3],
-        seed,
-        evaluations: 20_000,
-        population: 7,
-        tolerance: 1e-9,
-    };
+    let how = |seed| Descents { start: vec![0.1; 3], seed, evaluations: 20_000, population: 7, tolerance: 1e-9 };
     let (mut missed, mut arrived) = (0, 0);
     for seed in 0..10 {
         let f = |p: &[f64]| rastrigin(&p.iter().map(|u| 10.0 * u - 6.0).collect::<Vec<_>>());
@@ -121,10 +112,7 @@ fn growing_populations_reach_what_the_first_descent_misses() {
         arrived += usize::from(found.best.value < 1e-6);
         missed += usize::from(found.descents[0].best.value > 0.5);
         let populations: Vec<usize> = found.descents.iter().map(|d| d.population).collect();
-        assert!(
-            populations.windows(2).all(|w| w[1] == 2 * w[0]),
-            "{populations:?}"
-        );
+        assert!(populations.windows(2).all(|w| w[1] == 2 * w[0]), "{populations:?}");
         let used: u64 = found.descents.iter().map(|d| d.evaluations).sum();
         assert!(used <= 20_000);
     }
@@ -153,22 +141,11 @@ impl Valley {
 }
 
 /// Refinement, scan, shape and profile of a function from a start near its bottom.
-fn look(
-    f: impl Fn(&[f64]) -> f64,
-    start: &[f64],
-    rise: f64,
-) -> (Point, Vec<[Reach; 2]>, Shape, Profiles) {
-    let mut evaluate =
-        |_: Stage, points: &[Vec<f64>]| Ok::<_, Infallible>(points.iter().map(|p| f(p)).collect());
-    let centre = Point {
-        at: start.to_vec(),
-        value: f(start),
-    };
+fn look(f: impl Fn(&[f64]) -> f64, start: &[f64], rise: f64) -> (Point, Vec<[Reach; 2]>, Shape, Profiles) {
+    let mut evaluate = |_: Stage, points: &[Vec<f64>]| Ok::<_, Infallible>(points.iter().map(|p| f(p)).collect());
+    let centre = Point { at: start.to_vec(), value: f(start) };
     let (reaches, lowest) = scan(&centre, rise, &mut evaluate).unwrap();
-    let lengths: Vec<f64> = reaches
-        .iter()
-        .map(|[a, b]| 0.5 * (a.length + b.length))
-        .collect();
+    let lengths: Vec<f64> = reaches.iter().map(|[a, b]| 0.5 * (a.length + b.length)).collect();
     let centre = refine(lowest, &lengths, rise, &mut evaluate).unwrap();
     let (reaches, _) = scan(&centre, rise, &mut evaluate).unwrap();
     let (shape, _) = Shape::look(&centre, &reaches, rise, &mut evaluate).unwrap();
@@ -178,12 +155,8 @@ fn look(
 
 #[test]
 fn intervals_and_correlations_of_a_bowl_are_those_of_its_inverse() {
-    let curvature =
-        DMatrix::from_row_slice(3, 3, &[40.0, 30.0, 5.0, 30.0, 30.0, 0.0, 5.0, 0.0, 90.0]);
-    let valley = Valley {
-        bottom: vec![0.4, 0.55, 0.6],
-        curvature: curvature.clone(),
-    };
+    let curvature = DMatrix::from_row_slice(3, 3, &[40.0, 30.0, 5.0, 30.0, 30.0, 0.0, 5.0, 0.0, 90.0]);
+    let valley = Valley { bottom: vec![0.4, 0.55, 0.6], curvature: curvature.clone() };
     let rise = 1e-2;
     let (centre, reaches, shape, profiles) = look(|p| valley.value(p), &[0.42, 0.5, 0.61], rise);
     let inverse = curvature.clone().try_inverse().unwrap();
@@ -197,10 +170,7 @@ fn intervals_and_correlations_of_a_bowl_are_those_of_its_inverse() {
             assert!((reach.length / alone - 1.0).abs() < 0.15);
             let length = (end.at - centre.at[i]).abs();
             // within the part that the profile allows for the rise: √1.1
-            assert!(
-                (length / following - 1.0).abs() < 0.055,
-                "{length} {following}"
-            );
+            assert!((length / following - 1.0).abs() < 0.055, "{length} {following}");
             assert!(!end.open);
         }
         for j in 0..i {
@@ -260,13 +230,7 @@ fn a_least_value_at_a_wall_is_found_there_and_has_one_end() {
 fn a_search_is_the_same_for_the_same_seed_and_another_for_another() {
     let run = |seed| {
         let mut seen: Vec<Vec<f64>> = Vec::new();
-        let how = Descents {
-            start: vec![0.5; 2],
-            seed,
-            evaluations: 200,
-            population: 8,
-            tolerance: 1e-12,
-        };
+        let how = Descents { start: vec![0.5; 2], seed, evaluations: 200, population: 8, tolerance: 1e-12 };
         let mut of = |_, points: &[Vec<f64>]| {
             seen.extend(points.to_vec());
             Ok::<_, Infallible>(points.iter().map(|p| sphere(p)).collect())

@@ -15,9 +15,7 @@ fn a_full_factorial_goes_through_the_last_parameter_first() {
         list = [\"half_sine\", \"square\"]",
     );
     assert_eq!(study.len(), 6);
-    let rows: Vec<Vec<Value>> = (0..6)
-        .map(|i| study.sample(i).into_iter().map(|s| s.value).collect())
-        .collect();
+    let rows: Vec<Vec<Value>> = (0..6).map(|i| study.sample(i).into_iter().map(|s| s.value).collect()).collect();
     let text = |t: &str| Value::Text(t.to_owned());
     let wanted: Vec<Vec<Value>> = [60e3, 70e3, 80e3]
         .iter()
@@ -60,11 +58,7 @@ fn a_latin_hypercube_uses_every_stratum_once() {
 fn a_latin_hypercube_does_not_correlate_its_parameters() {
     let n = 4000;
     let study = unit_square(&format!("{{ kind = \"latin_hypercube\", samples = {n} }}"));
-    let mean: f64 = (0..n)
-        .map(|i| numbers(&study, i))
-        .map(|x| (x[0] - 0.5) * (x[1] - 0.5))
-        .sum::<f64>()
-        / n as f64;
+    let mean: f64 = (0..n).map(|i| numbers(&study, i)).map(|x| (x[0] - 0.5) * (x[1] - 0.5)).sum::<f64>() / n as f64;
     // standard error of the correlation: 0.016; measured: 0.012
     assert!((12.0 * mean).abs() < 0.05, "{}", 12.0 * mean);
 }
@@ -79,9 +73,7 @@ fn a_scrambled_sobol_design_keeps_its_strata_and_changes_with_the_seed() {
         (0..n as u64).for_each(|i| used[(numbers(&study, i)[d] * n as f64) as usize] += 1);
         assert!(used.iter().all(|u| *u == 1), "dimension {d}");
     }
-    let plain = unit_square(&format!(
-        "{{ kind = \"sobol\", samples = {n}, scramble = false }}"
-    ));
+    let plain = unit_square(&format!("{{ kind = \"sobol\", samples = {n}, scramble = false }}"));
     let first: Vec<f64> = (1..4).map(|i| numbers(&plain, i)[1]).collect();
     for (found, published) in first.iter().zip([0.5, 0.25, 0.75]) {
         assert!((found - published).abs() < 1e-15, "{first:?}");
@@ -126,10 +118,7 @@ fn a_sample_is_the_same_in_any_order_and_for_any_number_of_samples() {
 fn the_same_bits_everywhere() {
     let bits = |design: &str| {
         let study = unit_square(&format!("{{ kind = \"{design}\", samples = 1000 }}"));
-        numbers(&study, 123)
-            .iter()
-            .map(|x| x.to_bits())
-            .collect::<Vec<_>>()
+        numbers(&study, 123).iter().map(|x| x.to_bits()).collect::<Vec<_>>()
     };
     let found = ["monte_carlo", "latin_hypercube", "sobol"].map(bits);
     assert_eq!(found, BITS.map(|b| b.to_vec()), "{found:#X?}");
@@ -144,15 +133,9 @@ const BITS: [[u64; 2]; 3] = [
 #[test]
 fn a_million_million_samples_need_no_memory() {
     for design in ["latin_hypercube", "sobol", "monte_carlo"] {
-        let study = unit_square(&format!(
-            "{{ kind = \"{design}\", samples = 1000000000000 }}"
-        ));
+        let study = unit_square(&format!("{{ kind = \"{design}\", samples = 1000000000000 }}"));
         assert_eq!(study.len(), 1_000_000_000_000);
-        assert!(
-            numbers(&study, 999_999_999_999)
-                .iter()
-                .all(|x| (0.0..1.0).contains(x))
-        );
+        assert!(numbers(&study, 999_999_999_999).iter().all(|x| (0.0..1.0).contains(x)));
     }
 }
 
@@ -173,28 +156,16 @@ fn one_at_a_time_begins_with_the_base_and_covers_low_and_high() {
     assert_eq!(study.len(), 1 + 2 + 2 + 3);
     let shape = |t: &str| Value::Text(t.to_owned());
     let deg = std::f64::consts::PI / 180.0;
-    let row = |i| {
-        study
-            .sample(i)
-            .into_iter()
-            .map(|s| (s.value, s.given))
-            .collect::<Vec<_>>()
-    };
+    let row = |i| study.sample(i).into_iter().map(|s| (s.value, s.given)).collect::<Vec<_>>();
     let head = Value::Number(5.0 * deg);
-    let nominal = [
-        (Value::Number(0.8), false),
-        (head.clone(), false),
-        (shape("half_sine"), false),
-    ];
+    let nominal = [(Value::Number(0.8), false), (head.clone(), false), (shape("half_sine"), false)];
     assert_eq!(row(0), nominal);
     assert!(study.assignments(0).is_empty());
     assert_eq!(row(1)[0], (Value::Number(0.2), true));
     assert_eq!(row(2)[0], (Value::Number(1.0), true));
     assert_eq!(row(2)[1..], nominal[1..]);
     for (i, z) in [(3, -1.959_963_984_540_054), (4, 1.959_963_984_540_054)] {
-        let Value::Number(x) = row(i)[1].0 else {
-            panic!()
-        };
+        let Value::Number(x) = row(i)[1].0 else { panic!() };
         assert!((x - (5.0 + z) * deg).abs() < 1e-15);
     }
     let shapes: Vec<_> = (5..8).map(|i| row(i)[2].0.clone()).collect();
@@ -213,34 +184,14 @@ fn a_design_that_cannot_be_counted_is_refused() {
             i % 3
         )
     };
-    let text = format!(
-        "design.kind = \"full_factorial\"\n{}{}{}",
-        grid(0),
-        grid(1),
-        grid(2)
-    );
-    assert!(
-        bind(&text)
-            .unwrap_err()
-            .to_string()
-            .contains("more runs than can be counted")
-    );
+    let text = format!("design.kind = \"full_factorial\"\n{}{}{}", grid(0), grid(1), grid(2));
+    assert!(bind(&text).unwrap_err().to_string().contains("more runs than can be counted"));
 }
 
 #[test]
 fn an_uneven_number_of_sobol_points_is_warned_of() {
     let study = unit_square("{ kind = \"sobol\", samples = 100 }");
     assert!(study.warnings().to_string().contains("samples = 64 or 128"));
-    assert!(
-        unit_square("{ kind = \"sobol\", samples = 128 }")
-            .warnings()
-            .is_empty()
-    );
-    assert_eq!(
-        *study.design(),
-        Design::Sobol {
-            samples: 100,
-            scramble: true
-        }
-    );
+    assert!(unit_square("{ kind = \"sobol\", samples = 128 }").warnings().is_empty());
+    assert_eq!(*study.design(), Design::Sobol { samples: 100, scramble: true });
 }

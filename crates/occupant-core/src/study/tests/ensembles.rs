@@ -23,10 +23,7 @@ fn number(value: &Value) -> f64 {
 }
 
 fn put(study: &Study, index: u64, path: &str) -> Option<f64> {
-    let found = study
-        .assignments(index)
-        .into_iter()
-        .find(|a| a.path == path);
+    let found = study.assignments(index).into_iter().find(|a| a.path == path);
     found.map(|a| number(&a.value))
 }
 
@@ -54,15 +51,7 @@ fn member_0_is_the_sample_itself_and_the_others_stay_within_the_tolerances() {
         assert!((put("posture.heels[0]").unwrap() - 0.69).abs() <= 0.002);
         assert!((put("path.delta_v").unwrap() / (30.0 / 3.6) - 1.0).abs() <= 0.01);
         assert!((put("materials.foam.friction").unwrap() / 0.8 - 1.0).abs() <= 0.1);
-        assert!(
-            study
-                .draft(index)
-                .unwrap()
-                .load(&super::no_files)
-                .unwrap()
-                .build()
-                .is_ok()
-        );
+        assert!(study.draft(index).unwrap().load(&super::no_files).unwrap().build().is_ok());
     }
 }
 
@@ -78,8 +67,7 @@ fn members_are_changed_alike_in_all_samples() {
 fn an_ensemble_needs_no_parameters_and_a_larger_one_begins_with_the_smaller() {
     let plain = study("ensemble.members = 32");
     assert_eq!((plain.len(), plain.samples()), (32, 1));
-    let standard =
-        |members| Study::of_ensemble(base(), "short.toml", members, 0, &Tolerances::default());
+    let standard = |members| Study::of_ensemble(base(), "short.toml", members, 0, &Tolerances::default());
     assert_eq!(plain.assignments(31), standard(32).assignments(31));
     assert_eq!(standard(32).assignments(7), standard(64).assignments(7));
     // six angles, two of the heels, the pulse, a material, a belt
@@ -91,9 +79,8 @@ fn an_ensemble_needs_no_parameters_and_a_larger_one_begins_with_the_smaller() {
 fn changes_are_even_within_their_tolerance() {
     let n = 20_000;
     let study = Study::of_ensemble(base(), "short.toml", n, 1, &Tolerances::default());
-    let ways: Vec<f64> = (1..n)
-        .map(|i| (put(&study, i, "path.delta_v").unwrap() / (30.0 / 3.6) - 1.0) / 0.01)
-        .collect();
+    let ways: Vec<f64> =
+        (1..n).map(|i| (put(&study, i, "path.delta_v").unwrap() / (30.0 / 3.6) - 1.0) / 0.01).collect();
     let mean = ways.iter().sum::<f64>() / ways.len() as f64;
     let square = ways.iter().map(|w| w * w).sum::<f64>() / ways.len() as f64;
     // standard errors 0.004 and 0.002; measured: 0.0014 and 0.0016
@@ -115,11 +102,7 @@ fn a_tolerance_without_a_place_is_told() {
     );
     let free_fall = include_str!("../../../../../scenarios/free-fall.toml");
     let draft = crate::scenario::Draft::read(free_fall, crate::scenario::Format::Toml, "f.toml");
-    let words = fixed
-        .unwrap()
-        .bind(draft.unwrap(), &[], &super::no_files)
-        .unwrap_err()
-        .to_string();
+    let words = fixed.unwrap().bind(draft.unwrap(), &[], &super::no_files).unwrap_err().to_string();
     assert_eq!(
         words,
         "error: the base scenario has nothing that `path` could change
@@ -151,14 +134,6 @@ fn members_change_the_peak_where_a_parameter_gives_it() {
     let part = put(&study, 4, "path.peak").unwrap() / (10.0 * 9.806_65);
     assert!(part != 1.0 && (part - 1.0).abs() <= 0.01, "{part}");
     for index in 0..9 {
-        assert!(
-            study
-                .draft(index)
-                .unwrap()
-                .load(&super::no_files)
-                .unwrap()
-                .build()
-                .is_ok()
-        );
+        assert!(study.draft(index).unwrap().load(&super::no_files).unwrap().build().is_ok());
     }
 }

@@ -65,19 +65,8 @@ fn parts_of_the_way_between_the_ends_lead_to_values_and_back() {
     let text = text("[design]\nkind = \"monte_carlo\"\nsamples = 3");
     let set = IndexMap::new();
     let study = text.bind_fit(base(), (&set, ""), &[], &no_files).unwrap();
-    let bounds: Vec<Bounds> = study
-        .parameters()
-        .iter()
-        .filter_map(|p| p.bounds())
-        .collect();
-    assert_eq!(
-        bounds[1],
-        Bounds {
-            from: 0.2,
-            to: 1.0,
-            log: false
-        }
-    );
+    let bounds: Vec<Bounds> = study.parameters().iter().filter_map(|p| p.bounds()).collect();
+    assert_eq!(bounds[1], Bounds { from: 0.2, to: 1.0, log: false });
     // the middle of a logarithmic range: √(0.1 · 1.6)
     assert!((bounds[0].value(0.5) - 0.4).abs() < 1e-15);
     for u in [0.0, 0.3, 1.0] {
@@ -86,14 +75,8 @@ fn parts_of_the_way_between_the_ends_lead_to_values_and_back() {
     // the design is for sweeps
     assert_eq!(study.len(), 1);
     let put = study.assignments_of(&[0.4, 0.5]);
-    let put: Vec<String> = put
-        .iter()
-        .map(|a| format!("{}={}", a.path, a.text()))
-        .collect();
-    assert_eq!(
-        put,
-        ["materials.foam.friction=0.4", "materials.foam.mu1=0.5"]
-    );
+    let put: Vec<String> = put.iter().map(|a| format!("{}={}", a.path, a.text())).collect();
+    assert_eq!(put, ["materials.foam.friction=0.4", "materials.foam.mu1=0.5"]);
 }
 
 #[test]
@@ -108,10 +91,7 @@ fn parameters_without_ends_are_told_by_a_fit_and_not_by_a_sweep() {
     let set = IndexMap::new();
     let told = text.bind_fit(base(), (&set, ""), &[], &no_files);
     let told = told.unwrap_err().to_string();
-    assert!(
-        told.contains("`friction` has no ends between which to look"),
-        "{told}"
-    );
+    assert!(told.contains("`friction` has no ends between which to look"), "{told}");
     assert!(told.contains("study.toml:4:"), "{told}");
 }
 
@@ -119,12 +99,7 @@ fn parameters_without_ends_are_told_by_a_fit_and_not_by_a_sweep() {
 fn what_a_test_has_besides_is_told_where_it_stands() {
     let text = text("[[fit.tests]]\nfile = \"a.csv\"\nset = { \"materials.foam.k9\" = 3 }");
     let fit = text.fit().unwrap();
-    let told = text.bind_fit(
-        base(),
-        (&fit.tests[0].set, "fit.tests[0].set"),
-        &[],
-        &no_files,
-    );
+    let told = text.bind_fit(base(), (&fit.tests[0].set, "fit.tests[0].set"), &[], &no_files);
     let told = told.unwrap_err().to_string();
     assert!(told.contains("k9"), "{told}");
 }

@@ -13,14 +13,9 @@ fn at(law: &Law, p: f64) -> f64 {
 /// Mean and variance of a law: the mean over 100 000 midpoints of equal probability.
 fn moments(law: &Law) -> [f64; 2] {
     let n = 100_000;
-    let x: Vec<f64> = (0..n)
-        .map(|i| at(law, (i as f64 + 0.5) / n as f64))
-        .collect();
+    let x: Vec<f64> = (0..n).map(|i| at(law, (i as f64 + 0.5) / n as f64)).collect();
     let mean = x.iter().sum::<f64>() / n as f64;
-    [
-        mean,
-        x.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / n as f64,
-    ]
+    [mean, x.iter().map(|x| (x - mean).powi(2)).sum::<f64>() / n as f64]
 }
 
 #[test]
@@ -32,46 +27,19 @@ fn distributions_have_their_moments() {
     let (density, inside) = (0.241_970_724_519_143_37, 0.682_689_492_137_085_9);
     for (law, mean, variance) in [
         (Law::Uniform { from: a, to: b }, 5.0, 3.0),
+        (Law::LogUniform { from: a, to: b }, log_mean, (b * b - a * a) / (2.0 * log) - log_mean.powi(2)),
+        (Law::Normal { mean: -1.0, sd: 2.0 }, -1.0, 4.0),
         (
-            Law::LogUniform { from: a, to: b },
-            log_mean,
-            (b * b - a * a) / (2.0 * log) - log_mean.powi(2),
-        ),
-        (
-            Law::Normal {
-                mean: -1.0,
-                sd: 2.0,
-            },
-            -1.0,
-            4.0,
-        ),
-        (
-            Law::Triangular {
-                from: a,
-                mode: c,
-                to: b,
-            },
+            Law::Triangular { from: a, mode: c, to: b },
             (a + b + c) / 3.0,
             (a * a + b * b + c * c - a * b - a * c - b * c) / 18.0,
         ),
-        (
-            Law::TruncatedNormal {
-                mean: 5.0,
-                sd: 3.0,
-                from: a,
-                to: b,
-            },
-            5.0,
-            9.0 * (1.0 - 2.0 * density / inside),
-        ),
+        (Law::TruncatedNormal { mean: 5.0, sd: 3.0, from: a, to: b }, 5.0, 9.0 * (1.0 - 2.0 * density / inside)),
     ] {
         let [m, v] = moments(&law);
         // measured: at most 5.8e-9 and 1.4e-5, the latter in the tails of the normal distribution
         assert!((m - mean).abs() < 1e-6, "{law:?}: mean {m}, not {mean}");
-        assert!(
-            (v / variance - 1.0).abs() < 1e-4,
-            "{law:?}: variance {v}, not {variance}"
-        );
+        assert!((v / variance - 1.0).abs() < 1e-4, "{law:?}: variance {v}, not {variance}");
     }
 }
 
@@ -80,45 +48,21 @@ fn quantiles_end_where_they_should() {
     for law in [
         Law::Uniform { from: 0.1, to: 0.7 },
         Law::LogUniform { from: 0.1, to: 0.7 },
-        Law::Triangular {
-            from: 0.1,
-            mode: 0.1,
-            to: 0.7,
-        },
-        Law::Triangular {
-            from: 0.1,
-            mode: 0.7,
-            to: 0.7,
-        },
-        Law::TruncatedNormal {
-            mean: -4.0,
-            sd: 0.5,
-            from: 0.1,
-            to: 0.7,
-        },
-        Law::TruncatedNormal {
-            mean: 9.0,
-            sd: 1.0,
-            from: 0.1,
-            to: 0.7,
-        },
+        Law::Triangular { from: 0.1, mode: 0.1, to: 0.7 },
+        Law::Triangular { from: 0.1, mode: 0.7, to: 0.7 },
+        Law::TruncatedNormal { mean: -4.0, sd: 0.5, from: 0.1, to: 0.7 },
+        Law::TruncatedNormal { mean: 9.0, sd: 1.0, from: 0.1, to: 0.7 },
     ] {
         assert!((at(&law, 0.0) - 0.1).abs() < 1e-12, "{law:?}");
         assert!((at(&law, 1.0) - 0.7).abs() < 1e-12, "{law:?}");
         let between: Vec<f64> = (0..=50).map(|i| at(&law, f64::from(i) / 50.0)).collect();
         assert!(between.windows(2).all(|w| w[0] < w[1]), "{law:?}");
     }
-    let triangle = Law::Triangular {
-        from: 0.0,
-        mode: 1.0,
-        to: 4.0,
-    };
+    let triangle = Law::Triangular { from: 0.0, mode: 1.0, to: 4.0 };
     // a quarter of the area lies below the mode
     assert!((at(&triangle, 0.25) - 1.0).abs() < 1e-15);
     let list = Law::List(["a", "b", "c"].map(|t| Value::Text(t.into())).to_vec());
-    let drawn: Vec<Value> = [0.0, 0.3, 0.34, 0.66, 0.67, 1.0]
-        .map(|p| list.quantile(p))
-        .to_vec();
+    let drawn: Vec<Value> = [0.0, 0.3, 0.34, 0.66, 0.67, 1.0].map(|p| list.quantile(p)).to_vec();
     let wanted = ["a", "a", "b", "b", "c", "c"].map(|t| Value::Text(t.into()));
     assert_eq!(drawn, wanted);
 }
@@ -129,10 +73,7 @@ fn rank_correlation(x: &[f64], y: &[f64]) -> f64 {
         let mut order: Vec<usize> = (0..x.len()).collect();
         order.sort_by(|a, b| x[*a].total_cmp(&x[*b]));
         let mut ranks = vec![0.0; x.len()];
-        order
-            .iter()
-            .enumerate()
-            .for_each(|(rank, i)| ranks[*i] = rank as f64);
+        order.iter().enumerate().for_each(|(rank, i)| ranks[*i] = rank as f64);
         ranks
     };
     let (a, b, n) = (ranks(x), ranks(y), x.len() as f64);
@@ -175,13 +116,7 @@ fn correlations_are_reached_and_distributions_kept() {
                 column.push(x);
             }
         }
-        for (a, b, wanted) in [
-            (0, 1, 0.6),
-            (1, 2, -0.3),
-            (0, 2, 0.0),
-            (0, 3, 0.0),
-            (1, 3, 0.0),
-        ] {
+        for (a, b, wanted) in [(0, 1, 0.6), (1, 2, -0.3), (0, 2, 0.0), (0, 3, 0.0), (1, 3, 0.0)] {
             let found = rank_correlation(&columns[a], &columns[b]);
             // standard error about 0.011 for random samples; measured: at most 0.016, 0.017 and 3e-4 in the order of designs
             assert!((found - wanted).abs() < 0.03, "{design} {a} {b}: {found}");

@@ -321,9 +321,7 @@ error: `joints.neck.damping` is already varied by `a`
 #[test]
 fn correlations_that_contradict_each_other_are_told() {
     let parameter = |name: &str, path: &str| {
-        format!(
-            "[[parameters]]\nname = \"{name}\"\npath = \"{path}\"\nrange = {{ from = 0, to = 1 }}\n"
-        )
+        format!("[[parameters]]\nname = \"{name}\"\npath = \"{path}\"\nrange = {{ from = 0, to = 1 }}\n")
     };
     let text = format!(
         "design = {{ kind = \"monte_carlo\", samples = 9 }}\n{}{}{}[[correlations]]
@@ -354,15 +352,9 @@ rank = -0.9
     let unknown = text.replace("[\"a\", \"c\"]", "[\"a\", \"d\"]");
     let words = complaint(&unknown);
     assert!(words.contains("no parameter is named \"d\""), "{words}");
-    let factorial = text.replace(
-        "kind = \"monte_carlo\", samples = 9",
-        "kind = \"one_at_a_time\"",
-    );
+    let factorial = text.replace("kind = \"monte_carlo\", samples = 9", "kind = \"one_at_a_time\"");
     let words = complaint(&factorial);
-    assert!(
-        words.contains("correlations in a design that has none"),
-        "{words}"
-    );
+    assert!(words.contains("correlations in a design that has none"), "{words}");
 }
 
 #[test]
@@ -422,7 +414,6 @@ error: a tail of 0.5
     );
     let words = complaint("design.kind = \"full_factorial\"");
     assert!(words.contains("a design without parameters"), "{words}");
-    let bare =
-        "design.kind = \"full_factorial\"\n[[parameters]]\npath = \"materials.foam.friction\"\n";
+    let bare = "design.kind = \"full_factorial\"\n[[parameters]]\npath = \"materials.foam.friction\"\n";
     assert!(complaint(bare).contains("does not say how it varies"));
 }

@@ -58,10 +58,7 @@ fn a_factor_multiplies_what_presets_say_each_in_its_own_place() {
     assert_eq!(study.parameters()[0].targets.len(), 11);
     let (plain, half) = (setup(&study, 0).joints, setup(&study, 1).joints);
     assert_eq!(half.neck.damping_n_m_s, 0.5 * plain.neck.damping_n_m_s);
-    assert_eq!(
-        half.left_knee.damping_n_m_s,
-        0.5 * plain.left_knee.damping_n_m_s
-    );
+    assert_eq!(half.left_knee.damping_n_m_s, 0.5 * plain.left_knee.damping_n_m_s);
     assert_ne!(plain.neck.damping_n_m_s, plain.left_knee.damping_n_m_s);
 }
 
@@ -79,15 +76,8 @@ fn an_offset_is_added() {
 #[test]
 fn a_word_for_a_group_stands_for_what_it_changes() {
     let study = two("joints.knees.damping", "apply = \"factor\"", "2, 3");
-    let paths: Vec<&str> = study.parameters()[0]
-        .targets
-        .iter()
-        .map(|t| t.path.as_str())
-        .collect();
-    assert_eq!(
-        paths,
-        ["joints.right_knee.damping", "joints.left_knee.damping"]
-    );
+    let paths: Vec<&str> = study.parameters()[0].targets.iter().map(|t| t.path.as_str()).collect();
+    assert_eq!(paths, ["joints.right_knee.damping", "joints.left_knee.damping"]);
     let all = two("joints.all.damping", "", "2, 3");
     assert_eq!(all.parameters()[0].targets.len(), 11);
     let thighs = two("body.segments.thighs.mass", "", "9, 10");
@@ -164,10 +154,7 @@ fn a_value_given_by_hand_and_varied_is_told() {
     let text = StudyText::read(text, Format::Toml, "study.toml").unwrap();
     let problems = text.bind(base(), &["belts.lap.slack=1 cm".to_owned()], &no_files);
     let words = problems.unwrap_err().to_string();
-    assert!(
-        words.contains("`belts.lap.slack` is given by hand and varied"),
-        "{words}"
-    );
+    assert!(words.contains("`belts.lap.slack` is given by hand and varied"), "{words}");
 }
 
 #[test]

@@ -70,18 +70,7 @@ fn pieces_of_a_study_do_not_panic() {
 
 #[test]
 fn a_study_with_one_piece_replaced_does_not_panic() {
-    let wild = [
-        "-1",
-        "1e308",
-        "9223372036854775807",
-        "0",
-        "\"\"",
-        "\"1e308 lbf\"",
-        "[]",
-        "{}",
-        "true",
-        "nan",
-    ];
+    let wild = ["-1", "1e308", "9223372036854775807", "0", "\"\"", "\"1e308 lbf\"", "[]", "{}", "true", "nan"];
     let lines: Vec<&str> = STUDY.lines().collect();
     let with = |i: usize, line: String| {
         let changed = lines.iter().enumerate().map(|(at, old)| match at == i {
@@ -107,16 +96,7 @@ fn a_study_with_one_piece_replaced_does_not_panic() {
 
 #[test]
 fn nonsense_is_refused() {
-    for text in [
-        "",
-        "{}",
-        "[]",
-        "base",
-        "base = 3",
-        "{\"base\": null}",
-        "\u{feff}",
-        "\0",
-    ] {
+    for text in ["", "{}", "[]", "base", "base = 3", "{\"base\": null}", "\u{feff}", "\0"] {
         assert!(!try_all(text, Format::Toml), "{text}");
         assert!(!try_all(text, Format::Json), "{text}");
     }

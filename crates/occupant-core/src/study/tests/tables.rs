@@ -23,27 +23,20 @@ fn with(csv: &str) -> Result<super::Study, Diagnostics> {
 
 #[test]
 fn a_table_gives_the_samples_row_by_row() {
-    let study = with(
-        "# ours\nbelts.lap.slack[mm], damping, path.shape\n\n10, 1, square\n25.4, 0.5, half_sine\n",
-    );
+    let study = with("# ours\nbelts.lap.slack[mm], damping, path.shape\n\n10, 1, square\n25.4, 0.5, half_sine\n");
     let study = study.unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(study.len(), 2);
     let names: Vec<&str> = study.parameters().iter().map(|p| p.name.as_str()).collect();
     assert_eq!(names, ["damping", "belts.lap.slack", "path.shape"]);
     let row: Vec<Value> = study.sample(1).into_iter().map(|s| s.value).collect();
-    let wanted = [
-        Value::Number(0.5),
-        Value::Number(0.0254),
-        Value::Text("half_sine".into()),
-    ];
+    let wanted = [Value::Number(0.5), Value::Number(0.0254), Value::Text("half_sine".into())];
     assert_eq!(row, wanted);
     assert_eq!(study.assignments(1).len(), 13);
 }
 
 #[test]
 fn everything_wrong_with_a_table_is_told_at_once() {
-    let words =
-        with("belts.lap.slck[mm], path.shape, posture.head\n1, sine, 2\n1, square\n").unwrap_err();
+    let words = with("belts.lap.slck[mm], path.shape, posture.head\n1, sine, 2\n1, square\n").unwrap_err();
     assert_eq!(
         words.to_string(),
         r#"error: `belts.lap` has nothing named `slck`
