@@ -1,15 +1,15 @@
 //! The lap-belted occupant on a cart that stops from 20 mph: compartment, joints, belt and pulse.
 
 use nalgebra::{Point3, Vector3};
-use occupant_core::belt::{Belt, RestLength};
-use occupant_core::joint::{AngularSpring, BallJoint, HingeJoint, Joints, Stop};
-use occupant_core::material::{DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
-use occupant_core::path::{
+use occupant_core::body::joint::{AngularSpring, BallJoint, HingeJoint, Joints, Stop};
+use occupant_core::forces::belt::{Belt, RestLength};
+use occupant_core::forces::contact::surface::{Facing, Frame, Outline, Surface};
+use occupant_core::forces::material::{DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
+use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating};
+use occupant_core::model::setup::{EdgeForce, Integrator, OutputOptions, Setup, TimeSpan};
+use occupant_core::vehicle::{
     PulseDefinition, PulsePath, PulseShape, Strength, TravelDirection, VehiclePath, VehiclePose,
 };
-use occupant_core::seating::{InitialPosture, InitialVelocity, Seating};
-use occupant_core::setup::{EdgeForce, Integrator, OutputOptions, Setup, TimeSpan};
-use occupant_core::surface::{Facing, Frame, Outline, Surface};
 
 use crate::cases::{INCH_M, LBF_N, male50, spring};
 

@@ -5,21 +5,27 @@ use crate::{
     reference::{DOF, Dual, PointForce, System, pose},
 };
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
-use occupant_core::{
-    compartment::FlatFace,
-    kernel::{
-        self, Frames, History,
-        contact::{ContactSystem, OPEN, PairHistory},
-        frame::Moving,
-        joints::JointSystem,
-        skeleton::Skeleton,
-        vector::{M3, V3},
-    },
-    material::{BilinearSpring, Material, Memory},
-    problem::Problems,
-    setup::EdgeForce,
-    surface::{Facing, Frame, Outline, Surface},
-};
+use occupant_core::forces::History;
+use occupant_core::forces::contact::ContactSystem;
+use occupant_core::forces::contact::OPEN;
+use occupant_core::forces::contact::PairHistory;
+use occupant_core::forces::contact::flat_face::FlatFace;
+use occupant_core::forces::contact::surface::Facing;
+use occupant_core::forces::contact::surface::Frame;
+use occupant_core::forces::contact::surface::Outline;
+use occupant_core::forces::contact::surface::Surface;
+use occupant_core::forces::joint::JointSystem;
+use occupant_core::forces::material::BilinearSpring;
+use occupant_core::forces::material::Material;
+use occupant_core::forces::material::Memory;
+use occupant_core::kernel;
+use occupant_core::forces::contact::EdgeForce;
+use occupant_core::motion::frame::Frames;
+use occupant_core::motion::frame::Moving;
+use occupant_core::motion::skeleton::Skeleton;
+use occupant_core::motion::vector::M3;
+use occupant_core::motion::vector::V3;
+use occupant_core::problem::Problems;
 
 /// A frame's motion: origin, axes as columns, velocity, angular velocity; all in space.
 #[derive(Clone, Copy, Debug)]

@@ -5,17 +5,18 @@ use crate::{
     space_state::SpaceState,
 };
 use nalgebra::Vector3;
-use occupant_core::{
-    body::SEGMENTS,
-    kernel::{
-        dynamics::{self, Accelerations, Wrench},
-        joints::JointSystem,
-        kinematics::Kinematics,
-        skeleton::Skeleton,
-        state::{FREE, Quat, State},
-        vector::{V3, v3},
-    },
-};
+use occupant_core::body::SEGMENTS;
+use occupant_core::forces::joint::JointSystem;
+use occupant_core::motion::dynamics;
+use occupant_core::motion::dynamics::Accelerations;
+use occupant_core::motion::dynamics::Wrench;
+use occupant_core::motion::kinematics::Kinematics;
+use occupant_core::motion::skeleton::Skeleton;
+use occupant_core::motion::state::FREE;
+use occupant_core::motion::state::Quat;
+use occupant_core::motion::state::State;
+use occupant_core::motion::vector::V3;
+use occupant_core::motion::vector::v3;
 
 impl SpaceState {
     /// As the simulator's state.

@@ -2,15 +2,19 @@
 
 use crate::reference::System;
 use nalgebra::Vector3;
-use occupant_core::{
-    energy,
-    integrate::rk4,
-    kernel::{
-        self, Frames, History, contact::ContactSystem, frame::Moving, joints::JointSystem, kinematics::Kinematics,
-        skeleton::Skeleton, state::State, vector::V3,
-    },
-    setup::EdgeForce,
-};
+use occupant_core::forces::History;
+use occupant_core::forces::contact::ContactSystem;
+use occupant_core::forces::joint::JointSystem;
+use occupant_core::kernel;
+use occupant_core::forces::contact::EdgeForce;
+use occupant_core::motion::frame::Frames;
+use occupant_core::motion::frame::Moving;
+use occupant_core::motion::integrate::rk4;
+use occupant_core::motion::kinematics::Kinematics;
+use occupant_core::motion::skeleton::Skeleton;
+use occupant_core::motion::state::State;
+use occupant_core::motion::vector::V3;
+use occupant_core::results::energy;
 
 /// A body in empty space.
 pub struct FreeRun {

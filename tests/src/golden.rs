@@ -2,10 +2,14 @@
 
 use crate::reference::{DOF, PointForce, System};
 use nalgebra::{Point3, Vector3};
-use occupant_core::{
-    body::{Body, ContactSphere, Segment, SegmentProperties},
-    joint::{AngularSpring, BallJoint, HingeJoint, Joints},
-};
+use occupant_core::body::Body;
+use occupant_core::body::ContactSphere;
+use occupant_core::body::Segment;
+use occupant_core::body::SegmentProperties;
+use occupant_core::body::joint::AngularSpring;
+use occupant_core::body::joint::BallJoint;
+use occupant_core::body::joint::HingeJoint;
+use occupant_core::body::joint::Joints;
 use serde::Deserialize;
 
 /// The whole file; index 0 is the report's number 1. Inches, pounds-force, seconds, radians.

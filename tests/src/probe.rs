@@ -2,15 +2,15 @@
 
 use nalgebra::{Point3, Vector3};
 use occupant_core::body::{ContactSphere, Segment};
-use occupant_core::kernel::contact::Touch;
-use occupant_core::kernel::state::State;
-use occupant_core::kernel::vector::V3;
+use occupant_core::forces::contact::Touch;
+use occupant_core::forces::contact::surface::Surface;
+use occupant_core::forces::material::Material;
 use occupant_core::kernel::{Frames, History, Observer};
-use occupant_core::material::Material;
 use occupant_core::model::Model;
-use occupant_core::path::PathCursor;
-use occupant_core::setup::{EdgeForce, Setup};
-use occupant_core::surface::Surface;
+use occupant_core::model::setup::{EdgeForce, Setup};
+use occupant_core::motion::state::State;
+use occupant_core::motion::vector::V3;
+use occupant_core::vehicle::PathCursor;
 
 use crate::cases::{BEAD_LENGTH_M, afloat, bead, straight};
 

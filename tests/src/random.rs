@@ -7,10 +7,15 @@ use crate::{
     space_state::SpaceState,
 };
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
-use occupant_core::{
-    body::{Body, Segment, SegmentProperties, standard_spheres},
-    joint::{AngularSpring, BallJoint, HingeJoint, Joints, Stop},
-};
+use occupant_core::body::Body;
+use occupant_core::body::Segment;
+use occupant_core::body::SegmentProperties;
+use occupant_core::body::joint::AngularSpring;
+use occupant_core::body::joint::BallJoint;
+use occupant_core::body::joint::HingeJoint;
+use occupant_core::body::joint::Joints;
+use occupant_core::body::joint::Stop;
+use occupant_core::body::standard_spheres;
 use std::f64::consts::PI;
 
 /// SplitMix64 (Steele, Lea, Flood 2014).

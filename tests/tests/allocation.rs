@@ -2,9 +2,9 @@
 
 use allocation_counter::{AllocationInfo, measure};
 use occupant_core::model::Model;
-use occupant_core::setup::Integrator;
-use occupant_core::simulate::simulate;
-use occupant_core::summary::Summarizer;
+use occupant_core::model::setup::Integrator;
+use occupant_core::results::summary::Summarizer;
+use occupant_core::run::simulate::simulate;
 use occupant_tests::cart::lap;
 
 /// Allocations of a run of the lap case over 0.15 s with two outputs.

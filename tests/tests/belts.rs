@@ -3,11 +3,11 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::{Point3, Vector3};
-use occupant_core::belt::{Belt, RestLength};
 use occupant_core::body::{ContactSphere, Segment};
-use occupant_core::kernel::belts::{BeltAction, BeltLaw};
-use occupant_core::kernel::vector::V3;
+use occupant_core::forces::belt::law::{BeltAction, BeltLaw};
+use occupant_core::forces::belt::{Belt, RestLength};
 use occupant_core::model::Model;
+use occupant_core::motion::vector::V3;
 use occupant_tests::cases::{afloat, belt, male50, spring};
 use occupant_tests::measure::assert_below;
 

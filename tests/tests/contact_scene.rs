@@ -2,10 +2,12 @@
 //! the plain formulas fed into the reference.
 
 use nalgebra::{Rotation3, Vector3};
-use occupant_core::{
-    kernel::{Evaluation, History, Observer, contact::Touch, state::FREE},
-    surface::Frame,
-};
+use occupant_core::forces::History;
+use occupant_core::forces::Observer;
+use occupant_core::forces::contact::Touch;
+use occupant_core::forces::contact::surface::Frame;
+use occupant_core::kernel::Evaluation;
+use occupant_core::motion::state::FREE;
 use occupant_tests::{
     compartment::{Compartment, ContactForce},
     random::Random,

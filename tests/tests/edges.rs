@@ -1,14 +1,14 @@
 //! Bounded faces: edge bands, where the edge force acts, passed pairs.
 
 use nalgebra::Vector3;
-use occupant_core::kernel::contact::{OPEN, PASSED, TOUCHING};
-use occupant_core::material::Material;
+use occupant_core::forces::contact::surface::Surface;
+use occupant_core::forces::contact::{OPEN, PASSED, TOUCHING};
+use occupant_core::forces::material::Material;
 use occupant_core::model::Model;
-use occupant_core::recorder::Watch;
-use occupant_core::sample::Sample;
-use occupant_core::setup::{EdgeForce, Setup};
-use occupant_core::simulate::simulate;
-use occupant_core::surface::Surface;
+use occupant_core::model::setup::{EdgeForce, Setup};
+use occupant_core::results::recorder::Watch;
+use occupant_core::results::sample::Sample;
+use occupant_core::run::simulate::simulate;
 use occupant_tests::cases::{rectangle, smooth, spring, straight};
 use occupant_tests::measure::{assert_below, assert_within};
 use occupant_tests::probe::{Probe, RADIUS_M, bead_among};
@@ -129,15 +129,15 @@ fn without_a_turn_a_closed_path_over_an_edge_does_no_work_in_either_reading() {
 fn over_the_edge(edge_force: EdgeForce, spin_rad_s: f64, step_s: f64) -> Setup {
     let mut setup = bead_among(elastic(), table(), edge_force);
     setup.posture = straight(v(0.53, 0.1, 0.12), v(-0.5, 0.0, -1.0));
-    if let occupant_core::seating::InitialPosture::Coordinates(q) = &mut setup.posture {
+    if let occupant_core::model::seating::InitialPosture::Coordinates(q) = &mut setup.posture {
         // all segments turn about Y′ alike; θ̇ at θ = 0
-        for at in occupant_core::report_coordinates::EULER_START {
+        for at in occupant_core::motion::report_coordinates::EULER_START {
             q.rates[at + 1] = spin_rad_s;
         }
     }
     setup.time.end_s = 0.3;
     setup.time.output_s = 0.3;
-    setup.integrator = occupant_core::setup::Integrator::Rk4 { step_s };
+    setup.integrator = occupant_core::model::setup::Integrator::Rk4 { step_s };
     setup
 }
 

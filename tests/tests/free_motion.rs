@@ -1,11 +1,11 @@
 //! Motion of a body left to itself: conservation laws over time, closed forms, order of the integrator.
 
 use nalgebra::{Matrix2, UnitQuaternion, Vector2, Vector3};
-use occupant_core::{
-    body::{Body, Segment},
-    joint::Joints,
-    kernel::{kinematics::axes, state::State},
-};
+use occupant_core::body::Body;
+use occupant_core::body::Segment;
+use occupant_core::body::joint::Joints;
+use occupant_core::motion::kinematics::axes;
+use occupant_core::motion::state::State;
 use occupant_tests::{
     core_side::CoreSide,
     free_run::{FreeRun, distance},

@@ -2,10 +2,10 @@
 
 use nalgebra::{Point3, Vector3};
 use occupant_core::model::Model;
-use occupant_core::recorder::Watch;
-use occupant_core::sample::Sample;
-use occupant_core::setup::{EdgeForce, Integrator, Setup};
-use occupant_core::simulate::simulate;
+use occupant_core::model::setup::{EdgeForce, Integrator, Setup};
+use occupant_core::results::recorder::Watch;
+use occupant_core::results::sample::Sample;
+use occupant_core::run::simulate::simulate;
 use occupant_tests::cases::{BEAD_LENGTH_M, plane, smooth, spring, straight};
 use occupant_tests::measure::{assert_below, assert_within};
 use occupant_tests::probe::{Probe, RADIUS_M, bead_among};
@@ -112,7 +112,7 @@ fn friction_is_f_n_against_the_slip_of_the_contact_point() {
 fn what_friction_takes_from_a_sliding_body_stands_in_the_ledger() {
     let theta = 0.0;
     let mut setup = incline(theta, 0.3, 1.0);
-    if let occupant_core::seating::InitialPosture::Coordinates(q) = &mut setup.posture {
+    if let occupant_core::model::seating::InitialPosture::Coordinates(q) = &mut setup.posture {
         q.rates[0] = 4.0;
     }
     let model = Model::new(setup).unwrap();

@@ -1,16 +1,17 @@
 //! Integrators: observed order, error control, step halving, motion through the singular posture of Euler angles.
 
 use nalgebra::{Point3, Vector3};
-use occupant_core::joint::{AngularSpring, BallJoint, HingeJoint, Joints};
-use occupant_core::kernel::state::State;
-use occupant_core::kernel::vector::V3;
+use occupant_core::body::joint::{AngularSpring, BallJoint, HingeJoint, Joints};
 use occupant_core::model::Model;
-use occupant_core::recorder::Watch;
-use occupant_core::report_coordinates::{DOF, EULER_START, ReportCoordinates};
-use occupant_core::sample::Sample;
-use occupant_core::seating::InitialPosture;
-use occupant_core::setup::{Integrator, Setup};
-use occupant_core::simulate::{Outcome, Status, simulate};
+use occupant_core::model::seating::InitialPosture;
+use occupant_core::model::setup::{Integrator, Setup};
+use occupant_core::motion::report_coordinates::{DOF, EULER_START, ReportCoordinates};
+use occupant_core::motion::state::State;
+use occupant_core::motion::vector::V3;
+use occupant_core::results::recorder::Watch;
+use occupant_core::results::sample::Sample;
+use occupant_core::results::outcome::{Outcome, Status};
+use occupant_core::run::simulate::simulate;
 use occupant_tests::cart;
 use occupant_tests::cases::{afloat, belt, male50};
 use occupant_tests::measure::{assert_below, assert_within};

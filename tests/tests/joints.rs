@@ -1,12 +1,12 @@
 //! Joints: the rate of β, springs, dampers, stops, twist.
 
 use nalgebra::{Unit, UnitQuaternion, Vector3};
-use occupant_core::joint::{AngularSpring, BallJoint, HingeJoint, Joints, Stop};
-use occupant_core::kernel::joints::{BALLS, BallAction, JointSystem};
-use occupant_core::kernel::kinematics::Kinematics;
-use occupant_core::kernel::skeleton::Skeleton;
-use occupant_core::kernel::state::{FREE, Quat, State, free_slot};
-use occupant_core::kernel::vector::{V3, v3};
+use occupant_core::body::joint::{AngularSpring, BallJoint, HingeJoint, Joints, Stop};
+use occupant_core::forces::joint::{BALLS, BallAction, JointSystem};
+use occupant_core::motion::kinematics::Kinematics;
+use occupant_core::motion::skeleton::Skeleton;
+use occupant_core::motion::state::{FREE, Quat, State, free_slot};
+use occupant_core::motion::vector::{V3, v3};
 use occupant_tests::cases::male50;
 use occupant_tests::measure::assert_below;
 
@@ -251,7 +251,7 @@ fn both_segments_of_a_joint_get_opposite_moments() {
     state.hinge = [-2.2, -0.2, 0.05, 2.4];
     state.hinge_rate = [-3.0, 2.0, -4.0, 1.0];
     let k = kinematics(&state);
-    let mut wrench = [occupant_core::kernel::dynamics::Wrench::zero(); 12];
+    let mut wrench = [occupant_core::motion::dynamics::Wrench::zero(); 12];
     let dissipated = system.apply(&k, &state, &mut wrench);
     let sum: Vector3<f64> = wrench.iter().map(|w| w.moment.to_vector()).sum();
     // Measured: 8.6e-15.

@@ -3,10 +3,10 @@
 //! Differences are relative to the largest component of the kind (acceleration of T1; angular accelerations).
 
 use nalgebra::{UnitQuaternion, Vector3};
-use occupant_core::{
-    energy,
-    kernel::{frame::Moving, joints::BALLS, vector::V3},
-};
+use occupant_core::forces::joint::BALLS;
+use occupant_core::motion::frame::Moving;
+use occupant_core::motion::vector::V3;
+use occupant_core::results::energy;
 use occupant_tests::{
     core_side::CoreSide,
     golden::Golden,

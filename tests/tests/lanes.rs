@@ -2,16 +2,16 @@
 
 use std::ops::ControlFlow;
 
+use occupant_core::forces::material::Memory;
 use occupant_core::kernel::Unlike;
-use occupant_core::lanes::{Ended, Job, Kernel, simulate_many, simulate_many_with};
-use occupant_core::material::Memory;
 use occupant_core::model::Model;
-use occupant_core::outcome::{Outcome, Status};
-use occupant_core::recorder::{Flow, Recorder, RecorderError};
-use occupant_core::sample::Sample;
+use occupant_core::model::setup::{Integrator, Setup};
+use occupant_core::results::outcome::{Outcome, Status};
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::results::sample::Sample;
+use occupant_core::run::batch::{Ended, Job, Kernel, simulate_many, simulate_many_with};
+use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Format, Scenario};
-use occupant_core::setup::{Integrator, Setup};
-use occupant_core::simulate::simulate;
 use occupant_tests::cart::lap;
 
 /// Everything in the outputs of a run as text, which shows every bit.

@@ -4,10 +4,10 @@
 use nalgebra::{Point3, Vector3};
 use occupant_core::body::Segment;
 use occupant_core::model::Model;
-use occupant_core::recorder::Watch;
-use occupant_core::sample::Sample;
-use occupant_core::setup::Integrator;
-use occupant_core::simulate::simulate;
+use occupant_core::model::setup::Integrator;
+use occupant_core::results::recorder::Watch;
+use occupant_core::results::sample::Sample;
+use occupant_core::run::simulate::simulate;
 use occupant_tests::cart::lap;
 use occupant_tests::cases::{INCH_M, LBF_N};
 use occupant_tests::measure::assert_below;

@@ -3,16 +3,16 @@
 use approx::assert_relative_eq;
 use nalgebra::Vector3;
 use occupant_core::body::Segment;
-use occupant_core::channel::{channels, find, matching};
-use occupant_core::joint::Joint;
-use occupant_core::kernel::dynamics::Wrench;
-use occupant_core::kernel::joints::BALLS;
+use occupant_core::body::joint::Joint;
+use occupant_core::forces::joint::BALLS;
 use occupant_core::model::Model;
-use occupant_core::reaction::{femur_axial_n, reaction, reactions, segments};
-use occupant_core::recorder::Watch;
-use occupant_core::sample::Sample;
-use occupant_core::setup::Integrator;
-use occupant_core::simulate::simulate;
+use occupant_core::model::setup::Integrator;
+use occupant_core::motion::dynamics::Wrench;
+use occupant_core::results::channel::{channels, find, matching};
+use occupant_core::results::reaction::{femur_axial_n, reaction, reactions, segments};
+use occupant_core::results::recorder::Watch;
+use occupant_core::results::sample::Sample;
+use occupant_core::run::simulate::simulate;
 use occupant_tests::cart::lap;
 
 fn cart() -> Model {

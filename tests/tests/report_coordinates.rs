@@ -1,14 +1,12 @@
 //! The report's coordinates as input and output: there and back, against Eqs 6 and 44, and at their singular postures.
 
 use nalgebra::Vector3;
-use occupant_core::{
-    kernel::{
-        kinematics::axes,
-        state::{Quat, State},
-        vector::{V3, v3},
-    },
-    report_coordinates::ReportCoordinates,
-};
+use occupant_core::motion::kinematics::axes;
+use occupant_core::motion::report_coordinates::ReportCoordinates;
+use occupant_core::motion::state::Quat;
+use occupant_core::motion::state::State;
+use occupant_core::motion::vector::V3;
+use occupant_core::motion::vector::v3;
 use occupant_tests::{
     random::Random,
     reference::{FREE, pose, space_velocities},

@@ -1,16 +1,17 @@
 //! A run that goes on from a checkpoint is, to the bit, the run that was never interrupted.
 
-use occupant_core::checkpoint::{Checkpoint, CheckpointError};
-use occupant_core::kernel::contact::{OPEN, PASSED, TOUCHING};
-use occupant_core::material::Memory;
+use occupant_core::forces::contact::{OPEN, PASSED, TOUCHING};
+use occupant_core::forces::material::Memory;
 use occupant_core::model::Model;
-use occupant_core::recorder::{Flow, Recorder, RecorderError, Watch};
-use occupant_core::report_coordinates::ReportCoordinates;
-use occupant_core::sample::Sample;
+use occupant_core::model::seating::InitialPosture;
+use occupant_core::model::setup::{Integrator, Setup};
+use occupant_core::motion::report_coordinates::ReportCoordinates;
+use occupant_core::results::checkpoint::{Checkpoint, CheckpointError};
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError, Watch};
+use occupant_core::results::sample::Sample;
+use occupant_core::results::outcome::{Outcome, ResumeError, Status};
+use occupant_core::run::simulate::{replay, resume, simulate};
 use occupant_core::scenario::{Format, Scenario};
-use occupant_core::seating::InitialPosture;
-use occupant_core::setup::{Integrator, Setup};
-use occupant_core::simulate::{Outcome, ResumeError, Status, replay, resume, simulate};
 use occupant_tests::cart::lap;
 
 const RK4: Integrator = Integrator::Rk4 { step_s: 3e-4 };
@@ -193,7 +194,7 @@ fn a_checkpoint_with_an_impossible_step_is_refused() {
 fn without_its_history_a_run_goes_on_differently() {
     let (model, whole, _) = run(&lap(RK4));
     let mut from = whole.checkpoints[110].clone();
-    let greatest = |p: &occupant_core::kernel::contact::PairHistory<f64>| p.greatest;
+    let greatest = |p: &occupant_core::forces::contact::PairHistory<f64>| p.greatest;
     assert!(from.pairs.iter().map(greatest).fold(0.0, f64::max) > 0.01);
     for pair in from.pairs.iter_mut().filter(|p| p.phase == TOUCHING) {
         pair.greatest = 0.0;

@@ -3,10 +3,11 @@
 use std::thread;
 
 use occupant_core::model::Model;
-use occupant_core::recorder::{Flow, Recorder, RecorderError, Watch};
-use occupant_core::sample::Sample;
-use occupant_core::setup::{Integrator, Setup};
-use occupant_core::simulate::{Outcome, Status, StepError, simulate};
+use occupant_core::model::setup::{Integrator, Setup};
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError, Watch};
+use occupant_core::results::sample::Sample;
+use occupant_core::results::outcome::{Outcome, Status, StepError};
+use occupant_core::run::simulate::simulate;
 use occupant_tests::cart::lap;
 
 /// Every bit of state, forces and energies at every output of a run.

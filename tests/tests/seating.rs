@@ -1,16 +1,16 @@
 //! Seats: the cushion carries what it should, legs reach their heels, settled bodies stay.
 
 use nalgebra::{Matrix3, Vector3};
+use occupant_core::body::joint::{BallJoint, HingeJoint, Joints};
 use occupant_core::body::{Body, Segment};
-use occupant_core::joint::{BallJoint, HingeJoint, Joints};
+use occupant_core::forces::contact::surface::Outline;
 use occupant_core::model::Model;
-use occupant_core::path::{Attitude, FixedPath, VehiclePath, VehiclePose};
-use occupant_core::recorder::Watch;
-use occupant_core::sample::{Contact, Sample};
-use occupant_core::seating::{InitialPosture, InitialVelocity, Seating};
-use occupant_core::setup::{Integrator, Setup};
-use occupant_core::simulate::simulate;
-use occupant_core::surface::Outline;
+use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating};
+use occupant_core::model::setup::{Integrator, Setup};
+use occupant_core::results::recorder::Watch;
+use occupant_core::results::sample::{Contact, Sample};
+use occupant_core::run::simulate::simulate;
+use occupant_core::vehicle::{Attitude, FixedPath, VehiclePath, VehiclePose};
 use occupant_tests::cart::{self, GRAVITY_M_S2, lap};
 use occupant_tests::cases::{INCH_M, male50, parked};
 use occupant_tests::measure::{assert_below, assert_within};
@@ -230,7 +230,7 @@ fn heels_out_of_reach_are_an_error_that_says_by_how_much() {
 fn a_cushion_that_faces_down_is_an_error() {
     let mut setup = seated(|_| {});
     let below = nalgebra::Point3::new(0.0, -0.35, 2.0);
-    setup.surfaces[0].facing = occupant_core::surface::Facing::Towards(below);
+    setup.surfaces[0].facing = occupant_core::forces::contact::surface::Facing::Towards(below);
     let text = refused(setup);
     assert!(text.contains("seat.cushion") && text.contains("faces up"), "{text}");
 }
@@ -318,7 +318,7 @@ fn a_settled_body_with_locked_joints_leaves_no_residual_and_stays_where_it_is() 
 fn settling_keeps_the_posture() {
     let states = [false, true].map(|settle| {
         let model = Model::new(seated(|s| s.settle = settle)).unwrap();
-        let k = occupant_core::kernel::kinematics::Kinematics::new(&model.system().skeleton, &model.start().state);
+        let k = occupant_core::motion::kinematics::Kinematics::new(&model.system().skeleton, &model.start().state);
         k.axes.map(|a| a.to_matrix())
     });
     let [before, after] = states;

@@ -1,16 +1,16 @@
 //! Exact sensitivities: duals against closed forms, against identities of scale, and against differences of whole runs.
 
 use allocation_counter::measure;
-use occupant_core::channel::{Channel, Series, channels};
-use occupant_core::checkpoint::Checkpoint;
 use occupant_core::model::Model;
-use occupant_core::recorder::Watch;
+use occupant_core::model::setup::{Integrator, Setup};
+use occupant_core::results::channel::{Channel, Series, channels};
+use occupant_core::results::checkpoint::Checkpoint;
+use occupant_core::results::recorder::Watch;
+use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Draft, Format};
 use occupant_core::sensitivity::finite::{CHANGES, HOLDS, Verdict, compare, finite_changes};
 use occupant_core::sensitivity::measures::{Wish, derivatives, plain_values};
 use occupant_core::sensitivity::{Built, Parameter, Slope, Trajectory, Trouble, follow, parameter};
-use occupant_core::setup::{Integrator, Setup};
-use occupant_core::simulate::simulate;
 use occupant_tests::cart::lap;
 use occupant_tests::measure::assert_below;
 
@@ -209,7 +209,8 @@ fn the_values_of_a_run_in_duals_are_those_of_the_plain_run_to_the_bit() {
         let model = Model::new(lap(integrator)).unwrap();
         let mut plain: Vec<Checkpoint> = Vec::new();
         let outcome =
-            simulate(&model, Watch(|s: &occupant_core::sample::Sample<'_>| plain.push(s.checkpoint()))).unwrap();
+            simulate(&model, Watch(|s: &occupant_core::results::sample::Sample<'_>| plain.push(s.checkpoint())))
+                .unwrap();
         let scaled = scaled_by(integrator);
         for count in [1, 2, 5] {
             let parameters: Vec<Parameter<'_>> = (0..count).map(|_| scaled.parameter()).collect();

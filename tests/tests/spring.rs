@@ -1,12 +1,12 @@
 //! The bilinear dissipative spring: energy returned, continuity, reloading, memory, and drops on it.
 
 use nalgebra::Vector3;
-use occupant_core::kernel::spring::Spring;
-use occupant_core::material::{BilinearSpring, Material, Memory};
+use occupant_core::forces::material::{BilinearSpring, Material, Memory};
+use occupant_core::forces::spring::Spring;
 use occupant_core::model::Model;
-use occupant_core::recorder::Watch;
-use occupant_core::setup::EdgeForce;
-use occupant_core::simulate::simulate;
+use occupant_core::forces::contact::EdgeForce;
+use occupant_core::results::recorder::Watch;
+use occupant_core::run::simulate::simulate;
 use occupant_tests::cases::{afloat, pillar, plane, smooth, spring, straight};
 use occupant_tests::measure::assert_below;
 use occupant_tests::probe::{Probe, RADIUS_M};
@@ -193,7 +193,7 @@ fn drop(s: BilinearSpring, speed_m_s: f64, step_s: f64) -> (f64, f64) {
     let (mut first, mut last, mut greatest) = (None, 0.0, 0.0_f64);
     let outcome = simulate(
         &model,
-        Watch(|s: &occupant_core::sample::Sample<'_>| {
+        Watch(|s: &occupant_core::results::sample::Sample<'_>| {
             first.get_or_insert(s.energy.kinetic_j);
             last = s.energy.kinetic_j;
             greatest = s.contacts().map(|c| c.depth_m).fold(greatest, f64::max);

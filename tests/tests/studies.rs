@@ -3,9 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use occupant_core::path::VehiclePath;
 use occupant_core::scenario::Draft;
 use occupant_core::study::{Study, StudyText, Value};
+use occupant_core::vehicle::VehiclePath;
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/studies")
@@ -61,7 +61,7 @@ fn the_values_of_a_sample_arrive_in_its_run() {
         let sample = study.sample(index);
         assert_eq!(sample[2].value, Value::Number(torso.anchors_m[0].z));
         let slack = Value::Number(match torso.rest {
-            occupant_core::belt::RestLength::Slack { slack_m } => slack_m,
+            occupant_core::forces::belt::RestLength::Slack { slack_m } => slack_m,
             ref other => panic!("{other:?}"),
         });
         assert_eq!(sample[1].value, slack);

@@ -1,13 +1,13 @@
 //! Wrong setups: every problem at once, each with its place, what was found and what was expected.
 
 use nalgebra::{Point3, Vector3};
-use occupant_core::joint::Stop;
+use occupant_core::body::joint::Stop;
+use occupant_core::forces::contact::surface::{Facing, Frame, Outline};
 use occupant_core::model::Model;
-use occupant_core::path::{AfterEnd, Interpolation, Station, TablePath, VehiclePath};
+use occupant_core::model::seating::InitialPosture;
+use occupant_core::model::setup::{Integrator, Setup};
 use occupant_core::problem::{Problems, Severity};
-use occupant_core::seating::InitialPosture;
-use occupant_core::setup::{Integrator, Setup};
-use occupant_core::surface::{Facing, Frame, Outline};
+use occupant_core::vehicle::{AfterEnd, Interpolation, Station, TablePath, VehiclePath};
 use occupant_tests::cart::lap;
 
 fn sound() -> Setup {
@@ -125,7 +125,7 @@ const FAULTS: &[Fault] = &[
     (|s| s.belts[0].anchors_m[1] = s.belts[0].anchors_m[0], "belts.lap.anchors", "one place"),
     (|s| s.belts[0].anchors_m[1].x = f64::NAN, "belts.lap.anchors", "finite"),
     (
-        |s| s.belts[0].rest = occupant_core::belt::RestLength::Given { length_m: -0.1 },
+        |s| s.belts[0].rest = occupant_core::forces::belt::RestLength::Given { length_m: -0.1 },
         "belts.lap",
         "unstretched length",
     ),

@@ -7,10 +7,11 @@ use cardio_legacy::{
     spine_rest, write_file,
 };
 use occupant_core::model::Model;
-use occupant_core::recorder::Watch;
+use occupant_core::results::recorder::Watch;
+use occupant_core::results::outcome::{FirstTouch, Status};
+use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::document::Format;
 use occupant_core::scenario::{Loaded, Scenario};
-use occupant_core::simulate::{FirstTouch, Status, simulate};
 use support::{DECKS, bytes, path};
 
 fn deck(name: &str) -> Deck {
@@ -111,7 +112,7 @@ fn deck_to_scenario_to_deck_is_the_same_deck() {
 fn run_end(toml: &str) -> RunEnd {
     let layout = CompartmentLayout::reconstruction().expect("sound");
     let (mut rest, mut end) = (None, None);
-    let watch = Watch(|sample: &occupant_core::sample::Sample<'_>| {
+    let watch = Watch(|sample: &occupant_core::results::sample::Sample<'_>| {
         let rest = *rest.get_or_insert_with(|| spine_rest(sample));
         end = Some(RunEnd::after(rest, sample, &layout));
     });
@@ -153,7 +154,7 @@ fn the_extension_starts_where_the_first_run_ended() {
     assert!(conversion.report.assumptions.iter().any(|text| text.contains("series 14")), "{}", conversion.report);
     let setup = load(&conversion.toml).build().expect("builds").0;
     assert_eq!(setup.time.start_s, 0.2);
-    let occupant_core::seating::InitialPosture::Continued { coordinates: start, passed } = &setup.posture else {
+    let occupant_core::model::seating::InitialPosture::Continued { coordinates: start, passed } = &setup.posture else {
         panic!("an exact state with pair states")
     };
     assert_eq!(passed.len(), deck(EXTENSION).passed_pairs().len());
@@ -171,7 +172,7 @@ fn the_extension_starts_where_the_first_run_ended() {
 fn run_passed(model: &Model) -> Vec<(u32, u32)> {
     let layout = CompartmentLayout::reconstruction().expect("sound");
     let mut passed = None;
-    let first = Watch(|sample: &occupant_core::sample::Sample<'_>| {
+    let first = Watch(|sample: &occupant_core::results::sample::Sample<'_>| {
         let at_start = || RunEnd::after([0.0; 2], sample, &layout).passed;
         passed.get_or_insert_with(at_start);
     });

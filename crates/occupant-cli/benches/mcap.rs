@@ -7,10 +7,10 @@ use std::io::Cursor;
 use criterion::Criterion;
 use occupant_cli::mcap::{About, Document, McapOptions, McapRecorder};
 use occupant_core::model::Model;
-use occupant_core::recorder::Watch;
-use occupant_core::sample::Sample;
+use occupant_core::results::recorder::Watch;
+use occupant_core::results::sample::Sample;
+use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Format, Scenario};
-use occupant_core::simulate::simulate;
 
 /// The tests' short run in a car, with belts.
 const SCENARIO: &str = include_str!("../tests/recording/short.toml");

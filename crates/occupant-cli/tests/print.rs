@@ -4,11 +4,11 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use assert_cmd::Command;
-use occupant_core::kernel::contact::PASSED;
-use occupant_core::recorder::Watch;
-use occupant_core::sample::Sample;
+use occupant_core::forces::contact::PASSED;
+use occupant_core::results::recorder::Watch;
+use occupant_core::results::sample::Sample;
+use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Format, Scenario};
-use occupant_core::simulate::simulate;
 use prost_reflect::{DescriptorPool, DynamicMessage, ReflectMessage, Value};
 
 /// Lap and torso belt, spheres that touch, in SI.

@@ -5,9 +5,9 @@ mod scene;
 use std::hint::black_box;
 
 use criterion::{Criterion, SamplingMode};
-use occupant_core::recorder::Watch;
-use occupant_core::sample::Sample;
-use occupant_core::simulate::simulate;
+use occupant_core::results::recorder::Watch;
+use occupant_core::results::sample::Sample;
+use occupant_core::run::simulate::simulate;
 use scene::{Instant, TOUCHING_S};
 
 fn main() {

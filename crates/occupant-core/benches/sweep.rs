@@ -7,12 +7,12 @@ use std::hint::black_box;
 use std::ops::ControlFlow;
 
 use criterion::{BatchSize, Criterion, SamplingMode};
-use occupant_core::lanes::{Job, Kernel, simulate_many_with};
 use occupant_core::model::Model;
-use occupant_core::recorder::Recorder;
+use occupant_core::results::recorder::Recorder;
+use occupant_core::results::summary::Summarizer;
+use occupant_core::run::batch::{Job, Kernel, simulate_many_with};
 use occupant_core::scenario::{Draft, Format};
 use occupant_core::study::{Study, StudyText};
-use occupant_core::summary::Summarizer;
 
 /// Samples side by side.
 const COUNT: usize = 8;

@@ -9,9 +9,9 @@ mod scene;
 use std::hint::black_box;
 use std::ops::ControlFlow;
 
-use occupant_core::lanes::{Job, Kernel, simulate_many_with};
 use occupant_core::model::Model;
-use occupant_core::setup::Setup;
+use occupant_core::model::setup::Setup;
+use occupant_core::run::batch::{Job, Kernel, simulate_many_with};
 use scene::{Instant, STEP_S, TOUCHING_S};
 
 /// A piece of work: calls that are counted.

@@ -10,11 +10,11 @@ use std::hint::black_box;
 use std::ops::ControlFlow;
 use std::time::Instant as Clock;
 
-use occupant_core::lanes::{Job, Kernel, simulate_many_with};
 use occupant_core::model::Model;
-use occupant_core::recorder::Watch;
-use occupant_core::sample::Sample;
-use occupant_core::simulate::{output_count, simulate};
+use occupant_core::results::recorder::Watch;
+use occupant_core::results::sample::Sample;
+use occupant_core::run::batch::{Job, Kernel, simulate_many_with};
+use occupant_core::run::simulate::simulate;
 use scene::{Instant, TOUCHING_S};
 
 /// Rounds over all figures.
@@ -146,7 +146,7 @@ fn job(model: &Model) -> Job<(), ()> {
 
 /// A whole run, ms: the shortest time of each output interval among twenty runs, summed up.
 fn event_ms(model: &Model) -> f64 {
-    let mut least = vec![f64::INFINITY; output_count(model)];
+    let mut least = vec![f64::INFINITY; model.output_count()];
     for _ in 0..20 {
         let mut clock = Clock::now();
         let watch = Watch(|sample: &Sample<'_>| {

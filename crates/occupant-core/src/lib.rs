@@ -16,10 +16,10 @@
 //!
 //! ```
 //! use occupant_core::body::Segment;
-//! use occupant_core::recorder::Watch;
-//! use occupant_core::sample::Sample;
+//! use occupant_core::results::recorder::Watch;
+//! use occupant_core::results::sample::Sample;
 //! use occupant_core::scenario::{Format, Scenario};
-//! use occupant_core::simulate::{Status, simulate};
+//! use occupant_core::run::simulate::{Status, simulate};
 //!
 //! // a standing body, let go two metres above the origin
 //! let text = r#"
@@ -73,42 +73,16 @@
 //! - many runs: [`study`]; what a run changes by when a number changes: [`sensitivity`];
 //! - of any time history: [`signal`], [`measure`], [`correlation`].
 
-pub mod belt;
 pub mod body;
-pub mod channel;
-pub mod checkpoint;
-pub mod compartment;
-pub mod correlation;
 pub mod diagnosis;
-pub mod energy;
-pub mod injury;
-pub mod integrate;
-pub mod joint;
+pub mod forces;
 pub mod kernel;
-pub mod lanes;
-pub mod material;
-pub mod measure;
 pub mod model;
-mod observers;
-pub mod outcome;
-pub mod path;
+pub mod motion;
 pub mod problem;
-pub mod reaction;
-pub mod recorder;
-pub mod report_coordinates;
-mod run;
-pub mod sample;
+pub mod results;
+pub mod run;
 pub mod scenario;
-pub mod seat;
-pub mod seating;
 pub mod sensitivity;
-pub mod settle;
-pub mod setup;
-pub mod signal;
-pub mod simulate;
 pub mod study;
-pub mod summary;
-pub mod surface;
-mod trig;
-mod validate;
-pub mod vehicle_risk;
+pub mod vehicle;

@@ -9,7 +9,8 @@ use super::{
     vector::Vector,
 };
 use nalgebra::Vector3;
-use occupant_core::{body::Body, joint::Joints};
+use occupant_core::body::Body;
+use occupant_core::body::joint::Joints;
 
 /// U, Eq. 54.
 pub fn kinetic_energy<T: Number>(body: &Body, q: &[T; DOF], rates: &[T; DOF]) -> T {

@@ -27,7 +27,8 @@ pub use motion::{FREE, HINGED, SpaceMotion, space_accelerations, space_velocitie
 pub use vector::Vector;
 
 use nalgebra::Vector3;
-use occupant_core::{body::Body, joint::Joints};
+use occupant_core::body::Body;
+use occupant_core::body::joint::Joints;
 
 /// Number of generalized coordinates.
 pub const DOF: usize = 31;

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use occupant_core::joint::Joint;
-use occupant_core::kernel::contact::PASSED;
-use occupant_core::report_coordinates::ReportCoordinates;
-use occupant_core::sample::Sample;
+use occupant_core::body::joint::Joint;
+use occupant_core::forces::contact::PASSED;
+use occupant_core::motion::report_coordinates::ReportCoordinates;
+use occupant_core::results::sample::Sample;
 
 use super::digits::{digits, factor};
 use crate::builder::DeckBuilder;

@@ -1,6 +1,6 @@
 //! Joints → series 11.
 
-use occupant_core::joint::{BallJoint, HingeJoint, Joints, Stop};
+use occupant_core::body::joint::{BallJoint, HingeJoint, Joints, Stop};
 
 use super::Back;
 use crate::layout::Unit;

@@ -11,8 +11,8 @@ mod points;
 
 use std::fmt;
 
+use occupant_core::model::setup::{EdgeForce, Integrator, Setup};
 use occupant_core::scenario::{Diagnostics as ScenarioDiagnostics, Loaded};
-use occupant_core::setup::{EdgeForce, Integrator, Setup};
 
 pub use extension::{RunEnd, spine_rest};
 

@@ -1,8 +1,8 @@
 //! Start of the occupant and belts → series 4 and 10, or 6, and 13.
 
-use occupant_core::belt::{Belt, RestLength};
-use occupant_core::report_coordinates::ReportCoordinates;
-use occupant_core::seating::{InitialPosture, InitialVelocity, Seating};
+use occupant_core::forces::belt::{Belt, RestLength};
+use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating};
+use occupant_core::motion::report_coordinates::ReportCoordinates;
 
 use super::Back;
 use crate::compartment::CompartmentLayout;

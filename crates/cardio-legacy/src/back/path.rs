@@ -1,6 +1,6 @@
 //! The vehicle's path → series 12.
 
-use occupant_core::path::{AfterEnd, Interpolation, Station, TablePath, VehiclePath};
+use occupant_core::vehicle::{AfterEnd, Interpolation, Station, TablePath, VehiclePath};
 
 use super::Back;
 use crate::layout::Unit;

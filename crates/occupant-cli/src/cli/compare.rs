@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use occupant_core::channel::Channel;
+use occupant_core::results::channel::Channel;
 use serde::Serialize;
 
 use super::exit::{Done, Failure};
@@ -199,7 +199,7 @@ fn run_couples(args: &Args, results: &Results, computed: Source, notes: &mut Vec
         }
         false => choose(&results.model, &args.channel)?,
     };
-    let theirs = occupant_core::channel::channels(&other.model);
+    let theirs = occupant_core::results::channel::channels(&other.model);
     let in_both = |c: &Channel| theirs.iter().find(|t| t.name == c.name).cloned();
     let (ours, theirs): (Vec<Channel>, Vec<Channel>) =
         channels.into_iter().filter_map(|c| Some((c.clone(), in_both(&c)?))).unzip();

@@ -5,14 +5,13 @@ use std::path::{Path, PathBuf};
 use std::thread;
 
 use indicatif::{ProgressBar, ProgressDrawTarget};
-use occupant_core::channel::{Channel, Series};
+use occupant_core::results::channel::{Channel, Series};
+use occupant_core::results::summary::Summary;
 use occupant_core::scenario::Draft;
 use occupant_core::scenario::kind::UnitSystem;
 use occupant_core::scenario::model::{Angle, Length, Ratio};
 use occupant_core::scenario::unit::UnitError;
-use occupant_core::simulate::output_count;
 use occupant_core::study::{Study, Tolerances};
-use occupant_core::summary::Summary;
 
 use super::exit::Failure;
 use super::interrupt::Interrupt;
@@ -113,7 +112,7 @@ impl EnsembleArgs {
         let changes = changes(&self.change)?;
         let within = part("--stable-within", &self.stable_within)?;
         let channels = choose(&opened.model, &self.channels)?;
-        refuse_too_much(members, channels.len(), output_count(&opened.model))?;
+        refuse_too_much(members, channels.len(), opened.model.output_count())?;
         let files = self.bands.iter().map(|path| {
             refuse_input(path, scenario).map_err(|e| Failure::plain(e.to_string()))?;
             if existing == Existing::Keep && path.exists() {

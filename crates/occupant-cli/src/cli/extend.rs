@@ -6,10 +6,11 @@ use cardio_legacy::{
     CompartmentLayout, ConvertOptions, Deck, FromScenario, PathSource, RunEnd, spine_rest, write_file,
 };
 use occupant_core::model::Model;
-use occupant_core::recorder::{Flow, Recorder, RecorderError, Watch};
-use occupant_core::sample::Sample;
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError, Watch};
+use occupant_core::results::sample::Sample;
+use occupant_core::results::outcome::Status;
+use occupant_core::run::simulate::{replay, simulate};
 use occupant_core::scenario::{Draft, Format};
-use occupant_core::simulate::{Status, replay, simulate};
 
 use super::exit::Failure;
 use super::scenario;

@@ -3,8 +3,8 @@
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use occupant_core::recorder::{Flow, Recorder, RecorderError};
-use occupant_core::sample::Sample;
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::results::sample::Sample;
 
 use super::speak::say;
 

@@ -3,9 +3,9 @@
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use occupant_core::injury::{Filtering, Measure, Options, Signals, assess};
-use occupant_core::measure::Dummy;
-use occupant_core::signal::CfcFamily;
+use crash_measures::injury::{Filtering, Measure, Options, Signals, assess};
+use crash_measures::measure::Dummy;
+use crash_measures::signal::CfcFamily;
 use serde::Serialize;
 
 use super::exit::{Done, Failure};

@@ -5,7 +5,7 @@ use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use clap::ValueEnum;
-use occupant_core::channel::{Axes, Channel, find};
+use occupant_core::results::channel::{Axes, Channel, find};
 
 use super::exit::{Done, Failure};
 use super::export::code_letter;

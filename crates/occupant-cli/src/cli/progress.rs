@@ -2,9 +2,9 @@
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use occupant_core::model::Model;
-use occupant_core::recorder::{Flow, Recorder, RecorderError};
-use occupant_core::sample::Sample;
-use occupant_core::simulate::{Outcome, output_count};
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::results::sample::Sample;
+use occupant_core::results::outcome::Outcome;
 
 /// A recorder that shows how far the run is.
 #[derive(Debug)]
@@ -30,7 +30,7 @@ impl Progress {
 
 impl Recorder for Progress {
     fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
-        self.bar.set_length(output_count(model) as u64);
+        self.bar.set_length(model.output_count() as u64);
         Ok(())
     }
 

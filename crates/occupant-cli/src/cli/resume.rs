@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use occupant_core::checkpoint::{Checkpoint, CheckpointError};
 use occupant_core::model::Model;
-use occupant_core::recorder::{Flow, Recorder, RecorderError};
-use occupant_core::sample::Sample;
-use occupant_core::simulate::{Outcome, replay};
+use occupant_core::results::checkpoint::{Checkpoint, CheckpointError};
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::results::sample::Sample;
+use occupant_core::results::outcome::Outcome;
+use occupant_core::run::simulate::replay;
 use serde::Serialize;
 
 use super::difference::differences;

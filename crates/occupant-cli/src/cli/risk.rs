@@ -6,8 +6,8 @@ mod options;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use occupant_core::measure::limits::Rule;
-use occupant_core::vehicle_risk::{Preparation, VehicleSignals};
+use crash_measures::measure::limits::Rule;
+use occupant_core::vehicle::risk::{Preparation, VehicleSignals};
 
 use super::exit::{Done, Failure};
 use super::speak::{self, print, say};

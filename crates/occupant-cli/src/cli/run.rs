@@ -3,11 +3,12 @@
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use occupant_core::channel::Series;
 use occupant_core::diagnosis::{FrictionWatch, UnstableFriction};
+use occupant_core::results::channel::Series;
+use occupant_core::results::summary::{RunStatus, Summarizer, Summary};
+use occupant_core::results::outcome::{ResumeError, Status};
+use occupant_core::run::simulate::{resume, simulate};
 use occupant_core::scenario::Diagnostics;
-use occupant_core::simulate::{ResumeError, Status, resume, simulate};
-use occupant_core::summary::{RunStatus, Summarizer, Summary};
 use serde::Serialize;
 
 use super::ensemble_args::{EnsembleArgs, Ran};

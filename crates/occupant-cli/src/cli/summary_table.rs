@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use occupant_core::summary::{Acceleration, ContactBegin, FirstContact, Level, RunStatus, Summary, word};
+use occupant_core::results::summary::{Acceleration, ContactBegin, FirstContact, Level, RunStatus, Summary, word};
 
 use super::measure_table;
 use super::recording::Written;

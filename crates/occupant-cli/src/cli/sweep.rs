@@ -9,7 +9,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::Subcommand;
-use occupant_core::lanes::Kernel;
+use occupant_core::run::batch::Kernel;
 use occupant_core::study::Keep;
 
 use super::exit::{Done, Failure};

@@ -1,7 +1,7 @@
 //! How well a computed history follows a measured one: ISO/TS 18571, CORA, Sprague–Geers and ANOVA of one pair.
 
-use occupant_core::correlation::{CoraSettings, Iso18571Grade, anova, cora, iso18571, sprague_geers};
-use occupant_core::signal::{Interpolant, Interpolation, whole_steps};
+use crash_measures::correlation::{CoraSettings, Iso18571Grade, anova, cora, iso18571, sprague_geers};
+use crash_measures::signal::{Interpolant, Interpolation, whole_steps};
 use serde::Serialize;
 
 /// The rate at which all metrics are computed, that of ISO/TS 18571.

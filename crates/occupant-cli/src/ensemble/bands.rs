@@ -1,7 +1,7 @@
 //! Bands over time: within which the middle 90 % of the members lie, and when they part.
 
-use occupant_core::channel::{Channel, channels, find, matching};
 use occupant_core::model::Model;
+use occupant_core::results::channel::{Channel, channels, find, matching};
 use occupant_core::study::spread::Band;
 
 use super::judge::{Tolerance, smallest};

@@ -9,13 +9,13 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use std::thread;
 
 use indicatif::ProgressBar;
-use occupant_core::channel::{Channel, Series};
-use occupant_core::lanes::{Ended, Job, simulate_many};
 use occupant_core::model::Model;
 use occupant_core::problem::Severity;
+use occupant_core::results::channel::{Channel, Series};
+use occupant_core::results::summary::{RunStatus, Summarizer, Summary};
+use occupant_core::run::batch::{Ended, Job, simulate_many};
 use occupant_core::scenario::Diagnostics;
 use occupant_core::study::Study;
-use occupant_core::summary::{RunStatus, Summarizer, Summary};
 
 use super::judge::is_result;
 use crate::cli::exit::Failure;

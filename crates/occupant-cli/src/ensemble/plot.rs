@@ -206,7 +206,7 @@ fn figures(value: f64, step: f64) -> String {
 
 fn shown_unit(unit: &str) -> (f64, &str) {
     match unit {
-        "m/s²" => (occupant_core::setup::STANDARD_GRAVITY_M_S2, "g"),
+        "m/s²" => (occupant_core::model::setup::STANDARD_GRAVITY_M_S2, "g"),
         "m" => (1e-3, "mm"),
         unit => (1.0, unit),
     }

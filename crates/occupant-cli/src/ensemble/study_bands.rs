@@ -8,8 +8,7 @@ use std::fs::File;
 use std::path::{Path, PathBuf};
 
 use indicatif::ProgressBar;
-use occupant_core::channel::Channel;
-use occupant_core::simulate::output_count;
+use occupant_core::results::channel::Channel;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 
 use super::bands::{Bands, choose, refuse_too_much};
@@ -122,7 +121,7 @@ impl StudyBands<'_> {
         };
         let channels = choose(&opened.model, self.channels)?;
         let members = self.plan.study().members();
-        refuse_too_much(members, channels.len(), output_count(&opened.model))?;
+        refuse_too_much(members, channels.len(), opened.model.output_count())?;
         Ok(channels)
     }
 

@@ -2,10 +2,10 @@
 
 use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 use occupant_core::body::Segment;
-use occupant_core::compartment::FlatFace;
-use occupant_core::path::FrameMotion;
-use occupant_core::sample::{Contact, Sample};
-use occupant_core::surface::{Frame, Outline};
+use occupant_core::forces::contact::flat_face::FlatFace;
+use occupant_core::forces::contact::surface::{Frame, Outline};
+use occupant_core::results::sample::{Contact, Sample};
+use occupant_core::vehicle::FrameMotion;
 
 use crate::mcap::scene::belts::course_m;
 use crate::mcap::scene::compartment::corners_m;
@@ -48,7 +48,7 @@ impl Snapshot {
         };
         let body = sample.model.body();
         let belts = sample.model.setup().belts.iter().zip(sample.belts);
-        let course = |(belt, action): (&occupant_core::belt::Belt, _)| {
+        let course = |(belt, action): (&occupant_core::forces::belt::Belt, _)| {
             let radius = body.spheres[belt.sphere].radius_m;
             let centre = sample.sphere_centre_m(belt.sphere);
             course_m(belt, radius, centre, action)

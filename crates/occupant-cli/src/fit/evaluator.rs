@@ -9,10 +9,10 @@ use std::collections::BTreeMap;
 use std::ops::ControlFlow;
 use std::time::Instant;
 
-use occupant_core::channel::Series;
-use occupant_core::lanes::{Ended, Job as Run, Kernel, simulate_many_with};
-use occupant_core::outcome::Status as RunEnd;
 use occupant_core::problem::Severity;
+use occupant_core::results::channel::Series;
+use occupant_core::results::outcome::Status as RunEnd;
+use occupant_core::run::batch::{Ended, Job as Run, Kernel, simulate_many_with};
 use occupant_core::scenario::Diagnostics;
 use occupant_core::study::search::Stage;
 

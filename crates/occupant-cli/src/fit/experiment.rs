@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use occupant_core::channel::{Channel, Series};
 use occupant_core::model::Model;
+use occupant_core::results::channel::{Channel, Series};
 use occupant_core::scenario::{Diagnostics, Draft, Loaded};
 use occupant_core::study::{FitTest, Misfit, Study};
 
@@ -90,7 +90,7 @@ impl Experiment {
     pub fn run_s(&self) -> [f64; 2] {
         let time = self.model.setup().time;
         // the last output need not be a whole interval after the one before
-        let steps = occupant_core::signal::whole_steps(time.end_s - time.start_s, time.output_s);
+        let steps = crash_measures::signal::whole_steps(time.end_s - time.start_s, time.output_s);
         [time.start_s, time.start_s + steps as f64 * time.output_s]
     }
 

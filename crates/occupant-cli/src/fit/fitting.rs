@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use occupant_core::channel::{Channel, channels, find};
+use occupant_core::results::channel::{Channel, channels, find};
 use occupant_core::scenario::Draft;
 use occupant_core::study::{Bounds, Fit, FitChannel, FitTest, Parameter, Study, StudyText};
 

@@ -1,9 +1,9 @@
 //! The search from its first candidate to the intervals of the parameters.
 
-use occupant_core::channel::Series;
 use occupant_core::model::Model;
-use occupant_core::outcome::Status;
-use occupant_core::simulate::simulate;
+use occupant_core::results::channel::Series;
+use occupant_core::results::outcome::Status;
+use occupant_core::run::simulate::simulate;
 use occupant_core::study::Misfit;
 use occupant_core::study::misfit::{likelihood_rise, unrelated_samples};
 use occupant_core::study::search::{

@@ -1,6 +1,6 @@
 //! Measured against computed before and after a fit: one sheet for each test, one figure for each channel.
 
-use occupant_core::channel::Series;
+use occupant_core::results::channel::Series;
 
 use super::experiment::{Experiment, in_group};
 use super::fitting::Fitting;

@@ -1,7 +1,7 @@
 //! A measured channel, made ready to be compared: in the channel's unit, filtered, cut to its window, at 10 kHz.
 
-use occupant_core::channel::Channel;
-use occupant_core::signal::{ChannelClass, whole_steps};
+use crash_measures::signal::{ChannelClass, whole_steps};
+use occupant_core::results::channel::Channel;
 use occupant_core::study::{FilterChoice, Misfit};
 
 use crate::compare::{RATE_HZ, Track, Window, overlap, sampled};

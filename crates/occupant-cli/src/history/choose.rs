@@ -1,7 +1,7 @@
 //! Channels by the names that a person gives.
 
-use occupant_core::channel::{Channel, channels, find, matching};
 use occupant_core::model::Model;
+use occupant_core::results::channel::{Channel, channels, find, matching};
 
 use crate::cli::exit::Failure;
 

@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use clap::ValueEnum;
-use occupant_core::signal::{CfcFamily, ChannelClass, SignalError, filter_cfc};
+use crash_measures::signal::{CfcFamily, ChannelClass, SignalError, filter_cfc};
 
 /// The filter asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! From a result file to histories.
 
-use occupant_core::channel::{Channel, Series, find};
+use crash_measures::signal::{Interpolant, Interpolation, resultant, uniform_interval};
 use occupant_core::model::Model;
-use occupant_core::signal::{Interpolant, Interpolation, resultant, uniform_interval};
+use occupant_core::results::channel::{Channel, Series, find};
 
 use super::{Column, Family, Filter, Histories, filtered};
 use crate::cli::exit::Failure;

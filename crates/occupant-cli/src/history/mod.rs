@@ -7,8 +7,8 @@ mod filter;
 mod load;
 mod unit;
 
-use occupant_core::channel::Channel;
-use occupant_core::signal::ChannelClass;
+use crash_measures::signal::ChannelClass;
+use occupant_core::results::channel::Channel;
 
 pub use choose::choose;
 pub use filter::{Family, Filter, filtered};

@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use clap::ValueEnum;
-use occupant_core::channel::Unit;
+use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
+use crash_measures::unit::Unit;
 use occupant_core::scenario::kind::Dimension;
-use occupant_core::setup::STANDARD_GRAVITY_M_S2;
 
 /// Units asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

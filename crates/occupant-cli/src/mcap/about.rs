@@ -7,8 +7,8 @@ use std::collections::BTreeMap;
 
 use mcap::records::Metadata;
 use occupant_core::model::Model;
-use occupant_core::setup::Integrator;
-use occupant_core::simulate::{Outcome, Status};
+use occupant_core::model::setup::Integrator;
+use occupant_core::results::outcome::{Outcome, Status};
 use sha2::{Digest, Sha256};
 
 /// Name of the first metadata record.

@@ -1,8 +1,8 @@
 //! A group of results that go into one message: one table gives both the schema and the encoding, so they cannot differ.
 
 use nalgebra::{UnitQuaternion, Vector3};
-use occupant_core::report_coordinates::DOF;
-use occupant_core::sample::Sample;
+use occupant_core::motion::report_coordinates::DOF;
+use occupant_core::results::sample::Sample;
 
 use super::descriptor::{Field, Kind, many, one};
 use super::wire::Wire;

@@ -1,7 +1,7 @@
 //! `/log`: warnings, first touches, how the run ended.
 
 use occupant_core::model::Model;
-use occupant_core::simulate::{FirstTouch, Outcome, Status};
+use occupant_core::results::outcome::{FirstTouch, Outcome, Status};
 
 use super::foxglove::Level;
 use super::wire::Wire;

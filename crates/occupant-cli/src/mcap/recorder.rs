@@ -6,11 +6,11 @@ use std::num::NonZeroU32;
 
 use mcap::{Attachment, Compression, McapResult, WriteOptions, Writer};
 use occupant_core::body::Segment;
-use occupant_core::joint::Joint;
+use occupant_core::body::joint::Joint;
 use occupant_core::model::Model;
-use occupant_core::recorder::{Flow, Recorder, RecorderError};
-use occupant_core::sample::Sample;
-use occupant_core::simulate::{Outcome, output_count};
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::results::sample::Sample;
+use occupant_core::results::outcome::Outcome;
 
 use super::about::{self, About, Document};
 use super::channel::{Channel, Schemas};
@@ -207,7 +207,7 @@ impl Tracks {
         Ok(Tracks {
             start_s: time.start_s,
             stride: stride(time.output_s, options.frames_per_s.get()),
-            last: output_count(model) - 1,
+            last: model.output_count() - 1,
             frames: FrameNames::default(),
             names: Names::of(model),
             groups,

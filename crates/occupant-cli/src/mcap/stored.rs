@@ -4,14 +4,14 @@ use std::collections::BTreeMap;
 
 use mcap::read::ChunkFlattener;
 use mcap::records::{MessageHeader, Record};
-use occupant_core::checkpoint::{Checkpoint, Progress, StepStart};
-use occupant_core::energy::EnergyStart;
-use occupant_core::kernel::belts::BeltHistory;
-use occupant_core::kernel::contact::{OPEN, PASSED, PairHistory, TOUCHING};
-use occupant_core::kernel::state::State;
-use occupant_core::kernel::vector::v3;
-use occupant_core::sample::Effort;
-use occupant_core::simulate::FirstTouch;
+use occupant_core::forces::belt::law::BeltHistory;
+use occupant_core::forces::contact::{OPEN, PASSED, PairHistory, TOUCHING};
+use occupant_core::motion::state::State;
+use occupant_core::motion::vector::v3;
+use occupant_core::results::checkpoint::{Checkpoint, Progress, StepStart};
+use occupant_core::results::energy::EnergyStart;
+use occupant_core::results::sample::Effort;
+use occupant_core::results::outcome::FirstTouch;
 use prost::Message as _;
 
 use super::about::{RESULT, RUN};

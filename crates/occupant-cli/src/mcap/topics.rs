@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use occupant_core::body::Segment;
-use occupant_core::joint::Joint;
+use occupant_core::body::joint::Joint;
 
 /// Space: X forward, Y left, Z up; the root of all frames.
 pub const SPACE_FRAME: &str = "space";

@@ -3,7 +3,7 @@
 
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
 use occupant_core::body::{SEGMENTS, Segment};
-use occupant_core::sample::Sample;
+use occupant_core::results::sample::Sample;
 
 use super::topics::{SPACE_FRAME, VEHICLE_FRAME, segment_frame};
 use super::wire::Wire;

@@ -6,9 +6,9 @@
 use std::fmt;
 use std::str::FromStr;
 
-use occupant_core::channel::Channel;
+use crash_measures::signal::{ChannelClass, uniform_interval};
+use occupant_core::results::channel::Channel;
 use occupant_core::scenario::kind::Dimension;
-use occupant_core::signal::{ChannelClass, uniform_interval};
 
 use super::table::{name_and_unit, scale_of};
 use super::{Recording, Signal};

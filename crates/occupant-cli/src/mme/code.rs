@@ -17,10 +17,10 @@
 use std::fmt;
 use std::str::FromStr;
 
+use crash_measures::signal::ChannelClass;
 use occupant_core::body::Segment;
-use occupant_core::channel::Channel;
 use occupant_core::model::Model;
-use occupant_core::signal::ChannelClass;
+use occupant_core::results::channel::Channel;
 
 /// A channel code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

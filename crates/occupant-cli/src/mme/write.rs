@@ -3,9 +3,9 @@
 use std::fmt::Write as _;
 use std::path::PathBuf;
 
-use occupant_core::channel::Unit;
+use crash_measures::signal::uniform_interval;
 use occupant_core::model::Model;
-use occupant_core::signal::uniform_interval;
+use crash_measures::unit::Unit;
 
 use super::code::{Code, Place, place_of};
 use super::header::write;

@@ -2,7 +2,7 @@
 
 use std::str::FromStr;
 
-use occupant_core::channel::{Channel, Unit};
+use occupant_core::results::channel::{Channel, Unit};
 
 use super::figure::{Axis, Curve, Figure, Limit, Style};
 use super::standard::{Entry, Wish};

@@ -5,8 +5,8 @@
 //! segment reads them (1–9); contact forces on head, chest and knees (10); belt loads (11); spine angles (12); energies (13);
 //! the vehicle's acceleration (14).
 
-use occupant_core::channel::matching;
 use occupant_core::model::Model;
+use occupant_core::results::channel::matching;
 
 /// A plot that is wished for.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,7 +1,7 @@
 //! What is printed: the recorded run, and the model rebuilt from the scenario that travels with it.
 
 use occupant_core::body::Segment;
-use occupant_core::kernel::contact::{PASSED, PairHistory};
+use occupant_core::forces::contact::{PASSED, PairHistory};
 use occupant_core::model::Model;
 use occupant_core::scenario::kind::UnitSystem;
 use occupant_core::scenario::{Draft, Loaded};

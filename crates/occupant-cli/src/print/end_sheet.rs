@@ -2,10 +2,10 @@
 //! NARRY(J,K) = 0, the coordinates, the rest angles of the spine and the belts' lengths.
 
 use occupant_core::body::Segment;
-use occupant_core::checkpoint::Checkpoint;
-use occupant_core::kernel::joints::BALLS;
-use occupant_core::kernel::kinematics::Kinematics;
-use occupant_core::report_coordinates::ReportCoordinates;
+use occupant_core::forces::joint::BALLS;
+use occupant_core::motion::kinematics::Kinematics;
+use occupant_core::motion::report_coordinates::ReportCoordinates;
+use occupant_core::results::checkpoint::Checkpoint;
 
 use super::case::Case;
 use super::echo::coordinates;

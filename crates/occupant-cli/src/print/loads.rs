@@ -1,7 +1,7 @@
 //! Items 5 to 7: forces on the contact spheres and the surfaces hit, points of application, belts; joint angles and the
 //! energy balance.
 
-use occupant_core::joint::Joint;
+use occupant_core::body::joint::Joint;
 
 use super::case::Case;
 use super::message::Message;

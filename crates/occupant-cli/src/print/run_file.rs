@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use mcap::read::{ChunkFlattener, Options};
 use mcap::records::Record;
-use occupant_core::checkpoint::Checkpoint;
+use occupant_core::results::checkpoint::Checkpoint;
 
 use crate::mcap::StoredRun;
 use crate::mcap::about::RUN;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use occupant_core::setup::STANDARD_GRAVITY_M_S2;
+use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
 
 /// A unit: its name in headings, its size and the decimals that are worth printing.
 #[derive(Clone, Copy, Debug, PartialEq)]

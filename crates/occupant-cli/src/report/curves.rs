@@ -1,8 +1,8 @@
 //! The time histories of the page, taken from the channels of the run.
 
-use occupant_core::channel::{Channel, Series, channels};
 use occupant_core::model::Model;
-use occupant_core::setup::STANDARD_GRAVITY_M_S2;
+use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
+use occupant_core::results::channel::{Channel, Series, channels};
 use serde::Serialize;
 
 use super::array::Array;

@@ -1,9 +1,9 @@
 //! What the page is made from. The names of the fields are those that `assets/viewer/src` reads.
 
 use occupant_core::body::Segment;
-use occupant_core::recorder::{Flow, Recorder, RecorderError};
-use occupant_core::sample::Sample;
-use occupant_core::surface::{Frame, Outline};
+use occupant_core::forces::contact::surface::{Frame, Outline};
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::results::sample::Sample;
 use serde::Serialize;
 
 use super::array::Array;
@@ -54,7 +54,7 @@ pub struct Run {
     contacts: Contacts,
     plots: Vec<Plot>,
     measures: Vec<Measure>,
-    first_contacts: Vec<occupant_core::summary::ContactBegin>,
+    first_contacts: Vec<occupant_core::results::summary::ContactBegin>,
     provenance: Vec<[String; 2]>,
     scenario: String,
 }
@@ -89,7 +89,7 @@ struct SurfaceData {
 }
 
 /// Two recorders that see the samples together.
-struct Both<'a>(&'a mut Motion, &'a mut occupant_core::channel::Series);
+struct Both<'a>(&'a mut Motion, &'a mut occupant_core::results::channel::Series);
 
 impl Recorder for Both<'_> {
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
@@ -197,7 +197,7 @@ fn surfaces(results: &Results) -> Vec<SurfaceData> {
 }
 
 /// A square of the plane about a point of it.
-fn patch(face: &occupant_core::compartment::FlatFace, about: nalgebra::Vector3<f64>) -> Vec<[f64; 3]> {
+fn patch(face: &occupant_core::forces::contact::flat_face::FlatFace, about: nalgebra::Vector3<f64>) -> Vec<[f64; 3]> {
     let (u, v) = face.plane_axes();
     let half = crate::figure::PATCH_M;
     [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)].map(|(a, b)| (about + (u * a + v * b) * half).into()).to_vec()

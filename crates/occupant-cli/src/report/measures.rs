@@ -1,9 +1,9 @@
 //! The table of measures: injury measures against limits, then what the run's summary tells.
 
-use occupant_core::channel::Unit;
-use occupant_core::injury;
-use occupant_core::setup::STANDARD_GRAVITY_M_S2;
-use occupant_core::summary::Summary;
+use crash_measures::injury;
+use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
+use crash_measures::unit::Unit;
+use occupant_core::results::summary::Summary;
 use serde::Serialize;
 
 /// A row of the table.

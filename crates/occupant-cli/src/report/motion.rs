@@ -3,8 +3,8 @@
 use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 use occupant_core::body::Segment;
 use occupant_core::model::Model;
-use occupant_core::path::FrameMotion;
-use occupant_core::sample::{Contact, Sample};
+use occupant_core::results::sample::{Contact, Sample};
+use occupant_core::vehicle::FrameMotion;
 use serde::Serialize;
 
 use super::array::Array;

@@ -1,6 +1,6 @@
 //! Where a run comes from: what the file says of itself, and how the run ended.
 
-use occupant_core::summary::{RunStatus, Summary};
+use occupant_core::results::summary::{RunStatus, Summary};
 
 use crate::results::Results;
 

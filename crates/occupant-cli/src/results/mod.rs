@@ -7,15 +7,15 @@ use std::collections::BTreeMap;
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use occupant_core::channel::{Channel, Series};
-use occupant_core::checkpoint::Checkpoint;
 use occupant_core::model::Model;
-use occupant_core::outcome::{Outcome, Status};
-use occupant_core::recorder::{Recorder, Watch};
-use occupant_core::sample::Sample;
+use occupant_core::results::channel::{Channel, Series};
+use occupant_core::results::checkpoint::Checkpoint;
+use occupant_core::results::outcome::{Outcome, Status};
+use occupant_core::results::recorder::{Recorder, Watch};
+use occupant_core::results::sample::Sample;
+use occupant_core::results::summary::{RunStatus, Summarizer, Summary};
+use occupant_core::run::simulate::replay;
 use occupant_core::scenario::Loaded;
-use occupant_core::simulate::replay;
-use occupant_core::summary::{RunStatus, Summarizer, Summary};
 
 use crate::cli::exit::Failure;
 use crate::cli::run::program;

@@ -1,7 +1,7 @@
 //! The measures as a list: name, value, unit, when.
 
-use occupant_core::signal::STANDARD_GRAVITY_MPS2 as G;
-use occupant_core::vehicle_risk::{AXES, Measured};
+use crash_measures::signal::STANDARD_GRAVITY_MPS2 as G;
+use occupant_core::vehicle::risk::{AXES, Measured};
 
 use super::Report;
 

@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json as value};
 use super::Report;
 use super::figures::Figures;
 use super::table::{basis_name, family_name, grade_name, source_name, verdict_name};
-use occupant_core::vehicle_risk::VerticalGravity;
+use occupant_core::vehicle::risk::VerticalGravity;
 
 /// The report as JSON.
 pub fn json(report: &Report) -> Value {

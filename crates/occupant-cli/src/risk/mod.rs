@@ -5,8 +5,10 @@ mod json;
 mod subject;
 mod table;
 
-use occupant_core::measure::limits::Rule;
-use occupant_core::vehicle_risk::{Flight, Judgement, Preparation, ROADSIDE_RULES, VehicleRisk, VehicleSignals, judge};
+use crash_measures::measure::limits::Rule;
+use occupant_core::vehicle::risk::{
+    Flight, Judgement, Preparation, ROADSIDE_RULES, VehicleRisk, VehicleSignals, judge,
+};
 
 pub use json::json;
 pub use subject::Subject;

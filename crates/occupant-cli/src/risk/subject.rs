@@ -1,9 +1,9 @@
 //! What is measured: a file of recorded data, or the path of a scenario's vehicle.
 
-use occupant_core::path::{AccelerationRecord, Attitude, Interpolation, PathCursor, VehiclePath};
+use occupant_core::model::setup::Setup;
 use occupant_core::scenario::RecordFile;
-use occupant_core::setup::Setup;
-use occupant_core::vehicle_risk::sampled;
+use occupant_core::vehicle::risk::sampled;
+use occupant_core::vehicle::{AccelerationRecord, Attitude, Interpolation, PathCursor, VehiclePath};
 
 /// Where the motion comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,8 +1,8 @@
 //! The report as text, in the manner of a test report: measures in SI and US units, limits, what was left out.
 
-use occupant_core::measure::limits::{Basis, Grade, Quantity};
-use occupant_core::signal::CfcFamily;
-use occupant_core::vehicle_risk::{Judgement, VerticalGravity};
+use crash_measures::measure::limits::{Basis, Grade, Quantity};
+use crash_measures::signal::CfcFamily;
+use occupant_core::vehicle::risk::{Judgement, VerticalGravity};
 
 use super::Report;
 use super::figures::{Figure, Figures, G_UNIT, KM_H, M_S, PLAIN, Unit};

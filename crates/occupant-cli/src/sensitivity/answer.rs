@@ -1,9 +1,9 @@
 //! The answer of `occupant sensitivity --json`.
 
 use occupant_core::model::Model;
+use occupant_core::model::setup::Integrator;
 use occupant_core::sensitivity::events::{Change, Event};
 use occupant_core::sensitivity::finite::{HOLDS, Verdict};
-use occupant_core::setup::Integrator;
 use serde::Serialize;
 
 use super::analysis::{Analysis, Asked, relative};

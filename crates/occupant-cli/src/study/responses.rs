@@ -1,6 +1,6 @@
 //! Which figures of the runs a report is about.
 
-use occupant_core::scenario::nearest::nearest;
+use occupant_core::problem::nearest;
 
 use super::gather::Gathered;
 use super::samples::varies;

@@ -4,7 +4,7 @@ use std::fs;
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
-use occupant_core::lanes::Kernel;
+use occupant_core::run::batch::Kernel;
 use occupant_core::study::Keep;
 
 use super::engine::{HandOn, Job, Worker, run};

@@ -4,12 +4,12 @@ use std::path::{Path, PathBuf};
 
 use occupant_core::model::Model;
 use occupant_core::problem::Severity;
-use occupant_core::recorder::{Flow, Recorder, RecorderError};
-use occupant_core::sample::Sample;
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::results::sample::Sample;
+use occupant_core::results::summary::{Figure, Summarizer};
+use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Diagnostics, Draft, Loaded};
-use occupant_core::simulate::simulate;
 use occupant_core::study::{Design, Free, Law, Parameter, Setting, Study, StudyText, Value};
-use occupant_core::summary::{Figure, Summarizer};
 
 use super::manifest::{Column, Manifest, Role};
 use super::row::Cell;

@@ -8,14 +8,14 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Instant;
 
-use occupant_core::lanes::{Ended, Job, Kernel, simulate_many_with};
 use occupant_core::model::Model;
 use occupant_core::problem::Severity;
-use occupant_core::recorder::{Flow, Recorder, RecorderError};
-use occupant_core::sample::Sample;
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::results::sample::Sample;
+use occupant_core::results::summary::{RunStatus, Summarizer, Summary};
+use occupant_core::run::batch::{Ended, Job, Kernel, simulate_many_with};
 use occupant_core::scenario::Diagnostics;
 use occupant_core::study::Keep;
-use occupant_core::summary::{RunStatus, Summarizer, Summary};
 
 use super::engine::{HandOn, Worker};
 use super::folder::Folder;

@@ -5,7 +5,7 @@
 
 use nalgebra::Point3;
 use occupant_core::body::Segment;
-use occupant_core::compartment::FlatFace;
+use occupant_core::forces::contact::flat_face::FlatFace;
 
 use super::Strip;
 use super::hull::outline;

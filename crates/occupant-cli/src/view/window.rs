@@ -1,7 +1,7 @@
 //! The part of the world that all panels of one view show: the body at all moments, its belts, and the surfaces near it.
 
 use nalgebra::{Point3, Vector3};
-use occupant_core::surface::{Frame, Outline};
+use occupant_core::forces::contact::surface::{Frame, Outline};
 
 use super::Strip;
 use super::projection::View;

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use occupant_cli::mcap::StoredRun;
-use occupant_core::checkpoint::Checkpoint;
+use occupant_core::results::checkpoint::Checkpoint;
 
 use super::{answer, code, err, folder_with_case, json};
 

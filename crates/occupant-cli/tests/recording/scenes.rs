@@ -3,8 +3,8 @@
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use occupant_cli::mcap::scene::belts::course_m;
 use occupant_core::body::Segment;
-use occupant_core::recorder::Watch;
-use occupant_core::sample::Sample;
+use occupant_core::results::recorder::Watch;
+use occupant_core::results::sample::Sample;
 use prost_reflect::DynamicMessage;
 
 use crate::support::{components, field, model, numbers, part, parts, read, record, text};

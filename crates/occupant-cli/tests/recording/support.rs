@@ -7,10 +7,11 @@ use std::num::NonZeroU32;
 use mcap::MessageStream;
 use occupant_cli::mcap::{About, Document, McapOptions, McapRecorder};
 use occupant_core::model::Model;
-use occupant_core::recorder::Recorder;
+use occupant_core::model::setup::Setup;
+use occupant_core::results::recorder::Recorder;
+use occupant_core::results::outcome::Outcome;
+use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Format, Scenario};
-use occupant_core::setup::Setup;
-use occupant_core::simulate::{Outcome, simulate};
 use prost_reflect::{DescriptorPool, DynamicMessage, ReflectMessage, Value};
 
 /// The scenario of these tests.

@@ -5,10 +5,10 @@ use std::collections::{BTreeMap, BTreeSet};
 use nalgebra::{UnitQuaternion, Vector3};
 use occupant_cli::mcap::StoredRun;
 use occupant_core::body::Segment;
-use occupant_core::joint::Joint;
-use occupant_core::reaction::{femur_axial_n, reaction};
-use occupant_core::recorder::Watch;
-use occupant_core::sample::Sample;
+use occupant_core::body::joint::Joint;
+use occupant_core::results::reaction::{femur_axial_n, reaction};
+use occupant_core::results::recorder::Watch;
+use occupant_core::results::sample::Sample;
 use prost_reflect::{DynamicMessage, ReflectMessage};
 
 use crate::support::{Read, field, model, numbers, parts, read, record, text};

@@ -6,15 +6,15 @@
 #![allow(dead_code, reason = "each benchmark and each example compiles this file and takes what it wants")]
 
 use occupant_core::body::SEGMENTS;
-use occupant_core::integrate::rk4::{self, Stage};
-use occupant_core::kernel::contact::{ContactSystem, Touch};
-use occupant_core::kernel::dynamics::{self, Accelerations, Wrench};
-use occupant_core::kernel::kinematics::Kinematics;
-use occupant_core::kernel::state::{FREE, State};
+use occupant_core::forces::contact::{ContactSystem, Touch};
 use occupant_core::kernel::{Frames, History, Observer, System};
 use occupant_core::model::Model;
-use occupant_core::path::PathCursor;
+use occupant_core::motion::dynamics::{self, Accelerations, Wrench};
+use occupant_core::motion::integrate::rk4::{self, Stage};
+use occupant_core::motion::kinematics::Kinematics;
+use occupant_core::motion::state::{FREE, State};
 use occupant_core::scenario::{Format, Loaded, Scenario};
+use occupant_core::vehicle::PathCursor;
 
 /// The scenario's text.
 pub const TEXT: &str = include_str!("../car.toml");

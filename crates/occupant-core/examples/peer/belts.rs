@@ -1,9 +1,9 @@
 //! Belts as tendons that wrap round their spheres: K₁ beyond the length at rest, nothing below it.
 
-use occupant_core::kernel::frame::VEHICLE;
-use occupant_core::kernel::kinematics::Kinematics;
-use occupant_core::kernel::vector::V3;
 use occupant_core::model::Model;
+use occupant_core::motion::frame::VEHICLE;
+use occupant_core::motion::kinematics::Kinematics;
+use occupant_core::motion::vector::V3;
 
 use crate::mjcf::list;
 use crate::scene::Instant;

@@ -6,12 +6,12 @@
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use occupant_core::body::SEGMENTS;
-use occupant_core::kernel::dynamics::Accelerations;
-use occupant_core::kernel::frame::{Moving, VEHICLE};
-use occupant_core::kernel::kinematics::LIMBS;
-use occupant_core::kernel::state::{Quat, State, free_slot};
-use occupant_core::kernel::vector::V3;
 use occupant_core::model::Model;
+use occupant_core::motion::dynamics::Accelerations;
+use occupant_core::motion::frame::{Moving, VEHICLE};
+use occupant_core::motion::kinematics::LIMBS;
+use occupant_core::motion::state::{Quat, State, free_slot};
+use occupant_core::motion::vector::V3;
 
 use crate::scene::Instant;
 

@@ -1,11 +1,11 @@
 //! Surfaces as bodies that MuJoCo knows: a polygon is the rectangle round it, a disc a flat cylinder.
 
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
-use occupant_core::compartment::FlatFace;
-use occupant_core::kernel::Frames;
-use occupant_core::kernel::frame::{SPACE, VEHICLE};
-use occupant_core::kernel::vector::V3;
-use occupant_core::surface::{Frame, Outline};
+use occupant_core::forces::contact::flat_face::FlatFace;
+use occupant_core::forces::contact::surface::{Frame, Outline};
+use occupant_core::motion::frame::Frames;
+use occupant_core::motion::frame::{SPACE, VEHICLE};
+use occupant_core::motion::vector::V3;
 
 use crate::mjcf::list;
 

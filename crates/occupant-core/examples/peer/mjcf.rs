@@ -2,8 +2,8 @@
 //! bending resists all three turns, a spring in β holds the whole turn of its joint, a belt is a tendon round its sphere
 //! with one stiffness. Stops that damp and the force law of the contacts have no counterpart and are left out.
 
+use occupant_core::body::joint::{BallJoint, Joints};
 use occupant_core::body::{SEGMENTS, Segment};
-use occupant_core::joint::{BallJoint, Joints};
 use occupant_core::model::Model;
 
 use crate::coordinates::{ORDER, PARENTS, Placed, limb, positions, speeds};
@@ -73,7 +73,7 @@ pub fn list(numbers: &[f64]) -> String {
 fn surfaces(model: &Model, now: &Instant) -> String {
     let setup = model.setup();
     let faces = model.faces().iter().zip(&setup.surfaces);
-    let geom = |(face, surface): (_, &occupant_core::surface::Surface)| {
+    let geom = |(face, surface): (_, &occupant_core::forces::contact::surface::Surface)| {
         faces::geom(face, setup.materials[surface.material].friction, &now.frames) + "\n"
     };
     faces.map(geom).collect()

@@ -2,17 +2,17 @@
 //! that every engine states alike.
 
 use occupant_core::body::SEGMENTS;
-use occupant_core::integrate::rk4;
-use occupant_core::joint::{BallJoint, HingeJoint, Joints};
-use occupant_core::kernel::History;
-use occupant_core::kernel::contact::ContactSystem;
-use occupant_core::kernel::frame::VEHICLE;
-use occupant_core::kernel::joints::JointSystem;
-use occupant_core::kernel::kinematics::Kinematics;
-use occupant_core::kernel::state::State;
-use occupant_core::kernel::vector::V3;
+use occupant_core::body::joint::{BallJoint, HingeJoint, Joints};
+use occupant_core::forces::History;
+use occupant_core::forces::contact::ContactSystem;
+use occupant_core::forces::joint::JointSystem;
 use occupant_core::model::Model;
-use occupant_core::path::PathCursor;
+use occupant_core::motion::frame::VEHICLE;
+use occupant_core::motion::integrate::rk4;
+use occupant_core::motion::kinematics::Kinematics;
+use occupant_core::motion::state::State;
+use occupant_core::motion::vector::V3;
+use occupant_core::vehicle::PathCursor;
 use serde_json::{Value, json};
 
 use crate::coordinates::{ORDER, PARENTS, limb, positions, rates, speeds};

@@ -16,7 +16,7 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use measure::{Case, Errors, Point};
-use occupant_core::setup::Integrator;
+use occupant_core::model::setup::Integrator;
 
 /// Cases and the ends of their runs, s: late in the rollover a touch of the start decides where an arm falls.
 const CASES: [(&str, &str, f64); 4] = [

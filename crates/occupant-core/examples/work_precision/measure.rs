@@ -5,12 +5,13 @@ use std::time::Instant;
 use nalgebra::Point3;
 use occupant_core::body::Segment;
 use occupant_core::model::Model;
-use occupant_core::recorder::{Flow, Recorder, RecorderError};
-use occupant_core::sample::{Effort, Sample};
+use occupant_core::model::setup::{Integrator, Setup};
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::results::sample::{Effort, Sample};
+use occupant_core::results::summary::Summarizer;
+use occupant_core::results::outcome::{Outcome, Status};
+use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Format, Scenario};
-use occupant_core::setup::{Integrator, Setup};
-use occupant_core::simulate::{Outcome, Status, simulate};
-use occupant_core::summary::Summarizer;
 
 /// Stiffness of all materials in the variants.
 const VARIANTS: [f64; 8] = [0.93, 0.95, 0.97, 0.99, 1.01, 1.03, 1.05, 1.07];

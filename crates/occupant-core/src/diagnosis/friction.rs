@@ -8,10 +8,10 @@ use serde::Serialize;
 use super::mobility::Mobility;
 use super::rates::FrictionMasses;
 use crate::model::Model;
+use crate::model::setup::Integrator;
 use crate::problem::Problems;
-use crate::recorder::{Flow, Recorder, RecorderError};
-use crate::sample::Sample;
-use crate::setup::Integrator;
+use crate::results::recorder::{Flow, Recorder, RecorderError};
+use crate::results::sample::Sample;
 
 /// Stability number above which a warning is due.
 pub const LIMIT: f64 = 2.0;

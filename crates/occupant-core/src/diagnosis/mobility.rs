@@ -5,12 +5,12 @@
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
-use crate::kernel::dynamics::{Accelerations, Wrench, solve};
-use crate::kernel::kinematics::{Kinematics, LIMBS};
-use crate::kernel::skeleton::Skeleton;
-use crate::kernel::state::State;
-use crate::kernel::vector::V3;
 use crate::model::Model;
+use crate::motion::dynamics::{Accelerations, Wrench, solve};
+use crate::motion::kinematics::{Kinematics, LIMBS};
+use crate::motion::skeleton::Skeleton;
+use crate::motion::state::State;
+use crate::motion::vector::V3;
 
 /// Responses of the body at the start of a run.
 #[derive(Clone, Debug)]

@@ -16,9 +16,8 @@ pub use start::{BeltStart, ContactStart, SeatStart, SettleStart, SphereBehind};
 
 use crate::body::Segment;
 use crate::model::Model;
-use crate::path::{PathCursor, VehiclePath};
-use crate::setup::Integrator;
-use crate::simulate::output_count;
+use crate::model::setup::Integrator;
+use crate::vehicle::{PathCursor, VehiclePath};
 use mobility::Mobility;
 use rates::FrictionMasses;
 
@@ -144,7 +143,7 @@ pub fn diagnose(model: &Model) -> Diagnosis {
             start_s: setup.time.start_s,
             end_s: setup.time.end_s,
             output_s: setup.time.output_s,
-            outputs: output_count(model),
+            outputs: model.output_count(),
             integrator: match setup.integrator {
                 Integrator::Rk4 { .. } => "rk4",
                 Integrator::Adaptive { .. } => "adaptive",

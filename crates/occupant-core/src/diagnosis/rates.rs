@@ -9,17 +9,17 @@ use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
 use super::mobility::{Mobility, across, greatest};
-use crate::compartment::FlatFace;
-use crate::joint::{BallJoint, HingeJoint};
-use crate::kernel::frame::Moving;
-use crate::kernel::joints::BALLS;
-use crate::kernel::spring::Spring;
-use crate::material::{BilinearSpring, Material};
+use crate::body::joint::{BallJoint, HingeJoint};
+use crate::forces::contact::flat_face::FlatFace;
+use crate::forces::contact::surface::Frame;
+use crate::forces::joint::BALLS;
+use crate::forces::material::{BilinearSpring, Material};
+use crate::forces::spring::Spring;
 use crate::model::Model;
-use crate::path::{FrameMotion, PathCursor};
-use crate::sample::Sample;
-use crate::setup::Setup;
-use crate::surface::Frame;
+use crate::model::setup::Setup;
+use crate::motion::frame::Moving;
+use crate::results::sample::Sample;
+use crate::vehicle::{FrameMotion, PathCursor};
 
 /// step·rate at which the classical Runge–Kutta method becomes unstable, on the imaginary axis; 2.785 on the real one.
 pub const RK4_STABILITY_LIMIT: f64 = 2.8;
@@ -99,7 +99,7 @@ fn tangential(model: &Model, mobility: &Mobility<'_>, sphere: usize, surface: us
     let site = &system.contacts.sites[sphere];
     let normal = normal_in_space(model, &model.faces()[surface]);
     let (_, centre, _) = system.sphere(mobility.kinematics(), sphere);
-    let point = centre - crate::kernel::vector::V3::of(&normal) * site.radius;
+    let point = centre - crate::motion::vector::V3::of(&normal) * site.radius;
     1.0 / greatest(across(&mobility.of_point(site.segment, point), &normal))
 }
 
@@ -158,7 +158,7 @@ pub(super) fn of_belts(sample: &Sample<'_>, mobility: &Mobility<'_>) -> Vec<Rate
     let model = sample.model;
     let setup = model.setup();
     let vehicle: Moving<f64> = Moving::of(sample.vehicle);
-    let one = |(belt, action): (&crate::belt::Belt, &crate::kernel::belts::BeltAction<f64>)| {
+    let one = |(belt, action): (&crate::forces::belt::Belt, &crate::forces::belt::law::BeltAction<f64>)| {
         // −gradient of the length with respect to the centre
         let gradient = vehicle.axes.out(action.free[0] + action.free[1]).to_vector();
         let site = &model.system().contacts.sites[belt.sphere];

@@ -4,16 +4,16 @@ use serde::Serialize;
 
 use super::mobility::Mobility;
 use super::rates::{Rate, of_belts, vehicle_at_start};
-use crate::compartment::FlatFace;
-use crate::kernel::contact::PASSED;
-use crate::kernel::face;
-use crate::kernel::vector::V3;
+use crate::forces::contact::PASSED;
+use crate::forces::contact::face;
+use crate::forces::contact::flat_face::FlatFace;
+use crate::forces::contact::surface::{Frame, Outline};
 use crate::model::Model;
-use crate::recorder::{Flow, Recorder, RecorderError};
-use crate::sample::{Contact, Sample};
-use crate::seating::InitialPosture;
-use crate::simulate::simulate;
-use crate::surface::{Frame, Outline};
+use crate::model::seating::InitialPosture;
+use crate::motion::vector::V3;
+use crate::results::recorder::{Flow, Recorder, RecorderError};
+use crate::results::sample::{Contact, Sample};
+use crate::run::simulate::simulate;
 
 /// Figures of the seating, vehicle axes.
 #[derive(Clone, Debug, PartialEq, Serialize)]

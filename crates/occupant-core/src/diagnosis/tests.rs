@@ -1,14 +1,14 @@
 use nalgebra::Vector3;
 
 use super::*;
-use crate::energy::kinetic;
-use crate::kernel::dynamics::{Wrench, solve};
-use crate::kernel::frame::Moving;
-use crate::kernel::kinematics::Kinematics;
-use crate::kernel::state::{FREE, State};
-use crate::kernel::vector::V3;
+use crate::motion::dynamics::{Wrench, solve};
+use crate::motion::frame::Moving;
+use crate::motion::kinematics::Kinematics;
+use crate::motion::state::{FREE, State};
+use crate::motion::vector::V3;
+use crate::results::energy::kinetic;
+use crate::run::simulate::simulate;
 use crate::scenario::{Format, Scenario};
-use crate::simulate::simulate;
 
 /// A model from a scenario text.
 pub(crate) fn model_of(text: &str) -> Model {

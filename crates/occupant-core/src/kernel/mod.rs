@@ -6,47 +6,29 @@
 //! Results that are not integrated (which surface is touched, how strongly) go to an [`Observer`]; the unit observer `()`
 //! costs nothing.
 
-pub mod assembly;
-pub mod belts;
-pub mod contact;
-pub mod dual;
-pub mod dynamics;
-mod encounter;
-pub mod face;
-pub mod frame;
-mod history;
-pub mod joints;
-pub mod kinematics;
-#[cfg(any(target_arch = "x86_64", test))]
-pub(crate) mod lanes;
-pub mod limb;
-pub mod scalar;
-pub mod skeleton;
-pub mod spring;
-pub mod state;
-pub mod vector;
+mod dispatch;
 mod zip;
 
-pub use history::History;
 pub use zip::Unlike;
 
-use belts::{BeltAction, BeltLaw};
-use contact::{ContactSystem, Touch};
-use dynamics::{Accelerations, Wrench};
-use encounter::Sphere;
-use frame::{Moving, VEHICLE};
-use history::{Looking, Near, Nearing};
-use joints::JointSystem;
-use kinematics::Kinematics;
-use scalar::Scalar;
-use skeleton::Skeleton;
-use state::{FREE, State, Work};
-use vector::V3;
+pub(crate) use dispatch::{Bench, Machine};
+#[cfg(target_arch = "x86_64")]
+pub(crate) use dispatch::{has_avx2, has_avx512};
 
 use crate::body::SEGMENTS;
-
-/// Motions of the frames at one instant, by [`frame::SPACE`] and [`frame::VEHICLE`].
-pub type Frames<S> = [Moving<S>; 2];
+use crate::forces::belt::law::BeltLaw;
+use crate::forces::contact::ContactSystem;
+use crate::forces::contact::encounter::Sphere;
+use crate::forces::contact::history::{Looking, Near, Nearing};
+use crate::forces::joint::JointSystem;
+use crate::forces::{History, Observer};
+use crate::motion::dynamics::{self, Accelerations, Wrench};
+use crate::motion::frame::{Frames, VEHICLE};
+use crate::motion::kinematics::Kinematics;
+use crate::motion::scalar::Scalar;
+use crate::motion::skeleton::Skeleton;
+use crate::motion::state::{FREE, State, Work};
+use crate::motion::vector::V3;
 
 /// Constants of everything that acts: body, joints, contacts, belts.
 #[derive(Clone, Debug)]
@@ -60,18 +42,6 @@ pub struct System<S> {
     /// Belts.
     pub belts: Vec<BeltLaw<S>>,
 }
-
-/// Receives what happens in an evaluation.
-pub trait Observer<S> {
-    /// A pair exerts a force.
-    #[inline(always)]
-    fn touch(&mut self, _touch: &Touch<S>) {}
-    /// Shape and force of belt `_index`.
-    #[inline(always)]
-    fn belt(&mut self, _index: usize, _action: &BeltAction<S>) {}
-}
-
-impl<S> Observer<S> for () {}
 
 /// One evaluation with all that it derived.
 #[derive(Clone, Copy, Debug)]

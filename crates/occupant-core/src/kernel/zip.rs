@@ -5,8 +5,8 @@
 
 use std::fmt;
 
-use super::System;
-use super::contact::{ContactSystem, Pair, Part, Plane, Site};
+use crate::forces::contact::{ContactSystem, Pair, Part, Plane, Site};
+use crate::kernel::System;
 
 /// What keeps two systems from being computed side by side.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,10 +1,10 @@
 //! Steps with error control.
 
 use super::{Front, Run, Step};
-use crate::integrate::bogacki_shampine::{ERROR_ORDER, EVALUATIONS, Tolerance};
 use crate::model::Model;
-use crate::outcome::StepError;
-use crate::trig;
+use crate::motion::integrate::bogacki_shampine::{ERROR_ORDER, EVALUATIONS, Tolerance};
+use crate::results::outcome::StepError;
+use crash_measures::trig;
 
 /// What bounds the steps.
 #[derive(Clone, Copy, Debug)]

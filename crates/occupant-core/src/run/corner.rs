@@ -5,11 +5,11 @@
 //! step ends just behind it, and the next one begins on the other side.
 
 use super::Step;
-use crate::integrate::bogacki_shampine::Tolerance;
-use crate::kernel::History;
-use crate::kernel::contact::Touch;
+use crate::forces::History;
+use crate::forces::contact::Touch;
 use crate::model::Model;
-use crate::observers::Meeting;
+use crate::motion::integrate::bogacki_shampine::Tolerance;
+use crate::run::observers::Meeting;
 
 /// A corner that changes a speed by less than this part of the tolerance is passed over (measured in `docs/accuracy.md`).
 const LEAST_SHARE: f64 = 0.03;

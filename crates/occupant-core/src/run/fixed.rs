@@ -1,12 +1,12 @@
 //! Whole steps from output to output.
 
 use super::Run;
-use crate::integrate::rk4::{self, Stage};
-use crate::kernel::Frames;
 use crate::model::Model;
-use crate::observers::SeenAt;
-use crate::outcome::StepError;
-use crate::path::PathCursor;
+use crate::motion::frame::Frames;
+use crate::motion::integrate::rk4::{self, Stage};
+use crate::results::outcome::StepError;
+use crate::run::observers::SeenAt;
+use crate::vehicle::PathCursor;
 
 /// The steps from one output to the next: all of one length but the last, which ends at the output.
 #[derive(Clone, Copy, Debug)]

@@ -7,14 +7,15 @@ use std::mem::swap;
 
 use super::Step;
 use super::corner::{Crossing, Touching};
-use crate::checkpoint::{StepStart, StepUnderWay};
-use crate::integrate::bogacki_shampine::{Stage, Tolerance, Trial, attempt, within};
-use crate::kernel::contact::Touch;
-use crate::kernel::state::State;
-use crate::kernel::{History, Observer};
+use crate::forces::History;
+use crate::forces::Observer;
+use crate::forces::contact::Touch;
 use crate::model::Model;
-use crate::observers::Seen;
-use crate::path::PathCursor;
+use crate::motion::integrate::bogacki_shampine::{Stage, Tolerance, Trial, attempt, within};
+use crate::motion::state::State;
+use crate::results::checkpoint::{StepStart, StepUnderWay};
+use crate::run::observers::Seen;
+use crate::vehicle::PathCursor;
 
 /// The latest step of the integration, and where it stands.
 pub(crate) struct Front {

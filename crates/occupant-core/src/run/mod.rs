@@ -3,9 +3,12 @@
 //! The model stands beside it, unchanged: every call gets the one that the run was made for.
 
 mod adaptive;
+pub mod batch;
 mod corner;
 mod fixed;
 mod front;
+pub(crate) mod observers;
+pub mod simulate;
 
 pub(crate) use fixed::{Step, Stretch};
 
@@ -13,20 +16,19 @@ use adaptive::{Control, Memory};
 use front::Front;
 
 use crate::body::Segment;
-use crate::checkpoint::{Checkpoint, CheckpointError, Progress};
-use crate::energy::{EnergyLedger, EnergyStart, Stored};
-use crate::integrate::bogacki_shampine::Tolerance;
-use crate::kernel::History;
-use crate::kernel::frame::VEHICLE;
-use crate::kernel::state::{FREE, HINGED, State};
+use crate::forces::History;
+use crate::model::setup::Integrator;
 use crate::model::{Model, frames};
-use crate::observers::{Seen, Touches};
-use crate::outcome::{Outcome, RecordingFailed, Status, StepError};
-use crate::path::PathCursor;
-use crate::recorder::{Flow, Recorder, RecorderError};
-use crate::sample::{Effort, Sample};
-use crate::setup::Integrator;
-use crate::simulate::output_time;
+use crate::motion::frame::VEHICLE;
+use crate::motion::integrate::bogacki_shampine::Tolerance;
+use crate::motion::state::{FREE, HINGED, State};
+use crate::results::checkpoint::{Checkpoint, CheckpointError, Progress};
+use crate::results::energy::{EnergyLedger, EnergyStart, Stored};
+use crate::results::outcome::{Outcome, RecordingFailed, Status, StepError};
+use crate::results::recorder::{Flow, Recorder, RecorderError};
+use crate::results::sample::{Effort, Sample};
+use crate::run::observers::{Seen, Touches};
+use crate::vehicle::PathCursor;
 
 /// A run in progress.
 pub(crate) struct Run {
@@ -179,7 +181,7 @@ impl Run {
 
     /// Time of the next output, s; none after the last.
     pub fn next_output_s(&self, model: &Model) -> Option<f64> {
-        output_time(model, self.index)
+        model.output_time_s(self.index)
     }
 
     /// Steps until `target_s`.

@@ -5,7 +5,7 @@ use serde_json::Value as Json;
 use super::diagnostic::{Diagnostic, Diagnostics};
 use super::document::{Entry, Node, Table, Value};
 use super::kind::{KINDS, Kind, UnitSystem};
-use super::nearest::nearest;
+use crate::problem::nearest;
 use super::path_text::with_key;
 use super::quantity::{Written, si_value};
 use super::schema::schema;

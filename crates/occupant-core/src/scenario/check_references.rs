@@ -5,7 +5,7 @@
 
 use super::check::{Checker, one_of};
 use super::document::{Entry, Node, Value};
-use super::nearest::nearest;
+use crate::problem::nearest;
 use super::path_text::with_key;
 use crate::body::SPHERE_NAMES;
 

@@ -8,8 +8,8 @@ use std::sync::OnceLock;
 use super::document::{Entry, Node, Table, Value};
 use super::source::Sources;
 use super::toml_text;
+use crate::body::joint::Joint;
 use crate::body::{SPHERE_NAMES, Segment};
-use crate::joint::Joint;
 
 /// Pairs of segments: the word for both, left, right.
 const SEGMENT_PAIRS: [[&str; 3]; 4] = [

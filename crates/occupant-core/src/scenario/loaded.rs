@@ -12,8 +12,8 @@ use super::model::{PathSection, Scenario};
 use super::path_text::locate;
 use super::source::{SourceId, Sources};
 use crate::model::Model;
+use crate::model::setup::Setup;
 use crate::problem::{Problem, Problems};
-use crate::setup::Setup;
 
 /// Gives the bytes of a file named in a scenario, or says why not. The core reads no files itself.
 pub type Resolver<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, String>;

@@ -37,7 +37,6 @@ mod json;
 pub mod kind;
 pub(crate) mod loaded;
 pub mod model;
-pub mod nearest;
 mod number_table;
 mod overrides;
 pub mod path_text;

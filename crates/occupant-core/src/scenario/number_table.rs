@@ -8,7 +8,7 @@ use super::csv_text::{Cell, cells, lines, name_and_unit};
 use super::diagnostic::{Diagnostic, Diagnostics};
 use super::document::{Node, Value};
 use super::kind::{KINDS, Kind};
-use super::nearest::nearest;
+use crate::problem::nearest;
 use super::source::{SourceId, Sources, Span};
 use super::unit_expression;
 use crate::problem::{Problem, Severity};

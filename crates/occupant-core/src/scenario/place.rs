@@ -10,7 +10,7 @@ use super::document::{Node, Value};
 use super::draft::Draft;
 use super::expand::expand;
 use super::kind::Kind;
-use super::nearest::nearest;
+use crate::problem::nearest;
 use super::overrides::{put, targets};
 use super::path_text::{Step, child, child_of, parse, to_text};
 use super::quantity::{Written, si_value};

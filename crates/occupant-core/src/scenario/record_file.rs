@@ -5,8 +5,8 @@ use super::diagnostic::{Diagnostic, Diagnostics};
 use super::draft::text_of;
 use super::number_table::read_csv;
 use super::source::{Sources, Span};
-use crate::path::AccelerationRecord;
 use crate::problem::{Problem, Severity};
+use crate::vehicle::AccelerationRecord;
 
 /// Recorded accelerations and rates in SI, as the file's axes have them, with the places of its lines.
 #[derive(Clone, Debug)]

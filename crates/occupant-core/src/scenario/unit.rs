@@ -5,7 +5,7 @@
 use std::f64::consts::PI;
 
 use super::kind::Dimension;
-use super::nearest::nearest;
+use crate::problem::nearest;
 
 /// A named unit.
 #[derive(Clone, Copy, Debug, PartialEq)]

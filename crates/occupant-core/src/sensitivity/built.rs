@@ -10,12 +10,14 @@ use std::cell::{Cell, RefCell};
 use super::ladder::{Ladder, POINTS, Slope};
 use super::parameter::{Family, Parameter};
 use super::trouble::Trouble;
-use crate::kernel::dual::Dual;
-use crate::kernel::frame::{Moving, VEHICLE};
-use crate::kernel::state::State;
-use crate::kernel::{Frames, History, System};
+use crate::forces::History;
+use crate::kernel::System;
 use crate::model::{Model, frames};
-use crate::path::{PathCursor, VehiclePath};
+use crate::motion::dual::Dual;
+use crate::motion::frame::Frames;
+use crate::motion::frame::{Moving, VEHICLE};
+use crate::motion::state::State;
+use crate::vehicle::{PathCursor, VehiclePath};
 
 /// Step of the differences as a part of the parameter's size.
 const STEP: f64 = 1e-3;
@@ -193,7 +195,7 @@ pub(super) fn dual_system<const N: usize>(model: &Model, built: &[Built]) -> Res
 pub(super) fn dual_state<const N: usize>(model: &Model, built: &[Built]) -> State<Dual<N>> {
     let slopes = |k: usize| {
         let numbers = built.get(k).map_or_else(Vec::new, |b| b.state.clone());
-        let mut all = [0.0; crate::kernel::state::NUMBERS];
+        let mut all = [0.0; crate::motion::state::NUMBERS];
         all.iter_mut().zip(numbers).for_each(|(to, from)| *to = from);
         State::from_numbers(&all)
     };

@@ -7,16 +7,16 @@
 //! instant.
 
 use super::trouble::Trouble;
-use crate::joint::{Joint, Joints};
-use crate::kernel::History;
-use crate::kernel::Observer;
-use crate::kernel::belts::BeltAction;
-use crate::kernel::contact::Touch;
-use crate::kernel::dual::Dual;
-use crate::kernel::kinematics::Kinematics;
-use crate::kernel::state::State;
-use crate::kernel::vector::V3;
+use crate::body::joint::{Joint, Joints};
+use crate::forces::History;
+use crate::forces::Observer;
+use crate::forces::belt::law::BeltAction;
+use crate::forces::contact::Touch;
 use crate::model::Model;
+use crate::motion::dual::Dual;
+use crate::motion::kinematics::Kinematics;
+use crate::motion::state::State;
+use crate::motion::vector::V3;
 
 /// Events beyond this number are counted and not kept.
 const MOST: usize = 4096;
@@ -356,7 +356,7 @@ impl<const N: usize> Lookout<N> {
                 continue;
             }
             self.touching.swap_remove(at);
-            let passed = history.pairs[i].phase.value > crate::kernel::contact::TOUCHING;
+            let passed = history.pairs[i].phase.value > crate::forces::contact::TOUCHING;
             let (what, jump_n) = match passed {
                 true => (Touching::Passes, Some(pair.edge_n)),
                 false => (Touching::Ends, None),

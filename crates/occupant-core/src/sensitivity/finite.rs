@@ -5,9 +5,9 @@ use std::ops::ControlFlow;
 use super::ladder::Slope;
 use super::measures::pick;
 use super::parameter::Parameter;
-use crate::lanes::{Ended, Job, simulate_many};
-use crate::outcome::Status;
-use crate::summary::Summarizer;
+use crate::results::outcome::Status;
+use crate::results::summary::Summarizer;
+use crate::run::batch::{Ended, Job, simulate_many};
 
 /// Changes as parts of a parameter's size, to either side.
 pub const CHANGES: [f64; 4] = [1e-4, 1e-3, 3e-3, 1e-2];

@@ -12,15 +12,15 @@ use super::ladder::Slope;
 use super::parameter::{Family, Parameter};
 use super::trajectory::Trajectory;
 use super::trouble::Trouble;
-use crate::channel::{Channel, Series, matches};
-use crate::checkpoint::{Checkpoint, Progress};
-use crate::energy::EnergyStart;
 use crate::model::Model;
-use crate::recorder::{Recorder, Watch};
-use crate::scenario::nearest::nearest;
+use crate::results::channel::{Channel, Series, matches};
+use crate::results::checkpoint::{Checkpoint, Progress};
+use crate::results::energy::EnergyStart;
+use crate::results::recorder::{Recorder, Watch};
+use crate::results::summary::{Figure, Summarizer};
+use crate::run::simulate::replay;
+use crate::problem::nearest;
 use crate::scenario::place::Misplaced;
-use crate::simulate::replay;
-use crate::summary::{Figure, Summarizer};
 
 /// How far outputs are displaced at most, m and rad.
 const FARTHEST: [f64; 3] = [1e-6, 2e-5, 4e-4];
@@ -30,7 +30,7 @@ const LARGEST_PART: f64 = 1e-3;
 /// What the derivatives of a run are asked of.
 #[derive(Clone, Debug, Default)]
 pub struct Wish {
-    /// Names of figures, as [`crate::summary::Summary::figures`] has them.
+    /// Names of figures, as [`crate::results::summary::Summary::figures`] has them.
     pub figures: Vec<String>,
     /// Channels of the model.
     pub channels: Vec<Channel>,
@@ -147,7 +147,7 @@ fn values(
             Some(progress) => progress,
             None => from_the_start(model, &checkpoint)?,
         };
-        let mut carry = Watch(|sample: &crate::sample::Sample<'_>| {
+        let mut carry = Watch(|sample: &crate::results::sample::Sample<'_>| {
             progress = Some(sample.progress);
         });
         replay(model, &checkpoint, &mut (&mut recorder, &mut carry)).map_err(|e| Trouble::Output(e.to_string()))?;
@@ -170,7 +170,7 @@ fn from_the_start(model: &Model, checkpoint: &Checkpoint) -> Result<Progress, Tr
     first.progress.greatest_kinetic_j = 0.0;
     first.progress.greatest_imbalance_j = 0.0;
     let mut start = EnergyStart::default();
-    let mut watch = Watch(|sample: &crate::sample::Sample<'_>| start = sample.energy.as_start());
+    let mut watch = Watch(|sample: &crate::results::sample::Sample<'_>| start = sample.energy.as_start());
     replay(model, &first, &mut watch).map_err(|e| Trouble::Output(e.to_string()))?;
     let mut progress = first.progress;
     progress.energy_start = start;

@@ -1,6 +1,6 @@
 //! Exact local sensitivities: how a run changes when a number of its scenario changes a little.
 //!
-//! The run is computed once more in dual numbers ([`crate::kernel::dual`]): every operation of the derivative kernel and
+//! The run is computed once more in dual numbers ([`crate::motion::dual`]): every operation of the derivative kernel and
 //! of the integrator carries derivatives along, so the derivative of the motion is exact to rounding and no step size is
 //! chosen. The values are to the bit those of the plain run, on whose steps it goes; with error control the derivative of
 //! the choice of steps is not taken.

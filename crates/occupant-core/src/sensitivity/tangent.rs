@@ -3,15 +3,17 @@
 use super::built::{Built, dual_frames, dual_history, dual_state, dual_system};
 use super::events::Scene;
 use super::trouble::Trouble;
-use crate::integrate::bogacki_shampine::{Stage, stages, within};
-use crate::integrate::rk4;
-use crate::kernel::dual::Dual;
-use crate::kernel::state::State;
-use crate::kernel::{Frames, History, System};
+use crate::forces::History;
+use crate::kernel::System;
 use crate::model::Model;
-use crate::path::PathCursor;
+use crate::model::setup::Integrator;
+use crate::motion::dual::Dual;
+use crate::motion::frame::Frames;
+use crate::motion::integrate::bogacki_shampine::{Stage, stages, within};
+use crate::motion::integrate::rk4;
+use crate::motion::state::State;
 use crate::run::Step;
-use crate::setup::Integrator;
+use crate::vehicle::PathCursor;
 
 /// A run in progress, with its derivatives in `N` directions.
 pub(super) struct Tangent<'a, const N: usize> {

@@ -4,16 +4,16 @@ use super::built::Built;
 use super::events::{Event, Lookout, Scene, join};
 use super::tangent::Tangent;
 use super::trouble::Trouble;
-use crate::checkpoint::Checkpoint;
-use crate::kernel::dual::Dual;
-use crate::kernel::state::{NUMBERS, State};
-use crate::kernel::vector::v3;
 use crate::model::Model;
-use crate::outcome::{Outcome, Status};
-use crate::recorder::{Flow, Recorder, RecorderError};
+use crate::model::setup::Integrator;
+use crate::motion::dual::Dual;
+use crate::motion::state::{NUMBERS, State};
+use crate::motion::vector::v3;
+use crate::results::checkpoint::Checkpoint;
+use crate::results::outcome::{Outcome, Status};
+use crate::results::recorder::{Flow, Recorder, RecorderError};
+use crate::results::sample::Sample;
 use crate::run::{Run, Step};
-use crate::sample::Sample;
-use crate::setup::Integrator;
 
 /// Directions carried side by side.
 const SIDE_BY_SIDE: usize = 4;

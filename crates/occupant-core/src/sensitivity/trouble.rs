@@ -2,9 +2,9 @@
 
 use std::fmt;
 
-use crate::checkpoint::CheckpointError;
 use crate::kernel::Unlike;
-use crate::recorder::RecorderError;
+use crate::results::checkpoint::CheckpointError;
+use crate::results::recorder::RecorderError;
 
 /// Why there is no derivative.
 #[derive(Debug)]

@@ -7,7 +7,7 @@ use super::fit_section::{FilterChoice, Misfit};
 use super::law::{Law, Value, between, log_between};
 use super::model::Free;
 use super::parameter::{Assignment, Parameter};
-use crate::trig::ln;
+use crash_measures::trig::ln;
 
 /// A fit as a study says it.
 #[derive(Clone, Debug, PartialEq)]

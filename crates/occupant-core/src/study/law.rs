@@ -1,7 +1,7 @@
 //! How the values of one parameter are spread: levels to go through, or a distribution to draw from.
 
 use super::normal;
-use crate::trig::{exp, ln};
+use crash_measures::trig::{exp, ln};
 
 /// A value of a parameter: SI units, angles in radians.
 #[derive(Clone, Debug, PartialEq)]

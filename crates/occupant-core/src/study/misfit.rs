@@ -1,8 +1,8 @@
 //! How far a computed history is from a measured one, as one number: 0 where they are the same.
 
 use super::fit_section::Misfit;
-use crate::correlation::iso18571;
-use crate::signal::SignalError;
+use crash_measures::correlation::iso18571;
+use crash_measures::signal::SignalError;
 
 /// Half the width of the parabola that finds a peak between samples, s.
 const PEAK_S: f64 = 1e-3;
@@ -18,7 +18,7 @@ impl Misfit {
     /// # Errors
     /// Too few samples, different lengths, a measured history without content.
     pub fn of(self, measured: &[f64], computed: &[f64], dt_s: f64) -> Result<f64, SignalError> {
-        crate::correlation::require_pair(measured, computed, dt_s, 2)?;
+        crash_measures::correlation::require_pair(measured, computed, dt_s, 2)?;
         match self {
             Misfit::Iso18571 => Ok(1.0 - iso18571(measured, computed, dt_s)?.overall),
             Misfit::Rms => Ok(rms(measured, computed)),
@@ -145,7 +145,7 @@ mod tests {
     fn pulse(shift_s: f64, size: f64) -> Vec<f64> {
         let value = |i: usize| {
             let t = i as f64 * 1e-4 - shift_s;
-            -size * crate::trig::exp(-((t - 0.05) / 0.012) * ((t - 0.05) / 0.012))
+            -size * crash_measures::trig::exp(-((t - 0.05) / 0.012) * ((t - 0.05) / 0.012))
         };
         (0..=1000).map(value).collect()
     }

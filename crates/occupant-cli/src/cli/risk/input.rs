@@ -1,8 +1,8 @@
 //! What `occupant risk` measures: recorded data, or the path of a scenario or run.
 
+use crash_measures::signal::SignalError;
 use occupant_core::scenario::{Diagnostics, RecordFile, read_record};
-use occupant_core::signal::SignalError;
-use occupant_core::vehicle_risk::{Preparation, Unprepared, VehicleSignals, prepare};
+use occupant_core::vehicle::risk::{Preparation, Unprepared, VehicleSignals, prepare};
 
 use super::Args;
 use crate::cli::exit::Failure;

@@ -1,9 +1,9 @@
 //! The flags of `occupant risk` in SI.
 
+use crash_measures::signal::{CfcFamily, ChannelClass};
 use occupant_core::scenario::kind;
 use occupant_core::scenario::quantity::Quantity;
-use occupant_core::signal::{CfcFamily, ChannelClass};
-use occupant_core::vehicle_risk::{Flight, Preparation, VerticalGravity};
+use occupant_core::vehicle::risk::{Flight, Preparation, VerticalGravity};
 
 use super::{Args, ClassChoice, FamilyChoice};
 use crate::cli::exit::Failure;

@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::thread;
 
-use occupant_core::lanes::Kernel;
+use occupant_core::run::batch::Kernel;
 use occupant_core::study::Keep;
 
 use crate::cli::exit::Failure;

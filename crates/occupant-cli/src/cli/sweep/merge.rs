@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
-use occupant_core::lanes::Kernel;
+use occupant_core::run::batch::Kernel;
 use occupant_core::study::Keep;
 
 use super::choices::{keep, threads};

@@ -2,10 +2,10 @@
 //!
 //! Pairs are numbered as the model numbers them; those in no list are open and have no greatest deformation.
 
-use occupant_core::checkpoint::StepUnderWay;
-use occupant_core::kernel::History;
-use occupant_core::kernel::contact::{PASSED, PairHistory, TOUCHING};
-use occupant_core::sample::Sample;
+use occupant_core::forces::History;
+use occupant_core::forces::contact::{PASSED, PairHistory, TOUCHING};
+use occupant_core::results::checkpoint::StepUnderWay;
+use occupant_core::results::sample::Sample;
 
 use crate::mcap::column::{Group, TIME, Value, column};
 use Value::{Count, Indices, Number, Numbers};

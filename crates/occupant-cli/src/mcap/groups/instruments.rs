@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 use occupant_core::body::Segment;
-use occupant_core::joint::Joint;
-use occupant_core::reaction::{femur_axial_n, reaction};
+use occupant_core::body::joint::Joint;
+use occupant_core::results::reaction::{femur_axial_n, reaction};
 
 use crate::mcap::column::{Group, TIME, Value, column};
 use Value::{Number, Vector};

@@ -1,7 +1,7 @@
 //! What a joint carries.
 
-use occupant_core::joint::Joint;
-use occupant_core::reaction::reaction;
+use occupant_core::body::joint::Joint;
+use occupant_core::results::reaction::reaction;
 
 use crate::mcap::column::{Group, TIME, Value, column};
 use Value::Vector;

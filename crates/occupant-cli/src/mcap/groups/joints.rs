@@ -1,6 +1,6 @@
 //! Angles of all joints.
 
-use occupant_core::joint::Joint;
+use occupant_core::body::joint::Joint;
 
 use crate::mcap::column::{Group, TIME, Value, column};
 use Value::Number;

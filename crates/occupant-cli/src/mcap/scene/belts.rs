@@ -1,9 +1,9 @@
 //! Belts as lines: anchor, tangent point, round the sphere, tangent point, anchor.
 
 use nalgebra::{Point3, Vector3};
-use occupant_core::belt::Belt;
-use occupant_core::kernel::belts::BeltAction;
-use occupant_core::sample::Sample;
+use occupant_core::forces::belt::Belt;
+use occupant_core::forces::belt::law::BeltAction;
+use occupant_core::results::sample::Sample;
 
 use super::primitive::{Closing, line};
 use super::{Color, entity, replace};

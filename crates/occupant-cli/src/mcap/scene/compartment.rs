@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use nalgebra::Point3;
-use occupant_core::compartment::FlatFace;
+use occupant_core::forces::contact::flat_face::FlatFace;
+use occupant_core::forces::contact::surface::{Frame, Outline};
 use occupant_core::model::Model;
-use occupant_core::surface::{Frame, Outline};
 
 use super::primitive::{Closing, line, polygon};
 use super::{Color, entity};

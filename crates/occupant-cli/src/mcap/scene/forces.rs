@@ -1,6 +1,6 @@
 //! Forces on the occupant as arrows: contacts where they act, belts at the centres of their spheres.
 
-use occupant_core::sample::Sample;
+use occupant_core::results::sample::Sample;
 
 use super::primitive::arrow;
 use super::{Color, entity, replace};

@@ -1,6 +1,6 @@
 //! Belts.
 
-use occupant_core::belt::RestLength;
+use occupant_core::forces::belt::RestLength;
 
 use crate::print::case::Case;
 use crate::print::page::Pages;

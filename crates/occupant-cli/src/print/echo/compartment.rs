@@ -1,9 +1,9 @@
 //! Materials and surfaces.
 
 use nalgebra::Point3;
-use occupant_core::compartment::FlatFace;
-use occupant_core::material::Memory;
-use occupant_core::surface::{Frame, Outline};
+use occupant_core::forces::contact::flat_face::FlatFace;
+use occupant_core::forces::contact::surface::{Frame, Outline};
+use occupant_core::forces::material::Memory;
 
 use crate::print::case::Case;
 use crate::print::page::Pages;

@@ -1,6 +1,6 @@
 //! Dampers, stops and springs of the joints.
 
-use occupant_core::joint::{BallJoint, HingeJoint, Joint, Joints, Stop};
+use occupant_core::body::joint::{BallJoint, HingeJoint, Joint, Joints, Stop};
 
 use crate::print::case::Case;
 use crate::print::page::Pages;

@@ -1,6 +1,6 @@
 //! The path of the vehicle.
 
-use occupant_core::path::{
+use occupant_core::vehicle::{
     AfterEnd, Interpolation, PulsePath, PulseShape, Strength, TablePath, TravelDirection, VehiclePath, VehiclePose,
 };
 

@@ -1,9 +1,9 @@
 //! How the occupant starts: the seating as read and as computed, the coordinates, the belts laid, the pairs passed.
 
-use occupant_core::report_coordinates::{DOF, ReportCoordinates};
-use occupant_core::seat::Seated;
-use occupant_core::seating::{InitialPosture, InitialVelocity, Seating};
-use occupant_core::settle::Settled;
+use occupant_core::model::seat::Seated;
+use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating};
+use occupant_core::model::settle::Settled;
+use occupant_core::motion::report_coordinates::{DOF, ReportCoordinates};
 
 use crate::print::case::Case;
 use crate::print::end_sheet::pairs;

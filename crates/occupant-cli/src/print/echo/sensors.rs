@@ -1,6 +1,6 @@
 //! A path from recorded motion.
 
-use occupant_core::path::{SensorGravity, SensorPath, SensorRecord};
+use occupant_core::vehicle::{SensorGravity, SensorPath, SensorRecord};
 
 use super::path::{after, direction, pose};
 use crate::print::page::Pages;

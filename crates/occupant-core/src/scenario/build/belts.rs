@@ -2,8 +2,8 @@
 
 use super::builder::Builder;
 use super::surfaces::spring;
-use crate::belt::{Belt, RestLength};
 use crate::body::Body;
+use crate::forces::belt::{Belt, RestLength};
 use crate::scenario::model::{BeltSection, Scenario};
 use crate::scenario::path_text::with_key;
 

@@ -5,9 +5,9 @@ use nalgebra::{Point3, Vector3};
 
 use super::builder::Builder;
 use crate::body::{Body, ContactSphere, SEGMENTS, SPHERE_NAMES, Segment, SegmentProperties, standard_spheres};
+use crate::model::setup::STANDARD_GRAVITY_M_S2;
 use crate::scenario::model::{BodySection, Scenario, SegmentSection, Segments, SphereSection};
 use crate::scenario::path_text::with_key;
-use crate::setup::STANDARD_GRAVITY_M_S2;
 
 /// The body; `body` is explicit, `written` says which preset it came from.
 pub(super) fn body(b: &mut Builder, written: &Scenario, body: &BodySection) -> Body {

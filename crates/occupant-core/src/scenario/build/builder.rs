@@ -8,7 +8,7 @@ use super::super::document::Node;
 use super::super::kind::UnitSystem;
 use super::super::loaded::place;
 use super::super::model::{Length, Scenario};
-use super::super::nearest::nearest;
+use crate::problem::nearest;
 use super::super::path_text::{locate, with_key};
 use super::super::quantity::Quantity;
 use super::super::source::Sources;

@@ -1,7 +1,7 @@
 //! `[joints]` → [`Joints`].
 
 use super::builder::Builder;
-use crate::joint::{AngularSpring, BallJoint, HingeJoint, Joint, Joints, Stop};
+use crate::body::joint::{AngularSpring, BallJoint, HingeJoint, Joint, Joints, Stop};
 use crate::scenario::document::{Node, Table};
 use crate::scenario::model::{JointSection, JointsSection, StopSection};
 use crate::scenario::path_text::with_key;

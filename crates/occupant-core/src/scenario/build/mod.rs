@@ -21,7 +21,7 @@ use super::diagnostic::Diagnostics;
 use super::document::Node;
 use super::model::Scenario;
 use super::source::{SourceId, Sources};
-use crate::setup::Setup;
+use crate::model::setup::Setup;
 
 /// Builds the plain data; `written` is the scenario as it was written, `explicit` the one with presets written out, and
 /// `root` the tree of the latter.
@@ -42,7 +42,7 @@ pub(super) fn build(
     let time = run::time(&mut b, explicit);
     let integrator = run::integrator(&mut b, explicit);
     let output = run::output(explicit);
-    let gravity_m_s2 = b.optional("gravity", &explicit.gravity, crate::setup::STANDARD_GRAVITY_M_S2);
+    let gravity_m_s2 = b.optional("gravity", &explicit.gravity, crate::model::setup::STANDARD_GRAVITY_M_S2);
     let path = path::path(&mut b, &explicit.path, path_table, gravity_m_s2);
     b.check_provenance(written);
     let title = explicit.title.clone();

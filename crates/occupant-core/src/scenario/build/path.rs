@@ -3,10 +3,6 @@
 use nalgebra::Vector3;
 
 use super::builder::Builder;
-use crate::path::{
-    AfterEnd, Attitude, DecelerationPoint, FixedPath, Interpolation, PathProblem, PulseDefinition, PulsePath, Station,
-    TablePath, TravelDirection, VehiclePath, VehiclePose,
-};
 use crate::problem::{Problem, Severity};
 use crate::scenario::diagnostic::Diagnostic;
 use crate::scenario::kind;
@@ -14,6 +10,10 @@ use crate::scenario::model::{After, Interpolate, PathSection, PulseSection, Tabl
 use crate::scenario::model::{Angle, Length, Ratio};
 use crate::scenario::number_table::{Column, NumberTable, read_csv, read_inline};
 use crate::scenario::source::SourceId;
+use crate::vehicle::{
+    AfterEnd, Attitude, DecelerationPoint, FixedPath, Interpolation, PathProblem, PulseDefinition, PulsePath, Station,
+    TablePath, TravelDirection, VehiclePath, VehiclePose,
+};
 
 use super::{pulse, sensors};
 

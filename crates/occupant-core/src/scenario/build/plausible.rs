@@ -2,13 +2,13 @@
 //! lbf/in as N/m, milliseconds as seconds.
 
 use super::builder::Builder;
-use crate::joint::Joint;
-use crate::material::BilinearSpring;
+use crate::body::joint::Joint;
+use crate::forces::material::BilinearSpring;
+use crate::model::seating::InitialPosture;
+use crate::model::setup::Setup;
 use crate::scenario::model::{Angle, PostureSection, Scenario};
 use crate::scenario::path_text::with_key;
 use crate::scenario::quantity::Written;
-use crate::seating::InitialPosture;
-use crate::setup::Setup;
 
 /// What is usual, and what an unusual value is likely to be.
 struct Usual {

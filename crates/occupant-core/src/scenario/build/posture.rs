@@ -4,10 +4,10 @@ use nalgebra::Vector3;
 
 use super::builder::Builder;
 use crate::body::Body;
-use crate::report_coordinates::{DOF, ReportCoordinates};
+use crate::model::seating::{InitialPosture, InitialVelocity, Seating};
+use crate::motion::report_coordinates::{DOF, ReportCoordinates};
 use crate::scenario::kind::UnitSystem;
 use crate::scenario::model::{InitialStateSection, PostureSection, Scenario};
-use crate::seating::{InitialPosture, InitialVelocity, Seating};
 
 /// Position and velocity at the start.
 pub(super) fn posture(b: &mut Builder, s: &Scenario, body: &Body) -> (Option<InitialPosture>, InitialVelocity) {

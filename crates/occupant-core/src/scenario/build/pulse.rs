@@ -1,9 +1,9 @@
 //! The shape of a `[path]` of kind "pulse".
 
 use super::builder::Builder;
-use crate::path::{DecelerationPoint, PulseShape, Strength};
 use crate::scenario::model::{PulseSection, PulseShape as Word};
 use crate::scenario::path_text::with_key;
+use crate::vehicle::{DecelerationPoint, PulseShape, Strength};
 
 /// The keys that each shape knows, besides those every pulse has.
 fn keys_of(shape: Word) -> &'static [&'static str] {

@@ -1,8 +1,9 @@
 //! `[time]`, `[integrator]`, `[output]` → [`TimeSpan`], [`Integrator`], [`OutputOptions`].
 
 use super::builder::Builder;
+use crate::forces::contact::EdgeForce;
+use crate::model::setup::{Integrator, OutputOptions, TimeSpan};
 use crate::scenario::model::{AdaptiveSection, EdgeForceChoice, IntegratorSection, Scenario};
-use crate::setup::{EdgeForce, Integrator, OutputOptions, TimeSpan};
 
 /// Time between records unless given: 1 ms.
 const DEFAULT_OUTPUT_S: f64 = 1e-3;

@@ -4,15 +4,15 @@ use nalgebra::Vector3;
 
 use super::builder::Builder;
 use super::path::{after, column, direction, numbers, pose, refuse};
-use crate::path::{AccelerationRecord, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord};
+use crate::model::setup::STANDARD_GRAVITY_M_S2;
 use crate::problem::{Problem, Severity};
 use crate::scenario::diagnostic::Diagnostic;
 use crate::scenario::kind;
 use crate::scenario::model::{FilterClass, RecordedGravity, SensorAxes, SensorsSection};
 use crate::scenario::number_table::{Column, NumberTable};
 use crate::scenario::source::SourceId;
-use crate::setup::STANDARD_GRAVITY_M_S2;
-use crate::signal::ChannelClass;
+use crate::vehicle::{AccelerationRecord, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord};
+use crash_measures::signal::ChannelClass;
 
 /// Columns of a record: the time, accelerations, rates, velocity changes.
 pub(in crate::scenario) const COLUMNS: [Column; 9] = [

@@ -4,13 +4,13 @@ use nalgebra::{Point3, Vector3};
 
 use super::builder::Builder;
 use crate::body::Body;
-use crate::material::{BilinearSpring, DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
+use crate::forces::contact::surface::{Facing, Frame, Outline, Surface};
+use crate::forces::material::{BilinearSpring, DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
 use crate::scenario::model::{
     DiscSection, FrameChoice, Length, MaterialSection, MemoryChoice, Ratio, Scenario, Stiffness, SurfaceSection,
 };
 use crate::scenario::path_text::with_key;
-use crate::surface::{Facing, Frame, Outline, Surface};
-use crate::trig;
+use crash_measures::trig;
 
 /// All materials, in the order written.
 pub(super) fn materials(b: &mut Builder, scenario: &Scenario) -> Vec<Material> {

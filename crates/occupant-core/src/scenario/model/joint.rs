@@ -3,7 +3,7 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::joint::Joint;
+use crate::body::joint::Joint;
 
 use super::{Angle, Ratio, RotationalDamping, RotationalStiffness};
 

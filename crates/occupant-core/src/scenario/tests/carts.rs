@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 
 use super::super::{Draft, Loaded};
 use super::no_files;
-use crate::setup::Integrator;
+use crate::model::setup::Integrator;
 
 fn cart(name: &str) -> Loaded {
     let path = format!("{}/../../scenarios/{name}", env!("CARGO_MANIFEST_DIR"));

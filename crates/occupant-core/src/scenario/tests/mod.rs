@@ -14,7 +14,7 @@ mod tables;
 mod units;
 
 use super::{Diagnostics, Format, Loaded, Scenario};
-use crate::setup::Setup;
+use crate::model::setup::Setup;
 
 /// The shortest useful scenario.
 const SHORT: &str = include_str!("short.toml");

@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 
 use super::super::{Draft, Format};
 use super::{SHORT, no_files};
-use crate::setup::Setup;
+use crate::model::setup::Setup;
 
 fn changed(assignments: &[&str]) -> Result<Setup, String> {
     let text = |e: super::Diagnostics| e.to_string();
@@ -28,10 +28,10 @@ fn values_are_toml_or_plain_text() {
     ])
     .unwrap();
     let belt = &setup.belts[0];
-    assert_eq!(belt.rest, crate::belt::RestLength::Slack { slack_m: 0.0254 });
+    assert_eq!(belt.rest, crate::forces::belt::RestLength::Slack { slack_m: 0.0254 });
     assert_relative_eq!(belt.webbing.k1_n_per_m, 80e3);
     assert_eq!(belt.anchors_m[1].z, 0.25);
-    assert_eq!(setup.integrator, crate::setup::Integrator::Rk4 { step_s: 2e-4 });
+    assert_eq!(setup.integrator, crate::model::setup::Integrator::Rk4 { step_s: 2e-4 });
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! CSV files of recorded data.
 
 use super::super::read_record;
-use crate::vehicle_risk::{Flight, Preparation, VehicleRisk, prepare};
+use crate::vehicle::risk::{Flight, Preparation, VehicleRisk, prepare};
 
 const SOUND: &[u8] = b"t[ms],ax[g],ay[m/s^2],wz[deg/s]\n0,-1,2,3\n1,-1.5,2,3\n2,-2e0,2,3\n3,-1,2,4\n";
 

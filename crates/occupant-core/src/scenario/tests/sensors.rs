@@ -4,9 +4,9 @@ use approx::assert_relative_eq;
 
 use super::super::{Format, Scenario};
 use super::{complaint, short_with};
-use crate::path::{SensorGravity, SensorPath, SensorRecord, VehiclePath};
-use crate::setup::STANDARD_GRAVITY_M_S2 as G;
-use crate::signal::ChannelClass;
+use crate::model::setup::STANDARD_GRAVITY_M_S2 as G;
+use crate::vehicle::{SensorGravity, SensorPath, SensorRecord, VehiclePath};
+use crash_measures::signal::ChannelClass;
 
 const PULSE: &str = "kind = \"pulse\"
 shape = \"half_sine\"
@@ -29,7 +29,7 @@ fn with_csv(path: &str, csv: &str) -> Result<SensorPath, String> {
     }
 }
 
-fn accelerations(path: &SensorPath) -> &crate::path::AccelerationRecord {
+fn accelerations(path: &SensorPath) -> &crate::vehicle::AccelerationRecord {
     match &path.definition().record {
         SensorRecord::Accelerations(record) => record,
         other => panic!("{other:?}"),
@@ -97,7 +97,7 @@ fn a_record_of_a_scenario_without_gravity_still_has_that_of_the_earth() {
     let csv = "t[s],az[g]\n0,-1\n1,-1\n";
     let path = with_csv(&format!("{SENSORS}\ngravity = \"included\""), csv).unwrap();
     assert_eq!(path.definition().gravity_m_s2, G);
-    let end = path.pose(1.0, &mut crate::path::PathCursor::default());
+    let end = path.pose(1.0, &mut crate::vehicle::PathCursor::default());
     assert!(end.position_m.z.abs() < 1e-14, "{end:?}");
 }
 

@@ -5,8 +5,8 @@
 use nalgebra::{Point3, Vector3};
 
 use super::super::{Draft, Loaded};
-use crate::path::{PathCursor, VehiclePath};
-use crate::setup::STANDARD_GRAVITY_M_S2 as G;
+use crate::model::setup::STANDARD_GRAVITY_M_S2 as G;
+use crate::vehicle::{PathCursor, VehiclePath};
 
 /// Where the sensors stand: behind, to the right of and below the c.g., m.
 const OFFSET_M: Vector3<f64> = Vector3::new(-0.35, 0.10, 0.05);

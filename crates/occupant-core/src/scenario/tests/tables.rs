@@ -4,8 +4,8 @@ use approx::assert_relative_eq;
 
 use super::super::{Format, Scenario};
 use super::{build, complaint, short_with};
-use crate::path::{Interpolation, VehiclePath};
-use crate::setup::Setup;
+use crate::model::setup::Setup;
+use crate::vehicle::{Interpolation, VehiclePath};
 
 const PULSE: &str = "kind = \"pulse\"
 shape = \"half_sine\"

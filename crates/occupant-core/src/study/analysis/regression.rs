@@ -3,7 +3,7 @@
 use nalgebra::{DMatrix, DVector};
 
 use super::{AnalysisError, Estimate, bootstrap, complete_rows, mean};
-use crate::trig;
+use crash_measures::trig;
 
 /// Spearman's rank correlation of a parameter and a figure.
 #[derive(Clone, Copy, Debug, PartialEq)]

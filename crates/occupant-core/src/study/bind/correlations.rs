@@ -2,7 +2,7 @@
 
 use super::Binder;
 use crate::scenario::check::one_of;
-use crate::scenario::nearest::nearest;
+use crate::problem::nearest;
 use crate::study::copula::Copula;
 use crate::study::design::Design;
 use crate::study::parameter::Parameter;

@@ -11,7 +11,7 @@ use crate::study::fit_section::{FitSection, FitTestSection};
 use crate::study::model::Free;
 use crate::study::text::problem;
 use crate::study::{Parameter, Study, StudyText};
-use crate::trig::ln;
+use crash_measures::trig::ln;
 
 /// Evaluations for each parameter.
 const BUDGET: u64 = 400;

@@ -3,7 +3,7 @@
 use super::{Binder, noun};
 use crate::scenario::check::one_of;
 use crate::scenario::kind::{Kind, UnitSystem};
-use crate::scenario::nearest::nearest;
+use crate::problem::nearest;
 use crate::scenario::place::Wanted;
 use crate::scenario::quantity::si_value;
 use crate::study::law::{Law, Value};

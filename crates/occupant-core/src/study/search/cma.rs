@@ -12,7 +12,7 @@ use nalgebra::DMatrix;
 use super::eigen;
 use crate::study::normal::quantile;
 use crate::study::random::{Purpose, unit};
-use crate::trig::{exp, ln};
+use crash_measures::trig::{exp, ln};
 
 /// The state of one descent.
 #[derive(Clone, Debug)]

@@ -2,8 +2,8 @@
 
 use super::super::{StudyText, Value};
 use super::{base, bind, no_files, study};
+use crate::model::setup::Setup;
 use crate::scenario::Format;
-use crate::setup::Setup;
 
 fn setup(study: &super::Study, index: u64) -> Setup {
     let draft = study.draft(index).unwrap();
@@ -180,7 +180,7 @@ fn a_peak_replaces_a_change_of_speed() {
     let study = two("path.peak", "", "\"10 g\", \"20 g\"");
     assert_eq!(study.parameters()[0].targets[0].base, Value::Base);
     for (i, g) in [(0, 10.0), (1, 20.0)] {
-        let crate::path::VehiclePath::Pulse(pulse) = setup(&study, i).path else {
+        let crate::vehicle::VehiclePath::Pulse(pulse) = setup(&study, i).path else {
             panic!();
         };
         let peak = pulse.peak_deceleration_m_s2();

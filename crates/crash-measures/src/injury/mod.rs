@@ -1,0 +1,132 @@
+//! Injury measures of a run: what a dummy's instruments would report, against limits and risk curves.
+//!
+//! [`Signals`] is a recorder that keeps the channels of the head, neck, chest, pelvis and femurs at the outputs; [`assess`]
+//! makes [`Measure`]s of them with the formulas of [`crate::measure`]. A simulated signal has no noise, so by default nothing
+//! is filtered; the classes of SAE J211 can be asked for where outputs are close enough for them.
+//!
+//! The body is rigid: it has no chest deflection and no viscous criterion, and its measures say so instead of guessing.
+
+mod assess;
+mod signals;
+
+use serde::{Serialize, Serializer};
+
+use crate::measure::{Basis, Dummy, Grade, Rule};
+use crate::signal::CfcFamily;
+use crate::unit::Unit;
+
+pub use assess::assess;
+pub use signals::{Components, Signals};
+
+/// How signals are filtered before a measure is made of them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Filtering {
+    /// Not at all.
+    #[default]
+    None,
+    /// By the class that SAE J211 names for each channel: head and pelvis accelerations and neck forces 1000, neck moments
+    /// and femurs 600, chest acceleration 180, head rotation 60.
+    Classes(CfcFamily),
+}
+
+/// What measures are compared with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// The dummy whose limits and risk curves hold.
+    pub dummy: Dummy,
+    /// Filters.
+    pub filtering: Filtering,
+}
+
+impl Default for Options {
+    /// Hybrid III 50M, unfiltered.
+    fn default() -> Self {
+        Options { dummy: Dummy::HybridIii50M, filtering: Filtering::None }
+    }
+}
+
+/// A measure of a run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Measure {
+    /// Name, such as `hic15`.
+    pub name: &'static str,
+    /// What tables call it.
+    pub label: &'static str,
+    /// Unit of the value and of its limits.
+    #[serde(serialize_with = "symbol")]
+    pub unit: Unit,
+    /// The value; none where it cannot be had, for the reason in `remark`.
+    pub value: Option<f64>,
+    /// When, or the start of the window, s.
+    pub from_s: Option<f64>,
+    /// End of the window, s.
+    pub to_s: Option<f64>,
+    /// Filter class of its signals; 0 is none.
+    pub filter_class: u32,
+    /// Why there is no value, or what to know of it.
+    pub remark: Option<String>,
+    /// Against limits.
+    pub limits: Vec<Judgement>,
+    /// Probabilities of injury.
+    pub risks: Vec<Risk>,
+}
+
+/// A measure against one limit.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Judgement {
+    /// The rule.
+    pub rule: &'static str,
+    /// The largest value allowed, in the measure's unit.
+    pub most: f64,
+    /// Within the limit.
+    pub passed: bool,
+    /// Limit minus value, in the measure's unit.
+    pub margin: f64,
+    /// The margin as a fraction of the limit.
+    pub relative_margin: f64,
+    /// Whether the number was read where somebody quotes the rule, or is only generally known.
+    pub quoted: bool,
+}
+
+/// The probability of an injury.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Risk {
+    /// Which injury, such as `head AIS3+`.
+    pub injury: &'static str,
+    /// 0 to 1.
+    pub probability: f64,
+}
+
+/// Rules whose limits apply to an occupant.
+pub const RULES: [Rule; 4] = [Rule::Fmvss208, Rule::UnR94, Rule::UnR137, Rule::SeverityIndex];
+
+impl Measure {
+    /// Compares the value with the limits of all [`RULES`] for a quantity.
+    fn judge(&mut self, quantity: crate::measure::Quantity, dummy: Dummy) {
+        let Some(value) = self.value else {
+            return;
+        };
+        let known = RULES.into_iter().flat_map(|rule| crate::measure::limits(rule, dummy));
+        let judged = known.filter(|l| l.quantity == quantity && l.grade == Grade::Maximum);
+        self.limits = judged
+            .map(|limit| {
+                let verdict = limit.judge(value);
+                Judgement {
+                    rule: limit.rule.name(),
+                    most: limit.most,
+                    passed: verdict.passed,
+                    margin: verdict.margin,
+                    relative_margin: verdict.relative_margin,
+                    quoted: limit.basis == Basis::SecondarySource,
+                }
+            })
+            .collect();
+    }
+}
+
+fn symbol<S: Serializer>(unit: &Unit, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_str(unit.symbol())
+}
+
+#[cfg(test)]
+mod tests;

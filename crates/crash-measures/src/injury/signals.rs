@@ -1,0 +1,64 @@
+//! The channels of a dummy that measures are made of.
+
+/// Three components over time.
+pub type Components = [Vec<f64>; 3];
+
+/// Time histories at regular outputs, in SAE J211 axes of the segments (X ahead, Y right, Z down), SI.
+///
+/// A last output before its regular time is left out: the measures need equal intervals.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Signals {
+    /// Time of the first sample, s.
+    pub start_s: f64,
+    /// Interval, s.
+    pub interval_s: f64,
+    /// Accelerometer reading at the head's centre of gravity, m/s².
+    pub head_m_s2: Components,
+    /// That of the upper torso, m/s².
+    pub chest_m_s2: Components,
+    /// That of the lower torso, m/s².
+    pub pelvis_m_s2: Components,
+    /// Angular velocity of the head, rad/s.
+    pub head_rad_s: Components,
+    /// Angular acceleration of the head, rad/s².
+    pub head_rad_s2: Components,
+    /// Force of the neck on the head, N: +z tension.
+    pub neck_n: Components,
+    /// Moment of the neck on the head, N·m: +y flexion.
+    pub neck_n_m: Components,
+    /// Axial force of the right and the left femur, N: tension positive.
+    pub femur_n: [Vec<f64>; 2],
+}
+
+impl Signals {
+    /// Nothing seen yet.
+    pub fn new() -> Self {
+        Signals::default()
+    }
+
+    /// Number of samples.
+    pub fn len(&self) -> usize {
+        self.femur_n[0].len()
+    }
+
+    /// Whether nothing was seen.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// Every channel.
+    pub fn all_mut(&mut self) -> impl Iterator<Item = &mut Vec<f64>> {
+        [
+            &mut self.head_m_s2,
+            &mut self.chest_m_s2,
+            &mut self.pelvis_m_s2,
+            &mut self.head_rad_s,
+            &mut self.head_rad_s2,
+            &mut self.neck_n,
+            &mut self.neck_n_m,
+        ]
+        .into_iter()
+        .flatten()
+        .chain(&mut self.femur_n)
+    }
+}

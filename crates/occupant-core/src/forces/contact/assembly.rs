@@ -1,0 +1,121 @@
+//! From a body and flat faces to contact pairs: each sphere against each face it can touch, seams joined.
+
+use nalgebra::Point3;
+
+use crate::body::{Body, ContactSphere};
+use crate::forces::contact::face::{Outline, V2};
+use crate::forces::contact::flat_face::FlatFace;
+use crate::forces::contact::surface::{Frame, Outline as FaceOutline, Surface};
+use crate::forces::contact::{ContactSystem, Group, Pair, Part, Plane, Site};
+use crate::forces::material::{Material, Memory};
+use crate::forces::spring::Spring;
+use super::EdgeForce;
+use crate::motion::frame::{SPACE, VEHICLE};
+use crate::motion::scalar::Scalar;
+use crate::motion::vector::V3;
+
+/// No sphere approaches a face faster than this, m/s: several times any crash.
+const FASTEST_M_S: f64 = 100.0;
+
+impl<S: Scalar> ContactSystem<S> {
+    /// All pairs of `body` with `surfaces`, whose resolved planes are `faces`.
+    pub fn new(
+        body: &Body,
+        surfaces: &[Surface],
+        faces: &[FlatFace],
+        materials: &[Material],
+        edge_force: EdgeForce,
+        longest_step_s: f64,
+    ) -> Self {
+        let sites = body.spheres.iter().map(|s| site(body, s)).collect();
+        let mut system = ContactSystem {
+            sites,
+            groups: Vec::new(),
+            planes: Vec::new(),
+            pairs: Vec::new(),
+            edge_lever: S::of(match edge_force {
+                EdgeForce::AtContactPoint => 1.0,
+                EdgeForce::AtCentre => 0.0,
+            }),
+            reach_of_a_step: S::of(FASTEST_M_S * longest_step_s),
+        };
+        for (sphere, data) in body.spheres.iter().enumerate() {
+            for (frame, index) in [(Frame::Vehicle, VEHICLE), (Frame::Space, SPACE)] {
+                let first = system.pairs.len();
+                for parts in joined(sphere, frame, surfaces, faces) {
+                    system.planes.push(plane(&faces[parts[0]], data.radius_m));
+                    system.pairs.push(pair(&parts, surfaces, faces, materials));
+                }
+                let pairs = first..system.pairs.len();
+                if !pairs.is_empty() {
+                    system.groups.push(Group { sphere, frame: index, pairs });
+                }
+            }
+        }
+        system
+    }
+}
+
+fn site<S: Scalar>(body: &Body, sphere: &ContactSphere) -> Site<S> {
+    // the proximal joint of a hanging segment is its upper end
+    let joint = if sphere.segment.hangs() { body.segment(sphere.segment).length_m } else { 0.0 };
+    let mut offset = sphere.centre_from_lower_end_m.coords;
+    offset.z -= joint;
+    Site { segment: sphere.segment.index(), offset: V3::of(&offset), radius: S::of(sphere.radius_m) }
+}
+
+/// Faces of `frame` that `sphere` can touch, in groups that act as one; in order of their first surface.
+fn joined(sphere: usize, frame: Frame, surfaces: &[Surface], faces: &[FlatFace]) -> Vec<Vec<usize>> {
+    let mut groups: Vec<Vec<usize>> = Vec::new();
+    for (i, surface) in surfaces.iter().enumerate() {
+        let reachable = surface.spheres.as_ref().is_none_or(|s| s.contains(&sphere));
+        if surface.frame != frame || !reachable {
+            continue;
+        }
+        let touches = |g: &Vec<usize>| g.iter().any(|&j| faces[j].joins(&faces[i]));
+        let (mut same, other): (Vec<_>, Vec<_>) = groups.into_iter().partition(touches);
+        groups = other;
+        same.push(vec![i]);
+        let mut group = same.concat();
+        group.sort_unstable();
+        groups.push(group);
+        groups.sort_unstable();
+    }
+    groups
+}
+
+fn plane<S: Scalar>(face: &FlatFace, radius_m: f64) -> Plane<S> {
+    Plane { normal: V3::of(&face.normal), reach: S::of(radius_m + face.offset_m) }
+}
+
+fn pair<S: Scalar>(parts: &[usize], surfaces: &[Surface], faces: &[FlatFace], materials: &[Material]) -> Pair<S> {
+    let first = &faces[parts[0]];
+    let (u, v) = first.plane_axes();
+    let flat = |p: &Point3<f64>| [u.dot(&p.coords), v.dot(&p.coords)];
+    let part = |&i: &usize| {
+        let material = &materials[surfaces[i].material];
+        let outline = match &faces[i].outline {
+            FaceOutline::Polygon(corners) => Outline::polygon(&corners.iter().map(flat).collect::<Vec<_>>()),
+            FaceOutline::Disc { centre_m, radius_m, .. } => {
+                let [u, v] = flat(centre_m);
+                Outline::Disc { centre: V2 { u: S::of(u), v: S::of(v) }, radius: S::of(*radius_m) }
+            }
+            FaceOutline::Unbounded { .. } => Outline::Unbounded,
+        };
+        Part {
+            surface: i,
+            outline,
+            spring: Spring::new(&material.spring),
+            friction: S::of(material.friction),
+            friction_speed_squared: S::of(material.friction_speed_m_s.powi(2)),
+        }
+    };
+    let retains = parts.iter().any(|&i| materials[surfaces[i].material].memory == Memory::Retain);
+    Pair {
+        u: V3::of(&u),
+        v: V3::of(&v),
+        normal: V3::of(&first.normal),
+        parts: parts.iter().map(part).collect(),
+        retain: S::of(if retains { 1.0 } else { 0.0 }),
+    }
+}

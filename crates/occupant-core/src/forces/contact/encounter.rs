@@ -1,0 +1,148 @@
+//! One sphere against the faces of one frame, within one evaluation.
+
+use crate::body::SEGMENTS;
+use crate::forces::History;
+use crate::forces::Observer;
+use crate::forces::contact::{ContactSystem, Group, PASSED, PairHistory, Site};
+use crate::motion::dynamics::Wrench;
+use crate::motion::frame::Moving;
+use crate::motion::kinematics::Kinematics;
+use crate::motion::scalar::Scalar;
+use crate::motion::state::Work;
+use crate::motion::vector::V3;
+
+/// A sphere's motion relative to a frame, in the frame's axes.
+#[derive(Clone, Copy)]
+pub(crate) struct Approach<S> {
+    pub centre: V3<S>,
+    pub velocity: V3<S>,
+    pub omega: V3<S>,
+}
+
+/// A sphere among the faces of a frame, and the load that it gathers.
+pub(crate) struct Sphere<'a, S: Scalar> {
+    contacts: &'a ContactSystem<S>,
+    group: &'a Group,
+    site: &'a Site<S>,
+    frame: &'a Moving<S>,
+    k: &'a Kinematics<S>,
+    /// Centre seen from the segment's joint, space axes.
+    arm: V3<S>,
+    centre: V3<S>,
+    /// Centre in the frame.
+    pub centre_f: V3<S>,
+    /// Worked out at the first live pair: most spheres touch nothing.
+    load: Option<Load<S>>,
+}
+
+/// Resultant of the contact forces at the centre, axes of the frame.
+struct Load<S: Scalar> {
+    approach: Approach<S>,
+    force: V3<S>,
+    twist: V3<S>,
+    /// Where there is one.
+    lanes: S::Mask,
+}
+
+impl<'a, S: Scalar> Sphere<'a, S> {
+    /// The sphere of `group`, with no load yet.
+    #[inline(always)]
+    pub fn new(contacts: &'a ContactSystem<S>, group: &'a Group, k: &'a Kinematics<S>, frame: &'a Moving<S>) -> Self {
+        let site = &contacts.sites[group.sphere];
+        let arm = k.axes[site.segment].out(site.offset);
+        let centre = k.joint[site.segment] + arm;
+        let centre_f = frame.axes.into_frame(centre - frame.origin);
+        Sphere { contacts, group, site, frame, k, arm, centre, centre_f, load: None }
+    }
+
+    /// Takes the present position, that of an accepted step, over into the history of pair `i` and adds its forces; returns
+    /// the deformation.
+    #[inline(always)]
+    pub fn commit(
+        &mut self,
+        i: usize,
+        history: &mut History<S>,
+        power: &mut Work<S>,
+        observer: &mut impl Observer<S>,
+    ) -> S {
+        let pair = &mut history.pairs[i];
+        let depth = self.contacts.planes[i].depth(self.centre_f);
+        self.contacts.open(i, depth, pair);
+        let contact = depth.gt(S::zero());
+        self.meet::<true>(i, depth, contact, pair, power, observer);
+        depth
+    }
+
+    /// Adds the forces of pair `i` at deformation `depth`, in the lanes of `contact`. In all others nothing changes, not
+    /// even the sign of a zero.
+    #[inline(always)]
+    pub fn meet<const COMMIT: bool>(
+        &mut self,
+        i: usize,
+        depth: S,
+        contact: S::Mask,
+        history: &mut PairHistory<S>,
+        power: &mut Work<S>,
+        observer: &mut impl Observer<S>,
+    ) {
+        if !S::any(contact) {
+            return;
+        }
+        let live = contact & history.phase.lt(S::of(PASSED));
+        if !S::any(live) {
+            return;
+        }
+        let approach = self.approach();
+        let touch = self.contacts.touch::<COMMIT>(self.group, i, depth, live, &approach, history);
+        let (Some(t), Some(load)) = (touch, &mut self.load) else {
+            return;
+        };
+        let on = t.weight.gt(S::zero());
+        let press = t.normal * t.normal_force + t.edge;
+        let arm = t.normal * -self.site.radius;
+        let edge_twist = arm.cross(t.edge) * self.contacts.edge_lever;
+        let force = load.force + (press + t.friction);
+        let twist = load.twist + (arm.cross(t.friction) + edge_twist);
+        load.force = V3::select(on, force, load.force);
+        load.twist = V3::select(on, twist, load.twist);
+        load.lanes = load.lanes | on;
+        let pressing = press.dot(approach.velocity) + edge_twist.dot(approach.omega);
+        let rubbing = t.friction.dot(t.slip);
+        power.contact = S::select(on, power.contact - pressing, power.contact);
+        power.friction = S::select(on, power.friction - rubbing, power.friction);
+        observer.touch(&t);
+    }
+
+    /// Puts the gathered load on the sphere's segment (Eqs 94, 63–68).
+    #[inline(always)]
+    pub fn load(self, wrench: &mut [Wrench<S>; SEGMENTS], power: &mut Work<S>) {
+        let Some(load) = self.load else { return };
+        let frame = self.frame;
+        let (force, twist) = (frame.axes.out(load.force), frame.axes.out(load.twist));
+        let moment = self.arm.cross(force) + twist;
+        // F·v of the frame at the centre, and the lever about it
+        let carrying = force.dot(frame.velocity_at(self.centre)) + twist.dot(frame.omega);
+        let on = &mut wrench[self.site.segment];
+        on.force = V3::select(load.lanes, on.force + force, on.force);
+        on.moment = V3::select(load.lanes, on.moment + moment, on.moment);
+        power.vehicle = S::select(load.lanes, power.vehicle + carrying, power.vehicle);
+    }
+
+    /// How the sphere moves relative to the frame.
+    #[inline(always)]
+    fn approach(&mut self) -> Approach<S> {
+        let (n, k, frame) = (self.site.segment, self.k, self.frame);
+        let (arm, centre, centre_f) = (self.arm, self.centre, self.centre_f);
+        if let Some(load) = &self.load {
+            return load.approach;
+        }
+        let velocity = k.joint_velocity[n] + k.omega[n].cross(arm);
+        let approach = Approach {
+            centre: centre_f,
+            velocity: frame.axes.into_frame(velocity - frame.velocity_at(centre)),
+            omega: frame.axes.into_frame(k.omega[n] - frame.omega),
+        };
+        self.load = Some(Load { approach, force: V3::zero(), twist: V3::zero(), lanes: S::truth(false) });
+        approach
+    }
+}

@@ -1,0 +1,172 @@
+//! Flat faces: surfaces with a resolved plane and open side, and the seams between them.
+//!
+//! Report: Eqs 84, 86, 87 (N̂ and G). Our decision: coplanar faces of one frame that share an edge act as one face.
+
+use nalgebra::{Point3, Vector3};
+
+use crate::forces::contact::surface::{Facing, Frame, Outline, Surface};
+use crate::problem::Problems;
+
+/// Points closer than this are the same point, m.
+const SAME_M: f64 = 1e-6;
+
+/// A surface whose plane and open side are known, in the axes of its frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FlatFace {
+    /// What it is fixed to.
+    pub frame: Frame,
+    /// N̂, towards the open side.
+    pub normal: Vector3<f64>,
+    /// G = N̂·x for the points x of the plane, m.
+    pub offset_m: f64,
+    /// Outline; polygon corners run counter-clockwise seen from the open side.
+    pub outline: Outline,
+}
+
+impl FlatFace {
+    /// Resolves a surface; problems are reported under `path`.
+    pub fn new(surface: &Surface, path: &str, problems: &mut Problems) -> Option<FlatFace> {
+        let outline = surface.outline.clone();
+        let (point, axis) = match &outline {
+            Outline::Polygon(corners) => polygon_plane(corners, path, problems)?,
+            Outline::Disc { centre_m, radius_m, axis } => {
+                if !(*radius_m > 0.0 && radius_m.is_finite()) {
+                    problems.error(path, format!("radius {radius_m} m"), "a positive radius");
+                    return None;
+                }
+                (*centre_m, *axis)
+            }
+            Outline::Unbounded { point_m, axis } => (*point_m, *axis),
+        };
+        let Some(normal) = axis.try_normalize(1e-12).filter(|n| n.iter().all(|c| c.is_finite())) else {
+            problems.error(path, "a normal of length zero", "a direction");
+            return None;
+        };
+        let normal = match surface.facing {
+            Facing::Order => normal,
+            Facing::Towards(inside) => {
+                let height = normal.dot(&(inside - point));
+                if height.abs() < SAME_M || !height.is_finite() {
+                    problems.error_with_hint(
+                        path,
+                        "the point that should tell the open side lies in the surface's plane",
+                        "a point on the open side",
+                        "give another `inside` point, or the corners counter-clockwise seen from the open side",
+                    );
+                    return None;
+                }
+                normal * height.signum()
+            }
+        };
+        let outline = match outline {
+            Outline::Polygon(mut corners) => {
+                if normal.dot(&axis) < 0.0 {
+                    corners.reverse();
+                }
+                Outline::Polygon(corners)
+            }
+            other => other,
+        };
+        Some(FlatFace { frame: surface.frame, normal, offset_m: normal.dot(&point.coords), outline })
+    }
+
+    /// Axes u, v of the plane with u × v = N̂.
+    pub fn plane_axes(&self) -> (Vector3<f64>, Vector3<f64>) {
+        let least = self.normal.iamin();
+        let u = Vector3::ith(least, 1.0).cross(&self.normal).normalize();
+        (u, self.normal.cross(&u))
+    }
+
+    /// True if the two faces lie in one plane of one frame, look the same way and share part of an edge.
+    pub fn joins(&self, other: &FlatFace) -> bool {
+        let coplanar = self.frame == other.frame
+            && self.normal.dot(&other.normal) > 0.0
+            && self.normal.cross(&other.normal).norm() < SAME_M
+            && (self.offset_m - other.offset_m).abs() < SAME_M;
+        let (Outline::Polygon(a), Outline::Polygon(b)) = (&self.outline, &other.outline) else {
+            return false;
+        };
+        coplanar && sides(a).any(|s| sides(b).any(|t| overlap(s, t)))
+    }
+}
+
+type Side = (Point3<f64>, Point3<f64>);
+
+fn sides(corners: &[Point3<f64>]) -> impl Iterator<Item = Side> + '_ {
+    (0..corners.len()).map(|i| (corners[i], corners[(i + 1) % corners.len()]))
+}
+
+/// True if two sides lie on one line and have more than a point in common.
+fn overlap(a: Side, b: Side) -> bool {
+    let direction = (a.1 - a.0).normalize();
+    let length = (a.1 - a.0).norm();
+    let place = |p: Point3<f64>| {
+        let from = p - a.0;
+        let along = from.dot(&direction);
+        (along, (from - direction * along).norm())
+    };
+    let ((s, off_s), (t, off_t)) = (place(b.0), place(b.1));
+    let common = s.max(t).min(length) - s.min(t).max(0.0);
+    off_s < SAME_M && off_t < SAME_M && common > SAME_M
+}
+
+/// A point of a convex polygon's plane and its normal for counter-clockwise corners.
+fn polygon_plane(corners: &[Point3<f64>], path: &str, problems: &mut Problems) -> Option<(Point3<f64>, Vector3<f64>)> {
+    let n = corners.len();
+    if n < 3 {
+        problems.error(path, format!("{n} corners"), "at least three");
+        return None;
+    }
+    if corners.iter().any(|p| p.iter().any(|c| !c.is_finite())) {
+        problems.error(path, "a corner that is not a finite number", "finite coordinates");
+        return None;
+    }
+    for (i, (p, q)) in sides(corners).enumerate() {
+        if (q - p).norm() < SAME_M {
+            problems.error(path, format!("corners {} and {} coincide", i + 1, (i + 1) % n + 1), "different corners");
+            return None;
+        }
+    }
+    // twice the vector area
+    let area: Vector3<f64> = sides(corners).map(|(p, q)| (p - corners[0]).cross(&(q - corners[0]))).sum();
+    let size = corners.iter().map(|p| (p - corners[0]).norm()).fold(0.0, f64::max);
+    if area.norm() < SAME_M * size {
+        problems.error(path, "corners on one line", "corners that span a plane");
+        return None;
+    }
+    let normal = area.normalize();
+    let warp = corners.iter().map(|p| normal.dot(&(p - corners[0])).abs()).fold(0.0, f64::max);
+    if warp > 1e-3 * size {
+        problems.error_with_hint(
+            path,
+            format!("corners that leave their plane by {:.1} mm", warp * 1e3),
+            "a plane polygon",
+            "split it into triangles",
+        );
+        return None;
+    }
+    for i in 0..n {
+        let (p, q, r) = (corners[i], corners[(i + 1) % n], corners[(i + 2) % n]);
+        if (q - p).cross(&(r - q)).dot(&normal) < -1e-9 * size * size {
+            problems.error_with_hint(
+                path,
+                format!("the outline turns inwards at corner {}", (i + 1) % n + 1),
+                "a convex polygon, corners in order",
+                "order the corners, or split the surface",
+            );
+            return None;
+        }
+    }
+    // turning one way at every corner is not enough: a star does so too
+    let beyond = |(p, q): Side, r: &Point3<f64>| (q - p).cross(&(r - p)).dot(&normal) < -1e-9 * size * size;
+    if sides(corners).any(|side| corners.iter().any(|r| beyond(side, r))) {
+        problems.error_with_hint(
+            path,
+            "an outline that goes round more than once",
+            "a convex polygon, corners in order",
+            "order the corners, or split the surface",
+        );
+        return None;
+    }
+    Some((corners[0], normal))
+}

@@ -1,0 +1,340 @@
+//! Contact of spheres with bounded plane surfaces: pair states, normal force, edge band, friction.
+//!
+//! Report: Eqs 84–94, Fig. 15, Fig. 16. L = G − N̂·x_c, Δ = r + L; Δ > 0 is contact and Δ the deformation. Our decisions:
+//! bounded faces with weight w = clamp01(1 − d/r); the states open, touching and passed; coplanar faces that share an
+//! edge act as one; regularised friction. With (F, U) of the spring at Δ, the sphere gets the normal force wF N̂, the edge
+//! force (U/r) ê, and at A = centre − r N̂ the friction −f·wF·v_t/√(v_t² + v_s²).
+//!
+//! The edge force is minus the gradient of wU over the centre's place, so it is conservative if it acts at the centre, as
+//! any frictionless force on a sphere must. At A, with the rest of the contact force, it has the moment −U N̂×ê about the
+//! centre, which is work done on a turning segment that nothing stores. [`EdgeForce`] names both readings.
+
+use crate::forces::contact::encounter::Approach;
+use crate::forces::contact::face::{Offset, Outline, V2};
+use crate::forces::spring::Spring;
+use crate::motion::scalar::Scalar;
+use crate::motion::vector::V3;
+
+/// Where the edge force of a bounded face acts on a sphere.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum EdgeForce {
+    /// At A = centre − r N̂ like the rest of the contact force: the specification's words.
+    #[default]
+    AtContactPoint,
+    /// At the centre, where it is conservative.
+    AtCentre,
+}
+
+/// A pair is open: apart, or not yet committed.
+pub const OPEN: f64 = 0.0;
+/// A pair touches.
+pub const TOUCHING: f64 = 1.0;
+/// The sphere went round the edge: no force until Δ ≤ 0.
+pub const PASSED: f64 = 2.0;
+
+/// A sphere of the body.
+#[derive(Clone, Copy, Debug)]
+pub struct Site<S> {
+    /// Index of its segment.
+    pub segment: usize,
+    /// Centre seen from the segment's proximal joint, segment axes, m.
+    pub offset: V3<S>,
+    /// r, m.
+    pub radius: S,
+}
+
+/// One bounded part of a face with its material.
+#[derive(Clone, Debug)]
+pub struct Part<S> {
+    /// Index of the surface in the model.
+    pub surface: usize,
+    pub(crate) outline: Outline<S>,
+    pub(crate) spring: Spring<S>,
+    pub(crate) friction: S,
+    pub(crate) friction_speed_squared: S,
+}
+
+/// A sphere against a face: coplanar parts that share edges.
+#[derive(Clone, Debug)]
+pub struct Pair<S> {
+    /// Plane axes in the face's frame, u × v = N̂.
+    pub(crate) u: V3<S>,
+    pub(crate) v: V3<S>,
+    /// N̂.
+    pub(crate) normal: V3<S>,
+    /// The parts that this sphere can touch.
+    pub parts: Vec<Part<S>>,
+    /// 1 where Δ_m is kept after opening, else 0.
+    pub(crate) retain: S,
+}
+
+/// Plane of a pair: N̂ and r + G, so that Δ = reach − N̂·x.
+#[derive(Clone, Copy, Debug)]
+pub struct Plane<S> {
+    pub(crate) normal: V3<S>,
+    pub(crate) reach: S,
+}
+
+impl<S: Scalar> Plane<S> {
+    /// Δ for a centre in the face's frame (Eqs 89, 92).
+    #[inline(always)]
+    pub fn depth(&self, centre: V3<S>) -> S {
+        self.reach - self.normal.dot(centre)
+    }
+}
+
+/// Pairs of one sphere with faces of one frame.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Group {
+    /// Index of the sphere.
+    pub sphere: usize,
+    /// Index of the frame.
+    pub frame: usize,
+    /// Its pairs.
+    pub pairs: std::ops::Range<usize>,
+}
+
+/// What a pair remembers between steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PairHistory<S> {
+    /// [`OPEN`], [`TOUCHING`] or [`PASSED`].
+    pub phase: S,
+    /// Δ_m, greatest committed deformation, m.
+    pub greatest: S,
+}
+
+/// A touching pair at one instant, axes of the face's frame.
+#[derive(Clone, Copy, Debug)]
+pub struct Touch<S> {
+    /// Index of the sphere.
+    pub sphere: usize,
+    /// Index of the frame of the surface.
+    pub frame: usize,
+    /// Index of the pair.
+    pub pair: usize,
+    /// Which of the pair's parts is nearest and gives the material (an index, as a number per lane).
+    pub part: S,
+    /// w, greater than 0 where the pair exerts a force: in one lane at least.
+    pub weight: S,
+    /// N̂.
+    pub normal: V3<S>,
+    /// Δ, m.
+    pub depth: S,
+    /// Δ̇, speed of the centre towards the face, m/s.
+    pub closing: S,
+    /// wF, N.
+    pub normal_force: S,
+    /// Edge force, N.
+    pub edge: V3<S>,
+    /// Friction, N.
+    pub friction: V3<S>,
+    /// wU, recoverable energy, J.
+    pub stored: S,
+    /// Slip: tangential velocity of A relative to the surface, m/s.
+    pub slip: V3<S>,
+}
+
+/// All spheres and pairs.
+#[derive(Clone, Debug)]
+pub struct ContactSystem<S> {
+    /// Spheres, in the body's order.
+    pub sites: Vec<Site<S>>,
+    pub(crate) groups: Vec<Group>,
+    pub(crate) planes: Vec<Plane<S>>,
+    pub(crate) pairs: Vec<Pair<S>>,
+    /// 1 where the edge force acts at A, 0 at the centre.
+    pub(crate) edge_lever: S,
+    /// A face farther than this, m, cannot be met within one step.
+    pub(crate) reach_of_a_step: S,
+}
+
+impl<S: Scalar> ContactSystem<S> {
+    /// The pairs.
+    pub fn pairs(&self) -> &[Pair<S>] {
+        &self.pairs
+    }
+
+    /// Groups of pairs by sphere and frame.
+    pub fn groups(&self) -> &[Group] {
+        &self.groups
+    }
+
+    /// The state of a pair at the initial time: passed where the centre is beyond the plane or beside the face.
+    pub fn initial_history(&self, i: usize, radius: S, centre: V3<S>) -> PairHistory<S> {
+        let depth = self.planes[i].depth(centre);
+        let (offset, _) = self.pairs[i].nearest(centre);
+        let beside = !weight(offset.distance, radius).gt(S::zero());
+        let passed = depth.gt(radius) | beside;
+        let touching = S::select(passed, S::of(PASSED), S::of(TOUCHING));
+        let contact = depth.gt(S::zero());
+        PairHistory {
+            phase: S::select(contact, touching, S::of(OPEN)),
+            greatest: S::select(contact & !passed, depth, S::zero()),
+        }
+    }
+
+    /// The state of a pair where an earlier run ended, which tells whether it has passed but not how deep it was.
+    pub fn continued_history(&self, i: usize, centre: V3<S>, passed: bool) -> PairHistory<S> {
+        let o = S::zero();
+        let depth = self.planes[i].depth(centre);
+        let contact = depth.gt(o);
+        let (phase, greatest) = match passed {
+            true => (PASSED, o),
+            false => (TOUCHING, depth),
+        };
+        PairHistory { phase: S::select(contact, S::of(phase), S::of(OPEN)), greatest: S::select(contact, greatest, o) }
+    }
+
+    /// True if the pair can exert a force before the next commit: not passed, and within reach of a step.
+    #[inline(always)]
+    pub(crate) fn is_near(&self, depth: S, history: &PairHistory<S>) -> S::Mask {
+        (-self.reach_of_a_step).lt(depth) & history.phase.lt(S::of(PASSED))
+    }
+
+    /// Forces of pair `i` on its sphere in the lanes where it is `live`: in contact and not passed; `None` if there are none
+    /// in any lane. With `COMMIT` the pair's history first takes over the present position, which must be that of an accepted
+    /// step.
+    #[inline(always)]
+    pub(crate) fn touch<const COMMIT: bool>(
+        &self,
+        group: &Group,
+        i: usize,
+        depth: S,
+        live: S::Mask,
+        approach: &Approach<S>,
+        history: &mut PairHistory<S>,
+    ) -> Option<Touch<S>> {
+        let (o, touching) = (S::zero(), S::of(TOUCHING));
+        let pair = &self.pairs[i];
+        let radius = self.sites[group.sphere].radius;
+        let (offset, nearest) = pair.nearest(approach.centre);
+        let w = S::select(live, weight(offset.distance, radius), o);
+        if COMMIT {
+            let on = w.gt(o);
+            let phase = S::select(on, touching, S::of(PASSED));
+            history.phase = S::select(live, phase, history.phase);
+            history.greatest = S::select(on, history.greatest.max(depth), history.greatest);
+        }
+        if !S::any(w.gt(o)) {
+            return None;
+        }
+        Some(pair.press(group, i, nearest, approach, radius, depth, w, &offset, history.greatest))
+    }
+
+    /// Opens a pair that is apart, and forgets its crush unless its material keeps it.
+    #[inline(always)]
+    pub(crate) fn open(&self, i: usize, depth: S, history: &mut PairHistory<S>) {
+        let o = S::zero();
+        let contact = depth.gt(o);
+        let closed = history.phase.gt(o) | history.greatest.gt(o);
+        if S::any(!contact & closed) {
+            let kept = history.greatest * self.pairs[i].retain;
+            history.phase = S::select(contact, history.phase, o);
+            history.greatest = S::select(contact, history.greatest, kept);
+        }
+    }
+}
+
+impl<S: Scalar> Pair<S> {
+    /// Offset from the union of the parts, and the index of the nearest part in each lane (as a number).
+    #[inline(always)]
+    fn nearest(&self, centre: V3<S>) -> (Offset<S>, S) {
+        let point = V2 { u: self.u.dot(centre), v: self.v.dot(centre) };
+        let mut best = self.parts[0].outline.offset(point);
+        let mut index = S::zero();
+        for (i, part) in self.parts.iter().enumerate().skip(1) {
+            let offset = part.outline.offset(point);
+            let nearer = offset.distance.lt(best.distance);
+            best = Offset {
+                distance: S::select(nearer, offset.distance, best.distance),
+                away: V2 {
+                    u: S::select(nearer, offset.away.u, best.away.u),
+                    v: S::select(nearer, offset.away.v, best.away.v),
+                },
+            };
+            index = S::select(nearer, S::of(i as f64), index);
+        }
+        (best, index)
+    }
+
+    /// Forces at deformation `depth` and weight `w` > 0.
+    #[inline(always)]
+    #[expect(clippy::too_many_arguments, reason = "one call; the values are already in registers")]
+    fn press(
+        &self,
+        group: &Group,
+        index: usize,
+        part: S,
+        approach: &Approach<S>,
+        radius: S,
+        depth: S,
+        w: S,
+        offset: &Offset<S>,
+        greatest: S,
+    ) -> Touch<S> {
+        let law = self.law(part, depth, greatest);
+        let normal_force = w * law.force;
+        let stored = w * law.energy;
+        let edge_force = law.energy * S::select(w.lt(S::one()), S::one(), S::zero()) / radius;
+        let edge = (self.u * offset.away.u + self.v * offset.away.v) * edge_force;
+
+        let arm = self.normal * -radius;
+        let velocity = approach.velocity + approach.omega.cross(arm);
+        let slip = velocity - self.normal * self.normal.dot(velocity);
+        let speed = (slip.norm_squared() + law.friction_speed_squared).sqrt();
+        let friction = slip * -(law.friction * normal_force / speed);
+        Touch {
+            sphere: group.sphere,
+            frame: group.frame,
+            pair: index,
+            part,
+            weight: w,
+            normal: self.normal,
+            depth,
+            closing: -self.normal.dot(approach.velocity),
+            normal_force,
+            edge,
+            friction,
+            stored,
+            slip,
+        }
+    }
+
+    /// Spring and friction of the part that each lane is nearest to.
+    #[inline(always)]
+    fn law(&self, part: S, depth: S, greatest: S) -> Law<S> {
+        let of = |p: &Part<S>| {
+            let (force, energy) = p.spring.respond(depth, greatest);
+            let (friction, friction_speed_squared) = (p.friction, p.friction_speed_squared);
+            Law { force, energy, friction, friction_speed_squared }
+        };
+        let mut law = of(&self.parts[0]);
+        for (i, p) in self.parts.iter().enumerate().skip(1) {
+            let here = S::of(i as f64 - 0.5).lt(part) & part.lt(S::of(i as f64 + 0.5));
+            if S::any(here) {
+                let l = of(p);
+                law = Law {
+                    force: S::select(here, l.force, law.force),
+                    energy: S::select(here, l.energy, law.energy),
+                    friction: S::select(here, l.friction, law.friction),
+                    friction_speed_squared: S::select(here, l.friction_speed_squared, law.friction_speed_squared),
+                };
+            }
+        }
+        law
+    }
+}
+
+/// What the nearest part does at one deformation.
+struct Law<S> {
+    force: S,
+    energy: S,
+    friction: S,
+    friction_speed_squared: S,
+}
+
+/// w = clamp01(1 − d/r).
+#[inline(always)]
+fn weight<S: Scalar>(distance: S, radius: S) -> S {
+    (S::one() - distance / radius).clamp01()
+}

@@ -1,0 +1,79 @@
+//! The bilinear dissipative spring of contacts and webbing.
+//!
+//! Report: Fig. 16 is lost; the curve is our decision. With Δ_m the greatest deformation so far (the present one counts),
+//! a = min(Δ_m, Δ_b), b = max(Δ_m − Δ_b, 0) and e = Δ − Δ_m + μ₁a + μ₂b:
+//!
+//! - F = (K₁/μ₁) e for 0 < e ≤ μ₁a, then slope K₂/μ₂: the unloading line, which meets the loading curve at Δ_m;
+//! - U = ∫F de, the energy that unloading gives back: exactly μ₁ of what range 1 took and μ₂ of what range 2 took.
+//!
+//! Loading is the case Δ = Δ_m of the same formula.
+
+use crate::forces::material::BilinearSpring;
+use crate::motion::scalar::Scalar;
+
+/// A fraction below this counts as this, so that μ = 0 is a very steep drop.
+pub const LEAST_FRACTION: f64 = 0.01;
+
+/// Constants of the law.
+#[derive(Clone, Copy, Debug)]
+pub struct Spring<S> {
+    k1: S,
+    k2: S,
+    limit: S,
+    mu1: S,
+    mu2: S,
+    k1_back: S,
+    k2_back: S,
+}
+
+impl<S: Copy> Spring<S> {
+    /// f applied to every number and the one in the same place of `other`.
+    pub fn zip<A: Copy, T>(&self, other: &Spring<A>, f: &impl Fn(S, A) -> T) -> Spring<T> {
+        Spring {
+            k1: f(self.k1, other.k1),
+            k2: f(self.k2, other.k2),
+            limit: f(self.limit, other.limit),
+            mu1: f(self.mu1, other.mu1),
+            mu2: f(self.mu2, other.mu2),
+            k1_back: f(self.k1_back, other.k1_back),
+            k2_back: f(self.k2_back, other.k2_back),
+        }
+    }
+}
+
+impl<S: Scalar> Spring<S> {
+    /// Constants from data; fractions below [`LEAST_FRACTION`] are raised to it.
+    pub fn new(data: &BilinearSpring) -> Self {
+        let (mu1, mu2) = (data.returned_1.max(LEAST_FRACTION), data.returned_2.max(LEAST_FRACTION));
+        Spring {
+            k1: S::of(data.k1_n_per_m),
+            k2: S::of(data.k2_n_per_m),
+            limit: S::of(data.break_m),
+            mu1: S::of(mu1),
+            mu2: S::of(mu2),
+            k1_back: S::of(data.k1_n_per_m / mu1),
+            k2_back: S::of(data.k2_n_per_m / mu2),
+        }
+    }
+
+    /// Force (N) and recoverable energy (J) at deformation `depth` (m) after a greatest deformation `greatest` (m).
+    #[inline(always)]
+    pub fn respond(&self, depth: S, greatest: S) -> (S, S) {
+        let o = S::zero();
+        let top = depth.max(greatest);
+        let a = top.min(self.limit).max(o);
+        let b = (top - self.limit).max(o);
+        let range_1 = self.mu1 * a;
+        let e = depth - top + range_1 + self.mu2 * b;
+        let e1 = e.max(o).min(range_1);
+        let e2 = (e - range_1).max(o);
+        let (f1, f2) = (self.k1_back * e1, self.k2_back * e2);
+        let half = S::of(0.5);
+        (f1 + f2, half * f1 * e1 + self.k1 * a * e2 + half * f2 * e2)
+    }
+
+    /// Slope of the stiffest branch, N/m, for estimates of the fastest time scale.
+    pub fn steepest(&self) -> S {
+        self.k1.max(self.k2).max(self.k1_back).max(self.k2_back)
+    }
+}

@@ -1,0 +1,172 @@
+//! Settling: the seated body moves as one piece until contacts and belts carry it.
+//!
+//! Our decision (the report has none): joints locked, posture kept; the six freedoms of the rigid body are found by a
+//! damped Newton iteration on the resultant force and moment of contacts, belts and weight, every contact on its loading
+//! curve, at rest relative to the vehicle. Directions that nothing resists are left alone.
+
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+
+use crate::forces::belt::law::BeltLaw;
+use crate::kernel::System;
+use crate::model::setup::Setup;
+use crate::model::{frames, initial_history};
+use crate::motion::kinematics::Kinematics;
+use crate::motion::report_coordinates::quaternion;
+use crate::motion::state::State;
+use crate::motion::vector::V3;
+use crate::problem::Problems;
+use crate::vehicle::FrameMotion;
+use crash_measures::trig;
+
+/// Lever that turns moments into comparable forces, m.
+const LEVER_M: f64 = 0.3;
+/// Iterations at most.
+const ITERATIONS: usize = 200;
+
+/// Outcome of settling.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Settled {
+    /// Displacement of T1, space axes, m.
+    pub moved_m: Vector3<f64>,
+    /// Rotation vector of the body, space axes, rad.
+    pub turned_rad: Vector3<f64>,
+    /// Force left over, N.
+    pub residual_force_n: f64,
+    /// Moment left over about T1, N·m.
+    pub residual_moment_n_m: f64,
+    /// Weight of the body, N.
+    pub weight_n: f64,
+}
+
+impl Settled {
+    /// Warns when the body does not rest.
+    pub(crate) fn warn(&self, problems: &mut Problems) {
+        if self.residual_force_n > 0.01 * self.weight_n || self.residual_moment_n_m > 0.01 * self.weight_n * LEVER_M {
+            problems.warning(
+                "posture.settle",
+                format!(
+                    "the body does not come to rest: {:.1} N and {:.1} N·m are left over of a weight of {:.1} N",
+                    self.residual_force_n, self.residual_moment_n_m, self.weight_n
+                ),
+                "a posture that seat, floor and belts can carry with locked joints",
+            );
+        }
+    }
+}
+
+/// Moves `state` as one piece to where contacts and belts balance its weight.
+pub(crate) fn settle(
+    setup: &Setup,
+    system: &System<f64>,
+    vehicle: &FrameMotion,
+    state: State<f64>,
+) -> (State<f64>, Settled) {
+    let weight_n = setup.body.mass_kg() * setup.gravity_m_s2;
+    let residual = |x: &Vector6<f64>| load(setup, system, vehicle, &moved(&state, x));
+    let mut x = Vector6::zeros();
+    let mut r = residual(&x);
+    let mut damping = 1e-3;
+    for _ in 0..ITERATIONS {
+        if r.norm() < 1e-9 * weight_n.max(1.0) {
+            break;
+        }
+        let j = jacobian(&x, &residual);
+        let normal = j.tr_mul(&j);
+        let gradient = j.tr_mul(&r);
+        let scale = normal.diagonal().max();
+        let damped = normal + Matrix6::from_diagonal_element(damping * scale + 1e-9);
+        let step = damped.lu().solve(&gradient).map(|s| limited(-s));
+        let Some(step) = step else { break };
+        let next = residual(&(x + step));
+        if next.norm() < r.norm() {
+            (x, r, damping) = (x + step, next, (damping * 0.3).max(1e-12));
+        } else if damping > 1e9 {
+            break;
+        } else {
+            damping *= 4.0;
+        }
+    }
+    let settled = Settled {
+        moved_m: x.fixed_rows::<3>(0).into(),
+        turned_rad: x.fixed_rows::<3>(3) / LEVER_M,
+        residual_force_n: r.fixed_rows::<3>(0).norm(),
+        residual_moment_n_m: r.fixed_rows::<3>(3).norm() * LEVER_M,
+        weight_n,
+    };
+    (moved(&state, &x), settled)
+}
+
+/// At most 2 cm (or the like in rotation) at a time: the forces are stiff and only piecewise smooth.
+fn limited(step: Vector6<f64>) -> Vector6<f64> {
+    let norm = step.norm();
+    if norm > 0.02 { step * (0.02 / norm) } else { step }
+}
+
+/// The body moved by x[0..3] (m) and turned about T1 by the rotation vector x[3..6]/lever.
+fn moved(state: &State<f64>, x: &Vector6<f64>) -> State<f64> {
+    let turn = turned_by(&(x.fixed_rows::<3>(3) / LEVER_M));
+    let mut out = *state;
+    out.t1 += V3::of(&x.fixed_rows::<3>(0).into());
+    for q in &mut out.orientation {
+        let axes = crate::motion::kinematics::axes(q).to_matrix();
+        *q = quaternion(&(turn * axes));
+    }
+    out
+}
+
+/// The rotation of a rotation vector (rad).
+fn turned_by(vector: &Vector3<f64>) -> Matrix3<f64> {
+    let angle = vector.norm();
+    if angle == 0.0 {
+        return Matrix3::identity();
+    }
+    let (sine, cosine) = trig::sin_cos(angle);
+    let cross = (vector / angle).cross_matrix();
+    Matrix3::identity() + cross * sine + cross * cross * (1.0 - cosine)
+}
+
+/// Resultant force (N) and moment about T1 over the lever (N) of contacts, belts and weight on the resting body.
+fn load(setup: &Setup, system: &System<f64>, vehicle: &FrameMotion, state: &State<f64>) -> Vector6<f64> {
+    let mut system = system.clone();
+    let frames = frames(vehicle);
+    // at rest: no friction, no damping
+    let still = frames.map(|mut f| {
+        (f.velocity, f.omega) = (V3::zero(), V3::zero());
+        f
+    });
+    let k = Kinematics::new(&system.skeleton, state);
+    system.belts = setup
+        .belts
+        .iter()
+        .map(|belt| {
+            let centre = vehicle.point_to_frame(system.sphere(&k, belt.sphere).1.to_vector());
+            let radius = setup.body.spheres[belt.sphere].radius_m;
+            BeltLaw::laid(belt, radius, V3::of(&centre))
+        })
+        .collect();
+    let mut history = initial_history(&system, &k, &still);
+    let e = system.evaluate::<false>(state, &still, &mut history, &mut ());
+    let (mut force, mut moment) = (V3::zero(), V3::zero());
+    for (n, wrench) in e.wrench.iter().enumerate() {
+        let link = &system.skeleton.links[n];
+        let weight = V3 { x: 0.0, y: 0.0, z: -link.mass * system.skeleton.gravity };
+        force += wrench.force + weight;
+        moment += wrench.moment + (k.joint[n] - state.t1).cross(wrench.force);
+        moment += (k.cg(&system.skeleton, n) - state.t1).cross(weight);
+    }
+    let lever = 1.0 / LEVER_M;
+    Vector6::new(force.x, force.y, force.z, moment.x * lever, moment.y * lever, moment.z * lever)
+}
+
+/// Central differences over a hundredth of a millimetre to either side (or the like in rotation).
+fn jacobian(x: &Vector6<f64>, residual: &impl Fn(&Vector6<f64>) -> Vector6<f64>) -> Matrix6<f64> {
+    let h = 1e-5;
+    let mut j = Matrix6::zeros();
+    for i in 0..6 {
+        let (mut up, mut down) = (*x, *x);
+        up[i] += h;
+        down[i] -= h;
+        j.set_column(i, &((residual(&up) - residual(&down)) / (2.0 * h)));
+    }
+    j
+}

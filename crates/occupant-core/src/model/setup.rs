@@ -1,0 +1,106 @@
+//! Everything a run needs, as plain SI data: what a scenario says once its words are numbers.
+//!
+//! A `Setup` may still be wrong; [`crate::model::Model::new`] checks it and reports every problem at once.
+
+use crate::body::Body;
+use crate::body::joint::Joints;
+use crate::forces::belt::Belt;
+use crate::forces::contact::surface::Surface;
+use crate::forces::contact::EdgeForce;
+use crate::forces::material::Material;
+use crate::model::seating::{InitialPosture, InitialVelocity};
+use crate::vehicle::VehiclePath;
+
+/// Standard gravity, 9.80665 m/s².
+pub const STANDARD_GRAVITY_M_S2: f64 = 9.80665;
+
+/// Start, end and output times.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TimeSpan {
+    /// Start of the run.
+    pub start_s: f64,
+    /// End of the run.
+    pub end_s: f64,
+    /// Results are recorded at `start_s + k·output_s` exactly, and at the end.
+    pub output_s: f64,
+}
+
+impl TimeSpan {
+    /// Output intervals before the last one, which may be shorter; one that misses the end by rounding alone is the last.
+    pub(crate) fn whole_intervals(&self) -> f64 {
+        ((self.end_s - self.start_s) / self.output_s - 1e-9).floor().max(0.0)
+    }
+}
+
+/// How the equations of motion are integrated.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Integrator {
+    /// Classical fourth-order Runge–Kutta with a fixed step (Eqs 115–127).
+    Rk4 {
+        /// Step.
+        step_s: f64,
+    },
+    /// Embedded 3(2) pair with error control.
+    Adaptive {
+        /// Relative tolerance on speeds; positions have an absolute one alone.
+        relative: f64,
+        /// Absolute tolerance on positions, m; angles are taken at a radius of 1 m.
+        absolute_m: f64,
+        /// Absolute tolerance on speeds, m/s.
+        absolute_m_s: f64,
+        /// The smallest step that error control may ask for; less ends the run with an error. The first trial is ten times it.
+        min_step_s: f64,
+        /// The largest step allowed.
+        max_step_s: f64,
+    },
+}
+
+impl Integrator {
+    /// The longest step that it can take, s.
+    pub fn longest_step_s(&self) -> f64 {
+        match *self {
+            Integrator::Rk4 { step_s } => step_s,
+            Integrator::Adaptive { max_step_s, .. } => max_step_s,
+        }
+    }
+}
+
+/// What is recorded besides the results every run has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct OutputOptions {
+    /// Also record the report's q₁…q₃₁ and their rates.
+    pub report_coordinates: bool,
+}
+
+/// Everything a run needs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setup {
+    /// One line that names the case.
+    pub title: String,
+    /// The occupant.
+    pub body: Body,
+    /// Its joints.
+    pub joints: Joints,
+    /// g, along −Z′; 0 switches gravity off.
+    pub gravity_m_s2: f64,
+    /// Contact materials.
+    pub materials: Vec<Material>,
+    /// Surfaces, vehicle's and space's.
+    pub surfaces: Vec<Surface>,
+    /// Where the edge force acts.
+    pub edge_force: EdgeForce,
+    /// Belts.
+    pub belts: Vec<Belt>,
+    /// Motion of the vehicle.
+    pub path: VehiclePath,
+    /// Position at the start.
+    pub posture: InitialPosture,
+    /// Velocity at the start.
+    pub velocity: InitialVelocity,
+    /// Times.
+    pub time: TimeSpan,
+    /// Integrator.
+    pub integrator: Integrator,
+    /// Extra outputs.
+    pub output: OutputOptions,
+}

@@ -1,0 +1,219 @@
+//! Equations of motion: D·u̇ = E + F_p + F_s + Q_f + R (Eq. 53) solved by one sweep in and one sweep out of the tree.
+//!
+//! A ball joint hands on a force but no moment, so a whole subtree shows its parent only a symmetric matrix and a vector:
+//! the force that the subtree needs at the joint is f = M̃ a + b̃, a the joint's acceleration. For a body with joint P,
+//! moment of inertia J about P, c.g. at r, and subtrees (M̃ₖ, b̃ₖ) hung at cₖ, with α its angular acceleration:
+//!
+//! ```text
+//! force    f = A a − B α + β_f     A = m1 + ΣM̃ₖ     B = m[r]× + ΣM̃ₖ[cₖ]×
+//! moment   τ = J α − Bᵀ a + β_τ
+//! ```
+//!
+//! so α = J⁻¹(τ − β_τ) + (BJ⁻¹)ᵀ a, M̃ = A − BJ⁻¹Bᵀ, b̃ = β_f − BJ⁻¹(τ − β_τ). The root T1 carries two subtrees and no mass.
+//! Gravity is uniform: it only shifts every acceleration, and is added at the root.
+//!
+//! The result is the report's; no matrix larger than 3 × 3 is ever formed. `limb` treats an arm or a leg.
+
+use crate::body::SEGMENTS;
+use crate::motion::kinematics::{Kinematics, LIMBS};
+use crate::motion::limb::{self, Limb};
+use crate::motion::scalar::Scalar;
+use crate::motion::skeleton::{Link, Skeleton};
+use crate::motion::vector::{M3, Sym3, V3, v3};
+
+/// Force and moment on a segment, space axes; the moment is about the segment's proximal joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Wrench<S> {
+    /// N.
+    pub force: V3<S>,
+    /// N·m.
+    pub moment: V3<S>,
+}
+
+impl<S: Scalar> Wrench<S> {
+    /// Force and moment along the axes of a frame.
+    #[inline(always)]
+    pub fn into_frame(self, axes: &M3<S>) -> (V3<S>, V3<S>) {
+        (axes.into_frame(self.force), axes.into_frame(self.moment))
+    }
+
+    /// No load.
+    #[inline(always)]
+    pub fn zero() -> Self {
+        Wrench { force: V3::zero(), moment: V3::zero() }
+    }
+}
+
+/// What a subtree asks of the joint that carries it: f = `mass`·a + `bias`, space axes.
+#[derive(Clone, Copy, Debug)]
+pub struct Demand<S> {
+    /// M̃, kg.
+    pub mass: Sym3<S>,
+    /// b̃, N; without gravity.
+    pub bias: V3<S>,
+}
+
+impl<S: Scalar> Demand<S> {
+    /// The force at the joint for an acceleration `a` of the joint, gravity excluded.
+    #[inline(always)]
+    pub fn force(&self, a: V3<S>) -> V3<S> {
+        self.mass.mul(a) + self.bias
+    }
+}
+
+/// Accelerations of the tree, space axes, and the forces that its joints carry.
+#[derive(Clone, Copy, Debug)]
+pub struct Accelerations<S> {
+    /// Of each segment's proximal joint, m/s².
+    pub joint: [V3<S>; SEGMENTS],
+    /// Angular acceleration of each segment, rad/s².
+    pub alpha: [V3<S>; SEGMENTS],
+    /// α̈ of the limbs' hinges, rad/s².
+    pub hinge: [S; 4],
+}
+
+/// A trunk segment after the inward sweep.
+#[derive(Clone, Copy)]
+struct Trunk<S> {
+    inverse_inertia: Sym3<S>,
+    moment: V3<S>,
+    /// Columns of (B J⁻¹)ᵀ, i.e. rows of B J⁻¹.
+    gain: M3<S>,
+    demand: Demand<S>,
+}
+
+impl<S: Scalar> Trunk<S> {
+    /// α = J⁻¹(τ − β_τ) + (BJ⁻¹)ᵀ a.
+    #[inline(always)]
+    fn alpha(&self, a: V3<S>) -> V3<S> {
+        self.inverse_inertia.mul(self.moment) + self.gain.out(a)
+    }
+}
+
+/// Accelerations under the loads `wrench` (without gravity, which is added here).
+#[inline(always)]
+pub fn solve<S: Scalar>(
+    body: &Skeleton<S>,
+    k: &Kinematics<S>,
+    hinge_rate: &[S; 4],
+    wrench: &[Wrench<S>; SEGMENTS],
+) -> Accelerations<S> {
+    // inward
+    let limbs: [Limb<S>; 4] = [
+        limb::reduce(body, k, 0, hinge_rate[0], wrench),
+        limb::reduce(body, k, 1, hinge_rate[1], wrench),
+        limb::reduce(body, k, 2, hinge_rate[2], wrench),
+        limb::reduce(body, k, 3, hinge_rate[3], wrench),
+    ];
+    let head = limb::reduce_head(&body.links[2], k, &wrench[2]);
+    let hang = |n: usize, parent: usize| k.joint[n] - k.joint[parent];
+    let pelvis =
+        reduce(&body.links[3], k, 3, &wrench[3], &[(hang(8, 3), limbs[2].demand), (hang(9, 3), limbs[3].demand)]);
+    let chest = reduce(
+        &body.links[1],
+        k,
+        1,
+        &wrench[1],
+        &[(hang(2, 1), head.demand), (hang(4, 1), limbs[0].demand), (hang(5, 1), limbs[1].demand)],
+    );
+    let middle = reduce(&body.links[0], k, 0, &wrench[0], &[(hang(3, 0), pelvis.demand)]);
+
+    // root: the forces that both halves ask of T1 vanish together
+    let root = (middle.demand.mass + chest.demand.mass).inverse();
+    let a_root = -root.mul(middle.demand.bias + chest.demand.bias);
+
+    // outward
+    let mut out = Accelerations { joint: [a_root; SEGMENTS], alpha: [V3::zero(); SEGMENTS], hinge: [S::zero(); 4] };
+    out.alpha[0] = middle.alpha(a_root);
+    out.alpha[1] = chest.alpha(a_root);
+    out.carry(k, 3, 0);
+    out.alpha[3] = pelvis.alpha(out.joint[3]);
+    out.carry(k, 2, 1);
+    out.alpha[2] = head.alpha(k, out.joint[2]);
+    for (i, &(upper, lower)) in LIMBS.iter().enumerate() {
+        out.carry(k, upper, if i < 2 { 1 } else { 3 });
+        out.alpha[upper] = limbs[i].alpha(k, upper, out.joint[upper]);
+        out.carry(k, lower, upper);
+        out.hinge[i] = limbs[i].hinge_acceleration(k, upper, out.alpha[upper], out.joint[lower]);
+        out.alpha[lower] =
+            out.alpha[upper] + k.axes[upper].y * out.hinge[i] + k.omega[upper].cross(k.axes[upper].y) * hinge_rate[i];
+    }
+    let gravity = v3(S::zero(), S::zero(), -body.gravity);
+    for a in &mut out.joint {
+        *a += gravity;
+    }
+    out
+}
+
+impl<S: Scalar> Accelerations<S> {
+    /// a_child = a_parent + α×c + ω×(ω×c).
+    #[inline(always)]
+    fn carry(&mut self, k: &Kinematics<S>, child: usize, parent: usize) {
+        let c = k.joint[child] - k.joint[parent];
+        let w = k.omega[parent];
+        self.joint[child] = self.joint[parent] + self.alpha[parent].cross(c) + w.cross(w.cross(c));
+    }
+
+    /// Acceleration of the centre of gravity of segment `n`.
+    #[inline]
+    pub fn cg(&self, body: &Skeleton<S>, k: &Kinematics<S>, n: usize) -> V3<S> {
+        let r = k.axes[n].z * body.links[n].cg;
+        let w = k.omega[n];
+        self.joint[n] + self.alpha[n].cross(r) + w.cross(w.cross(r))
+    }
+}
+
+/// Reduces a trunk segment with subtrees hung at `children` (offset from its joint, demand).
+#[inline(always)]
+fn reduce<S: Scalar>(
+    link: &Link<S>,
+    k: &Kinematics<S>,
+    n: usize,
+    wrench: &Wrench<S>,
+    children: &[(V3<S>, Demand<S>)],
+) -> Trunk<S> {
+    let (axes, w) = (&k.axes[n], k.omega[n]);
+    let mut inertia = Sym3::scaled_identity(link.iz);
+    inertia.add_outer(link.ix - link.iz, axes.x);
+    inertia.add_outer(link.iy - link.iz, axes.y);
+    let gyroscopic = w.cross(inertia.mul(w));
+    let moment_of_mass = axes.z * link.sigma;
+
+    let mut mass = Sym3::scaled_identity(link.mass);
+    // rows of B = m[r]× + ΣM̃ₖ[cₖ]×; a row of M[c]× is (row of M) × c
+    let r = moment_of_mass;
+    let mut b_x = v3(S::zero(), -r.z, r.y);
+    let mut b_y = v3(r.z, S::zero(), -r.x);
+    let mut b_z = v3(-r.y, r.x, S::zero());
+    let mut bias_force = w.cross(w.cross(moment_of_mass)) - wrench.force;
+    let mut moment = wrench.moment - gyroscopic;
+    for (c, demand) in children {
+        mass = mass + demand.mass;
+        let m = &demand.mass;
+        let (gx, gy, gz) = (m.row_x().cross(*c), m.row_y().cross(*c), m.row_z().cross(*c));
+        b_x += gx;
+        b_y += gy;
+        b_z += gz;
+        // −[c]× M̃[c]×
+        inertia.xx += c.z * gy.x - c.y * gz.x;
+        inertia.yy += c.x * gz.y - c.z * gx.y;
+        inertia.zz += c.y * gx.z - c.x * gy.z;
+        inertia.xy += c.z * gy.y - c.y * gz.y;
+        inertia.xz += c.z * gy.z - c.y * gz.z;
+        inertia.yz += c.x * gz.z - c.z * gx.z;
+        let u = demand.force(w.cross(w.cross(*c)));
+        bias_force += u;
+        moment -= c.cross(u);
+    }
+    let inverse = inertia.inverse();
+    let (k_x, k_y, k_z) = (inverse.mul(b_x), inverse.mul(b_y), inverse.mul(b_z));
+    mass.xx -= k_x.dot(b_x);
+    mass.yy -= k_y.dot(b_y);
+    mass.zz -= k_z.dot(b_z);
+    mass.xy -= k_x.dot(b_y);
+    mass.xz -= k_x.dot(b_z);
+    mass.yz -= k_y.dot(b_z);
+    let gain = M3 { x: k_x, y: k_y, z: k_z };
+    let bias = bias_force - gain.into_frame(moment);
+    Trunk { inverse_inertia: inverse, moment, gain, demand: Demand { mass, bias } }
+}

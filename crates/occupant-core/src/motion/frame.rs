@@ -1,0 +1,85 @@
+//! Motion of the frames that surfaces and anchors are fixed to, as the kernel uses it.
+//!
+//! Report: Eqs 82, 83 and 94. Space is frame 0 and the vehicle frame 1; more frames are more entries.
+
+use crate::motion::scalar::Scalar;
+use crate::motion::vector::{M3, V3};
+use crate::vehicle::FrameMotion;
+
+/// Pose and velocity of a frame; axes are columns in space.
+#[derive(Clone, Copy, Debug)]
+pub struct Moving<S> {
+    /// Origin, m.
+    pub origin: V3<S>,
+    /// Axes.
+    pub axes: M3<S>,
+    /// Velocity of the origin, m/s.
+    pub velocity: V3<S>,
+    /// Angular velocity, rad/s.
+    pub omega: V3<S>,
+}
+
+/// Index of space among the frames.
+pub const SPACE: usize = 0;
+/// Index of the vehicle among the frames.
+pub const VEHICLE: usize = 1;
+
+impl<S: Copy> Moving<S> {
+    /// f applied to every number and the one in the same place of `other`.
+    #[inline(always)]
+    pub fn zip<A: Copy, T>(&self, other: &Moving<A>, f: &impl Fn(S, A) -> T) -> Moving<T> {
+        Moving {
+            origin: self.origin.zip(&other.origin, f),
+            axes: self.axes.zip(&other.axes, f),
+            velocity: self.velocity.zip(&other.velocity, f),
+            omega: self.omega.zip(&other.omega, f),
+        }
+    }
+}
+
+impl<S> Moving<S> {
+    /// f called with every number and the one in the same place of `other`: to hand numbers over.
+    #[inline]
+    pub fn each<A: Copy>(&mut self, other: &Moving<A>, f: &mut impl FnMut(&mut S, A)) {
+        let axes = (&mut self.axes, &other.axes);
+        for (a, b) in [
+            (&mut self.origin, &other.origin),
+            (&mut axes.0.x, &axes.1.x),
+            (&mut axes.0.y, &axes.1.y),
+            (&mut axes.0.z, &axes.1.z),
+            (&mut self.velocity, &other.velocity),
+            (&mut self.omega, &other.omega),
+        ] {
+            f(&mut a.x, b.x);
+            f(&mut a.y, b.y);
+            f(&mut a.z, b.z);
+        }
+    }
+}
+
+impl<S: Scalar> Moving<S> {
+    /// Space itself.
+    pub fn space() -> Self {
+        Moving { origin: V3::zero(), axes: M3::identity(), velocity: V3::zero(), omega: V3::zero() }
+    }
+
+    /// The same motion in every lane.
+    #[inline]
+    pub fn of(motion: &FrameMotion) -> Self {
+        Moving {
+            origin: V3::of(&motion.origin_m),
+            axes: M3::of(&motion.rotation),
+            velocity: V3::of(&motion.velocity_m_s),
+            omega: V3::of(&motion.angular_velocity_rad_s),
+        }
+    }
+
+    /// Velocity of the point of the frame that is at `point` of space.
+    #[inline(always)]
+    pub fn velocity_at(&self, point: V3<S>) -> V3<S> {
+        self.velocity + self.omega.cross(point - self.origin)
+    }
+}
+
+/// Motions of the frames at one instant, by [`SPACE`] and [`VEHICLE`].
+pub type Frames<S> = [Moving<S>; 2];

@@ -1,0 +1,34 @@
+//! The classical fourth-order Runge–Kutta step (Eqs 115–127).
+//!
+//! Orientations are integrated as quaternions in R⁴ and brought back to unit length after the step, which keeps the order.
+
+use crate::motion::scalar::Scalar;
+use crate::motion::state::State;
+
+/// Where in a step a rate is asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// At its start: the state is that of an accepted step.
+    Start,
+    /// At its middle.
+    Middle,
+    /// At its end.
+    End,
+}
+
+/// The state after a step `h` (s); `rate` is called four times, first with [`Stage::Start`].
+#[inline(always)]
+pub fn step<S: Scalar>(state: &State<S>, h: S, mut rate: impl FnMut(Stage, &State<S>) -> State<S>) -> State<S> {
+    let half = h * S::of(0.5);
+    let two = S::of(2.0);
+    let k1 = rate(Stage::Start, state); // (115), (116)
+    let k2 = rate(Stage::Middle, &state.advanced(half, &k1)); // (117), (118)
+    let mut sum = k1.advanced(two, &k2);
+    let k3 = rate(Stage::Middle, &state.advanced(half, &k2)); // (119), (120)
+    sum = sum.advanced(two, &k3);
+    let k4 = rate(Stage::End, &state.advanced(h, &k3)); // (121), (122)
+    sum = sum.advanced(S::one(), &k4);
+    let mut next = state.advanced(h / S::of(6.0), &sum); // (123)–(127)
+    next.normalize();
+    next
+}

@@ -1,0 +1,114 @@
+//! Where every segment is and how it moves: derived from the state, overwritten at every evaluation.
+//!
+//! Report: Eqs 8, 13–26 (places), 44–46 (angular velocities). Every joint is T1 plus constant multiples of Z of the
+//! segments and Y of segments 2 and 4; all vectors are in space axes.
+
+use crate::body::SEGMENTS;
+use crate::motion::scalar::Scalar;
+use crate::motion::skeleton::Skeleton;
+use crate::motion::state::{FREE, Quat, State};
+use crate::motion::vector::{M3, V3, v3};
+
+/// Upper and lower segment (indices) of the four limbs.
+pub const LIMBS: [(usize, usize); 4] = [(4, 6), (5, 7), (8, 10), (9, 11)];
+
+/// Derived motion of all segments.
+#[derive(Clone, Copy, Debug)]
+pub struct Kinematics<S> {
+    /// Axes X, Y, Z of each segment as columns.
+    pub axes: [M3<S>; SEGMENTS],
+    /// Absolute angular velocity.
+    pub omega: [V3<S>; SEGMENTS],
+    /// Proximal joint: T1 for segments 1 and 2.
+    pub joint: [V3<S>; SEGMENTS],
+    /// Its velocity.
+    pub joint_velocity: [V3<S>; SEGMENTS],
+    /// sin α and cos α of the lower segment of each limb.
+    pub hinge_sin_cos: [(S, S); 4],
+}
+
+impl<S: Scalar> Kinematics<S> {
+    /// Kinematics of `state`.
+    #[inline(always)]
+    pub fn new(body: &Skeleton<S>, state: &State<S>) -> Self {
+        let mut k = Kinematics {
+            axes: [M3::identity(); SEGMENTS],
+            omega: [V3::zero(); SEGMENTS],
+            joint: [state.t1; SEGMENTS],
+            joint_velocity: [state.velocity; SEGMENTS],
+            hinge_sin_cos: [(S::zero(), S::one()); 4],
+        };
+        for (slot, &n) in FREE.iter().enumerate() {
+            k.axes[n] = axes(&state.orientation[slot]);
+            k.omega[n] = state.omega[slot];
+        }
+        for (limb, &(upper, lower)) in LIMBS.iter().enumerate() {
+            k.turn_hinge(limb, upper, lower, state);
+        }
+        k.place_joints(body);
+        k
+    }
+
+    /// X_j = R_y(α) X_m (Eq. 8), ω_j = ω_m + α̇ Y_m.
+    #[inline(always)]
+    fn turn_hinge(&mut self, limb: usize, upper: usize, lower: usize, state: &State<S>) {
+        let (s, c) = state.hinge[limb].sin_cos();
+        let M3 { x, y, z } = self.axes[upper];
+        self.hinge_sin_cos[limb] = (s, c);
+        self.axes[lower] = M3 { x: x * c - z * s, y, z: x * s + z * c };
+        self.omega[lower] = self.omega[upper] + y * state.hinge_rate[limb];
+    }
+
+    /// Joints from the root outwards (Eqs 13–14, 16–26).
+    #[inline(always)]
+    fn place_joints(&mut self, body: &Skeleton<S>) {
+        let far = |n: usize| body.links[n].far;
+        self.hang(2, 1, S::zero(), far(1));
+        self.hang(3, 0, S::zero(), far(0));
+        self.hang(4, 1, body.shoulder, far(1));
+        self.hang(5, 1, -body.shoulder, far(1));
+        self.hang(8, 3, body.hip, far(3));
+        self.hang(9, 3, -body.hip, far(3));
+        for (upper, lower) in LIMBS {
+            self.hang(lower, upper, S::zero(), far(upper));
+        }
+    }
+
+    /// Puts the joint of `child` at (0, y, z) of `parent`, seen from the parent's joint.
+    #[inline(always)]
+    fn hang(&mut self, child: usize, parent: usize, y: S, z: S) {
+        let axes = &self.axes[parent];
+        let offset = axes.y * y + axes.z * z;
+        self.joint[child] = self.joint[parent] + offset;
+        self.joint_velocity[child] = self.joint_velocity[parent] + self.omega[parent].cross(offset);
+    }
+
+    /// Centre of gravity of segment `n`.
+    #[inline(always)]
+    pub fn cg(&self, body: &Skeleton<S>, n: usize) -> V3<S> {
+        self.joint[n] + self.axes[n].z * body.links[n].cg
+    }
+
+    /// Velocity of the centre of gravity of segment `n`.
+    #[inline(always)]
+    pub fn cg_velocity(&self, body: &Skeleton<S>, n: usize) -> V3<S> {
+        self.joint_velocity[n] + self.omega[n].cross(self.axes[n].z * body.links[n].cg)
+    }
+}
+
+/// Axes of the frame that a quaternion turns to; it need not be of unit length.
+#[inline(always)]
+pub fn axes<S: Scalar>(q: &Quat<S>) -> M3<S> {
+    let one = S::one();
+    let k = S::of(2.0) / q.norm_squared();
+    let (x, y, z) = (q.v.x, q.v.y, q.v.z);
+    let (kx, ky, kz) = (k * x, k * y, k * z);
+    let (wx, wy, wz) = (q.w * kx, q.w * ky, q.w * kz);
+    let (xx, yy, zz) = (x * kx, y * ky, z * kz);
+    let (xy, xz, yz) = (x * ky, x * kz, y * kz);
+    M3 {
+        x: v3(one - yy - zz, xy + wz, xz - wy),
+        y: v3(xy - wz, one - xx - zz, yz + wx),
+        z: v3(xz + wy, yz - wx, one - xx - yy),
+    }
+}

@@ -1,0 +1,51 @@
+//! Several runs side by side: a scalar of four or eight lanes, each with the bits that an `f64` would have.
+//!
+//! Sums, products, quotients and square roots are rounded by the processor's vector unit as one by one, nothing is contracted,
+//! and arcs and sines follow the very operations of the scalar library ([`trig`]). All of them may only be made where the
+//! processor has their instructions, see [`dispatch`]; tests compare them with an array.
+
+#[cfg(target_arch = "x86_64")]
+mod avx2;
+#[cfg(target_arch = "x86_64")]
+mod avx512;
+#[cfg(test)]
+mod plain;
+mod trig;
+
+use crate::motion::scalar::Scalar;
+
+#[cfg(test)]
+pub(crate) use plain::Plain;
+#[cfg(target_arch = "x86_64")]
+pub(crate) use {avx2::Avx2, avx512::Avx512};
+
+/// Numbers of several runs side by side.
+pub(crate) trait Lanes: Scalar {
+    /// How many.
+    const COUNT: usize;
+
+    /// The number of lane `i`.
+    fn lane(&self, i: usize) -> f64;
+
+    /// Gives lane `i` another number.
+    fn set_lane(&mut self, i: usize, value: f64);
+
+    /// Each number with the lower half of its 64 bits cleared.
+    fn upper_half(self) -> Self;
+
+    /// The same with another number in lane `i`.
+    #[inline(always)]
+    fn with_lane(mut self, i: usize, value: f64) -> Self {
+        self.set_lane(i, value);
+        self
+    }
+
+    /// True if all lanes are.
+    #[inline(always)]
+    fn all(mask: Self::Mask) -> bool {
+        !Self::any(!mask)
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,202 @@
+//! Arms, legs and the head in the inward sweep, in closed form.
+//!
+//! The lower segment l of a limb turns about Y of the upper segment m, and everything in the limb lies in its X–Z plane, so
+//! in axes of m the matrices of [`crate::motion::dynamics`] have few elements: J and M̃ couple X with Z only, B couples Y with X
+//! and Z only. With P, Q, R the inertias of l about the hinge, σ = M·cg of l, c = cos α, s = sin α, X_l = (c, 0, −s):
+//! the hinge takes the moment about Y, α̈ = −(ŷ·n + Q α_y + σ X_l·a_E)/Q, and leaves the matrix m − (σ²/Q) X_l X_lᵀ.
+
+use crate::body::SEGMENTS;
+use crate::motion::dynamics::{Demand, Wrench};
+use crate::motion::kinematics::{Kinematics, LIMBS};
+use crate::motion::scalar::Scalar;
+use crate::motion::skeleton::{Link, Skeleton};
+use crate::motion::vector::{M3, Sym3, V3, v3};
+
+/// A limb after the inward sweep; all but the demand in axes of its upper segment.
+#[derive(Clone, Copy)]
+pub struct Limb<S> {
+    /// What it asks of the shoulder or hip.
+    pub demand: Demand<S>,
+    /// J⁻¹(τ − β_τ).
+    alpha_free: V3<S>,
+    /// Elements of B J⁻¹.
+    gain: Gain<S>,
+    /// ŷ·n of the lower segment at rest of the upper one.
+    hinge_bias: S,
+    sigma: S,
+    inverse_iy: S,
+    sin_cos: (S, S),
+}
+
+/// The four elements of B J⁻¹ that do not vanish.
+#[derive(Clone, Copy)]
+struct Gain<S> {
+    xy: S,
+    zy: S,
+    yx: S,
+    yz: S,
+}
+
+impl<S: Scalar> Limb<S> {
+    /// Angular acceleration of the upper segment, space axes, for an acceleration `a` of its joint.
+    #[inline(always)]
+    pub fn alpha(&self, k: &Kinematics<S>, upper: usize, a: V3<S>) -> V3<S> {
+        let axes = &k.axes[upper];
+        let a = axes.into_frame(a);
+        let g = &self.gain;
+        let turn = v3(g.yx * a.y, g.xy * a.x + g.zy * a.z, g.yz * a.y);
+        axes.out(self.alpha_free + turn)
+    }
+
+    /// α̈ for the upper segment's angular acceleration and the hinge's acceleration, both in space axes.
+    #[inline(always)]
+    pub fn hinge_acceleration(&self, k: &Kinematics<S>, upper: usize, alpha: V3<S>, a: V3<S>) -> S {
+        let axes = &k.axes[upper];
+        let (s, c) = self.sin_cos;
+        let along_x = axes.x.dot(a) * c - axes.z.dot(a) * s;
+        -(axes.y.dot(alpha)) - (self.hinge_bias + self.sigma * along_x) * self.inverse_iy
+    }
+}
+
+/// Reduces limb `i` of [`LIMBS`] to what it asks of its shoulder or hip.
+#[inline(always)]
+pub fn reduce<S: Scalar>(
+    body: &Skeleton<S>,
+    k: &Kinematics<S>,
+    i: usize,
+    hinge_rate: S,
+    wrench: &[Wrench<S>; SEGMENTS],
+) -> Limb<S> {
+    let (upper, lower) = LIMBS[i];
+    let (m, l) = (&body.links[upper], &body.links[lower]);
+    let axes = &k.axes[upper];
+    let (s, c) = k.hinge_sin_cos[i];
+    let w = axes.into_frame(k.omega[upper]);
+    let (force_m, moment_m) = wrench[upper].into_frame(axes);
+    let (force_l, moment_l) = wrench[lower].into_frame(axes);
+
+    // lower segment, in its own axes: what it needs when neither hinge nor elbow accelerates
+    let into_lower = |v: V3<S>| v3(v.x * c - v.z * s, v.y, v.x * s + v.z * c);
+    let into_upper = |v: V3<S>| v3(v.x * c + v.z * s, v.y, v.z * c - v.x * s);
+    let wl = into_lower(w);
+    let turning = wl.y + hinge_rate;
+    let moment_l = into_lower(moment_l);
+    let hinge_bias = (l.ix - l.iz) * wl.z * wl.x - moment_l.y;
+    let n_x = (l.iz - l.iy) * turning * wl.z - l.ix * hinge_rate * wl.z - moment_l.x;
+    let n_z = (l.iy - l.ix) * wl.x * turning + l.iz * hinge_rate * wl.x - moment_l.z;
+    let swing = v3(wl.x * wl.z, turning * wl.z + hinge_rate * wl.z, -(wl.x * wl.x + turning * turning)) * l.sigma;
+    let hinge_release = l.sigma * l.inverse_iy * hinge_bias;
+    let f_0 = into_upper(v3(swing.x - hinge_release, swing.y, swing.z)) - force_l;
+    let n_0 = into_upper(v3(n_x, S::zero(), n_z));
+
+    // both segments, in axes of the upper one
+    let (lambda, kappa) = (m.far, l.sigma * l.sigma * l.inverse_iy);
+    let centripetal = v3(w.x * w.z, w.y * w.z, -(w.x * w.x + w.y * w.y));
+    let at_hinge = centripetal * lambda;
+    let along_x = kappa * (c * at_hinge.x - s * at_hinge.z);
+    let u = v3(l.mass * at_hinge.x - along_x * c, l.mass * at_hinge.y, l.mass * at_hinge.z + along_x * s) + f_0;
+    let bias_force = centripetal * m.sigma + u - force_m;
+    let gyroscopic = v3((m.iz - m.iy) * w.y * w.z, (m.ix - m.iz) * w.z * w.x, (m.iy - m.ix) * w.x * w.y);
+    let coupled = l.sigma * at_hinge.y;
+    let moment = moment_m - gyroscopic - n_0 - v3(-lambda * u.y - coupled * c, lambda * u.x, coupled * s);
+
+    let first = m.sigma + l.mass * lambda;
+    let b = Gain {
+        xy: kappa * lambda * c * c - first,
+        zy: -(kappa * lambda * c * s),
+        yx: first + l.sigma * c,
+        yz: -(l.sigma * s),
+    };
+    let (cc, ss, cs) = (c * c, s * s, c * s);
+    let reach = l.mass * lambda * lambda;
+    let lever = l.sigma * lambda;
+    let j_xx = m.ix + l.ix * cc + l.iz * ss + (lever + lever) * c + reach;
+    let j_zz = m.iz + l.ix * ss + l.iz * cc;
+    let j_xz = (l.iz - l.ix) * cs - lever * s;
+    let j_yy = m.iy + reach - kappa * lambda * lambda * cc;
+    let one = S::one();
+    let (inv_yy, inv_det) = (one / j_yy, one / (j_xx * j_zz - j_xz * j_xz));
+    let (inv_xx, inv_zz, inv_xz) = (j_zz * inv_det, j_xx * inv_det, -(j_xz * inv_det));
+    let gain = Gain {
+        xy: b.xy * inv_yy,
+        zy: b.zy * inv_yy,
+        yx: b.yx * inv_xx + b.yz * inv_xz,
+        yz: b.yx * inv_xz + b.yz * inv_zz,
+    };
+    let alpha_free =
+        v3(inv_xx * moment.x + inv_xz * moment.z, inv_yy * moment.y, inv_xz * moment.x + inv_zz * moment.z);
+    let total = m.mass + l.mass;
+    let mass = PlaneMass {
+        xx: total - kappa * cc - gain.xy * b.xy,
+        xz: kappa * cs - gain.xy * b.zy,
+        zz: total - kappa * ss - gain.zy * b.zy,
+        yy: total - gain.yx * b.yx - gain.yz * b.yz,
+    };
+    let bias = bias_force - v3(gain.xy * moment.y, gain.yx * moment.x + gain.yz * moment.z, gain.zy * moment.y);
+    Limb {
+        demand: Demand { mass: mass.out(axes), bias: axes.out(bias) },
+        alpha_free,
+        gain,
+        hinge_bias,
+        sigma: l.sigma,
+        inverse_iy: l.inverse_iy,
+        sin_cos: (s, c),
+    }
+}
+
+/// A symmetric matrix that couples X with Z only.
+struct PlaneMass<S> {
+    xx: S,
+    xz: S,
+    zz: S,
+    yy: S,
+}
+
+impl<S: Scalar> PlaneMass<S> {
+    /// In space axes; with 1 = XXᵀ + YYᵀ + ZZᵀ the Y part becomes a multiple of the unit matrix.
+    #[inline(always)]
+    fn out(&self, axes: &M3<S>) -> Sym3<S> {
+        let mut sum = Sym3::scaled_identity(self.yy);
+        sum.add_outer(self.xx - self.yy, axes.x);
+        sum.add_outer(self.zz - self.yy, axes.z);
+        sum.add_outer_pair(self.xz, axes.x, axes.z);
+        sum
+    }
+}
+
+/// The head after the inward sweep: a ball joint with nothing hung from it, so that J and M̃ are diagonal in its own axes.
+#[derive(Clone, Copy)]
+pub struct Head<S> {
+    /// What it asks of the neck.
+    pub demand: Demand<S>,
+    alpha_free: V3<S>,
+    gain: Gain<S>,
+}
+
+impl<S: Scalar> Head<S> {
+    /// Angular acceleration, space axes, for an acceleration `a` of the neck.
+    #[inline(always)]
+    pub fn alpha(&self, k: &Kinematics<S>, a: V3<S>) -> V3<S> {
+        let axes = &k.axes[2];
+        let a = axes.into_frame(a);
+        axes.out(self.alpha_free + v3(self.gain.yx * a.y, self.gain.xy * a.x, S::zero()))
+    }
+}
+
+/// Reduces the head to what it asks of the neck.
+#[inline(always)]
+pub fn reduce_head<S: Scalar>(h: &Link<S>, k: &Kinematics<S>, wrench: &Wrench<S>) -> Head<S> {
+    let axes = &k.axes[2];
+    let w = axes.into_frame(k.omega[2]);
+    let force = axes.into_frame(wrench.force);
+    let moment = axes.into_frame(wrench.moment)
+        - v3((h.iz - h.iy) * w.y * w.z, (h.ix - h.iz) * w.z * w.x, (h.iy - h.ix) * w.x * w.y);
+    let one = S::one();
+    let inverse_ix = one / h.ix;
+    let gain = Gain { xy: -(h.sigma * h.inverse_iy), zy: S::zero(), yx: h.sigma * inverse_ix, yz: S::zero() };
+    let alpha_free = v3(moment.x * inverse_ix, moment.y * h.inverse_iy, moment.z / h.iz);
+    let mass = PlaneMass { xx: h.mass + gain.xy * h.sigma, xz: S::zero(), zz: h.mass, yy: h.mass - gain.yx * h.sigma };
+    let swing = v3(w.x * w.z, w.y * w.z, -(w.x * w.x + w.y * w.y)) * h.sigma;
+    let bias = swing - force - v3(gain.xy * moment.y, gain.yx * moment.x, S::zero());
+    Head { demand: Demand { mass: mass.out(axes), bias: axes.out(bias) }, alpha_free, gain }
+}

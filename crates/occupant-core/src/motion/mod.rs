@@ -1,0 +1,15 @@
+//! How the body moves: numbers and vectors, state, kinematics, dynamics, integrators.
+
+pub mod dual;
+pub mod dynamics;
+pub mod frame;
+pub mod integrate;
+pub mod kinematics;
+#[cfg(any(target_arch = "x86_64", test))]
+pub(crate) mod lanes;
+pub mod limb;
+pub mod report_coordinates;
+pub mod scalar;
+pub mod skeleton;
+pub mod state;
+pub mod vector;

@@ -1,0 +1,132 @@
+//! The report's generalized coordinates q₁…q₃₁: an input and output format.
+//!
+//! Order (Appendix III): q₁–q₃ place of T1 in space; φ, θ, ψ (z–y–z Euler angles, absolute) of segments 1, 2, 3, 4 as
+//! q₄–q₁₅, of 5 as q₁₆–q₁₈, of 6 as q₁₉–q₂₁; α₇, α₈ as q₂₂, q₂₃; φ, θ, ψ of 9 as q₂₄–q₂₆, of 10 as q₂₇–q₂₉; α₁₁, α₁₂ as
+//! q₃₀, q₃₁. They are singular where sin θ = 0 (an upright torso, a hanging arm); nothing is integrated in them.
+//!
+//! Our decision where sin θ < 1e−8: φ turns Y along the horizontal part of ω (φ = 0 if there is none), ψ takes the rest,
+//! φ̇ = 0 and θ̇ = |ω_horizontal|, so that velocities survive.
+
+use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
+
+use crate::motion::kinematics::axes;
+use crate::motion::state::{Quat, State};
+use crate::motion::vector::{V3, v3};
+use crash_measures::trig::{atan2, sin_cos};
+
+/// Number of degrees of freedom.
+pub const DOF: usize = 31;
+
+/// Where φ, θ, ψ of each free segment begin in q, in the order of the state's orientations.
+pub const EULER_START: [usize; 8] = [3, 6, 9, 12, 15, 18, 23, 26];
+
+/// Where α₇, α₈, α₁₁, α₁₂ stand in q, in the order of the state's hinges.
+pub const HINGE_PLACE: [usize; 4] = [21, 22, 29, 30];
+
+/// Below this sin θ the Euler angles count as singular.
+const SINGULAR: f64 = 1e-8;
+
+/// q and q̇: metres and radians, metres and radians per second.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ReportCoordinates {
+    /// q₁…q₃₁.
+    pub q: [f64; DOF],
+    /// q̇₁…q̇₃₁.
+    pub rates: [f64; DOF],
+}
+
+impl ReportCoordinates {
+    /// The state with these coordinates.
+    pub fn to_state(&self) -> State<f64> {
+        let (q, rates) = (&self.q, &self.rates);
+        let mut state = State::zero();
+        state.t1 = v3(q[0], q[1], q[2]);
+        state.velocity = v3(rates[0], rates[1], rates[2]);
+        for (slot, &at) in EULER_START.iter().enumerate() {
+            let angles = [q[at], q[at + 1], q[at + 2]];
+            state.orientation[slot] = quaternion(&euler_rotation(angles));
+            state.omega[slot] = V3::of(&angular_velocity(angles, [rates[at], rates[at + 1], rates[at + 2]]));
+        }
+        for (slot, &at) in HINGE_PLACE.iter().enumerate() {
+            state.hinge[slot] = q[at];
+            state.hinge_rate[slot] = rates[at];
+        }
+        state
+    }
+
+    /// The coordinates of a state.
+    pub fn from_state(state: &State<f64>) -> Self {
+        let (mut q, mut rates) = ([0.0; DOF], [0.0; DOF]);
+        (q[0], q[1], q[2]) = (state.t1.x, state.t1.y, state.t1.z);
+        (rates[0], rates[1], rates[2]) = (state.velocity.x, state.velocity.y, state.velocity.z);
+        for (slot, &at) in EULER_START.iter().enumerate() {
+            let rotation = axes(&state.orientation[slot]).to_matrix();
+            let (angles, angle_rates) = euler(&rotation, state.omega[slot].to_vector());
+            q[at..at + 3].copy_from_slice(&angles);
+            rates[at..at + 3].copy_from_slice(&angle_rates);
+        }
+        for (slot, &at) in HINGE_PLACE.iter().enumerate() {
+            q[at] = state.hinge[slot];
+            rates[at] = state.hinge_rate[slot];
+        }
+        ReportCoordinates { q, rates }
+    }
+}
+
+/// T = R_z(φ) R_y(θ) R_z(ψ) (Eq. 6).
+pub fn euler_rotation([phi, theta, psi]: [f64; 3]) -> Matrix3<f64> {
+    let ((sf, cf), (st, ct), (sp, cp)) = (sin_cos(phi), sin_cos(theta), sin_cos(psi));
+    Matrix3::new(
+        cf * ct * cp - sf * sp,
+        -cf * ct * sp - sf * cp,
+        cf * st,
+        sf * ct * cp + cf * sp,
+        -sf * ct * sp + cf * cp,
+        sf * st,
+        -st * cp,
+        st * sp,
+        ct,
+    )
+}
+
+/// ω = φ̇ Z′ + θ̇ Y₁ + ψ̇ Z_n, space axes (the space form of Eq. 44).
+fn angular_velocity([phi, theta, _]: [f64; 3], rates: [f64; 3]) -> Vector3<f64> {
+    let ((sf, cf), (st, ct)) = (sin_cos(phi), sin_cos(theta));
+    let turned_y = Vector3::new(-sf, cf, 0.0);
+    let z = Vector3::new(cf * st, sf * st, ct);
+    Vector3::z() * rates[0] + turned_y * rates[1] + z * rates[2]
+}
+
+/// Euler angles and rates of an orientation that turns with `omega` (space axes).
+fn euler(rotation: &Matrix3<f64>, omega: Vector3<f64>) -> ([f64; 3], [f64; 3]) {
+    let z = rotation.column(2);
+    let sine = (z.x * z.x + z.y * z.y).sqrt();
+    if sine < SINGULAR {
+        return euler_when_vertical(rotation, omega);
+    }
+    let (phi, theta) = (atan2(z.y, z.x), atan2(sine, z.z));
+    let psi = atan2(rotation[(2, 1)], -rotation[(2, 0)]);
+    let (cf, sf) = (z.x / sine, z.y / sine);
+    let theta_rate = omega.y * cf - omega.x * sf;
+    let psi_rate = (omega.x * cf + omega.y * sf) / sine;
+    let phi_rate = omega.z - psi_rate * z.z;
+    ([phi, theta, psi], [phi_rate, theta_rate, psi_rate])
+}
+
+fn euler_when_vertical(rotation: &Matrix3<f64>, omega: Vector3<f64>) -> ([f64; 3], [f64; 3]) {
+    let horizontal = (omega.x * omega.x + omega.y * omega.y).sqrt();
+    let phi = if horizontal > 0.0 { atan2(-omega.x, omega.y) } else { 0.0 };
+    let up = rotation[(2, 2)] > 0.0;
+    let theta = if up { 0.0 } else { std::f64::consts::PI };
+    let rest = euler_rotation([phi, theta, 0.0]).tr_mul(rotation);
+    let psi = atan2(rest[(1, 0)], rest[(0, 0)]);
+    let psi_rate = if up { omega.z } else { -omega.z };
+    ([phi, theta, psi], [0.0, horizontal, psi_rate])
+}
+
+/// The unit quaternion of a rotation matrix.
+pub fn quaternion(rotation: &Matrix3<f64>) -> Quat<f64> {
+    let q = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*rotation));
+    let Quaternion { coords } = *q.quaternion();
+    Quat { w: coords.w, v: v3(coords.x, coords.y, coords.z) }
+}

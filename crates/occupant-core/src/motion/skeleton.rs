@@ -1,0 +1,108 @@
+//! Constants of the multibody system: masses, inertias and joint places, seen from each segment's own joint.
+//!
+//! Report: Eqs 13–26 and 54. Seen from its proximal joint, the centre of gravity of a segment lies on its Z axis: at −ρ̄
+//! for the hanging segments, at +ρ for the upper torso and the head (Eq. 15 as printed has ρ₁ for ρ̄₁).
+
+use std::array::from_fn;
+
+use crate::body::{Body, SEGMENTS, Segment};
+use crate::motion::scalar::Scalar;
+
+/// Constants of one segment.
+#[derive(Clone, Copy, Debug)]
+pub struct Link<S> {
+    /// M, kg.
+    pub mass: S,
+    /// Z of the centre of gravity seen from the proximal joint, m.
+    pub cg: S,
+    /// Z of the far end seen from the proximal joint, m.
+    pub far: S,
+    /// First moment of mass M·cg, kg·m.
+    pub sigma: S,
+    /// I_x + M·cg²: about the proximal joint, kg·m².
+    pub ix: S,
+    /// I_y + M·cg².
+    pub iy: S,
+    /// I_z.
+    pub iz: S,
+    /// 1/(I_y + M·cg²).
+    pub inverse_iy: S,
+    /// Principal inertias about the centre of gravity, kg·m².
+    pub central: [S; 3],
+}
+
+/// Constants of the whole body.
+#[derive(Clone, Debug)]
+pub struct Skeleton<S> {
+    /// Segments in the report's order.
+    pub links: [Link<S>; SEGMENTS],
+    /// L_s, m.
+    pub shoulder: S,
+    /// L_H, m.
+    pub hip: S,
+    /// g along −Z′, m/s².
+    pub gravity: S,
+}
+
+impl<S: Copy> Link<S> {
+    /// f applied to every number and the one in the same place of `other`.
+    pub fn zip<A: Copy, T>(&self, other: &Link<A>, f: &impl Fn(S, A) -> T) -> Link<T> {
+        Link {
+            mass: f(self.mass, other.mass),
+            cg: f(self.cg, other.cg),
+            far: f(self.far, other.far),
+            sigma: f(self.sigma, other.sigma),
+            ix: f(self.ix, other.ix),
+            iy: f(self.iy, other.iy),
+            iz: f(self.iz, other.iz),
+            inverse_iy: f(self.inverse_iy, other.inverse_iy),
+            central: from_fn(|i| f(self.central[i], other.central[i])),
+        }
+    }
+}
+
+impl<S: Copy> Skeleton<S> {
+    /// f applied to every number and the one in the same place of `other`.
+    pub fn zip<A: Copy, T>(&self, other: &Skeleton<A>, f: &impl Fn(S, A) -> T) -> Skeleton<T> {
+        Skeleton {
+            links: from_fn(|n| self.links[n].zip(&other.links[n], f)),
+            shoulder: f(self.shoulder, other.shoulder),
+            hip: f(self.hip, other.hip),
+            gravity: f(self.gravity, other.gravity),
+        }
+    }
+}
+
+impl<S: Scalar> Skeleton<S> {
+    /// Constants of `body` under gravity `gravity_m_s2`.
+    pub fn new(body: &Body, gravity_m_s2: f64) -> Self {
+        Skeleton {
+            links: from_fn(|n| link(body, Segment::ALL[n])),
+            shoulder: S::of(body.shoulder_half_width_m),
+            hip: S::of(body.hip_half_width_m),
+            gravity: S::of(gravity_m_s2),
+        }
+    }
+}
+
+fn link<S: Scalar>(body: &Body, segment: Segment) -> Link<S> {
+    let p = body.segment(segment);
+    let (cg, far) = if segment.hangs() {
+        (p.cg_from_lower_end_m - p.length_m, -p.length_m)
+    } else {
+        (p.cg_from_lower_end_m, p.length_m)
+    };
+    let [ix, iy, iz] = p.inertia_kg_m2.into();
+    let about_joint = p.mass_kg * cg * cg;
+    Link {
+        mass: S::of(p.mass_kg),
+        cg: S::of(cg),
+        far: S::of(far),
+        sigma: S::of(p.mass_kg * cg),
+        ix: S::of(ix + about_joint),
+        iy: S::of(iy + about_joint),
+        iz: S::of(iz),
+        inverse_iy: S::of(1.0 / (iy + about_joint)),
+        central: [S::of(ix), S::of(iy), S::of(iz)],
+    }
+}

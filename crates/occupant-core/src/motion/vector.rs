@@ -1,0 +1,281 @@
+//! Vectors and matrices of the kernel: only what it needs, over any [`Scalar`].
+
+use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
+
+use nalgebra::{Matrix3, Vector3};
+
+use crate::motion::scalar::Scalar;
+
+/// A vector of three components.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct V3<S> {
+    /// First component.
+    pub x: S,
+    /// Second component.
+    pub y: S,
+    /// Third component.
+    pub z: S,
+}
+
+/// A vector from its components.
+#[inline(always)]
+pub fn v3<S>(x: S, y: S, z: S) -> V3<S> {
+    V3 { x, y, z }
+}
+
+impl<S: Copy> V3<S> {
+    /// f applied to every number and the one in the same place of `other`.
+    #[inline(always)]
+    pub fn zip<A: Copy, T>(&self, other: &V3<A>, f: &impl Fn(S, A) -> T) -> V3<T> {
+        v3(f(self.x, other.x), f(self.y, other.y), f(self.z, other.z))
+    }
+}
+
+impl<S: Scalar> V3<S> {
+    /// The null vector.
+    #[inline(always)]
+    pub fn zero() -> Self {
+        v3(S::zero(), S::zero(), S::zero())
+    }
+
+    /// The same constant vector in every lane.
+    #[inline(always)]
+    pub fn of(v: &Vector3<f64>) -> Self {
+        v3(S::of(v.x), S::of(v.y), S::of(v.z))
+    }
+
+    /// a · b.
+    #[inline(always)]
+    pub fn dot(self, b: Self) -> S {
+        self.x * b.x + self.y * b.y + self.z * b.z
+    }
+
+    /// a × b.
+    #[inline(always)]
+    pub fn cross(self, b: Self) -> Self {
+        v3(self.y * b.z - self.z * b.y, self.z * b.x - self.x * b.z, self.x * b.y - self.y * b.x)
+    }
+
+    /// a · a.
+    #[inline(always)]
+    pub fn norm_squared(self) -> S {
+        self.dot(self)
+    }
+
+    /// `yes` where the mask is true, else `no`.
+    #[inline(always)]
+    pub fn select(mask: S::Mask, yes: Self, no: Self) -> Self {
+        v3(S::select(mask, yes.x, no.x), S::select(mask, yes.y, no.y), S::select(mask, yes.z, no.z))
+    }
+}
+
+impl V3<f64> {
+    /// As the linear algebra library's vector.
+    pub fn to_vector(self) -> Vector3<f64> {
+        Vector3::new(self.x, self.y, self.z)
+    }
+}
+
+impl<S: Scalar> Add for V3<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, b: Self) -> Self {
+        v3(self.x + b.x, self.y + b.y, self.z + b.z)
+    }
+}
+
+impl<S: Scalar> Sub for V3<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn sub(self, b: Self) -> Self {
+        v3(self.x - b.x, self.y - b.y, self.z - b.z)
+    }
+}
+
+impl<S: Scalar> Neg for V3<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn neg(self) -> Self {
+        v3(-self.x, -self.y, -self.z)
+    }
+}
+
+impl<S: Scalar> Mul<S> for V3<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn mul(self, k: S) -> Self {
+        v3(self.x * k, self.y * k, self.z * k)
+    }
+}
+
+impl<S: Scalar> AddAssign for V3<S> {
+    #[inline(always)]
+    fn add_assign(&mut self, b: Self) {
+        *self = *self + b;
+    }
+}
+
+impl<S: Scalar> SubAssign for V3<S> {
+    #[inline(always)]
+    fn sub_assign(&mut self, b: Self) {
+        *self = *self - b;
+    }
+}
+
+/// A 3 × 3 matrix by columns; for an orientation the columns are the axes X, Y, Z of the turned frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct M3<S> {
+    /// First column.
+    pub x: V3<S>,
+    /// Second column.
+    pub y: V3<S>,
+    /// Third column.
+    pub z: V3<S>,
+}
+
+impl<S: Copy> M3<S> {
+    /// f applied to every number and the one in the same place of `other`.
+    #[inline(always)]
+    pub fn zip<A: Copy, T>(&self, other: &M3<A>, f: &impl Fn(S, A) -> T) -> M3<T> {
+        M3 { x: self.x.zip(&other.x, f), y: self.y.zip(&other.y, f), z: self.z.zip(&other.z, f) }
+    }
+}
+
+impl<S: Scalar> M3<S> {
+    /// The same constant matrix in every lane.
+    #[inline(always)]
+    pub fn of(m: &Matrix3<f64>) -> Self {
+        M3 { x: V3::of(&m.column(0).into()), y: V3::of(&m.column(1).into()), z: V3::of(&m.column(2).into()) }
+    }
+
+    /// The unit matrix.
+    #[inline(always)]
+    pub fn identity() -> Self {
+        M3::of(&Matrix3::identity())
+    }
+
+    /// M v: components in the frame → components outside it.
+    #[inline(always)]
+    pub fn out(&self, v: V3<S>) -> V3<S> {
+        self.x * v.x + self.y * v.y + self.z * v.z
+    }
+
+    /// Mᵀ v: components outside → components in the frame.
+    #[inline(always)]
+    pub fn into_frame(&self, v: V3<S>) -> V3<S> {
+        v3(self.x.dot(v), self.y.dot(v), self.z.dot(v))
+    }
+}
+
+impl M3<f64> {
+    /// As the linear algebra library's matrix.
+    pub fn to_matrix(self) -> Matrix3<f64> {
+        Matrix3::from_columns(&[self.x.to_vector(), self.y.to_vector(), self.z.to_vector()])
+    }
+}
+
+/// A symmetric 3 × 3 matrix.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sym3<S> {
+    /// Element 1,1.
+    pub xx: S,
+    /// Element 2,2.
+    pub yy: S,
+    /// Element 3,3.
+    pub zz: S,
+    /// Element 1,2.
+    pub xy: S,
+    /// Element 1,3.
+    pub xz: S,
+    /// Element 2,3.
+    pub yz: S,
+}
+
+impl<S: Scalar> Sym3<S> {
+    /// k·1.
+    #[inline(always)]
+    pub fn scaled_identity(k: S) -> Self {
+        let o = S::zero();
+        Sym3 { xx: k, yy: k, zz: k, xy: o, xz: o, yz: o }
+    }
+
+    /// Adds k v vᵀ.
+    #[inline(always)]
+    pub fn add_outer(&mut self, k: S, v: V3<S>) {
+        let kv = v * k;
+        self.xx += kv.x * v.x;
+        self.yy += kv.y * v.y;
+        self.zz += kv.z * v.z;
+        self.xy += kv.x * v.y;
+        self.xz += kv.x * v.z;
+        self.yz += kv.y * v.z;
+    }
+
+    /// Adds k (v wᵀ + w vᵀ).
+    #[inline(always)]
+    pub fn add_outer_pair(&mut self, k: S, v: V3<S>, w: V3<S>) {
+        let kv = v * k;
+        self.xx += kv.x * w.x + kv.x * w.x;
+        self.yy += kv.y * w.y + kv.y * w.y;
+        self.zz += kv.z * w.z + kv.z * w.z;
+        self.xy += kv.x * w.y + kv.y * w.x;
+        self.xz += kv.x * w.z + kv.z * w.x;
+        self.yz += kv.y * w.z + kv.z * w.y;
+    }
+
+    /// M v.
+    #[inline(always)]
+    pub fn mul(&self, v: V3<S>) -> V3<S> {
+        v3(self.row_x().dot(v), self.row_y().dot(v), self.row_z().dot(v))
+    }
+
+    /// First row.
+    #[inline(always)]
+    pub fn row_x(&self) -> V3<S> {
+        v3(self.xx, self.xy, self.xz)
+    }
+
+    /// Second row.
+    #[inline(always)]
+    pub fn row_y(&self) -> V3<S> {
+        v3(self.xy, self.yy, self.yz)
+    }
+
+    /// Third row.
+    #[inline(always)]
+    pub fn row_z(&self) -> V3<S> {
+        v3(self.xz, self.yz, self.zz)
+    }
+
+    /// M⁻¹ by cofactors; M must be positive definite.
+    #[inline(always)]
+    pub fn inverse(&self) -> Self {
+        let xx = self.yy * self.zz - self.yz * self.yz;
+        let xy = self.xz * self.yz - self.xy * self.zz;
+        let xz = self.xy * self.yz - self.xz * self.yy;
+        let k = S::one() / (self.xx * xx + self.xy * xy + self.xz * xz);
+        Sym3 {
+            xx: xx * k,
+            yy: (self.xx * self.zz - self.xz * self.xz) * k,
+            zz: (self.xx * self.yy - self.xy * self.xy) * k,
+            xy: xy * k,
+            xz: xz * k,
+            yz: (self.xy * self.xz - self.xx * self.yz) * k,
+        }
+    }
+}
+
+impl<S: Scalar> Add for Sym3<S> {
+    type Output = Self;
+    #[inline(always)]
+    fn add(self, b: Self) -> Self {
+        Sym3 {
+            xx: self.xx + b.xx,
+            yy: self.yy + b.yy,
+            zz: self.zz + b.zz,
+            xy: self.xy + b.xy,
+            xz: self.xz + b.xz,
+            yz: self.yz + b.yz,
+        }
+    }
+}

@@ -1,0 +1,54 @@
+//! The instruments: channels of head, neck, chest, pelvis and femurs.
+
+use crash_measures::injury::{Components, Signals};
+use nalgebra::Vector3;
+
+use crate::body::Segment;
+use crate::body::joint::Joint;
+use crate::model::Model;
+use crate::results::reaction::{femur_axial_n, reaction};
+use crate::results::recorder::{Flow, Recorder, RecorderError};
+use crate::results::sample::Sample;
+
+/// Segment axes (left, up) to J211 axes (right, down).
+fn push(into: &mut Components, v: Vector3<f64>) {
+    into[0].push(v.x);
+    into[1].push(-v.y);
+    into[2].push(-v.z);
+}
+
+impl Recorder for Signals {
+    fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
+        let outputs = model.output_count();
+        self.interval_s = model.setup().time.output_s;
+        for values in self.all_mut() {
+            values.clear();
+            values.reserve(outputs);
+        }
+        Ok(())
+    }
+
+    fn record(&mut self, s: &Sample<'_>) -> Result<Flow, RecorderError> {
+        let time = &s.model.setup().time;
+        let due_s = time.start_s + s.index as f64 * time.output_s;
+        if (s.time_s - due_s).abs() > 1e-6 * time.output_s {
+            return Ok(Flow::Continue);
+        }
+        if self.is_empty() {
+            self.start_s = s.time_s;
+        }
+        push(&mut self.head_m_s2, s.specific_force_m_s2(Segment::Head));
+        push(&mut self.chest_m_s2, s.specific_force_m_s2(Segment::UpperTorso));
+        push(&mut self.pelvis_m_s2, s.specific_force_m_s2(Segment::LowerTorso));
+        push(&mut self.head_rad_s, s.angular_velocity_rad_s(Segment::Head));
+        push(&mut self.head_rad_s2, s.angular_acceleration_rad_s2(Segment::Head));
+        let neck = reaction(s, Joint::Neck);
+        push(&mut self.neck_n, neck.force_n);
+        push(&mut self.neck_n_m, neck.moment_n_m);
+        let thighs = [Segment::RightThigh, Segment::LeftThigh];
+        for (values, thigh) in self.femur_n.iter_mut().zip(thighs) {
+            values.push(femur_axial_n(s, thigh));
+        }
+        Ok(Flow::Continue)
+    }
+}

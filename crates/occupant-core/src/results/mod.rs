@@ -1,0 +1,11 @@
+//! What a run gives: samples, energies, reactions, channels, summaries, checkpoints.
+
+pub mod channel;
+pub mod checkpoint;
+pub mod energy;
+pub mod instruments;
+pub mod outcome;
+pub mod reaction;
+pub mod recorder;
+pub mod sample;
+pub mod summary;

@@ -1,0 +1,138 @@
+//! How a run ended: its outcome, first touches, and the errors that say when, where and why.
+
+use std::fmt;
+
+use crate::results::checkpoint::CheckpointError;
+use crate::results::recorder::RecorderError;
+use crate::results::sample::Effort;
+
+/// How a run ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// Why.
+    pub status: Status,
+    /// Time reached, s.
+    pub time_s: f64,
+    /// Work of the integrator.
+    pub effort: Effort,
+    /// First touch of each sphere with each surface, in the order in which they happened.
+    pub first_touches: Vec<FirstTouch>,
+    /// Greatest kinetic energy relative to the vehicle among the outputs, J.
+    pub greatest_kinetic_j: f64,
+    /// Greatest energy imbalance among the outputs as a fraction of it.
+    pub balance_error: f64,
+}
+
+/// Why a run ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Status {
+    /// At its end time.
+    Completed,
+    /// A recorder stopped it.
+    Stopped,
+    /// The integration failed.
+    Failed(StepError),
+}
+
+/// The first accepted step at which a sphere touched a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FirstTouch {
+    /// Index of the sphere.
+    pub sphere: usize,
+    /// Index of the surface.
+    pub surface: usize,
+    /// Time of the step's end, s; the start of the run for what touches at the start.
+    pub time_s: f64,
+    /// Speed of the sphere's centre towards the surface, relative to it, m/s.
+    pub closing_m_s: f64,
+}
+
+/// The integration cannot go on.
+#[derive(Clone, Debug, PartialEq)]
+pub enum StepError {
+    /// A component of the state is no longer a number.
+    NotFinite {
+        /// Start of the step, s.
+        time_s: f64,
+        /// Step, s.
+        step_s: f64,
+        /// Which component.
+        component: String,
+    },
+    /// The error control asks for a step below the smallest allowed.
+    StepTooSmall {
+        /// Time, s.
+        time_s: f64,
+        /// Step asked for, s.
+        step_s: f64,
+        /// Smallest step allowed, s.
+        min_step_s: f64,
+        /// Error of the last trial in units of the tolerance.
+        error: f64,
+    },
+}
+
+impl fmt::Display for StepError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            StepError::NotFinite { time_s, step_s, component } => write!(
+                f,
+                "at t = {time_s:.6} s, in a step of {step_s:.3e} s, the {component} is no longer a finite number; a smaller step or softer springs and dampers may help"
+            ),
+            StepError::StepTooSmall { time_s, step_s, min_step_s, error } => write!(
+                f,
+                "at t = {time_s:.6} s the error control asks for a step of {step_s:.3e} s, below the smallest allowed, {min_step_s:.3e} s (error {error:.2} times the tolerance); a looser tolerance or a smaller `min_step` may help"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for StepError {}
+
+/// A run that could not be recorded.
+#[derive(Debug)]
+pub struct RecordingFailed {
+    /// Time, s.
+    pub time_s: f64,
+    /// What the recorder said.
+    pub source: RecorderError,
+}
+
+impl fmt::Display for RecordingFailed {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "recording failed at t = {:.6} s: {}", self.time_s, self.source)
+    }
+}
+
+impl std::error::Error for RecordingFailed {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        Some(&*self.source)
+    }
+}
+
+/// Why a run could not be resumed, or not recorded.
+#[derive(Debug)]
+pub enum ResumeError {
+    /// The checkpoint is none of the model's.
+    Refused(CheckpointError),
+    /// The recorder failed.
+    Recording(RecordingFailed),
+}
+
+impl fmt::Display for ResumeError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            ResumeError::Refused(error) => error.fmt(f),
+            ResumeError::Recording(error) => error.fmt(f),
+        }
+    }
+}
+
+impl std::error::Error for ResumeError {
+    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
+        match self {
+            ResumeError::Refused(error) => Some(error),
+            ResumeError::Recording(error) => error.source(),
+        }
+    }
+}

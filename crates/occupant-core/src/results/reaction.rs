@@ -1,0 +1,158 @@
+//! What the joints carry: forces and moments between the two segments of a joint.
+//!
+//! Newton's and Euler's equations of each segment, from the tips inwards, with the accelerations that the evaluation found:
+//! the load at a segment's proximal joint is what its motion needs, less what acts on it, plus what the segments beyond it
+//! ask. About the proximal joint, with r the place of the centre of gravity and c that of a distal joint,
+//!
+//! ```text
+//! f = M (a + g Z′) − F + Σ f_distal
+//! τ = Iα + ω × Iω + r × M (a + g Z′) − T + Σ (τ_distal + c × f_distal)
+//! ```
+//!
+//! F and T are contacts and belts. The moment of a ball joint is that of its damper, stop and spring, for it constrains none;
+//! a hinge adds the two constraint moments across its axis.
+
+use nalgebra::Vector3;
+
+use crate::body::joint::Joint;
+use crate::body::{SEGMENTS, Segment};
+use crate::motion::dynamics::Wrench;
+use crate::motion::kinematics::LIMBS;
+use crate::motion::vector::{V3, v3};
+use crate::results::sample::Sample;
+
+/// Force and moment that the proximal segment of a joint exerts on the distal one, at the joint.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Reaction {
+    /// In axes of the distal segment, N.
+    pub force_n: Vector3<f64>,
+    /// In axes of the distal segment, N·m. Damper, stop and spring are part of it.
+    pub moment_n_m: Vector3<f64>,
+}
+
+/// Proximal and distal segment (indices) of a joint; T1 joins the upper torso to the middle torso.
+pub const fn segments(joint: Joint) -> (Segment, Segment) {
+    use Segment::*;
+    match joint {
+        Joint::Neck => (UpperTorso, Head),
+        Joint::RightShoulder => (UpperTorso, RightUpperArm),
+        Joint::LeftShoulder => (UpperTorso, LeftUpperArm),
+        Joint::UpperBack => (MiddleTorso, UpperTorso),
+        Joint::LeftElbow => (LeftUpperArm, LeftForearm),
+        Joint::RightElbow => (RightUpperArm, RightForearm),
+        Joint::LowerBack => (MiddleTorso, LowerTorso),
+        Joint::RightHip => (LowerTorso, RightThigh),
+        Joint::LeftHip => (LowerTorso, LeftThigh),
+        Joint::RightKnee => (RightThigh, RightLowerLeg),
+        Joint::LeftKnee => (LeftThigh, LeftLowerLeg),
+    }
+}
+
+/// Segments beyond each segment's proximal joint: the tree, without the two halves at T1.
+const fn beyond(segment: usize) -> &'static [usize] {
+    match segment {
+        0 => &[3],
+        1 => &[2, 4, 5],
+        3 => &[8, 9],
+        4 => &[LIMBS[0].1],
+        5 => &[LIMBS[1].1],
+        8 => &[LIMBS[2].1],
+        9 => &[LIMBS[3].1],
+        _ => &[],
+    }
+}
+
+/// What `joint` carries in `sample`.
+pub fn reaction(sample: &Sample<'_>, joint: Joint) -> Reaction {
+    let (_, distal) = segments(joint);
+    let load = Loads::new(sample).at(distal.index());
+    in_axes(sample, distal, load)
+}
+
+/// What all joints carry, in the order of [`Joint::ALL`].
+pub fn reactions(sample: &Sample<'_>) -> [Reaction; 11] {
+    let loads = Loads::new(sample);
+    Joint::ALL.map(|joint| {
+        let (_, distal) = segments(joint);
+        in_axes(sample, distal, loads.at(distal.index()))
+    })
+}
+
+fn in_axes(sample: &Sample<'_>, distal: Segment, load: Wrench<f64>) -> Reaction {
+    let axes = &sample.evaluation.kinematics.axes[distal.index()];
+    Reaction { force_n: axes.into_frame(load.force).to_vector(), moment_n_m: axes.into_frame(load.moment).to_vector() }
+}
+
+/// Loads of contacts and belts, from which reactions follow.
+struct Loads<'s, 'a> {
+    sample: &'s Sample<'a>,
+    /// Moments of dampers, stops and springs, which the evaluation counts among the loads.
+    passive: [Wrench<f64>; SEGMENTS],
+}
+
+impl<'s, 'a> Loads<'s, 'a> {
+    fn new(sample: &'s Sample<'a>) -> Self {
+        let mut passive = [Wrench::zero(); SEGMENTS];
+        let k = &sample.evaluation.kinematics;
+        sample.model.system().joints.apply(k, sample.state, &mut passive);
+        Loads { sample, passive }
+    }
+
+    /// What segment `n` needs at its proximal joint, space axes.
+    fn at(&self, n: usize) -> Wrench<f64> {
+        let e = self.sample.evaluation;
+        let (k, skeleton) = (&e.kinematics, &self.sample.model.system().skeleton);
+        let link = &skeleton.links[n];
+        let upward = v3(0.0, 0.0, skeleton.gravity);
+        let inertial = (e.accelerations.cg(skeleton, k, n) + upward) * link.mass;
+        let mut force = inertial - e.wrench[n].force;
+        let arm = k.axes[n].z * link.cg;
+        let applied = e.wrench[n].moment - self.passive[n].moment;
+        let mut moment = self.spin(n) + arm.cross(inertial) - applied;
+        for &next in beyond(n) {
+            let load = self.at(next);
+            force += load.force;
+            moment += load.moment + (k.joint[next] - k.joint[n]).cross(load.force);
+        }
+        Wrench { force, moment }
+    }
+
+    /// Iα + ω × Iω about the centre of gravity.
+    fn spin(&self, n: usize) -> V3<f64> {
+        let e = self.sample.evaluation;
+        let axes = &e.kinematics.axes[n];
+        let [ix, iy, iz] = self.sample.model.system().skeleton.links[n].central;
+        let by_inertia = |v: V3<f64>| {
+            let v = axes.into_frame(v);
+            axes.out(v3(ix * v.x, iy * v.y, iz * v.z))
+        };
+        let omega = e.kinematics.omega[n];
+        by_inertia(e.accelerations.alpha[n]) + omega.cross(by_inertia(omega))
+    }
+}
+
+/// Axial force in a thigh at its knee end, tension positive as a load cell in the femur reports it, N: what the shank, the
+/// contact spheres at that end and belts on them pull along the thigh. The thigh's own mass beyond a load cell in its middle
+/// is not taken off.
+///
+/// Spheres in the distal half of the thigh count as at the knee.
+pub fn femur_axial_n(sample: &Sample<'_>, thigh: Segment) -> f64 {
+    let knee = match thigh {
+        Segment::RightThigh => Joint::RightKnee,
+        _ => Joint::LeftKnee,
+    };
+    let k = &sample.evaluation.kinematics;
+    let (_, shank) = segments(knee);
+    let carried = Loads::new(sample).at(shank.index()).force;
+    let body = sample.model.body();
+    let half_m = 0.5 * body.segment(thigh).length_m;
+    let at_knee = |s: &usize| {
+        let sphere = &body.spheres[*s];
+        sphere.segment == thigh && sphere.centre_from_lower_end_m.z < half_m
+    };
+    let pushed: Vector3<f64> =
+        (0..body.spheres.len()).filter(at_knee).map(|s| sample.sphere_force_n(s) + sample.sphere_belt_force_n(s)).sum();
+    let pushed = V3::of(&sample.vehicle.vector_to_space(pushed));
+    // Z of a thigh points from the knee to the hip: a force at the knee against it pulls
+    -(pushed - carried).dot(k.axes[thigh.index()].z)
+}

@@ -1,0 +1,280 @@
+//! What a run tells at one output time (report, "Output", items 1–7), computed when asked for.
+
+use nalgebra::{Point3, UnitQuaternion, Vector3};
+
+use crate::body::Segment;
+use crate::body::joint::Joint;
+use crate::forces::History;
+use crate::forces::belt::law::BeltAction;
+use crate::forces::contact::Touch;
+use crate::forces::joint::BALLS;
+use crate::kernel::Evaluation;
+use crate::model::Model;
+use crate::motion::frame::Frames;
+use crate::motion::frame::VEHICLE;
+use crate::motion::kinematics::LIMBS;
+use crate::motion::report_coordinates::ReportCoordinates;
+use crate::motion::state::State;
+use crate::motion::vector::V3;
+use crate::results::checkpoint::{Checkpoint, Progress, StepUnderWay};
+use crate::results::energy::EnergyLedger;
+use crate::results::outcome::FirstTouch;
+use crate::vehicle::{FrameMotion, VehiclePose};
+
+/// Work of the integrator so far.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Effort {
+    /// Accepted steps.
+    pub steps: u64,
+    /// Steps tried and rejected by the error control.
+    pub rejected: u64,
+    /// Evaluations of the derivative by the integrator.
+    pub evaluations: u64,
+    /// Last accepted step, s.
+    pub step_s: f64,
+}
+
+/// All results at one output time. Positions are in vehicle axes, motions in segment axes, as the report prints them.
+#[derive(Clone, Copy)]
+pub struct Sample<'a> {
+    /// Time.
+    pub time_s: f64,
+    /// Number of the output, from 0.
+    pub index: usize,
+    /// The model.
+    pub model: &'a Model,
+    /// Integrated state.
+    pub state: &'a State<f64>,
+    /// Pair states and belt histories.
+    pub history: &'a History<f64>,
+    /// Frames.
+    pub frames: &'a Frames<f64>,
+    /// Motion of the vehicle, space axes.
+    pub vehicle: &'a FrameMotion,
+    /// Place and attitude of the vehicle in vehicle-space, as the path gives them.
+    pub vehicle_pose: VehiclePose,
+    /// Derived motion, loads and accelerations.
+    pub evaluation: &'a Evaluation<f64>,
+    /// Pairs that exert a force.
+    pub touches: &'a [Touch<f64>],
+    /// Belts, in the setup's order.
+    pub belts: &'a [BeltAction<f64>],
+    /// Energies.
+    pub energy: EnergyLedger,
+    /// Work of the integrator so far.
+    pub effort: Effort,
+    /// Sums and extremes so far, this output included.
+    pub progress: Progress,
+    /// First touches so far, in the order in which they happened.
+    pub first_touches: &'a [FirstTouch],
+    /// The step of the error control in which this output lies, if it goes on beyond it.
+    pub under_way: Option<StepUnderWay<'a>>,
+}
+
+/// A touching pair for output.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contact {
+    /// Index of the sphere.
+    pub sphere: usize,
+    /// Index of the surface.
+    pub surface: usize,
+    /// Δ, m.
+    pub depth_m: f64,
+    /// wF along N̂, N.
+    pub normal_force_n: f64,
+    /// Normal, edge and friction force on the sphere, vehicle axes, N.
+    pub force_n: Vector3<f64>,
+    /// Friction alone, vehicle axes, N.
+    pub friction_n: Vector3<f64>,
+    /// Where the force acts: centre − r N̂, vehicle axes, m; the edge band by choice at the centre.
+    pub point_m: Point3<f64>,
+    /// Speed of slip, m/s.
+    pub slip_m_s: f64,
+}
+
+impl<'a> Sample<'a> {
+    /// All that the run carries on from here.
+    pub fn checkpoint(&self) -> Checkpoint {
+        Checkpoint {
+            index: self.index,
+            time_s: self.time_s,
+            state: *self.state,
+            pairs: self.history.pairs.clone(),
+            belts: self.history.belts.clone(),
+            first_touches: self.first_touches.to_vec(),
+            progress: self.progress,
+            under_way: self.under_way.map(|step| step.to_start()),
+        }
+    }
+
+    /// Upper and lower end of a segment, vehicle axes, m (item 1).
+    pub fn end_points_m(&self, segment: Segment) -> [Point3<f64>; 2] {
+        let k = &self.evaluation.kinematics;
+        let n = segment.index();
+        let near = k.joint[n];
+        let far = near + k.axes[n].z * self.model.system().skeleton.links[n].far;
+        let (upper, lower) = if segment.hangs() { (near, far) } else { (far, near) };
+        [self.place_m(upper), self.place_m(lower)]
+    }
+
+    /// Centre of gravity of a segment, vehicle axes, m.
+    pub fn cg_m(&self, segment: Segment) -> Point3<f64> {
+        let k = &self.evaluation.kinematics;
+        self.place_m(k.cg(&self.model.system().skeleton, segment.index()))
+    }
+
+    /// Orientation of a segment relative to the vehicle: turns segment axes into vehicle axes.
+    pub fn orientation(&self, segment: Segment) -> UnitQuaternion<f64> {
+        let axes = self.evaluation.kinematics.axes[segment.index()].to_matrix();
+        let relative = self.vehicle.rotation.tr_mul(&axes);
+        UnitQuaternion::from_rotation_matrix(&nalgebra::Rotation3::from_matrix_unchecked(relative))
+    }
+
+    /// Kinematic acceleration of the centre of gravity, segment axes, m/s² (item 2).
+    pub fn cg_acceleration_m_s2(&self, segment: Segment) -> Vector3<f64> {
+        self.in_segment(segment, self.cg_acceleration_space(segment))
+    }
+
+    /// What an accelerometer at the centre of gravity reads: acceleration minus gravity, segment axes, m/s² (item 2).
+    pub fn specific_force_m_s2(&self, segment: Segment) -> Vector3<f64> {
+        let mut a = self.cg_acceleration_space(segment);
+        a.z += self.model.setup().gravity_m_s2;
+        self.in_segment(segment, a)
+    }
+
+    /// Angular acceleration, segment axes, rad/s² (item 3).
+    pub fn angular_acceleration_rad_s2(&self, segment: Segment) -> Vector3<f64> {
+        self.in_segment(segment, self.evaluation.accelerations.alpha[segment.index()])
+    }
+
+    /// Absolute angular velocity, segment axes, rad/s (item 4).
+    pub fn angular_velocity_rad_s(&self, segment: Segment) -> Vector3<f64> {
+        self.in_segment(segment, self.evaluation.kinematics.omega[segment.index()])
+    }
+
+    /// Velocity of the centre of gravity, space axes, m/s.
+    pub fn cg_velocity_m_s(&self, segment: Segment) -> Vector3<f64> {
+        let k = &self.evaluation.kinematics;
+        k.cg_velocity(&self.model.system().skeleton, segment.index()).to_vector()
+    }
+
+    /// Touching pairs, one by one (item 5).
+    pub fn contacts(&self) -> impl Iterator<Item = Contact> + 'a {
+        let sample = *self;
+        self.touches.iter().map(move |t| sample.contact(t))
+    }
+
+    /// Sum of contact and friction forces on a sphere, vehicle axes, N; belts apart (item 5).
+    pub fn sphere_force_n(&self, sphere: usize) -> Vector3<f64> {
+        let own = self.touches.iter().filter(|t| t.sphere == sphere);
+        own.map(|t| self.contact(t).force_n).sum()
+    }
+
+    /// Force of belts on a sphere, vehicle axes, N.
+    pub fn sphere_belt_force_n(&self, sphere: usize) -> Vector3<f64> {
+        let laws = &self.model.system().belts;
+        let own = laws.iter().zip(self.belts).filter(|(law, _)| law.sphere == sphere);
+        own.map(|(_, action)| action.force.to_vector()).sum()
+    }
+
+    /// Centre of a sphere, vehicle axes, m.
+    pub fn sphere_centre_m(&self, sphere: usize) -> Point3<f64> {
+        self.place_m(self.model.system().sphere(&self.evaluation.kinematics, sphere).1)
+    }
+
+    /// Point of application of a sphere's contact force relative to its centre, segment axes, m: the mean over the faces
+    /// touched, weighted by wF (item 6). `None` without contact.
+    pub fn application_point_m(&self, sphere: usize) -> Option<Vector3<f64>> {
+        let site = &self.model.system().contacts.sites[sphere];
+        let own = self.touches.iter().filter(|t| t.sphere == sphere);
+        let (mut sum, mut total) = (Vector3::zeros(), 0.0);
+        for t in own {
+            let normal = self.frames[t.frame].axes.out(t.normal);
+            sum -= normal.to_vector() * (site.radius * t.normal_force);
+            total += t.normal_force;
+        }
+        let mean = self.evaluation.kinematics.axes[site.segment].into_frame(V3::of(&sum)).to_vector();
+        (total > 0.0).then(|| mean / total)
+    }
+
+    /// β of a ball joint or α of a hinge, rad.
+    pub fn joint_angle_rad(&self, joint: Joint) -> f64 {
+        match place(joint) {
+            Place::Ball(i) => self.model.system().joints.beta(i, &self.evaluation.kinematics),
+            Place::Hinge(i) => self.state.hinge[i],
+        }
+    }
+
+    /// The report's generalized coordinates and rates.
+    pub fn report_coordinates(&self) -> ReportCoordinates {
+        ReportCoordinates::from_state(self.state)
+    }
+
+    /// Energy imbalance as a fraction of the greatest kinetic energy relative to the vehicle, `greatest_j`.
+    pub fn balance_fraction(&self, greatest_j: f64) -> f64 {
+        if greatest_j > 0.0 { self.energy.balance_j / greatest_j } else { 0.0 }
+    }
+
+    fn contact(&self, t: &Touch<f64>) -> Contact {
+        let system = self.model.system();
+        let site = &system.contacts.sites[t.sphere];
+        let to_vehicle = |v: V3<f64>| {
+            if t.frame == VEHICLE {
+                v.to_vector()
+            } else {
+                let space = self.frames[t.frame].axes.out(v);
+                self.frames[VEHICLE].axes.into_frame(space).to_vector()
+            }
+        };
+        let part = &system.contacts.pairs()[t.pair].parts[t.part as usize];
+        let normal = to_vehicle(t.normal);
+        Contact {
+            sphere: t.sphere,
+            surface: part.surface,
+            depth_m: t.depth,
+            normal_force_n: t.normal_force,
+            force_n: to_vehicle(t.normal * t.normal_force + t.edge + t.friction),
+            friction_n: to_vehicle(t.friction),
+            point_m: self.sphere_centre_m(t.sphere) - normal * site.radius,
+            slip_m_s: t.slip.norm_squared().sqrt(),
+        }
+    }
+
+    fn cg_acceleration_space(&self, segment: Segment) -> V3<f64> {
+        let e = self.evaluation;
+        e.accelerations.cg(&self.model.system().skeleton, &e.kinematics, segment.index())
+    }
+
+    fn in_segment(&self, segment: Segment, v: V3<f64>) -> Vector3<f64> {
+        self.evaluation.kinematics.axes[segment.index()].into_frame(v).to_vector()
+    }
+
+    fn place_m(&self, space: V3<f64>) -> Point3<f64> {
+        self.vehicle.point_to_frame(space.to_vector()).into()
+    }
+}
+
+/// Where the kernel keeps a joint.
+enum Place {
+    Ball(usize),
+    Hinge(usize),
+}
+
+fn place(joint: Joint) -> Place {
+    // index of the distal segment
+    let ball = |lower| BALLS.iter().position(|&(_, l)| l == lower).map_or(Place::Ball(0), Place::Ball);
+    let hinge = |lower| LIMBS.iter().position(|&(_, l)| l == lower).map_or(Place::Hinge(0), Place::Hinge);
+    match joint {
+        Joint::Neck => ball(2),
+        Joint::RightShoulder => ball(5),
+        Joint::LeftShoulder => ball(4),
+        Joint::UpperBack => ball(1),
+        Joint::LowerBack => ball(3),
+        Joint::RightHip => ball(9),
+        Joint::LeftHip => ball(8),
+        Joint::LeftElbow => hinge(6),
+        Joint::RightElbow => hinge(7),
+        Joint::LeftKnee => hinge(10),
+        Joint::RightKnee => hinge(11),
+    }
+}

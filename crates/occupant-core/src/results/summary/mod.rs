@@ -1,0 +1,216 @@
+//! What one run came to: peaks with their times, 3 ms levels, first contacts, energy balance, work of the integrator.
+//!
+//! A [`Summarizer`] is a [`crate::results::recorder::Recorder`]; it looks at every output and keeps little. Peaks and levels are those of the
+//! output times, straight lines between them: an output interval of 1 ms or less does them justice. Nothing is filtered.
+
+mod figures;
+mod peak;
+mod summarizer;
+
+use serde::Serialize;
+
+use crash_measures::injury::Measure;
+
+pub use figures::{Figure, word};
+pub use peak::Peak;
+pub use summarizer::Summarizer;
+
+/// What one run came to. Serialised, it is the answer of `occupant run --json`; every name carries its unit.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Summary {
+    /// The scenario's title.
+    pub title: String,
+    /// How the run ended.
+    pub status: RunStatus,
+    /// Why, where it did not complete.
+    pub reason: Option<String>,
+    /// Start of the run.
+    pub start_s: f64,
+    /// Time reached.
+    pub reached_s: f64,
+    /// Time it should have reached.
+    pub end_s: f64,
+    /// Accelerometer readings at the centres of gravity.
+    pub accelerations: Accelerations,
+    /// Belts, in the scenario's order.
+    pub belts: Vec<BeltPeak>,
+    /// First contacts of head, chest and knees after the start.
+    pub first_contacts: Vec<FirstContact>,
+    /// Every first touch of a sphere with a surface, in the order in which they happened.
+    pub contacts: Vec<ContactBegin>,
+    /// Greatest contact force on each sphere that touched anything, in the body's order.
+    pub sphere_forces: Vec<SpherePeak>,
+    /// How far the head's centre went from where it was at the start; absent without a sphere `head`.
+    pub head_excursion: Option<Excursion>,
+    /// Injury measures for a Hybrid III 50M, unfiltered.
+    pub measures: Vec<Measure>,
+    /// Energy balance.
+    pub energy: EnergyCheck,
+    /// Work of the integrator.
+    pub solver: Solver,
+}
+
+/// How a run ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RunStatus {
+    /// At its end time.
+    Completed,
+    /// It was interrupted.
+    Interrupted,
+    /// The integration failed.
+    Failed,
+}
+
+/// Resultant accelerometer readings (acceleration minus gravity) of the three parts that limits speak of.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Accelerations {
+    /// Segment 3.
+    pub head: Acceleration,
+    /// Segment 2, the upper torso.
+    pub chest: Acceleration,
+    /// Segment 4, the lower torso.
+    pub pelvis: Acceleration,
+}
+
+/// A resultant acceleration. One g is 9.80665 m/s².
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Acceleration {
+    /// Peak.
+    pub peak_m_s2: f64,
+    /// Peak in g.
+    pub peak_g: f64,
+    /// Its time.
+    pub peak_time_s: f64,
+    /// Level held for 3 ms without interruption; absent where the run is shorter.
+    pub three_ms_contiguous: Option<Level>,
+    /// Level exceeded for 3 ms in total.
+    pub three_ms_cumulative: Option<Level>,
+}
+
+/// A level that was held for a time.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Level {
+    /// The level.
+    pub level_m_s2: f64,
+    /// The level in g.
+    pub level_g: f64,
+    /// Start of the interval above it, the first of them where the time is cumulative.
+    pub from_s: f64,
+    /// End of the interval above it, the last of them where the time is cumulative.
+    pub to_s: f64,
+}
+
+/// The greatest load of a belt.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BeltPeak {
+    /// Name of the belt.
+    pub belt: String,
+    /// Greatest loop force.
+    pub loop_force_n: f64,
+    /// Its time; absent if the belt never pulled.
+    pub time_s: Option<f64>,
+    /// Greatest elongation; negative if the belt stayed slack.
+    pub elongation_m: f64,
+    /// Greatest force on the body.
+    pub body_force_n: f64,
+}
+
+/// The first contact of a part of the body after the start of the run.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct FirstContact {
+    /// Name of the sphere.
+    pub sphere: String,
+    /// What it touched; absent if it touched nothing new.
+    pub contact: Option<ContactBegin>,
+}
+
+/// The first touch of a sphere with a surface.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ContactBegin {
+    /// Name of the sphere.
+    pub sphere: String,
+    /// Name of the surface.
+    pub surface: String,
+    /// Time; the start of the run for what touches at the start.
+    pub time_s: f64,
+    /// Speed of the sphere's centre towards the surface.
+    pub closing_m_s: f64,
+    /// True for what touches at the start.
+    pub at_start: bool,
+}
+
+/// The greatest contact force on a sphere: normal, edge and friction forces of all surfaces together; belts apart.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SpherePeak {
+    /// Name of the sphere.
+    pub sphere: String,
+    /// Greatest force.
+    pub force_n: f64,
+    /// Its time.
+    pub time_s: f64,
+    /// The surface with the greatest normal force then.
+    pub surface: String,
+    /// Greatest contact penetration Δ, whenever it occurred. No deflection of the body: that is rigid.
+    pub penetration_m: f64,
+    /// Its time.
+    pub penetration_time_s: f64,
+}
+
+/// Greatest displacements of the centre of the head sphere from its place at the start, vehicle axes; never negative.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Excursion {
+    /// Along X_v.
+    pub forward_m: f64,
+    /// When.
+    pub forward_time_s: f64,
+    /// Against X_v.
+    pub rearward_m: f64,
+    /// When.
+    pub rearward_time_s: f64,
+    /// Against Y_v.
+    pub left_m: f64,
+    /// When.
+    pub left_time_s: f64,
+    /// Along Y_v.
+    pub right_m: f64,
+    /// When.
+    pub right_time_s: f64,
+    /// Against Z_v.
+    pub up_m: f64,
+    /// When.
+    pub up_time_s: f64,
+    /// Along Z_v.
+    pub down_m: f64,
+    /// When.
+    pub down_time_s: f64,
+}
+
+/// Whether the energies add up.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct EnergyCheck {
+    /// Greatest imbalance among the outputs as a fraction of the greatest kinetic energy relative to the vehicle.
+    pub balance_error: f64,
+    /// That kinetic energy.
+    pub greatest_kinetic_j: f64,
+}
+
+/// Work of the integrator.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Solver {
+    /// Which one.
+    pub integrator: &'static str,
+    /// Accepted steps.
+    pub steps: u64,
+    /// Steps tried and rejected.
+    pub rejected: u64,
+    /// Evaluations of the derivative.
+    pub evaluations: u64,
+    /// Outputs recorded.
+    pub outputs: usize,
+    /// Time taken, given from outside; absent where nobody measured it.
+    pub wall_time_s: Option<f64>,
+}
+
+#[cfg(test)]
+mod tests;

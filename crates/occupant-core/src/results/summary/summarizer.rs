@@ -1,0 +1,326 @@
+//! The recorder that makes a [`Summary`].
+
+use nalgebra::{Point3, Vector3};
+
+use super::{
+    Acceleration, Accelerations, BeltPeak, ContactBegin, EnergyCheck, Excursion, FirstContact, Level, Peak, RunStatus,
+    Solver, SpherePeak, Summary,
+};
+use crate::body::Segment;
+use crate::model::Model;
+use crate::model::setup::{Integrator, STANDARD_GRAVITY_M_S2, TimeSpan};
+use crate::results::recorder::{Flow, Recorder, RecorderError};
+use crate::results::sample::Sample;
+use crate::results::outcome::{FirstTouch, Outcome, Status};
+use crash_measures::injury::{self, Signals, assess};
+use crash_measures::measure::{ThreeMs, three_ms_contiguous, three_ms_cumulative};
+
+/// Segments whose accelerations are summarised: head, chest, pelvis.
+const MEASURED: [Segment; 3] = [Segment::Head, Segment::UpperTorso, Segment::LowerTorso];
+/// Spheres whose first contacts are summarised.
+const STRUCK: [&str; 4] = ["head", "chest", "left_knee", "right_knee"];
+
+/// Collects a [`Summary`]. Allocates at the start of a run and at its end, never between.
+#[derive(Clone, Debug, Default)]
+pub struct Summarizer {
+    names: Names,
+    integrator: &'static str,
+    time: Option<TimeSpan>,
+    head: Option<usize>,
+    outputs: usize,
+    /// Time of the first output seen: the start, unless the run was resumed and its beginning is not at hand.
+    first_s: Option<f64>,
+    /// Resultants at the regular output times, by [`MEASURED`], m/s².
+    resultants_m_s2: [Vec<f64>; 3],
+    accelerations: [Option<Peak>; 3],
+    belts: Vec<BeltTrack>,
+    spheres: Vec<SphereTrack>,
+    signals: Signals,
+    head_start: Option<Point3<f64>>,
+    /// Greatest displacements along +X, +Y, +Z, −X, −Y, −Z.
+    excursion: [Option<Peak>; 6],
+    outcome: Option<Outcome>,
+}
+
+#[derive(Clone, Debug, Default)]
+struct Names {
+    title: String,
+    belts: Vec<String>,
+    spheres: Vec<String>,
+    surfaces: Vec<String>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct BeltTrack {
+    loop_force: Peak,
+    elongation: Peak,
+    body_force: Peak,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct SphereTrack {
+    force: Peak,
+    penetration: Peak,
+    surface: usize,
+}
+
+impl Summarizer {
+    /// Nothing seen yet.
+    pub fn new() -> Self {
+        Summarizer::default()
+    }
+
+    /// The summary of the run that has ended; `None` before its end. `wall_time_s` is what the caller's clock says.
+    pub fn summary(&self, wall_time_s: Option<f64>) -> Option<Summary> {
+        let (outcome, time) = (self.outcome.as_ref()?, self.time?);
+        let [head, chest, pelvis] = std::array::from_fn(|i| self.acceleration(i, &time));
+        let contacts = self.contacts(outcome, time.start_s);
+        let (status, reason) = ending(&outcome.status);
+        Some(Summary {
+            title: self.names.title.clone(),
+            status,
+            reason,
+            start_s: time.start_s,
+            reached_s: outcome.time_s,
+            end_s: time.end_s,
+            accelerations: Accelerations { head, chest, pelvis },
+            belts: self.belts(),
+            first_contacts: self.first_contacts(&contacts),
+            contacts,
+            sphere_forces: self.sphere_forces(),
+            head_excursion: self.excursion(),
+            measures: assess(&self.signals, &injury::Options::default()),
+            energy: EnergyCheck {
+                balance_error: outcome.balance_error,
+                greatest_kinetic_j: outcome.greatest_kinetic_j,
+            },
+            solver: Solver {
+                integrator: self.integrator,
+                steps: outcome.effort.steps,
+                rejected: outcome.effort.rejected,
+                evaluations: outcome.effort.evaluations,
+                outputs: self.outputs,
+                wall_time_s,
+            },
+        })
+    }
+
+    /// Room for outputs.
+    #[cfg(test)]
+    pub(super) fn room(&self) -> [usize; 3] {
+        std::array::from_fn(|i| self.resultants_m_s2[i].capacity())
+    }
+
+    fn acceleration(&self, i: usize, time: &TimeSpan) -> Acceleration {
+        let peak = self.accelerations[i].unwrap_or(Peak { value: 0.0, time_s: time.start_s });
+        let first_s = self.first_s.unwrap_or(time.start_s);
+        let level = |found: ThreeMs| Level {
+            level_m_s2: found.level_mps2,
+            level_g: in_g(found.level_mps2),
+            from_s: first_s + found.start_s,
+            to_s: first_s + found.end_s,
+        };
+        let values = &self.resultants_m_s2[i];
+        let contiguous = three_ms_contiguous(values, time.output_s);
+        let cumulative = three_ms_cumulative(values, time.output_s);
+        Acceleration {
+            peak_m_s2: peak.value,
+            peak_g: in_g(peak.value),
+            peak_time_s: peak.time_s,
+            three_ms_contiguous: contiguous.ok().map(level),
+            three_ms_cumulative: cumulative.ok().map(level),
+        }
+    }
+
+    fn belts(&self) -> Vec<BeltPeak> {
+        let named = self.names.belts.iter().zip(&self.belts);
+        named
+            .map(|(belt, track)| BeltPeak {
+                belt: belt.clone(),
+                loop_force_n: track.loop_force.value.max(0.0),
+                time_s: (track.loop_force.value > 0.0).then_some(track.loop_force.time_s),
+                elongation_m: track.elongation.value,
+                body_force_n: track.body_force.value.max(0.0),
+            })
+            .collect()
+    }
+
+    fn contacts(&self, outcome: &Outcome, start_s: f64) -> Vec<ContactBegin> {
+        let contact = |t: &FirstTouch| ContactBegin {
+            sphere: self.names.spheres[t.sphere].clone(),
+            surface: self.names.surfaces[t.surface].clone(),
+            time_s: t.time_s,
+            closing_m_s: t.closing_m_s,
+            at_start: t.time_s <= start_s,
+        };
+        outcome.first_touches.iter().map(contact).collect()
+    }
+
+    fn first_contacts(&self, contacts: &[ContactBegin]) -> Vec<FirstContact> {
+        let present = STRUCK.iter().filter(|name| self.names.spheres.iter().any(|s| s == *name));
+        let first = |name: &&str| FirstContact {
+            sphere: (*name).to_owned(),
+            contact: contacts.iter().find(|c| c.sphere == *name && !c.at_start).cloned(),
+        };
+        present.map(first).collect()
+    }
+
+    fn sphere_forces(&self) -> Vec<SpherePeak> {
+        let named = self.names.spheres.iter().zip(&self.spheres);
+        named
+            .filter(|(_, track)| track.force.value > 0.0)
+            .map(|(sphere, track)| SpherePeak {
+                sphere: sphere.clone(),
+                force_n: track.force.value,
+                time_s: track.force.time_s,
+                surface: self.names.surfaces[track.surface].clone(),
+                penetration_m: track.penetration.value.max(0.0),
+                penetration_time_s: track.penetration.time_s,
+            })
+            .collect()
+    }
+
+    fn excursion(&self) -> Option<Excursion> {
+        let [x, y, z, back, left, up] = self.excursion;
+        let (forward, rearward, right) = (x?, back?, y?);
+        let (left, down, up) = (left?, z?, up?);
+        Some(Excursion {
+            forward_m: forward.value,
+            forward_time_s: forward.time_s,
+            rearward_m: rearward.value,
+            rearward_time_s: rearward.time_s,
+            left_m: left.value,
+            left_time_s: left.time_s,
+            right_m: right.value,
+            right_time_s: right.time_s,
+            up_m: up.value,
+            up_time_s: up.time_s,
+            down_m: down.value,
+            down_time_s: down.time_s,
+        })
+    }
+
+    fn see_accelerations(&mut self, sample: &Sample<'_>) {
+        let t = sample.time_s;
+        // the last output may come before its regular time; the 3 ms levels need equal intervals
+        let regular = self.time.is_some_and(|time| {
+            let due_s = time.start_s + sample.index as f64 * time.output_s;
+            (t - due_s).abs() <= 1e-6 * time.output_s
+        });
+        for (i, segment) in MEASURED.into_iter().enumerate() {
+            let resultant_m_s2 = sample.specific_force_m_s2(segment).norm();
+            self.accelerations[i].get_or_insert(Peak::NONE).see(resultant_m_s2, t);
+            if regular {
+                self.resultants_m_s2[i].push(resultant_m_s2);
+            }
+        }
+    }
+
+    fn see_contacts(&mut self, sample: &Sample<'_>) {
+        // touches come sphere by sphere or frame by frame: add up first, then compare
+        for (sphere, track) in self.spheres.iter_mut().enumerate() {
+            if !sample.touches.iter().any(|t| t.sphere == sphere) {
+                continue;
+            }
+            let mut sum_n = Vector3::zeros();
+            let mut hardest = Peak::NONE;
+            let mut surface = 0;
+            for contact in sample.contacts().filter(|c| c.sphere == sphere) {
+                sum_n += contact.force_n;
+                track.penetration.see(contact.depth_m, sample.time_s);
+                if hardest.see(contact.normal_force_n, sample.time_s) {
+                    surface = contact.surface;
+                }
+            }
+            if track.force.see(sum_n.norm(), sample.time_s) {
+                track.surface = surface;
+            }
+        }
+    }
+
+    fn see_belts(&mut self, sample: &Sample<'_>) {
+        for (track, action) in self.belts.iter_mut().zip(sample.belts) {
+            let t = sample.time_s;
+            track.loop_force.see(action.loop_force, t);
+            track.elongation.see(action.elongation, t);
+            track.body_force.see(action.force.norm_squared().sqrt(), t);
+        }
+    }
+
+    fn see_head(&mut self, sample: &Sample<'_>) {
+        let Some(head) = self.head else {
+            return;
+        };
+        let place = sample.sphere_centre_m(head);
+        let moved = place - *self.head_start.get_or_insert(place);
+        let ways = [moved.x, moved.y, moved.z, -moved.x, -moved.y, -moved.z];
+        for (peak, way) in self.excursion.iter_mut().zip(ways) {
+            peak.get_or_insert(Peak::NONE).see(way, sample.time_s);
+        }
+    }
+}
+
+impl Recorder for Summarizer {
+    fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
+        let setup = model.setup();
+        let outputs = model.output_count();
+        let names = Names {
+            title: setup.title.clone(),
+            belts: setup.belts.iter().map(|b| b.name.clone()).collect(),
+            spheres: setup.body.spheres.iter().map(|s| s.name.clone()).collect(),
+            surfaces: setup.surfaces.iter().map(|s| s.name.clone()).collect(),
+        };
+        let belt = BeltTrack { loop_force: Peak::NONE, elongation: Peak::NONE, body_force: Peak::NONE };
+        let sphere = SphereTrack { force: Peak::NONE, penetration: Peak::NONE, surface: 0 };
+        *self = Summarizer {
+            signals: begun(model)?,
+            integrator: match setup.integrator {
+                Integrator::Rk4 { .. } => "rk4",
+                Integrator::Adaptive { .. } => "adaptive",
+            },
+            time: Some(setup.time),
+            head: setup.body.sphere("head"),
+            resultants_m_s2: std::array::from_fn(|_| Vec::with_capacity(outputs)),
+            belts: vec![belt; names.belts.len()],
+            spheres: vec![sphere; names.spheres.len()],
+            names,
+            ..Summarizer::default()
+        };
+        Ok(())
+    }
+
+    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        self.outputs += 1;
+        self.first_s.get_or_insert(sample.time_s);
+        self.see_accelerations(sample);
+        self.see_contacts(sample);
+        self.see_belts(sample);
+        self.see_head(sample);
+        self.signals.record(sample)?;
+        Ok(Flow::Continue)
+    }
+
+    fn end(&mut self, outcome: &Outcome) -> Result<(), RecorderError> {
+        self.outcome = Some(outcome.clone());
+        Ok(())
+    }
+}
+
+fn ending(status: &Status) -> (RunStatus, Option<String>) {
+    match status {
+        Status::Completed => (RunStatus::Completed, None),
+        Status::Stopped => (RunStatus::Interrupted, Some("stopped before its end time".to_owned())),
+        Status::Failed(error) => (RunStatus::Failed, Some(error.to_string())),
+    }
+}
+
+/// Instruments with room for a whole run.
+fn begun(model: &Model) -> Result<Signals, RecorderError> {
+    let mut signals = Signals::new();
+    signals.begin(model)?;
+    Ok(signals)
+}
+
+fn in_g(acceleration_m_s2: f64) -> f64 {
+    acceleration_m_s2 / STANDARD_GRAVITY_M_S2
+}

@@ -1,0 +1,202 @@
+use super::*;
+use crate::body::Segment;
+use crate::diagnosis::tests::{lowest_m, model_of};
+use crate::model::Model;
+use crate::results::recorder::{Flow, Recorder, RecorderError};
+use crate::results::sample::Sample;
+use crate::run::simulate::simulate;
+
+fn falling(floor: &str, end_s: f64) -> Model {
+    let q: Vec<String> = (0..31).map(|i| format!("{:.2}", 0.3 + 0.07 * f64::from(i))).collect();
+    let rates = ["0.0"; 31].join(", ");
+    model_of(&format!(
+        "title = \"fall\"\ntime = {{ end = {end_s} }}\npath = {{ kind = \"fixed\" }}\nbody = {{ preset = \"male50\" }}\n\
+         joints = {{ preset = \"male50\" }}\ninitial_state = {{ q = [{}], rates = [{rates}] }}\n{floor}",
+        q.join(", ")
+    ))
+}
+
+/// A floor in space 5 cm below the lowest sphere.
+fn floor() -> String {
+    format!(
+        "[materials]\nfloor = {{ k1 = \"50 kN/m\", mu1 = 0.5, friction = 0.5 }}\n[surfaces.floor]\n\
+         material = \"floor\"\nframe = \"space\"\nfacing = \"order\"\n\
+         plane = {{ point = [0, 0, {}], normal = [0, 0, 1] }}\n",
+        lowest_m() - 0.05
+    )
+}
+
+fn summary_of(model: &Model) -> Summary {
+    let mut summarizer = Summarizer::new();
+    assert_eq!(summarizer.summary(None), None);
+    simulate(model, &mut summarizer).unwrap();
+    summarizer.summary(None).unwrap()
+}
+
+#[test]
+fn a_free_fall_feels_nothing_and_goes_half_g_t_squared() {
+    let s = summary_of(&falling("", 0.1));
+    assert_eq!(s.status, RunStatus::Completed);
+    assert_eq!((s.reached_s, s.solver.outputs), (0.1, 101));
+    let e = s.head_excursion.unwrap();
+    // measured: 1.4e-16 m
+    assert!((e.down_m - 0.5 * 9.80665 * 0.01).abs() < 1e-12, "{}", e.down_m);
+    assert_eq!(e.down_time_s, 0.1);
+    assert_eq!(e.up_m, 0.0);
+    assert!(e.forward_m < 1e-12 && e.left_m < 1e-12);
+    for a in [s.accelerations.head, s.accelerations.chest, s.accelerations.pelvis] {
+        // measured: 0 exactly, for the body falls as one
+        assert!(a.peak_m_s2 < 1e-9 && a.three_ms_contiguous.unwrap().level_m_s2 < 1e-9);
+    }
+    assert!(s.contacts.is_empty() && s.sphere_forces.is_empty() && s.belts.is_empty());
+    assert_eq!(s.first_contacts.len(), 4);
+    assert!(s.first_contacts.iter().all(|f| f.contact.is_none()));
+    // measured: 1.7e-14
+    assert!(s.energy.balance_error < 1e-12);
+}
+
+/// Keeps every head reading and every sphere force, the plain way.
+#[derive(Default)]
+struct Everything {
+    head: Vec<(f64, f64)>,
+    forces: Vec<(usize, f64, f64)>,
+}
+
+impl Recorder for Everything {
+    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        let reading = sample.specific_force_m_s2(Segment::Head);
+        self.head.push((sample.time_s, reading.norm()));
+        for sphere in 0..sample.model.body().spheres.len() {
+            let force = sample.sphere_force_n(sphere).norm();
+            self.forces.push((sphere, sample.time_s, force));
+        }
+        Ok(Flow::Continue)
+    }
+}
+
+#[test]
+fn peaks_are_those_of_the_whole_record() {
+    let model = falling(&floor(), 0.25);
+    let (mut summarizer, mut all) = (Summarizer::new(), Everything::default());
+    let outcome = simulate(&model, (&mut summarizer, &mut all)).unwrap();
+    let s = summarizer.summary(Some(1.5)).unwrap();
+    assert_eq!(s.solver.wall_time_s, Some(1.5));
+
+    let greatest = all.head.iter().copied().fold((0.0, 0.0), |best, next| if next.1 > best.1 { next } else { best });
+    let head = s.accelerations.head;
+    assert_eq!((head.peak_time_s, head.peak_m_s2), greatest);
+    assert_eq!(head.peak_g, head.peak_m_s2 / 9.80665);
+    // held longer than an instant means lower than the peak, and in total at least as high as in one piece
+    let (held, total) = (head.three_ms_contiguous.unwrap(), head.three_ms_cumulative.unwrap());
+    assert!(held.level_m_s2 <= total.level_m_s2 && total.level_m_s2 < head.peak_m_s2);
+    assert!(held.to_s - held.from_s >= 0.003 - 1e-9);
+
+    assert!(!s.sphere_forces.is_empty());
+    for peak in &s.sphere_forces {
+        let index = model.body().sphere(&peak.sphere).unwrap();
+        let own = all.forces.iter().filter(|f| f.0 == index);
+        let most = own.map(|f| f.2).fold(0.0, f64::max);
+        assert!((peak.force_n - most).abs() <= 1e-12 * most, "{peak:?} against {most}");
+        assert_eq!(peak.surface, "floor");
+    }
+    assert_eq!(s.contacts.len(), outcome.first_touches.len());
+    assert!(s.contacts.iter().all(|c| !c.at_start && c.closing_m_s > 0.0));
+    for first in s.first_contacts.iter().filter_map(|f| f.contact.as_ref()) {
+        let earliest = s.contacts.iter().filter(|c| c.sphere == first.sphere);
+        let earliest = earliest.map(|c| c.time_s).fold(f64::INFINITY, f64::min);
+        assert_eq!(first.time_s, earliest);
+    }
+}
+
+#[test]
+fn the_same_run_gives_the_same_summary_and_a_summarizer_can_be_used_again() {
+    let model = falling(&floor(), 0.2);
+    let mut summarizer = Summarizer::new();
+    simulate(&falling("", 0.05), &mut summarizer).unwrap();
+    simulate(&model, &mut summarizer).unwrap();
+    assert_eq!(summarizer.summary(None).unwrap(), summary_of(&model));
+}
+
+/// Stops at an output.
+struct StopAt(usize);
+
+impl Recorder for StopAt {
+    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        match sample.index >= self.0 {
+            true => Ok(Flow::Stop),
+            false => Ok(Flow::Continue),
+        }
+    }
+}
+
+#[test]
+fn an_interrupted_run_says_so() {
+    let model = falling("", 0.1);
+    let mut summarizer = Summarizer::new();
+    simulate(&model, (StopAt(40), &mut summarizer)).unwrap();
+    let s = summarizer.summary(None).unwrap();
+    assert_eq!(s.status, RunStatus::Interrupted);
+    assert!((s.reached_s - 0.04).abs() < 1e-15);
+    assert_eq!((s.end_s, s.solver.outputs), (0.1, 41));
+    assert!(s.reason.is_some());
+}
+
+#[test]
+fn a_last_output_between_two_regular_times_does_not_bend_the_levels() {
+    // the last interval is half as long as the others
+    let model = falling(&floor(), 0.2035);
+    let s = summary_of(&model);
+    assert_eq!(s.solver.outputs, model.output_count());
+    assert_eq!(s.reached_s, 0.2035);
+    let whole = summary_of(&falling(&floor(), 0.203));
+    assert_eq!(s.accelerations.head.three_ms_contiguous, whole.accelerations.head.three_ms_contiguous);
+}
+
+#[test]
+fn nothing_grows_between_the_first_output_and_the_last() {
+    let model = falling(&floor(), 0.25);
+    let mut summarizer = Summarizer::new();
+    summarizer.begin(&model).unwrap();
+    let before = summarizer.room();
+    simulate(&model, &mut summarizer).unwrap();
+    assert_eq!(summarizer.room(), before);
+}
+
+#[test]
+fn it_is_json_with_units_in_its_names() {
+    let json = serde_json::to_value(summary_of(&falling(&floor(), 0.2))).unwrap();
+    assert_eq!(json["status"], "completed");
+    assert!(json["accelerations"]["head"]["peak_g"].is_f64());
+    assert!(json["contacts"][0]["closing_m_s"].is_f64());
+    assert!(json["solver"]["wall_time_s"].is_null());
+}
+
+#[test]
+fn the_list_of_figures_holds_the_summary_under_the_same_names_for_every_run() {
+    let (free, floored) = (falling("", 0.02), falling(&floor(), 0.2));
+    let (touched_nothing, fell) = (summary_of(&free), summary_of(&floored));
+    let figures = fell.figures(&floored);
+    let names = |figures: &[Figure]| figures.iter().map(|f| f.name.clone()).collect::<Vec<_>>();
+    assert_eq!(names(&touched_nothing.figures(&free)), names(&figures));
+    let mut unique = names(&figures);
+    unique.sort();
+    unique.dedup();
+    assert_eq!(unique.len(), figures.len());
+    assert!(figures.iter().all(|f| !f.name.contains(char::is_whitespace) && !f.unit.is_empty()));
+
+    let value = |name: &str| figures.iter().find(|f| f.name == name).unwrap().value;
+    assert_eq!(value("head.peak"), Some(fell.accelerations.head.peak_m_s2));
+    let level = fell.accelerations.chest.three_ms_cumulative.unwrap();
+    assert_eq!(value("chest.three_ms_cumulative"), Some(level.level_m_s2));
+    let down = fell.head_excursion.unwrap();
+    assert_eq!(value("head_excursion.down"), Some(down.down_m));
+    assert_eq!(value("solver.evaluations"), Some(fell.solver.evaluations as f64));
+    // every force of the summary stands in the list; a sphere that touched nothing has none
+    assert!(!fell.sphere_forces.is_empty());
+    for sphere in &floored.body().spheres {
+        let peak = fell.sphere_forces.iter().find(|p| p.sphere == sphere.name);
+        let name = format!("contacts.{}.peak", sphere.name);
+        assert_eq!(value(&name), Some(peak.map_or(0.0, |p| p.force_n)), "{name}");
+        assert_eq!(value(&format!("{name}_time")), peak.map(|p| p.time_s));
+    }
+}

@@ -1,0 +1,51 @@
+//! The runs side by side in lanes of an array, which every processor has.
+
+use super::*;
+use crate::motion::lanes::Plain;
+use crate::results::recorder::Watch;
+use crate::results::sample::Sample;
+use crate::run::simulate::simulate;
+use crate::scenario::{Format, Scenario};
+
+fn model(mph: f64) -> Model {
+    let text = include_str!("../../../../scenarios/cart-lap.toml");
+    let speed = format!("speed = \"{mph} mph\"");
+    let text = text.replace("speed = \"20 mph\"", &speed);
+    assert!(text.contains(&speed));
+    let none = |name: &str| Err(format!("no file beside the text: {name}"));
+    let loaded = Scenario::from_text(&text, Format::Toml, "cart", &none).unwrap();
+    let (mut setup, _) = loaded.build().unwrap();
+    setup.time.end_s = 0.05 + 1e-3 * mph;
+    Model::new(setup).unwrap()
+}
+
+/// A recorder that keeps every output as text, which shows every bit.
+fn keep(texts: &mut Vec<String>) -> impl Recorder + use<'_> {
+    Watch(|s: &Sample<'_>| texts.push(format!("{:?} {:?}", s.checkpoint(), s.evaluation)))
+}
+
+#[test]
+fn carts_in_an_array_of_lanes_have_the_bits_of_each_alone() {
+    let models: Vec<Model> = [12.0, 16.0, 20.0, 24.0, 28.0].map(model).into();
+    let mut texts = vec![Vec::new(); models.len()];
+    let jobs = models.iter().zip(&mut texts).map(|(model, texts)| Job {
+        tag: model.setup().time.end_s,
+        model: model.clone(),
+        recorder: keep(texts),
+    });
+    let mut outcomes = Vec::new();
+    let flow = Group::<Plain<3>, _, _>::new(Kernel::Lanes4).run_all(jobs, &mut |ended| {
+        outcomes.push((ended.tag, ended.outcome.unwrap()));
+        ControlFlow::Continue(())
+    });
+    assert!(flow.is_continue());
+    assert_eq!(outcomes.len(), models.len());
+    for (model, found) in models.iter().zip(&texts) {
+        let mut expected = Vec::new();
+        let outcome = simulate(model, keep(&mut expected)).unwrap();
+        assert!(*found == expected);
+        assert!(outcome.first_touches.len() > 5);
+        let end_s = model.setup().time.end_s;
+        assert!(outcomes.contains(&(end_s, outcome)));
+    }
+}

@@ -1,0 +1,96 @@
+//! What a run watches in evaluations: the details of an output, and which sphere has touched which surface.
+
+use crate::forces::Observer;
+use crate::forces::belt::law::BeltAction;
+use crate::forces::contact::Touch;
+use crate::model::Model;
+use crate::results::outcome::FirstTouch;
+
+/// Collects the details of one evaluation.
+pub(crate) struct Touches {
+    pub pairs: Vec<Touch<f64>>,
+    pub belts: Vec<BeltAction<f64>>,
+}
+
+impl Touches {
+    pub fn clear(&mut self) {
+        self.pairs.clear();
+        self.belts.clear();
+    }
+}
+
+impl Observer<f64> for Touches {
+    fn touch(&mut self, touch: &Touch<f64>) {
+        self.pairs.push(*touch);
+    }
+    fn belt(&mut self, _index: usize, action: &BeltAction<f64>) {
+        self.belts.push(*action);
+    }
+}
+
+/// A sphere against a part of a face, as first touches tell it.
+#[derive(Clone, Copy)]
+pub(crate) struct Meeting {
+    pub sphere: usize,
+    pub pair: usize,
+    /// Which of the pair's parts.
+    pub part: usize,
+    pub closing_m_s: f64,
+}
+
+impl From<&Touch<f64>> for Meeting {
+    #[inline(always)]
+    fn from(touch: &Touch<f64>) -> Self {
+        Meeting { sphere: touch.sphere, pair: touch.pair, part: touch.part as usize, closing_m_s: touch.closing }
+    }
+}
+
+/// Remembers which sphere has touched which surface.
+pub(crate) struct Seen {
+    surfaces: usize,
+    /// By sphere and surface.
+    known: Vec<bool>,
+    pub touches: Vec<FirstTouch>,
+}
+
+impl Seen {
+    pub fn new(model: &Model) -> Self {
+        let surfaces = model.faces().len();
+        let combinations = model.body().spheres.len() * surfaces;
+        Seen { surfaces, known: vec![false; combinations], touches: Vec::with_capacity(combinations) }
+    }
+
+    /// Takes over what an earlier part of the run has seen; all of it is of the model.
+    pub fn know(&mut self, touches: &[FirstTouch]) {
+        for touch in touches {
+            self.known[touch.sphere * self.surfaces + touch.surface] = true;
+        }
+        self.touches.extend_from_slice(touches);
+    }
+
+    /// Notes a touch of `model`, the one that this was made for.
+    #[inline]
+    pub fn note(&mut self, model: &Model, time_s: f64, meeting: Meeting) {
+        let pair = &model.system().contacts.pairs()[meeting.pair];
+        let (sphere, surface) = (meeting.sphere, pair.parts[meeting.part].surface);
+        let known = &mut self.known[sphere * self.surfaces + surface];
+        if !*known {
+            *known = true;
+            self.touches.push(FirstTouch { sphere, surface, time_s, closing_m_s: meeting.closing_m_s });
+        }
+    }
+}
+
+/// Watches the first evaluation of a step.
+pub(crate) struct SeenAt<'s> {
+    pub model: &'s Model,
+    pub seen: &'s mut Seen,
+    pub time_s: f64,
+}
+
+impl Observer<f64> for SeenAt<'_> {
+    #[inline(always)]
+    fn touch(&mut self, touch: &Touch<f64>) {
+        self.seen.note(self.model, self.time_s, touch.into());
+    }
+}

@@ -1,0 +1,59 @@
+//! A run from start to end: steps, exact output times, first touches.
+
+use crate::model::Model;
+use crate::results::checkpoint::Checkpoint;
+use crate::results::outcome::{Outcome, RecordingFailed, ResumeError, Status};
+use crate::results::recorder::{Flow, Recorder};
+use crate::run::Run;
+
+/// Runs `model` from its start to its end time.
+///
+/// A step that fails is an [`Outcome`] of [`Status::Failed`]: what was recorded before stands.
+///
+/// # Errors
+/// What the recorder reports.
+pub fn simulate(model: &Model, mut recorder: impl Recorder) -> Result<Outcome, RecordingFailed> {
+    go(model, Run::new(model), &mut recorder)
+}
+
+/// Runs `model` from one of its outputs to its end time. The first output recorded is that of the checkpoint; all outputs
+/// and the outcome are, to the bit, those of a run from the start, whose end time may have been another.
+///
+/// # Errors
+/// A checkpoint that does not fit the model; what the recorder reports.
+pub fn resume(model: &Model, checkpoint: &Checkpoint, mut recorder: impl Recorder) -> Result<Outcome, ResumeError> {
+    let run = Run::from_checkpoint(model, checkpoint).map_err(ResumeError::Refused)?;
+    go(model, run, &mut recorder).map_err(ResumeError::Recording)
+}
+
+/// Records the output of a checkpoint once more, to the bit, without a step. The recorder neither begins nor ends here.
+///
+/// # Errors
+/// A checkpoint that does not fit the model; what the recorder reports.
+pub fn replay(model: &Model, checkpoint: &Checkpoint, recorder: &mut impl Recorder) -> Result<(), ResumeError> {
+    let mut run = Run::from_checkpoint(model, checkpoint).map_err(ResumeError::Refused)?;
+    let recorded = run.record(model, recorder);
+    recorded.map(|_| ()).map_err(ResumeError::Recording)
+}
+
+/// A whole run, from the present output of `run` on.
+fn go(model: &Model, mut run: Run, recorder: &mut impl Recorder) -> Result<Outcome, RecordingFailed> {
+    run.begin(model, recorder)?;
+    let status = go_on(model, &mut run, recorder)?;
+    run.end(status, recorder)
+}
+
+/// From the present output of `run`, the next to be recorded, to the end.
+pub(crate) fn go_on(model: &Model, run: &mut Run, recorder: &mut impl Recorder) -> Result<Status, RecordingFailed> {
+    loop {
+        if run.record(model, recorder)? == Flow::Stop {
+            return Ok(Status::Stopped);
+        }
+        let Some(target_s) = run.next_output_s(model) else {
+            return Ok(Status::Completed);
+        };
+        if let Err(error) = run.advance_to(model, target_s) {
+            return Ok(Status::Failed(error));
+        }
+    }
+}

@@ -1,0 +1,158 @@
+//! Where the vehicle is and how it moves (report, "The Path of the Vehicle in Space", Eqs 78 to 83).
+//!
+//! The occupant feels the vehicle only through the places and velocities of its surfaces and belt anchors, so the path
+//! is prescribed: the occupant never pushes the vehicle. A [`VehiclePath`] is built once, checked while it is
+//! built, and then asked at every stage of every integration step for a [`FrameMotion`] in space axes.
+//!
+//! - [`TablePath`]: stations in time, read linearly ([`Interpolation::Linear`], the report's way) or by natural cubic
+//!   splines (ours);
+//! - [`PulsePath`]: straight travel with fixed attitude, slowed by a deceleration pulse that is integrated in closed form
+//!   (ours);
+//! - [`SensorPath`]: recorded accelerations and turning rates, or velocity changes, integrated (ours);
+//! - [`FixedPath`]: a frame at rest, such as a vehicle in a free fall test (ours).
+//!
+//! Input is in the report's vehicle-space axes X′_v forward, Y′_v right, Z′_v down, with roll, pitch and yaw; output is in
+//! space axes X′ forward, Y′ left, Z′ up. F = diag(1, −1, −1) leads from one to the other (Eq. 81).
+//!
+//! Departures from the report, all ours: velocities come from differentiating the interpolant; the path is evaluated at
+//! the integrator's stage times where the report moves the vehicle once a step; a linear table keeps the velocity of
+//! the interval that contains the middle of the step.
+
+mod attitude;
+mod cursor;
+mod fixed;
+mod frame;
+mod problem;
+mod pulse;
+pub mod risk;
+mod sensors;
+mod spline;
+mod station;
+mod table;
+
+use nalgebra::Vector3;
+
+pub use attitude::Attitude;
+pub use cursor::PathCursor;
+pub use fixed::FixedPath;
+pub use frame::FrameMotion;
+pub use problem::PathProblem;
+pub use pulse::{DecelerationPoint, PulseDefinition, PulsePath, PulseShape, Stop, Strength, TravelDirection};
+pub use sensors::{AccelerationRecord, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord};
+pub use station::{Station, unwrap_angles};
+pub use table::{AfterEnd, Interpolation, TablePath};
+
+/// Where the vehicle is, told as the input tells it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VehiclePose {
+    /// The vehicle's c.g. in vehicle-space axes (X′_v forward, Y′_v right, Z′_v down), m.
+    pub position_m: Vector3<f64>,
+    /// Roll, pitch and yaw.
+    pub attitude: Attitude,
+}
+
+impl Default for VehiclePose {
+    /// At the origin, level, heading forward.
+    fn default() -> Self {
+        VehiclePose { position_m: Vector3::zeros(), attitude: Attitude::default() }
+    }
+}
+
+/// The prescribed path of a moving frame. Immutable; checked when its kind was built.
+#[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum VehiclePath {
+    /// Stations in time.
+    Table(TablePath),
+    /// Straight travel slowed by a pulse.
+    Pulse(PulsePath),
+    /// Recorded motion.
+    Sensors(Box<SensorPath>),
+    /// At rest.
+    Fixed(FixedPath),
+}
+
+/// A run may miss the ends of a table by this fraction of its length, so that times that were added up step by step
+/// are not refused for their last digit. The motion coasts there.
+const TIME_SLACK: f64 = 1e-9;
+
+impl VehiclePath {
+    /// Pose and motion at `t_s`, in space axes.
+    ///
+    /// `step_middle_s` is the middle of the present integration step; it decides which interval of a linear table gives the
+    /// velocities, and whether a held table already stands still. For output at an instant give `t_s` itself. The
+    /// answer depends on the two times alone, never on `cursor`. Outside the path's span (see
+    /// [`VehiclePath::check_span`]) the vehicle coasts.
+    pub fn motion(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> FrameMotion {
+        match self {
+            VehiclePath::Table(table) => table.motion(t_s, step_middle_s, cursor),
+            VehiclePath::Pulse(pulse) => pulse.motion(t_s, cursor),
+            VehiclePath::Sensors(sensors) => sensors.motion(t_s, step_middle_s, cursor),
+            VehiclePath::Fixed(fixed) => fixed.motion(),
+        }
+    }
+
+    /// Position in vehicle-space axes and roll, pitch, yaw at `t_s`, for output.
+    pub fn attitude(&self, t_s: f64, cursor: &mut PathCursor) -> VehiclePose {
+        match self {
+            VehiclePath::Table(table) => table.pose(t_s, cursor),
+            VehiclePath::Pulse(pulse) => pulse.pose(t_s, cursor),
+            VehiclePath::Sensors(sensors) => sensors.pose(t_s, cursor),
+            VehiclePath::Fixed(fixed) => fixed.pose(),
+        }
+    }
+
+    /// Whether a run from `start_s` to `end_s` has a vehicle all along.
+    ///
+    /// # Errors
+    /// Times that are not finite; a start before the first station of a table or sample of a record; an end past its
+    /// last one unless the path says what comes after.
+    pub fn check_span(&self, start_s: f64, end_s: f64) -> Result<(), PathProblem> {
+        for (quantity, value) in [("start of the run", start_s), ("end of the run", end_s)] {
+            if !value.is_finite() {
+                return Err(PathProblem::NotFinite { quantity, value });
+            }
+        }
+        match self {
+            VehiclePath::Table(table) => table.check_span(start_s, end_s),
+            VehiclePath::Sensors(sensors) => sensors.check_span(start_s, end_s),
+            VehiclePath::Pulse(_) | VehiclePath::Fixed(_) => Ok(()),
+        }
+    }
+
+    /// Times from and up to which the path is given by data, s; infinite for pulses and frames at rest.
+    pub fn span_s(&self) -> (f64, f64) {
+        match self {
+            VehiclePath::Table(table) => table.span_s(),
+            VehiclePath::Sensors(sensors) => sensors.span_s(),
+            VehiclePath::Pulse(_) | VehiclePath::Fixed(_) => (f64::NEG_INFINITY, f64::INFINITY),
+        }
+    }
+
+    /// Times at which velocity or acceleration jump, s, in increasing order: an integrator that lets its steps end there
+    /// keeps its order.
+    pub fn breaks_s(&self) -> Vec<f64> {
+        match self {
+            VehiclePath::Table(table) => table.breaks_s(),
+            VehiclePath::Pulse(pulse) => pulse.breaks_s(),
+            VehiclePath::Sensors(sensors) => sensors.breaks_s(),
+            VehiclePath::Fixed(_) => Vec::new(),
+        }
+    }
+}
+
+/// Adds a problem for every number of `pose` that is not finite.
+fn expect_finite_pose(problems: &mut Vec<PathProblem>, pose: &VehiclePose) {
+    let names = ["position x", "position y", "position z", "roll", "pitch", "yaw"];
+    let angles = pose.attitude.to_vector();
+    for (quantity, value) in names.into_iter().zip(pose.position_m.iter().chain(&angles)) {
+        problem::expect_finite(problems, quantity, *value);
+    }
+}
+
+#[cfg(test)]
+#[path = "tests/support.rs"]
+mod support;
+#[cfg(test)]
+#[path = "tests/path.rs"]
+mod tests;

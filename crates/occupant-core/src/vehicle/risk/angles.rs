@@ -1,0 +1,77 @@
+//! Largest roll, pitch and yaw.
+
+use nalgebra::Vector3;
+
+use super::VehicleSignals;
+use super::missing::{Measured, Missing};
+use crate::vehicle::{
+    AccelerationRecord, AfterEnd, PathCursor, SensorDefinition, SensorGravity, SensorPath, SensorRecord,
+    TravelDirection, VehiclePose,
+};
+use crash_measures::measure::{Peak, largest_magnitude};
+use crash_measures::signal::integrate;
+
+/// Largest roll, pitch and yaw.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Angles {
+    /// Roll, pitch, yaw of largest magnitude, rad. Yaw counts from the heading at the start.
+    pub largest: [Measured<Peak>; 3],
+    /// True if all three rates were there, so that the angles are roll, pitch and yaw of the attitude; otherwise each is
+    /// the integral of its own rate.
+    pub of_attitude: bool,
+}
+
+impl Angles {
+    /// The angles that the rates allow.
+    pub(super) fn of(signals: &VehicleSignals) -> Self {
+        let of_attitude = signals.rate_rad_s.iter().all(Option::is_some);
+        let histories = match of_attitude {
+            true => match attitudes(signals) {
+                Ok(histories) => histories.map(Ok),
+                Err(missing) => [(); 3].map(|()| Err(missing.clone())),
+            },
+            false => [0, 1, 2].map(|axis| alone(signals, axis)),
+        };
+        Angles { largest: histories.map(|angle| Ok(largest_magnitude(&angle?, signals.dt_s)?)), of_attitude }
+    }
+}
+
+/// Roll, pitch and yaw of the attitude that the three rates lead to.
+fn attitudes(signals: &VehicleSignals) -> Measured<[Vec<f64>; 3]> {
+    let time_s: Vec<f64> = (0..signals.samples()).map(|i| i as f64 * signals.dt_s).collect();
+    let path = SensorPath::new(SensorDefinition {
+        record: SensorRecord::Accelerations(AccelerationRecord {
+            time_s: time_s.clone(),
+            acceleration_m_s2: [const { None }; 3],
+            rate_rad_s: signals.rate_rad_s.clone(),
+        }),
+        initial: VehiclePose { attitude: signals.initial, ..VehiclePose::default() },
+        initial_speed_m_s: 0.0,
+        direction: TravelDirection::Heading,
+        offset_m: Vector3::zeros(),
+        gravity: SensorGravity::Removed,
+        gravity_m_s2: 0.0,
+        filter: None,
+        baseline_s: None,
+        starts_at_s: None,
+        after: AfterEnd::Error,
+    })
+    .map_err(|problems| {
+        let first = problems.first().map(ToString::to_string);
+        Missing::Turning(first.unwrap_or_default())
+    })?;
+    let mut cursor = PathCursor::default();
+    let attitudes: Vec<_> = time_s.iter().map(|&t| path.pose(t, &mut cursor).attitude).collect();
+    let heading_rad = signals.initial.yaw_rad;
+    Ok([
+        attitudes.iter().map(|a| a.roll_rad).collect(),
+        attitudes.iter().map(|a| a.pitch_rad).collect(),
+        attitudes.iter().map(|a| a.yaw_rad - heading_rad).collect(),
+    ])
+}
+
+/// The integral of one rate, from the angle at the start.
+fn alone(signals: &VehicleSignals, axis: usize) -> Measured<Vec<f64>> {
+    let start = [signals.initial.roll_rad, signals.initial.pitch_rad, 0.0];
+    Ok(integrate(signals.rate(axis)?, signals.dt_s, start[axis])?)
+}

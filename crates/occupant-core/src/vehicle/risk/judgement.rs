@@ -1,0 +1,67 @@
+//! Measures against the limits of rules.
+
+use super::VehicleRisk;
+use crash_measures::measure::limits::{Grade, LIMITS, Limit, Quantity, Rule, Verdict};
+
+/// The rules that judge a vehicle's motion.
+pub const ROADSIDE_RULES: [Rule; 5] =
+    [Rule::Mash2016, Rule::Mash2016Supports, Rule::Nchrp350, Rule::En1317Edition1998, Rule::En1317Edition2010];
+
+/// A measure against a limit.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Judgement {
+    /// The limit.
+    pub limit: &'static Limit,
+    /// The measure's name.
+    pub measure: &'static str,
+    /// Its value, SI, as a magnitude; none if it was left out.
+    pub value: Option<f64>,
+    /// The verdict, if there is a value.
+    pub verdict: Option<Verdict>,
+}
+
+impl Judgement {
+    /// Whether the rule is broken: a maximum, or the last severity class, is exceeded.
+    pub fn breaks_the_rule(&self) -> bool {
+        let last = matches!(self.limit.grade, Grade::Maximum | Grade::ClassC);
+        last && self.verdict.is_some_and(|verdict| !verdict.passed)
+    }
+}
+
+/// Every limit of `rules`, in the order of the rules, with what it says of `risk`.
+pub fn judge(risk: &VehicleRisk, rules: &[Rule]) -> Vec<Judgement> {
+    let mut judgements = Vec::new();
+    for rule in rules {
+        for limit in LIMITS.iter().filter(|limit| limit.rule == *rule) {
+            for (measure, value) in values(risk, limit) {
+                let value = value.map(f64::abs);
+                judgements.push(Judgement { limit, measure, value, verdict: value.map(|value| limit.judge(value)) });
+            }
+        }
+    }
+    judgements
+}
+
+/// The measures that a limit speaks of.
+fn values(risk: &VehicleRisk, limit: &Limit) -> Vec<(&'static str, Option<f64>)> {
+    let flail = risk.flail.as_ref().ok();
+    let thiv = risk.thiv.as_ref().ok();
+    match limit.quantity {
+        Quantity::OccupantImpactVelocity => {
+            vec![("OIV x", flail.map(|f| f.oiv_x_mps)), ("OIV y", flail.map(|f| f.oiv_y_mps))]
+        }
+        Quantity::RidedownAcceleration => vec![
+            ("ORA x", flail.and_then(|f| Some(f.ora_x?.value))),
+            ("ORA y", flail.and_then(|f| Some(f.ora_y?.value))),
+        ],
+        Quantity::Thiv => vec![("THIV", thiv.map(|t| t.speed_mps))],
+        Quantity::Phd => vec![("PHD", thiv.and_then(|t| Some(t.phd?.value)))],
+        Quantity::Asi => match limit.rule {
+            Rule::En1317Edition1998 => {
+                vec![("ASI (1998)", risk.asi_1998.as_ref().ok().map(|p| p.value))]
+            }
+            _ => vec![("ASI (2010)", risk.asi_2010.as_ref().ok().map(|p| p.value))],
+        },
+        _ => Vec::new(),
+    }
+}

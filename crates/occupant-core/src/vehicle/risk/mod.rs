@@ -1,0 +1,157 @@
+//! Occupant risk from the vehicle's motion alone: what roadside safety tests are judged by.
+//!
+//! ```text
+//! record ─ prepare ─┐
+//!                   ├─ VehicleSignals ─ VehicleRisk ─ judge against the limits of rules
+//! path  ─ sampled ──┘
+//! ```
+//!
+//! Axes are those of SAE J211 and J670: x forward, y right, z down. A measure whose channels are not there is left out with
+//! its reason, never computed from zeros. The formulas are those of [`crash_measures::measure`].
+
+mod angles;
+mod judgement;
+mod missing;
+mod prepare;
+mod sampled;
+
+use crate::vehicle::Attitude;
+pub use angles::Angles;
+use crash_measures::measure::{
+    Asi, AsiEdition, FlailDistances, FlailSpace, HeadFlight, Olc, Peak, Thiv, asi, flail_space, max_50ms_average, olc,
+    thiv,
+};
+use crash_measures::signal::{CumulativeIntegral, WindowExtreme};
+pub use judgement::{Judgement, ROADSIDE_RULES, judge};
+pub use missing::{Measured, Missing};
+pub use prepare::{Preparation, Unprepared, VerticalGravity, prepare};
+pub use sampled::sampled;
+
+/// Names of the axes.
+pub const AXES: [&str; 3] = ["x", "y", "z"];
+
+/// Accelerations of the c.g. and turning rates along the vehicle's axes, evenly sampled, filtered, from first contact on.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VehicleSignals {
+    /// Time of the first sample, s; times of measures count from it.
+    pub start_s: f64,
+    /// Sample interval, s.
+    pub dt_s: f64,
+    /// Along x, y, z, m/s²; gravity is not in them.
+    pub acceleration_m_s2: [Option<Vec<f64>>; 3],
+    /// About x, y, z, rad/s.
+    pub rate_rad_s: [Option<Vec<f64>>; 3],
+    /// Attitude at the first sample.
+    pub initial: Attitude,
+}
+
+impl VehicleSignals {
+    /// Number of samples.
+    pub fn samples(&self) -> usize {
+        let channels = self.acceleration_m_s2.iter().chain(&self.rate_rad_s);
+        channels.flatten().map(Vec::len).max().unwrap_or(0)
+    }
+
+    /// Time of the last sample, s.
+    pub fn end_s(&self) -> f64 {
+        self.start_s + self.samples().saturating_sub(1) as f64 * self.dt_s
+    }
+
+    fn acceleration(&self, axis: usize) -> Result<&[f64], Missing> {
+        let channel = self.acceleration_m_s2[axis].as_deref();
+        channel.ok_or_else(|| Missing::channels(&[["ax", "ay", "az"][axis]]))
+    }
+
+    fn rate(&self, axis: usize) -> Result<&[f64], Missing> {
+        let channel = self.rate_rad_s[axis].as_deref();
+        channel.ok_or_else(|| Missing::channels(&[["wx", "wy", "wz"][axis]]))
+    }
+}
+
+/// Where the occupant starts and how far it may fly.
+#[derive(Clone, Copy, Debug, PartialEq, Default)]
+pub struct Flight {
+    /// Distances of the flail-space model.
+    pub distances: FlailDistances,
+    /// Head of THIV.
+    pub head: HeadFlight,
+}
+
+/// Change of velocity along an axis of the vehicle, which turns with it: ∫a dt.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct VelocityChange {
+    /// At the end of the record, m/s.
+    pub final_m_s: f64,
+    /// The largest in magnitude, m/s, with its time.
+    pub largest: Peak,
+}
+
+/// Everything that is computed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct VehicleRisk {
+    /// Occupant impact velocity and ridedown acceleration.
+    pub flail: Measured<FlailSpace>,
+    /// THIV and PHD.
+    pub thiv: Measured<Thiv>,
+    /// ASI of EN 1317-1:1998.
+    pub asi_1998: Measured<Peak>,
+    /// ASI of EN 1317-1:2010.
+    pub asi_2010: Measured<Peak>,
+    /// Largest 50 ms averages along x, y, z, m/s².
+    pub max_50ms: [Measured<WindowExtreme>; 3],
+    /// Velocity changes along x, y, z.
+    pub velocity_change: [Measured<VelocityChange>; 3],
+    /// Largest roll, pitch and yaw.
+    pub angles: Angles,
+    /// Occupant load criterion of the longitudinal acceleration.
+    pub olc: Measured<Olc>,
+}
+
+impl VehicleRisk {
+    /// Computes what the channels allow.
+    pub fn of(signals: &VehicleSignals, flight: &Flight) -> Self {
+        VehicleRisk {
+            flail: flail(signals, flight),
+            thiv: head_impact(signals, flight),
+            asi_1998: severity(signals, AsiEdition::Edition1998),
+            asi_2010: severity(signals, AsiEdition::Edition2010),
+            max_50ms: [0, 1, 2].map(|axis| {
+                let a = signals.acceleration(axis)?;
+                Ok(max_50ms_average(a, signals.dt_s)?)
+            }),
+            velocity_change: [0, 1, 2].map(|axis| velocity_change(signals, axis)),
+            angles: Angles::of(signals),
+            olc: signals.acceleration(0).and_then(|a| Ok(olc(a, signals.dt_s)?)),
+        }
+    }
+}
+
+fn flail(signals: &VehicleSignals, flight: &Flight) -> Measured<FlailSpace> {
+    let (ax, ay) = missing::both(signals.acceleration(0), signals.acceleration(1))?;
+    Ok(flail_space(ax, ay, signals.dt_s, flight.distances)?)
+}
+
+fn head_impact(signals: &VehicleSignals, flight: &Flight) -> Measured<Thiv> {
+    let planar = missing::both(signals.acceleration(0), signals.acceleration(1));
+    let ((ax, ay), yaw_rate) = missing::both(planar, signals.rate(2))?;
+    Ok(thiv(ax, ay, yaw_rate, signals.dt_s, flight.head)?)
+}
+
+fn severity(signals: &VehicleSignals, edition: AsiEdition) -> Measured<Peak> {
+    let planar = missing::both(signals.acceleration(0), signals.acceleration(1));
+    let ((ax, ay), az) = missing::both(planar, signals.acceleration(2))?;
+    let Asi { peak, .. } = asi(ax, ay, az, signals.dt_s, edition)?;
+    Ok(peak)
+}
+
+fn velocity_change(signals: &VehicleSignals, axis: usize) -> Measured<VelocityChange> {
+    let integral = CumulativeIntegral::new(signals.acceleration(axis)?, signals.dt_s)?;
+    let velocity = integral.at_samples();
+    Ok(VelocityChange {
+        final_m_s: velocity[velocity.len() - 1],
+        largest: crash_measures::measure::largest_magnitude(velocity, signals.dt_s)?,
+    })
+}
+
+#[cfg(test)]
+mod tests;

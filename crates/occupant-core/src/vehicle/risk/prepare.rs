@@ -1,0 +1,200 @@
+//! From a record to signals of the c.g.: even samples, filter, place of the sensors, gravity, first contact.
+
+use std::fmt;
+
+use nalgebra::Vector3;
+
+use super::VehicleSignals;
+use crate::vehicle::{AccelerationRecord, Attitude};
+use crash_measures::signal::{
+    CfcFamily, ChannelClass, Interpolant, Interpolation, STANDARD_GRAVITY_MPS2, SignalError, filter_cfc,
+    uniform_interval,
+};
+
+/// Gravity in the vertical channel.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum VerticalGravity {
+    /// The sensors were zeroed at rest, or gravity was taken out: a level vehicle at rest reads 0.
+    #[default]
+    Removed,
+    /// A level vehicle at rest reads −1 g on z (down): 1 g is added to the channel. It does not turn with the vehicle.
+    Included,
+}
+
+/// What is done with a record before anything is measured.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Preparation {
+    /// Low-pass for all channels; none leaves them as they are.
+    pub filter: Option<(ChannelClass, CfcFamily)>,
+    /// New sample interval, s, by straight lines; the record's own if none.
+    pub interval_s: Option<f64>,
+    /// Where the sensors stand, from the c.g., x forward, y right, z down, m.
+    pub offset_m: [f64; 3],
+    /// Gravity in az.
+    pub gravity: VerticalGravity,
+    /// Time of first contact, s; the first sample if none.
+    pub start_s: Option<f64>,
+    /// Time up to which the record is looked at, s; its last sample if none.
+    pub end_s: Option<f64>,
+}
+
+/// Why a record cannot be used.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Unprepared {
+    /// It has no channel.
+    NoChannel,
+    /// A channel, or the times ("t"), are wrong.
+    Channel {
+        /// Which.
+        name: &'static str,
+        /// In what way.
+        error: SignalError,
+    },
+    /// Sensors away from the c.g. need rates that are not there.
+    OffsetNeedsRates {
+        /// Which.
+        missing: Vec<&'static str>,
+    },
+    /// First contact and end do not lie in the record, in this order.
+    Window {
+        /// First contact, s.
+        start_s: f64,
+        /// End, s.
+        end_s: f64,
+        /// First sample, s.
+        first_s: f64,
+        /// Last sample, s.
+        last_s: f64,
+    },
+}
+
+impl fmt::Display for Unprepared {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Unprepared::NoChannel => f.write_str("there is no acceleration and no rate"),
+            Unprepared::Channel { name, error } => write!(f, "{name}: {error}"),
+            Unprepared::OffsetNeedsRates { missing } => write!(
+                f,
+                "sensors away from the centre of gravity need all three rates, and {} {} not there",
+                missing.join(", "),
+                if missing.len() == 1 { "is" } else { "are" }
+            ),
+            Unprepared::Window { start_s, end_s, first_s, last_s } => write!(
+                f,
+                "the window from {start_s} s to {end_s} s does not lie in the record, which goes from {first_s} s to \
+                 {last_s} s"
+            ),
+        }
+    }
+}
+
+impl std::error::Error for Unprepared {}
+
+/// The six channels of a record, ax, ay, az, wx, wy, wz, evenly sampled.
+struct Channels {
+    first_s: f64,
+    dt_s: f64,
+    samples: [Option<Vec<f64>>; 6],
+}
+
+const NAMES: [&str; 6] = ["ax", "ay", "az", "wx", "wy", "wz"];
+
+/// Signals of the c.g. from a record.
+///
+/// # Errors
+/// No channel; times that are not even, unless an interval is given; samples too coarse for the filter; an offset without the
+/// rates that it needs; a window outside the record.
+pub fn prepare(record: &AccelerationRecord, preparation: &Preparation) -> Result<VehicleSignals, Unprepared> {
+    let mut channels = even(record, preparation.interval_s)?;
+    if let Some((class, family)) = preparation.filter {
+        for (name, channel) in NAMES.into_iter().zip(&mut channels.samples) {
+            if let Some(samples) = channel {
+                *samples = filter_cfc(samples, channels.dt_s, class, family)
+                    .map_err(|error| Unprepared::Channel { name, error })?;
+            }
+        }
+    }
+    if preparation.offset_m != [0.0; 3] {
+        move_to_centre(&mut channels, Vector3::from(preparation.offset_m))?;
+    }
+    if let (VerticalGravity::Included, Some(az)) = (preparation.gravity, &mut channels.samples[2]) {
+        az.iter_mut().for_each(|a| *a += STANDARD_GRAVITY_MPS2);
+    }
+    window(channels, preparation)
+}
+
+/// The channels, evenly sampled.
+fn even(record: &AccelerationRecord, interval_s: Option<f64>) -> Result<Channels, Unprepared> {
+    let of_time = |error| Unprepared::Channel { name: "t", error };
+    let mut all = record.acceleration_m_s2.iter().chain(&record.rate_rad_s);
+    let given: [Option<&Vec<f64>>; 6] = std::array::from_fn(|_| all.next().and_then(Option::as_ref));
+    if given.iter().all(Option::is_none) {
+        return Err(Unprepared::NoChannel);
+    }
+    let dt_s = match interval_s {
+        Some(interval_s) => interval_s,
+        None => uniform_interval(&record.time_s).map_err(of_time)?,
+    };
+    let mut samples: [Option<Vec<f64>>; 6] = [const { None }; 6];
+    for (i, channel) in given.into_iter().enumerate() {
+        let Some(values) = channel else { continue };
+        // the interpolant also checks lengths and numbers
+        let through = Interpolant::new(&record.time_s, values, Interpolation::Linear);
+        let even = through.and_then(|through| match interval_s {
+            Some(interval_s) => through.resample(interval_s),
+            None => Ok(values.clone()),
+        });
+        let name = NAMES[i];
+        samples[i] = Some(even.map_err(|error| Unprepared::Channel { name, error })?);
+    }
+    let first_s = record.time_s.first().copied().unwrap_or(0.0);
+    Ok(Channels { first_s, dt_s, samples })
+}
+
+/// a_cg = a_s − ω̇ × r − ω × (ω × r), with ω̇ from central differences of the filtered rates.
+fn move_to_centre(channels: &mut Channels, arm_m: Vector3<f64>) -> Result<(), Unprepared> {
+    let [ax, ay, az, wx, wy, wz] = &mut channels.samples;
+    let (Some(wx), Some(wy), Some(wz)) = (wx, wy, wz) else {
+        let missing = (3..6).filter(|&i| channels.samples[i].is_none());
+        return Err(Unprepared::OffsetNeedsRates { missing: missing.map(|i| NAMES[i]).collect() });
+    };
+    let omega = |i: usize| Vector3::new(wx[i], wy[i], wz[i]);
+    let count = wx.len();
+    for i in 0..count {
+        let (before, after) = (i.saturating_sub(1), (i + 1).min(count - 1));
+        let alpha = (omega(after) - omega(before)) / ((after - before) as f64 * channels.dt_s);
+        let lever = alpha.cross(&arm_m) + omega(i).cross(&omega(i).cross(&arm_m));
+        for (axis, channel) in [&mut *ax, &mut *ay, &mut *az].into_iter().enumerate() {
+            if let Some(samples) = channel {
+                samples[i] -= lever[axis];
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The part from first contact to the end; it starts at the first sample that is not before first contact.
+fn window(channels: Channels, preparation: &Preparation) -> Result<VehicleSignals, Unprepared> {
+    let Channels { first_s, dt_s, samples } = channels;
+    let count = samples.iter().flatten().map(Vec::len).max().unwrap_or(0);
+    let last_s = first_s + count.saturating_sub(1) as f64 * dt_s;
+    let start_s = preparation.start_s.unwrap_or(first_s);
+    let end_s = preparation.end_s.unwrap_or(last_s);
+    // a thousandth of an interval forgives times written with few digits
+    let from = ((start_s - first_s) / dt_s - 1e-3).ceil().max(0.0);
+    let to = ((end_s - first_s) / dt_s + 1e-3).floor();
+    let slack_s = 1e-3 * dt_s;
+    let inside = start_s >= first_s - slack_s && end_s <= last_s + slack_s;
+    if !(inside && to > from && to < count as f64) {
+        return Err(Unprepared::Window { start_s, end_s, first_s, last_s });
+    }
+    let (from, to) = (from as usize, to as usize);
+    let [ax, ay, az, wx, wy, wz] = samples.map(|channel| channel.map(|samples| samples[from..=to].to_vec()));
+    Ok(VehicleSignals {
+        start_s: first_s + from as f64 * dt_s,
+        dt_s,
+        acceleration_m_s2: [ax, ay, az],
+        rate_rad_s: [wx, wy, wz],
+        initial: Attitude::default(),
+    })
+}

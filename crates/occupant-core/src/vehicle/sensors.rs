@@ -1,0 +1,227 @@
+//! A vehicle path from what sensors in the vehicle recorded: accelerations and turning rates along the vehicle's axes
+//! (strapdown integration), or the velocity change of an event data recorder. All of it is ours; the report knows
+//! only tables.
+//!
+//! The sensors stand at r from the c.g. Their own motion is integrated, and the c.g. follows from it without
+//! any derivative of the rates:
+//!
+//! ```text
+//! X_cg = X_s − A r,   v_cg = v_s − ω × A r,   a_cg = a_s − ω̇ × A r − ω × (ω × A r)
+//! ```
+//!
+//! Between samples the rates are straight lines, and so are recorded accelerations; [`strapdown`] says how they are
+//! integrated.
+
+mod delta_v;
+mod readings;
+mod record;
+mod strapdown;
+
+use nalgebra::Vector3;
+
+use super::attitude::Attitude;
+use super::cursor::PathCursor;
+use super::frame::{FrameMotion, rotation_to_space, to_space};
+use super::problem::{PathProblem, expect_finite};
+use super::pulse::unit;
+use super::{AfterEnd, TIME_SLACK, TravelDirection, VehiclePose, expect_finite_pose};
+use crash_measures::signal::ChannelClass;
+pub use record::{AccelerationRecord, DeltaVRecord, SensorRecord};
+use strapdown::{Piece, Start, integrate};
+
+/// What gravity does in recorded accelerations. Sensors feel specific force: at rest they read g upwards.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SensorGravity {
+    /// Specific force as felt: a level vehicle at rest reads −g on its z axis (down).
+    Included,
+    /// The reading at rest in the initial attitude was taken away from each channel, once and for all, as when sensors
+    /// are zeroed before a test.
+    Zeroed,
+    /// Accelerations of the sensor's place: gravity was taken away at every instant.
+    Removed,
+}
+
+/// What the user says of a record and of the vehicle at its start.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SensorDefinition {
+    /// The record.
+    pub record: SensorRecord,
+    /// Pose of the vehicle when the path starts.
+    pub initial: VehiclePose,
+    /// Speed of the c.g. when the path starts, m/s, zero or more.
+    pub initial_speed_m_s: f64,
+    /// Direction of that speed.
+    pub direction: TravelDirection,
+    /// Where the sensors stand, from the c.g., in vehicle axes (x forward, y right, z down), m.
+    pub offset_m: Vector3<f64>,
+    /// Gravity in the accelerations; a velocity change has none.
+    pub gravity: SensorGravity,
+    /// g where the record was made, m/s².
+    pub gravity_m_s2: f64,
+    /// Low-pass for all channels before they are integrated.
+    pub filter: Option<ChannelClass>,
+    /// Length of the rest at the beginning of the record whose mean gives the sensors' zero errors, s.
+    pub baseline_s: Option<f64>,
+    /// Time of the record at which the path starts and pose and speed hold, s; the first sample if none.
+    pub starts_at_s: Option<f64>,
+    /// What the vehicle does after the last sample.
+    pub after: AfterEnd,
+}
+
+/// A vehicle path from recorded motion, integrated and ready to be asked.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SensorPath {
+    definition: SensorDefinition,
+    pieces: Vec<Piece>,
+    end_s: f64,
+    /// Motion at the start and at the end, from which it coasts.
+    ends: [FrameMotion; 2],
+    /// Roll, pitch and yaw at the end, and their rates in the last interval.
+    last_attitude: Attitude,
+    last_rates_rad_s: Vector3<f64>,
+}
+
+impl SensorPath {
+    /// Integrates the record of `definition`.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the definition at once: a record without a channel, with too few samples, with
+    /// times that do not increase, numbers that are not finite, samples too far apart for the turning or for the
+    /// filter; a start or a baseline outside the record; a direction without length.
+    pub fn new(definition: SensorDefinition) -> Result<Self, Vec<PathProblem>> {
+        let mut problems = Vec::new();
+        let direction = check_start(&definition, &mut problems);
+        let readings = match readings::read(&definition) {
+            Ok(readings) if problems.is_empty() => readings,
+            Ok(_) => return Err(problems),
+            Err(more) => return Err([problems, more].concat()),
+        };
+        let (pieces, last_attitude) = integrate(
+            &readings,
+            &Start {
+                pose: definition.initial,
+                velocity_m_s: direction * definition.initial_speed_m_s,
+                offset_m: definition.offset_m,
+                gravity: definition.gravity,
+                gravity_m_s2: definition.gravity_m_s2,
+            },
+        )?;
+        let (first, last) = (&pieces[0], &pieces[pieces.len() - 1]);
+        let end_s = readings.time_s[readings.time_s.len() - 1];
+        let rise = last_attitude.to_vector() - last.attitude.to_vector();
+        let offset_m = definition.offset_m;
+        let ends = [(first, first.start_s), (last, end_s)].map(|(piece, t_s)| motion_of(piece, offset_m, t_s));
+        let last_rates_rad_s = rise / (end_s - last.start_s);
+        Ok(SensorPath { definition, pieces, end_s, ends, last_attitude, last_rates_rad_s })
+    }
+
+    /// What the path was built from.
+    pub fn definition(&self) -> &SensorDefinition {
+        &self.definition
+    }
+
+    /// Times of the first and the last sample that the path uses, s.
+    pub fn span_s(&self) -> (f64, f64) {
+        (self.pieces[0].start_s, self.end_s)
+    }
+
+    /// Pose and motion at `t_s`, in space axes.
+    ///
+    /// Outside the record the vehicle coasts, or stands still if the path says so; it stands still in the steps whose
+    /// middle, `step_middle_s`, is past the last sample.
+    pub fn motion(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> FrameMotion {
+        let (first_s, last_s) = self.span_s();
+        let holds = self.definition.after == AfterEnd::Hold;
+        let motion = if t_s < first_s {
+            self.ends[0].coasted(t_s - first_s)
+        } else if t_s <= last_s {
+            motion_of(self.piece_at(t_s, cursor), self.definition.offset_m, t_s)
+        } else if holds {
+            self.ends[1]
+        } else {
+            self.ends[1].coasted(t_s - last_s)
+        };
+        if holds && step_middle_s > last_s { motion.held() } else { motion }
+    }
+
+    /// Place and attitude at `t_s`, for output.
+    pub fn pose(&self, t_s: f64, cursor: &mut PathCursor) -> VehiclePose {
+        let (first_s, last_s) = self.span_s();
+        let motion = self.motion(t_s, t_s, cursor);
+        let near = if t_s < first_s {
+            self.pieces[0].attitude
+        } else if t_s <= last_s {
+            self.piece_at(t_s, cursor).attitude
+        } else {
+            let run_on = self.last_rates_rad_s * (t_s - last_s);
+            Attitude::from_vector(self.last_attitude.to_vector() + run_on)
+        };
+        VehiclePose {
+            position_m: to_space(motion.origin_m),
+            attitude: Attitude::from_matrix(&rotation_to_space(motion.rotation), &near),
+        }
+    }
+
+    /// Whether the path has an answer from `start_s` to `end_s`.
+    ///
+    /// # Errors
+    /// A run that starts before the first sample, or ends past the last one without saying what comes after.
+    pub fn check_span(&self, start_s: f64, end_s: f64) -> Result<(), PathProblem> {
+        let (first_s, last_s) = self.span_s();
+        let slack_s = TIME_SLACK * (last_s - first_s);
+        if start_s < first_s - slack_s {
+            Err(PathProblem::StartsBeforePath { start_s, first_s })
+        } else if end_s > last_s + slack_s && self.definition.after == AfterEnd::Error {
+            Err(PathProblem::EndsAfterPath { end_s, last_s })
+        } else {
+            Ok(())
+        }
+    }
+
+    /// The ends of the record, s. Between them velocity and angular velocity have no jump.
+    pub fn breaks_s(&self) -> Vec<f64> {
+        vec![self.pieces[0].start_s, self.end_s]
+    }
+
+    fn piece_at(&self, t_s: f64, cursor: &mut PathCursor) -> &Piece {
+        &self.pieces[cursor.locate(self.pieces.len(), t_s, |piece| self.pieces[piece].start_s)]
+    }
+}
+
+/// Checks all of the definition but its record; the direction of travel in vehicle-space axes.
+fn check_start(definition: &SensorDefinition, problems: &mut Vec<PathProblem>) -> Vector3<f64> {
+    expect_finite_pose(problems, &definition.initial);
+    let names = ["offset x", "offset y", "offset z"];
+    for (quantity, value) in names.into_iter().zip(definition.offset_m.iter()) {
+        expect_finite(problems, quantity, *value);
+    }
+    for (quantity, value) in [("speed", definition.initial_speed_m_s), ("gravity", definition.gravity_m_s2)] {
+        expect_finite(problems, quantity, value);
+        if value < 0.0 {
+            problems.push(PathProblem::Negative { quantity, value });
+        }
+    }
+    match definition.direction {
+        TravelDirection::Heading => definition.initial.attitude.matrix().column(0).into_owned(),
+        TravelDirection::Along(vector) => unit(vector, problems),
+    }
+}
+
+/// Motion of the c.g. at `t_s`, in space axes, from that of sensors at `offset_m`.
+fn motion_of(piece: &Piece, offset_m: Vector3<f64>, t_s: f64) -> FrameMotion {
+    let sensor = piece.at(t_s);
+    let arm_m = sensor.rotation * offset_m;
+    let (omega, alpha) = (sensor.angular_velocity_rad_s, sensor.angular_acceleration_rad_s2);
+    FrameMotion {
+        origin_m: to_space(sensor.place_m - arm_m),
+        rotation: rotation_to_space(sensor.rotation),
+        velocity_m_s: to_space(sensor.velocity_m_s - omega.cross(&arm_m)),
+        angular_velocity_rad_s: to_space(omega),
+        acceleration_m_s2: to_space(sensor.acceleration_m_s2 - alpha.cross(&arm_m) - omega.cross(&omega.cross(&arm_m))),
+        angular_acceleration_rad_s2: to_space(alpha),
+    }
+}
+
+#[cfg(test)]
+#[path = "tests/sensors.rs"]
+mod tests;
