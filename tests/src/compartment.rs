@@ -7,6 +7,7 @@ use crate::{
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
 use occupant_core::forces::History;
 use occupant_core::forces::contact::ContactSystem;
+use occupant_core::forces::contact::EdgeForce;
 use occupant_core::forces::contact::OPEN;
 use occupant_core::forces::contact::PairHistory;
 use occupant_core::forces::contact::flat_face::FlatFace;
@@ -19,7 +20,6 @@ use occupant_core::forces::material::BilinearSpring;
 use occupant_core::forces::material::Material;
 use occupant_core::forces::material::Memory;
 use occupant_core::kernel;
-use occupant_core::forces::contact::EdgeForce;
 use occupant_core::motion::frame::Frames;
 use occupant_core::motion::frame::Moving;
 use occupant_core::motion::skeleton::Skeleton;

@@ -2,12 +2,14 @@
 
 use nalgebra::{Point3, Vector3};
 use occupant_core::body::{ContactSphere, Segment};
+use occupant_core::forces::contact::EdgeForce;
 use occupant_core::forces::contact::Touch;
 use occupant_core::forces::contact::surface::Surface;
 use occupant_core::forces::material::Material;
-use occupant_core::kernel::{Frames, History, Observer};
+use occupant_core::forces::{History, Observer};
 use occupant_core::model::Model;
-use occupant_core::model::setup::{EdgeForce, Setup};
+use occupant_core::model::setup::Setup;
+use occupant_core::motion::frame::Frames;
 use occupant_core::motion::state::State;
 use occupant_core::motion::vector::V3;
 use occupant_core::vehicle::PathCursor;

@@ -1,12 +1,13 @@
 //! The three cart cases as their scenarios give them: energy accounts, and the lap case against the one built in code.
 
 use nalgebra::Point3;
+use occupant_core::forces::contact::EdgeForce;
 use occupant_core::model::Model;
-use occupant_core::model::setup::{EdgeForce, Integrator, Setup};
+use occupant_core::model::setup::{Integrator, Setup};
 use occupant_core::results::energy::EnergyLedger;
+use occupant_core::results::outcome::Status;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
-use occupant_core::results::outcome::Status;
 use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Format, Scenario};
 use occupant_tests::cart;

@@ -1,11 +1,12 @@
 //! Bounded faces: edge bands, where the edge force acts, passed pairs.
 
 use nalgebra::Vector3;
+use occupant_core::forces::contact::EdgeForce;
 use occupant_core::forces::contact::surface::Surface;
 use occupant_core::forces::contact::{OPEN, PASSED, TOUCHING};
 use occupant_core::forces::material::Material;
 use occupant_core::model::Model;
-use occupant_core::model::setup::{EdgeForce, Setup};
+use occupant_core::model::setup::Setup;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::simulate;

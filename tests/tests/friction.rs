@@ -1,8 +1,9 @@
 //! Regularised friction: creep below the friction angle, sliding above it, work, and frames that move.
 
 use nalgebra::{Point3, Vector3};
+use occupant_core::forces::contact::EdgeForce;
 use occupant_core::model::Model;
-use occupant_core::model::setup::{EdgeForce, Integrator, Setup};
+use occupant_core::model::setup::{Integrator, Setup};
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::simulate;

@@ -4,9 +4,9 @@ use std::thread;
 
 use occupant_core::model::Model;
 use occupant_core::model::setup::{Integrator, Setup};
+use occupant_core::results::outcome::{Outcome, Status, StepError};
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError, Watch};
 use occupant_core::results::sample::Sample;
-use occupant_core::results::outcome::{Outcome, Status, StepError};
 use occupant_core::run::simulate::simulate;
 use occupant_tests::cart::lap;
 

@@ -8,9 +8,9 @@ use occupant_core::results::checkpoint::Checkpoint;
 use occupant_core::results::recorder::Watch;
 use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Draft, Format};
-use occupant_core::sensitivity::finite::{CHANGES, HOLDS, Verdict, compare, finite_changes};
-use occupant_core::sensitivity::measures::{Wish, derivatives, plain_values};
-use occupant_core::sensitivity::{Built, Parameter, Slope, Trajectory, Trouble, follow, parameter};
+use occupant_study::sensitivity::finite::{CHANGES, HOLDS, Verdict, compare, finite_changes};
+use occupant_study::sensitivity::measures::{Wish, derivatives, plain_values};
+use occupant_study::sensitivity::{Built, Parameter, Slope, Trajectory, Trouble, follow, parameter};
 use occupant_tests::cart::lap;
 use occupant_tests::measure::assert_below;
 

@@ -1,10 +1,10 @@
 //! The bilinear dissipative spring: energy returned, continuity, reloading, memory, and drops on it.
 
 use nalgebra::Vector3;
+use occupant_core::forces::contact::EdgeForce;
 use occupant_core::forces::material::{BilinearSpring, Material, Memory};
 use occupant_core::forces::spring::Spring;
 use occupant_core::model::Model;
-use occupant_core::forces::contact::EdgeForce;
 use occupant_core::results::recorder::Watch;
 use occupant_core::run::simulate::simulate;
 use occupant_tests::cases::{afloat, pillar, plane, smooth, spring, straight};

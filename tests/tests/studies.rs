@@ -4,8 +4,8 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use occupant_core::scenario::Draft;
-use occupant_core::study::{Study, StudyText, Value};
 use occupant_core::vehicle::VehiclePath;
+use occupant_study::{Study, StudyText, Value};
 
 fn folder() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../scenarios/studies")

@@ -83,6 +83,4 @@ pub mod problem;
 pub mod results;
 pub mod run;
 pub mod scenario;
-pub mod sensitivity;
-pub mod study;
 pub mod vehicle;

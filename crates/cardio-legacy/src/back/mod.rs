@@ -11,7 +11,8 @@ mod points;
 
 use std::fmt;
 
-use occupant_core::model::setup::{EdgeForce, Integrator, Setup};
+use occupant_core::forces::contact::EdgeForce;
+use occupant_core::model::setup::{Integrator, Setup};
 use occupant_core::scenario::{Diagnostics as ScenarioDiagnostics, Loaded};
 
 pub use extension::{RunEnd, spine_rest};

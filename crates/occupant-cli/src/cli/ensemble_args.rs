@@ -11,7 +11,7 @@ use occupant_core::scenario::Draft;
 use occupant_core::scenario::kind::UnitSystem;
 use occupant_core::scenario::model::{Angle, Length, Ratio};
 use occupant_core::scenario::unit::UnitError;
-use occupant_core::study::{Study, Tolerances};
+use occupant_study::{Study, Tolerances};
 
 use super::exit::Failure;
 use super::interrupt::Interrupt;

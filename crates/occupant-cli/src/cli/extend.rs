@@ -6,9 +6,9 @@ use cardio_legacy::{
     CompartmentLayout, ConvertOptions, Deck, FromScenario, PathSource, RunEnd, spine_rest, write_file,
 };
 use occupant_core::model::Model;
+use occupant_core::results::outcome::Status;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError, Watch};
 use occupant_core::results::sample::Sample;
-use occupant_core::results::outcome::Status;
 use occupant_core::run::simulate::{replay, simulate};
 use occupant_core::scenario::{Draft, Format};
 

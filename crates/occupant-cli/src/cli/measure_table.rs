@@ -1,8 +1,8 @@
 //! Injury measures as tables.
 
 use crash_measures::injury::{Judgement, Measure};
-use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
 use crash_measures::unit::Unit;
+use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
 
 use super::summary_table::Marks;
 use super::table::Align::{Left, Right};

@@ -2,9 +2,9 @@
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use occupant_core::model::Model;
+use occupant_core::results::outcome::Outcome;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
-use occupant_core::results::outcome::Outcome;
 
 /// A recorder that shows how far the run is.
 #[derive(Debug)]

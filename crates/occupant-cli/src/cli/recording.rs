@@ -4,9 +4,9 @@ use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
 use occupant_core::model::Model;
+use occupant_core::results::outcome::Outcome;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
-use occupant_core::results::outcome::Outcome;
 
 use super::exit::Failure;
 use super::output_file::{Existing, FileProblem, PartialFile, partial_path, refuse_input};

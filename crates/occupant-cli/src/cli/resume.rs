@@ -6,9 +6,9 @@ use std::path::{Path, PathBuf};
 
 use occupant_core::model::Model;
 use occupant_core::results::checkpoint::{Checkpoint, CheckpointError};
+use occupant_core::results::outcome::Outcome;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
-use occupant_core::results::outcome::Outcome;
 use occupant_core::run::simulate::replay;
 use serde::Serialize;
 

@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use occupant_core::diagnosis::{FrictionWatch, UnstableFriction};
 use occupant_core::results::channel::Series;
-use occupant_core::results::summary::{RunStatus, Summarizer, Summary};
 use occupant_core::results::outcome::{ResumeError, Status};
+use occupant_core::results::summary::{RunStatus, Summarizer, Summary};
 use occupant_core::run::simulate::{resume, simulate};
 use occupant_core::scenario::Diagnostics;
 use serde::Serialize;

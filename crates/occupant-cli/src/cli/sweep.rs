@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Subcommand;
 use occupant_core::run::batch::Kernel;
-use occupant_core::study::Keep;
+use occupant_study::Keep;
 
 use super::exit::{Done, Failure};
 use super::interrupt::Interrupt;

@@ -2,7 +2,7 @@
 
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, channels, find, matching};
-use occupant_core::study::spread::Band;
+use occupant_study::spread::Band;
 
 use super::judge::{Tolerance, smallest};
 use crate::cli::exit::Failure;

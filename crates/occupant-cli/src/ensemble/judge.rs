@@ -1,6 +1,6 @@
 //! Which figures of an ensemble may be quoted as one number.
 
-use occupant_core::study::spread::{Rule, Spread, Verdict};
+use occupant_study::spread::{Rule, Spread, Verdict};
 
 /// How far the members may differ.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -15,7 +15,7 @@ use occupant_core::results::channel::{Channel, Series};
 use occupant_core::results::summary::{RunStatus, Summarizer, Summary};
 use occupant_core::run::batch::{Ended, Job, simulate_many};
 use occupant_core::scenario::Diagnostics;
-use occupant_core::study::Study;
+use occupant_study::Study;
 
 use super::judge::is_result;
 use crate::cli::exit::Failure;

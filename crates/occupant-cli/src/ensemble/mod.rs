@@ -4,7 +4,7 @@
 //! study ─ members (threads: member → model → run → figures, histories) ─ judged figures, bands ─ tables, plot
 //! ```
 //!
-//! The changes and the quantiles are the core's (`occupant_core::study`); here are the runs, the tolerances and the words.
+//! The changes and the quantiles are the core's (`occupant_study`); here are the runs, the tolerances and the words.
 
 pub mod band_table;
 pub mod bands;

@@ -1,6 +1,6 @@
 //! What an ensemble came to, as data: the tables on the terminal and the JSON are made of it.
 
-use occupant_core::study::Tolerances;
+use occupant_study::Tolerances;
 use serde::Serialize;
 
 use super::bands::{Bands, ChannelBand};

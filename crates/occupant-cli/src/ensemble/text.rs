@@ -1,8 +1,8 @@
 //! An ensemble in words: what was changed, which figures hold, when the members part.
 
 use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
-use occupant_core::study::Tolerances;
-use occupant_core::study::spread::Verdict;
+use occupant_study::Tolerances;
+use occupant_study::spread::Verdict;
 
 use super::bands::ChannelBand;
 use super::judge::Judged;

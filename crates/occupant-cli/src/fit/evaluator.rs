@@ -14,7 +14,7 @@ use occupant_core::results::channel::Series;
 use occupant_core::results::outcome::Status as RunEnd;
 use occupant_core::run::batch::{Ended, Job as Run, Kernel, simulate_many_with};
 use occupant_core::scenario::Diagnostics;
-use occupant_core::study::search::Stage;
+use occupant_study::search::Stage;
 
 use super::fitting::Fitting;
 use super::progress::Progress;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, Series};
 use occupant_core::scenario::{Diagnostics, Draft, Loaded};
-use occupant_core::study::{FitTest, Misfit, Study};
+use occupant_study::{FitTest, Misfit, Study};
 
 use super::target::{FAMILY, Target};
 use crate::history::{Filter, Histories, Treatment, Untreated, asked, treated};

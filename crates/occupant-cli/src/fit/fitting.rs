@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use occupant_core::results::channel::{Channel, channels, find};
 use occupant_core::scenario::Draft;
-use occupant_core::study::{Bounds, Fit, FitChannel, FitTest, Parameter, Study, StudyText};
+use occupant_study::{Bounds, Fit, FitChannel, FitTest, Parameter, Study, StudyText};
 
 use super::experiment::Experiment;
 use super::target::{Target, filter_of};
@@ -166,7 +166,7 @@ impl Fitting {
     /// Where the search begins: at the base scenario's values where they lie between the bounds, else in the middle.
     pub fn start(&self) -> Vec<f64> {
         let start = |(parameter, bounds): (&Parameter, &Bounds)| match parameter.nominal() {
-            occupant_core::study::Value::Number(x) => {
+            occupant_study::Value::Number(x) => {
                 let u = bounds.part(x);
                 if (0.0..=1.0).contains(&u) { u } else { 0.5 }
             }

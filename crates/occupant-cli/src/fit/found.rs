@@ -1,7 +1,7 @@
 //! What a fit has found, in the form of fit.json. Nothing in it depends on the day, the machine or the number of threads.
 
-use occupant_core::study::ApplyChoice;
-use occupant_core::study::search::Stage;
+use occupant_study::ApplyChoice;
+use occupant_study::search::Stage;
 use serde::Serialize;
 
 use super::evaluator::Record;

@@ -10,7 +10,7 @@ use crate::sweep::parquet_table::ParquetTable;
 use crate::sweep::problem::Problem;
 use crate::sweep::row::{Cell, Row, Status};
 use crate::sweep::table::TableSink;
-use occupant_core::study::search::Stage;
+use occupant_study::search::Stage;
 
 /// Writes both tables.
 ///

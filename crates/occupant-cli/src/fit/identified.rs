@@ -4,11 +4,9 @@ use occupant_core::model::Model;
 use occupant_core::results::channel::Series;
 use occupant_core::results::outcome::Status;
 use occupant_core::run::simulate::simulate;
-use occupant_core::study::Misfit;
-use occupant_core::study::misfit::{likelihood_rise, unrelated_samples};
-use occupant_core::study::search::{
-    Descents, Global, Point, Profiles, Reach, Shape, Stage, descend, profile, refine, scan,
-};
+use occupant_study::Misfit;
+use occupant_study::misfit::{likelihood_rise, unrelated_samples};
+use occupant_study::search::{Descents, Global, Point, Profiles, Reach, Shape, Stage, descend, profile, refine, scan};
 
 use super::evaluator::{Evaluator, Record, WORST};
 use super::experiment::Experiment;

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
-use occupant_core::study::search::Stage;
+use occupant_study::search::Stage;
 
 use super::evaluator::{Record, WORST};
 use crate::cli::speak::say;

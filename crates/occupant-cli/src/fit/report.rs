@@ -1,6 +1,6 @@
 //! What a fit says at its end.
 
-use occupant_core::study::ApplyChoice;
+use occupant_study::ApplyChoice;
 
 use super::fitting::Fitting;
 use super::found::{COMPENSATING, Found, ParameterFound};

@@ -5,7 +5,7 @@
 
 use occupant_core::scenario::path_text::{Step, parse};
 use occupant_core::scenario::{Draft, Format, Scenario};
-use occupant_core::study::Parameter;
+use occupant_study::Parameter;
 use toml_edit::{DocumentMut, InlineTable, Item, Table, TableLike, Value, value};
 
 use super::experiment::{Experiment, opened};
@@ -50,7 +50,7 @@ pub fn numbers(experiment: &Experiment, values: &[f64]) -> Result<Vec<Fitted>, S
         .assignments_of(values)
         .into_iter()
         .map(|assignment| {
-            let occupant_core::study::Value::Number(si) = assignment.value else {
+            let occupant_study::Value::Number(si) = assignment.value else {
                 return Err(format!("`{}` is no number", assignment.path));
             };
             let text = study.base().written(&assignment.path, si, DIGITS);

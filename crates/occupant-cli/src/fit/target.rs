@@ -2,7 +2,7 @@
 
 use crash_measures::signal::{ChannelClass, whole_steps};
 use occupant_core::results::channel::Channel;
-use occupant_core::study::{FilterChoice, Misfit};
+use occupant_study::{FilterChoice, Misfit};
 
 use crate::compare::{RATE_HZ, Track, Window, overlap, sampled};
 use crate::history::{Family, Filter, Histories};

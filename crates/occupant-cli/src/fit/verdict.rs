@@ -1,7 +1,7 @@
 //! How well each parameter is identified, from the ends of its interval.
 
-use occupant_core::study::search::End;
-use occupant_core::study::{Bounds, Value};
+use occupant_study::search::End;
+use occupant_study::{Bounds, Value};
 use serde::Serialize;
 
 use super::evaluator::Record;

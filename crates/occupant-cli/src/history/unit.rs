@@ -3,8 +3,8 @@
 use std::f64::consts::PI;
 
 use clap::ValueEnum;
-use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
 use crash_measures::unit::Unit;
+use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
 use occupant_core::scenario::kind::Dimension;
 
 /// Units asked for.

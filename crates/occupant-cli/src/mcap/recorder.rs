@@ -8,9 +8,9 @@ use mcap::{Attachment, Compression, McapResult, WriteOptions, Writer};
 use occupant_core::body::Segment;
 use occupant_core::body::joint::Joint;
 use occupant_core::model::Model;
+use occupant_core::results::outcome::Outcome;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
-use occupant_core::results::outcome::Outcome;
 
 use super::about::{self, About, Document};
 use super::channel::{Channel, Schemas};

@@ -10,8 +10,8 @@ use occupant_core::motion::state::State;
 use occupant_core::motion::vector::v3;
 use occupant_core::results::checkpoint::{Checkpoint, Progress, StepStart};
 use occupant_core::results::energy::EnergyStart;
-use occupant_core::results::sample::Effort;
 use occupant_core::results::outcome::FirstTouch;
+use occupant_core::results::sample::Effort;
 use prost::Message as _;
 
 use super::about::{RESULT, RUN};

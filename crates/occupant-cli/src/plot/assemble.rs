@@ -2,7 +2,8 @@
 
 use std::str::FromStr;
 
-use occupant_core::results::channel::{Channel, Unit};
+use crash_measures::unit::Unit;
+use occupant_core::results::channel::Channel;
 
 use super::figure::{Axis, Curve, Figure, Limit, Style};
 use super::standard::{Entry, Wish};

@@ -1,8 +1,8 @@
 //! The table of measures: injury measures against limits, then what the run's summary tells.
 
 use crash_measures::injury;
-use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
 use crash_measures::unit::Unit;
+use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
 use occupant_core::results::summary::Summary;
 use serde::Serialize;
 

@@ -4,14 +4,14 @@ use std::time::Instant;
 
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, find, matching};
-use occupant_core::results::summary::{Figure, Summarizer};
 use occupant_core::results::outcome::Status;
+use occupant_core::results::summary::{Figure, Summarizer};
 use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::place::Misplaced;
 use occupant_core::scenario::{Draft, Resolver};
-use occupant_core::sensitivity::finite::{CHANGES, Comparison, Finite, compare, finite_changes};
-use occupant_core::sensitivity::measures::{Derivatives, Values, Wish, chosen, derivatives, plain_values};
-use occupant_core::sensitivity::{Built, Parameter, Trajectory, follow, parameter};
+use occupant_study::sensitivity::finite::{CHANGES, Comparison, Finite, compare, finite_changes};
+use occupant_study::sensitivity::measures::{Derivatives, Values, Wish, chosen, derivatives, plain_values};
+use occupant_study::sensitivity::{Built, Parameter, Trajectory, follow, parameter};
 
 use crate::cli::exit::Failure;
 

@@ -2,8 +2,8 @@
 
 use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
-use occupant_core::sensitivity::events::{Change, Event};
-use occupant_core::sensitivity::finite::{HOLDS, Verdict};
+use occupant_study::sensitivity::events::{Change, Event};
+use occupant_study::sensitivity::finite::{HOLDS, Verdict};
 use serde::Serialize;
 
 use super::analysis::{Analysis, Asked, relative};
@@ -160,7 +160,7 @@ fn sensitivities(asked: &Asked<'_>, found: &Analysis) -> Vec<Sensitivity> {
                 Verdict::Unchecked => ("unchecked", None, None),
             };
             let changes = found.finite[k].iter().enumerate();
-            let change = |(c, finite): (usize, &occupant_core::sensitivity::finite::Finite)| {
+            let change = |(c, finite): (usize, &occupant_study::sensitivity::finite::Finite)| {
                 let [secant_below, secant_above] = comparison.secants[c];
                 ChangeAnswer { part: finite.part, secant_below, secant_above, off_by: comparison.off[c] }
             };

@@ -1,8 +1,8 @@
 //! The answer in words: a table of derivatives, how far they hold, and where the run is not smooth.
 
 use occupant_core::model::Model;
-use occupant_core::sensitivity::events::{Change, Event, Happening, Touching};
-use occupant_core::sensitivity::finite::Verdict;
+use occupant_study::sensitivity::events::{Change, Event, Happening, Touching};
+use occupant_study::sensitivity::finite::Verdict;
 
 use super::analysis::{Analysis, Asked, relative};
 use super::units::per;

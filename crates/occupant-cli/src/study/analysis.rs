@@ -1,11 +1,11 @@
 //! What a table of samples says of one response.
 
-use occupant_core::study::analysis::{
+use occupant_study::analysis::{
     AnalysisError, Effect, RankCorrelation, Regression, SobolIndices, rank_correlation, regression, screening,
     sobol_indices,
 };
-use occupant_core::study::spread::Spread;
-use occupant_core::study::{Block, Design, Role, Study};
+use occupant_study::spread::Spread;
+use occupant_study::{Block, Design, Role, Study};
 
 use super::samples::{Input, Samples, varies};
 

@@ -3,9 +3,9 @@
 //! The limits are ours. Each is the least with which the number can be quoted at all: an index to its first digit, a sign
 //! that is known, a linear model that explains most of what it is a model of.
 
-use occupant_core::study::Design;
-use occupant_core::study::analysis::{Effect, Estimate, RankCorrelation, Regression, SobolIndices, rank_correlation};
-use occupant_core::study::spread::Spread;
+use occupant_study::Design;
+use occupant_study::analysis::{Effect, Estimate, RankCorrelation, Regression, SobolIndices, rank_correlation};
+use occupant_study::spread::Spread;
 
 use super::gather::Gathered;
 use super::open::Opened;

@@ -1,6 +1,6 @@
 //! Designs and parameters in words.
 
-use occupant_core::study::{ApplyChoice, Design, Law, Parameter, Study, Value};
+use occupant_study::{ApplyChoice, Design, Law, Parameter, Study, Value};
 
 use super::shown::{given, given_with_unit};
 

@@ -1,7 +1,7 @@
 //! From the rows of a journal to a table of samples: only the columns that are asked for.
 
-use occupant_core::study::spread::{Verdict, median};
-use occupant_core::study::{Law, Study, Value};
+use occupant_study::spread::{Verdict, median};
+use occupant_study::{Law, Study, Value};
 
 use super::extremes::Extremes;
 use super::open::Opened;

@@ -1,6 +1,6 @@
 //! The tables of what matters: indices, effects, reaches, correlations, coefficients.
 
-use occupant_core::study::analysis::{Effect, Estimate, SobolIndices};
+use occupant_study::analysis::{Effect, Estimate, SobolIndices};
 
 use super::Report;
 use super::analysis::{Analysis, ByDesign, Linear, Reach};

@@ -1,6 +1,6 @@
 //! Every number of the report, one after the other.
 
-use occupant_core::study::analysis::Estimate;
+use occupant_study::analysis::Estimate;
 
 use super::Report;
 use super::analysis::{Analysis, ByDesign};

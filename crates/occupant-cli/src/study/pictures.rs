@@ -1,6 +1,6 @@
 //! The pictures of a response over its parameters.
 
-use occupant_core::study::spread::quantile;
+use occupant_study::spread::quantile;
 
 use super::Report;
 use super::analysis::{Analysis, ByDesign};

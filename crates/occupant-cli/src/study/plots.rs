@@ -1,6 +1,6 @@
 //! The plots of a report, drawn by [`crate::plot`].
 
-use occupant_core::study::analysis::{Effect, Estimate, SobolIndices};
+use occupant_study::analysis::{Effect, Estimate, SobolIndices};
 
 use super::analysis::{Analysis, Reach};
 use super::caution;

@@ -1,6 +1,6 @@
 //! A table of samples: what each one was given, and what came of it. All analyses are made from it alone.
 
-use occupant_core::study::{Role, Study};
+use occupant_study::{Role, Study};
 
 /// A table of samples, in the order of their numbers.
 #[derive(Clone, Debug, Default)]
@@ -46,7 +46,7 @@ pub struct Response {
 impl Samples {
     /// A table without rows, for a study and responses by name and unit.
     pub fn new(study: &Study, responses: &[(String, String)]) -> Self {
-        let input = |parameter: &occupant_core::study::Parameter| Input {
+        let input = |parameter: &occupant_study::Parameter| Input {
             name: parameter.name.clone(),
             unit: parameter.unit.to_owned(),
             ..Input::default()

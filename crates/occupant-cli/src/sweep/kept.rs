@@ -5,7 +5,7 @@ use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
 use occupant_core::run::batch::Kernel;
-use occupant_core::study::Keep;
+use occupant_study::Keep;
 
 use super::engine::{HandOn, Job, Worker, run};
 use super::finished::Finished;

@@ -9,7 +9,7 @@ use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{Figure, Summarizer};
 use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Diagnostics, Draft, Loaded};
-use occupant_core::study::{Design, Free, Law, Parameter, Setting, Study, StudyText, Value};
+use occupant_study::{Design, Free, Law, Parameter, Setting, Study, StudyText, Value};
 
 use super::manifest::{Column, Manifest, Role};
 use super::row::Cell;

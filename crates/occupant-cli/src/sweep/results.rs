@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use occupant_core::study::Keep;
+use occupant_study::Keep;
 
 use super::census::Census;
 use super::csv_table::{CsvTable, write_columns};

@@ -15,7 +15,7 @@ use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{RunStatus, Summarizer, Summary};
 use occupant_core::run::batch::{Ended, Job, Kernel, simulate_many_with};
 use occupant_core::scenario::Diagnostics;
-use occupant_core::study::Keep;
+use occupant_study::Keep;
 
 use super::engine::{HandOn, Worker};
 use super::folder::Folder;

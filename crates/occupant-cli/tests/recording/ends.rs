@@ -8,9 +8,9 @@ use mcap::records::Record;
 use mcap::sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions};
 use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
+use occupant_core::results::outcome::Status;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
-use occupant_core::results::outcome::Status;
 use occupant_core::run::simulate::simulate;
 
 use crate::support::{SCENARIO, field, model, read, record, recorder, recorder_into, setup, text};

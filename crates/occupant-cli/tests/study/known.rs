@@ -6,8 +6,8 @@ use occupant_cli::study::analysis::{Analysis, ByDesign};
 use occupant_cli::study::caution;
 use occupant_cli::study::samples::Samples;
 use occupant_core::scenario::{Draft, Format};
-use occupant_core::study::analysis::{Effect, Estimate, SobolIndices};
-use occupant_core::study::{Study, StudyText, Value};
+use occupant_study::analysis::{Effect, Estimate, SobolIndices};
+use occupant_study::{Study, StudyText, Value};
 
 /// A study of `k` numbers evenly spread over 0 to 1, which only a table of samples is made from.
 fn cube(k: usize, design: &str, seed: u64) -> Study {

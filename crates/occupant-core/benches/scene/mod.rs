@@ -7,9 +7,11 @@
 
 use occupant_core::body::SEGMENTS;
 use occupant_core::forces::contact::{ContactSystem, Touch};
-use occupant_core::kernel::{Frames, History, Observer, System};
+use occupant_core::forces::{History, Observer};
+use occupant_core::kernel::System;
 use occupant_core::model::Model;
 use occupant_core::motion::dynamics::{self, Accelerations, Wrench};
+use occupant_core::motion::frame::Frames;
 use occupant_core::motion::integrate::rk4::{self, Stage};
 use occupant_core::motion::kinematics::Kinematics;
 use occupant_core::motion::state::{FREE, State};

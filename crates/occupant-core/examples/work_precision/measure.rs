@@ -6,10 +6,10 @@ use nalgebra::Point3;
 use occupant_core::body::Segment;
 use occupant_core::model::Model;
 use occupant_core::model::setup::{Integrator, Setup};
+use occupant_core::results::outcome::{Outcome, Status};
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::{Effort, Sample};
 use occupant_core::results::summary::Summarizer;
-use occupant_core::results::outcome::{Outcome, Status};
 use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Format, Scenario};
 

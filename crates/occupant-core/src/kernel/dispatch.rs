@@ -94,22 +94,10 @@ impl<const N: usize> Machine for crate::motion::lanes::Plain<N> {
 }
 
 #[cfg(target_arch = "x86_64")]
-pub(crate) use x86_64::{has_avx2, has_avx512};
-
-#[cfg(target_arch = "x86_64")]
 #[allow(unsafe_code, reason = "a function for instructions that not every processor has is unsafe to call")]
 mod x86_64 {
     use super::*;
-
-    /// True if the processor can compute with [`Avx2`].
-    pub(crate) fn has_avx2() -> bool {
-        is_x86_feature_detected!("avx2")
-    }
-
-    /// True if the processor can compute with [`Avx512`].
-    pub(crate) fn has_avx512() -> bool {
-        is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq")
-    }
+    use crate::motion::lanes::has_avx2;
 
     /// [`System::rate_alone`].
     #[inline]

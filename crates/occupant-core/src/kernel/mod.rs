@@ -12,8 +12,6 @@ mod zip;
 pub use zip::Unlike;
 
 pub(crate) use dispatch::{Bench, Machine};
-#[cfg(target_arch = "x86_64")]
-pub(crate) use dispatch::{has_avx2, has_avx512};
 
 use crate::body::SEGMENTS;
 use crate::forces::belt::law::BeltLaw;

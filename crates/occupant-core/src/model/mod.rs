@@ -129,7 +129,7 @@ impl Model {
 }
 
 /// Frames for a motion of the vehicle.
-pub(crate) fn frames(vehicle: &FrameMotion) -> Frames<f64> {
+pub fn frames(vehicle: &FrameMotion) -> Frames<f64> {
     [Moving::space(), Moving::of(vehicle)]
 }
 

@@ -5,8 +5,8 @@
 use crate::body::Body;
 use crate::body::joint::Joints;
 use crate::forces::belt::Belt;
-use crate::forces::contact::surface::Surface;
 use crate::forces::contact::EdgeForce;
+use crate::forces::contact::surface::Surface;
 use crate::forces::material::Material;
 use crate::model::seating::{InitialPosture, InitialVelocity};
 use crate::vehicle::VehiclePath;

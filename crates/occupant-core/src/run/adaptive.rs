@@ -8,7 +8,7 @@ use crash_measures::trig;
 
 /// What bounds the steps.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Control {
+pub struct Control {
     pub tolerance: Tolerance,
     pub min_step_s: f64,
     pub max_step_s: f64,
@@ -16,7 +16,7 @@ pub(crate) struct Control {
 
 /// What the error control remembers from step to step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Memory {
+pub struct Memory {
     /// Step that it wants next, s.
     pub wanted_s: f64,
     /// Error of the last accepted step in units of the tolerance.

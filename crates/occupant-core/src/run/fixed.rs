@@ -10,7 +10,7 @@ use crate::vehicle::PathCursor;
 
 /// The steps from one output to the next: all of one length but the last, which ends at the output.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Stretch {
+pub struct Stretch {
     from_s: f64,
     target_s: f64,
     step_s: f64,
@@ -20,8 +20,10 @@ pub(crate) struct Stretch {
 
 /// One step.
 #[derive(Clone, Copy, Debug, Default)]
-pub(crate) struct Step {
+pub struct Step {
+    /// Its start, s.
     pub start_s: f64,
+    /// Its end, s.
     pub end_s: f64,
 }
 

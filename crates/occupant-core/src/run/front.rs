@@ -18,7 +18,7 @@ use crate::run::observers::Seen;
 use crate::vehicle::PathCursor;
 
 /// The latest step of the integration, and where it stands.
-pub(crate) struct Front {
+pub struct Front {
     pub step: Step,
     from: State<f64>,
     to: State<f64>,

@@ -10,7 +10,7 @@ mod front;
 pub(crate) mod observers;
 pub mod simulate;
 
-pub(crate) use fixed::{Step, Stretch};
+pub use fixed::{Step, Stretch};
 
 use adaptive::{Control, Memory};
 use front::Front;
@@ -31,15 +31,18 @@ use crate::run::observers::{Seen, Touches};
 use crate::vehicle::PathCursor;
 
 /// A run in progress.
-pub(crate) struct Run {
+pub struct Run {
     /// Number of the next output.
     index: usize,
+    /// Time reached, s.
     pub time_s: f64,
+    /// State there.
     pub state: State<f64>,
+    /// History of the force elements there.
     pub history: History<f64>,
-    pub cursor: PathCursor,
-    pub seen: Seen,
-    pub effort: Effort,
+    pub(crate) cursor: PathCursor,
+    pub(crate) seen: Seen,
+    pub(crate) effort: Effort,
     /// The integration under error control; none at a fixed step.
     front: Option<Box<Front>>,
     control: Memory,
@@ -47,6 +50,7 @@ pub(crate) struct Run {
     greatest_kinetic_j: f64,
     greatest_imbalance_j: f64,
     touches: Touches,
+    /// Times at which the motion of the vehicle jumps, s.
     pub breaks_s: Vec<f64>,
     /// The accepted steps since it was last emptied, where somebody wants to follow them.
     pub taken: Option<Vec<Step>>,

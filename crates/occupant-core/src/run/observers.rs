@@ -7,7 +7,7 @@ use crate::model::Model;
 use crate::results::outcome::FirstTouch;
 
 /// Collects the details of one evaluation.
-pub(crate) struct Touches {
+pub struct Touches {
     pub pairs: Vec<Touch<f64>>,
     pub belts: Vec<BeltAction<f64>>,
 }
@@ -30,7 +30,7 @@ impl Observer<f64> for Touches {
 
 /// A sphere against a part of a face, as first touches tell it.
 #[derive(Clone, Copy)]
-pub(crate) struct Meeting {
+pub struct Meeting {
     pub sphere: usize,
     pub pair: usize,
     /// Which of the pair's parts.
@@ -46,7 +46,7 @@ impl From<&Touch<f64>> for Meeting {
 }
 
 /// Remembers which sphere has touched which surface.
-pub(crate) struct Seen {
+pub struct Seen {
     surfaces: usize,
     /// By sphere and surface.
     known: Vec<bool>,
@@ -82,7 +82,7 @@ impl Seen {
 }
 
 /// Watches the first evaluation of a step.
-pub(crate) struct SeenAt<'s> {
+pub struct SeenAt<'s> {
     pub model: &'s Model,
     pub seen: &'s mut Seen,
     pub time_s: f64,

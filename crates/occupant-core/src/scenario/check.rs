@@ -5,13 +5,13 @@ use serde_json::Value as Json;
 use super::diagnostic::{Diagnostic, Diagnostics};
 use super::document::{Entry, Node, Table, Value};
 use super::kind::{KINDS, Kind, UnitSystem};
-use crate::problem::nearest;
 use super::path_text::with_key;
 use super::quantity::{Written, si_value};
 use super::schema::schema;
 use super::source::{Sources, Span};
 use super::unit::UnitError;
 use super::view::View;
+use crate::problem::nearest;
 use crate::problem::{Problem, Severity};
 
 /// All that is wrong with the words of a scenario; what they mean together is checked when the model is built.
@@ -26,14 +26,14 @@ pub fn check(sources: &Sources, root: &Node) -> Diagnostics {
 }
 
 /// All that is wrong with the words of another kind of document; `what` is what messages call it.
-pub(crate) fn check_words(sources: &Sources, root: &Node, schema: &'static Json, what: &'static str) -> Diagnostics {
+pub fn check_words(sources: &Sources, root: &Node, schema: &'static Json, what: &'static str) -> Diagnostics {
     let mut checker = Checker::new(sources, schema, what, units_of(root));
     checker.document(root);
     checker.problems
 }
 
 /// The units of bare numbers in a document.
-pub(crate) fn units_of(root: &Node) -> UnitSystem {
+pub fn units_of(root: &Node) -> UnitSystem {
     match root.get("units").and_then(Node::as_str) {
         Some("in-lbf-s") => UnitSystem::InchPound,
         _ => UnitSystem::Si,
@@ -303,7 +303,7 @@ pub(super) fn kind_named(name: &str) -> Option<&'static Kind> {
 }
 
 /// `"a", "b" or "c"`.
-pub(crate) fn one_of(names: &[&str], quote: char) -> String {
+pub fn one_of(names: &[&str], quote: char) -> String {
     match names {
         [] => "no key at all".to_owned(),
         [only] => format!("{quote}{only}{quote}"),

@@ -5,9 +5,9 @@
 
 use super::check::{Checker, one_of};
 use super::document::{Entry, Node, Value};
-use crate::problem::nearest;
 use super::path_text::with_key;
 use crate::body::SPHERE_NAMES;
+use crate::problem::nearest;
 
 impl Checker<'_> {
     /// Reports names that lead nowhere.

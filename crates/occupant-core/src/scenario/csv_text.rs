@@ -3,15 +3,15 @@
 use super::source::{SourceId, Sources, Span};
 
 /// A cell: its words and place.
-pub(crate) struct Cell<'a> {
+pub struct Cell<'a> {
     /// Its words, trimmed.
-    pub(crate) text: &'a str,
+    pub text: &'a str,
     /// Their place.
-    pub(crate) span: Span,
+    pub span: Span,
 }
 
 /// `x[m]` → `x` and `m`.
-pub(crate) fn name_and_unit(text: &str) -> (&str, Option<&str>) {
+pub fn name_and_unit(text: &str) -> (&str, Option<&str>) {
     match text.split_once('[') {
         Some((name, rest)) => (name.trim(), Some(rest.trim_end().strip_suffix(']').unwrap_or(rest).trim())),
         None => (text.trim(), None),
@@ -19,7 +19,7 @@ pub(crate) fn name_and_unit(text: &str) -> (&str, Option<&str>) {
 }
 
 /// The lines of a text that hold something.
-pub(crate) fn lines(sources: &Sources, id: SourceId) -> impl Iterator<Item = Span> {
+pub fn lines(sources: &Sources, id: SourceId) -> impl Iterator<Item = Span> {
     let mut start = 0;
     sources
         .text(id)
@@ -37,7 +37,7 @@ pub(crate) fn lines(sources: &Sources, id: SourceId) -> impl Iterator<Item = Spa
 }
 
 /// The cells of a line, trimmed. A byte-order mark is no part of the first.
-pub(crate) fn cells(sources: &Sources, line: Span) -> Vec<Cell<'_>> {
+pub fn cells(sources: &Sources, line: Span) -> Vec<Cell<'_>> {
     let mut start = line.start;
     sources
         .slice(line)

@@ -121,12 +121,12 @@ impl Draft {
     }
 
     /// The units of its bare numbers.
-    pub(crate) fn units(&self) -> UnitSystem {
+    pub fn units(&self) -> UnitSystem {
         units_of(&self.root)
     }
 
     /// All that is wrong with the words of the scenario as it stands.
-    pub(crate) fn check(&self) -> Diagnostics {
+    pub fn check(&self) -> Diagnostics {
         check(&self.sources, &self.root)
     }
 
@@ -150,7 +150,7 @@ impl Draft {
 }
 
 /// Bytes as text.
-pub(crate) fn text_of<'a>(bytes: &'a [u8], name: &str) -> Result<&'a str, Diagnostics> {
+pub fn text_of<'a>(bytes: &'a [u8], name: &str) -> Result<&'a str, Diagnostics> {
     std::str::from_utf8(bytes).map_err(|error| {
         let before = &bytes[..error.valid_up_to()];
         let line = before.iter().filter(|b| **b == b'\n').count() + 1;
@@ -161,7 +161,7 @@ pub(crate) fn text_of<'a>(bytes: &'a [u8], name: &str) -> Result<&'a str, Diagno
 }
 
 /// One problem of a text as a whole.
-pub(crate) fn refuse(source: &str, found: String, expected: &str) -> Diagnostics {
+pub fn refuse(source: &str, found: String, expected: &str) -> Diagnostics {
     let mut diagnostics = Diagnostics::new();
     diagnostics.push(Diagnostic::of(
         source,

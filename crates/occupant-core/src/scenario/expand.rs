@@ -49,7 +49,7 @@ pub(super) const RIVALS: [[&str; 2]; 6] = [
 ];
 
 /// The other key of two that say the same thing in two ways, as a path.
-pub(crate) fn rival_path(path: &str) -> Option<String> {
+pub fn rival_path(path: &str) -> Option<String> {
     let (above, key) = path.rsplit_once('.')?;
     let found = RIVALS.iter().find(|[given, _]| *given == key);
     found.map(|[_, rival]| format!("{above}.{rival}"))

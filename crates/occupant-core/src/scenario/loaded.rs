@@ -123,7 +123,7 @@ impl Loaded {
 }
 
 /// Finds the words that a problem's path points at.
-pub(crate) fn place(sources: &Sources, main: SourceId, root: &Node, problem: Problem) -> Diagnostic {
+pub fn place(sources: &Sources, main: SourceId, root: &Node, problem: Problem) -> Diagnostic {
     match locate(root, &problem.path) {
         Some(span) => Diagnostic::at(sources, span, problem),
         None => Diagnostic::of(sources.name(main), problem),

@@ -25,17 +25,17 @@
 //! ```
 
 mod build;
-pub(crate) mod check;
+pub mod check;
 mod check_groups;
 mod check_references;
-pub(crate) mod csv_text;
+pub mod csv_text;
 pub mod diagnostic;
 pub mod document;
-pub(crate) mod draft;
-pub(crate) mod expand;
+pub mod draft;
+pub mod expand;
 mod json;
 pub mod kind;
-pub(crate) mod loaded;
+pub mod loaded;
 pub mod model;
 mod number_table;
 mod overrides;
@@ -43,7 +43,7 @@ pub mod path_text;
 pub mod place;
 pub mod quantity;
 mod record_file;
-pub(crate) mod schema;
+pub mod schema;
 pub mod source;
 mod toml_text;
 pub mod unit;

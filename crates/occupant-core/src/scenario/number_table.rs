@@ -8,9 +8,9 @@ use super::csv_text::{Cell, cells, lines, name_and_unit};
 use super::diagnostic::{Diagnostic, Diagnostics};
 use super::document::{Node, Value};
 use super::kind::{KINDS, Kind};
-use crate::problem::nearest;
 use super::source::{SourceId, Sources, Span};
 use super::unit_expression;
+use crate::problem::nearest;
 use crate::problem::{Problem, Severity};
 
 /// A column that a table may have.

@@ -10,12 +10,12 @@ use super::document::{Node, Value};
 use super::draft::Draft;
 use super::expand::expand;
 use super::kind::Kind;
-use crate::problem::nearest;
 use super::overrides::{put, targets};
 use super::path_text::{Step, child, child_of, parse, to_text};
 use super::quantity::{Written, si_value};
 use super::schema::schema;
 use super::view::View;
+use crate::problem::nearest;
 
 /// What may stand at a place.
 #[derive(Clone, Debug, PartialEq)]

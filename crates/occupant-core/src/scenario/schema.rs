@@ -19,7 +19,7 @@ pub fn schema() -> &'static Value {
 }
 
 /// The schema of a kind of document.
-pub(crate) fn schema_of<T: JsonSchema>(title: &str) -> Value {
+pub fn schema_of<T: JsonSchema>(title: &str) -> Value {
     let settings = SchemaSettings::draft2020_12().with(|s| {
         s.transforms.push(Box::new(WithoutNull));
         s.transforms.push(Box::new(StandardGroups));

@@ -4,7 +4,7 @@ use std::num::NonZeroUsize;
 use std::thread;
 
 use occupant_core::run::batch::Kernel;
-use occupant_core::study::Keep;
+use occupant_study::Keep;
 
 use crate::cli::exit::Failure;
 use crate::sweep::kept;

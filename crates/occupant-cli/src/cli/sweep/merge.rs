@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use std::sync::atomic::AtomicBool;
 
 use occupant_core::run::batch::Kernel;
-use occupant_core::study::Keep;
+use occupant_study::Keep;
 
 use super::choices::{keep, threads};
 use super::words::{ensembles, no_plan, read_journal, sha256_of, tell, told};

@@ -1,6 +1,7 @@
 //! What the run is: its origin, times, integrator, and what was said about it.
 
-use occupant_core::model::setup::{EdgeForce, Integrator};
+use occupant_core::forces::contact::EdgeForce;
+use occupant_core::model::setup::Integrator;
 
 use crate::print::case::Case;
 use crate::print::page::Pages;

@@ -2,6 +2,7 @@
 
 use nalgebra::Point3;
 
+use super::EdgeForce;
 use crate::body::{Body, ContactSphere};
 use crate::forces::contact::face::{Outline, V2};
 use crate::forces::contact::flat_face::FlatFace;
@@ -9,7 +10,6 @@ use crate::forces::contact::surface::{Frame, Outline as FaceOutline, Surface};
 use crate::forces::contact::{ContactSystem, Group, Pair, Part, Plane, Site};
 use crate::forces::material::{Material, Memory};
 use crate::forces::spring::Spring;
-use super::EdgeForce;
 use crate::motion::frame::{SPACE, VEHICLE};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;

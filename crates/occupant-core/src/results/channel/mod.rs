@@ -9,8 +9,8 @@ mod quantity;
 mod series;
 
 use crate::model::Model;
-use crate::results::sample::Sample;
 use crate::problem::nearest;
+use crate::results::sample::Sample;
 
 pub use catalogue::channels;
 pub use crash_measures::unit::Unit;
@@ -88,7 +88,7 @@ pub fn matching(model: &Model, pattern: &str) -> Vec<Channel> {
 }
 
 /// Whether `name` is the pieces in order with anything between.
-pub(crate) fn matches(name: &str, pieces: &[&str]) -> bool {
+pub fn matches(name: &str, pieces: &[&str]) -> bool {
     let [first, rest @ ..] = pieces else {
         return false;
     };

@@ -9,9 +9,9 @@ use super::{
 use crate::body::Segment;
 use crate::model::Model;
 use crate::model::setup::{Integrator, STANDARD_GRAVITY_M_S2, TimeSpan};
+use crate::results::outcome::{FirstTouch, Outcome, Status};
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
-use crate::results::outcome::{FirstTouch, Outcome, Status};
 use crash_measures::injury::{self, Signals, assess};
 use crash_measures::measure::{ThreeMs, three_ms_contiguous, three_ms_cumulative};
 

@@ -78,9 +78,9 @@ impl Kernel {
         match self {
             Kernel::Scalar => true,
             #[cfg(target_arch = "x86_64")]
-            Kernel::Lanes4 => crate::kernel::has_avx2(),
+            Kernel::Lanes4 => crate::motion::lanes::has_avx2(),
             #[cfg(target_arch = "x86_64")]
-            Kernel::Lanes8 => crate::kernel::has_avx512(),
+            Kernel::Lanes8 => crate::motion::lanes::has_avx512(),
             #[cfg(not(target_arch = "x86_64"))]
             Kernel::Lanes4 | Kernel::Lanes8 => false,
         }

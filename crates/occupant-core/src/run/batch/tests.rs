@@ -8,7 +8,7 @@ use crate::run::simulate::simulate;
 use crate::scenario::{Format, Scenario};
 
 fn model(mph: f64) -> Model {
-    let text = include_str!("../../../../scenarios/cart-lap.toml");
+    let text = include_str!("../../../../../scenarios/cart-lap.toml");
     let speed = format!("speed = \"{mph} mph\"");
     let text = text.replace("speed = \"20 mph\"", &speed);
     assert!(text.contains(&speed));

@@ -8,10 +8,10 @@ use super::super::document::Node;
 use super::super::kind::UnitSystem;
 use super::super::loaded::place;
 use super::super::model::{Length, Scenario};
-use crate::problem::nearest;
 use super::super::path_text::{locate, with_key};
 use super::super::quantity::Quantity;
 use super::super::source::Sources;
+use crate::problem::nearest;
 use crate::problem::{Problem, Severity};
 
 /// Collects problems while the plain data are put together.

@@ -1,0 +1,168 @@
+use std::f64::consts::PI;
+
+use super::*;
+use crate::random::{Purpose, unit};
+use crate::sobol::Sobol;
+
+/// Rows of A, B and AB for `k` parameters at `n` scrambled Sobol points, and the figure there.
+fn saltelli(k: usize, n: u64, seed: u64, f: impl Fn(&[f64]) -> f64) -> (Vec<f64>, Vec<f64>, Vec<Vec<f64>>) {
+    let sobol = Sobol::new(2 * k);
+    let point = |i: u64| -> Vec<f64> { (0..2 * k).map(|d| sobol.scrambled(i, d, seed)).collect() };
+    let (mut a, mut b, mut ab) = (Vec::new(), Vec::new(), vec![Vec::new(); k]);
+    for i in 0..n {
+        let p = point(i);
+        a.push(f(&p[..k]));
+        b.push(f(&p[k..]));
+        for (j, column) in ab.iter_mut().enumerate() {
+            let mut mixed = p[..k].to_vec();
+            mixed[j] = p[k + j];
+            column.push(f(&mixed));
+        }
+    }
+    (a, b, ab)
+}
+
+#[track_caller]
+fn inside(estimate: &Estimate, truth: f64) {
+    let Estimate { value, low, high } = *estimate;
+    assert!(low <= truth && truth <= high, "{truth} is not in {low} to {high} ({value})");
+    assert!(low <= value && value <= high);
+}
+
+/// T. Ishigami, T. Homma (1990): sin x₁ + 7 sin² x₂ + 0.1 x₃⁴ sin x₁ on (−π, π)³.
+#[test]
+fn ishigami_s_indices_lie_in_their_intervals() {
+    let f = |u: &[f64]| {
+        let x: Vec<f64> = u.iter().map(|u| PI * (2.0 * u - 1.0)).collect();
+        x[0].sin() + 7.0 * x[1].sin().powi(2) + 0.1 * x[2].powi(4) * x[0].sin()
+    };
+    let (a, b) = (7.0, 0.1);
+    let v1 = 0.5 * (1.0 + b * PI.powi(4) / 5.0_f64).powi(2);
+    let v2 = a * a / 8.0;
+    let v13 = b * b * PI.powi(8) * 8.0 / 225.0;
+    let v = v1 + v2 + v13;
+    for seed in 0..5 {
+        let (a, b, ab) = saltelli(3, 2048, seed, f);
+        let found = sobol_indices(&a, &b, &ab, seed).unwrap();
+        for (estimate, truth) in found.first.iter().zip([v1 / v, v2 / v, 0.0]) {
+            inside(estimate, truth);
+        }
+        for (estimate, truth) in found.total.iter().zip([(v1 + v13) / v, v2 / v, v13 / v]) {
+            inside(estimate, truth);
+        }
+        assert!(found.is_settled(0.15) && !found.is_settled(0.01));
+    }
+}
+
+/// Sobol's g-function with a = (0, 1, 4.5, 9, 99, 99): Π (|4u − 2| + aᵢ)/(1 + aᵢ).
+#[test]
+fn the_g_function_s_indices_lie_in_their_intervals() {
+    let a = [0.0, 1.0, 4.5, 9.0, 99.0, 99.0];
+    let g = |u: &[f64]| {
+        let factors = u.iter().zip(a).map(|(u, a)| ((4.0 * u - 2.0).abs() + a) / (1.0 + a));
+        factors.product::<f64>()
+    };
+    let part = a.map(|a| 1.0 / (3.0 * (1.0 + a) * (1.0 + a)));
+    let variance = part.iter().map(|v| 1.0 + v).product::<f64>() - 1.0;
+    for seed in 10..13 {
+        let (fa, fb, ab) = saltelli(6, 2048, seed, g);
+        let found = sobol_indices(&fa, &fb, &ab, seed).unwrap();
+        for i in 0..6 {
+            let others: f64 = (0..6).filter(|&j| j != i).map(|j| 1.0 + part[j]).product();
+            inside(&found.first[i], part[i] / variance);
+            inside(&found.total[i], part[i] * others / variance);
+        }
+        assert!((found.variance / variance - 1.0).abs() < 0.05);
+    }
+}
+
+#[test]
+fn failed_runs_are_left_out_with_their_points_and_counted() {
+    let f = |u: &[f64]| u[0] + 2.0 * u[1];
+    let (mut a, b, mut ab) = saltelli(2, 256, 3, f);
+    a[5] = f64::NAN;
+    ab[1][9] = f64::INFINITY;
+    let found = sobol_indices(&a, &b, &ab, 1).unwrap();
+    assert_eq!((found.points, found.dropped), (254, 2));
+    inside(&found.first[1], 0.8);
+    let too_few = sobol_indices(&a[..10], &b[..10], &[ab[0][..10].to_vec()], 1);
+    assert_eq!(too_few.unwrap_err(), AnalysisError::TooFew { found: 9, needed: 16 });
+    let constant = sobol_indices(&[2.0; 64], &[2.0; 64], &[vec![2.0; 64]], 1);
+    assert_eq!(constant.unwrap_err(), AnalysisError::Constant { parameter: None });
+    let odd = sobol_indices(&a, &b[1..], &ab, 1);
+    assert_eq!(odd.unwrap_err(), AnalysisError::Length { found: 255, expected: 256 });
+}
+
+/// y = 2 u₁ − 3 u₂ + u₁ u₃: effects 2 + u₃, −3, u₁.
+#[test]
+fn screening_finds_sign_size_and_company() {
+    let draw = |i: u64, d: u32| unit(7, Purpose::MonteCarlo, i, d);
+    let effects =
+        [(0..200).map(|i| 2.0 + draw(i, 2)).collect(), vec![-3.0; 200], (0..200).map(|i| draw(i, 0)).collect()];
+    let found = screening(&effects, 1).unwrap();
+    assert_eq!((found[1].mean.value, found[1].mean_magnitude.value), (-3.0, 3.0));
+    assert_eq!(found[1].deviation, 0.0);
+    // a uniform draw has a deviation of 1/√12 = 0.2887
+    assert!((found[2].deviation - 0.2887).abs() < 0.03, "{}", found[2].deviation);
+    let broken = [vec![1.0, f64::NAN, 2.0, 3.0]];
+    assert_eq!(screening(&broken, 1).unwrap_err(), AnalysisError::TooFew { found: 3, needed: 4 });
+}
+
+/// 95 % intervals hold the truth in about 95 of 100 cases: the 97.5 % range of 200 draws of 0.95 is 184 to 196.
+#[test]
+fn intervals_hold_the_truth_as_often_as_they_say() {
+    let mut held = 0;
+    for seed in 0..200 {
+        let effects: Vec<f64> = (0..100).map(|i| unit(seed, Purpose::MonteCarlo, i, 0)).collect();
+        let found = screening(&[effects], seed).unwrap();
+        let Estimate { low, high, .. } = found[0].mean;
+        held += usize::from(low <= 0.5 && 0.5 <= high);
+    }
+    assert!((180..=198).contains(&held), "{held}");
+}
+
+#[test]
+fn ranks_share_ties() {
+    assert_eq!(ranks(&[3.0, 1.0, 3.0, 2.0]), [3.5, 1.0, 3.5, 2.0]);
+    assert_eq!(ranks(&[]), [0.0; 0]);
+}
+
+#[test]
+fn rank_correlation_sees_any_rising_curve() {
+    let x: Vec<f64> = (0..50).map(f64::from).collect();
+    let cube: Vec<f64> = x.iter().map(|x| x.powi(3)).collect();
+    let falling: Vec<f64> = x.iter().map(|x| -x.sqrt()).collect();
+    assert!((rank_correlation(&x, &cube).unwrap().rho.value - 1.0).abs() < 1e-12);
+    assert!((rank_correlation(&x, &falling).unwrap().rho.value + 1.0).abs() < 1e-12);
+    // a textbook pair: IQ and hours of television, ρ = −29/165
+    let iq = [106.0, 100.0, 86.0, 101.0, 99.0, 103.0, 97.0, 113.0, 112.0, 110.0];
+    let hours = [7.0, 27.0, 2.0, 50.0, 28.0, 29.0, 20.0, 12.0, 6.0, 17.0];
+    let rho = rank_correlation(&iq, &hours).unwrap().rho;
+    assert!((rho.value + 29.0 / 165.0).abs() < 1e-12);
+    assert!(!rho.is_clear());
+}
+
+#[test]
+fn regression_gives_each_parameter_its_part() {
+    let draw = |i: u64, d: u32| unit(3, Purpose::MonteCarlo, i, d);
+    let column = |d: u32| -> Vec<f64> { (0..400).map(|i| draw(i, d)).collect() };
+    let parameters = vec![column(0), column(1), column(2)];
+    // equal spreads: coefficients in proportion 3 : −4 : 0, explained wholly
+    let figure: Vec<f64> = (0..400).map(|i| 5.0 + 3.0 * draw(i, 0) - 4.0 * draw(i, 1)).collect();
+    let found = regression(&parameters, &figure, 1).unwrap();
+    assert!((found.explained - 1.0).abs() < 1e-12, "{}", found.explained);
+    let ratio = found.coefficients[0].value / found.coefficients[1].value;
+    let spread = |d: usize| {
+        let m = mean(&parameters[d]);
+        parameters[d].iter().map(|v| (v - m).powi(2)).sum::<f64>().sqrt()
+    };
+    assert!((ratio + 0.75 * spread(0) / spread(1)).abs() < 1e-12);
+    assert!(found.coefficients[2].value.abs() < 1e-12);
+    // noise that the parameters do not explain
+    let noisy: Vec<f64> = (0..400).map(|i| figure[i as usize] + 5.0 * draw(i, 3)).collect();
+    let found = regression(&parameters, &noisy, 1).unwrap();
+    assert!((0.3..0.7).contains(&found.explained), "{}", found.explained);
+    assert!(found.coefficients[0].is_clear() && !found.coefficients[2].is_clear());
+    let twice = vec![column(0), column(0)];
+    assert_eq!(regression(&twice, &figure, 1).unwrap_err(), AnalysisError::Dependent);
+}

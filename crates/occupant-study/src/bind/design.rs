@@ -1,0 +1,133 @@
+//! The `[design]` of a study, and whether it fits the parameters.
+
+use super::{Binder, table};
+use crate::design::Design;
+use crate::ensemble::Ensemble;
+use crate::parameter::Parameter;
+use crate::section::DesignSection;
+use crate::sobol::MAX_DIMENSIONS;
+use crate::text::problem;
+use occupant_core::problem::Severity;
+use occupant_core::scenario::Resolver;
+use occupant_core::scenario::kind::UnitSystem;
+use occupant_core::scenario::model::Ratio;
+
+impl Binder<'_> {
+    /// The design of the study; columns of a table of samples may become parameters.
+    pub(super) fn design(&mut self, parameters: &mut Vec<Parameter>, resolver: Resolver) -> Design {
+        let section = &self.text.section;
+        match &section.design {
+            None => self.without_design(),
+            Some(DesignSection::Table(table)) => {
+                Design::Table { rows: table::rows(self, &table.file, parameters, resolver) }
+            }
+            Some(design) => {
+                if section.parameters.is_empty() {
+                    let expected = "`[[parameters]]`";
+                    self.error("design", "a design without parameters", expected, None);
+                }
+                chosen(design)
+            }
+        }
+    }
+
+    fn without_design(&mut self) -> Design {
+        let section = &self.text.section;
+        if !section.parameters.is_empty() {
+            let mut hint = "design = { kind = \"latin_hypercube\", samples = 100 }".to_owned();
+            if section.fit.is_some() {
+                hint.push_str(", or `occupant fit` for its [fit]");
+            }
+            let expected = "how the samples are chosen";
+            self.error("", "parameters without a `design`", expected, Some(hint));
+        } else if section.ensemble.is_none() {
+            let expected = "`parameters` and a `design`, or an `ensemble`";
+            self.error("", "the study varies nothing", expected, None);
+        }
+        Design::Single
+    }
+
+    /// Whether parameters and design fit each other in kind and number.
+    pub(super) fn sizes(&mut self, parameters: &[Parameter], design: &Design, ensemble: Option<&Ensemble>) {
+        let levels: Vec<Option<u64>> = parameters.iter().map(|p| p.law.levels()).collect();
+        if *design == Design::FullFactorial {
+            for (parameter, _) in parameters.iter().zip(&levels).filter(|(_, l)| l.is_none()) {
+                let found = format!("`{}` has no values to go through", parameter.name);
+                let hint = "or choose another design, such as \"latin_hypercube\"".to_owned();
+                self.error("design", found, "a `grid` or a `list` for each parameter", Some(hint));
+            }
+        }
+        self.limits(parameters.len(), design);
+        let members = ensemble.map_or(1, |e| e.members);
+        let runs = design.len(&levels).and_then(|n| n.checked_mul(members));
+        if runs.is_none_or(|n| n > 1 << 52) {
+            self.error("design", "more runs than can be counted", "at most 2^52 runs", None);
+        }
+        self.power_of_two(design);
+    }
+
+    /// Numbers that a design can work with.
+    fn limits(&mut self, parameters: usize, design: &Design) {
+        let most = match design {
+            Design::Sobol { .. } => MAX_DIMENSIONS,
+            Design::Saltelli { .. } => MAX_DIMENSIONS / 2,
+            _ => usize::MAX,
+        };
+        if parameters > most {
+            let found = format!("{} parameters", parameters);
+            self.error("design", found, format!("at most {most} in this design"), None);
+        }
+        if let Design::Morris { levels, .. } = design
+            && levels % 2 == 1
+        {
+            let found = format!("`{levels}` is no even number");
+            self.error("design.levels", found, "an even number of levels, such as 4", None);
+        }
+        if let Design::Morris { tail, .. } | Design::OneAtATime { tail } = design
+            && *tail >= 0.5
+        {
+            self.error("design.tail", format!("a tail of {tail}"), "a part below 0.5", None);
+        }
+    }
+
+    /// Warns of a number of points that Sobol's sequence does not fill.
+    fn power_of_two(&mut self, design: &Design) {
+        let (Design::Sobol { samples, .. } | Design::Saltelli { samples, .. }) = design else {
+            return;
+        };
+        if !samples.is_power_of_two() {
+            let near = samples.checked_next_power_of_two().unwrap_or(*samples);
+            let warning = problem(
+                Severity::Warning,
+                "design.samples",
+                format!("{samples} points of Sobol's sequence, which is even only in powers of 2"),
+                "a power of 2",
+                Some(format!("samples = {} or {near}", near / 2)),
+            );
+            self.text.report(&mut self.problems, warning);
+        }
+    }
+}
+
+/// What a design's section says, tables of samples apart.
+fn chosen(section: &DesignSection) -> Design {
+    match section {
+        DesignSection::FullFactorial(_) => Design::FullFactorial,
+        DesignSection::LatinHypercube(d) => Design::LatinHypercube { samples: d.samples },
+        DesignSection::MonteCarlo(d) => Design::MonteCarlo { samples: d.samples },
+        DesignSection::Sobol(d) => Design::Sobol { samples: d.samples, scramble: d.scramble.unwrap_or(true) },
+        DesignSection::OneAtATime(d) => Design::OneAtATime { tail: tail(&d.tail) },
+        DesignSection::Saltelli(d) => {
+            Design::Saltelli { samples: d.samples, second_order: d.second_order.unwrap_or(false) }
+        }
+        DesignSection::Morris(d) => {
+            Design::Morris { trajectories: d.trajectories, levels: d.levels.unwrap_or(4), tail: tail(&d.tail) }
+        }
+        DesignSection::Table(_) => Design::Table { rows: Vec::new() },
+    }
+}
+
+fn tail(written: &Option<Ratio>) -> f64 {
+    let ratio = written.as_ref().and_then(|t| t.si(UnitSystem::Si).ok());
+    ratio.unwrap_or(0.05)
+}

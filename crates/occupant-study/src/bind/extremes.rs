@@ -1,0 +1,90 @@
+//! Puts the ends of every parameter into the base scenario and looks whether it still stands, so that a stiffness below
+//! zero or two keys that exclude each other are told once, before the first run.
+
+use super::Binder;
+use crate::law::{Law, Value};
+use crate::parameter::{Assignment, Parameter};
+use crate::section::ApplyChoice;
+use crate::text::problem;
+use occupant_core::problem::Severity;
+use occupant_core::scenario::{Diagnostics, Draft};
+
+/// The part of a normal distribution beyond which values out of range are not looked for.
+const RARE: f64 = 1e-6;
+
+/// Checks every parameter, and that nothing is both given by hand and varied.
+pub(super) fn check(binder: &mut Binder, base: &Draft, parameters: &[Parameter], overrides: &[String]) {
+    let written = binder.text.section.parameters.len();
+    for (i, parameter) in parameters.iter().enumerate() {
+        // a broken parameter shifts the others; then point at the name only
+        let at = match parameters.len() == written {
+            true => format!("parameters[{i}]"),
+            false => "parameters".to_owned(),
+        };
+        by_hand(binder, base, parameter, overrides, &at);
+        for value in extremes(&parameter.law) {
+            let mut list = Vec::new();
+            parameter.assign(&value, &mut list);
+            if let Err(wrong) = put_in(base, &list) {
+                let rare = matches!(parameter.law, Law::Normal { .. });
+                tell(binder, &at, parameter, wrong, rare);
+                break;
+            }
+        }
+    }
+}
+
+fn tell(binder: &mut Binder, at: &str, parameter: &Parameter, wrong: Diagnostics, rare: bool) {
+    let Some(first) = wrong.iter().next() else {
+        return;
+    };
+    let (name, words) = (&parameter.name, &first.problem);
+    let (severity, hint) = match rare {
+        true => {
+            let hint = "a \"truncated_normal\" distribution keeps to what is possible";
+            (Severity::Warning, Some(hint.to_owned()))
+        }
+        false => (Severity::Error, words.hint.clone()),
+    };
+    let found = format!("`{name}` spoils the scenario: {}", words.found);
+    let told = problem(severity, at, found, words.expected.clone(), hint);
+    binder.text.report(&mut binder.problems, told);
+}
+
+/// The values between which all others lie, or all values of a list.
+fn extremes(law: &Law) -> Vec<Value> {
+    match law {
+        Law::List(values) => values.clone(),
+        Law::Table => Vec::new(),
+        _ => vec![law.bounded_quantile(0.0, RARE), law.bounded_quantile(1.0, RARE)],
+    }
+}
+
+/// The problems of the base scenario with these values in it.
+fn put_in(base: &Draft, list: &[Assignment]) -> Result<(), Diagnostics> {
+    let mut draft = base.clone();
+    for assignment in list {
+        draft.set_value(&assignment.path, &assignment.text())?;
+    }
+    let wrong = draft.check();
+    match wrong.has_errors() {
+        true => Err(wrong),
+        false => Ok(()),
+    }
+}
+
+/// Tells of an override that this parameter would undo.
+fn by_hand(binder: &mut Binder, base: &Draft, parameter: &Parameter, overrides: &[String], at: &str) {
+    if parameter.apply != ApplyChoice::Value {
+        return;
+    }
+    for path in overrides.iter().filter_map(|o| o.split_once('=')) {
+        let places = base.places(path.0.trim()).unwrap_or_default();
+        let shared =
+            |place: &occupant_core::scenario::place::Place| parameter.targets.iter().any(|t| t.path == place.path);
+        if let Some(place) = places.iter().find(|p| shared(p)) {
+            let found = format!("`{}` is given by hand and varied by `{}`", place.path, parameter.name);
+            binder.error(at, found, "one of the two", Some("leave the override out".into()));
+        }
+    }
+}

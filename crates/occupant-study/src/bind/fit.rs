@@ -1,0 +1,201 @@
+//! The `[fit]` of a study: times in SI units, weights and windows that make sense, parameters with ends.
+
+use indexmap::IndexMap;
+
+use super::{Binder, Purpose};
+use crate::fit::{Bounds, Fit, FitChannel, FitTest};
+use crate::fit_section::{FitSection, FitTestSection};
+use crate::section::Free;
+use crate::text::problem;
+use crate::{Parameter, Study, StudyText};
+use crash_measures::trig::ln;
+use occupant_core::problem::Severity;
+use occupant_core::scenario::model::Time;
+use occupant_core::scenario::{Diagnostics, Draft, Resolver};
+
+/// Evaluations for each parameter.
+const BUDGET: u64 = 400;
+const POPULATION: usize = 16;
+const TOLERANCE: f64 = 1e-4;
+const MOST_EVALUATIONS: u64 = 10_000_000;
+const MOST_CANDIDATES: u64 = 10_000;
+
+impl StudyText {
+    /// What the study says of a fit; what stands there for none is the same as an empty `[fit]`.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, as far as that can be told without tests and scenarios.
+    pub fn fit(&self) -> Result<Fit, Diagnostics> {
+        let empty = FitSection::default();
+        let section = self.section.fit.as_ref().unwrap_or(&empty);
+        let mut binder = Binder::new(self, Purpose::Sweep);
+        if self.section.parameters.is_empty() {
+            let hint = "[[parameters]] with `path` and `range`".to_owned();
+            let found = "nothing to fit";
+            binder.error("", found, "`parameters` with ranges", Some(hint));
+        }
+        binder.limits_of(section);
+        let window_s = binder.window([&section.from, &section.to], "fit");
+        let channels = binder.fit_channels(section);
+        let tests = section
+            .tests
+            .iter()
+            .enumerate()
+            .map(|(i, test)| binder.fit_test(test, &format!("fit.tests[{i}]")))
+            .collect();
+        let n = self.section.parameters.len();
+        // 4 + ⌊3 ln n⌋
+        let wanted = 4 + (3.0 * ln(n.max(1) as f64)) as usize;
+        let fit = Fit {
+            misfit: section.objective.unwrap_or_default(),
+            filter: section.filter.unwrap_or_default(),
+            channels,
+            tests,
+            window_s,
+            seed: self.section.seed.unwrap_or(0),
+            budget: section.budget.unwrap_or(BUDGET * n.max(1) as u64),
+            population: match section.population {
+                Some(p) => p.min(MOST_CANDIDATES) as usize,
+                None => wanted.max(POPULATION),
+            },
+            tolerance: section.tolerance.unwrap_or(TOLERANCE),
+            near: section.near,
+        };
+        match binder.problems.has_errors() {
+            true => Err(binder.problems),
+            false => Ok(fit),
+        }
+    }
+
+    /// Checks the study against the base scenario of a test: `set` is what that test's scenario has besides, at `at` in the
+    /// study, then come the `overrides` of a command line. A design, an ensemble and correlations of the study are for
+    /// sweeps and count for nothing here.
+    ///
+    /// # Errors
+    /// As [`StudyText::bind`]; a parameter that has no ends.
+    pub fn bind_fit(
+        &self,
+        base: Draft,
+        (set, at): (&IndexMap<String, Free>, &str),
+        overrides: &[String],
+        resolver: Resolver,
+    ) -> Result<Study, Diagnostics> {
+        self.bind_for(Purpose::Fit { set, at }, base, overrides, resolver)
+    }
+
+    /// A problem at a place of the study, such as `fit.channels[2].channel`.
+    pub fn complaint(
+        &self,
+        path: &str,
+        found: impl Into<String>,
+        expected: impl Into<String>,
+        hint: Option<String>,
+    ) -> Diagnostics {
+        let mut problems = Diagnostics::new();
+        let problem = problem(Severity::Error, path, found, expected, hint);
+        self.report(&mut problems, problem);
+        problems
+    }
+}
+
+impl Binder<'_> {
+    /// Numbers that a search can work with.
+    fn limits_of(&mut self, section: &FitSection) {
+        let counts =
+            [("budget", section.budget, MOST_EVALUATIONS), ("population", section.population, MOST_CANDIDATES)];
+        for (key, count, most) in counts {
+            if let Some(count) = count.filter(|n| *n > most) {
+                let at = format!("fit.{key}");
+                self.error(&at, format!("`{count}`"), format!("at most {most}"), None);
+            }
+        }
+        for (key, number) in [("tolerance", section.tolerance), ("near", section.near)] {
+            if number.is_some_and(|x| !(x > 0.0 && x.is_finite())) {
+                let at = format!("fit.{key}");
+                self.error(&at, "no number above 0", "a number above 0", None);
+            }
+        }
+    }
+
+    /// Tells of parameters that have no ends between which to look.
+    pub(super) fn have_ends(&mut self, parameters: &[Parameter]) {
+        // a broken parameter shifts the others, and has been told of
+        if parameters.len() != self.text.section.parameters.len() {
+            return;
+        }
+        for (i, parameter) in parameters.iter().enumerate() {
+            if Bounds::of(&parameter.law).is_none() {
+                let found = format!("`{}` has no ends between which to look", parameter.name);
+                let expected = "a `range`, a `grid`, or a distribution with `from` and `to`";
+                let hint = "range = { from = …, to = … }".to_owned();
+                self.error(&format!("parameters[{i}]"), found, expected, Some(hint));
+            }
+        }
+    }
+
+    fn window(&mut self, times: [&Option<Time>; 2], at: &str) -> [Option<f64>; 2] {
+        let units = self.units();
+        // the check has refused what is no time
+        let [from, to] = times.map(|t| t.as_ref().and_then(|t| t.si(units).ok()));
+        if let (Some(from_s), Some(to_s)) = (from, to)
+            && from_s >= to_s
+        {
+            let at = format!("{at}.to");
+            self.error(&at, "`to` is not after `from`", "`from` before `to`", None);
+        }
+        [from, to]
+    }
+
+    fn fit_channels(&mut self, section: &FitSection) -> Vec<FitChannel> {
+        let mut channels: Vec<FitChannel> = Vec::new();
+        for (i, channel) in section.channels.iter().enumerate() {
+            let at = format!("fit.channels[{i}]");
+            if channels.iter().any(|c| c.name == channel.channel) {
+                let found = format!("the channel `{}` a second time", channel.channel);
+                self.error(&format!("{at}.channel"), found, "each channel once", None);
+            }
+            channels.push(FitChannel {
+                name: channel.channel.clone(),
+                weight: self.weight(channel.weight, &at),
+                filter: channel.filter.or(section.filter).unwrap_or_default(),
+            });
+        }
+        channels
+    }
+
+    fn fit_test(&mut self, test: &FitTestSection, at: &str) -> FitTest {
+        let units = self.units();
+        let seat = test.seat.as_deref().unwrap_or("1");
+        let mut letters = seat.chars();
+        let seat = match (letters.next(), letters.next()) {
+            (Some(letter), None) => letter,
+            _ => {
+                let found = format!("\"{seat}\" is no position");
+                let expected = "one character, such as \"1\" or \"3\"";
+                self.error(&format!("{at}.seat"), found, expected, None);
+                '1'
+            }
+        };
+        FitTest {
+            name: test.name.clone(),
+            file: test.file.clone(),
+            base: test.base.clone(),
+            set: test.set.clone(),
+            window_s: self.window([&test.from, &test.to], at),
+            shift_s: test.shift.as_ref().and_then(|t| t.si(units).ok()).unwrap_or(0.0),
+            weight: self.weight(test.weight, at),
+            map: test.map.clone(),
+            seat,
+        }
+    }
+
+    fn weight(&mut self, weight: Option<f64>, at: &str) -> f64 {
+        let weight = weight.unwrap_or(1.0);
+        if !(weight > 0.0 && weight.is_finite()) {
+            let found = format!("a weight of {weight}");
+            let at = format!("{at}.weight");
+            self.error(&at, found, "a number above zero", None);
+        }
+        weight
+    }
+}

@@ -1,0 +1,180 @@
+//! The written numbers of a parameter as a [`Law`] in SI units.
+
+use super::{Binder, noun};
+use crate::law::{Law, Value};
+use crate::section::{DistributionSection, Free, GridSection, ParameterSection, ScaleChoice};
+use occupant_core::problem::nearest;
+use occupant_core::scenario::check::one_of;
+use occupant_core::scenario::kind::{Kind, UnitSystem};
+use occupant_core::scenario::place::Wanted;
+use occupant_core::scenario::quantity::si_value;
+
+/// How the values of one parameter are to be read.
+pub(super) struct Quantities<'w> {
+    /// The kind of its numbers; none for names.
+    pub(super) kind: Option<&'static Kind>,
+    /// What may stand at its places.
+    pub(super) wanted: &'w Wanted,
+    /// Units of bare numbers.
+    pub(super) units: UnitSystem,
+}
+
+impl Quantities<'_> {
+    /// The law that a parameter's section gives.
+    pub(super) fn law(&self, binder: &mut Binder, section: &ParameterSection, at: &str) -> Option<Law> {
+        if let Some(list) = &section.list {
+            return self.list(binder, list, &format!("{at}.list"));
+        }
+        if self.kind.is_none() {
+            let found = format!("numbers for {}", noun(self.wanted));
+            binder.error(at, found, "a `list` of values", None);
+            return None;
+        }
+        if let Some(grid) = &section.grid {
+            return self.grid(binder, grid, &format!("{at}.grid"));
+        }
+        if let Some(range) = &section.range {
+            let at = format!("{at}.range");
+            let log = range.scale == Some(ScaleChoice::Log);
+            let [from, to] = self.ends(binder, &at, [&range.from, &range.to], log)?;
+            return Some(match log {
+                true => Law::LogUniform { from, to },
+                false => Law::Uniform { from, to },
+            });
+        }
+        let distribution = section.distribution.as_ref()?;
+        self.distribution(binder, distribution, &format!("{at}.distribution"))
+    }
+
+    /// A number in SI units; a wrong one is reported.
+    pub(super) fn number(&self, binder: &mut Binder, free: &Free, at: &str) -> Option<f64> {
+        let kind = self.kind?;
+        let Some(written) = free.written() else {
+            let found = format!("true or false where {} should stand", kind.noun);
+            binder.error(at, found, format!("{}: {}", kind.noun, kind.example), None);
+            return None;
+        };
+        match si_value(&written, kind, self.units) {
+            Ok(value) => Some(value),
+            Err(error) => {
+                binder.error(at, error.found, error.expected, error.hint);
+                None
+            }
+        }
+    }
+
+    /// Two ends, the first below the second, both positive on a logarithmic scale.
+    fn ends(&self, binder: &mut Binder, at: &str, [from, to]: [&Free; 2], log: bool) -> Option<[f64; 2]> {
+        let from = self.number(binder, from, &format!("{at}.from"));
+        let to = self.number(binder, to, &format!("{at}.to"));
+        let (from, to) = (from?, to?);
+        if log && (from <= 0.0 || to <= 0.0) {
+            let end = if from <= 0.0 { "from" } else { "to" };
+            let found = format!("`{end}` is not above zero on a logarithmic scale");
+            binder.error(&format!("{at}.{end}"), found, "two ends above zero", None);
+            return None;
+        }
+        if from >= to {
+            let found = match from == to {
+                true => "`from` and `to` are the same",
+                false => "`from` is above `to`",
+            };
+            binder.error(&format!("{at}.to"), found, "`from` below `to`", None);
+            return None;
+        }
+        Some([from, to])
+    }
+
+    fn grid(&self, binder: &mut Binder, grid: &GridSection, at: &str) -> Option<Law> {
+        let log = grid.scale == Some(ScaleChoice::Log);
+        let [from, to] = self.ends(binder, at, [&grid.from, &grid.to], log)?;
+        Some(Law::Grid { from, to, steps: grid.steps, log })
+    }
+
+    fn distribution(&self, binder: &mut Binder, section: &DistributionSection, at: &str) -> Option<Law> {
+        match section {
+            DistributionSection::Uniform(s) => {
+                let [from, to] = self.ends(binder, at, [&s.from, &s.to], false)?;
+                Some(Law::Uniform { from, to })
+            }
+            DistributionSection::LogUniform(s) => {
+                let [from, to] = self.ends(binder, at, [&s.from, &s.to], true)?;
+                Some(Law::LogUniform { from, to })
+            }
+            DistributionSection::Normal(s) => {
+                let [mean, sd] = self.mean_and_sd(binder, &s.mean, &s.sd, at)?;
+                Some(Law::Normal { mean, sd })
+            }
+            DistributionSection::TruncatedNormal(s) => {
+                let ends = self.ends(binder, at, [&s.from, &s.to], false);
+                let [mean, sd] = self.mean_and_sd(binder, &s.mean, &s.sd, at)?;
+                let [from, to] = ends?;
+                // beyond that hardly anything of the bell is left between the ends
+                if (from - mean) / sd > 30.0 || (to - mean) / sd < -30.0 {
+                    let found = "ends more than 30 standard deviations from the mean, on one side";
+                    binder.error(at, found, "ends that hold a part of the bell", None);
+                    return None;
+                }
+                Some(Law::TruncatedNormal { mean, sd, from, to })
+            }
+            DistributionSection::Triangular(s) => {
+                let ends = self.ends(binder, at, [&s.from, &s.to], false);
+                let mode = self.number(binder, &s.mode, &format!("{at}.mode"))?;
+                let [from, to] = ends?;
+                if !(from..=to).contains(&mode) {
+                    let expected = "a `mode` from `from` to `to`";
+                    binder.error(&format!("{at}.mode"), "`mode` outside the ends", expected, None);
+                    return None;
+                }
+                Some(Law::Triangular { from, mode, to })
+            }
+        }
+    }
+
+    fn mean_and_sd(&self, binder: &mut Binder, mean: &Free, sd: &Free, at: &str) -> Option<[f64; 2]> {
+        let mean = self.number(binder, mean, &format!("{at}.mean"));
+        let sd = self.number(binder, sd, &format!("{at}.sd"))?;
+        if sd <= 0.0 {
+            let found = "a standard deviation that is not above zero";
+            binder.error(&format!("{at}.sd"), found, "a standard deviation above zero", None);
+            return None;
+        }
+        Some([mean?, sd])
+    }
+
+    fn list(&self, binder: &mut Binder, list: &[Free], at: &str) -> Option<Law> {
+        let values: Vec<Option<Value>> =
+            list.iter().enumerate().map(|(i, free)| self.item(binder, free, &format!("{at}[{i}]"))).collect();
+        values.into_iter().collect::<Option<_>>().map(Law::List)
+    }
+
+    /// One value of a list.
+    pub(super) fn item(&self, binder: &mut Binder, free: &Free, at: &str) -> Option<Value> {
+        if self.kind.is_some() {
+            return self.number(binder, free, at).map(Value::Number);
+        }
+        match (self.wanted, free) {
+            (Wanted::Truth, Free::Truth(b)) => Some(Value::Truth(*b)),
+            (Wanted::Text, Free::Text(text)) => Some(Value::Text(text.clone())),
+            (Wanted::Names(names), Free::Text(text)) if names.contains(&text.as_str()) => {
+                Some(Value::Text(text.clone()))
+            }
+            (Wanted::Names(names), Free::Text(text)) => {
+                let hint = nearest(text, names.iter().copied()).map(|n| format!("did you mean \"{n}\"?"));
+                let found = format!("\"{text}\" is not one of its names");
+                binder.error(at, found, one_of(names, '"'), hint);
+                None
+            }
+            _ => {
+                let found = match free {
+                    Free::Truth(_) => "true or false",
+                    Free::Text(_) => "a text",
+                    Free::Integer(_) | Free::Float(_) => "a number",
+                };
+                let found = format!("{found} where {} should stand", noun(self.wanted));
+                binder.error(at, found, noun(self.wanted), None);
+                None
+            }
+        }
+    }
+}

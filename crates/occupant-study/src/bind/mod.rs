@@ -1,0 +1,196 @@
+//! A study meets its base scenario: paths find their places, numbers their units, and everything that does not fit is told.
+
+mod correlations;
+mod design;
+mod ensemble;
+mod extremes;
+mod fit;
+mod law;
+mod parameters;
+mod table;
+
+use indexmap::IndexMap;
+
+use self::parameters::noun;
+use super::Study;
+use super::design::Design;
+use super::keep::Keep;
+use super::sobol::Sobol;
+use super::text::{StudyText, problem};
+use crate::section::Free;
+use occupant_core::problem::Severity;
+use occupant_core::scenario::kind::UnitSystem;
+use occupant_core::scenario::path_text::with_key;
+use occupant_core::scenario::place::{Misplaced, Wanted};
+use occupant_core::scenario::{Diagnostics, Draft, Resolver};
+
+impl StudyText {
+    /// Checks the study against its base scenario. What the study's `set` says is put into the base first, then the
+    /// `overrides` of a command line, each `path=value`; `resolver` gives the files that the study names.
+    ///
+    /// # Errors
+    /// Everything that is wrong with the base's words; else everything that is wrong with the study.
+    pub fn bind(&self, base: Draft, overrides: &[String], resolver: Resolver) -> Result<Study, Diagnostics> {
+        self.bind_for(Purpose::Sweep, base, overrides, resolver)
+    }
+
+    fn bind_for(
+        &self,
+        purpose: Purpose,
+        mut base: Draft,
+        overrides: &[String],
+        resolver: Resolver,
+    ) -> Result<Study, Diagnostics> {
+        let mut binder = Binder::new(self, purpose);
+        binder.prepare(&mut base, overrides)?;
+        binder.base = Some(&base);
+        let mut parameters = binder.parameters();
+        let (design, copula, ensemble) = match purpose {
+            Purpose::Sweep => {
+                let design = binder.design(&mut parameters, resolver);
+                let copula = binder.copula(&parameters, &design);
+                let ensemble = ensemble::bind(&mut binder, &base, &parameters);
+                (design, copula, ensemble)
+            }
+            Purpose::Fit { .. } => {
+                binder.have_ends(&parameters);
+                (Design::Single, None, None)
+            }
+        };
+        let keep = binder.keep();
+        binder.sizes(&parameters, &design, ensemble.as_ref());
+        extremes::check(&mut binder, &base, &parameters, overrides);
+        if binder.problems.has_errors() {
+            return Err(binder.problems);
+        }
+        let (warnings, changes) = (binder.problems, binder.changes);
+        let dimensions = match design {
+            Design::Saltelli { .. } => 2 * parameters.len(),
+            _ => parameters.len(),
+        };
+        Ok(Study {
+            base,
+            base_name: self.section.base.clone(),
+            changes,
+            seed: self.section.seed.unwrap_or(0),
+            parameters,
+            design,
+            sobol: Sobol::new(dimensions),
+            copula,
+            ensemble,
+            keep,
+            csv: self.section.output.as_ref().and_then(|o| o.csv).unwrap_or(false),
+            warnings,
+        })
+    }
+}
+
+/// What a study is bound for.
+#[derive(Clone, Copy)]
+pub(super) enum Purpose<'a> {
+    /// Its samples are run.
+    Sweep,
+    /// Its parameters are fitted to a test.
+    Fit {
+        /// What the scenario of that test has besides.
+        set: &'a IndexMap<String, Free>,
+        /// Where that stands in the study.
+        at: &'a str,
+    },
+}
+
+/// Work on a study text, with the problems found so far.
+pub(super) struct Binder<'a> {
+    pub(super) text: &'a StudyText,
+    pub(super) purpose: Purpose<'a>,
+    pub(super) base: Option<&'a Draft>,
+    pub(super) changes: Vec<(String, String)>,
+    pub(super) problems: Diagnostics,
+}
+
+impl<'a> Binder<'a> {
+    fn new(text: &'a StudyText, purpose: Purpose<'a>) -> Self {
+        Binder { text, purpose, base: None, changes: Vec::new(), problems: Diagnostics::new() }
+    }
+
+    /// The units of bare numbers in the study.
+    pub(super) fn units(&self) -> UnitSystem {
+        self.text.section.units.unwrap_or_default()
+    }
+
+    pub(super) fn error(
+        &mut self,
+        path: &str,
+        found: impl Into<String>,
+        expected: impl Into<String>,
+        hint: Option<String>,
+    ) {
+        let problem = problem(Severity::Error, path, found, expected, hint);
+        self.text.report(&mut self.problems, problem);
+    }
+
+    fn misplaced(&mut self, path: &str, error: Misplaced) {
+        self.error(path, error.found, error.expected, error.hint);
+    }
+
+    /// Puts what is the same in all runs into the base.
+    fn prepare(&mut self, base: &mut Draft, overrides: &[String]) -> Result<(), Diagnostics> {
+        let text = self.text;
+        self.set(base, &text.section.set, "set");
+        if let Purpose::Fit { set, at } = self.purpose {
+            self.set(base, set, at);
+        }
+        for assignment in overrides {
+            base.set(assignment)?;
+            if let Some((path, value)) = assignment.split_once('=') {
+                let change = (path.trim().to_owned(), value.trim().to_owned());
+                self.changes.push(change);
+            }
+        }
+        let wrong = base.check();
+        match wrong.has_errors() {
+            true => Err(wrong),
+            false => Ok(()),
+        }
+    }
+
+    /// Puts the values of a `set` at `at` into the base.
+    fn set(&mut self, base: &mut Draft, set: &IndexMap<String, Free>, at: &str) {
+        for (path, value) in set {
+            let value = self.written(base, path, value);
+            self.changes.push((path.clone(), value.clone()));
+            if let Err(problems) = base.set_value(path, &value) {
+                for d in problems.iter() {
+                    let at = with_key(at, path);
+                    self.error(&at, &d.problem.found, &d.problem.expected, None);
+                }
+            }
+        }
+    }
+
+    /// A value of `set` as the base reads it; a bare number is in the study's units.
+    fn written(&self, base: &Draft, path: &str, value: &Free) -> String {
+        let wanted = base.places(path).ok().and_then(|p| p.into_iter().next());
+        let unit = match wanted.map(|p| p.wanted) {
+            Some(Wanted::Quantity(kind)) => kind.bare_unit(self.units()),
+            _ => "",
+        };
+        match value {
+            Free::Truth(b) => b.to_string(),
+            Free::Integer(i) => format!("{i} {unit}").trim().to_owned(),
+            Free::Float(x) => format!("{x:?} {unit}").trim().to_owned(),
+            Free::Text(text) => toml::Value::String(text.clone()).to_string(),
+        }
+    }
+
+    fn keep(&mut self) -> Keep {
+        let Some(section) = &self.text.section.keep else {
+            return Keep::default();
+        };
+        Keep::read(section).unwrap_or_else(|found| {
+            let expected = "\"all\", \"none\", a list of indices, or such as \"worst 5 by hic15\"";
+            self.error("keep", found, expected, None);
+            Keep::default()
+        })
+    }
+}

@@ -1,0 +1,179 @@
+//! The `[[parameters]]` of a study find their places and their laws.
+
+use super::law::Quantities;
+use super::{Binder, Purpose};
+use crate::law::Law;
+use crate::parameter::{Parameter, Target, si_unit};
+use crate::section::{ApplyChoice, DesignSection, ParameterSection};
+use occupant_core::scenario::kind::{KINDS, Kind, RATIO};
+use occupant_core::scenario::place::{Place, Wanted};
+
+impl Binder<'_> {
+    /// The parameters that have found their places; a broken one is reported and left out.
+    pub(super) fn parameters(&mut self) -> Vec<Parameter> {
+        let sections = &self.text.section.parameters;
+        let mut found: Vec<Parameter> = Vec::new();
+        for (i, section) in sections.iter().enumerate() {
+            let at = format!("parameters[{i}]");
+            if let Some(parameter) = self.parameter(section, &at) {
+                self.clash(&parameter, &found, &at);
+                found.push(parameter);
+            }
+        }
+        found
+    }
+
+    pub(super) fn parameter(&mut self, section: &ParameterSection, at: &str) -> Option<Parameter> {
+        let paths: Vec<(String, &str)> = match (&section.path, &section.paths) {
+            (Some(path), _) => vec![(format!("{at}.path"), path)],
+            (None, Some(paths)) => {
+                paths.iter().enumerate().map(|(i, p)| (format!("{at}.paths[{i}]"), p.as_str())).collect()
+            }
+            (None, None) => return None,
+        };
+        let places = self.places(&paths)?;
+        let apply = section.apply.unwrap_or_default();
+        let wanted = self.common(&places, &paths[0].0)?;
+        let kind = match wanted {
+            Wanted::Quantity(kind) => Some(kind),
+            _ => None,
+        };
+        if apply != ApplyChoice::Value && !self.all_numbers(&places, &paths[0].0, apply) {
+            return None;
+        }
+        let law = self.law(section, at, apply, &wanted)?;
+        Some(Parameter {
+            name: section.name.clone().unwrap_or_else(|| paths[0].1.to_owned()),
+            unit: match apply {
+                ApplyChoice::Factor => "",
+                _ => kind.map_or("", si_unit),
+            },
+            apply,
+            law,
+            targets: places.iter().map(Target::of).collect(),
+        })
+    }
+
+    /// The places of several paths, each once; none if any path leads nowhere.
+    pub(super) fn places(&mut self, paths: &[(String, &str)]) -> Option<Vec<Place>> {
+        let base = self.base?;
+        let mut places: Vec<Place> = Vec::new();
+        let mut whole = true;
+        for (at, path) in paths {
+            match base.places(path) {
+                Ok(found) => {
+                    for place in found {
+                        if !places.iter().any(|p| p.path == place.path) {
+                            places.push(place);
+                        }
+                    }
+                }
+                Err(error) => {
+                    self.misplaced(at, error);
+                    whole = false;
+                }
+            }
+        }
+        (whole && !places.is_empty()).then_some(places)
+    }
+
+    /// What may stand at all of the places.
+    pub(super) fn common(&mut self, places: &[Place], at: &str) -> Option<Wanted> {
+        let first = places.first()?;
+        let other = places.iter().find(|p| p.wanted != first.wanted);
+        match other {
+            None => Some(first.wanted.clone()),
+            Some(other) => {
+                let found =
+                    format!("`{}` is {}, `{}` is {}", first.path, noun(&first.wanted), other.path, noun(&other.wanted));
+                self.error(at, found, "places of one kind", None);
+                None
+            }
+        }
+    }
+
+    /// Whether there are numbers to multiply or to add to.
+    pub(super) fn all_numbers(&mut self, places: &[Place], at: &str, apply: ApplyChoice) -> bool {
+        let Some(other) = places.iter().find(|p| p.si.is_none()) else {
+            return true;
+        };
+        let word = match apply {
+            ApplyChoice::Factor => "multiplied",
+            _ => "added to",
+        };
+        let what = match other.value {
+            Some(_) => format!("is {}", noun(&other.wanted)),
+            None => "is not in the base scenario".to_owned(),
+        };
+        let found = format!("`{}` {what}, so it cannot be {word}", other.path);
+        self.error(at, found, "a path to numbers that the base scenario has", None);
+        false
+    }
+
+    pub(super) fn law(
+        &mut self,
+        section: &ParameterSection,
+        at: &str,
+        apply: ApplyChoice,
+        wanted: &Wanted,
+    ) -> Option<Law> {
+        let by_table =
+            matches!(self.purpose, Purpose::Sweep) && matches!(self.text.section.design, Some(DesignSection::Table(_)));
+        let given = section.grid.is_some()
+            || section.list.is_some()
+            || section.range.is_some()
+            || section.distribution.is_some();
+        if by_table && given {
+            let expected = "no `grid`, `list`, `range` or `distribution`";
+            self.error(at, "values for a parameter that the table of samples varies", expected, None);
+            return None;
+        }
+        if by_table {
+            return Some(Law::Table);
+        }
+        if !given {
+            let hint = "grid = { from = …, to = …, steps = … }".to_owned();
+            let expected = "`grid`, `list`, `range` or `distribution`";
+            self.error(at, "a parameter that does not say how it varies", expected, Some(hint));
+            return None;
+        }
+        let kind = match (apply, wanted) {
+            (ApplyChoice::Factor, _) => Some(&KINDS[RATIO]),
+            (_, Wanted::Quantity(kind)) => Some(*kind),
+            (_, Wanted::Number) => Some(&KINDS[RATIO]),
+            _ => None,
+        };
+        let quantities = Quantities { kind, wanted, units: self.units() };
+        quantities.law(self, section, at)
+    }
+
+    /// Tells of two parameters of one name, and of a value that an earlier parameter has already put there.
+    pub(super) fn clash(&mut self, parameter: &Parameter, earlier: &[Parameter], at: &str) {
+        if earlier.iter().any(|p| p.name == parameter.name) {
+            let found = format!("a second parameter named `{}`", parameter.name);
+            self.error(at, found, "a name of its own", Some("name = \"…\"".into()));
+        }
+        if parameter.apply != ApplyChoice::Value {
+            return;
+        }
+        for other in earlier {
+            let shared = parameter.targets.iter().find(|t| other.targets.iter().any(|o| o.path == t.path));
+            if let Some(target) = shared {
+                let found = format!("`{}` is already varied by `{}`", target.path, other.name);
+                let hint = "a factor or an offset may follow a value, but not the other way round";
+                self.error(at, found, "each place varied by one value", Some(hint.into()));
+            }
+        }
+    }
+}
+
+/// What may stand at a place, with its article.
+pub(super) fn noun(wanted: &Wanted) -> &'static str {
+    match wanted {
+        Wanted::Quantity(Kind { noun, .. }) => noun,
+        Wanted::Number => "a number",
+        Wanted::Names(_) => "a name",
+        Wanted::Text => "a text",
+        Wanted::Truth => "true or false",
+    }
+}

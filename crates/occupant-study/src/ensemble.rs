@@ -1,0 +1,162 @@
+//! Ensembles: the same sample many times with small changes, to see which figures are stable.
+//!
+//! An occupant's motion after a hard contact is chaotic: the smallest change grows. Member 0 is the sample itself. Every
+//! other member changes each place by a number of its own, drawn evenly within plus and minus the tolerance. The numbers
+//! hang on seed, member and place alone: members of different samples are perturbed alike, so that samples are compared
+//! under the same changes, and an ensemble of 64 begins with that of 32.
+
+use super::parameter::{Assignment, Parameter, Target, changed, place};
+use super::random::{Purpose, unit};
+use occupant_core::scenario::Draft;
+use occupant_core::scenario::expand::rival_path;
+use occupant_core::scenario::kind::UnitSystem;
+use occupant_core::scenario::place::Misplaced;
+
+/// How far the standard changes may go.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerances {
+    /// Of each angle of the posture, or of the initial state, rad.
+    pub posture_rad: f64,
+    /// Of heels and lateral seat place, or of the position in the initial state, m.
+    pub place_m: f64,
+    /// Of the strength of the pulse, as a part of it.
+    pub path: f64,
+    /// Of the stiffness of each material and each belt, as a part of it.
+    pub stiffness: f64,
+}
+
+impl Default for Tolerances {
+    /// As well as a test can be set up: 1°, 5 mm, 1 %, 2 %.
+    fn default() -> Self {
+        Tolerances { posture_rad: std::f64::consts::PI / 180.0, place_m: 0.005, path: 0.01, stiffness: 0.02 }
+    }
+}
+
+/// The same sample many times with small changes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ensemble {
+    /// How many runs for each sample, the unchanged one included.
+    pub members: u64,
+    /// What changes.
+    pub perturbations: Vec<Perturbation>,
+}
+
+/// A small change of one place, or of several together.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Perturbation {
+    /// How far it may go.
+    pub change: Change,
+    /// Where.
+    pub targets: Vec<Target>,
+}
+
+/// How far a change may go, to both sides.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Change {
+    /// By so much, SI units.
+    Offset(f64),
+    /// By such a part of it.
+    Factor(f64),
+}
+
+impl Ensemble {
+    /// Changes what a sample puts into the scenario, for one of its members.
+    pub(super) fn perturb(&self, member: u64, seed: u64, list: &mut Vec<Assignment>) {
+        if member == 0 {
+            return;
+        }
+        for (i, perturbation) in self.perturbations.iter().enumerate() {
+            // −1 … 1
+            let way = 2.0 * unit(seed, Purpose::Ensemble, member, i as u32) - 1.0;
+            for target in &perturbation.targets {
+                // a sample that gives the peak of a pulse has taken its change of speed away
+                let rival = rival_path(&target.path);
+                if list.iter().any(|a| Some(&a.path) == rival.as_ref()) {
+                    continue;
+                }
+                let value = changed(target, list, |old| match perturbation.change {
+                    Change::Offset(most) => old + way * most,
+                    Change::Factor(most) => old * (1.0 + way * most),
+                });
+                place(target, value, list);
+            }
+        }
+    }
+}
+
+/// One change for each of these paths that there is, each path on its own.
+fn each(base: &Draft, paths: &[String], change: Change) -> Vec<Perturbation> {
+    let found = paths.iter().filter_map(|path| targets(base, path).ok());
+    found.flatten().map(|target| Perturbation { change, targets: vec![target] }).collect()
+}
+
+/// The numbers that a path leads to.
+pub(super) fn targets(base: &Draft, path: &str) -> Result<Vec<Target>, Misplaced> {
+    let places = base.places(path)?;
+    Ok(places.iter().filter(|p| p.si.is_some()).map(Target::of).collect())
+}
+
+/// Changes of each angle of the posture, or of the initial state.
+pub(super) fn posture(base: &Draft, most_rad: f64) -> Vec<Perturbation> {
+    let angles = ["middle_torso", "upper_torso", "head", "lower_torso", "upper_arms", "elbows"];
+    let written = angles.iter().map(|a| format!("posture.{a}"));
+    // q₄ … q₃₁ are angles
+    let exact = (3..31).map(|i| format!("initial_state.q[{i}]"));
+    let paths: Vec<String> = written.chain(exact).collect();
+    each(base, &paths, Change::Offset(most_rad))
+}
+
+/// Changes of the place of the occupant.
+pub(super) fn seat_place(base: &Draft, most_m: f64) -> Vec<Perturbation> {
+    let written = ["posture.heels[0]", "posture.heels[1]", "seats.*.y"].map(str::to_owned);
+    let exact: Vec<String> = (0..3).map(|i| format!("initial_state.q[{i}]")).collect();
+    // q₁ … q₃ have no unit of their own but are in the file's length
+    let length_m = match base.units() {
+        UnitSystem::Si => 1.0,
+        UnitSystem::InchPound => 0.0254,
+    };
+    [each(base, &written, Change::Offset(most_m)), each(base, &exact, Change::Offset(most_m / length_m))].concat()
+}
+
+/// A change of the strength of the pulse, whether the base scenario or a parameter says it.
+pub(super) fn path(base: &Draft, parameters: &[Parameter], most: f64) -> Vec<Perturbation> {
+    let paths = ["path.peak", "path.delta_v"];
+    let said = paths.iter().filter_map(|path| targets(base, path).ok());
+    let mut strengths: Vec<Target> = said.flatten().collect();
+    let varied = parameters.iter().flat_map(|p| &p.targets);
+    for target in varied.filter(|t| paths.contains(&t.path.as_str())) {
+        if !strengths.contains(target) {
+            strengths.push(target.clone());
+        }
+    }
+    match strengths.is_empty() {
+        true => Vec::new(),
+        false => vec![Perturbation { change: Change::Factor(most), targets: strengths }],
+    }
+}
+
+/// A change of each material and each belt, both straight lines of one together.
+pub(super) fn stiffness(base: &Draft, most: f64) -> Vec<Perturbation> {
+    let firsts = ["materials.*.k1", "belts.*.k1"].iter().filter_map(|path| targets(base, path).ok()).flatten();
+    firsts
+        .map(|first| {
+            let second = first.path.strip_suffix('1').map(|p| format!("{p}2"));
+            let second = second.and_then(|path| targets(base, &path).ok());
+            Perturbation {
+                change: Change::Factor(most),
+                targets: [first].into_iter().chain(second.into_iter().flatten()).collect(),
+            }
+        })
+        .collect()
+}
+
+/// All standard changes that the scenario has a place for.
+pub(super) fn standard(base: &Draft, parameters: &[Parameter], most: &Tolerances) -> Vec<Perturbation> {
+    [
+        posture(base, most.posture_rad),
+        seat_place(base, most.place_m),
+        path(base, parameters, most.path),
+        stiffness(base, most.stiffness),
+    ]
+    .concat()
+}

@@ -1,0 +1,57 @@
+//! Of which runs the whole motion is kept.
+
+use crate::section::KeepSection;
+
+/// Of which runs the whole motion is kept.
+#[derive(Clone, Debug, PartialEq, Default)]
+pub enum Keep {
+    /// Of all.
+    All,
+    /// Of none.
+    #[default]
+    None,
+    /// Of these.
+    Indices(Vec<u64>),
+    /// Of those with the greatest values of a measure.
+    Worst {
+        /// How many.
+        count: u64,
+        /// Name of the measure, such as `hic15`.
+        measure: String,
+    },
+}
+
+impl Keep {
+    /// What the words say.
+    ///
+    /// # Errors
+    /// What was found that says nothing.
+    pub(super) fn read(section: &KeepSection) -> Result<Keep, String> {
+        match section {
+            KeepSection::Words(words) => {
+                Keep::from_words(words).ok_or_else(|| format!("\"{words}\" says nothing about which runs to keep"))
+            }
+            KeepSection::Indices(items) => {
+                let index = |item: &serde_json::Value| {
+                    item.as_u64().ok_or_else(|| format!("`{item}` is no index, which counts from 0"))
+                };
+                let mut indices = items.iter().map(index).collect::<Result<Vec<u64>, _>>()?;
+                indices.sort_unstable();
+                indices.dedup();
+                Ok(Keep::Indices(indices))
+            }
+        }
+    }
+
+    fn from_words(words: &str) -> Option<Keep> {
+        let words: Vec<&str> = words.split_whitespace().collect();
+        match words.as_slice() {
+            ["all"] => Some(Keep::All),
+            ["none"] => Some(Keep::None),
+            ["worst", count, "by", measure] => {
+                Some(Keep::Worst { count: count.parse().ok().filter(|n| *n > 0)?, measure: (*measure).to_owned() })
+            }
+            _ => None,
+        }
+    }
+}

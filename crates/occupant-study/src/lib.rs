@@ -1,0 +1,319 @@
+//! Studies: many runs of one scenario, in which some of its values are varied.
+//!
+//! ```text
+//! text ─ StudyText ─ bind(base scenario) ─ Study ─ sample i ─ Draft i
+//! ```
+//!
+//! Every sample is computed from its index alone: the same for any number of threads, on any machine, in any order, in
+//! time and memory that grow with the number of parameters only.
+//!
+//! ```
+//! use occupant_core::scenario::{Draft, Format};
+//! use occupant_study::{StudyText, Value};
+//!
+//! let base = r#"
+//!     title = "Free fall"
+//!     time = { end = 0.5 }
+//!     path = { kind = "fixed" }
+//!     body = { preset = "male50" }
+//!     joints = { preset = "male50" }
+//!
+//!     [initial_state]
+//!     q     = [0, 0, 2,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0,  0, 0, 0,  0, 0, 0,  0, 0]
+//!     rates = [0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0, 0,  0, 0,  0, 0, 0,  0, 0, 0,  0, 0]
+//! "#;
+//! let study = r#"
+//!     base = "free-fall.toml"
+//!     design.kind = "full_factorial"
+//!
+//!     [[parameters]]
+//!     path = "joints.neck.damping"
+//!     grid = { from = "10 in lbf s/rad", to = "40 in lbf s/rad", steps = 3, scale = "log" }
+//!
+//!     [[parameters]]
+//!     name = "joint stiffness"
+//!     path = "joints.*.stiffness"
+//!     apply = "factor"
+//!     list = [0.5, 1, 2]
+//! "#;
+//! let text = StudyText::read(study, Format::Toml, "study.toml")?;
+//! let base = Draft::read(base, Format::Toml, text.base())?;
+//! let study = text.bind(base, &[], &|file| Err(format!("no file {file}")))?;
+//!
+//! assert_eq!(study.len(), 9);
+//! let sample = study.sample(5); // the last parameter changes fastest
+//! assert_eq!(sample[1].value, Value::Number(2.0));
+//! let scenario = study.draft(5)?; // the base with the values of sample 5
+//! # Ok::<(), occupant_core::scenario::Diagnostics>(())
+//! ```
+
+pub mod analysis;
+mod bind;
+mod copula;
+mod design;
+mod direction_numbers;
+mod ensemble;
+mod fit;
+mod fit_section;
+mod keep;
+mod law;
+pub mod misfit;
+mod morris;
+mod normal;
+mod parameter;
+mod permutation;
+mod random;
+mod saltelli;
+pub mod search;
+mod section;
+pub mod sensitivity;
+mod sobol;
+pub mod spread;
+mod text;
+
+pub use design::{Design, Role};
+pub use ensemble::{Change, Ensemble, Perturbation, Tolerances};
+pub use fit::{Bounds, Fit, FitChannel, FitTest};
+pub use fit_section::{FilterChoice, FitSection, Misfit};
+pub use keep::Keep;
+pub use law::{Law, Value};
+pub use parameter::{Assignment, Parameter, Target};
+pub use saltelli::Block;
+pub use section::{ApplyChoice, Free, StudySection, schema_json};
+pub use text::StudyText;
+
+use self::copula::Copula;
+use self::design::{Context, Coordinate};
+use self::sobol::Sobol;
+use occupant_core::scenario::{Diagnostics, Draft};
+
+#[cfg(test)]
+mod tests;
+
+/// A study that fits its base scenario.
+#[derive(Clone, Debug)]
+pub struct Study {
+    base: Draft,
+    base_name: String,
+    changes: Vec<(String, String)>,
+    seed: u64,
+    parameters: Vec<Parameter>,
+    design: Design,
+    sobol: Sobol,
+    copula: Option<Copula>,
+    ensemble: Option<Ensemble>,
+    keep: Keep,
+    csv: bool,
+    warnings: Diagnostics,
+}
+
+/// The value of one parameter in one sample.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Setting {
+    /// Index of the parameter in [`Study::parameters`].
+    pub parameter: usize,
+    /// Its value, SI units and radians; of a parameter that the sample leaves alone, what the base scenario says.
+    pub value: Value,
+    /// Whether the sample says it, and not the base scenario.
+    pub given: bool,
+}
+
+impl Study {
+    /// An ensemble of one scenario: a study of one sample without parameters. What the scenario has no place for is not
+    /// changed.
+    pub fn of_ensemble(
+        base: Draft,
+        name: impl Into<String>,
+        members: u64,
+        seed: u64,
+        tolerances: &Tolerances,
+    ) -> Study {
+        let perturbations = ensemble::standard(&base, &[], tolerances);
+        Study {
+            base,
+            base_name: name.into(),
+            changes: Vec::new(),
+            seed,
+            parameters: Vec::new(),
+            design: Design::Single,
+            sobol: Sobol::new(0),
+            copula: None,
+            ensemble: Some(Ensemble { members: members.max(1), perturbations }),
+            keep: Keep::None,
+            csv: false,
+            warnings: Diagnostics::new(),
+        }
+    }
+
+    /// How many runs there are: samples of the design times members of the ensemble.
+    pub fn len(&self) -> u64 {
+        self.samples().saturating_mul(self.members())
+    }
+
+    /// Whether there is no run at all.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
+
+    /// How many samples the design has.
+    pub fn samples(&self) -> u64 {
+        // bind has refused a design that cannot be counted
+        self.design.len(&self.levels()).unwrap_or(0)
+    }
+
+    /// How many runs each sample has: members of the ensemble, or 1.
+    pub fn members(&self) -> u64 {
+        self.ensemble.as_ref().map_or(1, |e| e.members)
+    }
+
+    /// Sample and member of a run: run = sample · members + member. Member 0 is the sample itself.
+    pub fn sample_and_member(&self, index: u64) -> (u64, u64) {
+        (index / self.members(), index % self.members())
+    }
+
+    /// The values of all parameters in a run, in the order of [`Study::parameters`]. Members of one sample share them.
+    pub fn sample(&self, index: u64) -> Vec<Setting> {
+        let (sample, _) = self.sample_and_member(index);
+        let laws: Vec<&Law> = self.parameters.iter().map(|p| &p.law).collect();
+        let mut coordinates =
+            self.design.coordinates(sample, &Context { seed: self.seed, laws: &laws, sobol: &self.sobol });
+        if let Some(copula) = &self.copula {
+            correlate(copula, &mut coordinates);
+        }
+        let settings = self.parameters.iter().zip(coordinates).enumerate();
+        settings
+            .map(|(parameter, (of, coordinate))| Setting {
+                parameter,
+                given: coordinate != Coordinate::Nominal,
+                value: value_at(of, coordinate),
+            })
+            .collect()
+    }
+
+    /// What a run puts into the base scenario, perturbations of its member included, each place once.
+    pub fn assignments(&self, index: u64) -> Vec<Assignment> {
+        let mut list = Vec::new();
+        for setting in self.sample(index).into_iter().filter(|s| s.given) {
+            self.parameters[setting.parameter].assign(&setting.value, &mut list);
+        }
+        if let Some(ensemble) = &self.ensemble {
+            let (_, member) = self.sample_and_member(index);
+            ensemble.perturb(member, self.seed, &mut list);
+        }
+        list
+    }
+
+    /// Puts the values of a run into a copy of the base scenario.
+    ///
+    /// # Errors
+    /// A path that leads nowhere in this draft; never in a clone of [`Study::base`].
+    pub fn apply(&self, index: u64, draft: &mut Draft) -> Result<(), Diagnostics> {
+        for assignment in self.assignments(index) {
+            draft.set_value(&assignment.path, &assignment.text())?;
+        }
+        Ok(())
+    }
+
+    /// The scenario of a run.
+    ///
+    /// # Errors
+    /// None for a study that has been bound to its base.
+    pub fn draft(&self, index: u64) -> Result<Draft, Diagnostics> {
+        let mut draft = self.base.clone();
+        self.apply(index, &mut draft)?;
+        Ok(draft)
+    }
+
+    /// What a run's sample is in its design.
+    pub fn role(&self, index: u64) -> Role {
+        let (sample, _) = self.sample_and_member(index);
+        self.design.role(sample, &self.levels(), self.seed)
+    }
+
+    /// By how much the last step of a Morris trajectory moved its parameter, as a part of the range, with its sign. None
+    /// for a run that is no such step.
+    pub fn morris_step(&self, index: u64) -> Option<f64> {
+        let (sample, _) = self.sample_and_member(index);
+        self.design.morris_step(sample, self.parameters.len(), self.seed)
+    }
+
+    /// What is varied.
+    pub fn parameters(&self) -> &[Parameter] {
+        &self.parameters
+    }
+
+    /// How the samples are chosen.
+    pub fn design(&self) -> &Design {
+        &self.design
+    }
+
+    /// The small changes of every sample, if there are any.
+    pub fn ensemble(&self) -> Option<&Ensemble> {
+        self.ensemble.as_ref()
+    }
+
+    /// The base scenario, with what the study and the command line say of all runs.
+    pub fn base(&self) -> &Draft {
+        &self.base
+    }
+
+    /// What the study and the command line have put into the base scenario, in order: paths and values as
+    /// [`Draft::set_value`] reads them.
+    pub fn changes(&self) -> &[(String, String)] {
+        &self.changes
+    }
+
+    /// The name of the base scenario as the study gives it.
+    pub fn base_name(&self) -> &str {
+        &self.base_name
+    }
+
+    /// What names the random numbers.
+    pub fn seed(&self) -> u64 {
+        self.seed
+    }
+
+    /// Of which runs the whole motion is kept.
+    pub fn keep(&self) -> &Keep {
+        &self.keep
+    }
+
+    /// Whether the table of results is also written as CSV.
+    pub fn csv(&self) -> bool {
+        self.csv
+    }
+
+    /// What the user should know, though the study can be run.
+    pub fn warnings(&self) -> &Diagnostics {
+        &self.warnings
+    }
+
+    fn levels(&self) -> Vec<Option<u64>> {
+        self.parameters.iter().map(|p| p.law.levels()).collect()
+    }
+}
+
+fn value_at(parameter: &Parameter, coordinate: Coordinate) -> Value {
+    match coordinate {
+        Coordinate::Nominal => parameter.nominal(),
+        Coordinate::Level(i) => parameter.law.level(i),
+        Coordinate::Quantile(p) => parameter.law.quantile(p),
+        Coordinate::Bounded(p, tail) => parameter.law.bounded_quantile(p, tail),
+        Coordinate::Given(value) => value,
+    }
+}
+
+/// Correlates the coordinates of a sample, all of which are probabilities.
+fn correlate(copula: &Copula, coordinates: &mut [Coordinate]) {
+    let mut u: Vec<f64> = coordinates
+        .iter()
+        .map(|c| match c {
+            Coordinate::Quantile(p) => *p,
+            _ => 0.5,
+        })
+        .collect();
+    copula.correlate(&mut u);
+    for (coordinate, u) in coordinates.iter_mut().zip(u) {
+        *coordinate = Coordinate::Quantile(u);
+    }
+}

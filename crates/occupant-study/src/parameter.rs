@@ -1,0 +1,134 @@
+//! A parameter that has found its places in the base scenario, and the texts that put a value there.
+
+use super::law::{Law, Value};
+use crate::section::ApplyChoice;
+use occupant_core::scenario::kind::Kind;
+use occupant_core::scenario::place::{Place, Wanted};
+
+/// A parameter that has found its places in the base scenario.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Parameter {
+    /// Its name, that of its column.
+    pub name: String,
+    /// SI unit of its numbers, angles in rad; empty for names, plain numbers and factors.
+    pub unit: &'static str,
+    /// What is done with its number.
+    pub apply: ApplyChoice,
+    /// How its values are spread.
+    pub law: Law,
+    /// Where it acts.
+    pub targets: Vec<Target>,
+}
+
+/// A place where a parameter acts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Target {
+    /// Its path, without wildcards.
+    pub path: String,
+    /// SI unit of a number there.
+    pub unit: &'static str,
+    /// What the base scenario says there.
+    pub base: Value,
+}
+
+/// A value put at a place.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Assignment {
+    /// The place, a path without wildcards.
+    pub path: String,
+    /// The value in SI units.
+    pub value: Value,
+    /// SI unit of a number.
+    pub unit: &'static str,
+}
+
+/// SI unit of a kind of quantity, angles in rad.
+pub(super) fn si_unit(kind: &Kind) -> &'static str {
+    match kind.name {
+        "angle" => "rad",
+        "angular velocity" => "rad/s",
+        _ => kind.si,
+    }
+}
+
+impl Target {
+    pub(crate) fn of(place: &Place) -> Target {
+        use occupant_core::scenario::document::Value as Node;
+        let base = match (&place.value, place.si) {
+            (_, Some(x)) => Value::Number(x),
+            (Some(Node::String(text)), _) => Value::Text(text.clone()),
+            (Some(Node::Bool(b)), _) => Value::Truth(*b),
+            _ => Value::Base,
+        };
+        let unit = match place.wanted {
+            Wanted::Quantity(kind) => si_unit(kind),
+            _ => "",
+        };
+        Target { path: place.path.clone(), unit, base }
+    }
+}
+
+impl Assignment {
+    /// The value as [`Draft::set_value`](occupant_core::scenario::Draft::set_value) and `--set` read it; it gives the same bits
+    /// back.
+    pub fn text(&self) -> String {
+        match &self.value {
+            Value::Number(x) if self.unit.is_empty() => format!("{x:?}"),
+            Value::Number(x) => format!("{x:?} {}", self.unit),
+            Value::Text(text) => toml::Value::String(text.clone()).to_string(),
+            Value::Truth(b) => b.to_string(),
+            Value::Base => String::new(),
+        }
+    }
+}
+
+impl Parameter {
+    /// Its value in the base scenario: a factor of 1, an offset of 0, or what stands there, if that is one value.
+    pub fn nominal(&self) -> Value {
+        match self.apply {
+            ApplyChoice::Factor => Value::Number(1.0),
+            ApplyChoice::Offset => Value::Number(0.0),
+            ApplyChoice::Value => {
+                let mut bases = self.targets.iter().map(|t| &t.base);
+                match bases.next() {
+                    Some(first) if bases.all(|b| b == first) => first.clone(),
+                    _ => Value::Base,
+                }
+            }
+        }
+    }
+
+    /// Puts a value at its places, over what has been put there before.
+    pub(super) fn assign(&self, value: &Value, list: &mut Vec<Assignment>) {
+        for target in &self.targets {
+            let put = match (self.apply, value) {
+                (_, Value::Base) => continue,
+                (ApplyChoice::Value, _) => value.clone(),
+                (ApplyChoice::Factor, Value::Number(x)) => changed(target, list, |old| old * x),
+                (ApplyChoice::Offset, Value::Number(x)) => changed(target, list, |old| old + x),
+                _ => continue,
+            };
+            place(target, put, list);
+        }
+    }
+}
+
+/// What stands at a target now, changed.
+pub(super) fn changed(target: &Target, list: &[Assignment], change: impl Fn(f64) -> f64) -> Value {
+    let earlier = list.iter().find(|a| a.path == target.path).map(|a| &a.value);
+    match earlier.unwrap_or(&target.base) {
+        Value::Number(old) => Value::Number(change(*old)),
+        _ => Value::Base,
+    }
+}
+
+/// Puts a value at a target, instead of an earlier one.
+pub(super) fn place(target: &Target, value: Value, list: &mut Vec<Assignment>) {
+    if value == Value::Base {
+        return;
+    }
+    match list.iter_mut().find(|a| a.path == target.path) {
+        Some(earlier) => earlier.value = value,
+        None => list.push(Assignment { path: target.path.clone(), value, unit: target.unit }),
+    }
+}

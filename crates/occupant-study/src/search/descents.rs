@@ -1,0 +1,120 @@
+//! Descents one after the other, each with twice the points a generation of the one before, while evaluations last.
+//!
+//! A. Auger, N. Hansen, "A restart CMA evolution strategy with increasing population size", CEC 2005: a greater population
+//! sees more of a rugged landscape and less of its single holes.
+
+use super::bounds::fold;
+use super::cma::{Cma, Ending};
+use super::{Point, Stage, evaluated};
+use crate::random::{Purpose, unit};
+
+/// How to search.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Descents {
+    /// Where the first descent begins; one coordinate each from 0 to 1. The others begin anywhere.
+    pub start: Vec<f64>,
+    /// Names the random numbers.
+    pub seed: u64,
+    /// At most so many evaluations.
+    pub evaluations: u64,
+    /// Points of a generation of the first descent, at least 4.
+    pub population: usize,
+    /// A descent has arrived when its values differ by less.
+    pub tolerance: f64,
+}
+
+/// One descent.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Descent {
+    /// Points of a generation.
+    pub population: usize,
+    /// Evaluations it took.
+    pub evaluations: u64,
+    /// The least value it met, and where.
+    pub best: Point,
+    /// Why it ended.
+    pub ending: Ending,
+}
+
+/// What all descents came to.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Global {
+    /// The least value met, and where.
+    pub best: Point,
+    /// The descents in order.
+    pub descents: Vec<Descent>,
+}
+
+/// First steps, as a part of the cube.
+const FIRST_STEP: f64 = 0.3;
+
+/// Searches the unit cube for its least value. At least one generation is computed, however few evaluations there are.
+///
+/// # Errors
+/// What `evaluate` reports.
+pub fn descend<E>(
+    how: &Descents,
+    evaluate: &mut impl FnMut(Stage, &[Vec<f64>]) -> Result<Vec<f64>, E>,
+) -> Result<Global, E> {
+    let mut left = how.evaluations;
+    let mut population = how.population.max(4);
+    let mut descents: Vec<Descent> = Vec::new();
+    loop {
+        let number = descents.len();
+        let start = start(how, number);
+        let descent = one(how, number, population, start, left, evaluate)?;
+        left = left.saturating_sub(descent.evaluations);
+        let over = descent.ending == Ending::Budget;
+        descents.push(descent);
+        population *= 2;
+        if over || left < population as u64 {
+            break;
+        }
+    }
+    let nothing = Point { at: how.start.clone(), value: f64::INFINITY };
+    let all = descents.iter().map(|d| d.best.clone());
+    Ok(Global { best: all.fold(nothing, Point::lower), descents })
+}
+
+fn start(how: &Descents, number: usize) -> Vec<f64> {
+    match number {
+        0 => how.start.clone(),
+        _ => {
+            let index = u64::MAX - number as u64;
+            let anywhere = |d| unit(how.seed, Purpose::Search, index, d as u32);
+            (0..how.start.len()).map(anywhere).collect()
+        }
+    }
+}
+
+fn one<E>(
+    how: &Descents,
+    number: usize,
+    population: usize,
+    start: Vec<f64>,
+    left: u64,
+    evaluate: &mut impl FnMut(Stage, &[Vec<f64>]) -> Result<Vec<f64>, E>,
+) -> Result<Descent, E> {
+    let mut best = Point { at: start.clone(), value: f64::INFINITY };
+    let mut cma = Cma::new(start, FIRST_STEP, population, how.seed, number as u64);
+    let mut evaluations = 0;
+    let mut generation = 0;
+    let ending = loop {
+        let asked = cma.ask();
+        let folded = asked.iter().map(|x| x.iter().map(|x| fold(*x)).collect()).collect();
+        let stage = Stage::Descent { number, generation };
+        let points = evaluated(stage, folded, evaluate)?;
+        evaluations += points.len() as u64;
+        generation += 1;
+        let values: Vec<f64> = points.iter().map(|p| p.value).collect();
+        cma.tell(&asked, &values);
+        best = points.into_iter().fold(best, Point::lower);
+        if let Some(ending) = cma.ending(how.tolerance) {
+            break ending;
+        }
+        if evaluations + population as u64 > left {
+            break Ending::Budget;
+        }
+    };
+    Ok(Descent { population, evaluations, best, ending })
+}

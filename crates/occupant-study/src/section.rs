@@ -1,0 +1,461 @@
+//! A study as it is written: one field for each key of the text.
+//!
+//! The doc comments are the descriptions of the JSON Schema, so they speak to the person who writes a study.
+
+use std::borrow::Cow;
+use std::sync::OnceLock;
+
+use indexmap::IndexMap;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Serialize};
+use serde_json::Value as Json;
+
+use super::fit_section::FitSection;
+use occupant_core::scenario::kind::UnitSystem;
+use occupant_core::scenario::model::{Angle, Length, Ratio};
+use occupant_core::scenario::quantity::Written;
+use occupant_core::scenario::schema::schema_of;
+
+/// The JSON Schema of a study file.
+pub fn schema_json() -> &'static Json {
+    static SCHEMA: OnceLock<Json> = OnceLock::new();
+    SCHEMA.get_or_init(|| schema_of::<StudySection>("occupant study"))
+}
+
+/// Many runs of one scenario, in which some of its values are varied.
+///
+/// A bare number is in SI units with angles in degrees, or in the units named by `units`; a text carries its own unit,
+/// such as "20 in lbf s/rad".
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StudySection {
+    /// One line that names the study.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub title: Option<String>,
+    /// What the study is about, for readers.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub notes: Option<String>,
+    /// Units of bare numbers in this file; "si" if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub units: Option<UnitSystem>,
+    /// The scenario file that is varied, its name relative to this file.
+    pub base: String,
+    /// Names the random numbers of the study; the same seed gives the same samples everywhere; 0 if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = 0))]
+    pub seed: Option<u64>,
+    /// Values that the base scenario has in all runs of this study, by path: `"time.end" = "0.25 s"`.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub set: IndexMap<String, Free>,
+    /// What is varied.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub parameters: Vec<ParameterSection>,
+    /// Rank correlations between parameters, zero where none is given.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub correlations: Vec<CorrelationSection>,
+    /// How the samples are chosen.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub design: Option<DesignSection>,
+    /// Repeats every sample with small changes, to see which figures are stable.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub ensemble: Option<EnsembleSection>,
+    /// What `occupant fit` makes the parameters reproduce; a sweep does not look at it.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub fit: Option<FitSection>,
+    /// Of which runs the whole motion is kept: "all", "none", a list of indices, or such as "worst 5 by hic15"; "none"
+    /// if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub keep: Option<KeepSection>,
+    /// What is written besides the table of results.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub output: Option<StudyOutputSection>,
+}
+
+/// Something that is varied.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend(
+    "x-exactly-one" = [["path", "paths"]],
+    "x-at-most-one" = [["grid", "list", "range", "distribution"]],
+))]
+pub struct ParameterSection {
+    /// Name of its column in the table of results; its path if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub name: Option<String>,
+    /// Where it stands in the scenario, such as `joints.neck.damping` or, for a group, `joints.*.damping`.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub path: Option<String>,
+    /// Several places that are varied together.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minItems" = 1))]
+    pub paths: Option<Vec<String>>,
+    /// What is done with the number; "value" if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub apply: Option<ApplyChoice>,
+    /// Evenly spaced values.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub grid: Option<GridSection>,
+    /// These values: numbers, or texts such as names of materials or of files.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minItems" = 1))]
+    pub list: Option<Vec<Free>>,
+    /// Any value between two.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub range: Option<RangeSection>,
+    /// Values as likely as a distribution says.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub distribution: Option<DistributionSection>,
+}
+
+/// What is done with the number of a parameter.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ApplyChoice {
+    /// It replaces what the scenario says.
+    #[default]
+    Value,
+    /// What the scenario says is multiplied by it.
+    Factor,
+    /// It is added to what the scenario says.
+    Offset,
+}
+
+/// Evenly spaced values, both ends included.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GridSection {
+    /// First value.
+    pub from: Free,
+    /// Last value.
+    pub to: Free,
+    /// How many values.
+    #[schemars(extend("minimum" = 2))]
+    pub steps: u64,
+    /// "linear" has equal differences, "log" equal ratios; "linear" if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scale: Option<ScaleChoice>,
+}
+
+/// Any value between two, each equally likely.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct RangeSection {
+    /// Least value.
+    pub from: Free,
+    /// Greatest value.
+    pub to: Free,
+    /// With "log" equal ratios are equally likely; "linear" if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scale: Option<ScaleChoice>,
+}
+
+/// Spacing of values.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum ScaleChoice {
+    /// Equal differences.
+    #[default]
+    Linear,
+    /// Equal ratios.
+    Log,
+}
+
+/// How likely each value is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum DistributionSection {
+    /// Every value between two equally likely.
+    Uniform(BoundsSection),
+    /// Every ratio between two values equally likely.
+    LogUniform(BoundsSection),
+    /// Gauss's bell.
+    Normal(NormalSection),
+    /// Gauss's bell between two values.
+    TruncatedNormal(TruncatedNormalSection),
+    /// Straight lines up to the likeliest value and down again.
+    Triangular(TriangularSection),
+}
+
+/// Two ends.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct BoundsSection {
+    /// Least value.
+    pub from: Free,
+    /// Greatest value.
+    pub to: Free,
+}
+
+/// A normal distribution.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct NormalSection {
+    /// Mean.
+    pub mean: Free,
+    /// Standard deviation.
+    pub sd: Free,
+}
+
+/// A normal distribution of which only the part between two values counts.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TruncatedNormalSection {
+    /// Mean before it is cut.
+    pub mean: Free,
+    /// Standard deviation before it is cut.
+    pub sd: Free,
+    /// Least value.
+    pub from: Free,
+    /// Greatest value.
+    pub to: Free,
+}
+
+/// A triangular distribution.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TriangularSection {
+    /// Least value.
+    pub from: Free,
+    /// Likeliest value.
+    pub mode: Free,
+    /// Greatest value.
+    pub to: Free,
+}
+
+/// A correlation between two parameters.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct CorrelationSection {
+    /// Names of the two parameters.
+    pub between: [String; 2],
+    /// Spearman's rank correlation, from −1 to 1.
+    pub rank: f64,
+}
+
+/// How the samples are chosen.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+pub enum DesignSection {
+    /// Every value of every parameter with every value of all others.
+    FullFactorial(PlainSection),
+    /// Each parameter's range is cut into as many parts of equal probability as there are samples; each part is used
+    /// once.
+    LatinHypercube(SamplesSection),
+    /// Sobol's low-discrepancy sequence, scrambled.
+    Sobol(SobolSection),
+    /// Independent random samples.
+    MonteCarlo(SamplesSection),
+    /// The base scenario, then each parameter alone at each of its values, or at its low and its high one.
+    OneAtATime(TailSection),
+    /// Samples from a CSV file, one row each.
+    Table(TableSection),
+    /// Blocks for Sobol's sensitivity indices: A, A with one column of B for each parameter, B.
+    Saltelli(SaltelliSection),
+    /// Trajectories for Morris's screening, along which one parameter changes at a time.
+    Morris(MorrisSection),
+}
+
+/// A design without settings.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct PlainSection {}
+
+/// A design of a given size.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SamplesSection {
+    /// How many samples.
+    #[schemars(extend("minimum" = 1))]
+    pub samples: u64,
+}
+
+/// Sobol's sequence.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SobolSection {
+    /// How many samples, best a power of 2.
+    #[schemars(extend("minimum" = 1))]
+    pub samples: u64,
+    /// Whether the sequence is scrambled by the seed; true if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scramble: Option<bool>,
+}
+
+/// One parameter at a time.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TailSection {
+    /// The part of a normal distribution that lies below its low and above its high value; 0.05 if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub tail: Option<Ratio>,
+}
+
+/// A table of samples.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct TableSection {
+    /// CSV file beside the study; its first line names parameters or paths with their units, such as
+    /// `joints.neck.damping[in lbf s/rad],belts.lap.slack[mm]`.
+    pub file: String,
+}
+
+/// Blocks for Sobol's sensitivity indices.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct SaltelliSection {
+    /// How many points A and B have, best a power of 2. There are (k + 2) runs for each with k parameters, or 2k + 2.
+    #[schemars(extend("minimum" = 1))]
+    pub samples: u64,
+    /// Whether B with one column of A is run too, for interactions of two; false if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub second_order: Option<bool>,
+}
+
+/// Trajectories of Morris.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct MorrisSection {
+    /// How many trajectories, of k + 1 runs each with k parameters.
+    #[schemars(extend("minimum" = 1))]
+    pub trajectories: u64,
+    /// Into how many levels each range is cut, an even number; 4 if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = 2))]
+    pub levels: Option<u64>,
+    /// The part of a normal distribution that lies below its low and above its high level; 0.05 if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub tail: Option<Ratio>,
+}
+
+/// Small changes of every sample. A change is anywhere within plus and minus its tolerance, each place as likely.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct EnsembleSection {
+    /// How many runs for each sample; the first is the sample itself, unchanged.
+    #[schemars(extend("minimum" = 2))]
+    pub members: u64,
+    /// Tolerance of each angle of the posture, or of the angles of the initial state.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = 0))]
+    pub posture: Option<Angle>,
+    /// Tolerance of the place of the occupant: heels and lateral seat place, or position in the initial state.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = 0))]
+    pub place: Option<Length>,
+    /// Tolerance of the strength of the pulse, such as "1 %".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
+    pub path: Option<Ratio>,
+    /// Tolerance of the stiffness of each material and each belt, such as "2 %".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
+    pub stiffness: Option<Ratio>,
+    /// Further changes.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub perturbations: Vec<PerturbationSection>,
+}
+
+/// A small change of one place, or of several together.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend(
+    "x-exactly-one" = [["path", "paths"], ["offset", "factor"]],
+))]
+pub struct PerturbationSection {
+    /// Where.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub path: Option<String>,
+    /// Several places that change together.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minItems" = 1))]
+    pub paths: Option<Vec<String>>,
+    /// Up to this much is added or taken away.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub offset: Option<Free>,
+    /// Up to this part is added or taken away, such as "2 %".
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    #[schemars(extend("minimum" = 0, "maximum" = 1))]
+    pub factor: Option<Ratio>,
+}
+
+/// What is written besides the table of results.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct StudyOutputSection {
+    /// Whether the table is also written as CSV; false if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub csv: Option<bool>,
+}
+
+/// A value whose meaning its path decides.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Free {
+    /// True or false.
+    Truth(bool),
+    /// Bare whole number.
+    Integer(i64),
+    /// Bare number.
+    Float(f64),
+    /// Number with unit, or a name.
+    Text(String),
+}
+
+impl Free {
+    /// The number or text as a quantity; none for true and false.
+    pub fn written(&self) -> Option<Written> {
+        match self {
+            Free::Truth(_) => None,
+            Free::Integer(i) => Some(Written::Integer(*i)),
+            Free::Float(x) => Some(Written::Float(*x)),
+            Free::Text(text) => Some(Written::Text(text.clone())),
+        }
+    }
+}
+
+impl JsonSchema for Free {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "value".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "type": ["number", "string", "boolean"],
+            "x-example": "a value as the scenario has it: 0.3, \"20 in lbf s/rad\", \"seat\"",
+        })
+    }
+}
+
+/// Of which runs the whole motion is kept.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum KeepSection {
+    /// "all", "none", "worst 5 by hic15".
+    Words(String),
+    /// Indices.
+    Indices(Vec<Json>),
+}
+
+impl JsonSchema for KeepSection {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "keep".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "type": ["string", "array"],
+            "items": { "type": "integer", "minimum": 0 },
+            "x-example": "\"all\", \"none\", [0, 12, 99], \"worst 5 by hic15\"",
+        })
+    }
+}

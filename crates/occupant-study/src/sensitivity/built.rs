@@ -1,0 +1,252 @@
+//! What a model is built of and starts from, and how that changes with a parameter.
+//!
+//! Masses, planes, force laws, the seated body, unstretched belts, the vehicle's motion at an instant: all are smooth
+//! closed functions of the numbers of a scenario, so their slopes are taken by extrapolated differences of models
+//! ([`super::ladder`]). The motion is never differenced.
+
+use std::array::from_fn;
+use std::cell::{Cell, RefCell};
+
+use super::ladder::{Ladder, POINTS, Slope};
+use super::parameter::{Family, Parameter};
+use super::trouble::Trouble;
+use occupant_core::forces::History;
+use occupant_core::kernel::System;
+use occupant_core::model::{Model, frames};
+use occupant_core::motion::dual::Dual;
+use occupant_core::motion::frame::Frames;
+use occupant_core::motion::frame::{Moving, VEHICLE};
+use occupant_core::motion::state::State;
+use occupant_core::vehicle::{PathCursor, VehiclePath};
+
+/// Step of the differences as a part of the parameter's size.
+const STEP: f64 = 1e-3;
+/// Relative distance of two extrapolations beyond which there is no slope.
+const ROUGH: f64 = 1e-2;
+/// A number below this is compared with this: it may be a trace of rounding.
+const SMALL: f64 = 1e-6;
+/// Numbers of the motion of a frame.
+const MOTION: usize = 18;
+
+/// How the numbers of a model change with a parameter.
+#[derive(Clone, Debug)]
+pub struct Built {
+    system: Vec<f64>,
+    state: Vec<f64>,
+    history: Vec<f64>,
+    path: Option<Path>,
+    /// Greatest distance of two extrapolations, as a part of the number or of its change.
+    pub doubt: f64,
+    /// What a user should know.
+    pub notes: Vec<String>,
+}
+
+/// The vehicle's paths on the points of a ladder.
+#[derive(Clone, Debug)]
+struct Path {
+    ladder: Ladder,
+    paths: Vec<VehiclePath>,
+    cursors: Vec<PathCursor>,
+    size: f64,
+    /// Greatest distance of two extrapolations, and when.
+    doubt: (f64, f64),
+}
+
+impl Built {
+    /// Slopes of everything that `base` is built of.
+    ///
+    /// # Errors
+    /// Models beside the parameter's value that are refused or of another structure; a start that is not smooth.
+    pub fn new(base: &Model, parameter: &Parameter<'_>) -> Result<Self, Trouble> {
+        let family = Family::new(base, parameter, STEP * parameter.size)?;
+        let mut doubt = 0.0_f64;
+        let mut slopes = |of: &dyn Fn(&Model) -> Vec<f64>| {
+            let at_base = of(base);
+            let values: Vec<Vec<f64>> = family.models.iter().map(of).collect();
+            let slopes = family.ladder.slopes(&at_base, &values);
+            for (slope, value) in slopes.iter().zip(&at_base) {
+                doubt = doubt.max(relative(slope, *value, parameter.size));
+            }
+            slopes.iter().map(|s| s.value).collect::<Vec<f64>>()
+        };
+        let system = slopes(&|m| system_numbers(m.system()));
+        let state = slopes(&|m| m.start().state.to_numbers().to_vec());
+        let history = slopes(&|m| remembered(&m.start().history));
+        let mut notes = Vec::new();
+        if let Some(reason) = &family.one_sided {
+            let reason = reason.lines().next().unwrap_or_default();
+            notes.push(format!("{}: a derivative to one side only, as the other is refused: {reason}", parameter.name));
+        }
+        let phases = |m: &Model| m.start().history.pairs.iter().map(|p| p.phase.to_bits()).collect();
+        let at_base: Vec<u64> = phases(base);
+        if family.models.iter().any(|m| phases(m) != at_base) {
+            notes.push(format!(
+                "{}: within {:.1} % of its value other spheres touch at the start",
+                parameter.name,
+                STEP * 100.0
+            ));
+        }
+        if doubt.is_nan() || doubt > ROUGH {
+            return Err(Trouble::Rough { parameter: parameter.name.clone(), doubt });
+        }
+        Ok(Built { system, state, history, path: Path::new(base, family, parameter.size), doubt, notes })
+    }
+
+    /// Greatest distance of two extrapolations of the vehicle's motion and its time, s; none if the parameter leaves the
+    /// path alone.
+    pub fn path_doubt(&self) -> Option<(f64, f64)> {
+        self.path.as_ref().map(|p| p.doubt)
+    }
+}
+
+/// Distance of two extrapolations of a slope as a part of the change that a change of `size` makes, or of the number.
+fn relative(slope: &Slope, value: f64, size: f64) -> f64 {
+    let scale = (slope.value * size).abs().max(value.abs()).max(SMALL);
+    match scale.is_finite() {
+        true => slope.doubt * size / scale,
+        false => 0.0,
+    }
+}
+
+impl Path {
+    fn new(base: &Model, family: Family, size: f64) -> Option<Self> {
+        let base = &base.setup().path;
+        let paths: Vec<VehiclePath> = family.models.iter().map(|m| m.setup().path.clone()).collect();
+        if paths.iter().all(|path| path == base) {
+            return None;
+        }
+        Some(Path {
+            ladder: family.ladder,
+            cursors: vec![PathCursor::default(); paths.len()],
+            paths,
+            size,
+            doubt: (0.0, 0.0),
+        })
+    }
+
+    /// Slopes of the vehicle's motion, whose numbers are `at_base`.
+    fn slopes(&mut self, at_base: &[f64; MOTION], t_s: f64, middle_s: f64) -> [f64; MOTION] {
+        let mut values = [[0.0; MOTION]; POINTS];
+        let paths = self.paths.iter().zip(&mut self.cursors);
+        for (values, (path, cursor)) in values.iter_mut().zip(paths) {
+            *values = motion_numbers(&frames(&path.motion(t_s, middle_s, cursor))[VEHICLE]);
+        }
+        let count = self.paths.len();
+        from_fn(|i| {
+            let column: [f64; POINTS] = from_fn(|point| values[point][i]);
+            let slope = self.ladder.slope(at_base[i], &column[..count]);
+            let doubt = slope.doubt * self.size / (slope.value * self.size).abs().max(1.0);
+            if doubt > self.doubt.0 {
+                self.doubt = (doubt, t_s);
+            }
+            slope.value
+        })
+    }
+}
+
+/// The numbers of a system in the order of [`System::zip`].
+fn system_numbers(system: &System<f64>) -> Vec<f64> {
+    let list = RefCell::new(Vec::new());
+    // a system is like itself
+    let _itself = system.zip(system, |x, _| list.borrow_mut().push(x));
+    list.into_inner()
+}
+
+/// The numbers that a history remembers, in the order of [`History::each`], the phases of pairs as 0.
+fn remembered(history: &History<f64>) -> Vec<f64> {
+    let mut history = history.clone();
+    for pair in &mut history.pairs {
+        pair.phase = 0.0;
+    }
+    let mut list = Vec::new();
+    history.clone().each(&mut history, &mut |x: &mut f64, _| list.push(*x));
+    list
+}
+
+fn motion_numbers(motion: &Moving<f64>) -> [f64; MOTION] {
+    let mut numbers = [0.0; MOTION];
+    let mut places = numbers.iter_mut();
+    motion.clone().each(motion, &mut |_, x| {
+        if let Some(place) = places.next() {
+            *place = x;
+        }
+    });
+    numbers
+}
+
+/// The dual number of place `at`, which goes on by one.
+fn next<const N: usize>(value: f64, at: &Cell<usize>, slope: impl Fn(usize, usize) -> f64) -> Dual<N> {
+    let place = at.get();
+    at.set(place + 1);
+    Dual::new(value, from_fn(|k| slope(k, place)))
+}
+
+/// The system of `model` in duals; direction k is that of `built[k]`, directions beyond stand still.
+pub(super) fn dual_system<const N: usize>(model: &Model, built: &[Built]) -> Result<System<Dual<N>>, Trouble> {
+    let at = Cell::new(0);
+    let slope = |k: usize, i: usize| built.get(k).map_or(0.0, |b| b.system[i]);
+    let system = model.system();
+    let dual = system.zip(system, |x, _| next(x, &at, slope));
+    // a system is like itself
+    dual.map_err(|unlike| Trouble::Output(unlike.to_string()))
+}
+
+/// The state at the start in duals.
+pub(super) fn dual_state<const N: usize>(model: &Model, built: &[Built]) -> State<Dual<N>> {
+    let slopes = |k: usize| {
+        let numbers = built.get(k).map_or_else(Vec::new, |b| b.state.clone());
+        let mut all = [0.0; occupant_core::motion::state::NUMBERS];
+        all.iter_mut().zip(numbers).for_each(|(to, from)| *to = from);
+        State::from_numbers(&all)
+    };
+    let start = &model.start().state;
+    let mut dual = start.zip(start, |x, _| Dual::new(x, [0.0; N]));
+    for k in 0..N {
+        dual = dual.zip(&slopes(k), |mut x, slope| {
+            x.slopes[k] = slope;
+            x
+        });
+    }
+    dual
+}
+
+/// The history at the start in duals.
+pub(super) fn dual_history<const N: usize>(
+    model: &Model,
+    system: &System<Dual<N>>,
+    built: &[Built],
+) -> History<Dual<N>> {
+    let mut start = model.start().history.clone();
+    let zero = Dual::new(0.0, [0.0; N]);
+    let mut dual = History::like(&system.contacts, &start, zero);
+    let at = Cell::new(0);
+    let slope = |k: usize, i: usize| built.get(k).map_or(0.0, |b| b.history[i]);
+    dual.each(&mut start, &mut |x: &mut Dual<N>, value| {
+        *x = next(*value, &at, slope);
+    });
+    dual
+}
+
+/// The frames at `t_s` in duals.
+pub(super) fn dual_frames<const N: usize>(
+    plain: &Frames<f64>,
+    built: &mut [Built],
+    t_s: f64,
+    middle_s: f64,
+) -> Frames<Dual<N>> {
+    let still = |x: f64, _: f64| Dual::new(x, [0.0; N]);
+    let mut dual = plain.map(|frame| frame.zip(&frame, &still));
+    let numbers = motion_numbers(&plain[VEHICLE]);
+    for (k, built) in built.iter_mut().enumerate().take(N) {
+        let Some(path) = &mut built.path else {
+            continue;
+        };
+        let slopes = path.slopes(&numbers, t_s, middle_s);
+        let mut places = slopes.iter();
+        let vehicle = plain[VEHICLE];
+        dual[VEHICLE].each(&vehicle, &mut |x: &mut Dual<N>, _| {
+            x.slopes[k] = places.next().copied().unwrap_or(0.0);
+        });
+    }
+    dual
+}

@@ -1,0 +1,137 @@
+//! Finite changes of a parameter, run in full: how far the straight line of the derivative holds.
+
+use std::ops::ControlFlow;
+
+use super::ladder::Slope;
+use super::measures::pick;
+use super::parameter::Parameter;
+use occupant_core::results::outcome::Status;
+use occupant_core::results::summary::Summarizer;
+use occupant_core::run::batch::{Ended, Job, simulate_many};
+
+/// Changes as parts of a parameter's size, to either side.
+pub const CHANGES: [f64; 4] = [1e-4, 1e-3, 3e-3, 1e-2];
+/// The derivative holds while it is off by no more than this.
+pub const HOLDS: f64 = 0.1;
+/// A change of a figure below this part of its value is no influence.
+const NO_INFLUENCE: f64 = 1e-9;
+/// A secant is compared with at least this part of the figure over the parameter's size.
+const LEAST: f64 = 1e-6;
+
+/// The figures of the runs to either side of a parameter's value.
+#[derive(Clone, Debug)]
+pub struct Finite {
+    /// The change as a part of the parameter's size.
+    pub part: f64,
+    /// The change.
+    pub change: f64,
+    /// Figures below and above, each not a number where the run has none or did not complete.
+    pub figures: [Vec<f64>; 2],
+}
+
+/// How far a derivative can be relied upon.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Verdict {
+    /// The change of the figure is the derivative's within a part `off`, for changes of the parameter up to a part
+    /// `up_to` of its size.
+    Holds {
+        /// Greatest distance of a secant from the derivative, as a part of the derivative.
+        off: f64,
+        /// Largest change looked at for which that is so.
+        up_to: f64,
+    },
+    /// The figure does not change.
+    NoInfluence,
+    /// Already the smallest change looked at gives another slope.
+    NotReliable {
+        /// Distance of a secant from the derivative, as a part of the derivative.
+        off: f64,
+        /// The change.
+        at: f64,
+    },
+    /// No run beside this one has the figure.
+    Unchecked,
+}
+
+/// A derivative beside the secants of finite changes.
+#[derive(Clone, Debug)]
+pub struct Comparison {
+    /// By change, in the order of the changes: slopes of the secants below and above; not a number without a run.
+    pub secants: Vec<[f64; 2]>,
+    /// By change: the greatest distance of a secant from the derivative, as a part of the derivative.
+    pub off: Vec<f64>,
+    /// What follows.
+    pub verdict: Verdict,
+}
+
+/// Runs the models beside the parameter's value; `figures` are the names wanted.
+pub fn finite_changes(parameter: &Parameter<'_>, parts: &[f64], figures: &[String]) -> Vec<Finite> {
+    let none = vec![f64::NAN; figures.len()];
+    let mut all: Vec<Finite> = parts
+        .iter()
+        .map(|part| Finite { part: *part, change: part * parameter.size, figures: [none.clone(), none.clone()] })
+        .collect();
+    let places = (0..parts.len()).flat_map(|i| [(i, 0), (i, 1)]);
+    let changes: Vec<f64> = all.iter().map(|f| f.change).collect();
+    let jobs = places.filter_map(|(i, side)| {
+        let change = if side == 0 { -changes[i] } else { changes[i] };
+        // a value that the scenario refuses has no run
+        let model = (parameter.model_at)(parameter.nominal + change).ok()?;
+        Some(Job { tag: (i, side), model, recorder: Summarizer::new() })
+    });
+    simulate_many(jobs, |ended: Ended<(usize, usize), Summarizer>| {
+        let completed = matches!(&ended.outcome, Ok(o) if o.status == Status::Completed);
+        if let (true, Some(summary)) = (completed, ended.recorder.summary(None)) {
+            let (i, side) = ended.tag;
+            all[i].figures[side] = pick(&summary.figures(&ended.model), figures);
+        }
+        ControlFlow::Continue(())
+    });
+    all
+}
+
+/// Compares the derivative of figure `i`, whose value is `value`, with the finite changes of a parameter of this size.
+pub fn compare(slope: &Slope, value: f64, size: f64, finite: &[Finite], i: usize) -> Comparison {
+    let secant = |f: &Finite, side: usize| {
+        let change = if side == 0 { -f.change } else { f.change };
+        (f.figures[side][i] - value) / change
+    };
+    let secants: Vec<[f64; 2]> = finite.iter().map(|f| [secant(f, 0), secant(f, 1)]).collect();
+    let scale = value.abs() / size;
+    let base = slope.value.abs().max(LEAST * scale);
+    let off: Vec<f64> = secants
+        .iter()
+        .map(|pair| {
+            let known = pair.iter().filter(|s| s.is_finite());
+            let far = known.map(|s| (s - slope.value).abs());
+            let far = far.reduce(f64::max).unwrap_or(f64::NAN);
+            if far == 0.0 { 0.0 } else { far / base }
+        })
+        .collect();
+    let still = |s: f64| s.abs() <= NO_INFLUENCE * scale || s == 0.0;
+    let all_still = still(slope.value) && secants.iter().flatten().all(|s| !s.is_finite() || still(*s));
+    let verdict = verdict(finite, &off, all_still);
+    Comparison { secants, off, verdict }
+}
+
+fn verdict(finite: &[Finite], off: &[f64], all_still: bool) -> Verdict {
+    let mut known: Vec<(f64, f64)> =
+        finite.iter().zip(off).filter(|(_, off)| off.is_finite()).map(|(f, off)| (f.part, *off)).collect();
+    known.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let Some(&(at, first)) = known.first() else {
+        return Verdict::Unchecked;
+    };
+    if all_still {
+        return Verdict::NoInfluence;
+    }
+    let mut verdict = Verdict::NotReliable { off: first, at };
+    let mut worst = 0.0_f64;
+    for (part, off) in known {
+        worst = worst.max(off);
+        if worst > HOLDS {
+            break;
+        }
+        verdict = Verdict::Holds { off: worst, up_to: part };
+    }
+    verdict
+}

@@ -1,0 +1,253 @@
+//! Derivatives of everything that is made of outputs: figures, measures, channels.
+//!
+//! Not one of them is written anew. An output carries the state and all that is remembered, each with its derivative; so the
+//! outputs displaced to first order by ±h are known exactly, and so is the model at p ± h. The recorders of a plain run
+//! look at these outputs, and their answers are differenced and extrapolated (`sensitivity::ladder`). What is differenced
+//! is a closed function of the displaced outputs, not a motion: its noise is that of rounding. Displacements of several
+//! sizes are tried, as rounding asks for large ones and the kinks of force laws for small ones; of each figure that slope is
+//! taken whose two extrapolations lie closest together. A peak, a window or a
+//! 3 ms level is that of the outputs as samples: the sample that carries it stays the same for a small enough step.
+
+use super::ladder::Slope;
+use super::parameter::{Family, Parameter};
+use super::trajectory::Trajectory;
+use super::trouble::Trouble;
+use occupant_core::model::Model;
+use occupant_core::problem::nearest;
+use occupant_core::results::channel::{Channel, Series, matches};
+use occupant_core::results::checkpoint::{Checkpoint, Progress};
+use occupant_core::results::energy::EnergyStart;
+use occupant_core::results::recorder::{Recorder, Watch};
+use occupant_core::results::summary::{Figure, Summarizer};
+use occupant_core::run::simulate::replay;
+use occupant_core::scenario::place::Misplaced;
+
+/// How far outputs are displaced at most, m and rad.
+const FARTHEST: [f64; 3] = [1e-6, 2e-5, 4e-4];
+/// The parameter is changed by no more than this part of its size.
+const LARGEST_PART: f64 = 1e-3;
+
+/// What the derivatives of a run are asked of.
+#[derive(Clone, Debug, Default)]
+pub struct Wish {
+    /// Names of figures, as [`occupant_core::results::summary::Summary::figures`] has them.
+    pub figures: Vec<String>,
+    /// Channels of the model.
+    pub channels: Vec<Channel>,
+}
+
+/// Values of the figures and channels of a run.
+#[derive(Clone, Debug, Default)]
+pub struct Values {
+    /// In the order of [`Wish::figures`]; not a number where the run has none.
+    pub figures: Vec<f64>,
+    /// By channel, then by output.
+    pub channels: Vec<Vec<f64>>,
+}
+
+/// Derivatives of the figures and channels of a run by one parameter.
+#[derive(Clone, Debug)]
+pub struct Derivatives {
+    /// In the order of [`Wish::figures`]; not a number where the run has none.
+    pub figures: Vec<Slope>,
+    /// By channel, then by output.
+    pub channels: Vec<Vec<Slope>>,
+}
+
+/// Derivatives by `parameter`, the one of number `k` of the trajectory.
+///
+/// # Errors
+/// A derivative beyond all numbers; an output that cannot be evaluated.
+pub fn derivatives(
+    model: &Model,
+    parameter: &Parameter<'_>,
+    trajectory: &Trajectory,
+    k: usize,
+    wish: &Wish,
+) -> Result<Derivatives, Trouble> {
+    let reach = trajectory.reach(k);
+    if !reach.is_finite() {
+        return Err(Trouble::Output(format!("the derivative by `{}` grows beyond all numbers", parameter.name)));
+    }
+    let at_base = plain_values(model, trajectory, wish)?;
+    let mut best: Option<Derivatives> = None;
+    for farthest in FARTHEST {
+        let step = (farthest / reach).min(LARGEST_PART * parameter.size);
+        let family = Family::new(model, parameter, step)?;
+        let found = displaced(&family, parameter, trajectory, k, wish, &at_base)?;
+        match &mut best {
+            None => best = Some(found),
+            Some(best) => best.take_over(&found),
+        }
+    }
+    best.ok_or_else(|| Trouble::Output("no displacement was tried".to_owned()))
+}
+
+/// Derivatives by outputs of the models of `family`.
+fn displaced(
+    family: &Family,
+    parameter: &Parameter<'_>,
+    trajectory: &Trajectory,
+    k: usize,
+    wish: &Wish,
+    at_base: &Values,
+) -> Result<Derivatives, Trouble> {
+    let ladder = &family.ladder;
+    let models = family.models.iter().zip(&ladder.points);
+    let around = models.map(|(model, point)| {
+        let by = point - parameter.nominal;
+        values(model, trajectory, wish, |output| trajectory.displaced(k, output, by))
+    });
+    let around: Vec<Values> = around.collect::<Result<_, _>>()?;
+    let slopes = |of: &dyn Fn(&Values) -> Vec<f64>| {
+        let around: Vec<Vec<f64>> = around.iter().map(of).collect();
+        ladder.slopes(&of(at_base), &around)
+    };
+    Ok(Derivatives {
+        figures: slopes(&|v| v.figures.clone()),
+        channels: (0..wish.channels.len()).map(|c| slopes(&|v| v.channels[c].clone())).collect(),
+    })
+}
+
+impl Derivatives {
+    /// Takes over what another size of displacement tells with less doubt.
+    fn take_over(&mut self, other: &Derivatives) {
+        let ours = self.channels.iter_mut().flatten();
+        let ours = self.figures.iter_mut().chain(ours);
+        let theirs = other.figures.iter().chain(other.channels.iter().flatten());
+        for (a, b) in ours.zip(theirs) {
+            if b.doubt < a.doubt {
+                *a = *b;
+            }
+        }
+    }
+}
+
+/// Values of the plain run.
+///
+/// # Errors
+/// An output that cannot be evaluated.
+pub fn plain_values(model: &Model, trajectory: &Trajectory, wish: &Wish) -> Result<Values, Trouble> {
+    values(model, trajectory, wish, |output| trajectory.checkpoints[output].clone())
+}
+
+/// Values of outputs of `model` that need not be those of its own run.
+fn values(
+    model: &Model,
+    trajectory: &Trajectory,
+    wish: &Wish,
+    output: impl Fn(usize) -> Checkpoint,
+) -> Result<Values, Trouble> {
+    let mut recorder = (Summarizer::new(), Series::new(wish.channels.clone()));
+    recorder.begin(model)?;
+    let mut progress: Option<Progress> = None;
+    for i in 0..trajectory.checkpoints.len() {
+        let mut checkpoint = output(i);
+        checkpoint.progress = match progress {
+            Some(progress) => progress,
+            None => from_the_start(model, &checkpoint)?,
+        };
+        let mut carry = Watch(|sample: &occupant_core::results::sample::Sample<'_>| {
+            progress = Some(sample.progress);
+        });
+        replay(model, &checkpoint, &mut (&mut recorder, &mut carry)).map_err(|e| Trouble::Output(e.to_string()))?;
+    }
+    let mut outcome = trajectory.outcome.clone();
+    if let Some(progress) = progress {
+        outcome.greatest_kinetic_j = progress.greatest_kinetic_j;
+    }
+    recorder.end(&outcome)?;
+    let (summarizer, series) = recorder;
+    let summary = summarizer.summary(None);
+    let figures = summary.map_or_else(Vec::new, |s| s.figures(model));
+    Ok(Values { figures: pick(&figures, &wish.figures), channels: series.values })
+}
+
+/// The sums and extremes of a run that begins here.
+fn from_the_start(model: &Model, checkpoint: &Checkpoint) -> Result<Progress, Trouble> {
+    let mut first = checkpoint.clone();
+    first.progress.energy_start = EnergyStart::default();
+    first.progress.greatest_kinetic_j = 0.0;
+    first.progress.greatest_imbalance_j = 0.0;
+    let mut start = EnergyStart::default();
+    let mut watch = Watch(|sample: &occupant_core::results::sample::Sample<'_>| start = sample.energy.as_start());
+    replay(model, &first, &mut watch).map_err(|e| Trouble::Output(e.to_string()))?;
+    let mut progress = first.progress;
+    progress.energy_start = start;
+    Ok(progress)
+}
+
+/// The values of named figures; not a number for one that is not there or has no value.
+pub(super) fn pick(figures: &[Figure], names: &[String]) -> Vec<f64> {
+    let value = |name: &String| {
+        let figure = figures.iter().find(|f| f.name == *name);
+        figure.and_then(|f| f.value).unwrap_or(f64::NAN)
+    };
+    names.iter().map(value).collect()
+}
+
+/// The figures of a run that a name, or a pattern in which `*` stands for anything, asks for. A pattern passes over figures
+/// without a value or a derivative.
+///
+/// # Errors
+/// A name or a pattern that fits none; a figure that the run has not, or that has no derivative.
+pub fn chosen(figures: &[Figure], name: &str) -> Result<Vec<String>, Misplaced> {
+    let refuse =
+        |found: String, expected: &str, hint: Option<String>| Misplaced { found, expected: expected.to_owned(), hint };
+    if name.contains('*') {
+        let pieces: Vec<&str> = name.split('*').collect();
+        let fits = |f: &&Figure| matches(&f.name, &pieces);
+        let all: Vec<&Figure> = figures.iter().filter(fits).collect();
+        let usable = all.iter().filter(|f| f.value.is_some() && without_derivative(&f.name).is_none());
+        let found: Vec<String> = usable.map(|f| f.name.clone()).collect();
+        return match (found.is_empty(), all.is_empty()) {
+            (false, _) => Ok(found),
+            (true, true) => Err(refuse(format!("no measure is called `{name}`"), "a measure of the run", None)),
+            (true, false) => Err(refuse(
+                format!("no measure called `{name}` has a value and a derivative in this run"),
+                "a measure that the run has",
+                None,
+            )),
+        };
+    }
+    let Some(figure) = figures.iter().find(|f| f.name == name) else {
+        let near = nearest(name, figures.iter().map(|f| f.name.as_str()));
+        return Err(refuse(
+            format!("no measure is called `{name}`"),
+            "a measure of the run, such as hic15, head.peak, belts.lap.peak",
+            near.map(|n| format!("did you mean `{n}`?")),
+        ));
+    };
+    if let Some(reason) = without_derivative(name) {
+        return Err(refuse(
+            format!("`{name}` has no derivative: {reason}"),
+            "a measure that changes with the motion",
+            None,
+        ));
+    }
+    match figure.value {
+        Some(_) => Ok(vec![name.to_owned()]),
+        None => Err(refuse(
+            format!("`{name}` has no value in this run: what it measures did not happen"),
+            "a measure that the run has",
+            None,
+        )),
+    }
+}
+
+/// Why a figure has no derivative here, if it has none.
+pub fn without_derivative(name: &str) -> Option<&'static str> {
+    let last = name.rsplit('.').next().unwrap_or(name);
+    if name.starts_with("solver.") {
+        return Some("it counts the integrator's work");
+    }
+    match last {
+        "balance_error" => Some("it is an error of the integration"),
+        "reached" => Some("it is the time at which the run ends"),
+        "first_speed" => Some("it belongs to the accepted step at which the contact was seen"),
+        _ if last == "time" || last.ends_with("_time") || last.ends_with("_time_s") => {
+            Some("it is the time of an output, which jumps from one output to the next")
+        }
+        _ => None,
+    }
+}

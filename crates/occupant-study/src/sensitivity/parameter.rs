@@ -1,0 +1,79 @@
+//! Numbers that a model hangs on, and the models around them.
+
+use std::fmt;
+
+use super::ladder::{Ladder, Side};
+use super::trouble::Trouble;
+use occupant_core::model::Model;
+
+/// Makes the model that belongs to a value of a parameter, or says in words why there is none.
+pub type ModelAt<'a> = dyn Fn(f64) -> Result<Model, String> + 'a;
+
+/// A number that a model hangs on.
+pub struct Parameter<'a> {
+    /// What it is called.
+    pub name: String,
+    /// Its SI unit; `1` for a plain number or a factor.
+    pub unit: String,
+    /// Its value in the model that is looked at.
+    pub nominal: f64,
+    /// A change that is large but not absurd: |nominal|, or for 0 what its unit suggests; see [`size_of`].
+    pub size: f64,
+    /// The models around it.
+    pub model_at: Box<ModelAt<'a>>,
+}
+
+impl fmt::Debug for Parameter<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Parameter").field("name", &self.name).field("nominal", &self.nominal).finish_non_exhaustive()
+    }
+}
+
+/// The size of a change of a parameter: its own, or for 0 a tenth of a unit of length or angle and one of any other.
+pub fn size_of(nominal: f64, unit: &str) -> f64 {
+    match (nominal == 0.0, unit) {
+        (false, _) => nominal.abs(),
+        (true, "m" | "rad" | "1" | "") => 0.1,
+        (true, "kg·m^2") => 0.01,
+        (true, _) => 1.0,
+    }
+}
+
+/// The models on the points of a ladder.
+pub(super) struct Family {
+    pub ladder: Ladder,
+    pub models: Vec<Model>,
+    /// Why there are models on one side only, if so.
+    pub one_sided: Option<String>,
+}
+
+impl Family {
+    /// Models of the structure and the times of `base` at steps of `h` about it.
+    pub fn new(base: &Model, parameter: &Parameter<'_>, h: f64) -> Result<Self, Trouble> {
+        let refused = |reason: String| Trouble::Refused { parameter: parameter.name.clone(), reason };
+        let make = |side: Side| -> Result<Family, String> {
+            let ladder = Ladder::new(parameter.nominal, h, side);
+            let models = ladder.points.iter().map(|p| (parameter.model_at)(*p));
+            Ok(Family { models: models.collect::<Result<_, _>>()?, ladder, one_sided: None })
+        };
+        let family = make(Side::Both).or_else(|reason| {
+            let side = make(Side::Above).or_else(|_| make(Side::Below));
+            side.map(|family| Family { one_sided: Some(reason.clone()), ..family }).map_err(|_| reason)
+        });
+        let family = family.map_err(refused)?;
+        for model in &family.models {
+            compare(base, model, &parameter.name)?;
+        }
+        Ok(family)
+    }
+}
+
+/// Whether `other` has the structure, the times and the integrator of `base`.
+fn compare(base: &Model, other: &Model, parameter: &str) -> Result<(), Trouble> {
+    let (a, b) = (base.setup(), other.setup());
+    if a.time != b.time || a.integrator != b.integrator {
+        return Err(Trouble::Times { parameter: parameter.to_owned() });
+    }
+    let alike = base.system().zip(other.system(), |_, _| ());
+    alike.map(|_| ()).map_err(|unlike| Trouble::Structure { parameter: parameter.to_owned(), unlike })
+}

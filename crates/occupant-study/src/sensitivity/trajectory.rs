@@ -1,0 +1,217 @@
+//! A whole run with its derivatives.
+
+use super::built::Built;
+use super::events::{Event, Lookout, Scene, join};
+use super::tangent::Tangent;
+use super::trouble::Trouble;
+use occupant_core::model::Model;
+use occupant_core::model::setup::Integrator;
+use occupant_core::motion::dual::Dual;
+use occupant_core::motion::state::{NUMBERS, State};
+use occupant_core::motion::vector::v3;
+use occupant_core::results::checkpoint::Checkpoint;
+use occupant_core::results::outcome::{Outcome, Status};
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::results::sample::Sample;
+use occupant_core::run::{Run, Step};
+
+/// Directions carried side by side.
+const SIDE_BY_SIDE: usize = 4;
+/// A displaced deformation is not below nothing, m.
+const LEAST_M: f64 = 0.0;
+
+/// A run with the derivatives of all that is integrated and remembered, at every output.
+#[derive(Clone, Debug)]
+pub struct Trajectory {
+    /// The plain run's outputs.
+    pub checkpoints: Vec<Checkpoint>,
+    /// How it ended.
+    pub outcome: Outcome,
+    /// Where the motion is not differentiable.
+    pub events: Vec<Event>,
+    /// Events beyond the number that is kept.
+    pub dropped_events: u64,
+    /// By parameter, then by output.
+    slopes: Vec<Vec<Displacement>>,
+}
+
+/// How an output changes with a parameter, per unit.
+#[derive(Clone, Debug)]
+struct Displacement {
+    state: [f64; NUMBERS],
+    /// Greatest deformations that change, by pair.
+    pairs: Vec<(u32, f64)>,
+    /// Normal and greatest elongation of each belt.
+    belts: Vec<[f64; 4]>,
+}
+
+/// Runs `model` with derivatives by the parameters that `built` is of. What `built` knows of the path is asked on the way.
+///
+/// # Errors
+/// A run that does not come to its end.
+pub fn follow(model: &Model, built: &mut [Built]) -> Result<Trajectory, Trouble> {
+    let mut whole: Option<Trajectory> = None;
+    for some in built.chunks_mut(SIDE_BY_SIDE) {
+        let pass = match some.len() {
+            1 => pass::<1>(model, some)?,
+            _ => pass::<SIDE_BY_SIDE>(model, some)?,
+        };
+        match &mut whole {
+            None => whole = Some(pass),
+            Some(whole) => {
+                join(&mut whole.events, &pass.events)?;
+                whole.slopes.extend(pass.slopes);
+            }
+        }
+    }
+    whole.ok_or_else(|| Trouble::Output("no parameters".to_owned()))
+}
+
+/// Keeps the outputs of the plain run.
+struct Keeper(Vec<Checkpoint>);
+
+impl Recorder for Keeper {
+    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        self.0.push(sample.checkpoint());
+        Ok(Flow::Continue)
+    }
+}
+
+/// The plain run and beside it, step by step, that in duals.
+fn pass<const N: usize>(model: &Model, built: &mut [Built]) -> Result<Trajectory, Trouble> {
+    let count = built.len().min(N);
+    let mut run = Run::new(model);
+    run.taken = Some(Vec::with_capacity(steps_to_an_output(model)));
+    let breaks_s = run.breaks_s.clone();
+    let mut keeper = Keeper(Vec::new());
+    let mut tangent = Tangent::<N>::new(model, built)?;
+    let mut slopes = vec![Vec::new(); count];
+    let mut scene = Scene::new(model);
+    let mut lookout = Lookout::new(model);
+    let failed = |e: &dyn std::fmt::Display| Trouble::Run(e.to_string());
+    loop {
+        run.record(model, &mut keeper).map_err(|e| failed(&e))?;
+        tangent.output(run.time_s, &mut scene);
+        compare(&tangent, &run)?;
+        for (k, slopes) in slopes.iter_mut().enumerate() {
+            slopes.push(Displacement::of(&tangent, k));
+        }
+        let Some(target_s) = run.next_output_s(model) else {
+            break;
+        };
+        run.advance_to(model, target_s).map_err(|e| failed(&e))?;
+        let mut taken: Vec<Step> = run.taken.take().unwrap_or_default();
+        for step in taken.drain(..) {
+            let stop_s = breaks_s.iter().copied().find(|&b| b > step.start_s);
+            tangent.step(step, stop_s.unwrap_or(f64::INFINITY), &mut scene);
+            lookout.look(model, &scene, tangent.latest());
+        }
+        run.taken = Some(taken);
+    }
+    let outcome = run.end(Status::Completed, &mut keeper);
+    Ok(Trajectory {
+        checkpoints: keeper.0,
+        outcome: outcome.map_err(|e| failed(&e))?,
+        events: lookout.events(count),
+        dropped_events: lookout.dropped,
+        slopes,
+    })
+}
+
+/// Room for the steps between two outputs.
+fn steps_to_an_output(model: &Model) -> usize {
+    let time = &model.setup().time;
+    match model.setup().integrator {
+        Integrator::Rk4 { step_s } => (time.output_s / step_s).min(1e6) as usize + 2,
+        Integrator::Adaptive { .. } => 256,
+    }
+}
+
+/// Whether the values of the run in duals are, to the bit, those of the plain run.
+fn compare<const N: usize>(tangent: &Tangent<'_, N>, run: &Run) -> Result<(), Trouble> {
+    let same = |dual: &Dual<N>, plain: f64| dual.value.to_bits() == plain.to_bits();
+    let values = values(&tangent.state).to_numbers();
+    let plain = run.state.to_numbers();
+    let state = values.iter().zip(&plain).all(|(a, b)| a.to_bits() == b.to_bits());
+    let history = &tangent.history;
+    let pairs = history.pairs.iter().zip(&run.history.pairs);
+    let pairs = pairs.into_iter().all(|(a, b)| same(&a.phase, b.phase) && same(&a.greatest, b.greatest));
+    let belts = history.belts.iter().zip(&run.history.belts);
+    let belts = belts.into_iter().all(|(a, b)| {
+        same(&a.greatest, b.greatest)
+            && same(&a.normal.x, b.normal.x)
+            && same(&a.normal.y, b.normal.y)
+            && same(&a.normal.z, b.normal.z)
+    });
+    match state && pairs && belts {
+        true => Ok(()),
+        false => Err(Trouble::Apart { time_s: run.time_s }),
+    }
+}
+
+fn values<const N: usize>(state: &State<Dual<N>>) -> State<f64> {
+    state.zip(state, |x, _| x.value)
+}
+
+impl Displacement {
+    /// Direction `k` of a run in duals at an output.
+    fn of<const N: usize>(tangent: &Tangent<'_, N>, k: usize) -> Self {
+        let state = tangent.state.zip(&tangent.state, |x, _| x.slopes[k]);
+        let pairs = tangent.history.pairs.iter().enumerate();
+        Displacement {
+            state: state.to_numbers(),
+            pairs: pairs.map(|(i, p)| (i as u32, p.greatest.slopes[k])).filter(|(_, slope)| *slope != 0.0).collect(),
+            belts: tangent
+                .history
+                .belts
+                .iter()
+                .map(|b| [b.normal.x, b.normal.y, b.normal.z, b.greatest].map(|x| x.slopes[k]))
+                .collect(),
+        }
+    }
+}
+
+impl Trajectory {
+    /// Derivatives of the state by parameter `k` at an output, in the order of [`State::to_numbers`].
+    pub fn state_slopes(&self, k: usize, output: usize) -> &[f64; NUMBERS] {
+        &self.slopes[k][output].state
+    }
+
+    /// How far the state goes with a unit of parameter `k`, at most: m, rad, and tenths of m/s and rad/s. Infinite where a
+    /// derivative is too large for a number.
+    pub fn reach(&self, k: usize) -> f64 {
+        // places, quaternions and hinges come first, then speeds, then work sums, which move nothing
+        const PLACES: usize = 39;
+        const SPEEDS: usize = 70;
+        let outputs = self.slopes[k].iter();
+        let greatest = outputs.flat_map(|d| {
+            let scaled = |(i, x): (usize, &f64)| if i < PLACES { x.abs() } else { 0.1 * x.abs() };
+            d.state[..SPEEDS].iter().enumerate().map(scaled)
+        });
+        let worse = |a: f64, b: f64| {
+            if b.is_finite() { a.max(b) } else { f64::INFINITY }
+        };
+        greatest.fold(0.0, worse)
+    }
+
+    /// An output displaced along parameter `k` by `by` units, to first order.
+    pub(super) fn displaced(&self, k: usize, output: usize, by: f64) -> Checkpoint {
+        let mut checkpoint = self.checkpoints[output].clone();
+        let slopes = &self.slopes[k][output];
+        let mut numbers = checkpoint.state.to_numbers();
+        for (x, slope) in numbers.iter_mut().zip(&slopes.state) {
+            *x += by * slope;
+        }
+        checkpoint.state = State::from_numbers(&numbers);
+        for (i, slope) in &slopes.pairs {
+            let pair = &mut checkpoint.pairs[*i as usize];
+            pair.greatest = (pair.greatest + by * slope).max(LEAST_M);
+        }
+        for (belt, [x, y, z, greatest]) in checkpoint.belts.iter_mut().zip(&slopes.belts) {
+            let n = belt.normal;
+            belt.normal = v3(n.x + by * x, n.y + by * y, n.z + by * z);
+            belt.greatest += by * greatest;
+        }
+        checkpoint
+    }
+}
