@@ -11,8 +11,6 @@ mod zip;
 
 pub use zip::Unlike;
 
-pub(crate) use dispatch::{Bench, Machine};
-
 use crate::body::SEGMENTS;
 use crate::forces::belt::law::BeltLaw;
 use crate::forces::contact::ContactSystem;

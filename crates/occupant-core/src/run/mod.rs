@@ -117,12 +117,12 @@ impl Run {
     }
 
     /// Tells `recorder` that the run begins.
-    pub fn begin(&self, model: &Model, recorder: &mut impl Recorder) -> Result<(), RecordingFailed> {
+    pub fn begin(&self, model: &Model, recorder: &mut dyn Recorder) -> Result<(), RecordingFailed> {
         recorder.begin(model).map_err(|e| self.unrecorded(e))
     }
 
     /// Evaluates the present state with all details and hands it to the recorder as the next output.
-    pub fn record(&mut self, model: &Model, recorder: &mut impl Recorder) -> Result<Flow, RecordingFailed> {
+    pub fn record(&mut self, model: &Model, recorder: &mut dyn Recorder) -> Result<Flow, RecordingFailed> {
         let t = self.time_s;
         let path = &model.setup().path;
         let vehicle = path.motion(t, t, &mut self.cursor);
@@ -233,7 +233,7 @@ impl Run {
     }
 
     /// Ends the run and tells `recorder` how.
-    pub fn end(self, status: Status, recorder: &mut impl Recorder) -> Result<Outcome, RecordingFailed> {
+    pub fn end(self, status: Status, recorder: &mut dyn Recorder) -> Result<Outcome, RecordingFailed> {
         let time_s = self.time_s;
         let outcome = self.outcome(status);
         match recorder.end(&outcome) {

@@ -13,6 +13,8 @@
 #[cfg(any(target_arch = "x86_64", test))]
 mod group;
 #[cfg(any(target_arch = "x86_64", test))]
+mod machine;
+#[cfg(any(target_arch = "x86_64", test))]
 mod place;
 
 use std::fmt;
