@@ -1,0 +1,34 @@
+//! Orthographic views of the body in the compartment, as a strip of times: the report's Figs 21–38.
+//!
+//! All panels of a strip share one scale and one window. Everything is drawn in vehicle axes from the samples of the run.
+
+mod hull;
+mod layout;
+mod legend;
+mod panel;
+mod projection;
+mod sheet;
+mod window;
+
+use occupant_core::model::Model;
+
+pub use projection::View;
+
+use super::body::Snapshot;
+
+/// What is drawn.
+pub struct Strip<'a> {
+    /// The model.
+    pub model: &'a Model,
+    /// The moments, in order.
+    pub moments: Vec<Snapshot>,
+    /// The rows.
+    pub views: Vec<View>,
+    /// Small print: where the pictures come from.
+    pub origin: String,
+}
+
+/// The strip as SVG.
+pub fn draw(strip: &Strip<'_>) -> String {
+    sheet::draw(strip)
+}
