@@ -2,7 +2,7 @@
 
 /// A command that ran to its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Done {
+pub(crate) enum Done {
     /// All is well: exit code 0.
     Well,
     /// It ran, and what it found is not well: exit code 1. What it is has been said.
@@ -20,12 +20,12 @@ pub enum Failure {
 
 impl Failure {
     /// Could not run, in the words of every message: what is wrong, and how to mend it.
-    pub fn with_help(found: impl Into<String>, help: &str) -> Self {
+    pub(crate) fn with_help(found: impl Into<String>, help: &str) -> Self {
         Failure::CouldNotRun(format!("error: {}\n = help: {help}", found.into()))
     }
 
     /// The same, and what was done before.
-    pub fn with_done(self, done: &str) -> Self {
+    pub(crate) fn with_done(self, done: &str) -> Self {
         let longer = |message| format!("{message}\n = done: {done}");
         match self {
             Failure::CouldNotRun(message) => Failure::CouldNotRun(longer(message)),
@@ -34,7 +34,7 @@ impl Failure {
     }
 
     /// Could not run.
-    pub fn plain(found: impl Into<String>) -> Self {
+    pub(crate) fn plain(found: impl Into<String>) -> Self {
         Failure::CouldNotRun(format!("error: {}", found.into()))
     }
 }

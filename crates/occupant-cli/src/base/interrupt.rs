@@ -10,18 +10,18 @@ use super::talk::say;
 
 /// A recorder that stops the run once a signal has come.
 #[derive(Clone, Debug, Default)]
-pub struct Interrupt {
+pub(crate) struct Interrupt {
     asked: Arc<AtomicBool>,
 }
 
 impl Interrupt {
     /// Listens from now on. Where that is impossible a signal ends the process at once; what was written stays readable.
-    pub fn listen() -> Self {
+    pub(crate) fn listen() -> Self {
         Interrupt::listen_for("stopping at the next output; once more to stop at once")
     }
 
     /// Listens from now on, and answers a signal with these words.
-    pub fn listen_for(words: &'static str) -> Self {
+    pub(crate) fn listen_for(words: &'static str) -> Self {
         let interrupt = Interrupt::default();
         let asked = Arc::clone(&interrupt.asked);
         let handler = move || {
@@ -38,12 +38,12 @@ impl Interrupt {
     }
 
     /// Whether a signal has come.
-    pub fn is_asked(&self) -> bool {
+    pub(crate) fn is_asked(&self) -> bool {
         self.asked.load(Ordering::Relaxed)
     }
 
     /// What a signal sets.
-    pub fn flag(&self) -> &AtomicBool {
+    pub(crate) fn flag(&self) -> &AtomicBool {
         &self.asked
     }
 }

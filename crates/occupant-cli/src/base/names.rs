@@ -3,12 +3,12 @@
 use std::path::Path;
 
 /// Name and version of this program.
-pub fn program() -> String {
+pub(crate) fn program() -> String {
     format!("occupant {}", env!("CARGO_PKG_VERSION"))
 }
 
 /// The name of a file without its folder.
-pub fn file_name(path: &Path) -> String {
+pub(crate) fn file_name(path: &Path) -> String {
     let name = path.file_name().unwrap_or_default();
     name.to_string_lossy().into_owned()
 }

@@ -12,7 +12,7 @@ use super::failure::Failure;
 
 /// What happens to files that stand where ours goes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Existing {
+pub(crate) enum Existing {
     /// They are left alone and ours is refused.
     Keep,
     /// They are replaced.
@@ -21,7 +21,7 @@ pub enum Existing {
 
 /// A file under its provisional name, buffered.
 #[derive(Debug)]
-pub struct PartialFile {
+pub(crate) struct PartialFile {
     target: PathBuf,
     partial: PathBuf,
     existing: Existing,
@@ -30,32 +30,19 @@ pub struct PartialFile {
 
 /// Why a results file cannot be made.
 #[derive(Debug)]
-pub enum FileProblem {
+pub(crate) enum FileProblem {
     /// A file of that name is there.
-    Exists {
-        /// The file.
-        path: PathBuf,
-    },
+    Exists { path: PathBuf },
     /// A provisional file is there: of a run that was interrupted, or of one that still goes on.
-    PartialExists {
-        /// The file.
-        path: PathBuf,
-    },
+    PartialExists { path: PathBuf },
     /// Something that is no ordinary file has that name: a folder, a device.
-    NotAFile {
-        /// The place.
-        path: PathBuf,
-    },
+    NotAFile { path: PathBuf },
     /// The file would replace one that the run reads.
-    IsInput {
-        /// The file.
-        path: PathBuf,
-    },
+    IsInput { path: PathBuf },
     /// The operating system refuses.
     Io {
         /// What was being done, e.g. `create`.
         doing: &'static str,
-        /// The file.
         path: PathBuf,
         /// Its reason.
         source: io::Error,
@@ -100,7 +87,7 @@ impl std::error::Error for FileProblem {
 ///
 /// # Errors
 /// [`FileProblem::IsInput`].
-pub fn refuse_input(target: &Path, input: &Path) -> Result<(), FileProblem> {
+pub(crate) fn refuse_input(target: &Path, input: &Path) -> Result<(), FileProblem> {
     let same = |a: &Path, b: &Path| match (fs::canonicalize(a), fs::canonicalize(b)) {
         (Ok(a), Ok(b)) => a == b,
         _ => false,
@@ -137,7 +124,7 @@ impl PartialFile {
     ///
     /// # Errors
     /// A file is there and may not be replaced; the operating system refuses.
-    pub fn create(target: &Path, existing: Existing) -> Result<Self, FileProblem> {
+    pub(crate) fn create(target: &Path, existing: Existing) -> Result<Self, FileProblem> {
         let partial = partial_path(target);
         let mut options = OpenOptions::new();
         options.write(true);
@@ -164,7 +151,7 @@ impl PartialFile {
     }
 
     /// The provisional name.
-    pub fn partial_path(&self) -> &Path {
+    pub(crate) fn partial_path(&self) -> &Path {
         &self.partial
     }
 
@@ -173,7 +160,7 @@ impl PartialFile {
     /// # Errors
     /// A file of that name has come meanwhile and may not be replaced; the operating system refuses. The file then keeps
     /// its provisional name.
-    pub fn publish(self) -> Result<PathBuf, FileProblem> {
+    pub(crate) fn publish(self) -> Result<PathBuf, FileProblem> {
         let (target, existing) = (self.target.clone(), self.existing);
         let partial = self.keep()?;
         if existing == Existing::Keep {
@@ -192,7 +179,7 @@ impl PartialFile {
     ///
     /// # Errors
     /// The operating system refuses.
-    pub fn keep(mut self) -> Result<PathBuf, FileProblem> {
+    pub(crate) fn keep(mut self) -> Result<PathBuf, FileProblem> {
         let written = self.writer.flush();
         let synced = written.and_then(|()| self.writer.get_ref().sync_all());
         synced.map_err(|source| FileProblem::Io { doing: "write", path: self.partial.clone(), source })?;
@@ -225,7 +212,7 @@ impl Seek for PartialFile {
 ///
 /// # Errors
 /// A file is there and may not be replaced; the operating system refuses.
-pub fn publish(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Failure> {
+pub(crate) fn publish(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Failure> {
     let existing = match force {
         true => Existing::Replace,
         false => Existing::Keep,
@@ -239,7 +226,7 @@ pub fn publish(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Failure> {
 }
 
 /// `dir/run.mcap` → `dir/run.partial.mcap`.
-pub fn partial_path(target: &Path) -> PathBuf {
+pub(crate) fn partial_path(target: &Path) -> PathBuf {
     let mut name = OsString::from(target.file_stem().unwrap_or_default());
     name.push(".partial");
     if let Some(extension) = target.extension() {

@@ -5,7 +5,7 @@ use std::io::{ErrorKind, Write, stderr, stdout};
 use super::failure::Failure;
 
 /// Writes a result. A reader that has gone away is no failure.
-pub fn print(text: &str) -> Result<(), Failure> {
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let mut out = stdout().lock();
     let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
     match written {
@@ -17,12 +17,12 @@ pub fn print(text: &str) -> Result<(), Failure> {
 }
 
 /// Says something to the person at the terminal. Whether anybody listens does not matter.
-pub fn say(text: &str) {
+pub(crate) fn say(text: &str) {
     let _nobody_listens = writeln!(stderr().lock(), "{text}");
 }
 
 /// A value as JSON text for people and programs, with a line end.
-pub fn json(value: &impl serde::Serialize) -> Result<String, Failure> {
+pub(crate) fn json(value: &impl serde::Serialize) -> Result<String, Failure> {
     let mut text = serde_json::to_string_pretty(value)
         .map_err(|e| Failure::BrokeOff(format!("error: the result is not JSON: {e}")))?;
     text.push('\n');

@@ -2,7 +2,7 @@
 
 /// How a column is set.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Align {
+pub(crate) enum Align {
     /// Words.
     Left,
     /// Numbers.
@@ -11,7 +11,7 @@ pub enum Align {
 
 /// A table: a head and rows of cells.
 #[derive(Clone, Debug)]
-pub struct Table {
+pub(crate) struct Table {
     columns: Vec<Align>,
     rows: Vec<Vec<String>>,
 }
@@ -19,11 +19,11 @@ pub struct Table {
 /// Blanks between columns.
 const GAP: &str = "   ";
 /// Stands where there is no figure.
-pub const NONE: &str = "–";
+pub(crate) const NONE: &str = "–";
 
 impl Table {
     /// A table with this head.
-    pub fn new(head: &[(&str, Align)]) -> Self {
+    pub(crate) fn new(head: &[(&str, Align)]) -> Self {
         Table {
             columns: head.iter().map(|&(_, align)| align).collect(),
             rows: vec![head.iter().map(|(name, _)| (*name).to_owned()).collect()],
@@ -31,12 +31,12 @@ impl Table {
     }
 
     /// Adds a row; cells that are missing at its end are blank.
-    pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
+    pub(crate) fn row(&mut self, cells: impl IntoIterator<Item = String>) {
         self.rows.push(cells.into_iter().collect());
     }
 
     /// The text, each line ended, no blanks at line ends.
-    pub fn text(&self) -> String {
+    pub(crate) fn text(&self) -> String {
         let width = |column: usize| {
             let cells = self.rows.iter().filter_map(|row| row.get(column));
             cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
@@ -58,7 +58,7 @@ impl Table {
 }
 
 /// A number with so many decimals; one that no column holds, with an exponent.
-pub fn number(value: f64, decimals: usize) -> String {
+pub(crate) fn number(value: f64, decimals: usize) -> String {
     match value.abs() < 1e6 {
         true => format!("{value:.decimals$}"),
         false => format!("{value:.2e}"),
@@ -66,7 +66,7 @@ pub fn number(value: f64, decimals: usize) -> String {
 }
 
 /// Two columns of words without a head: a name and what there is to say of it.
-pub fn facts(facts: &[(&str, String)]) -> String {
+pub(crate) fn facts(facts: &[(&str, String)]) -> String {
     let width = facts.iter().map(|(name, _)| name.chars().count()).max();
     let width = width.unwrap_or(0);
     let lines = facts.iter().map(|(name, words)| format!("{name:<width$}{GAP}{words}\n"));
@@ -74,7 +74,7 @@ pub fn facts(facts: &[(&str, String)]) -> String {
 }
 
 /// A name without characters that would speak to the terminal instead of the reader.
-pub fn plain(name: &str) -> String {
+pub(crate) fn plain(name: &str) -> String {
     name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
 }
 

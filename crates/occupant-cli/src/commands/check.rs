@@ -11,7 +11,7 @@ use crate::files::scenario::{self, ScenarioArgs};
 ///
 /// Exit code 1 if the step is too long for the fastest time scale of the model.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     #[command(flatten)]
     scenario: ScenarioArgs,
 
@@ -24,8 +24,7 @@ pub struct Args {
     quiet: bool,
 }
 
-/// Checks a scenario.
-pub fn check(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
     let opened = scenario::open(&args.scenario)?;
     if !opened.warnings.is_empty() {
         say(&format!("{}\n", opened.warnings));

@@ -23,7 +23,7 @@ use crate::pictures::plot::standard;
 /// --map, by the same name, or by ISO-MME code, whose SAE J211 signs are turned into ours. Both sides are filtered alike,
 /// cut to their common time and set to 10 kHz by straight lines, the rate of ISO/TS 18571; all four ratings use that.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The results of `occupant run`, or computed histories as CSV or ISO-MME
     #[arg(value_name = "COMPUTED")]
     computed: PathBuf,
@@ -102,7 +102,7 @@ struct Couple {
 }
 
 /// Compares a run with a test.
-pub fn compare(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn compare(args: &Args) -> Result<Done, Failure> {
     let window = Window {
         from_s: args.from.as_deref().map(|t| time("--from", t)).transpose()?,
         to_s: args.to.as_deref().map(|t| time("--to", t)).transpose()?,

@@ -11,14 +11,14 @@ use crate::base::talk;
 ///
 /// For bash: occupant completions bash > ~/.local/share/bash-completion/completions/occupant
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The shell
     #[arg(value_enum)]
     shell: Shell,
 }
 
 /// Prints the script.
-pub fn print(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn print(args: &Args) -> Result<Done, Failure> {
     let mut script = Vec::new();
     generate(args.shell, &mut Cli::command(), "occupant", &mut script);
     talk::print(&String::from_utf8_lossy(&script))?;

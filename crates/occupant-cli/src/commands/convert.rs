@@ -21,7 +21,7 @@ use crate::jobs::extend::{extend, extend_run};
 /// the conversion's report go to standard error, the result to -o or to standard output.
 #[derive(Debug, clap::Args)]
 #[command(group = ArgGroup::new("strictness").args(["strict", "lenient"]))]
-pub struct Args {
+pub(crate) struct Args {
     /// The deck or the scenario
     #[arg(value_name = "FILE")]
     input: PathBuf,
@@ -73,7 +73,7 @@ pub struct Args {
 }
 
 /// Converts in the direction that the input's name tells.
-pub fn convert(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn convert(args: &Args) -> Result<Done, Failure> {
     let bytes = read(&args.input)?;
     let layout = args.compartment.as_deref().map(compartment).transpose()?;
     if args.input.extension().is_some_and(|e| e.eq_ignore_ascii_case("mcap")) {

@@ -20,7 +20,7 @@ use crate::files::results::Results;
 /// NAME.csv-metadata.json. Parquet: the same table, its metadata inside. ISO-MME: NAME.mme becomes the folder NAME with
 /// NAME.mme and its channels, in SI units and SAE J211 axes, of all channels that the standard's dictionary has a code for.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The results of `occupant run`
     #[arg(value_name = "RUN.mcap")]
     run: PathBuf,
@@ -65,8 +65,7 @@ enum Kind {
     Mme,
 }
 
-/// Exports a run.
-pub fn export(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn export(args: &Args) -> Result<Done, Failure> {
     let kind = kind(&args.output)?;
     let treatment = args.treatment.treatment(args.interval.as_deref())?;
     let results = Results::open(&args.run)?;

@@ -28,7 +28,7 @@ use crate::jobs::fit::report;
 /// (measured against computed, before and after) and history.parquet and .csv (every candidate). A fit that was interrupted
 /// or killed goes on with the same command and ends at the same answer.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The study, TOML or JSON
     #[arg(value_name = "STUDY")]
     study: PathBuf,
@@ -71,8 +71,7 @@ pub struct Args {
     quiet: bool,
 }
 
-/// Fits.
-pub fn fit(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn fit(args: &Args) -> Result<Done, Failure> {
     let means = Means { threads: threads(args.threads), kernel: kernel(args.kernel.as_deref())? };
     let given = Given { files: &args.to, maps: &args.map, overrides: &args.overrides };
     let fitting = Fitting::open(&args.study, &given, program()).map_err(Failure::CouldNotRun)?;

@@ -19,7 +19,7 @@ use crate::files::results::Results;
 /// HIC, 3 ms levels, severity indices, BrIC, DAMAGE, neck and femur loads, Nij. A simulated signal has no noise, so nothing
 /// is filtered unless --filter asks for it. Exit code 1 if a limit is exceeded and --strict is given.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The results of `occupant run`
     #[arg(value_name = "RUN.mcap")]
     run: PathBuf,
@@ -75,7 +75,7 @@ struct Answer<'a> {
 }
 
 /// Prints the measures of a run.
-pub fn measures(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
     let results = Results::open(&args.run)?;
     let options = options(args);
     let mut signals = Signals::new();

@@ -39,7 +39,7 @@ use crate::base::talk::say;
 #[command(name = "occupant", version, propagate_version = false, max_term_width = 100)]
 #[command(after_help = "Exit codes: 0 done; 1 ran, and a check failed, the integration failed or it was \
 interrupted; 2 could not run.\n\nStart with: occupant new my-case.toml && occupant run my-case.toml")]
-pub struct Cli {
+struct Cli {
     #[command(subcommand)]
     command: Command,
 }

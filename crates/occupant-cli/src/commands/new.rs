@@ -12,7 +12,7 @@ const STARTER: &str = include_str!("starter.toml");
 
 /// Write a commented starter scenario that runs as it is
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The file to write; .toml is added where there is no extension
     #[arg(value_name = "NAME.toml")]
     file: PathBuf,
@@ -27,7 +27,7 @@ pub struct Args {
 }
 
 /// Writes the starter scenario.
-pub fn new(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn new(args: &Args) -> Result<Done, Failure> {
     let mut file = args.file.clone();
     if file.extension().is_none() {
         file.set_extension("toml");

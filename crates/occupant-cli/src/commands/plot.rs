@@ -26,7 +26,7 @@ use crate::pictures::plot::{
 /// belt loads, spine angles, energies, vehicle. Accelerations are what an accelerometer in the segment reads, in its axes:
 /// X ahead, Y to the left, Z up when standing upright.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// Results of `occupant run`; several are drawn over each other
     #[arg(value_name = "RUN.mcap", required = true)]
     runs: Vec<PathBuf>,
@@ -112,8 +112,7 @@ enum Kind {
     Png,
 }
 
-/// Draws plots.
-pub fn plot(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn plot(args: &Args) -> Result<Done, Failure> {
     let kind = kind(args)?;
     let window_s = window(args)?;
     let runs = args.runs.iter().map(|path| Results::open(path)).collect::<Result<Vec<_>, _>>()?;

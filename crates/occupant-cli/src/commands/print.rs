@@ -16,7 +16,7 @@ use crate::jobs::print::{Case, RunFile, Units, printout};
 /// First everything that was read and the computed seating, then the results at every print time, last the pairs of
 /// sphere and surface that an extension needs. 132 columns, 60 lines a page, form feeds between pages.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The results of `occupant run`
     #[arg(value_name = "RUN.mcap")]
     run: PathBuf,
@@ -48,8 +48,7 @@ enum UnitsChoice {
     InchPound,
 }
 
-/// Prints a run.
-pub fn print_run(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn print_run(args: &Args) -> Result<Done, Failure> {
     let every_s = args.every.as_deref().map(interval).transpose()?;
     let name = args.run.display();
     let bytes = fs::read(&args.run).map_err(|error| Failure::plain(format!("{name} cannot be read: {error}")))?;

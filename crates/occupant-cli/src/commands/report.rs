@@ -12,7 +12,7 @@ use crate::jobs::report::page;
 ///
 /// It opens in any browser and loads nothing from the network. Keys: space plays, arrows step, 1 to 4 choose the view.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The results of `occupant run`
     #[arg(value_name = "RUN.mcap")]
     run: PathBuf,
@@ -30,8 +30,7 @@ pub struct Args {
     against: Option<PathBuf>,
 }
 
-/// Makes a report.
-pub fn report(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn report(args: &Args) -> Result<Done, Failure> {
     let ending = args.output.extension().and_then(|e| e.to_str());
     if !ending.is_some_and(|e| e.eq_ignore_ascii_case("html") || e.eq_ignore_ascii_case("htm")) {
         return Err(Failure::with_help(

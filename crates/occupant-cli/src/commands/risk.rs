@@ -21,7 +21,7 @@ use options::{flight, preparation};
 /// (a CSV with `t` and any of `ax`, `ay`, `az`, `wx`, `wy`, `wz` with their units, such as t[s],ax[g],wz[deg/s]; x forward,
 /// y right, z down), a scenario, or a run.mcap. Exit code 1 if a rule named by --rule is broken.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// Recorded data (.csv), a scenario (.toml, .json) or the results of a run (.mcap)
     #[arg(value_name = "FILE")]
     file: PathBuf,
@@ -136,7 +136,7 @@ enum FamilyChoice {
 }
 
 /// Measures and judges.
-pub fn risk(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn risk(args: &Args) -> Result<Done, Failure> {
     let preparation = preparation(args)?;
     let flight = flight(args)?;
     let rules: Vec<Rule> = args.rule.iter().map(|rule| rule.rule()).collect();

@@ -32,7 +32,7 @@ use crate::jobs::run::resume::{Resumed, Resumption, Retold};
 /// run has left, with the same states as one run to the new end, and writes SCENARIO.resumed.mcap. With --ensemble it is
 /// run many times with small changes, and the table says which of its figures are stable.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     #[command(flatten)]
     scenario: ScenarioArgs,
 
@@ -88,8 +88,7 @@ struct Answer<'a> {
     warnings: Vec<String>,
 }
 
-/// Runs a scenario.
-pub fn run(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn run(args: &Args) -> Result<Done, Failure> {
     let chosen = chosen(args);
     let (bytes, draft) = scenario::draft(&chosen)?;
     let opened = scenario::open_draft(&chosen, bytes, draft.clone())?;

@@ -9,10 +9,10 @@ use crate::base::talk;
 ///
 /// Save it as occupant.schema.json beside the scenarios and put `#:schema ./occupant.schema.json` into their first line.
 #[derive(Debug, clap::Args)]
-pub struct Args {}
+pub(crate) struct Args {}
 
 /// Prints the schema.
-pub fn print(_args: &Args) -> Result<Done, Failure> {
+pub(crate) fn print(_args: &Args) -> Result<Done, Failure> {
     talk::print(&talk::json(schema())?)?;
     Ok(Done::Well)
 }

@@ -23,7 +23,7 @@ use crate::jobs::sensitivity::{Analysis, Answer, Asked, Words, about, analyse, a
 #[command(
     after_help = "Example: occupant sensitivity cart.toml --to hic15,belts.lap.peak --of joints.neck.damping,materials.seat.k1"
 )]
-pub struct Args {
+pub(crate) struct Args {
     #[command(flatten)]
     scenario: ScenarioArgs,
 
@@ -60,7 +60,7 @@ enum Kind {
 }
 
 /// Computes and tells the derivatives.
-pub fn sensitivity(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn sensitivity(args: &Args) -> Result<Done, Failure> {
     let kind = args.output.as_deref().map(kind).transpose()?;
     let (bytes, base) = draft(&args.scenario)?;
     let opened = open_draft(&args.scenario, bytes, base.clone())?;

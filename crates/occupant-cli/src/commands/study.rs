@@ -9,7 +9,7 @@ use crate::base::failure::{Done, Failure};
 
 /// Work on the results of a study
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     #[command(subcommand)]
     command: Step,
 }
@@ -21,7 +21,7 @@ enum Step {
 }
 
 /// Does what is asked of a study.
-pub fn study(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn study(args: &Args) -> Result<Done, Failure> {
     match &args.command {
         Step::Report(args) => report::report(args),
         Step::Bands(args) => bands::bands(args),

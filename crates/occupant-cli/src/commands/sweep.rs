@@ -38,7 +38,7 @@ use words::{ensembles, tell};
 /// array), and `occupant sweep merge FOLDER` makes the table.
 #[derive(Debug, clap::Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]
-pub struct Args {
+pub(crate) struct Args {
     #[command(subcommand)]
     command: Option<Step>,
 
@@ -91,7 +91,7 @@ enum Step {
 }
 
 /// Runs a sweep, or merges one.
-pub fn sweep(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn sweep(args: &Args) -> Result<Done, Failure> {
     match (&args.command, &args.study, &args.output) {
         (Some(Step::Merge(args)), _, _) => merge::merge(args),
         (None, Some(study), Some(output)) => Sweep::open(args, study, output)?.go(args),

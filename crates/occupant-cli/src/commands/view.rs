@@ -27,7 +27,7 @@ const MOST: usize = 120;
 /// A strip as in the report's Figs 21 to 38: one column a time, one row a view, all to one scale, with belts, and with
 /// contacts as arrows of the force on the body. Vehicle axes.
 #[derive(Debug, clap::Args)]
-pub struct Args {
+pub(crate) struct Args {
     /// The results of `occupant run`
     #[arg(value_name = "RUN.mcap")]
     run: PathBuf,
@@ -56,8 +56,7 @@ pub struct Args {
     views: Vec<View>,
 }
 
-/// Draws the views.
-pub fn view(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn view(args: &Args) -> Result<Done, Failure> {
     let format = Format::of(&args.output).ok_or_else(|| {
         Failure::with_help(
             format!("{} has not the ending of a picture", args.output.display()),

@@ -12,4 +12,4 @@ pub(crate) mod scenario;
 pub(crate) mod signals;
 pub(crate) mod study_folder;
 pub(crate) mod table_file;
-pub(crate) mod trouble;
+mod trouble;

@@ -25,22 +25,21 @@ use crate::base::sha256::sha256;
 
 /// A run that was recorded.
 pub struct Results {
-    /// The file.
-    pub path: PathBuf,
+    pub(crate) path: PathBuf,
     /// Its SHA-256.
-    pub sha256: String,
+    pub(crate) sha256: String,
     /// What the file says of the run before its start.
-    pub run: BTreeMap<String, String>,
+    pub(crate) run: BTreeMap<String, String>,
     /// What it says of the run's end; none if the run was cut off.
-    pub result: Option<BTreeMap<String, String>>,
+    pub(crate) result: Option<BTreeMap<String, String>>,
     /// The scenario, overrides included.
-    pub loaded: Loaded,
+    pub(crate) loaded: Loaded,
     /// Its model.
     pub model: Model,
     /// The scenario as its author wrote it, without overrides.
-    pub scenario_text: Option<String>,
+    pub(crate) scenario_text: Option<String>,
     /// One an output, at least one.
-    pub checkpoints: Vec<Checkpoint>,
+    pub(crate) checkpoints: Vec<Checkpoint>,
 }
 
 impl Results {
@@ -76,12 +75,12 @@ impl Results {
     }
 
     /// Whether the run reached its end.
-    pub fn is_complete(&self) -> bool {
+    pub(crate) fn is_complete(&self) -> bool {
         self.status() == RunStatus::Completed
     }
 
     /// How the run ended; one that was cut off counts as interrupted.
-    pub fn status(&self) -> RunStatus {
+    pub(crate) fn status(&self) -> RunStatus {
         let status = self.result.as_ref().and_then(|r| r.get("status"));
         match status.map(String::as_str) {
             Some("completed") => RunStatus::Completed,
@@ -91,7 +90,7 @@ impl Results {
     }
 
     /// What a user should know before trusting the results, in words.
-    pub fn notes(&self) -> Vec<String> {
+    pub(crate) fn notes(&self) -> Vec<String> {
         let name = self.path.display();
         let mut notes = Vec::new();
         if !self.is_complete() {
@@ -113,7 +112,7 @@ impl Results {
     ///
     /// # Errors
     /// What the recorder reports.
-    pub fn replay(&self, mut recorder: impl Recorder) -> Result<(), Failure> {
+    pub(crate) fn replay(&self, mut recorder: impl Recorder) -> Result<(), Failure> {
         let refused =
             |e: &dyn std::fmt::Display| Failure::plain(format!("{} cannot be evaluated: {e}", self.path.display()));
         recorder.begin(&self.model).map_err(|e| refused(&e))?;
@@ -127,7 +126,7 @@ impl Results {
     ///
     /// # Errors
     /// None for a file that was opened.
-    pub fn watch(&self, look: impl FnMut(&Sample<'_>)) -> Result<(), Failure> {
+    pub(crate) fn watch(&self, look: impl FnMut(&Sample<'_>)) -> Result<(), Failure> {
         self.replay(Watch(look))
     }
 
@@ -135,7 +134,7 @@ impl Results {
     ///
     /// # Errors
     /// None for a file that was opened.
-    pub fn series(&self, channels: Vec<Channel>) -> Result<Series, Failure> {
+    pub(crate) fn series(&self, channels: Vec<Channel>) -> Result<Series, Failure> {
         let mut series = Series::new(channels);
         self.replay(&mut series)?;
         Ok(series)

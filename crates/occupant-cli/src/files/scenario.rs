@@ -14,33 +14,32 @@ use crate::base::names::file_name;
 
 /// Which scenario, and what is changed in it.
 #[derive(Clone, Debug, Args)]
-pub struct ScenarioArgs {
+pub(crate) struct ScenarioArgs {
     /// The scenario, TOML or JSON
     #[arg(value_name = "SCENARIO")]
-    pub scenario: PathBuf,
+    pub(crate) scenario: PathBuf,
 
     /// Change a value, such as --set path.speed='30 mph' or --set joints.*.damping=2; may be repeated
     #[arg(long = "set", value_name = "PATH.TO.KEY=VALUE")]
-    pub overrides: Vec<String>,
+    pub(crate) overrides: Vec<String>,
 }
 
 /// A scenario that can be run.
-pub struct Opened {
+pub(crate) struct Opened {
     /// The bytes of the file.
-    pub bytes: Vec<u8>,
+    pub(crate) bytes: Vec<u8>,
     /// The scenario, overrides included.
-    pub loaded: Loaded,
-    /// The model.
-    pub model: Model,
+    pub(crate) loaded: Loaded,
+    pub(crate) model: Model,
     /// Warnings, with their places.
-    pub warnings: Diagnostics,
+    pub(crate) warnings: Diagnostics,
 }
 
 /// Reads the scenario, applies the changes and makes the model.
 ///
 /// # Errors
 /// A file that cannot be read; everything that is wrong with the scenario, at once.
-pub fn open(args: &ScenarioArgs) -> Result<Opened, Failure> {
+pub(crate) fn open(args: &ScenarioArgs) -> Result<Opened, Failure> {
     let (bytes, draft) = draft(args)?;
     open_draft(args, bytes, draft)
 }
@@ -49,7 +48,7 @@ pub fn open(args: &ScenarioArgs) -> Result<Opened, Failure> {
 ///
 /// # Errors
 /// A file that cannot be read; everything that is wrong with its words.
-pub fn draft(args: &ScenarioArgs) -> Result<(Vec<u8>, Draft), Failure> {
+pub(crate) fn draft(args: &ScenarioArgs) -> Result<(Vec<u8>, Draft), Failure> {
     let path = &args.scenario;
     let bytes = std::fs::read(path).map_err(|error| unreadable(path, &error))?;
     let name = path.display().to_string();
@@ -65,7 +64,7 @@ pub fn draft(args: &ScenarioArgs) -> Result<(Vec<u8>, Draft), Failure> {
 ///
 /// # Errors
 /// Everything that is wrong with the scenario, at once.
-pub fn open_draft(args: &ScenarioArgs, bytes: Vec<u8>, draft: Draft) -> Result<Opened, Failure> {
+pub(crate) fn open_draft(args: &ScenarioArgs, bytes: Vec<u8>, draft: Draft) -> Result<Opened, Failure> {
     let name = args.scenario.display().to_string();
     let refuse = |problems: Diagnostics| refused(&name, &problems);
     let folder = args.scenario.parent().unwrap_or(Path::new("")).to_owned();
@@ -79,7 +78,7 @@ pub fn open_draft(args: &ScenarioArgs, bytes: Vec<u8>, draft: Draft) -> Result<O
 ///
 /// # Errors
 /// A file without it, or with one that this program cannot read.
-pub fn stored(file: &Path, run: &StoredRun) -> Result<Loaded, Failure> {
+pub(crate) fn stored(file: &Path, run: &StoredRun) -> Result<Loaded, Failure> {
     let name = file.display();
     let bytes = run.attachments.get(RESOLVED);
     let bytes = bytes.ok_or_else(|| Failure::plain(format!("{name} holds no scenario")))?;
@@ -93,7 +92,7 @@ pub fn stored(file: &Path, run: &StoredRun) -> Result<Loaded, Failure> {
 }
 
 /// The format that the file name tells, if it does.
-pub fn format_of(path: &Path) -> Option<Format> {
+pub(crate) fn format_of(path: &Path) -> Option<Format> {
     let extension = path.extension()?.to_str()?.to_ascii_lowercase();
     match extension.as_str() {
         "toml" => Some(Format::Toml),

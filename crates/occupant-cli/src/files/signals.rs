@@ -9,38 +9,36 @@ use super::mme::Code;
 
 /// All signals of a file or test.
 #[derive(Clone, Debug)]
-pub struct Recording {
-    /// File or folder.
-    pub path: PathBuf,
+pub(crate) struct Recording {
+    pub(crate) path: PathBuf,
     /// SHA-256 of the file; of the test's channel files one after the other.
-    pub sha256: String,
+    pub(crate) sha256: String,
     /// The signals in the file's order.
-    pub signals: Vec<Signal>,
+    pub(crate) signals: Vec<Signal>,
     /// What was taken for granted in reading it.
-    pub notes: Vec<String>,
+    pub(crate) notes: Vec<String>,
 }
 
-/// One measured signal.
 #[derive(Clone, Debug)]
-pub struct Signal {
+pub(crate) struct Signal {
     /// Column heading, or ISO-MME channel code; `2` for the second column of a table without headings.
-    pub name: String,
+    pub(crate) name: String,
     /// ISO-MME code.
-    pub code: Option<Code>,
+    pub(crate) code: Option<Code>,
     /// Unit as written; none where the file gives none.
-    pub unit: Option<String>,
+    pub(crate) unit: Option<String>,
     /// Its size and dimension; none also for a unit that is not known.
-    pub scale: Option<Scale>,
+    pub(crate) scale: Option<Scale>,
     /// Times, s, increasing.
-    pub time_s: Vec<f64>,
+    pub(crate) time_s: Vec<f64>,
     /// Values in the file's unit, NaN where missing.
-    pub values: Vec<f64>,
+    pub(crate) values: Vec<f64>,
     /// Where it stands, for messages.
-    pub place: String,
+    pub(crate) place: String,
 }
 
 /// Size and dimension of a unit as written; `-` and `1` are plain numbers.
-pub fn scale_of(unit: &str) -> Option<Scale> {
+pub(crate) fn scale_of(unit: &str) -> Option<Scale> {
     match unit.trim() {
         "-" | "1" | "–" => Some(Scale { dimension: Default::default(), factor: 1.0 }),
         unit => parse(unit, 0).ok(),

@@ -19,8 +19,7 @@ const GROUP: usize = 20_000;
 
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
-    /// Words.
+pub(crate) enum Kind {
     Text,
     /// Numbers, some of which may be absent.
     Number,
@@ -30,8 +29,7 @@ pub enum Kind {
 
 /// A value.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Cell {
-    /// Words.
+pub(crate) enum Cell {
     Text(String),
     /// A number; absent if it is none.
     Number(f64),
@@ -41,7 +39,7 @@ pub enum Cell {
 
 /// The form of a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Form {
+pub(crate) enum Form {
     /// Text, with a line of headings.
     Csv,
     /// Columns.
@@ -50,7 +48,7 @@ pub enum Form {
 
 impl Form {
     /// The form that the file's ending asks for.
-    pub fn of(path: &Path) -> Option<Form> {
+    pub(crate) fn of(path: &Path) -> Option<Form> {
         match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
             "csv" => Some(Form::Csv),
             "parquet" => Some(Form::Parquet),
@@ -60,7 +58,7 @@ impl Form {
 }
 
 /// A table under its provisional name.
-pub struct TableFile {
+pub(crate) struct TableFile {
     path: PathBuf,
     columns: Vec<(String, Kind)>,
     waiting: Vec<Vec<Cell>>,
@@ -77,7 +75,7 @@ impl TableFile {
     ///
     /// # Errors
     /// The file is there and may not be replaced; the operating system refuses.
-    pub fn create(
+    pub(crate) fn create(
         path: &Path,
         form: Form,
         existing: Existing,
@@ -105,7 +103,7 @@ impl TableFile {
     ///
     /// # Errors
     /// The operating system refuses.
-    pub fn row(&mut self, cells: Vec<Cell>) -> Result<(), String> {
+    pub(crate) fn row(&mut self, cells: Vec<Cell>) -> Result<(), String> {
         match &mut self.writer {
             Writer::Csv(file) => {
                 let line: Vec<String> = cells.iter().map(shown).collect();
@@ -126,7 +124,7 @@ impl TableFile {
     ///
     /// # Errors
     /// The operating system refuses.
-    pub fn publish(mut self) -> Result<PathBuf, String> {
+    pub(crate) fn publish(mut self) -> Result<PathBuf, String> {
         self.flush()?;
         let path = self.path;
         let file = match self.writer {

@@ -7,7 +7,7 @@ use crate::base::failure::Failure;
 
 /// One problem.
 #[derive(Clone, Debug)]
-pub struct Trouble {
+pub(crate) struct Trouble {
     place: String,
     found: String,
     expected: String,
@@ -19,7 +19,7 @@ const MOST_TOLD: usize = 10;
 
 impl Trouble {
     /// In a line (from 1) of a file.
-    pub fn at(path: &Path, line: usize, found: impl Into<String>, expected: impl Into<String>) -> Self {
+    pub(crate) fn at(path: &Path, line: usize, found: impl Into<String>, expected: impl Into<String>) -> Self {
         Trouble {
             place: format!("{}:{line}", path.display()),
             found: found.into(),
@@ -29,18 +29,18 @@ impl Trouble {
     }
 
     /// In a file as a whole.
-    pub fn of(path: &Path, found: impl Into<String>, expected: impl Into<String>) -> Self {
+    pub(crate) fn of(path: &Path, found: impl Into<String>, expected: impl Into<String>) -> Self {
         Trouble { place: path.display().to_string(), found: found.into(), expected: expected.into(), hint: None }
     }
 
     /// How to mend it.
-    pub fn hint(mut self, hint: impl Into<String>) -> Self {
+    pub(crate) fn hint(mut self, hint: impl Into<String>) -> Self {
         self.hint = Some(hint.into());
         self
     }
 
     /// As the end of a command.
-    pub fn failure(self) -> Failure {
+    pub(crate) fn failure(self) -> Failure {
         failure(&[self])
     }
 }
@@ -56,7 +56,7 @@ impl fmt::Display for Trouble {
 }
 
 /// All problems as the end of a command.
-pub fn failure(problems: &[Trouble]) -> Failure {
+pub(crate) fn failure(problems: &[Trouble]) -> Failure {
     let told = problems.iter().take(MOST_TOLD).map(Trouble::to_string);
     let mut text = told.collect::<Vec<_>>().join("\n\n");
     if problems.len() > MOST_TOLD {

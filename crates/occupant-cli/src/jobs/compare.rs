@@ -5,7 +5,7 @@ use occupant_core::signal::{Interpolant, Interpolation, whole_steps};
 use serde::Serialize;
 
 /// The rate at which all metrics are computed, that of ISO/TS 18571.
-pub const RATE_HZ: f64 = 10_000.0;
+pub(crate) const RATE_HZ: f64 = 10_000.0;
 
 /// Longest time compared, s.
 const LONGEST_S: f64 = 100.0;
@@ -14,114 +14,105 @@ const LONGEST_CORA_S: f64 = 2.0;
 
 /// A history: times, s, and values, SI.
 #[derive(Clone, Copy, Debug)]
-pub struct Track<'a> {
+pub(crate) struct Track<'a> {
     /// Times, increasing.
-    pub time_s: &'a [f64],
+    pub(crate) time_s: &'a [f64],
     /// Values; NaN where missing.
-    pub values: &'a [f64],
+    pub(crate) values: &'a [f64],
 }
 
 /// The part of the time that counts.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Window {
+pub(crate) struct Window {
     /// First time; that of the overlap if absent.
-    pub from_s: Option<f64>,
+    pub(crate) from_s: Option<f64>,
     /// Last time.
-    pub to_s: Option<f64>,
+    pub(crate) to_s: Option<f64>,
     /// Added to the measured times.
-    pub shift_s: f64,
+    pub(crate) shift_s: f64,
 }
 
 /// All ratings of a pair.
 #[derive(Clone, Debug, Serialize)]
-pub struct Rating {
+pub(crate) struct Rating {
     /// First time compared, s.
-    pub from_s: f64,
+    pub(crate) from_s: f64,
     /// Last time compared, s.
-    pub to_s: f64,
+    pub(crate) to_s: f64,
     /// Samples compared.
-    pub samples: usize,
+    pub(crate) samples: usize,
     /// At this rate, 1/s, by straight lines between samples.
-    pub rate_hz: f64,
+    rate_hz: f64,
     /// ISO/TS 18571.
-    pub iso18571: Option<Iso>,
-    /// CORA.
-    pub cora: Option<CoraScores>,
+    pub(crate) iso18571: Option<Iso>,
+    pub(crate) cora: Option<CoraScores>,
     /// Sprague–Geers.
-    pub sprague_geers: Option<Mpc>,
-    /// Residuals.
-    pub anova: Option<Residuals>,
+    pub(crate) sprague_geers: Option<Mpc>,
+    pub(crate) anova: Option<Residuals>,
     /// Why a rating is missing.
-    pub problems: Vec<String>,
+    pub(crate) problems: Vec<String>,
 }
 
 /// Scores of ISO/TS 18571, 0 to 1.
 #[derive(Clone, Debug, Serialize)]
-pub struct Iso {
+pub(crate) struct Iso {
     /// R.
-    pub overall: f64,
-    /// In words.
-    pub grade: &'static str,
+    pub(crate) overall: f64,
+    pub(crate) grade: &'static str,
     /// Z.
-    pub corridor: f64,
+    pub(crate) corridor: f64,
     /// EP.
-    pub phase: f64,
+    pub(crate) phase: f64,
     /// EM.
-    pub magnitude: f64,
+    pub(crate) magnitude: f64,
     /// ES.
-    pub slope: f64,
+    pub(crate) slope: f64,
     /// By how much the computed history is late, s.
-    pub lag_s: f64,
+    pub(crate) lag_s: f64,
 }
 
 /// Scores of CORA, 0 to 1.
 #[derive(Clone, Debug, Serialize)]
-pub struct CoraScores {
-    /// Overall.
-    pub overall: f64,
-    /// Corridor.
-    pub corridor: f64,
-    /// Cross-correlation.
-    pub cross_correlation: f64,
+pub(crate) struct CoraScores {
+    pub(crate) overall: f64,
+    pub(crate) corridor: f64,
+    pub(crate) cross_correlation: f64,
     /// Its shape.
-    pub progression: f64,
-    /// Its size.
-    pub size: f64,
-    /// Its phase.
-    pub phase: f64,
+    pub(crate) progression: f64,
+    pub(crate) size: f64,
+    pub(crate) phase: f64,
     /// Interval of evaluation, s.
-    pub interval_s: [f64; 2],
+    pub(crate) interval_s: [f64; 2],
 }
 
 /// Errors of Sprague and Geers.
 #[derive(Clone, Debug, Serialize)]
-pub struct Mpc {
+pub(crate) struct Mpc {
     /// M, positive where the computed history is larger.
-    pub magnitude: f64,
+    pub(crate) magnitude: f64,
     /// P.
-    pub phase: f64,
+    pub(crate) phase: f64,
     /// C.
-    pub combined: f64,
+    pub(crate) combined: f64,
     /// All within 40 %.
-    pub within_40_percent: bool,
+    pub(crate) within_40_percent: bool,
 }
 
 /// Residuals over the measured peak.
 #[derive(Clone, Debug, Serialize)]
-pub struct Residuals {
+pub(crate) struct Residuals {
     /// Mean, positive where the measured signal is larger.
-    pub mean: f64,
-    /// Standard deviation.
-    pub standard_deviation: f64,
+    pub(crate) mean: f64,
+    pub(crate) standard_deviation: f64,
     /// Mean within 5 %, deviation within 35 %.
-    pub within_5_and_35_percent: bool,
+    pub(crate) within_5_and_35_percent: bool,
 }
 
 /// Rates a computed against a measured history, both filtered already.
 ///
 /// # Errors
 /// No common time, values that are missing in it.
-pub fn rate(computed: Track<'_>, measured: Track<'_>, window: Window) -> Result<Rating, String> {
+pub(crate) fn rate(computed: Track<'_>, measured: Track<'_>, window: Window) -> Result<Rating, String> {
     let moved: Vec<f64> = measured.time_s.iter().map(|t| t + window.shift_s).collect();
     let measured = Track { time_s: &moved, values: measured.values };
     let [from_s, to_s] = overlap(computed, measured, window)?;
@@ -201,7 +192,7 @@ const fn grade(grade: Iso18571Grade) -> &'static str {
 ///
 /// # Errors
 /// There is none.
-pub fn overlap(a: Track<'_>, b: Track<'_>, window: Window) -> Result<[f64; 2], String> {
+pub(crate) fn overlap(a: Track<'_>, b: Track<'_>, window: Window) -> Result<[f64; 2], String> {
     let ends = |t: &[f64]| t.first().copied().zip(t.last().copied());
     let (Some((a0, a1)), Some((b0, b1))) = (ends(a.time_s), ends(b.time_s)) else {
         return Err("a history without samples".to_owned());
@@ -228,7 +219,13 @@ pub fn overlap(a: Track<'_>, b: Track<'_>, window: Window) -> Result<[f64; 2], S
 ///
 /// # Errors
 /// A value that is missing there.
-pub fn sampled(track: Track<'_>, from_s: f64, to_s: f64, samples: usize, what: &str) -> Result<Vec<f64>, String> {
+pub(crate) fn sampled(
+    track: Track<'_>,
+    from_s: f64,
+    to_s: f64,
+    samples: usize,
+    what: &str,
+) -> Result<Vec<f64>, String> {
     // the samples of the window and one beyond on each side
     let first = track.time_s.partition_point(|t| *t <= from_s).saturating_sub(1);
     let last = track.time_s.partition_point(|t| *t < to_s).min(track.time_s.len() - 1);

@@ -20,7 +20,7 @@ use crate::files::scenario;
 ///
 /// # Errors
 /// A scenario that is refused, a run that does not reach its end, a time before that end.
-pub fn extend(
+pub(crate) fn extend(
     deck: &Deck,
     toml: &str,
     options: &ConvertOptions,
@@ -52,7 +52,7 @@ pub fn extend(
 ///
 /// # Errors
 /// A file without checkpoint or scenario, a scenario that does not fit on cards, a time before the file's end.
-pub fn extend_run(
+pub(crate) fn extend_run(
     file: &Path,
     bytes: &[u8],
     layout: Option<&CompartmentLayout>,

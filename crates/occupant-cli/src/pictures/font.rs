@@ -4,26 +4,22 @@ use skrifa::instance::{LocationRef, Size};
 use skrifa::{FontRef, MetadataProvider};
 
 /// What a picture's `font-family` says: ours first, then what a browser has.
-pub const FAMILY: &str = "DejaVu Sans, Verdana, Arial, sans-serif";
+pub(crate) const FAMILY: &str = "DejaVu Sans, Verdana, Arial, sans-serif";
 /// The family's name in the font files.
-pub const NAME: &str = "DejaVu Sans";
-/// Regular.
-pub const REGULAR: &[u8] = include_bytes!("../../assets/fonts/DejaVuSans.ttf");
-/// Bold.
-pub const BOLD: &[u8] = include_bytes!("../../assets/fonts/DejaVuSans-Bold.ttf");
+pub(crate) const NAME: &str = "DejaVu Sans";
+pub(crate) const REGULAR: &[u8] = include_bytes!("../../assets/fonts/DejaVuSans.ttf");
+pub(crate) const BOLD: &[u8] = include_bytes!("../../assets/fonts/DejaVuSans-Bold.ttf");
 
 /// Weight of a text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Weight {
-    /// Regular.
+pub(crate) enum Weight {
     #[default]
     Regular,
-    /// Bold.
     Bold,
 }
 
 /// Width of a text of this font size, both in user units, without kerning; unknown letters count as wide ones.
-pub fn width(text: &str, size: f64, weight: Weight) -> f64 {
+pub(crate) fn width(text: &str, size: f64, weight: Weight) -> f64 {
     let file = match weight {
         Weight::Regular => REGULAR,
         Weight::Bold => BOLD,

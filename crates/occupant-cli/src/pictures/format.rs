@@ -6,7 +6,7 @@ use super::png::{PngError, png};
 
 /// Kinds of picture files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Format {
+pub(crate) enum Format {
     /// Scalable vector graphics.
     Svg,
     /// Pixels.
@@ -15,7 +15,7 @@ pub enum Format {
 
 impl Format {
     /// The kind that the file's ending asks for; none for another ending.
-    pub fn of(path: &Path) -> Option<Self> {
+    pub(crate) fn of(path: &Path) -> Option<Self> {
         let ending = path.extension()?.to_str()?;
         match ending.to_ascii_lowercase().as_str() {
             "svg" => Some(Format::Svg),
@@ -28,7 +28,7 @@ impl Format {
     ///
     /// # Errors
     /// A drawing that is too large to render.
-    pub fn encode(self, svg: &str, pixels: f64) -> Result<Vec<u8>, PngError> {
+    pub(crate) fn encode(self, svg: &str, pixels: f64) -> Result<Vec<u8>, PngError> {
         match self {
             Format::Svg => Ok(svg.as_bytes().to_vec()),
             Format::Png => png(svg, pixels),

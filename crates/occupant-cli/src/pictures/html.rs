@@ -4,14 +4,12 @@ use super::svg::escape;
 
 /// A part of a page.
 #[derive(Clone, Debug, Default)]
-pub struct Html(String);
+pub(crate) struct Html(String);
 
 /// A cell of a table.
 #[derive(Clone, Debug)]
-pub enum Cell {
-    /// Words.
+pub(crate) enum Cell {
     Words(String),
-    /// A number.
     Number(String),
     /// A number that a rule marks, and why.
     Marked(String, String),
@@ -19,18 +17,18 @@ pub enum Cell {
 
 impl Html {
     /// An element of one text; `tag` may carry attributes of ours.
-    pub fn text(&mut self, tag: &str, text: &str) {
+    pub(crate) fn text(&mut self, tag: &str, text: &str) {
         let name = tag.split(' ').next().unwrap_or(tag);
         self.0.push_str(&format!("<{tag}>{}</{name}>\n", escape(text)));
     }
 
     /// Something that is HTML already.
-    pub fn raw(&mut self, html: &str) {
+    pub(crate) fn raw(&mut self, html: &str) {
         self.0.push_str(html);
     }
 
     /// Two columns of words.
-    pub fn facts(&mut self, facts: &[(&str, String)]) {
+    pub(crate) fn facts(&mut self, facts: &[(&str, String)]) {
         self.raw("<div class=\"scroll\"><table>\n");
         for (name, text) in facts {
             self.raw(&format!(
@@ -42,8 +40,7 @@ impl Html {
         self.raw("</table></div>\n");
     }
 
-    /// A table.
-    pub fn table(&mut self, head: &[&str], rows: &[Vec<Cell>]) {
+    pub(crate) fn table(&mut self, head: &[&str], rows: &[Vec<Cell>]) {
         self.raw("<div class=\"scroll\"><table>\n<tr>");
         for (i, name) in head.iter().enumerate() {
             let numbers = rows.first().and_then(|r| r.get(i)).is_some_and(|c| !matches!(c, Cell::Words(_)));
@@ -61,8 +58,7 @@ impl Html {
         self.raw("</table></div>\n");
     }
 
-    /// The text.
-    pub fn finish(self) -> String {
+    pub(crate) fn finish(self) -> String {
         self.0
     }
 }
@@ -79,7 +75,7 @@ impl Cell {
     }
 
     /// A number, marked or not.
-    pub fn of(text: String, mark: Option<String>) -> Cell {
+    pub(crate) fn of(text: String, mark: Option<String>) -> Cell {
         match mark {
             Some(why) => Cell::Marked(text, why),
             None => Cell::Number(text),

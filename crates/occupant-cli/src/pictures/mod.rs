@@ -4,13 +4,13 @@
 //! that SVG rendered with the fonts of this program, so that it looks the same on every machine, fonts installed or not.
 
 pub(crate) mod body;
-pub mod font;
-pub mod format;
-pub mod html;
-pub mod plot;
-pub mod png;
-pub mod svg;
-pub mod view;
+pub(crate) mod font;
+mod format;
+pub(crate) mod html;
+pub(crate) mod plot;
+mod png;
+pub(crate) mod svg;
+pub(crate) mod view;
 
-pub use format::Format;
-pub use svg::{Anchor, Svg, Text};
+pub(crate) use format::Format;
+pub(crate) use svg::{Anchor, Svg, Text};

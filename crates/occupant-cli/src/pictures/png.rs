@@ -13,7 +13,7 @@ const MOST_PIXELS: f64 = 250e6;
 
 /// Why a drawing cannot become a PNG.
 #[derive(Clone, Debug, PartialEq)]
-pub enum PngError {
+pub(crate) enum PngError {
     /// The SVG cannot be read, in the reader's words.
     Svg(String),
     /// It has too many pixels, or none.
@@ -51,7 +51,7 @@ impl std::error::Error for PngError {}
 ///
 /// # Errors
 /// Text that is no SVG; a picture without or with too many pixels.
-pub fn png(svg: &str, pixels: f64) -> Result<Vec<u8>, PngError> {
+pub(crate) fn png(svg: &str, pixels: f64) -> Result<Vec<u8>, PngError> {
     let tree = Tree::from_str(svg, &options()).map_err(|e| PngError::Svg(e.to_string()))?;
     let size = tree.size();
     let width = (f64::from(size.width()) * pixels).round();

@@ -9,7 +9,7 @@ use super::font::{self, Weight};
 
 /// A drawing that grows; x to the right, y down, user units.
 #[derive(Clone, Debug)]
-pub struct Svg {
+pub(crate) struct Svg {
     size: [f64; 2],
     title: String,
     body: String,
@@ -18,31 +18,28 @@ pub struct Svg {
 
 /// Which part of a text stands at its place.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Anchor {
+pub(crate) enum Anchor {
     /// Its begin.
     #[default]
     Start,
-    /// Its middle.
     Middle,
-    /// Its end.
     End,
 }
 
 /// How a text is set.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Text<'a> {
+pub(crate) struct Text<'a> {
     /// Font size.
-    pub size: f64,
+    pub(crate) size: f64,
     /// Colour.
-    pub fill: &'a str,
+    pub(crate) fill: &'a str,
     /// What stands at the place.
-    pub anchor: Anchor,
-    /// Weight.
-    pub weight: Weight,
+    pub(crate) anchor: Anchor,
+    pub(crate) weight: Weight,
     /// Turn about the place, degrees clockwise.
-    pub turn_deg: f64,
+    pub(crate) turn_deg: f64,
     /// Colour of a rim that keeps it legible over lines.
-    pub halo: Option<&'a str>,
+    pub(crate) halo: Option<&'a str>,
 }
 
 impl Default for Text<'_> {
@@ -53,64 +50,62 @@ impl Default for Text<'_> {
 
 impl Svg {
     /// An empty drawing with a title for those who cannot see it.
-    pub fn new(width: f64, height: f64, title: &str) -> Self {
+    pub(crate) fn new(width: f64, height: f64, title: &str) -> Self {
         Svg { size: [width, height], title: title.to_owned(), body: String::new(), open: 0 }
     }
 
     /// Begins a group; `attributes` as in SVG, such as `stroke="#000" fill="none"`.
-    pub fn begin(&mut self, attributes: &str) {
+    pub(crate) fn begin(&mut self, attributes: &str) {
         self.line(&format!("<g {attributes}>"));
         self.open += 1;
     }
 
     /// Begins a group that shows only what lies in a rectangle.
-    pub fn begin_clip(&mut self, id: &str, x: f64, y: f64, width: f64, height: f64) {
+    pub(crate) fn begin_clip(&mut self, id: &str, x: f64, y: f64, width: f64, height: f64) {
         let (id, area) = (escape(id), rectangle(x, y, width, height));
         self.line(&format!("<clipPath id=\"{id}\"><rect {area}/></clipPath>"));
         self.begin(&format!("clip-path=\"url(#{id})\""));
     }
 
     /// Ends the last group begun.
-    pub fn end(&mut self) {
+    pub(crate) fn end(&mut self) {
         self.open = self.open.saturating_sub(1);
         self.line("</g>");
     }
 
     /// Gives the present group a name that viewers show as a tip.
-    pub fn tip(&mut self, text: &str) {
+    pub(crate) fn tip(&mut self, text: &str) {
         self.line(&format!("<title>{}</title>", escape(text)));
     }
 
     /// A rectangle.
-    pub fn rect(&mut self, x: f64, y: f64, width: f64, height: f64, attributes: &str) {
+    pub(crate) fn rect(&mut self, x: f64, y: f64, width: f64, height: f64, attributes: &str) {
         let area = rectangle(x, y, width, height);
         self.line(&format!("<rect {area} {attributes}/>"));
     }
 
     /// A line through points.
-    pub fn polyline(&mut self, points: &[[f64; 2]], attributes: &str) {
+    pub(crate) fn polyline(&mut self, points: &[[f64; 2]], attributes: &str) {
         self.line(&format!("<polyline points=\"{}\" {attributes}/>", list(points)));
     }
 
-    /// A polygon.
-    pub fn polygon(&mut self, points: &[[f64; 2]], attributes: &str) {
+    pub(crate) fn polygon(&mut self, points: &[[f64; 2]], attributes: &str) {
         self.line(&format!("<polygon points=\"{}\" {attributes}/>", list(points)));
     }
 
     /// A straight line.
-    pub fn segment(&mut self, from: [f64; 2], to: [f64; 2], attributes: &str) {
+    pub(crate) fn segment(&mut self, from: [f64; 2], to: [f64; 2], attributes: &str) {
         let [x1, y1, x2, y2] = [from[0], from[1], to[0], to[1]].map(number);
         self.line(&format!("<line x1=\"{x1}\" y1=\"{y1}\" x2=\"{x2}\" y2=\"{y2}\" {attributes}/>"));
     }
 
-    /// A circle.
-    pub fn circle(&mut self, centre: [f64; 2], radius: f64, attributes: &str) {
+    pub(crate) fn circle(&mut self, centre: [f64; 2], radius: f64, attributes: &str) {
         let [x, y, r] = [centre[0], centre[1], radius].map(number);
         self.line(&format!("<circle cx=\"{x}\" cy=\"{y}\" r=\"{r}\" {attributes}/>"));
     }
 
     /// Dots as wide as their line, whose ends must be round: one element however many they are.
-    pub fn dots(&mut self, centres: &[[f64; 2]], attributes: &str) {
+    pub(crate) fn dots(&mut self, centres: &[[f64; 2]], attributes: &str) {
         let mut data = String::with_capacity(14 * centres.len());
         for [x, y] in centres {
             let _ = write!(data, "M{} {}h.01", number(*x), number(*y));
@@ -119,12 +114,12 @@ impl Svg {
     }
 
     /// A path; `data` as in SVG.
-    pub fn path(&mut self, data: &str, attributes: &str) {
+    pub(crate) fn path(&mut self, data: &str, attributes: &str) {
         self.line(&format!("<path d=\"{data}\" {attributes}/>"));
     }
 
     /// A text with its base line at a place.
-    pub fn text(&mut self, at: [f64; 2], text: &str, style: &Text<'_>) {
+    pub(crate) fn text(&mut self, at: [f64; 2], text: &str, style: &Text<'_>) {
         let [x, y] = at.map(number);
         let mut tag = format!("<text x=\"{x}\" y=\"{y}\"");
         let mut put = |name: &str, value: &str| {
@@ -154,12 +149,12 @@ impl Svg {
     }
 
     /// The whole file.
-    pub fn finish(self) -> String {
+    pub(crate) fn finish(self) -> String {
         format!("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n{}", self.inline())
     }
 
     /// The drawing as an element of an HTML page.
-    pub fn inline(mut self) -> String {
+    pub(crate) fn inline(mut self) -> String {
         while self.open > 0 {
             self.end();
         }
@@ -184,7 +179,7 @@ impl Svg {
 }
 
 /// A number of an SVG: two decimals, no trailing zeros, 0 for what is no number.
-pub fn number(value: f64) -> String {
+pub(crate) fn number(value: f64) -> String {
     if !value.is_finite() {
         return "0".to_owned();
     }
@@ -197,7 +192,7 @@ pub fn number(value: f64) -> String {
 }
 
 /// Text for XML: marks escaped, control characters (which XML forbids) replaced.
-pub fn escape(text: &str) -> String {
+pub(crate) fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for letter in text.chars() {
         match letter {

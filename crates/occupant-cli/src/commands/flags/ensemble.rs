@@ -23,7 +23,7 @@ use crate::pictures::Format;
 /// Flags of an ensemble.
 #[derive(Clone, Debug, clap::Args)]
 #[command(next_help_heading = "Ensemble")]
-pub struct EnsembleArgs {
+pub(crate) struct EnsembleArgs {
     /// Run the scenario N times, all but the first with small changes of posture, place, pulse and stiffness, and say which
     /// figures are stable
     #[arg(long, value_name = "N", conflicts_with = "resume", value_parser = clap::value_parser!(u32).range(2..))]
@@ -61,7 +61,7 @@ impl EnsembleArgs {
     ///
     /// # Errors
     /// Amounts, channels and files that cannot be.
-    pub fn wanted(
+    pub(crate) fn wanted(
         &self,
         draft: &Draft,
         opened: &Opened,

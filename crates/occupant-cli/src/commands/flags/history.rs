@@ -8,14 +8,14 @@ use crate::files::history::{Family, Filter, Treatment};
 
 /// What is done to time histories.
 #[derive(Clone, Copy, Debug, clap::Args)]
-pub struct HistoryArgs {
+pub(crate) struct HistoryArgs {
     /// Filter: CFC60, CFC180, CFC600, CFC1000, j211 (each channel the class of its quantity) or none
     #[arg(long, value_name = "CLASS", default_value = "none")]
-    pub filter: Filter,
+    pub(crate) filter: Filter,
 
     /// Coefficients of the filter classes
     #[arg(long, value_name = "STANDARD", default_value = "iso6487")]
-    pub coefficients: Family,
+    pub(crate) coefficients: Family,
 }
 
 impl HistoryArgs {
@@ -23,7 +23,7 @@ impl HistoryArgs {
     ///
     /// # Errors
     /// An interval that is none.
-    pub fn treatment(self, interval: Option<&str>) -> Result<Treatment, Failure> {
+    pub(crate) fn treatment(self, interval: Option<&str>) -> Result<Treatment, Failure> {
         let interval_s = interval.map(|text| time("--interval", text)).transpose()?;
         if let (Some(text), Some(seconds)) = (interval, interval_s)
             && seconds <= 0.0
@@ -37,7 +37,7 @@ impl HistoryArgs {
     }
 
     /// Name of the coefficients.
-    pub const fn family_name(self) -> &'static str {
+    pub(crate) const fn family_name(self) -> &'static str {
         match self.coefficients {
             Family::Iso6487 => "ISO 6487",
             Family::SaeJ211 => "SAE J211",
@@ -45,7 +45,7 @@ impl HistoryArgs {
     }
 
     /// The filter in words.
-    pub fn words(self) -> String {
+    pub(crate) fn words(self) -> String {
         match self.filter {
             Filter::None => "none".to_owned(),
             filter => format!("{} ({} coefficients)", filter.words(), self.family_name()),
@@ -57,7 +57,7 @@ impl HistoryArgs {
 ///
 /// # Errors
 /// What is no time.
-pub fn time(flag: &str, text: &str) -> Result<f64, Failure> {
+pub(crate) fn time(flag: &str, text: &str) -> Result<f64, Failure> {
     let time = match text.trim().parse() {
         Ok(seconds) => Time::bare(seconds),
         Err(_) => Time::text(text),
@@ -76,7 +76,7 @@ pub fn time(flag: &str, text: &str) -> Result<f64, Failure> {
 }
 
 /// A position in an ISO-MME code.
-pub fn code_letter(text: &str) -> Result<char, String> {
+pub(crate) fn code_letter(text: &str) -> Result<char, String> {
     let mut letters = text.chars();
     match (letters.next(), letters.next()) {
         (Some(c), None) if c.is_ascii_digit() || c.is_ascii_uppercase() => Ok(c),

@@ -13,7 +13,7 @@ use crate::jobs::sweep::kept;
 use crate::jobs::sweep::plan::Plan;
 
 /// The part to compute, and the variable that says so.
-pub fn shard(given: Option<&str>) -> Result<(Shard, Option<&'static str>), Failure> {
+pub(crate) fn shard(given: Option<&str>) -> Result<(Shard, Option<&'static str>), Failure> {
     let refused =
         |found: String| Failure::with_help(found, "--shard 1/1 computes everything, whatever the environment says");
     if let Some(text) = given {
@@ -28,7 +28,7 @@ pub fn shard(given: Option<&str>) -> Result<(Shard, Option<&'static str>), Failu
 }
 
 /// Which runs to write: as the command line says, or else the study.
-pub fn keep(given: Option<&str>, plan: &Plan) -> Result<Keep, Failure> {
+pub(crate) fn keep(given: Option<&str>, plan: &Plan) -> Result<Keep, Failure> {
     let keep = match given {
         Some(text) => kept::parse(text).ok_or_else(|| {
             Failure::with_help(
@@ -63,13 +63,13 @@ pub fn keep(given: Option<&str>, plan: &Plan) -> Result<Keep, Failure> {
 }
 
 /// As many as the command line says, or one for each core.
-pub fn threads(given: Option<NonZeroUsize>) -> usize {
+pub(crate) fn threads(given: Option<NonZeroUsize>) -> usize {
     let cores = || thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
     given.unwrap_or_else(cores).get()
 }
 
 /// The form of the kernel: as the command line says, or the fastest of this processor.
-pub fn kernel(given: Option<&str>) -> Result<Kernel, Failure> {
+pub(crate) fn kernel(given: Option<&str>) -> Result<Kernel, Failure> {
     let Some(name) = given else {
         return Ok(Kernel::best());
     };

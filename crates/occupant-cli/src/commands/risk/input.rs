@@ -15,7 +15,7 @@ use crate::jobs::risk::Subject;
 const PATH_INTERVAL_S: f64 = 1e-4;
 
 /// What the file holds, and the signals that it gives.
-pub(super) fn measured(args: &Args, wanted: &Preparation) -> Result<(Subject, VehicleSignals), Failure> {
+pub(crate) fn measured(args: &Args, wanted: &Preparation) -> Result<(Subject, VehicleSignals), Failure> {
     let name = args.file.display().to_string();
     let extension = args.file.extension().unwrap_or_default();
     let extension = extension.to_string_lossy().to_ascii_lowercase();

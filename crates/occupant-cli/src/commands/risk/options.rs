@@ -12,7 +12,7 @@ const LENGTH: usize = kind::LENGTH;
 const TIME: usize = kind::TIME;
 
 /// What is done with the record.
-pub(super) fn preparation(args: &Args) -> Result<Preparation, Failure> {
+pub(crate) fn preparation(args: &Args) -> Result<Preparation, Failure> {
     let class = match args.cfc {
         ClassChoice::Cfc60 => Some(ChannelClass::Cfc60),
         ClassChoice::Cfc180 => Some(ChannelClass::Cfc180),
@@ -42,7 +42,7 @@ pub(super) fn preparation(args: &Args) -> Result<Preparation, Failure> {
 }
 
 /// Where the occupant starts and how far it may fly.
-pub(super) fn flight(args: &Args) -> Result<Flight, Failure> {
+pub(crate) fn flight(args: &Args) -> Result<Flight, Failure> {
     let mut flight = Flight::default();
     if let Some(x_m) = quantity::<LENGTH>("--flail-x", &args.flail_x)? {
         flight.distances.longitudinal_m = positive("--flail-x", x_m)?;

@@ -17,7 +17,7 @@ use crate::jobs::study::open;
 /// FOLDER/bands/SAMPLE.parquet (sample, channel, time, quantiles, and the time from which on the members are parted). What was
 /// interrupted or killed goes on with the same command.
 #[derive(Debug, clap::Args)]
-pub struct BandsArgs {
+pub(crate) struct BandsArgs {
     /// The folder that `occupant sweep` has written or still writes
     #[arg(value_name = "FOLDER")]
     folder: PathBuf,
@@ -40,7 +40,7 @@ pub struct BandsArgs {
 }
 
 /// Writes the bands of all samples that have none yet.
-pub fn bands(args: &BandsArgs) -> Result<Done, Failure> {
+pub(crate) fn bands(args: &BandsArgs) -> Result<Done, Failure> {
     let opened = open(std::slice::from_ref(&args.folder))?;
     let study = opened.plan.study();
     if study.ensemble().is_none() {

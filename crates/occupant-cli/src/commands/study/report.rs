@@ -12,7 +12,7 @@ use crate::jobs::study::{Report, Tables, open, page, write_tables};
 /// The folder may be finished, or a sweep may still write it. The page opens in any browser and loads nothing from the
 /// network. All its numbers stand in REPORT.parquet beside it, the samples they are made of in REPORT-samples.parquet.
 #[derive(Debug, clap::Args)]
-pub struct ReportArgs {
+pub(crate) struct ReportArgs {
     /// The folder that `occupant sweep` has written, or several with shards of one sweep
     #[arg(value_name = "FOLDER", required = true)]
     folders: Vec<PathBuf>,
@@ -31,7 +31,7 @@ pub struct ReportArgs {
 }
 
 /// Makes the report of a study.
-pub fn report(args: &ReportArgs) -> Result<Done, Failure> {
+pub(crate) fn report(args: &ReportArgs) -> Result<Done, Failure> {
     let Some(first) = args.folders.first() else {
         return Err(Failure::plain("no folder was given"));
     };

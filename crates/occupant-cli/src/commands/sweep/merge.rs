@@ -24,7 +24,7 @@ use crate::jobs::sweep::{kept, results};
 ///
 /// Says which samples are missing, if any are.
 #[derive(Debug, clap::Args)]
-pub struct MergeArgs {
+pub(crate) struct MergeArgs {
     /// The folder of the sweep, or several with parts of one sweep
     #[arg(value_name = "FOLDER", required = true)]
     folders: Vec<PathBuf>,
@@ -51,7 +51,7 @@ pub struct MergeArgs {
 }
 
 /// Makes one table of shards.
-pub fn merge(args: &MergeArgs) -> Result<Done, Failure> {
+pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     let folders: Vec<Folder> = args.folders.iter().map(|f| Folder::at(f)).collect();
     let manifest = common_manifest(&folders)?;
     let journal = read_journal(&folders, &sha256_of(&manifest)?, &manifest)?;

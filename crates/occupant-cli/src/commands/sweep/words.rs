@@ -12,7 +12,7 @@ use crate::jobs::ensemble::text::of_study;
 use crate::jobs::sweep::census::Census;
 
 /// What is stable, where the study has ensembles: read from the finished table and written beside it.
-pub fn ensembles(folder: &Folder, manifest: &Manifest, csv: bool) -> Result<Option<Ensembles>, Failure> {
+pub(crate) fn ensembles(folder: &Folder, manifest: &Manifest, csv: bool) -> Result<Option<Ensembles>, Failure> {
     if !of_table::has_ensembles(manifest) {
         return Ok(None);
     }
@@ -21,7 +21,7 @@ pub fn ensembles(folder: &Folder, manifest: &Manifest, csv: bool) -> Result<Opti
 }
 
 /// What it came to.
-pub fn tell(
+pub(crate) fn tell(
     census: &Census,
     files: &[PathBuf],
     work: Option<String>,

@@ -6,7 +6,7 @@ use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, Table, facts, plain};
 
 /// Everything that a user should see before a run.
-pub fn check_text(d: &Diagnosis) -> String {
+pub(crate) fn check_text(d: &Diagnosis) -> String {
     let mut parts = vec![format!("{}\n", plain(&d.title)), overview(d), segments(d)];
     if let Some(seat) = &d.seat {
         parts.push(seating(seat));

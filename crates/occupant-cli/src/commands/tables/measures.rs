@@ -13,24 +13,24 @@ const SHORT: [&str; 8] =
     ["hic15", "hic36", "nij", "neck_tension", "neck_compression", "chest_3ms_cumulative", "right_femur", "left_femur"];
 
 /// The table at the end of a run.
-pub fn short(measures: &[Measure], marks: &Marks) -> String {
+pub(crate) fn short(measures: &[Measure], marks: &Marks) -> String {
     let chosen = measures.iter().filter(|m| SHORT.contains(&m.name));
     table(chosen, marks)
 }
 
 /// All measures; each limit on a line of its own.
-pub fn long(measures: &[Measure]) -> String {
+pub(crate) fn long(measures: &[Measure]) -> String {
     table(measures.iter(), &Marks::none())
 }
 
 /// What to know of measures, a line each.
-pub fn remarks(measures: &[Measure]) -> String {
+pub(crate) fn remarks(measures: &[Measure]) -> String {
     let remark = |m: &Measure| Some(format!("{}: {}\n", m.label, m.remark.as_ref()?));
     measures.iter().filter_map(remark).collect()
 }
 
 /// Risks of injury, a line for each curve.
-pub fn risks(measures: &[Measure]) -> String {
+pub(crate) fn risks(measures: &[Measure]) -> String {
     let mut table = Table::new(&[("injury", Left), ("from", Left), ("risk, %", Right)]);
     for m in measures {
         for risk in &m.risks {

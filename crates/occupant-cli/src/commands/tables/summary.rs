@@ -11,21 +11,20 @@ use crate::jobs::run::recording::Written;
 
 /// Figures that an ensemble has found not to be stable: they carry a star.
 #[derive(Clone, Debug, Default)]
-pub struct Marks(Option<BTreeSet<String>>);
+pub(crate) struct Marks(Option<BTreeSet<String>>);
 
 impl Marks {
     /// No ensemble was run.
-    pub fn none() -> Self {
+    pub(crate) fn none() -> Self {
         Marks(None)
     }
 
-    /// These figures.
-    pub fn of<'a>(unstable: impl IntoIterator<Item = &'a str>) -> Self {
+    pub(crate) fn of<'a>(unstable: impl IntoIterator<Item = &'a str>) -> Self {
         Marks(Some(unstable.into_iter().map(str::to_owned).collect()))
     }
 
     /// The text of a figure with its star, or with the room for one, so that columns stay in line.
-    pub fn put(&self, figure: &str, text: String) -> String {
+    pub(crate) fn put(&self, figure: &str, text: String) -> String {
         match &self.0 {
             None => text,
             Some(marked) if marked.contains(figure) => text + "*",
@@ -40,7 +39,7 @@ impl Marks {
 }
 
 /// The table: title, accelerations, belts, first contacts, and how far to trust the run.
-pub fn summary_table(summary: &Summary, written: &Written, marks: &Marks) -> String {
+pub(crate) fn summary_table(summary: &Summary, written: &Written, marks: &Marks) -> String {
     let mut parts = vec![title(summary), accelerations(summary, marks)];
     if !summary.belts.is_empty() {
         parts.push(belts(summary, marks));

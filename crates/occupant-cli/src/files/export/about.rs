@@ -8,48 +8,45 @@ use crate::files::results::Results;
 
 /// The run and what was done to its histories.
 #[derive(Clone, Debug, Serialize)]
-pub struct About {
+pub(crate) struct About {
     /// Program and version that exported.
-    pub program: String,
+    pub(crate) program: String,
     /// Title of the scenario.
-    pub title: String,
+    pub(crate) title: String,
     /// Name of the result file.
-    pub source: String,
+    pub(crate) source: String,
     /// Its SHA-256.
-    pub source_sha256: String,
+    pub(crate) source_sha256: String,
     /// Whether the run reached its end.
-    pub complete: bool,
+    pub(crate) complete: bool,
     /// Unit system.
-    pub units: &'static str,
+    pub(crate) units: &'static str,
     /// Filter asked for.
-    pub filter: String,
+    pub(crate) filter: String,
     /// Coefficients of the filter; absent without one.
     #[serde(skip_serializing_if = "Option::is_none")]
-    pub filter_coefficients: Option<&'static str>,
+    pub(crate) filter_coefficients: Option<&'static str>,
     /// What a reader should know.
-    pub notes: Vec<String>,
+    pub(crate) notes: Vec<String>,
     /// The columns, time first.
-    pub columns: Vec<ColumnAbout>,
+    pub(crate) columns: Vec<ColumnAbout>,
 }
 
-/// One column.
 #[derive(Clone, Debug, Serialize)]
-pub struct ColumnAbout {
-    /// Channel.
-    pub name: String,
+pub(crate) struct ColumnAbout {
+    pub(crate) name: String,
     /// Unit of the values, in ASCII.
-    pub unit: String,
+    pub(crate) unit: String,
     /// Axes.
-    pub frame: &'static str,
+    pub(crate) frame: &'static str,
     /// Filter class applied.
-    pub filter: String,
-    /// What it is.
-    pub meaning: String,
+    pub(crate) filter: String,
+    pub(crate) meaning: String,
 }
 
 impl About {
     /// Of these histories; `filter` in words.
-    pub fn new(
+    pub(crate) fn new(
         results: &Results,
         histories: &Histories,
         units: UnitChoice,

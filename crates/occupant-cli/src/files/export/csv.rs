@@ -11,7 +11,7 @@ use super::About;
 use crate::files::history::{Histories, UnitChoice, shown};
 
 /// The table; numbers with the fewest digits that give the same double again, nothing for a value that is no number.
-pub fn csv(histories: &Histories, about: &About, units: UnitChoice) -> String {
+pub(crate) fn csv(histories: &Histories, about: &About, units: UnitChoice) -> String {
     let headings: Vec<String> = about.columns.iter().map(|c| quoted(&heading(c))).collect();
     let mut text = headings.join(",");
     text.push('\n');
@@ -47,7 +47,7 @@ fn quoted(cell: &str) -> String {
 }
 
 /// Metadata of the table `file`.
-pub fn metadata(about: &About, file: &str) -> Value {
+pub(crate) fn metadata(about: &About, file: &str) -> Value {
     let columns: Vec<Value> = about
         .columns
         .iter()

@@ -4,6 +4,6 @@ mod about;
 mod csv;
 mod parquet;
 
-pub use about::{About, ColumnAbout};
-pub use csv::{csv, metadata};
-pub use parquet::parquet;
+pub(crate) use about::{About, ColumnAbout};
+pub(crate) use csv::{csv, metadata};
+pub(crate) use parquet::parquet;

@@ -17,7 +17,7 @@ use crate::files::history::{Histories, UnitChoice, shown};
 ///
 /// # Errors
 /// What the writer refuses, in its words.
-pub fn parquet(histories: &Histories, about: &About, units: UnitChoice) -> Result<Vec<u8>, ParquetError> {
+pub(crate) fn parquet(histories: &Histories, about: &About, units: UnitChoice) -> Result<Vec<u8>, ParquetError> {
     let mut fields = Vec::with_capacity(about.columns.len());
     for column in &about.columns {
         let field = Type::primitive_type_builder(&column.name, Physical::DOUBLE)

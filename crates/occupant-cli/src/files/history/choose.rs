@@ -9,7 +9,7 @@ use crate::base::failure::Failure;
 ///
 /// # Errors
 /// A name or pattern that fits no channel.
-pub fn choose(model: &Model, names: &[String]) -> Result<Vec<Channel>, Failure> {
+pub(crate) fn choose(model: &Model, names: &[String]) -> Result<Vec<Channel>, Failure> {
     if names.is_empty() {
         return Ok(channels(model));
     }

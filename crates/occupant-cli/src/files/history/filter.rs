@@ -7,10 +7,9 @@ use occupant_core::signal::{CfcFamily, ChannelClass, SignalError, filter_cfc};
 
 /// The filter asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Filter {
+pub(crate) enum Filter {
     /// No filter.
     None,
-    /// One class for all channels.
     Class(ChannelClass),
     /// Each channel the class that SAE J211 gives its quantity.
     J211,
@@ -18,7 +17,7 @@ pub enum Filter {
 
 /// Coefficients of the filter classes.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub enum Family {
+pub(crate) enum Family {
     /// ISO 6487
     #[default]
     Iso6487,
@@ -53,7 +52,7 @@ impl FromStr for Filter {
 
 impl Filter {
     /// The class for a channel; none where it stays as it is.
-    pub fn class_of(self, channel: &str) -> Option<ChannelClass> {
+    pub(crate) fn class_of(self, channel: &str) -> Option<ChannelClass> {
         match self {
             Filter::None => None,
             Filter::Class(class) => Some(class),
@@ -61,8 +60,7 @@ impl Filter {
         }
     }
 
-    /// In words.
-    pub fn words(self) -> String {
+    pub(crate) fn words(self) -> String {
         match self {
             Filter::None => "none".to_owned(),
             Filter::Class(class) => format!("CFC {}", class.hertz()),
@@ -93,7 +91,7 @@ fn j211_class(channel: &str) -> Option<ChannelClass> {
 ///
 /// # Errors
 /// Samples too far apart for the class, or not finite.
-pub fn filtered(values: &[f64], dt_s: f64, class: ChannelClass, family: Family) -> Result<Vec<f64>, String> {
+pub(crate) fn filtered(values: &[f64], dt_s: f64, class: ChannelClass, family: Family) -> Result<Vec<f64>, String> {
     filter_cfc(values, dt_s, class, family.into()).map_err(|error| match error {
         SignalError::CornerAboveNyquist { corner_hz, .. } => format!(
             "CFC {} needs more than {:.0} samples a second (and SAE J211 asks for {:.0}), but samples are {:.0} a second",

@@ -10,13 +10,12 @@ use crate::files::results::Results;
 
 /// What is done to histories, in this order: filter, resample.
 #[derive(Clone, Copy, Debug)]
-pub struct Treatment {
-    /// The filter.
-    pub filter: Filter,
+pub(crate) struct Treatment {
+    pub(crate) filter: Filter,
     /// Its coefficients.
-    pub family: Family,
+    pub(crate) family: Family,
     /// New interval, s; that of the outputs if absent.
-    pub interval_s: Option<f64>,
+    pub(crate) interval_s: Option<f64>,
 }
 
 /// Histories of these channels of a run.
@@ -25,7 +24,7 @@ pub struct Treatment {
 ///
 /// # Errors
 /// Outputs too far apart for the filter, or an interval that is none.
-pub fn load(results: &Results, channels: Vec<Channel>, treatment: Treatment) -> Result<Histories, Failure> {
+pub(crate) fn load(results: &Results, channels: Vec<Channel>, treatment: Treatment) -> Result<Histories, Failure> {
     let asked = asked(&results.model, &channels, treatment.filter);
     let series = results.series(asked)?;
     let treated = treated(&results.model, channels, series, treatment);
@@ -39,20 +38,15 @@ pub fn load(results: &Results, channels: Vec<Channel>, treatment: Treatment) -> 
 
 /// Why histories cannot be treated as asked.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Untreated {
+pub(crate) enum Untreated {
     /// None of them.
     Run(String),
     /// One of them.
-    Channel {
-        /// Its name.
-        name: String,
-        /// Why.
-        reason: String,
-    },
+    Channel { name: String, reason: String },
 }
 
 /// The channels whose values [`treated`] needs for these channels.
-pub fn asked(model: &Model, channels: &[Channel], filter: Filter) -> Vec<Channel> {
+pub(crate) fn asked(model: &Model, channels: &[Channel], filter: Filter) -> Vec<Channel> {
     let mut asked = channels.to_vec();
     if filter != Filter::None {
         asked.extend(channels.iter().flat_map(|c| components(model, c)));
@@ -64,7 +58,7 @@ pub fn asked(model: &Model, channels: &[Channel], filter: Filter) -> Vec<Channel
 ///
 /// # Errors
 /// Outputs too far apart for the filter, or an interval that is none.
-pub fn treated(
+pub(crate) fn treated(
     model: &Model,
     channels: Vec<Channel>,
     mut series: Series,

@@ -10,34 +10,32 @@ mod unit;
 use occupant_core::channel::Channel;
 use occupant_core::signal::ChannelClass;
 
-pub use choose::choose;
-pub use filter::{Family, Filter, filtered};
-pub use load::{Treatment, Untreated, asked, load, treated};
-pub use unit::{Shown, UnitChoice, dimension, plotted, shown};
+pub(crate) use choose::choose;
+pub(crate) use filter::{Family, Filter, filtered};
+pub(crate) use load::{Treatment, Untreated, asked, load, treated};
+pub(crate) use unit::{Shown, UnitChoice, dimension, plotted, shown};
 
 /// Channels of one run over common times.
 #[derive(Clone, Debug)]
-pub struct Histories {
-    /// Times, s.
-    pub time_s: Vec<f64>,
+pub(crate) struct Histories {
+    pub(crate) time_s: Vec<f64>,
     /// The channels in the order asked for.
-    pub columns: Vec<Column>,
+    pub(crate) columns: Vec<Column>,
     /// What was done that a reader should know.
-    pub notes: Vec<String>,
+    pub(crate) notes: Vec<String>,
 }
 
 /// One channel of a run.
 #[derive(Clone, Debug)]
-pub struct Column {
-    /// What it is.
-    pub channel: Channel,
+pub(crate) struct Column {
+    pub(crate) channel: Channel,
     /// The filter class that was applied.
-    pub class: Option<ChannelClass>,
+    pub(crate) class: Option<ChannelClass>,
     /// Values in the channel's SI unit, one a time.
-    pub values: Vec<f64>,
+    pub(crate) values: Vec<f64>,
 }
 
 /// `CFC 180`, or `none`.
-pub fn class_name(class: Option<ChannelClass>) -> String {
+pub(crate) fn class_name(class: Option<ChannelClass>) -> String {
     class.map_or_else(|| "none".to_owned(), |c| format!("CFC {}", c.hertz()))
 }

@@ -9,7 +9,7 @@ use occupant_core::setup::STANDARD_GRAVITY_M_S2;
 
 /// Units asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum UnitChoice {
+pub(crate) enum UnitChoice {
     /// Metre, second, newton
     Si,
     /// As si, but accelerations in g (9.80665 m/s²)
@@ -21,7 +21,7 @@ pub enum UnitChoice {
 
 impl UnitChoice {
     /// As on the command line.
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         match self {
             UnitChoice::Si => "si",
             UnitChoice::G => "g",
@@ -32,13 +32,13 @@ impl UnitChoice {
 
 /// A unit to show values in.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Shown {
+pub(crate) struct Shown {
     /// For people: `m/s²`.
-    pub symbol: &'static str,
+    pub(crate) symbol: &'static str,
     /// In ASCII, as unit expressions of scenarios and tables have it: `m/s^2`.
-    pub ascii: &'static str,
+    pub(crate) ascii: &'static str,
     /// SI units in one of it.
-    pub si: f64,
+    pub(crate) si: f64,
 }
 
 const fn shown_as(symbol: &'static str, ascii: &'static str, si: f64) -> Shown {
@@ -52,7 +52,7 @@ const POUND_FORCE_N: f64 = 0.453_592_37 * STANDARD_GRAVITY_M_S2;
 const INCH_POUND_J: f64 = INCH_M * POUND_FORCE_N;
 
 /// The unit for a channel's values; angles in radians.
-pub const fn shown(unit: Unit, choice: UnitChoice) -> Shown {
+pub(crate) const fn shown(unit: Unit, choice: UnitChoice) -> Shown {
     use UnitChoice::{G, InchPound};
     match (unit, choice) {
         (Unit::MetrePerSecondSquared, G) => shown_as("g", "g", STANDARD_GRAVITY_M_S2),
@@ -76,7 +76,7 @@ pub const fn shown(unit: Unit, choice: UnitChoice) -> Shown {
 }
 
 /// The unit for a plot: as [`shown`], but angles in degrees and times in milliseconds.
-pub const fn plotted(unit: Unit, choice: UnitChoice) -> Shown {
+pub(crate) const fn plotted(unit: Unit, choice: UnitChoice) -> Shown {
     match unit {
         Unit::Radian => shown_as("°", "deg", PI / 180.0),
         Unit::Second => shown_as("ms", "ms", 1e-3),
@@ -85,7 +85,7 @@ pub const fn plotted(unit: Unit, choice: UnitChoice) -> Shown {
 }
 
 /// What a channel's unit measures.
-pub const fn dimension(unit: Unit) -> Dimension {
+pub(crate) const fn dimension(unit: Unit) -> Dimension {
     // exponents of length, mass, time, angle
     match unit {
         Unit::Metre => Dimension::new(1, 0, 0, 0),

@@ -13,12 +13,12 @@ use occupant_core::simulate::{Outcome, Status};
 use crate::base::sha256::sha256;
 
 /// Name of the first metadata record.
-pub const RUN: &str = "occupant.run";
+pub(crate) const RUN: &str = "occupant.run";
 /// Name of the last metadata record.
-pub const RESULT: &str = "occupant.result";
+pub(crate) const RESULT: &str = "occupant.result";
 
 /// Name of the attachment that is the scenario with all that was resolved and overridden.
-pub const RESOLVED: &str = "resolved.toml";
+pub(crate) const RESOLVED: &str = "resolved.toml";
 
 /// A text that travels with the results.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -45,7 +45,7 @@ pub struct About {
 }
 
 /// The first metadata record, for a scenario that names `tables`.
-pub fn run(about: &About, tables: &[Document], model: &Model) -> Metadata {
+pub(crate) fn run(about: &About, tables: &[Document], model: &Model) -> Metadata {
     let setup = model.setup();
     let mut entries = about.notes.clone();
     let mut put = |key: &str, value: String| entries.insert(key.to_owned(), value);
@@ -77,7 +77,7 @@ gravity; occupant/<segment>: X ahead, Y left, Z up when standing, origin at the 
 path: X forward, Y right, Z down, origin of space. SI units, angles in rad.";
 
 /// The last metadata record, after `outputs` outputs.
-pub fn result(outcome: &Outcome, outputs: u64) -> Metadata {
+pub(crate) fn result(outcome: &Outcome, outputs: u64) -> Metadata {
     let (status, reason) = match &outcome.status {
         Status::Completed => ("completed", "reached its end time".to_owned()),
         Status::Stopped => ("stopped", "stopped before its end time".to_owned()),

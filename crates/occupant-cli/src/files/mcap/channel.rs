@@ -12,27 +12,25 @@ use super::{descriptor, foxglove};
 
 const PROTOBUF: &str = "protobuf";
 /// Package of our own messages.
-pub const PACKAGE: &str = "occupant";
+const PACKAGE: &str = "occupant";
 
 /// A topic that messages go to.
 #[derive(Debug)]
-pub struct Channel {
+pub(crate) struct Channel {
     id: u16,
     sequence: u32,
 }
 
 impl Channel {
-    /// Header of the next message.
-    pub fn next(&mut self, ns: u64) -> MessageHeader {
+    pub(crate) fn next(&mut self, ns: u64) -> MessageHeader {
         let header = MessageHeader { channel_id: self.id, sequence: self.sequence, log_time: ns, publish_time: ns };
         self.sequence = self.sequence.wrapping_add(1);
         header
     }
 }
 
-/// Makes channels.
 #[derive(Debug)]
-pub struct Schemas {
+pub(crate) struct Schemas {
     library: Vec<FileDescriptorProto>,
 }
 
@@ -47,21 +45,26 @@ impl Default for Schemas {
 
 impl Schemas {
     /// The schema record's bytes of a Foxglove type.
-    pub fn foxglove(&self, name: &str) -> Vec<u8> {
+    pub(crate) fn foxglove(&self, name: &str) -> Vec<u8> {
         let path = format!("foxglove/{name}.proto");
         let found = self.library.iter().find(|f| f.name() == path);
         found.map_or_else(Vec::new, |file| descriptor::set(file, &self.library))
     }
 
     /// The schema record's bytes of a group.
-    pub fn group(&self, group: &Group) -> Vec<u8> {
+    pub(crate) fn group(&self, group: &Group) -> Vec<u8> {
         let fields: Vec<_> = group.columns.iter().map(|c| c.field()).collect();
         let file = descriptor::file(PACKAGE, group.message, &fields, None);
         descriptor::set(&file, &self.library)
     }
 
     /// A channel of a Foxglove type.
-    pub fn add_foxglove(&self, writer: &mut Writer<impl Write + Seek>, topic: &str, name: &str) -> McapResult<Channel> {
+    pub(crate) fn add_foxglove(
+        &self,
+        writer: &mut Writer<impl Write + Seek>,
+        topic: &str,
+        name: &str,
+    ) -> McapResult<Channel> {
         let full = format!("foxglove.{name}");
         let schema = writer.add_schema(&full, PROTOBUF, &self.foxglove(name))?;
         let id = writer.add_channel(schema, topic, PROTOBUF, &BTreeMap::new())?;
@@ -69,7 +72,12 @@ impl Schemas {
     }
 
     /// A channel of a group; its metadata say what each field means.
-    pub fn add_group(&self, writer: &mut Writer<impl Write + Seek>, topic: &str, group: &Group) -> McapResult<Channel> {
+    pub(crate) fn add_group(
+        &self,
+        writer: &mut Writer<impl Write + Seek>,
+        topic: &str,
+        group: &Group,
+    ) -> McapResult<Channel> {
         let full = format!("{PACKAGE}.{}", group.message);
         let schema = writer.add_schema(&full, PROTOBUF, &self.group(group))?;
         let meaning = |c: &super::column::Column| (c.name.to_owned(), c.meaning.to_owned());

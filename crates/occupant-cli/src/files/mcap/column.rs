@@ -24,23 +24,20 @@ pub struct Column {
     /// Field name: quantity, axes, unit.
     pub name: &'static str,
     /// What it is, for the channel's metadata.
-    pub meaning: &'static str,
+    pub(crate) meaning: &'static str,
     /// Where it comes from.
-    pub value: Value,
+    pub(crate) value: Value,
 }
 
 /// How a column takes its value from a sample; the index says which segment, sphere or belt.
 #[derive(Clone, Copy, Debug)]
-pub enum Value {
-    /// A number.
+pub(crate) enum Value {
     Number(fn(&Sample<'_>, usize) -> f64),
     /// A whole number.
     Count(fn(&Sample<'_>, usize) -> u64),
-    /// A vector.
     Vector(fn(&Sample<'_>, usize) -> Vector3<f64>),
     /// A vector that need not exist; the field is absent then.
     Perhaps(fn(&Sample<'_>, usize) -> Option<Vector3<f64>>),
-    /// A rotation.
     Rotation(fn(&Sample<'_>, usize) -> UnitQuaternion<f64>),
     /// The report's coordinates or their rates.
     Coordinates(fn(&Sample<'_>) -> [f64; DOF]),
@@ -65,7 +62,7 @@ pub const TOUCH: &[Field] = &[
 
 impl Column {
     /// Its field in the schema.
-    pub fn field(&self) -> Field {
+    pub(crate) fn field(&self) -> Field {
         let (number, name) = (self.number, self.name);
         match self.value {
             Value::Number(_) => one(number, name, Kind::Number),
@@ -78,8 +75,7 @@ impl Column {
         }
     }
 
-    /// Writes its value.
-    pub fn write(&self, sample: &Sample<'_>, index: usize, wire: &mut Wire) {
+    pub(crate) fn write(&self, sample: &Sample<'_>, index: usize, wire: &mut Wire) {
         let number = self.number;
         match self.value {
             Value::Number(of) => wire.number(number, of(sample, index)),
@@ -115,10 +111,10 @@ fn write_touches(number: u32, sample: &Sample<'_>, sphere: usize, wire: &mut Wir
 }
 
 /// The time in every group's first field.
-pub const TIME: Column =
+pub(crate) const TIME: Column =
     Column { number: 1, name: "time_s", meaning: "time of the scenario", value: Value::Number(|s, _| s.time_s) };
 
 /// A column, in one line.
-pub const fn column(number: u32, name: &'static str, value: Value, meaning: &'static str) -> Column {
+pub(crate) const fn column(number: u32, name: &'static str, value: Value, meaning: &'static str) -> Column {
     Column { number, name, meaning, value }
 }

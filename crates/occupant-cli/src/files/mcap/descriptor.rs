@@ -9,7 +9,7 @@ use prost_types::{
 
 /// Type of a field.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Kind {
+pub(crate) enum Kind {
     /// `double`.
     Number,
     /// `uint64`.
@@ -36,30 +36,30 @@ pub enum Kind {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Field {
     /// Its number, which never changes.
-    pub number: u32,
+    pub(crate) number: u32,
     /// Its name, with the unit of what it holds.
     pub name: &'static str,
     /// Its type.
-    pub kind: Kind,
+    pub(crate) kind: Kind,
     /// A list of values.
-    pub repeated: bool,
+    pub(crate) repeated: bool,
 }
 
 /// A single value.
-pub const fn one(number: u32, name: &'static str, kind: Kind) -> Field {
+pub(crate) const fn one(number: u32, name: &'static str, kind: Kind) -> Field {
     Field { number, name, kind, repeated: false }
 }
 
 /// A list of values.
-pub const fn many(number: u32, name: &'static str, kind: Kind) -> Field {
+pub(crate) const fn many(number: u32, name: &'static str, kind: Kind) -> Field {
     Field { number, name, kind, repeated: true }
 }
 
 /// An enum declared inside a message: its name and its values, numbered from 0.
-pub type NestedEnum = (&'static str, &'static [&'static str]);
+pub(crate) type NestedEnum = (&'static str, &'static [&'static str]);
 
 /// A `.proto` file with one message of its own name; `package/Name.proto` declares `package.Name`.
-pub fn file(package: &str, name: &str, fields: &[Field], nested: Option<NestedEnum>) -> FileDescriptorProto {
+pub(crate) fn file(package: &str, name: &str, fields: &[Field], nested: Option<NestedEnum>) -> FileDescriptorProto {
     let mut dependency: Vec<String> = fields.iter().filter_map(|f| home(f.kind)).collect();
     dependency.sort();
     dependency.dedup();
@@ -81,7 +81,7 @@ pub fn file(package: &str, name: &str, fields: &[Field], nested: Option<NestedEn
 }
 
 /// The bytes of a schema record: the wanted files and all that they refer to, dependencies first.
-pub fn set(wanted: &FileDescriptorProto, library: &[FileDescriptorProto]) -> Vec<u8> {
+pub(crate) fn set(wanted: &FileDescriptorProto, library: &[FileDescriptorProto]) -> Vec<u8> {
     let mut files = Vec::new();
     collect(wanted, library, &mut files);
     FileDescriptorSet { file: files }.encode_to_vec()

@@ -21,15 +21,15 @@ const VECTOR: Kind = Message("foxglove.Vector3");
 type Entry = (&'static str, &'static [Field], Option<NestedEnum>);
 
 /// Name of the schema of a scene.
-pub const SCENE_UPDATE: &str = "SceneUpdate";
+pub(crate) const SCENE_UPDATE: &str = "SceneUpdate";
 /// Name of the schema of transforms.
-pub const FRAME_TRANSFORMS: &str = "FrameTransforms";
+pub(crate) const FRAME_TRANSFORMS: &str = "FrameTransforms";
 /// Name of the schema of log lines.
-pub const LOG: &str = "Log";
+pub(crate) const LOG: &str = "Log";
 
 /// `foxglove.Log.Level`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Level {
+pub(crate) enum Level {
     /// What happened.
     Info = 2,
     /// What the user should know.
@@ -39,7 +39,7 @@ pub enum Level {
 }
 
 /// Every file that a schema may refer to.
-pub fn library() -> Vec<FileDescriptorProto> {
+pub(crate) fn library() -> Vec<FileDescriptorProto> {
     let seconds = |name: &str| {
         let fields = [one(1, "seconds", Signed), one(2, "nanos", SmallSigned)];
         FileDescriptorProto {

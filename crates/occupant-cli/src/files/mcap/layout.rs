@@ -7,10 +7,10 @@ use serde_json::{Value, json};
 use super::topics::{self, VEHICLE_FRAME};
 
 /// File name of the attachment.
-pub const NAME: &str = "layout.json";
+pub(crate) const NAME: &str = "layout.json";
 
 /// The layout; `belts` are the topics of the belts.
-pub fn layout(model: &Model, belts: &[String]) -> Value {
+pub(crate) fn layout(model: &Model, belts: &[String]) -> Value {
     let head = "/occupant/segment/head.accelerometer_resultant_m_s2";
     let chest = "/occupant/segment/upper_torso.accelerometer_resultant_m_s2";
     let pelvis = "/occupant/segment/lower_torso.accelerometer_resultant_m_s2";

@@ -7,7 +7,7 @@ use super::foxglove::Level;
 use super::wire::Wire;
 
 /// A `foxglove.Log`.
-pub fn write(wire: &mut Wire, ns: u64, level: Level, message: &str) {
+pub(crate) fn write(wire: &mut Wire, ns: u64, level: Level, message: &str) {
     wire.time(1, ns);
     wire.count(2, level as u64);
     wire.text(3, message);
@@ -18,14 +18,14 @@ pub fn write(wire: &mut Wire, ns: u64, level: Level, message: &str) {
 
 /// Names for the log, which is written when the model is no longer at hand.
 #[derive(Debug)]
-pub struct Names {
+pub(crate) struct Names {
     spheres: Vec<String>,
     surfaces: Vec<String>,
 }
 
 impl Names {
     /// Those of a model.
-    pub fn of(model: &Model) -> Self {
+    pub(crate) fn of(model: &Model) -> Self {
         let setup = model.setup();
         Names {
             spheres: setup.body.spheres.iter().map(|s| s.name.clone()).collect(),
@@ -33,8 +33,7 @@ impl Names {
         }
     }
 
-    /// What a first touch says.
-    pub fn first_touch(&self, touch: &FirstTouch) -> String {
+    pub(crate) fn first_touch(&self, touch: &FirstTouch) -> String {
         format!(
             "{} touches {} first at t = {:.6} s, closing at {:.3} m/s",
             self.spheres[touch.sphere], self.surfaces[touch.surface], touch.time_s, touch.closing_m_s
@@ -43,7 +42,7 @@ impl Names {
 }
 
 /// What the end says, and how bad it is.
-pub fn end(outcome: &Outcome) -> (Level, String) {
+pub(crate) fn end(outcome: &Outcome) -> (Level, String) {
     match &outcome.status {
         Status::Completed => (Level::Info, format!("completed at t = {:.6} s", outcome.time_s)),
         Status::Stopped => (Level::Warning, format!("stopped at t = {:.6} s", outcome.time_s)),

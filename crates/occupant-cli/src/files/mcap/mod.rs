@@ -5,22 +5,22 @@
 //!
 //! Field numbers, topic names and frame names are never used again for something else; additions get new ones.
 
-pub mod about;
+pub(crate) mod about;
 mod channel;
 mod clock;
 pub mod column;
-pub mod descriptor;
-pub mod foxglove;
+mod descriptor;
+mod foxglove;
 pub mod groups;
 mod layout;
 mod log;
 mod press;
 mod recorder;
 pub mod scene;
-pub mod stored;
-pub mod topics;
+mod stored;
+pub(crate) mod topics;
 mod transforms;
-pub mod wire;
+pub(crate) mod wire;
 
 pub use about::{About, Document};
 pub use recorder::{McapOptions, McapRecorder};

@@ -16,7 +16,7 @@ use mcap::{McapResult, Writer};
 const WAITING: usize = 2;
 
 /// The writer of a file, here or on a thread of its own.
-pub struct Press<W: Write + Seek + Send + 'static> {
+pub(crate) struct Press<W: Write + Seek + Send + 'static> {
     place: Place<W>,
     /// What has not been handed over.
     batch: Batch,
@@ -52,12 +52,12 @@ struct Batch {
 
 impl<W: Write + Seek + Send + 'static> Press<W> {
     /// With the writer here.
-    pub fn new(writer: Writer<W>) -> Self {
+    pub(crate) fn new(writer: Writer<W>) -> Self {
         Press { place: Place::Here(Box::new(writer)), batch: Batch::default() }
     }
 
     /// Takes the next message.
-    pub fn write(&mut self, header: MessageHeader, bytes: &[u8]) {
+    pub(crate) fn write(&mut self, header: MessageHeader, bytes: &[u8]) {
         self.batch.bytes.extend_from_slice(bytes);
         let end = self.batch.bytes.len();
         self.batch.messages.push((header, end));
@@ -67,7 +67,7 @@ impl<W: Write + Seek + Send + 'static> Press<W> {
     ///
     /// # Errors
     /// What the target reported since the last chunk.
-    pub fn end_chunk(&mut self) -> McapResult<()> {
+    pub(crate) fn end_chunk(&mut self) -> McapResult<()> {
         self.batch.ends_chunk = true;
         self.go_away();
         self.hand_over()
@@ -77,7 +77,7 @@ impl<W: Write + Seek + Send + 'static> Press<W> {
     ///
     /// # Errors
     /// What the target reported.
-    pub fn home(&mut self) -> McapResult<&mut Writer<W>> {
+    pub(crate) fn home(&mut self) -> McapResult<&mut Writer<W>> {
         let handed_over = self.hand_over();
         let came_home = self.come_home();
         handed_over.and(came_home)?;
@@ -91,7 +91,7 @@ impl<W: Write + Seek + Send + 'static> Press<W> {
     ///
     /// # Errors
     /// None is left, because the thread of the writer could not take it over.
-    pub fn into_inner(mut self) -> McapResult<W> {
+    pub(crate) fn into_inner(mut self) -> McapResult<W> {
         // an error was reported with the chunk that it was about, or the run's end would have called the writer home
         let _ = self.come_home();
         match std::mem::replace(&mut self.place, Place::Nowhere) {

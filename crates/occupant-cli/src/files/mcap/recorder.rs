@@ -107,7 +107,7 @@ impl<W: Write + Seek + Send + 'static> McapRecorder<W> {
     }
 
     /// Attaches a table that the scenario names.
-    pub fn with_table(mut self, table: Document) -> Self {
+    pub(crate) fn with_table(mut self, table: Document) -> Self {
         self.tables.push(table);
         self
     }

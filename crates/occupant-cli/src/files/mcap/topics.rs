@@ -6,62 +6,61 @@ use occupant_core::body::Segment;
 use occupant_core::joint::Joint;
 
 /// Space: X forward, Y left, Z up; the root of all frames.
-pub const SPACE_FRAME: &str = "space";
+pub(crate) const SPACE_FRAME: &str = "space";
 /// The vehicle: X forward, Y right, Z down, origin at its centre of gravity.
-pub const VEHICLE_FRAME: &str = "vehicle";
+pub(crate) const VEHICLE_FRAME: &str = "vehicle";
 
-/// Transforms.
-pub const TRANSFORMS: &str = "/tf";
+pub(crate) const TRANSFORMS: &str = "/tf";
 /// Surfaces, written once.
-pub const COMPARTMENT_SCENE: &str = "/scene/compartment";
+pub(crate) const COMPARTMENT_SCENE: &str = "/scene/compartment";
 /// Limbs and trunk, written once; the transforms move them.
-pub const BODY_SCENE: &str = "/scene/body";
+pub(crate) const BODY_SCENE: &str = "/scene/body";
 /// Contact spheres, written once; the transforms move them.
-pub const SPHERES_SCENE: &str = "/scene/spheres";
+pub(crate) const SPHERES_SCENE: &str = "/scene/spheres";
 /// Belts, every frame.
-pub const BELTS_SCENE: &str = "/scene/belts";
+pub(crate) const BELTS_SCENE: &str = "/scene/belts";
 /// Contact and belt forces, every frame.
-pub const FORCES_SCENE: &str = "/scene/forces";
+pub(crate) const FORCES_SCENE: &str = "/scene/forces";
 /// Names and open sides of the surfaces, written once.
-pub const LABELS_SCENE: &str = "/scene/labels";
+pub(crate) const LABELS_SCENE: &str = "/scene/labels";
 /// Motion of the vehicle.
-pub const VEHICLE: &str = "/vehicle";
+pub(crate) const VEHICLE: &str = "/vehicle";
 /// Joint angles.
-pub const JOINTS: &str = "/occupant/joints";
+pub(crate) const JOINTS: &str = "/occupant/joints";
 /// Load cells of a dummy.
-pub const INSTRUMENTS: &str = "/occupant/instruments";
+pub(crate) const INSTRUMENTS: &str = "/occupant/instruments";
 /// Parent of the topics of contact spheres.
-pub const SPHERES: &str = "/occupant/sphere";
+pub(crate) const SPHERES: &str = "/occupant/sphere";
 /// Parent of the topics of belts.
-pub const BELTS: &str = "/belt";
+pub(crate) const BELTS: &str = "/belt";
 /// The report's coordinates.
-pub const REPORT_COORDINATES: &str = "/occupant/report_coordinates";
+pub(crate) const REPORT_COORDINATES: &str = "/occupant/report_coordinates";
 /// Energy ledger.
-pub const ENERGY: &str = "/energy";
+pub(crate) const ENERGY: &str = "/energy";
 /// Integrator.
-pub const SOLVER: &str = "/solver";
+pub(crate) const SOLVER: &str = "/solver";
 /// All that a run carries on from an output.
-pub const CHECKPOINT: &str = "/checkpoint";
+pub(crate) const CHECKPOINT: &str = "/checkpoint";
 /// Warnings, first touches, the end.
-pub const LOG: &str = "/log";
+pub(crate) const LOG: &str = "/log";
 
 /// The frame of a segment: its axes, at its centre of gravity.
-pub fn segment_frame(segment: Segment) -> String {
+pub(crate) fn segment_frame(segment: Segment) -> String {
     format!("occupant/{}", segment.name())
 }
 
 /// The topic of a segment.
-pub fn segment(segment: Segment) -> String {
+pub(crate) fn segment(segment: Segment) -> String {
     format!("/occupant/segment/{}", segment.name())
 }
 
 /// The topic of what a joint carries.
-pub fn joint_load(joint: Joint) -> String {
+pub(crate) fn joint_load(joint: Joint) -> String {
     format!("/occupant/joint/{}", joint.name())
 }
 
 /// Topics below `parent` for names that a user chose, one for each, all different.
-pub fn named<'a>(parent: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<String> {
+pub(crate) fn named<'a>(parent: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<String> {
     let mut taken = BTreeSet::new();
     let mut topic = |name: &str| {
         let plain = format!("{parent}/{}", in_small_letters(name));

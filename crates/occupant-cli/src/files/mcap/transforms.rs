@@ -10,7 +10,7 @@ use super::wire::Wire;
 
 /// Names of the segments' frames, made once.
 #[derive(Debug)]
-pub struct FrameNames([String; SEGMENTS]);
+pub(crate) struct FrameNames([String; SEGMENTS]);
 
 impl Default for FrameNames {
     fn default() -> Self {
@@ -20,13 +20,13 @@ impl Default for FrameNames {
 
 impl FrameNames {
     /// The frame of a segment.
-    pub fn of(&self, segment: Segment) -> &str {
+    pub(crate) fn of(&self, segment: Segment) -> &str {
         &self.0[segment.index()]
     }
 }
 
 /// A `foxglove.FrameTransforms`.
-pub fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>, names: &FrameNames) {
+pub(crate) fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>, names: &FrameNames) {
     let vehicle = sample.vehicle;
     let turned = Rotation3::from_matrix_unchecked(vehicle.rotation);
     let rotation = UnitQuaternion::from_rotation_matrix(&turned);

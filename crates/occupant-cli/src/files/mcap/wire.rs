@@ -13,29 +13,29 @@ const FIXED_32: u32 = 5;
 
 /// A message under construction.
 #[derive(Debug, Default)]
-pub struct Wire {
+pub(crate) struct Wire {
     bytes: Vec<u8>,
 }
 
 impl Wire {
     /// What was written since the last [`Wire::clear`].
-    pub fn bytes(&self) -> &[u8] {
+    pub(crate) fn bytes(&self) -> &[u8] {
         &self.bytes
     }
 
     /// Begins a new message.
-    pub fn clear(&mut self) {
+    pub(crate) fn clear(&mut self) {
         self.bytes.clear();
     }
 
     /// A `double`.
-    pub fn number(&mut self, field: u32, value: f64) {
+    pub(crate) fn number(&mut self, field: u32, value: f64) {
         self.key(field, FIXED_64);
         self.bytes.extend_from_slice(&value.to_le_bytes());
     }
 
     /// A packed `repeated double`.
-    pub fn numbers(&mut self, field: u32, values: &[f64]) {
+    pub(crate) fn numbers(&mut self, field: u32, values: &[f64]) {
         self.key(field, LENGTH_DELIMITED);
         self.varint(8 * values.len() as u64);
         for value in values {
@@ -44,13 +44,13 @@ impl Wire {
     }
 
     /// A `fixed32`.
-    pub fn index(&mut self, field: u32, value: u32) {
+    pub(crate) fn index(&mut self, field: u32, value: u32) {
         self.key(field, FIXED_32);
         self.bytes.extend_from_slice(&value.to_le_bytes());
     }
 
     /// A packed `repeated fixed32`.
-    pub fn indices(&mut self, field: u32, values: &[u32]) {
+    pub(crate) fn indices(&mut self, field: u32, values: &[u32]) {
         self.key(field, LENGTH_DELIMITED);
         self.varint(4 * values.len() as u64);
         for value in values {
@@ -59,25 +59,25 @@ impl Wire {
     }
 
     /// A `uint64`, or an enum's number.
-    pub fn count(&mut self, field: u32, value: u64) {
+    pub(crate) fn count(&mut self, field: u32, value: u64) {
         self.key(field, VARINT);
         self.varint(value);
     }
 
     /// A `bool`.
-    pub fn flag(&mut self, field: u32, value: bool) {
+    pub(crate) fn flag(&mut self, field: u32, value: bool) {
         self.count(field, value.into());
     }
 
     /// A `string`.
-    pub fn text(&mut self, field: u32, value: &str) {
+    pub(crate) fn text(&mut self, field: u32, value: &str) {
         self.key(field, LENGTH_DELIMITED);
         self.varint(value.len() as u64);
         self.bytes.extend_from_slice(value.as_bytes());
     }
 
     /// A message within the message.
-    pub fn message(&mut self, field: u32, content: impl FnOnce(&mut Wire)) {
+    pub(crate) fn message(&mut self, field: u32, content: impl FnOnce(&mut Wire)) {
         self.key(field, LENGTH_DELIMITED);
         let start = self.bytes.len();
         content(self);
@@ -89,7 +89,7 @@ impl Wire {
     }
 
     /// A `foxglove.Vector3` or `foxglove.Point3`.
-    pub fn vector(&mut self, field: u32, v: &Vector3<f64>) {
+    pub(crate) fn vector(&mut self, field: u32, v: &Vector3<f64>) {
         self.key(field, LENGTH_DELIMITED);
         self.varint(27);
         self.number(1, v.x);
@@ -98,7 +98,7 @@ impl Wire {
     }
 
     /// A `foxglove.Quaternion`.
-    pub fn rotation(&mut self, field: u32, q: &UnitQuaternion<f64>) {
+    pub(crate) fn rotation(&mut self, field: u32, q: &UnitQuaternion<f64>) {
         self.key(field, LENGTH_DELIMITED);
         self.varint(36);
         self.number(1, q.i);
@@ -108,7 +108,7 @@ impl Wire {
     }
 
     /// A `google.protobuf.Timestamp` or `google.protobuf.Duration` of `ns` nanoseconds.
-    pub fn time(&mut self, field: u32, ns: u64) {
+    pub(crate) fn time(&mut self, field: u32, ns: u64) {
         self.message(field, |wire| {
             wire.count(1, ns / 1_000_000_000);
             wire.count(2, ns % 1_000_000_000);

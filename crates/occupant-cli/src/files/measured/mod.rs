@@ -13,10 +13,10 @@ use super::trouble::Trouble;
 use crate::base::failure::Failure;
 use crate::base::sha256::sha256;
 
-pub use pair::{MapArgument, Pair, Wanted, pairs};
+pub(crate) use pair::{MapArgument, Pair, Wanted, pairs};
 
 /// Whether a file or folder is read as measured signals, not as the results of a run.
-pub fn is_recording(path: &Path) -> bool {
+pub(crate) fn is_recording(path: &Path) -> bool {
     let extension = path.extension().unwrap_or_default();
     !extension.eq_ignore_ascii_case("mcap")
 }
@@ -25,7 +25,7 @@ pub fn is_recording(path: &Path) -> bool {
 ///
 /// # Errors
 /// A file that cannot be read, or what is wrong in it, with file, line, what was found and what was expected.
-pub fn read(path: &Path) -> Result<Recording, Failure> {
+pub(crate) fn read(path: &Path) -> Result<Recording, Failure> {
     let extension = path.extension().unwrap_or_default();
     if path.is_dir() || extension.eq_ignore_ascii_case("mme") {
         return mme::read(path);

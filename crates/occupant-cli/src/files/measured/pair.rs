@@ -17,11 +17,10 @@ use crate::files::signals::{Recording, Signal, scale_of};
 
 /// A channel that a signal may belong to.
 #[derive(Clone, Debug)]
-pub struct Wanted {
-    /// Its name.
-    pub name: String,
+pub(crate) struct Wanted {
+    pub(crate) name: String,
     /// What it measures and in which unit; none if it is itself measured and gives no unit.
-    pub unit: Option<(Dimension, String)>,
+    pub(crate) unit: Option<(Dimension, String)>,
 }
 
 impl From<&Channel> for Wanted {
@@ -39,7 +38,7 @@ impl From<&Signal> for Wanted {
 
 /// `column[unit]=channel`, with `-channel` if the signs are opposite.
 #[derive(Clone, Debug, PartialEq)]
-pub struct MapArgument {
+pub(crate) struct MapArgument {
     column: String,
     unit: Option<String>,
     channel: String,
@@ -76,15 +75,14 @@ impl fmt::Display for MapArgument {
 
 /// A measured signal in a channel's unit and axes.
 #[derive(Clone, Debug)]
-pub struct Pair {
+pub(crate) struct Pair {
     /// Index among the wanted channels.
-    pub channel: usize,
+    pub(crate) channel: usize,
     /// Name of the signal.
-    pub signal: String,
-    /// Times, s.
-    pub time_s: Vec<f64>,
+    pub(crate) signal: String,
+    pub(crate) time_s: Vec<f64>,
     /// Values, SI, in the channel's axes; NaN where missing.
-    pub values: Vec<f64>,
+    pub(crate) values: Vec<f64>,
 }
 
 impl Pair {
@@ -92,7 +90,7 @@ impl Pair {
     ///
     /// # Errors
     /// Missing values, samples that are not equally spaced or too far apart.
-    pub fn filter(&mut self, class: ChannelClass, family: Family) -> Result<(), Failure> {
+    pub(crate) fn filter(&mut self, class: ChannelClass, family: Family) -> Result<(), Failure> {
         let refused = |reason: String| {
             Failure::with_help(
                 format!("the measured signal {} cannot be filtered: {reason}", self.signal),
@@ -111,7 +109,7 @@ impl Pair {
 ///
 /// # Errors
 /// A map to an unknown column or channel, a unit that is not the channel's, several signals for a channel.
-pub fn pairs(
+pub(crate) fn pairs(
     recording: &Recording,
     wanted: &[Wanted],
     maps: &[MapArgument],

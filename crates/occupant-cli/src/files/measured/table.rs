@@ -19,7 +19,6 @@ enum Separator {
     Blanks,
 }
 
-/// A heading.
 #[derive(Clone, Debug, Default)]
 struct Heading {
     name: String,
@@ -31,7 +30,7 @@ struct Heading {
 ///
 /// # Errors
 /// What is wrong with it.
-pub fn read(path: &Path, text: &str, sha256: String) -> Result<Recording, Failure> {
+pub(crate) fn read(path: &Path, text: &str, sha256: String) -> Result<Recording, Failure> {
     let lines: Vec<(usize, &str)> = text
         .trim_start_matches('\u{feff}')
         .lines()
@@ -144,7 +143,7 @@ fn headings(lines: &[(usize, &str)], separator: Separator) -> (Vec<Heading>, usi
 }
 
 /// `x[m]` or `x (m)` → `x` and `m`.
-pub(super) fn name_and_unit(text: &str) -> (&str, Option<&str>) {
+pub(crate) fn name_and_unit(text: &str) -> (&str, Option<&str>) {
     let text = text.trim();
     for (open, close) in [('[', ']'), ('(', ')')] {
         if let Some((name, unit)) = text.strip_suffix(close).and_then(|t| t.split_once(open)) {

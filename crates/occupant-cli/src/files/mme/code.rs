@@ -22,25 +22,23 @@ use occupant_core::channel::Channel;
 use occupant_core::model::Model;
 use occupant_core::signal::ChannelClass;
 
-/// A channel code.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub struct Code([u8; 16]);
+pub(crate) struct Code([u8; 16]);
 
 /// Where a channel of ours stands in the dictionary.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Place {
+pub(crate) struct Place {
     /// Main and fine locations 1 and 2, eight characters.
-    pub location: &'static str,
+    pub(crate) location: &'static str,
     /// Fine location 3 of a belt; that of the dummy if absent.
-    pub belt: Option<&'static str>,
+    pub(crate) belt: Option<&'static str>,
     /// Physical dimension.
-    pub dimension: &'static str,
-    /// Direction.
-    pub direction: char,
+    pub(crate) dimension: &'static str,
+    pub(crate) direction: char,
     /// Whether it belongs to the vehicle, not to the occupant.
-    pub of_vehicle: bool,
+    of_vehicle: bool,
     /// Their value over ours.
-    pub sign: f64,
+    pub(crate) sign: f64,
 }
 
 impl FromStr for Code {
@@ -61,7 +59,7 @@ impl fmt::Display for Code {
 
 impl Code {
     /// The code of a place.
-    pub fn new(place: &Place, seat: char, dummy: &str, class: Option<ChannelClass>) -> Option<Self> {
+    pub(crate) fn new(place: &Place, seat: char, dummy: &str, class: Option<ChannelClass>) -> Option<Self> {
         let position = if place.of_vehicle { '0' } else { seat };
         let third = match place.of_vehicle {
             true => "00",
@@ -76,7 +74,7 @@ impl Code {
     }
 
     /// Our value over theirs, if this is the channel of that name for the occupant on `seat`.
-    pub fn sign_for(&self, channel: &str, seat: char) -> Option<f64> {
+    pub(crate) fn sign_for(&self, channel: &str, seat: char) -> Option<f64> {
         if let Some(rest) = channel.strip_prefix("belt.") {
             let name = rest.strip_suffix(".force")?;
             let points = belt_points(name)?;
@@ -107,7 +105,7 @@ impl Code {
 }
 
 /// Where a channel of a model stands; none for what the dictionary has no place for.
-pub fn place_of(model: &Model, channel: &Channel) -> Option<Place> {
+pub(crate) fn place_of(model: &Model, channel: &Channel) -> Option<Place> {
     let Some(rest) = channel.name.strip_prefix("belt.") else {
         return place_of_name(&channel.name);
     };

@@ -8,6 +8,6 @@ mod header;
 mod read;
 mod write;
 
-pub use code::Code;
-pub use read::read;
-pub use write::{Labels, files};
+pub(crate) use code::Code;
+pub(crate) use read::read;
+pub(crate) use write::{Labels, files};

@@ -14,7 +14,7 @@ use crate::files::trouble::Trouble;
 ///
 /// # Errors
 /// Files that are missing or cannot be read, and what is wrong in them.
-pub fn read(path: &Path) -> Result<Recording, Failure> {
+pub(crate) fn read(path: &Path) -> Result<Recording, Failure> {
     let mme = match path.is_dir() {
         true => the_mme_in(path)?,
         false => path.to_owned(),
@@ -86,7 +86,6 @@ fn channel_files(mme: &Path) -> Result<Vec<PathBuf>, Failure> {
     }
 }
 
-/// A channel file.
 struct RawChannel {
     path: PathBuf,
     header: Header,

@@ -13,29 +13,31 @@ use crate::files::history::{Column, Histories};
 
 /// What the test says of itself.
 #[derive(Clone, Debug)]
-pub struct Labels {
+pub(crate) struct Labels {
     /// Name of the test and of its files.
-    pub name: String,
-    /// Title.
-    pub title: String,
-    /// Program and version.
-    pub program: String,
+    pub(crate) name: String,
+    pub(crate) title: String,
+    pub(crate) program: String,
     /// Position code of the occupant.
-    pub seat: char,
+    pub(crate) seat: char,
     /// Fine location 3 of the occupant.
-    pub dummy: String,
+    pub(crate) dummy: String,
     /// Remarks of the test file, one line each.
-    pub remarks: Vec<String>,
+    pub(crate) remarks: Vec<String>,
 }
 
 /// A file's place in the test's folder, and its text.
-pub type NamedText = (PathBuf, String);
+type NamedText = (PathBuf, String);
 
 /// The files of a test with their places in its folder, and the channels that the dictionary has no code for.
 ///
 /// # Errors
 /// Times that are not equally spaced, or no channel with a code.
-pub fn files(model: &Model, histories: &Histories, labels: &Labels) -> Result<(Vec<NamedText>, Vec<String>), String> {
+pub(crate) fn files(
+    model: &Model,
+    histories: &Histories,
+    labels: &Labels,
+) -> Result<(Vec<NamedText>, Vec<String>), String> {
     let interval_s = uniform_interval(&histories.time_s)
         .map_err(|e| format!("ISO-MME channels need equally spaced samples ({e}); --interval makes them so"))?;
     let mut files = Vec::new();

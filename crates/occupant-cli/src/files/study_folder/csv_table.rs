@@ -11,7 +11,7 @@ use crate::base::output_file::{Existing, PartialFile};
 
 /// A table under its provisional name.
 #[derive(Debug)]
-pub struct CsvTable {
+pub(crate) struct CsvTable {
     path: PathBuf,
     file: PartialFile,
     /// Cells that stand before `status`.
@@ -23,7 +23,7 @@ impl CsvTable {
     ///
     /// # Errors
     /// The operating system refuses.
-    pub fn create(path: PathBuf, manifest: &Manifest) -> Result<Self, Problem> {
+    pub(crate) fn create(path: PathBuf, manifest: &Manifest) -> Result<Self, Problem> {
         let file = create(&path)?;
         let inputs = manifest.columns.iter().filter(|c| c.role != Role::Figure);
         let mut table = CsvTable { path, file, inputs: inputs.count() };
@@ -43,7 +43,7 @@ impl CsvTable {
     ///
     /// # Errors
     /// The operating system refuses.
-    pub fn publish(self) -> Result<PathBuf, Problem> {
+    pub(crate) fn publish(self) -> Result<PathBuf, Problem> {
         publish(self.file, &self.path)
     }
 
@@ -72,7 +72,7 @@ impl TableSink for CsvTable {
 ///
 /// # Errors
 /// The operating system refuses.
-pub fn write_columns(path: PathBuf, manifest: &Manifest) -> Result<PathBuf, Problem> {
+pub(crate) fn write_columns(path: PathBuf, manifest: &Manifest) -> Result<PathBuf, Problem> {
     let mut file = create(&path)?;
     let mut write = || -> io::Result<()> {
         writeln!(file, "column,unit,role")?;

@@ -4,19 +4,19 @@ use std::ops::Range;
 
 /// A set of samples.
 #[derive(Clone, Debug)]
-pub struct Finished {
+pub(crate) struct Finished {
     bits: Vec<u64>,
     samples: u64,
 }
 
 impl Finished {
     /// None of `samples`.
-    pub fn none(samples: u64) -> Self {
+    pub(crate) fn none(samples: u64) -> Self {
         Finished { bits: vec![0; samples.div_ceil(64) as usize], samples }
     }
 
     /// Adds a sample; false if it was there or is none of the study.
-    pub fn add(&mut self, index: u64) -> bool {
+    pub(crate) fn add(&mut self, index: u64) -> bool {
         let Some(word) = self.bits.get_mut((index / 64) as usize) else {
             return false;
         };
@@ -29,18 +29,18 @@ impl Finished {
     }
 
     /// Whether a sample is finished.
-    pub fn has(&self, index: u64) -> bool {
+    pub(crate) fn has(&self, index: u64) -> bool {
         let word = self.bits.get((index / 64) as usize);
         word.is_some_and(|w| w & (1 << (index % 64)) != 0)
     }
 
     /// How many of a range are finished.
-    pub fn count(&self, range: Range<u64>) -> u64 {
+    pub(crate) fn count(&self, range: Range<u64>) -> u64 {
         range.filter(|i| self.has(*i)).count() as u64
     }
 
     /// Those of a range that are not, as ranges.
-    pub fn gaps(&self, range: Range<u64>) -> Vec<Range<u64>> {
+    pub(crate) fn gaps(&self, range: Range<u64>) -> Vec<Range<u64>> {
         let mut gaps: Vec<Range<u64>> = Vec::new();
         for index in range.filter(|i| !self.has(*i)) {
             match gaps.last_mut() {
@@ -53,7 +53,7 @@ impl Finished {
 }
 
 /// Ranges as a reader counts them, `3, 7–12`, at most `most` of them.
-pub fn ranges_text(ranges: &[Range<u64>], most: usize) -> String {
+pub(crate) fn ranges_text(ranges: &[Range<u64>], most: usize) -> String {
     let one = |r: &Range<u64>| match r.end - r.start {
         1 => r.start.to_string(),
         _ => format!("{}–{}", r.start, r.end - 1),

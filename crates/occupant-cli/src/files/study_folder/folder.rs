@@ -50,16 +50,13 @@ const PLOTS: &str = "plots";
 
 /// What a folder holds the results of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Holds {
-    /// A sweep.
+pub(crate) enum Holds {
     Sweep,
-    /// A fit.
     Fit,
 }
 
 impl Holds {
-    /// In a word.
-    pub fn word(self) -> &'static str {
+    pub(crate) fn word(self) -> &'static str {
         match self {
             Holds::Sweep => "sweep",
             Holds::Fit => "fit",
@@ -77,28 +74,28 @@ impl Holds {
 
 /// The folder of a sweep, or of a fit.
 #[derive(Clone, Debug)]
-pub struct Folder {
+pub(crate) struct Folder {
     path: PathBuf,
     holds: Holds,
 }
 
 /// A lock that a process holds until it ends, however it ends.
 #[derive(Debug)]
-pub struct Held {
+pub(crate) struct Held {
     // the lock lives as long as the file is open; a file system without locks gives none
     _file: File,
     /// What the file system says that knows no locks.
-    pub unlocked: Option<String>,
+    pub(crate) unlocked: Option<String>,
 }
 
 impl Folder {
     /// The folder of a sweep at this place, there or not.
-    pub fn at(path: &Path) -> Self {
+    pub(crate) fn at(path: &Path) -> Self {
         Folder { path: path.to_owned(), holds: Holds::Sweep }
     }
 
     /// The folder of a fit at this place, there or not.
-    pub fn of_fit(path: &Path) -> Self {
+    pub(crate) fn of_fit(path: &Path) -> Self {
         Folder { path: path.to_owned(), holds: Holds::Fit }
     }
 
@@ -106,38 +103,36 @@ impl Folder {
         self.path.join(self.holds.manifest()[0])
     }
 
-    /// Its path.
-    pub fn path(&self) -> &Path {
+    pub(crate) fn path(&self) -> &Path {
         &self.path
     }
 
-    /// Folder of the journal.
-    pub fn journal(&self) -> PathBuf {
+    pub(crate) fn journal(&self) -> PathBuf {
         self.path.join(JOURNAL)
     }
 
     /// The table.
-    pub fn parquet(&self) -> PathBuf {
+    pub(crate) fn parquet(&self) -> PathBuf {
         self.path.join(TABLES[0])
     }
 
     /// The table as CSV.
-    pub fn csv(&self) -> PathBuf {
+    pub(crate) fn csv(&self) -> PathBuf {
         self.path.join(TABLES[2])
     }
 
     /// Names and units of the columns, beside the CSV table.
-    pub fn columns(&self) -> PathBuf {
+    pub(crate) fn columns(&self) -> PathBuf {
         self.path.join(TABLES[4])
     }
 
     /// The folder of the kept runs.
-    pub fn runs(&self) -> PathBuf {
+    pub(crate) fn runs(&self) -> PathBuf {
         self.path.join(RUNS)
     }
 
     /// The kept run of a sample.
-    pub fn run(&self, index: u64) -> PathBuf {
+    pub(crate) fn run(&self, index: u64) -> PathBuf {
         self.runs().join(format!("{index:06}.mcap"))
     }
 
@@ -145,7 +140,7 @@ impl Folder {
     ///
     /// # Errors
     /// The operating system refuses.
-    pub fn copy_of(&self, text: &Text) -> Result<Vec<u8>, Problem> {
+    pub(crate) fn copy_of(&self, text: &Text) -> Result<Vec<u8>, Problem> {
         let path = self.path.join(&text.copy);
         fs::read(&path).map_err(Problem::io("read", &path))
     }
@@ -154,7 +149,7 @@ impl Folder {
     ///
     /// # Errors
     /// The operating system refuses; a file that is no manifest.
-    pub fn manifest(&self) -> Result<Option<Manifest>, Problem> {
+    pub(crate) fn manifest(&self) -> Result<Option<Manifest>, Problem> {
         let path = self.manifest_path();
         let bytes = match fs::read(&path) {
             Ok(bytes) => bytes,
@@ -172,7 +167,13 @@ impl Folder {
     ///
     /// # Errors
     /// It holds something else; another process is at work on it; the operating system refuses.
-    pub fn claim(&self, manifest: &Manifest, texts: &[Vec<u8>], shard: Shard, restart: bool) -> Result<Held, Problem> {
+    pub(crate) fn claim(
+        &self,
+        manifest: &Manifest,
+        texts: &[Vec<u8>],
+        shard: Shard,
+        restart: bool,
+    ) -> Result<Held, Problem> {
         fs::create_dir_all(&self.path).map_err(Problem::io("create", &self.path))?;
         let _one_at_a_time = self.wait()?;
         self.refuse_other_files()?;
@@ -196,7 +197,7 @@ impl Folder {
     ///
     /// # Errors
     /// Another process has it; the operating system refuses.
-    pub fn claim_table(&self) -> Result<Held, Problem> {
+    pub(crate) fn claim_table(&self) -> Result<Held, Problem> {
         match self.lock(&self.path.join("table.lock"))? {
             Some(held) => Ok(held),
             None => Err(self.busy("writes the table".to_owned())),
@@ -207,7 +208,7 @@ impl Folder {
     ///
     /// # Errors
     /// What stands there.
-    pub fn refuse_other_results(&self, manifest: &Manifest) -> Result<(), Problem> {
+    pub(crate) fn refuse_other_results(&self, manifest: &Manifest) -> Result<(), Problem> {
         if self.manifest()?.as_ref() == Some(manifest) {
             return Ok(());
         }
@@ -304,7 +305,7 @@ impl Folder {
     }
 
     /// Removes tables that were not completed.
-    pub fn remove_partial_tables(&self) {
+    pub(crate) fn remove_partial_tables(&self) {
         for name in TABLES.iter().filter(|name| name.contains(".partial.")) {
             // one that cannot be removed is replaced by the next table
             let _stays = fs::remove_file(self.path.join(name));
@@ -345,7 +346,7 @@ impl Folder {
 ///
 /// # Errors
 /// The operating system refuses.
-pub fn names_in(folder: &Path) -> Result<Vec<String>, Problem> {
+pub(crate) fn names_in(folder: &Path) -> Result<Vec<String>, Problem> {
     let read = || -> std::io::Result<Vec<String>> {
         let mut names = Vec::new();
         for entry in fs::read_dir(folder)? {

@@ -18,7 +18,7 @@ const SYNC_EVERY: Duration = Duration::from_secs(10);
 
 /// Appends the rows of one process.
 #[derive(Debug)]
-pub struct JournalWriter {
+pub(crate) struct JournalWriter {
     folder: PathBuf,
     manifest_sha256: String,
     shard: Shard,
@@ -33,7 +33,7 @@ impl JournalWriter {
     ///
     /// # Errors
     /// The operating system refuses.
-    pub fn new(folder: &Folder, manifest_sha256: &str, shard: Shard) -> Result<Self, Problem> {
+    pub(crate) fn new(folder: &Folder, manifest_sha256: &str, shard: Shard) -> Result<Self, Problem> {
         let folder = folder.journal();
         let number = |name: &String| {
             let number = name.strip_prefix(&shard.file_stem())?;
@@ -54,7 +54,7 @@ impl JournalWriter {
     ///
     /// # Errors
     /// The operating system refuses, e.g. because the disk is full; all rows before stand.
-    pub fn append(&mut self, row: &Row) -> Result<(), Problem> {
+    pub(crate) fn append(&mut self, row: &Row) -> Result<(), Problem> {
         let (path, mut piece) = match self.open.take() {
             Some(open) => open,
             None => self.begin_piece()?,
@@ -77,7 +77,7 @@ impl JournalWriter {
     ///
     /// # Errors
     /// The operating system refuses.
-    pub fn close(self) -> Result<(), Problem> {
+    pub(crate) fn close(self) -> Result<(), Problem> {
         match &self.open {
             Some((path, piece)) => piece.sync().map_err(Problem::io("write", path)),
             None => Ok(()),
@@ -95,13 +95,13 @@ impl JournalWriter {
 
 /// What journals hold: where the rows of which samples stand. The rows themselves stay on the disk.
 #[derive(Clone, Debug)]
-pub struct Journal {
+pub(crate) struct Journal {
     manifest_sha256: String,
     pieces: Vec<Piece>,
     /// The samples that are finished.
-    pub finished: Finished,
+    pub(crate) finished: Finished,
     /// Rows that were cut off: what killed processes had in their hands.
-    pub torn: usize,
+    pub(crate) torn: usize,
     /// The shards that have begun.
     begun: BTreeSet<Shard>,
 }
@@ -118,7 +118,7 @@ impl Journal {
     ///
     /// # Errors
     /// The operating system refuses; a file that is no piece, or of another sweep.
-    pub fn read(folders: &[Folder], manifest_sha256: &str, samples: u64) -> Result<Self, Problem> {
+    pub(crate) fn read(folders: &[Folder], manifest_sha256: &str, samples: u64) -> Result<Self, Problem> {
         let mut journal = Journal {
             manifest_sha256: manifest_sha256.to_owned(),
             pieces: Vec::new(),
@@ -160,7 +160,7 @@ impl Journal {
     }
 
     /// The shards that lack samples and how many, as far as the files tell into how many shards the study was cut.
-    pub fn lacking(&self, samples: u64) -> Vec<(Shard, u64)> {
+    pub(crate) fn lacking(&self, samples: u64) -> Vec<(Shard, u64)> {
         let counts: BTreeSet<u64> = self.begun.iter().map(|s| s.count()).collect();
         let Some(count) = counts.last().filter(|_| counts.len() == 1) else {
             return Vec::new();
@@ -178,7 +178,7 @@ impl Journal {
     ///
     /// # Errors
     /// A sample that is not there; results that disagree; the operating system refuses.
-    pub fn rows(&self, range: Range<u64>) -> Result<Vec<Row>, Problem> {
+    pub(crate) fn rows(&self, range: Range<u64>) -> Result<Vec<Row>, Problem> {
         let rows: Option<Vec<Row>> = self.found(range.clone())?.into_iter().collect();
         rows.ok_or_else(|| Problem::Incomplete {
             gaps: self.finished.gaps(range.clone()),
@@ -191,7 +191,7 @@ impl Journal {
     ///
     /// # Errors
     /// As [`Journal::rows`], samples that are missing apart.
-    pub fn rows_there(&self, range: Range<u64>) -> Result<Vec<Row>, Problem> {
+    pub(crate) fn rows_there(&self, range: Range<u64>) -> Result<Vec<Row>, Problem> {
         Ok(self.found(range)?.into_iter().flatten().collect())
     }
 

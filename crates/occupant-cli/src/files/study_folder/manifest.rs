@@ -12,51 +12,49 @@ const FORM: u32 = 1;
 
 /// What a folder is the sweep of. Nothing in it depends on the day, the machine or the number of threads.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Manifest {
+pub(crate) struct Manifest {
     /// Form of the folder.
-    pub form: u32,
+    pub(crate) form: u32,
     /// The program and its version.
-    pub program: String,
+    pub(crate) program: String,
     /// Title of the study.
-    pub title: String,
-    /// Number of samples.
-    pub samples: u64,
+    pub(crate) title: String,
+    pub(crate) samples: u64,
     /// Changes from the command line.
-    pub overrides: Vec<String>,
+    pub(crate) overrides: Vec<String>,
     /// Everything that was read; the first is the study, the second its scenario.
-    pub texts: Vec<Text>,
+    pub(crate) texts: Vec<Text>,
     /// Columns of the table between `index` and `status`, and between `reason` and `wall_time_s`.
-    pub columns: Vec<Column>,
+    pub(crate) columns: Vec<Column>,
 }
 
 /// A file that the sweep was made from.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Text {
+pub(crate) struct Text {
     /// Who names it.
-    pub by: NamedBy,
+    pub(crate) by: NamedBy,
     /// As it is named there; the study without its folder.
-    pub name: String,
+    pub(crate) name: String,
     /// Where the folder holds a copy.
-    pub copy: String,
+    pub(crate) copy: String,
     /// SHA-256 of its bytes.
-    pub sha256: String,
+    pub(crate) sha256: String,
 }
 
 /// A column of the table.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub struct Column {
-    /// Its name.
-    pub name: String,
+pub(crate) struct Column {
+    pub(crate) name: String,
     /// Unit; `1` for a plain number, empty for texts.
-    pub unit: String,
+    pub(crate) unit: String,
     /// What stands in it.
-    pub role: Role,
+    pub(crate) role: Role,
 }
 
 /// What a column holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Role {
+pub(crate) enum Role {
     /// A number that the study varies.
     Input,
     /// A text that the study varies.
@@ -67,7 +65,7 @@ pub enum Role {
 
 impl Manifest {
     /// The manifest of a sweep with this program.
-    pub fn new(program: String, title: String, samples: u64, overrides: Vec<String>) -> Self {
+    pub(crate) fn new(program: String, title: String, samples: u64, overrides: Vec<String>) -> Self {
         Manifest { form: FORM, program, title, samples, overrides, texts: Vec::new(), columns: Vec::new() }
     }
 
@@ -75,7 +73,7 @@ impl Manifest {
     ///
     /// # Errors
     /// None for a manifest that was made here.
-    pub fn to_bytes(&self) -> serde_json::Result<Vec<u8>> {
+    pub(crate) fn to_bytes(&self) -> serde_json::Result<Vec<u8>> {
         let mut bytes = serde_json::to_vec_pretty(self)?;
         bytes.push(b'\n');
         Ok(bytes)
@@ -85,12 +83,12 @@ impl Manifest {
     ///
     /// # Errors
     /// As [`Manifest::to_bytes`].
-    pub fn sha256(&self) -> serde_json::Result<String> {
+    pub(crate) fn sha256(&self) -> serde_json::Result<String> {
         self.to_bytes().map(|bytes| sha256(&bytes))
     }
 
     /// A line for each thing that differs, `what: there → here`. `there` and `here` give the texts.
-    pub fn differences(
+    pub(crate) fn differences(
         &self,
         here: &Manifest,
         text_there: impl Fn(&Text) -> Option<Vec<u8>>,

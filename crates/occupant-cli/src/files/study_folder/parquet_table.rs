@@ -21,7 +21,7 @@ use super::table::TableSink;
 use crate::base::output_file::{Existing, FileProblem, PartialFile};
 
 /// A table under its provisional name.
-pub struct ParquetTable {
+pub(crate) struct ParquetTable {
     path: PathBuf,
     writer: SerializedFileWriter<PartialFile>,
     fields: Vec<Field>,
@@ -44,7 +44,7 @@ impl ParquetTable {
     ///
     /// # Errors
     /// The operating system refuses.
-    pub fn create(path: PathBuf, manifest: &Manifest) -> Result<Self, Problem> {
+    pub(crate) fn create(path: PathBuf, manifest: &Manifest) -> Result<Self, Problem> {
         let file = PartialFile::create(&path, Existing::Replace).map_err(|e| refused(&path, &e))?;
         let named = fields(manifest);
         let schema = schema(&named);
@@ -63,7 +63,7 @@ impl ParquetTable {
     ///
     /// # Errors
     /// The operating system refuses.
-    pub fn publish(self) -> Result<PathBuf, Problem> {
+    pub(crate) fn publish(self) -> Result<PathBuf, Problem> {
         // writes the end of the file, too
         let file = self.writer.into_inner();
         let file = file.map_err(|e| unwritten(&self.path, &e))?;

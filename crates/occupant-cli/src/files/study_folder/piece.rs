@@ -22,7 +22,7 @@ const BYTES: usize = 4 << 20;
 
 /// A piece that is being written.
 #[derive(Debug)]
-pub struct PieceWriter {
+pub(crate) struct PieceWriter {
     file: File,
     rows: usize,
     bytes: usize,
@@ -34,7 +34,7 @@ impl PieceWriter {
     ///
     /// # Errors
     /// The operating system refuses.
-    pub fn create(path: &Path, manifest_sha256: &str) -> io::Result<Self> {
+    pub(crate) fn create(path: &Path, manifest_sha256: &str) -> io::Result<Self> {
         let mut file = OpenOptions::new().write(true).create_new(true).open(path)?;
         let head = [MAGIC, manifest_sha256.as_bytes(), b"\n"].concat();
         file.write_all(&head)?;
@@ -45,7 +45,7 @@ impl PieceWriter {
     ///
     /// # Errors
     /// The operating system refuses. A part of the row may then stand in the file; nothing may be appended to it.
-    pub fn append(&mut self, row: &Row) -> io::Result<()> {
+    pub(crate) fn append(&mut self, row: &Row) -> io::Result<()> {
         self.frame.clear();
         self.frame.extend([0; 8]);
         row.encode(&mut self.frame);
@@ -60,7 +60,7 @@ impl PieceWriter {
     }
 
     /// Whether the next row belongs into a new piece.
-    pub fn is_full(&self) -> bool {
+    pub(crate) fn is_full(&self) -> bool {
         self.rows >= ROWS || self.bytes >= BYTES
     }
 
@@ -68,21 +68,20 @@ impl PieceWriter {
     ///
     /// # Errors
     /// The operating system refuses.
-    pub fn sync(&self) -> io::Result<()> {
+    pub(crate) fn sync(&self) -> io::Result<()> {
         self.file.sync_data()
     }
 }
 
 /// What a piece holds.
 #[derive(Clone, Copy, Debug)]
-pub struct Frames<'a> {
+pub(crate) struct Frames<'a> {
     rest: &'a [u8],
 }
 
 /// Why a file is no piece of a sweep.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NotOurs {
-    /// It is no piece at all.
+pub(crate) enum NotOurs {
     NoPiece,
     /// It belongs to another sweep.
     OtherSweep,
@@ -92,7 +91,7 @@ pub enum NotOurs {
 ///
 /// # Errors
 /// A file that is something else, or of another sweep.
-pub fn frames<'a>(bytes: &'a [u8], manifest_sha256: &str) -> Result<Frames<'a>, NotOurs> {
+pub(crate) fn frames<'a>(bytes: &'a [u8], manifest_sha256: &str) -> Result<Frames<'a>, NotOurs> {
     let head = [MAGIC, manifest_sha256.as_bytes(), b"\n"].concat();
     if let Some(rest) = bytes.strip_prefix(&head[..]) {
         return Ok(Frames { rest });
@@ -106,7 +105,7 @@ pub fn frames<'a>(bytes: &'a [u8], manifest_sha256: &str) -> Result<Frames<'a>, 
 
 impl Frames<'_> {
     /// Bytes that are no whole row: what is left of a row that was cut off.
-    pub fn torn(mut self) -> usize {
+    pub(crate) fn torn(mut self) -> usize {
         while self.next().is_some() {}
         self.rest.len()
     }

@@ -14,12 +14,11 @@ const SHOWN: usize = 20;
 
 /// What can go wrong with a folder of results.
 #[derive(Debug)]
-pub enum Problem {
+pub(crate) enum Problem {
     /// The operating system refuses.
     Io {
         /// What was being done, e.g. `write`.
         doing: &'static str,
-        /// The file or folder.
         path: PathBuf,
         /// Its reason.
         source: io::Error,
@@ -31,46 +30,34 @@ pub enum Problem {
     },
     /// There are files, but none of ours.
     NotOurs {
-        /// The folder.
         folder: PathBuf,
         /// What was looked for.
         holds: Holds,
     },
     /// The folder holds something else, or the same of another version.
     Differs {
-        /// The folder.
         folder: PathBuf,
-        /// What it holds.
         holds: Holds,
         /// What differs, a line each.
         differences: Vec<String>,
     },
     /// A file of the folder is not what it should be.
     Damaged {
-        /// The file.
         path: PathBuf,
         /// What is wrong with it.
         found: String,
     },
     /// Another process is at work.
-    Busy {
-        /// The folder.
-        folder: PathBuf,
-        /// What it does.
-        doing: String,
-    },
+    Busy { folder: PathBuf, doing: String },
     /// Samples are not finished.
     Incomplete {
-        /// Which.
         gaps: Vec<Range<u64>>,
-        /// Of how many.
         samples: u64,
         /// Shards that have begun and lack samples.
         shards: Vec<(Shard, u64)>,
     },
     /// Two results of one sample disagree.
     Disagree {
-        /// The sample.
         index: u64,
         /// Where the one stands.
         first: PathBuf,
@@ -78,23 +65,18 @@ pub enum Problem {
         second: PathBuf,
     },
     /// The table cannot be written.
-    Table {
-        /// The file.
-        path: PathBuf,
-        /// Why.
-        reason: String,
-    },
+    Table { path: PathBuf, reason: String },
 }
 
 impl Problem {
     /// What the operating system said while something was done to a file.
-    pub fn io(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Problem {
+    pub(crate) fn io(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Problem {
         let path = path.to_owned();
         move |source| Problem::Io { doing, path, source }
     }
 
     /// How to go on, where there is something to say.
-    pub fn help(&self) -> Option<&'static str> {
+    pub(crate) fn help(&self) -> Option<&'static str> {
         match self {
             Problem::Exists { .. } | Problem::NotOurs { .. } => Some("name a new folder, or an empty one"),
             Problem::Differs { .. } => Some(

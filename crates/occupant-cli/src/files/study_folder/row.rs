@@ -2,7 +2,7 @@
 
 /// How a sample ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Status {
+pub(crate) enum Status {
     /// At its end time.
     Completed,
     /// The integration failed.
@@ -18,7 +18,7 @@ impl Status {
     const ALL: [Status; 4] = [Status::Completed, Status::Failed, Status::Refused, Status::Broken];
 
     /// The word in the table.
-    pub fn word(self) -> &'static str {
+    pub(crate) fn word(self) -> &'static str {
         match self {
             Status::Completed => "completed",
             Status::Failed => "failed",
@@ -30,18 +30,16 @@ impl Status {
 
 /// A value of a row.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Cell {
+pub(crate) enum Cell {
     /// None.
     Absent,
     /// A number in the unit of its column.
     Number(f64),
-    /// A text.
     Text(Box<str>),
 }
 
 impl Cell {
-    /// The number, if it is one.
-    pub fn number(&self) -> Option<f64> {
+    pub(crate) fn number(&self) -> Option<f64> {
         match self {
             Cell::Number(x) => Some(*x),
             Cell::Absent | Cell::Text(_) => None,
@@ -51,24 +49,24 @@ impl Cell {
 
 /// One sample's line of the table.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Row {
+pub(crate) struct Row {
     /// Number of the sample, from 0.
-    pub index: u64,
+    pub(crate) index: u64,
     /// How it ended.
-    pub status: Status,
+    pub(crate) status: Status,
     /// Why, where it did not complete; else empty.
-    pub reason: String,
+    pub(crate) reason: String,
     /// Values, by [`super::manifest::Column`]: inputs, then figures.
-    pub cells: Vec<Cell>,
+    pub(crate) cells: Vec<Cell>,
     /// Time it took, s. It differs from run to run.
-    pub wall_time_s: f64,
+    pub(crate) wall_time_s: f64,
     /// Which form of the kernel ran it. All give the same bits.
-    pub kernel: String,
+    pub(crate) kernel: String,
 }
 
 impl Row {
     /// Whether two rows are the same bits, wall time and kernel aside.
-    pub fn agrees(&self, other: &Row) -> bool {
+    pub(crate) fn agrees(&self, other: &Row) -> bool {
         let same = |(a, b): (&Cell, &Cell)| match (a, b) {
             (Cell::Number(a), Cell::Number(b)) => a.to_bits() == b.to_bits(),
             _ => a == b,
@@ -80,7 +78,7 @@ impl Row {
     }
 
     /// Appends the row's bytes, little endian: number, status, wall time, kernel, reason, cells.
-    pub fn encode(&self, to: &mut Vec<u8>) {
+    pub(crate) fn encode(&self, to: &mut Vec<u8>) {
         to.extend(self.index.to_le_bytes());
         let status = Status::ALL.iter().position(|s| *s == self.status);
         to.push(status.unwrap_or(Status::ALL.len()) as u8);
@@ -103,7 +101,7 @@ impl Row {
     }
 
     /// Reads the bytes of [`Row::encode`]; `None` where they are no row.
-    pub fn decode(bytes: &[u8]) -> Option<Row> {
+    pub(crate) fn decode(bytes: &[u8]) -> Option<Row> {
         let mut rest = bytes;
         let index = u64::from_le_bytes(take(&mut rest)?);
         let [status] = take(&mut rest)?;
@@ -124,7 +122,7 @@ impl Row {
     }
 
     /// Number of the sample whose row these bytes are.
-    pub fn index_of(bytes: &[u8]) -> Option<u64> {
+    pub(crate) fn index_of(bytes: &[u8]) -> Option<u64> {
         bytes.first_chunk().map(|b| u64::from_le_bytes(*b))
     }
 }
@@ -153,7 +151,7 @@ fn take_text(rest: &mut &[u8]) -> Option<String> {
 pub(crate) mod tests {
     use super::*;
 
-    pub fn row(index: u64) -> Row {
+    pub(crate) fn row(index: u64) -> Row {
         Row {
             index,
             status: Status::ALL[(index % 4) as usize],

@@ -5,20 +5,20 @@ use std::ops::Range;
 
 /// Part `number` of `count`, counted from 1; part 1 of 1 is everything.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Shard {
+pub(crate) struct Shard {
     number: u64,
     count: u64,
 }
 
 impl Shard {
     /// Everything.
-    pub const WHOLE: Shard = Shard { number: 1, count: 1 };
+    pub(crate) const WHOLE: Shard = Shard { number: 1, count: 1 };
 
     /// Reads `3/8`.
     ///
     /// # Errors
     /// What is wrong with it.
-    pub fn parse(text: &str) -> Result<Shard, String> {
+    pub(crate) fn parse(text: &str) -> Result<Shard, String> {
         let form = "a part and how many there are, such as 3/8";
         let (number, count) = text.split_once('/').ok_or_else(|| format!("`{text}` is no shard; expected {form}"))?;
         let read = |word: &str| {
@@ -41,7 +41,9 @@ impl Shard {
     ///
     /// # Errors
     /// Variables that tell no shard.
-    pub fn from_environment(get: impl Fn(&str) -> Option<String>) -> Result<Option<(Shard, &'static str)>, String> {
+    pub(crate) fn from_environment(
+        get: impl Fn(&str) -> Option<String>,
+    ) -> Result<Option<(Shard, &'static str)>, String> {
         if let Some(text) = get("OCCUPANT_SHARD") {
             let shard = Shard::parse(&text).map_err(|e| format!("OCCUPANT_SHARD: {e}"))?;
             return Ok(Some((shard, "OCCUPANT_SHARD")));
@@ -76,22 +78,22 @@ impl Shard {
     }
 
     /// All parts of so many.
-    pub fn all(count: u64) -> impl Iterator<Item = Shard> {
+    pub(crate) fn all(count: u64) -> impl Iterator<Item = Shard> {
         (1..=count).map(move |number| Shard { number, count })
     }
 
     /// Whether it is everything.
-    pub fn is_whole(self) -> bool {
+    pub(crate) fn is_whole(self) -> bool {
         self.count == 1
     }
 
     /// How many parts there are.
-    pub fn count(self) -> u64 {
+    pub(crate) fn count(self) -> u64 {
         self.count
     }
 
     /// The samples of this part, of `samples` in all: an even share, next to each other.
-    pub fn range(self, samples: u64) -> Range<u64> {
+    pub(crate) fn range(self, samples: u64) -> Range<u64> {
         let border = |part: u64| {
             let at = u128::from(samples) * u128::from(part) / u128::from(self.count);
             // no greater than `samples`
@@ -101,12 +103,12 @@ impl Shard {
     }
 
     /// The beginning of the names of its files.
-    pub fn file_stem(self) -> String {
+    pub(crate) fn file_stem(self) -> String {
         format!("shard-{:04}-of-{:04}", self.number, self.count)
     }
 
     /// The shard that a file belongs to, by its name.
-    pub fn of_file(name: &str) -> Option<Shard> {
+    pub(crate) fn of_file(name: &str) -> Option<Shard> {
         let (number, rest) = name.strip_prefix("shard-")?.split_once("-of-")?;
         let count = rest.split_once('.')?.0;
         Shard::new(number.parse().ok()?, count.parse().ok()?).ok()

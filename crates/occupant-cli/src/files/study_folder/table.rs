@@ -11,7 +11,7 @@ const CELLS: usize = 400_000;
 const ROWS: usize = 16_384;
 
 /// Takes the rows of the table in order.
-pub trait TableSink {
+pub(crate) trait TableSink {
     /// The next rows.
     ///
     /// # Errors
@@ -23,7 +23,7 @@ pub trait TableSink {
 ///
 /// # Errors
 /// Samples that are missing or disagree; what a sink reports.
-pub fn stream(journal: &Journal, manifest: &Manifest, sinks: &mut [&mut dyn TableSink]) -> Result<(), Problem> {
+pub(crate) fn stream(journal: &Journal, manifest: &Manifest, sinks: &mut [&mut dyn TableSink]) -> Result<(), Problem> {
     let at_once = (CELLS / manifest.columns.len().max(1)).clamp(64, ROWS) as u64;
     let mut start = 0;
     while start < manifest.samples {

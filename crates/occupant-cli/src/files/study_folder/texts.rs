@@ -14,16 +14,14 @@ use crate::base::sha256::sha256;
 /// Who names a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum NamedBy {
+pub(crate) enum NamedBy {
     /// The command line: it is the study.
     CommandLine,
     /// The study, as the scenario to vary.
     StudyAsBase,
     /// The study, as a table of samples, a test or the scenario of a test.
     Study,
-    /// The scenario.
     Scenario,
-    /// The command line, as a test.
     CommandLineTest,
 }
 
@@ -38,7 +36,7 @@ enum Source {
 
 /// Reads texts and remembers them.
 #[derive(Debug)]
-pub struct Texts {
+pub(crate) struct Texts {
     source: Source,
     read: RefCell<Vec<Read>>,
     /// Folder of the scenario, relative names included.
@@ -53,13 +51,12 @@ struct Read {
 }
 
 impl Texts {
-    /// Reads files.
-    pub fn of_files(study: &Path) -> Self {
+    pub(crate) fn of_files(study: &Path) -> Self {
         Texts::new(Source::Files { study: study.to_owned() })
     }
 
     /// Reads the copies in a folder.
-    pub fn of_copies(folder: &Folder, manifest: &Manifest) -> Self {
+    pub(crate) fn of_copies(folder: &Folder, manifest: &Manifest) -> Self {
         Texts::new(Source::Copies { folder: folder.clone(), texts: manifest.texts.clone() })
     }
 
@@ -71,7 +68,7 @@ impl Texts {
     ///
     /// # Errors
     /// Why it cannot be read.
-    pub fn get(&self, by: NamedBy, name: &str) -> Result<Vec<u8>, String> {
+    pub(crate) fn get(&self, by: NamedBy, name: &str) -> Result<Vec<u8>, String> {
         let known = |r: &&Read| r.by == by && r.name == name;
         if let Some(read) = self.read.borrow().iter().find(known) {
             return Ok(read.bytes.clone());
@@ -111,12 +108,12 @@ impl Texts {
     }
 
     /// Remembers what stands for something that is no single file.
-    pub fn add(&self, by: NamedBy, name: &str, text: String) {
+    pub(crate) fn add(&self, by: NamedBy, name: &str, text: String) {
         self.read.borrow_mut().push(Read { by, name: name.to_owned(), bytes: text.into_bytes() });
     }
 
     /// What was read, for the manifest, and the bytes.
-    pub fn all(&self) -> (Vec<Text>, Vec<Vec<u8>>) {
+    pub(crate) fn all(&self) -> (Vec<Text>, Vec<Vec<u8>>) {
         let read = self.read.borrow();
         let text = |(i, read): (usize, &Read)| Text {
             by: read.by,

@@ -22,7 +22,13 @@ const COLUMNS: [(&str, Kind); 9] = [
 ///
 /// # Errors
 /// The file is there and may not be replaced; the operating system refuses.
-pub fn write(bands: &Bands, path: &Path, form: Form, existing: Existing, about: String) -> Result<PathBuf, String> {
+pub(crate) fn write(
+    bands: &Bands,
+    path: &Path,
+    form: Form,
+    existing: Existing,
+    about: String,
+) -> Result<PathBuf, String> {
     let about = [("occupant.ensemble", about)];
     let mut table = TableFile::create(path, form, existing, &COLUMNS, &about)?;
     for band in &bands.channels {

@@ -31,37 +31,33 @@ const MOST_BYTES: usize = 1 << 30;
 
 /// The bands of an ensemble.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Bands {
-    /// Output times, s.
-    pub time_s: Vec<f64>,
-    /// By channel.
-    pub channels: Vec<ChannelBand>,
+pub(crate) struct Bands {
+    pub(crate) time_s: Vec<f64>,
+    pub(crate) channels: Vec<ChannelBand>,
 }
 
-/// The band of one channel.
 #[derive(Clone, Debug, PartialEq)]
-pub struct ChannelBand {
+pub(crate) struct ChannelBand {
     /// Name of the channel.
-    pub name: String,
-    /// Its unit.
-    pub unit: &'static str,
+    pub(crate) name: String,
+    pub(crate) unit: &'static str,
     /// The unchanged run.
-    pub nominal: Vec<f64>,
+    pub(crate) nominal: Vec<f64>,
     /// Quantiles of the members.
-    pub band: Band,
+    pub(crate) band: Band,
     /// Width of the middle 90 % from which on the members count as parted.
-    pub tolerance: f64,
+    pub(crate) tolerance: f64,
     /// When they first are wider apart; none if never.
-    pub lost_at_s: Option<f64>,
+    pub(crate) lost_at_s: Option<f64>,
     /// Greatest width of the middle 90 %, and its time.
-    pub widest: Option<(f64, f64)>,
+    pub(crate) widest: Option<(f64, f64)>,
 }
 
 /// The channels that names and patterns ask for, in the order asked; the main ones for none.
 ///
 /// # Errors
 /// A name or pattern that fits no channel.
-pub fn choose(model: &Model, names: &[String]) -> Result<Vec<Channel>, Failure> {
+pub(crate) fn choose(model: &Model, names: &[String]) -> Result<Vec<Channel>, Failure> {
     if names.is_empty() {
         let main = MAIN.iter().flat_map(|pattern| matching(model, pattern));
         return Ok(main.collect());
@@ -97,7 +93,7 @@ fn unknown(model: &Model, name: &str) -> Failure {
 ///
 /// # Errors
 /// More than one GiB.
-pub fn refuse_too_much(members: u64, channels: usize, outputs: usize) -> Result<(), Failure> {
+pub(crate) fn refuse_too_much(members: u64, channels: usize, outputs: usize) -> Result<(), Failure> {
     let members = usize::try_from(members).unwrap_or(usize::MAX);
     let bytes = members.saturating_mul(channels).saturating_mul(outputs).saturating_mul(size_of::<f64>());
     match bytes > MOST_BYTES {
@@ -114,7 +110,7 @@ pub fn refuse_too_much(members: u64, channels: usize, outputs: usize) -> Result<
 
 impl Bands {
     /// The bands of these channels; the histories of the unchanged run come first.
-    pub fn of(channels: &[Channel], time_s: Vec<f64>, runs: &[&[Vec<f64>]], tolerance: Tolerance) -> Bands {
+    pub(crate) fn of(channels: &[Channel], time_s: Vec<f64>, runs: &[&[Vec<f64>]], tolerance: Tolerance) -> Bands {
         let band = |(i, channel): (usize, &Channel)| {
             let members: Vec<&[f64]> = runs.iter().filter_map(|r| r.get(i)).map(Vec::as_slice).collect();
             let band = Band::of(&members);

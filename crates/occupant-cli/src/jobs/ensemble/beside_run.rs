@@ -25,31 +25,31 @@ use crate::pictures::Format;
 const PIXELS: f64 = 2.0;
 
 /// An ensemble that has been asked for.
-pub struct Wanted {
-    pub study: Study,
-    pub seed: u64,
-    pub changes: Tolerances,
-    pub tolerance: Tolerance,
-    pub threads: usize,
+pub(crate) struct Wanted {
+    pub(crate) study: Study,
+    pub(crate) seed: u64,
+    pub(crate) changes: Tolerances,
+    pub(crate) tolerance: Tolerance,
+    pub(crate) threads: usize,
     /// Whose histories are kept.
-    pub channels: Vec<Channel>,
-    pub files: Vec<(PathBuf, BandFile)>,
-    pub existing: Existing,
+    pub(crate) channels: Vec<Channel>,
+    pub(crate) files: Vec<(PathBuf, BandFile)>,
+    pub(crate) existing: Existing,
 }
 
 /// What a file of bands holds.
 #[derive(Clone, Copy)]
-pub enum BandFile {
+pub(crate) enum BandFile {
     Table(Form),
     Picture(Format),
 }
 
 /// An ensemble that has been run.
-pub struct Ran {
+pub(crate) struct Ran {
     /// What it came to.
-    pub report: Report,
+    pub(crate) report: Report,
     /// Files that were written.
-    pub files: Vec<String>,
+    pub(crate) files: Vec<String>,
 }
 
 impl Wanted {
@@ -57,7 +57,7 @@ impl Wanted {
     ///
     /// # Errors
     /// Interrupted; a file that cannot be written.
-    pub fn run(
+    pub(crate) fn run(
         self,
         opened: &Opened,
         summary: &Summary,

@@ -4,9 +4,9 @@ use occupant_core::study::spread::{Rule, Spread, Verdict};
 
 /// How far the members may differ.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tolerance {
+pub(crate) struct Tolerance {
     /// Width of the middle 90 % as a part of the median, or of the range that a channel runs through.
-    pub relative: f64,
+    pub(crate) relative: f64,
 }
 
 impl Default for Tolerance {
@@ -17,23 +17,22 @@ impl Default for Tolerance {
 
 /// A figure and how its ensemble spreads.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Judged {
-    /// Its name.
-    pub name: String,
+pub(crate) struct Judged {
+    pub(crate) name: String,
     /// Its unit, `1` for a plain number.
-    pub unit: String,
+    pub(crate) unit: String,
     /// Its value in the unchanged run.
-    pub nominal: Option<f64>,
+    pub(crate) nominal: Option<f64>,
     /// How the members spread.
-    pub spread: Spread,
+    pub(crate) spread: Spread,
     /// Whether it may be quoted as one number.
-    pub verdict: Verdict,
+    pub(crate) verdict: Verdict,
 }
 
 impl Judged {
     /// Judges a figure: a value for each member, the unchanged run first, NaN where a member has none. None if no member
     /// has one.
-    pub fn of(name: &str, unit: &str, values: &[f64], tolerance: Tolerance) -> Option<Judged> {
+    pub(crate) fn of(name: &str, unit: &str, values: &[f64], tolerance: Tolerance) -> Option<Judged> {
         let spread = Spread::of(values)?;
         Some(Judged {
             name: name.to_owned(),
@@ -45,14 +44,17 @@ impl Judged {
     }
 
     /// Whether it is known to spread too far.
-    pub fn is_unstable(&self) -> bool {
+    pub(crate) fn is_unstable(&self) -> bool {
         self.verdict == Verdict::NotStable
     }
 }
 
 /// Judges figures (name, unit, a value for each member). Left out are those that no member has, and the times of peaks that
 /// are too small for anybody to act on: when nothing was greatest says nothing.
-pub fn judge<'a>(figures: impl Iterator<Item = (&'a str, &'a str, Vec<f64>)>, tolerance: Tolerance) -> Vec<Judged> {
+pub(crate) fn judge<'a>(
+    figures: impl Iterator<Item = (&'a str, &'a str, Vec<f64>)>,
+    tolerance: Tolerance,
+) -> Vec<Judged> {
     let mut judged: Vec<Judged> =
         figures.filter_map(|(name, unit, values)| Judged::of(name, unit, &values, tolerance)).collect();
     let of_nothing = |f: &&Judged| f.spread.greatest.abs() <= smallest(&f.name, &f.unit);
@@ -63,12 +65,12 @@ pub fn judge<'a>(figures: impl Iterator<Item = (&'a str, &'a str, Vec<f64>)>, to
 }
 
 /// Whether a figure is one of the run's result, and not of the work that it took or of how well it was computed.
-pub fn is_result(name: &str) -> bool {
+pub(crate) fn is_result(name: &str) -> bool {
     !(name.starts_with("solver.") || name.starts_with("run.") || name == "energy.balance_error")
 }
 
 /// The word of a verdict in tables and JSON.
-pub fn word(verdict: Verdict) -> &'static str {
+pub(crate) fn word(verdict: Verdict) -> &'static str {
     match verdict {
         Verdict::Stable => "stable",
         Verdict::NotStable => "not_stable",
@@ -77,7 +79,7 @@ pub fn word(verdict: Verdict) -> &'static str {
 }
 
 /// The rule for a figure. A time is judged by its plain difference alone: where a clock begins says nothing.
-pub fn rule(name: &str, unit: &str, tolerance: Tolerance) -> Rule {
+pub(crate) fn rule(name: &str, unit: &str, tolerance: Tolerance) -> Rule {
     Rule {
         relative: match unit {
             "s" => 0.0,
@@ -89,7 +91,7 @@ pub fn rule(name: &str, unit: &str, tolerance: Tolerance) -> Rule {
 }
 
 /// The smallest difference that anybody would act on, in the unit: below it a figure is stable however small it is.
-pub fn smallest(name: &str, unit: &str) -> f64 {
+pub(crate) fn smallest(name: &str, unit: &str) -> f64 {
     let index = ["hic", "gsi", "csi"];
     match unit {
         "s" => 0.005,

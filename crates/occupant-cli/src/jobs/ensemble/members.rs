@@ -22,11 +22,11 @@ use crate::base::failure::Failure;
 use crate::base::interrupt::Interrupt;
 
 /// The figures of a run mean nothing above this error of its energy balance.
-pub const BROKEN_BALANCE: f64 = 0.1;
+pub(crate) const BROKEN_BALANCE: f64 = 0.1;
 
 /// What a run of the ensemble left.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Member {
+pub(crate) enum Member {
     /// It reached its end.
     Completed(Left),
     /// It did not, or its figures mean nothing; why.
@@ -35,24 +35,24 @@ pub enum Member {
 
 /// Figures and histories of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Left {
+pub(crate) struct Left {
     /// Name, unit and value of each figure.
-    pub figures: Vec<(String, &'static str, Option<f64>)>,
+    pub(crate) figures: Vec<(String, &'static str, Option<f64>)>,
     /// By channel: a value for each output.
-    pub values: Vec<Vec<f64>>,
+    pub(crate) values: Vec<Vec<f64>>,
     /// Times of the outputs, s.
-    pub time_s: Vec<f64>,
+    pub(crate) time_s: Vec<f64>,
 }
 
 impl Left {
     /// The value of a figure by its place in the list; NaN if there is none.
-    pub fn value(&self, figure: usize) -> f64 {
+    pub(crate) fn value(&self, figure: usize) -> f64 {
         let value = self.figures.get(figure).and_then(|f| f.2);
         value.unwrap_or(f64::NAN)
     }
 
     /// What the summary of a run and the histories say.
-    pub fn of(summary: &Summary, model: &Model, histories: Series) -> Left {
+    pub(crate) fn of(summary: &Summary, model: &Model, histories: Series) -> Left {
         let figures = summary.figures(model).into_iter();
         Left {
             figures: figures.filter(|f| is_result(&f.name)).map(|f| (f.name, f.unit, f.value)).collect(),
@@ -63,21 +63,19 @@ impl Left {
 }
 
 /// What all members share.
-pub struct Members<'a> {
+pub(crate) struct Members<'a> {
     /// The ensemble.
-    pub study: &'a Study,
-    /// Which runs of it.
-    pub runs: Range<u64>,
+    pub(crate) study: &'a Study,
+    pub(crate) runs: Range<u64>,
     /// The files that the scenario names.
-    pub resolver: &'a (dyn Fn(&str) -> Result<Vec<u8>, String> + Sync),
+    pub(crate) resolver: &'a (dyn Fn(&str) -> Result<Vec<u8>, String> + Sync),
     /// Whose histories are kept.
-    pub channels: &'a [Channel],
-    /// How many threads.
-    pub threads: usize,
+    pub(crate) channels: &'a [Channel],
+    pub(crate) threads: usize,
     /// What stops them.
-    pub interrupt: &'a Interrupt,
+    pub(crate) interrupt: &'a Interrupt,
     /// Shows how far they are.
-    pub bar: &'a ProgressBar,
+    pub(crate) bar: &'a ProgressBar,
 }
 
 type Recorders = (Interrupt, (Summarizer, Series));
@@ -87,7 +85,7 @@ impl Members<'_> {
     ///
     /// # Errors
     /// Interrupted.
-    pub fn run(&self) -> Result<Vec<Member>, Failure> {
+    pub(crate) fn run(&self) -> Result<Vec<Member>, Failure> {
         let count = self.runs.end.saturating_sub(self.runs.start);
         let next = AtomicU64::new(self.runs.start);
         let done: Mutex<Vec<(u64, Member)>> = Mutex::new(Vec::new());
@@ -111,7 +109,6 @@ impl Members<'_> {
         }
     }
 
-    /// One thread.
     fn work(&self, next: &AtomicU64, done: &Mutex<Vec<(u64, Member)>>) {
         let put = |number: u64, member: Member| {
             let mut done = done.lock().unwrap_or_else(|broken| broken.into_inner());

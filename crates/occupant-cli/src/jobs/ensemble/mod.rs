@@ -6,13 +6,13 @@
 //!
 //! The changes and the quantiles are the core's (`occupant_core::study`); here are the runs, the tolerances and the words.
 
-pub mod band_table;
-pub mod bands;
-pub mod beside_run;
-pub mod judge;
-pub mod members;
-pub mod of_table;
-pub mod plot;
-pub mod report;
-pub mod study_bands;
-pub mod text;
+mod band_table;
+pub(crate) mod bands;
+pub(crate) mod beside_run;
+pub(crate) mod judge;
+pub(crate) mod members;
+pub(crate) mod of_table;
+mod plot;
+pub(crate) mod report;
+pub(crate) mod study_bands;
+pub(crate) mod text;

@@ -42,32 +42,31 @@ const COLUMNS: [(&str, Kind); 16] = [
 
 /// What the ensembles of a study came to.
 #[derive(Clone, Debug, Default)]
-pub struct Ensembles {
+pub(crate) struct Ensembles {
     /// Samples of the design.
-    pub samples: u64,
+    pub(crate) samples: u64,
     /// Members that did not complete, in all samples together.
-    pub failed: u64,
+    pub(crate) failed: u64,
     /// By figure that some sample has.
-    pub figures: Vec<Counted>,
-    /// The first sample.
-    pub first: Vec<Judged>,
+    pub(crate) figures: Vec<Counted>,
+    pub(crate) first: Vec<Judged>,
     /// Files that were written.
-    pub files: Vec<PathBuf>,
+    pub(crate) files: Vec<PathBuf>,
 }
 
 /// In how many samples a figure is stable.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Counted {
+pub(crate) struct Counted {
     /// Name of the figure.
-    pub name: String,
+    pub(crate) name: String,
     /// Samples in which it is stable.
-    pub stable: u64,
+    pub(crate) stable: u64,
     /// Samples in which it is not.
-    pub unstable: u64,
+    pub(crate) unstable: u64,
     /// Samples with too few members.
-    pub too_few: u64,
+    pub(crate) too_few: u64,
     /// Samples in which no member has it.
-    pub absent: u64,
+    pub(crate) absent: u64,
 }
 
 /// Where things stand in the table.
@@ -80,7 +79,7 @@ struct Places {
 }
 
 /// Whether a sweep has ensembles.
-pub fn has_ensembles(manifest: &Manifest) -> bool {
+pub(crate) fn has_ensembles(manifest: &Manifest) -> bool {
     manifest.columns.iter().any(|c| c.name == SAMPLE)
 }
 
@@ -90,7 +89,7 @@ const SAMPLE: &str = "input.ensemble.sample";
 ///
 /// # Errors
 /// A table that cannot be read; a file that cannot be written.
-pub fn write(table: &Path, manifest: &Manifest, csv: bool) -> Result<Ensembles, String> {
+pub(crate) fn write(table: &Path, manifest: &Manifest, csv: bool) -> Result<Ensembles, String> {
     let unread = |error: ParquetError| format!("{} cannot be read: {error}", table.display());
     let file = File::open(table).map_err(|e| format!("{} cannot be read: {e}", table.display()))?;
     let reader = SerializedFileReader::new(file).map_err(unread)?;

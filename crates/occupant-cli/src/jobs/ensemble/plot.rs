@@ -18,7 +18,7 @@ const BLUE: &str = "#0072b2";
 const RED: &str = "#c00000";
 
 /// The drawing; `title` and `words` stand above the panels.
-pub fn svg(bands: &Bands, title: &str, words: &str) -> String {
+pub(crate) fn svg(bands: &Bands, title: &str, words: &str) -> String {
     let columns = COLUMNS.min(bands.channels.len()).max(1);
     let rows = bands.channels.len().div_ceil(columns);
     let (width, height) = (columns as f64 * PANEL[0] + 20.0, HEAD + rows as f64 * PANEL[1] + 10.0);

@@ -8,26 +8,26 @@ use super::judge::{Judged, Tolerance, judge, rule, word};
 use super::members::{Left, Member};
 
 /// An ensemble that has been run.
-pub struct Report {
+pub(crate) struct Report {
     /// Runs, the unchanged one included.
-    pub members: u64,
+    pub(crate) members: u64,
     /// What named the random numbers.
-    pub seed: u64,
+    pub(crate) seed: u64,
     /// How far the changes went.
-    pub changes: Tolerances,
+    pub(crate) changes: Tolerances,
     /// How far the members may differ.
-    pub tolerance: Tolerance,
+    pub(crate) tolerance: Tolerance,
     /// Members that did not complete, and why.
-    pub failed: Vec<(u64, String)>,
+    pub(crate) failed: Vec<(u64, String)>,
     /// All figures that some member has.
-    pub figures: Vec<Judged>,
+    pub(crate) figures: Vec<Judged>,
     /// Bands of the channels looked at.
-    pub bands: Bands,
+    pub(crate) bands: Bands,
 }
 
 impl Report {
     /// Judges what the members left.
-    pub fn of(
+    pub(crate) fn of(
         nominal: &Left,
         others: &[Member],
         tolerance: Tolerance,
@@ -52,7 +52,7 @@ impl Report {
     }
 
     /// As `--json` prints it.
-    pub fn describe(&self, files: Vec<String>) -> Description<'_> {
+    pub(crate) fn describe(&self, files: Vec<String>) -> Description<'_> {
         Description {
             members: self.members,
             completed: self.members - self.failed.len() as u64,
@@ -72,7 +72,7 @@ impl Report {
     }
 
     /// Names of the figures that are not stable.
-    pub fn unstable(&self) -> Vec<&str> {
+    pub(crate) fn unstable(&self) -> Vec<&str> {
         let unstable = self.figures.iter().filter(|f| f.is_unstable());
         unstable.map(|f| f.name.as_str()).collect()
     }
@@ -80,7 +80,7 @@ impl Report {
 
 /// An ensemble in JSON; SI units.
 #[derive(Serialize)]
-pub struct Description<'a> {
+pub(crate) struct Description<'a> {
     members: u64,
     completed: u64,
     seed: u64,

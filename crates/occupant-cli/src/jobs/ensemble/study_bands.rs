@@ -41,41 +41,34 @@ const COLUMNS: [(&str, Kind); 14] = [
     ("failed", Kind::Count),
 ];
 
-/// The bands of a study.
-pub struct StudyBands<'a> {
-    /// The study.
-    pub plan: &'a Plan,
+pub(crate) struct StudyBands<'a> {
+    pub(crate) plan: &'a Plan,
     /// What names its sweep.
-    pub manifest_sha256: &'a str,
+    pub(crate) manifest_sha256: &'a str,
     /// Names and patterns of channels; the main ones for none.
-    pub channels: &'a [String],
+    pub(crate) channels: &'a [String],
     /// Where the files go.
-    pub folder: PathBuf,
-    /// How many threads.
-    pub threads: usize,
+    pub(crate) folder: PathBuf,
+    pub(crate) threads: usize,
     /// What stops it.
-    pub interrupt: &'a Interrupt,
+    pub(crate) interrupt: &'a Interrupt,
 }
 
 /// What is there of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum There {
-    /// Its bands.
+pub(crate) enum There {
     Bands,
-    /// Nothing.
     Nothing,
     /// A file of something else.
     Other,
 }
 
 impl StudyBands<'_> {
-    /// The file of a sample.
-    pub fn file(&self, sample: u64) -> PathBuf {
+    pub(crate) fn file(&self, sample: u64) -> PathBuf {
         self.folder.join(format!("{sample:06}.parquet"))
     }
 
-    /// What is there of a sample.
-    pub fn there(&self, sample: u64) -> There {
+    pub(crate) fn there(&self, sample: u64) -> There {
         let path = self.file(sample);
         match (path.exists(), said_of_itself(&path)) {
             (false, _) => There::Nothing,
@@ -98,7 +91,7 @@ impl StudyBands<'_> {
     ///
     /// # Errors
     /// A channel that is none; interrupted; the file cannot be written.
-    pub fn write(&self, sample: u64) -> Result<(), Failure> {
+    pub(crate) fn write(&self, sample: u64) -> Result<(), Failure> {
         let study = self.plan.study();
         let runs = sample * study.members()..(sample + 1) * study.members();
         let channels = self.channels_of(runs.start)?;

@@ -39,7 +39,7 @@ const LISTED: usize = 12;
 const ENOUGH: u64 = 10;
 
 /// Everything about an ensemble that a person at a terminal wants to know.
-pub fn text(report: &Report) -> String {
+pub(crate) fn text(report: &Report) -> String {
     let mut parts = vec![what(report), figures(report)];
     if !report.bands.channels.is_empty() {
         parts.push(channels(report));
@@ -97,7 +97,7 @@ fn figures(report: &Report) -> String {
 }
 
 /// A table of figures without rows.
-pub fn figure_table() -> Table {
+fn figure_table() -> Table {
     Table::new(&[
         ("figure", Left),
         ("unchanged", Right),
@@ -109,8 +109,7 @@ pub fn figure_table() -> Table {
     ])
 }
 
-/// The row of a figure.
-pub fn figure_row(figure: &Judged) -> [String; 7] {
+fn figure_row(figure: &Judged) -> [String; 7] {
     let (per, unit) = shown_unit(&figure.unit);
     let shown = |x: f64| number(x / per, decimals(figure.spread.median / per));
     let s = &figure.spread;
@@ -132,7 +131,7 @@ pub fn figure_row(figure: &Judged) -> [String; 7] {
 }
 
 /// SI units in one unit of the tables, and its name there.
-pub fn shown_unit(unit: &str) -> (f64, &str) {
+pub(crate) fn shown_unit(unit: &str) -> (f64, &str) {
     match unit {
         "m/s^2" | "m/s²" => (STANDARD_GRAVITY_M_S2, "g"),
         "s" => (1e-3, "ms"),
@@ -204,7 +203,7 @@ fn conclusion(report: &Report) -> String {
 }
 
 /// The ensembles of a study in words.
-pub fn of_study(found: &Ensembles) -> String {
+pub(crate) fn of_study(found: &Ensembles) -> String {
     let failed = match found.failed {
         0 => String::new(),
         n => format!("; {n} members did not complete, and no figure of their samples counts as stable"),

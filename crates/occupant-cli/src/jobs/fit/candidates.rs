@@ -16,7 +16,7 @@ use occupant_core::study::search::Stage;
 ///
 /// # Errors
 /// The operating system refuses.
-pub fn write(folder: &Folder, fitting: &Fitting, records: &[Record]) -> Result<(), Problem> {
+pub(crate) fn write(folder: &Folder, fitting: &Fitting, records: &[Record]) -> Result<(), Problem> {
     let manifest = manifest(fitting);
     let rows = rows(fitting, records);
     let mut parquet = ParquetTable::create(folder.path().join("history.parquet"), &manifest)?;

@@ -29,38 +29,36 @@ use crate::files::study_folder::shard::Shard;
 use crate::jobs::sweep::engine::{self, HandOn, Job, Worker};
 
 /// The score of a candidate that could not be run: worse than any that could.
-pub const WORST: f64 = 1e6;
+pub(crate) const WORST: f64 = 1e6;
 
 /// What a candidate came to.
 #[derive(Clone, Debug)]
-pub struct Record {
+pub(crate) struct Record {
     /// What it was for; none for the base scenario.
-    pub stage: Option<Stage>,
+    pub(crate) stage: Option<Stage>,
     /// Where it stands between the bounds; none for the base scenario.
-    pub at: Option<Vec<f64>>,
-    /// Its score.
-    pub score: f64,
+    pub(crate) at: Option<Vec<f64>>,
+    pub(crate) score: f64,
     /// Misfit of each target, experiment by experiment; empty if it could not be run.
-    pub parts: Vec<f64>,
+    pub(crate) parts: Vec<f64>,
     /// Why it could not be run.
-    pub reason: Option<String>,
+    pub(crate) reason: Option<String>,
     /// Time that its runs took, s. It differs from fit to fit.
-    pub wall_time_s: f64,
+    pub(crate) wall_time_s: f64,
     /// What computed its last run.
-    pub kernel: String,
+    pub(crate) kernel: String,
 }
 
 /// How candidates are run.
 #[derive(Clone, Copy, Debug)]
-pub struct Means {
-    /// Threads.
-    pub threads: usize,
+pub(crate) struct Means {
+    pub(crate) threads: usize,
     /// Runs side by side.
-    pub kernel: Kernel,
+    pub(crate) kernel: Kernel,
 }
 
 /// Evaluates candidates and remembers them.
-pub struct Evaluator<'a> {
+pub(crate) struct Evaluator<'a> {
     fitting: &'a Fitting,
     means: Means,
     interrupt: &'a Interrupt,
@@ -68,7 +66,7 @@ pub struct Evaluator<'a> {
     journal: JournalWriter,
     progress: Progress,
     /// All evaluations so far.
-    pub records: Vec<Record>,
+    pub(crate) records: Vec<Record>,
 }
 
 impl<'a> Evaluator<'a> {
@@ -76,7 +74,7 @@ impl<'a> Evaluator<'a> {
     ///
     /// # Errors
     /// The operating system refuses; a journal of something else.
-    pub fn new(
+    pub(crate) fn new(
         fitting: &'a Fitting,
         folder: &Folder,
         sha256: &str,
@@ -108,7 +106,7 @@ impl<'a> Evaluator<'a> {
     }
 
     /// How many runs the journal held.
-    pub fn known(&self) -> usize {
+    pub(crate) fn known(&self) -> usize {
         self.known.len()
     }
 
@@ -116,7 +114,11 @@ impl<'a> Evaluator<'a> {
     ///
     /// # Errors
     /// A signal, a full disk, a journal that does not fit the search.
-    pub fn scores(&mut self, stage: Option<Stage>, candidates: Vec<Option<Vec<f64>>>) -> Result<Vec<f64>, Failure> {
+    pub(crate) fn scores(
+        &mut self,
+        stage: Option<Stage>,
+        candidates: Vec<Option<Vec<f64>>>,
+    ) -> Result<Vec<f64>, Failure> {
         let experiments = self.fitting.experiments.len() as u64;
         let first = self.records.len() as u64 * experiments;
         let rows = first..first + candidates.len() as u64 * experiments;
@@ -166,7 +168,7 @@ impl<'a> Evaluator<'a> {
     ///
     /// # Errors
     /// The operating system refuses.
-    pub fn close(self) -> Result<Vec<Record>, Problem> {
+    pub(crate) fn close(self) -> Result<Vec<Record>, Problem> {
         self.progress.end();
         self.journal.close()?;
         Ok(self.records)

@@ -11,25 +11,22 @@ use super::target::{FAMILY, Target};
 use crate::files::history::{Filter, Histories, Treatment, Untreated, asked, treated};
 
 /// A scenario with the parameters of the study.
-pub struct Experiment {
+pub(crate) struct Experiment {
     /// Path of the scenario, for messages and results.
-    pub scenario: PathBuf,
-    /// Its text.
-    pub text: String,
+    pub(crate) scenario: PathBuf,
+    pub(crate) text: String,
     /// The first test that it stands for.
-    pub of: FitTest,
+    pub(crate) of: FitTest,
     /// The study with this scenario as its base.
-    pub study: Study,
+    pub(crate) study: Study,
     /// Files that the scenario names.
-    pub tables: Vec<(String, Vec<u8>)>,
+    pub(crate) tables: Vec<(String, Vec<u8>)>,
     /// The model without any parameter.
-    pub model: Model,
+    pub(crate) model: Model,
     /// Measured channels, and of which test each is.
-    pub targets: Vec<(usize, Target)>,
-    /// Channels by their filter.
+    pub(crate) targets: Vec<(usize, Target)>,
     groups: Vec<(Filter, Vec<Channel>)>,
-    /// All channels that are recorded.
-    pub recorded: Vec<Channel>,
+    pub(crate) recorded: Vec<Channel>,
 }
 
 impl Experiment {
@@ -37,7 +34,7 @@ impl Experiment {
     ///
     /// # Errors
     /// What is wrong with the scenario.
-    pub fn new(
+    pub(crate) fn new(
         scenario: PathBuf,
         text: String,
         of: FitTest,
@@ -60,12 +57,12 @@ impl Experiment {
     }
 
     /// Whether it stands for a test, too.
-    pub fn stands_for(&self, test: &FitTest) -> bool {
+    pub(crate) fn stands_for(&self, test: &FitTest) -> bool {
         (&self.of.base, &self.of.set) == (&test.base, &test.set)
     }
 
     /// Adds a measured channel of a test.
-    pub fn add(&mut self, test: usize, target: Target) {
+    pub(crate) fn add(&mut self, test: usize, target: Target) {
         let group = self.groups.iter().position(|(f, _)| *f == target.filter);
         let group = group.unwrap_or_else(|| {
             self.groups.push((target.filter, Vec::new()));
@@ -87,7 +84,7 @@ impl Experiment {
     }
 
     /// First and last output that can be compared, s.
-    pub fn run_s(&self) -> [f64; 2] {
+    pub(crate) fn run_s(&self) -> [f64; 2] {
         let time = self.model.setup().time;
         // the last output need not be a whole interval after the one before
         let steps = occupant_core::signal::whole_steps(time.end_s - time.start_s, time.output_s);
@@ -98,7 +95,7 @@ impl Experiment {
     ///
     /// # Errors
     /// What is wrong with the scenario then.
-    pub fn model_of(&self, values: Option<&[f64]>) -> Result<Model, Diagnostics> {
+    pub(crate) fn model_of(&self, values: Option<&[f64]>) -> Result<Model, Diagnostics> {
         let mut draft = self.study.base().clone();
         for assignment in values.map_or(Vec::new(), |v| self.study.assignments_of(v)) {
             draft.set_value(&assignment.path, &assignment.text())?;
@@ -110,7 +107,7 @@ impl Experiment {
     ///
     /// # Errors
     /// Outputs too far apart for a filter.
-    pub fn histories(&self, series: &Series) -> Result<Vec<(Filter, Histories)>, String> {
+    pub(crate) fn histories(&self, series: &Series) -> Result<Vec<(Filter, Histories)>, String> {
         let of = |(filter, channels): &(Filter, Vec<Channel>)| {
             let treatment = Treatment { filter: *filter, family: FAMILY, interval_s: None };
             let histories = treated(&self.model, channels.clone(), series.clone(), treatment);
@@ -126,7 +123,7 @@ impl Experiment {
     ///
     /// # Errors
     /// Histories that cannot be compared.
-    pub fn misfits(&self, misfit: Misfit, series: &Series) -> Result<Vec<f64>, String> {
+    pub(crate) fn misfits(&self, misfit: Misfit, series: &Series) -> Result<Vec<f64>, String> {
         let histories = self.histories(series)?;
         let of = |(_, target): &(usize, Target)| {
             let computed = target.computed(in_group(&histories, target.filter)?)?;
@@ -139,7 +136,7 @@ impl Experiment {
     ///
     /// # Errors
     /// Histories that cannot be compared.
-    pub fn residuals(&self, series: &Series) -> Result<Vec<Vec<f64>>, String> {
+    pub(crate) fn residuals(&self, series: &Series) -> Result<Vec<Vec<f64>>, String> {
         let histories = self.histories(series)?;
         let of = |(_, target): &(usize, Target)| {
             let computed = target.computed(in_group(&histories, target.filter)?)?;
@@ -151,8 +148,7 @@ impl Experiment {
     }
 }
 
-/// The histories with this filter.
-pub fn in_group(groups: &[(Filter, Histories)], filter: Filter) -> Result<&Histories, String> {
+pub(crate) fn in_group(groups: &[(Filter, Histories)], filter: Filter) -> Result<&Histories, String> {
     let found = groups.iter().find(|(f, _)| *f == filter);
     found.map(|(_, histories)| histories).ok_or_else(|| "a channel without a history".to_owned())
 }
@@ -161,7 +157,7 @@ pub fn in_group(groups: &[(Filter, Histories)], filter: Filter) -> Result<&Histo
 ///
 /// # Errors
 /// What is wrong with it.
-pub fn opened(draft: Draft, tables: &[(String, Vec<u8>)]) -> Result<(Loaded, Model, Diagnostics), Diagnostics> {
+pub(crate) fn opened(draft: Draft, tables: &[(String, Vec<u8>)]) -> Result<(Loaded, Model, Diagnostics), Diagnostics> {
     let table = |name: &str| {
         let found = tables.iter().find(|(table, _)| table == name);
         found.map(|(_, bytes)| bytes.clone()).ok_or_else(|| "it was not there when the fit began".to_owned())

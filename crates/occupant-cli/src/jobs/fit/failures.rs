@@ -4,7 +4,7 @@ use crate::base::failure::Failure;
 use crate::files::study_folder::problem::Problem;
 
 /// A problem with the folder, as the end of the command.
-pub fn told(problem: Problem) -> Failure {
+pub(crate) fn told(problem: Problem) -> Failure {
     match (&problem, problem.help()) {
         (Problem::Io { .. } | Problem::Table { .. }, _) => Failure::BrokeOff(format!("error: {problem}")),
         (_, Some(help)) => Failure::with_help(problem.to_string(), help),
@@ -13,7 +13,7 @@ pub fn told(problem: Problem) -> Failure {
 }
 
 /// The words of a failure.
-pub fn of_failure(failure: Failure) -> String {
+pub(crate) fn of_failure(failure: Failure) -> String {
     match failure {
         Failure::CouldNotRun(words) | Failure::BrokeOff(words) => words,
     }

@@ -21,51 +21,47 @@ use crate::files::study_folder::texts::{NamedBy, Texts};
 const ON_TOP: u64 = 1 << 20;
 
 /// A study, its tests, and the scenarios that stand for them. Shared by all threads.
-pub struct Fitting {
+pub(crate) struct Fitting {
     /// Name of the study for messages and results.
-    pub study_name: String,
+    pub(crate) study_name: String,
     /// SHA-256 of the study.
-    pub study_sha256: String,
+    pub(crate) study_sha256: String,
     /// Title of the study.
-    pub title: String,
+    pub(crate) title: String,
     /// What the study says of the fit.
-    pub fit: Fit,
-    /// Its scenarios.
-    pub experiments: Vec<Experiment>,
-    /// Its tests.
-    pub tests: Vec<Test>,
+    pub(crate) fit: Fit,
+    pub(crate) experiments: Vec<Experiment>,
+    pub(crate) tests: Vec<Test>,
     /// Between which ends the parameters are looked for.
-    pub bounds: Vec<Bounds>,
+    pub(crate) bounds: Vec<Bounds>,
     /// Changes from the command line.
-    pub overrides: Vec<String>,
+    pub(crate) overrides: Vec<String>,
     /// What the folder of the fit will hold.
-    pub manifest: Manifest,
+    pub(crate) manifest: Manifest,
     /// Bytes of the manifest's texts.
-    pub texts: Vec<Vec<u8>>,
+    pub(crate) texts: Vec<Vec<u8>>,
     /// What the user should know.
-    pub warnings: Vec<String>,
+    pub(crate) warnings: Vec<String>,
 }
 
-/// A test.
-pub struct Test {
+pub(crate) struct Test {
     /// Its name in results.
-    pub name: String,
+    pub(crate) name: String,
     /// Its file, as it was named.
-    pub file: String,
+    pub(crate) file: String,
     /// SHA-256 of the file.
-    pub sha256: String,
+    pub(crate) sha256: String,
     /// The scenario that stands for it.
-    pub experiment: usize,
+    pub(crate) experiment: usize,
 }
 
 /// Tests that the command line gives.
-pub struct Given<'a> {
-    /// The files.
-    pub files: &'a [PathBuf],
+pub(crate) struct Given<'a> {
+    pub(crate) files: &'a [PathBuf],
     /// Which column is which channel, in all of them.
-    pub maps: &'a [MapArgument],
+    pub(crate) maps: &'a [MapArgument],
     /// Changes in all scenarios.
-    pub overrides: &'a [String],
+    pub(crate) overrides: &'a [String],
 }
 
 /// A test whose file is known.
@@ -82,7 +78,7 @@ impl Fitting {
     ///
     /// # Errors
     /// Everything that is wrong, in words.
-    pub fn open(name: &Path, given: &Given<'_>, program: String) -> Result<Fitting, String> {
+    pub(crate) fn open(name: &Path, given: &Given<'_>, program: String) -> Result<Fitting, String> {
         let shown = name.display().to_string();
         let texts = Texts::of_files(name);
         let bytes = texts.get(NamedBy::CommandLine, &file_name(name));
@@ -145,28 +141,28 @@ impl Fitting {
     }
 
     /// What is fitted.
-    pub fn parameters(&self) -> &[Parameter] {
+    pub(crate) fn parameters(&self) -> &[Parameter] {
         self.experiments[0].study.parameters()
     }
 
     /// Values of the parameters, SI, at a point of the unit cube.
-    pub fn values(&self, at: &[f64]) -> Vec<f64> {
+    pub(crate) fn values(&self, at: &[f64]) -> Vec<f64> {
         self.bounds.iter().zip(at).map(|(b, u)| b.value(*u)).collect()
     }
 
     /// The score of all targets, experiment by experiment.
-    pub fn score(&self, parts: &[f64]) -> f64 {
+    pub(crate) fn score(&self, parts: &[f64]) -> f64 {
         let weights = self.targets().map(|(_, target)| target.weight);
         self.fit.misfit.combined(weights.zip(parts.iter().copied()))
     }
 
     /// All targets, experiment by experiment, and of which test each is.
-    pub fn targets(&self) -> impl Iterator<Item = &(usize, Target)> {
+    pub(crate) fn targets(&self) -> impl Iterator<Item = &(usize, Target)> {
         self.experiments.iter().flat_map(|e| &e.targets)
     }
 
     /// Where the search begins: at the base scenario's values where they lie between the bounds, else in the middle.
-    pub fn start(&self) -> Vec<f64> {
+    pub(crate) fn start(&self) -> Vec<f64> {
         let start = |(parameter, bounds): (&Parameter, &Bounds)| match parameter.nominal() {
             occupant_core::study::Value::Number(x) => {
                 let u = bounds.part(x);

@@ -13,224 +13,207 @@ use crate::base::names::file_name;
 use crate::files::history::class_name;
 
 /// Correlations beyond this say that two parameters compensate each other.
-pub const COMPENSATING: f64 = 0.9;
+pub(crate) const COMPENSATING: f64 = 0.9;
 
 /// All of fit.json.
 #[derive(Serialize)]
-pub struct Found {
-    /// Program and version.
-    pub program: String,
+pub(crate) struct Found {
+    pub(crate) program: String,
     /// Title of the study.
-    pub title: String,
-    /// The study.
-    pub study: File,
+    pub(crate) title: String,
+    pub(crate) study: File,
     /// Changes from the command line.
-    pub overrides: Vec<String>,
+    pub(crate) overrides: Vec<String>,
     /// What was made small.
-    pub objective: &'static str,
+    pub(crate) objective: &'static str,
     /// Names the random numbers.
-    pub seed: u64,
+    pub(crate) seed: u64,
     /// Evaluations that the global search could use.
-    pub budget: u64,
+    pub(crate) budget: u64,
     /// Scores of a descent that differ by less are the same.
-    pub tolerance: f64,
-    /// The tests.
-    pub tests: Vec<TestFound>,
-    /// Scores.
-    pub score: Score,
+    pub(crate) tolerance: f64,
+    pub(crate) tests: Vec<TestFound>,
+    pub(crate) score: Score,
     /// What the intervals hold.
-    pub near: NearFound,
-    /// The parameters.
-    pub parameters: Vec<ParameterFound>,
+    pub(crate) near: NearFound,
+    pub(crate) parameters: Vec<ParameterFound>,
     /// Correlations of near-optimal sets, each pair once; those with a parameter at a bound are missing.
-    pub correlations: Vec<Correlation>,
+    pub(crate) correlations: Vec<Correlation>,
     /// The numbers as they stand in the fitted scenarios.
-    pub written: Vec<Written>,
+    pub(crate) written: Vec<Written>,
     /// The descents of the global search.
-    pub descents: Vec<DescentFound>,
+    pub(crate) descents: Vec<DescentFound>,
     /// How many evaluations were made, and for what.
-    pub evaluations: Evaluations,
+    pub(crate) evaluations: Evaluations,
     /// What the user should know.
-    pub warnings: Vec<String>,
+    pub(crate) warnings: Vec<String>,
 }
 
 /// A file that was read.
 #[derive(Serialize)]
-pub struct File {
-    /// Its name.
-    pub file: String,
+pub(crate) struct File {
+    pub(crate) file: String,
     /// Its SHA-256.
-    pub sha256: String,
+    pub(crate) sha256: String,
 }
 
-/// A test.
 #[derive(Serialize)]
-pub struct TestFound {
-    /// Its name.
-    pub name: String,
-    /// Its file.
-    pub file: String,
+pub(crate) struct TestFound {
+    pub(crate) name: String,
+    pub(crate) file: String,
     /// SHA-256 of the file.
-    pub sha256: String,
+    pub(crate) sha256: String,
     /// The scenario that stands for it.
-    pub scenario: String,
+    pub(crate) scenario: String,
     /// That scenario with the fitted numbers.
-    pub fitted: String,
+    pub(crate) fitted: String,
 }
 
 /// Scores; 0 is a run that is the test.
 #[derive(Serialize)]
-pub struct Score {
+pub(crate) struct Score {
     /// Of the base scenario; none if it could not be run.
-    pub before: Option<f64>,
+    pub(crate) before: Option<f64>,
     /// Of the fitted scenario, with the numbers as they are written.
-    pub after: f64,
-    /// The channels.
-    pub channels: Vec<ChannelFound>,
+    pub(crate) after: f64,
+    pub(crate) channels: Vec<ChannelFound>,
 }
 
 /// A channel of a test.
 #[derive(Serialize)]
-pub struct ChannelFound {
-    /// The test.
-    pub test: String,
-    /// The channel.
-    pub channel: String,
-    /// Its measured signal.
-    pub signal: String,
+pub(crate) struct ChannelFound {
+    pub(crate) test: String,
+    pub(crate) channel: String,
+    pub(crate) signal: String,
     /// Filter of both.
-    pub filter: String,
+    pub(crate) filter: String,
     /// How much it counts.
-    pub weight: f64,
+    pub(crate) weight: f64,
     /// First and last time compared, s.
-    pub window_s: [f64; 2],
+    pub(crate) window_s: [f64; 2],
     /// Misfit of the base scenario.
-    pub before: Option<f64>,
+    pub(crate) before: Option<f64>,
     /// Misfit of the fitted scenario.
-    pub after: f64,
+    pub(crate) after: f64,
 }
 
 /// What the intervals hold.
 #[derive(Serialize)]
-pub struct NearFound {
+pub(crate) struct NearFound {
     /// Sets with a score up to this count as good as the best.
-    pub score: f64,
-    /// What says so.
-    pub by: &'static str,
+    pub(crate) score: f64,
+    pub(crate) by: &'static str,
     /// Residuals that are unrelated, where the likelihood says so.
-    pub unrelated_residuals: Option<f64>,
+    unrelated_residuals: Option<f64>,
     /// How many of the evaluated sets are as good.
-    pub sets: usize,
+    pub(crate) sets: usize,
 }
 
 /// A parameter. Numbers are SI, angles in rad.
 #[derive(Serialize)]
-pub struct ParameterFound {
-    /// Its name.
-    pub name: String,
+pub(crate) struct ParameterFound {
+    pub(crate) name: String,
     /// SI unit; empty for factors and plain numbers.
-    pub unit: &'static str,
+    pub(crate) unit: &'static str,
     /// What is done with the number.
-    pub apply: ApplyChoice,
+    pub(crate) apply: ApplyChoice,
     /// Where it acts.
-    pub places: Vec<String>,
+    pub(crate) places: Vec<String>,
     /// Between which ends it was looked for.
-    pub bounds: [f64; 2],
+    pub(crate) bounds: [f64; 2],
     /// Whether equal ratios were equal steps.
-    pub log: bool,
+    pub(crate) log: bool,
     /// What the base scenario says, where that is one number.
-    pub base: Option<f64>,
+    pub(crate) base: Option<f64>,
     /// The fitted value.
-    pub value: f64,
+    pub(crate) value: f64,
     /// Between these all other parameters can make up for it.
-    pub interval: [f64; 2],
+    pub(crate) interval: [f64; 2],
     /// Whether each end of the interval is a bound, of this or of another parameter, and not the score.
-    pub open: [bool; 2],
+    pub(crate) open: [bool; 2],
     /// Between these it can go alone.
-    pub alone: [f64; 2],
+    pub(crate) alone: [f64; 2],
     /// Least and greatest among the evaluated sets that are as good as the best.
-    pub near_optimal: [f64; 2],
+    pub(crate) near_optimal: [f64; 2],
     /// How well it is identified.
-    pub verdict: Verdict,
+    pub(crate) verdict: Verdict,
     /// The same in words.
-    pub words: String,
+    pub(crate) words: String,
     /// Parameters that make up for it.
-    pub compensated_by: Vec<String>,
+    pub(crate) compensated_by: Vec<String>,
     /// All parameters and the score at both ends of the interval.
-    pub ends: [EndFound; 2],
+    pub(crate) ends: [EndFound; 2],
 }
 
 /// An end of an interval.
 #[derive(Serialize)]
-pub struct EndFound {
+pub(crate) struct EndFound {
     /// The values of all parameters there, in their order.
-    pub values: Vec<f64>,
-    /// The score.
-    pub score: f64,
+    pub(crate) values: Vec<f64>,
+    pub(crate) score: f64,
 }
 
-/// A correlation.
 #[derive(Serialize)]
-pub struct Correlation {
-    /// The parameters.
-    pub between: [String; 2],
+pub(crate) struct Correlation {
+    pub(crate) between: [String; 2],
     /// From −1 to 1.
-    pub correlation: f64,
+    pub(crate) correlation: f64,
 }
 
 /// A fitted number.
 #[derive(Serialize)]
-pub struct Written {
-    /// Its scenario.
-    pub fitted: String,
-    /// Its place.
-    pub path: String,
+pub(crate) struct Written {
+    pub(crate) fitted: String,
+    pub(crate) path: String,
     /// As it is written there.
-    pub text: String,
+    pub(crate) text: String,
 }
 
-/// A descent.
 #[derive(Serialize)]
-pub struct DescentFound {
+pub(crate) struct DescentFound {
     /// Candidates of a generation.
-    pub population: usize,
-    /// Evaluations.
-    pub evaluations: u64,
+    pub(crate) population: usize,
+    pub(crate) evaluations: u64,
     /// Least score.
-    pub score: f64,
-    /// Why it ended.
-    pub ended: &'static str,
+    pub(crate) score: f64,
+    pub(crate) ended: &'static str,
 }
 
 /// How many evaluations were made.
 #[derive(Serialize, Default)]
-pub struct Evaluations {
+pub(crate) struct Evaluations {
     /// By the global search.
-    pub search: usize,
+    pub(crate) search: usize,
     /// By the local refinement.
-    pub refinement: usize,
+    pub(crate) refinement: usize,
     /// For curvature and intervals.
-    pub intervals: usize,
+    pub(crate) intervals: usize,
     /// All, the base scenario included.
-    pub all: usize,
+    pub(crate) all: usize,
     /// Those that could not be run.
-    pub failed: usize,
+    pub(crate) failed: usize,
     /// Why not, of the first of them.
-    pub reason: Option<String>,
+    pub(crate) reason: Option<String>,
 }
 
 /// The fitted scenarios and what they came to.
-pub struct Fittings {
+pub(crate) struct Fittings {
     /// Names of the files, one for each experiment.
-    pub names: Vec<String>,
+    pub(crate) names: Vec<String>,
     /// Numbers, one list for each experiment.
-    pub numbers: Vec<Vec<Fitted>>,
+    pub(crate) numbers: Vec<Vec<Fitted>>,
     /// Misfits of the runs, experiment by experiment.
-    pub parts: Vec<f64>,
+    pub(crate) parts: Vec<f64>,
 }
 
 /// Puts everything together.
-pub fn found(fitting: &Fitting, answer: &Answer, records: &[Record], fitted: &Fittings, program: String) -> Found {
+pub(crate) fn found(
+    fitting: &Fitting,
+    answer: &Answer,
+    records: &[Record],
+    fitted: &Fittings,
+    program: String,
+) -> Found {
     let misfit = fitting.fit.misfit;
     let before = (answer.before.reason.is_none()).then_some(answer.before.score);
     let evaluations = evaluations(records);

@@ -25,33 +25,30 @@ const ANEW: usize = 3;
 const LOWER: f64 = 0.05;
 
 /// The best parameters and how well they are determined. Costs are [`Misfit::cost`] of scores.
-pub struct Answer {
+pub(crate) struct Answer {
     /// The base scenario.
-    pub before: Record,
+    pub(crate) before: Record,
     /// The descents.
-    pub global: Global,
+    pub(crate) global: Global,
     /// The best point; its value is a cost.
-    pub best: Point,
+    pub(crate) best: Point,
     /// By how much the cost rises to where sets count as worse.
-    pub rise: f64,
-    /// What says so.
-    pub near: Near,
+    pub(crate) rise: f64,
+    pub(crate) near: Near,
     /// How far each parameter can go alone.
-    pub reaches: Vec<[Reach; 2]>,
+    pub(crate) reaches: Vec<[Reach; 2]>,
     /// Curvature and correlations.
-    pub shape: Shape,
+    pub(crate) shape: Shape,
     /// The ends of the intervals.
-    pub profiles: Profiles,
+    pub(crate) profiles: Profiles,
 }
 
 /// What says which sets are as good as the best.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Near {
-    /// The study.
+pub(crate) enum Near {
     Study,
     /// The likelihood of the residuals, so many of which are unrelated.
     Likelihood {
-        /// How many.
         unrelated: f64,
     },
     /// Differences below 0.05 % of the peak, because the residuals are smaller still.
@@ -64,7 +61,7 @@ pub enum Near {
 ///
 /// # Errors
 /// A signal, a full disk, a fit in which no candidate could be run.
-pub fn search(fitting: &Fitting, evaluator: &mut Evaluator<'_>) -> Result<Answer, Failure> {
+pub(crate) fn search(fitting: &Fitting, evaluator: &mut Evaluator<'_>) -> Result<Answer, Failure> {
     evaluator.scores(None, vec![None])?;
     let before = evaluator.records[0].clone();
     let fit = &fitting.fit;
@@ -145,7 +142,7 @@ fn rise(fitting: &Fitting, best: &Point) -> Result<(f64, Near), Failure> {
 ///
 /// # Errors
 /// A scenario that is refused, an integration that fails.
-pub fn run(experiment: &Experiment, values: Option<&[f64]>) -> Result<Series, String> {
+pub(crate) fn run(experiment: &Experiment, values: Option<&[f64]>) -> Result<Series, String> {
     let model = experiment.model_of(values).map_err(|e| e.to_string())?;
     run_model(experiment, &model)
 }
@@ -154,7 +151,7 @@ pub fn run(experiment: &Experiment, values: Option<&[f64]>) -> Result<Series, St
 ///
 /// # Errors
 /// An integration that fails.
-pub fn run_model(experiment: &Experiment, model: &Model) -> Result<Series, String> {
+pub(crate) fn run_model(experiment: &Experiment, model: &Model) -> Result<Series, String> {
     let mut series = Series::new(experiment.recorded.clone());
     let outcome = simulate(model, &mut series).map_err(|e| e.to_string())?;
     match outcome.status {

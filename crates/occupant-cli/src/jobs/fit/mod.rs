@@ -7,17 +7,17 @@
 //! The search asks for values of whole generations; the evaluator runs what the journal does not hold yet. As both depend on
 //! nothing but study, tests and program, a fit that was killed goes on to the same answer.
 
-pub mod candidates;
-pub mod evaluator;
-pub mod experiment;
-pub mod failures;
-pub mod fitting;
-pub mod found;
-pub mod identified;
-pub mod output;
-pub mod plots;
-pub mod progress;
-pub mod report;
-pub mod scenario_text;
-pub mod target;
-pub mod verdict;
+mod candidates;
+pub(crate) mod evaluator;
+mod experiment;
+pub(crate) mod failures;
+pub(crate) mod fitting;
+mod found;
+pub(crate) mod identified;
+pub(crate) mod output;
+mod plots;
+pub(crate) mod progress;
+pub(crate) mod report;
+mod scenario_text;
+mod target;
+mod verdict;

@@ -22,14 +22,14 @@ use crate::base::talk::{json, say};
 use crate::files::study_folder::folder::Folder;
 
 /// Writes the results of a fit.
-pub struct Output<'a> {
-    pub fitting: &'a Fitting,
-    pub folder: &'a Folder,
+pub(crate) struct Output<'a> {
+    pub(crate) fitting: &'a Fitting,
+    pub(crate) folder: &'a Folder,
 }
 
 impl Output<'_> {
     /// Fitted scenarios, history, plots, and fit.json last.
-    pub fn write(&self, answer: &Answer, records: &[Record]) -> Result<Found, Failure> {
+    pub(crate) fn write(&self, answer: &Answer, records: &[Record]) -> Result<Found, Failure> {
         let values = self.fitting.values(&answer.best.at);
         let (fittings, runs) = self.run_fitted(&values).map_err(broke_off)?;
         let found = found(self.fitting, answer, records, &fittings, program());

@@ -9,18 +9,18 @@ use crate::files::history::{Filter, Histories, UnitChoice};
 use crate::pictures::plot::{Entry, Figure, Material, Overlay, RunCurves, Sheet, Wish, figures, sheet};
 
 /// Runs of an experiment before and after.
-pub struct Pair {
+pub(crate) struct Pair {
     /// The base scenario; none if it could not be run.
-    pub before: Option<Series>,
+    pub(crate) before: Option<Series>,
     /// The fitted one.
-    pub after: Series,
+    pub(crate) after: Series,
 }
 
 /// The sheet of each test, with its name. `runs` has a pair for each experiment; `lines` stand below the headings.
 ///
 /// # Errors
 /// Histories that cannot be drawn.
-pub fn sheets(fitting: &Fitting, runs: &[Pair], lines: &[String]) -> Result<Vec<(String, String)>, String> {
+pub(crate) fn sheets(fitting: &Fitting, runs: &[Pair], lines: &[String]) -> Result<Vec<(String, String)>, String> {
     let mut sheets = Vec::new();
     for (number, test) in fitting.tests.iter().enumerate() {
         let experiment = &fitting.experiments[test.experiment];

@@ -13,7 +13,7 @@ const LINE_EVERY: Duration = Duration::from_secs(2);
 
 /// How far a fit is.
 #[derive(Debug)]
-pub struct Progress {
+pub(crate) struct Progress {
     bar: ProgressBar,
     quiet: bool,
     budget: u64,
@@ -26,7 +26,7 @@ pub struct Progress {
 
 impl Progress {
     /// Of a search of so many evaluations.
-    pub fn new(budget: u64, quiet: bool) -> Self {
+    pub(crate) fn new(budget: u64, quiet: bool) -> Self {
         let target = match quiet {
             true => ProgressDrawTarget::hidden(),
             false => ProgressDrawTarget::stderr(),
@@ -49,7 +49,7 @@ impl Progress {
     }
 
     /// What a batch came to.
-    pub fn see(&mut self, stage: Option<Stage>, records: &[Record]) {
+    pub(crate) fn see(&mut self, stage: Option<Stage>, records: &[Record]) {
         self.evaluations += records.len() as u64;
         let least = records.iter().map(|r| r.score).fold(f64::INFINITY, f64::min);
         if stage.is_some() {
@@ -80,7 +80,7 @@ impl Progress {
     }
 
     /// No more.
-    pub fn end(&self) {
+    pub(crate) fn end(&self) {
         self.bar.finish_and_clear();
     }
 }
@@ -94,7 +94,7 @@ fn score(score: f64) -> String {
 }
 
 /// A stage's name, and in words.
-pub fn words_of(stage: Option<Stage>) -> (&'static str, String) {
+pub(crate) fn words_of(stage: Option<Stage>) -> (&'static str, String) {
     match stage {
         None => ("base", "base scenario".to_owned()),
         Some(Stage::Descent { number, generation }) => {

@@ -9,7 +9,7 @@ use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, Table, facts};
 
 /// Tables of parameters and channels.
-pub fn text(fitting: &Fitting, found: &Found) -> String {
+pub(crate) fn text(fitting: &Fitting, found: &Found) -> String {
     let mut parts = vec![overview(found), parameters(fitting, found)];
     let pairs = compensating(fitting, found);
     if !pairs.is_empty() {
@@ -48,7 +48,7 @@ fn overview(found: &Found) -> String {
 }
 
 /// In which unit the values of a parameter are shown, and how many SI units it is: that of its place.
-pub fn unit_of(fitting: &Fitting, i: usize) -> (String, f64) {
+pub(crate) fn unit_of(fitting: &Fitting, i: usize) -> (String, f64) {
     let parameter = &fitting.parameters()[i];
     let base = fitting.experiments[0].study.base();
     let place = parameter.targets.first();
@@ -61,7 +61,7 @@ pub fn unit_of(fitting: &Fitting, i: usize) -> (String, f64) {
 }
 
 /// A number with five significant digits.
-pub fn short(value: f64) -> String {
+pub(crate) fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.4e}").parse().unwrap_or(value);
     rounded.to_string()
 }
@@ -151,7 +151,7 @@ fn channels(found: &Found) -> String {
 }
 
 /// What is said of a fitted number in the scenario.
-pub fn provenance(fitting: &Fitting, found: &Found, p: &ParameterFound, i: usize) -> String {
+pub(crate) fn provenance(fitting: &Fitting, found: &Found, p: &ParameterFound, i: usize) -> String {
     let (unit, si) = unit_of(fitting, i);
     let with_unit = |text: String| format!("{text} {unit}").trim().to_owned();
     let [low, high] = p.interval.map(|x| short(x / si));

@@ -12,26 +12,24 @@ use super::experiment::{Experiment, opened};
 use crate::files::scenario::format_of;
 
 /// Significant digits of fitted numbers.
-pub const DIGITS: usize = 6;
+const DIGITS: usize = 6;
 
 /// A number that a fit has put into a scenario.
 #[derive(Clone, Debug)]
-pub struct Fitted {
-    /// Its place.
-    pub path: String,
+pub(crate) struct Fitted {
+    pub(crate) path: String,
     /// As it is written.
-    pub text: String,
+    pub(crate) text: String,
     /// Which parameter it comes from.
-    pub parameter: usize,
+    pub(crate) parameter: usize,
 }
 
-/// A fitted scenario.
 #[derive(Clone, Debug)]
-pub struct FittedText {
+pub(crate) struct FittedText {
     /// The text, TOML.
-    pub text: String,
+    pub(crate) text: String,
     /// Whether the author's words were kept.
-    pub kept: bool,
+    pub(crate) kept: bool,
 }
 
 /// The numbers that values of the parameters (SI) put into the scenario of an experiment, each in the unit of its place and
@@ -39,7 +37,7 @@ pub struct FittedText {
 ///
 /// # Errors
 /// A place at which no number can be written.
-pub fn numbers(experiment: &Experiment, values: &[f64]) -> Result<Vec<Fitted>, String> {
+pub(crate) fn numbers(experiment: &Experiment, values: &[f64]) -> Result<Vec<Fitted>, String> {
     let study = &experiment.study;
     let of = |path: &str| {
         let acts = |p: &Parameter| p.targets.iter().any(|t| t.path == path);
@@ -64,7 +62,7 @@ pub fn numbers(experiment: &Experiment, values: &[f64]) -> Result<Vec<Fitted>, S
 ///
 /// # Errors
 /// Numbers that the scenario refuses.
-pub fn fitted(
+pub(crate) fn fitted(
     experiment: &Experiment,
     numbers: &[Fitted],
     provenance: &[(String, String)],

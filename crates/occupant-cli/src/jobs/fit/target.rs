@@ -9,29 +9,28 @@ use crate::files::measured::Pair;
 use crate::jobs::compare::{RATE_HZ, Track, Window, overlap, sampled};
 
 /// Coefficients of the filter classes.
-pub const FAMILY: Family = Family::Iso6487;
+pub(crate) const FAMILY: Family = Family::Iso6487;
 
 /// A measured channel of a test.
 #[derive(Clone, Debug)]
-pub struct Target {
-    /// The channel.
-    pub channel: Channel,
+pub(crate) struct Target {
+    pub(crate) channel: Channel,
     /// Filter class of both sides.
-    pub class: Option<ChannelClass>,
+    pub(crate) class: Option<ChannelClass>,
     /// Filter as the study says it.
-    pub filter: Filter,
+    pub(crate) filter: Filter,
     /// How much it counts, its test's weight included.
-    pub weight: f64,
+    pub(crate) weight: f64,
     /// The measured signal, filtered, on the clock of the run.
-    pub measured: Pair,
+    pub(crate) measured: Pair,
     /// First and last time that count, s.
-    pub window_s: [f64; 2],
+    pub(crate) window_s: [f64; 2],
     /// The measured values at 10 kHz in that window.
-    pub reference: Vec<f64>,
+    pub(crate) reference: Vec<f64>,
 }
 
 /// The filter of a study's word.
-pub fn filter_of(choice: FilterChoice) -> Filter {
+pub(crate) fn filter_of(choice: FilterChoice) -> Filter {
     match choice {
         FilterChoice::None => Filter::None,
         FilterChoice::J211 => Filter::J211,
@@ -47,7 +46,7 @@ impl Target {
     ///
     /// # Errors
     /// No common time, missing values, samples that cannot be filtered, nothing in the signal.
-    pub fn new(
+    pub(crate) fn new(
         channel: Channel,
         filter: Filter,
         weight: f64,
@@ -80,7 +79,7 @@ impl Target {
     ///
     /// # Errors
     /// Histories without this channel, or with values missing in the window.
-    pub fn computed(&self, histories: &Histories) -> Result<Vec<f64>, String> {
+    pub(crate) fn computed(&self, histories: &Histories) -> Result<Vec<f64>, String> {
         let found = histories.columns.iter().find(|c| c.channel.name == self.channel.name);
         let column = found.ok_or_else(|| format!("no history of {}", self.channel.name))?;
         let [from_s, to_s] = self.window_s;
@@ -92,7 +91,7 @@ impl Target {
     ///
     /// # Errors
     /// Values that cannot be compared.
-    pub fn misfit(&self, misfit: Misfit, computed: &[f64]) -> Result<f64, String> {
+    pub(crate) fn misfit(&self, misfit: Misfit, computed: &[f64]) -> Result<f64, String> {
         let found = misfit.of(&self.reference, computed, 1.0 / RATE_HZ);
         found.map_err(|e| format!("{}: {e}", self.channel.name))
     }

@@ -21,7 +21,7 @@ const AT: f64 = 1e-3;
 /// How well a parameter is identified.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Verdict {
+pub(crate) enum Verdict {
     /// The score rises on both sides.
     Identified,
     /// The score rises on both sides, far away.
@@ -37,7 +37,7 @@ pub enum Verdict {
 }
 
 /// All parameters with their verdicts; `sets` are the evaluated ones that are as good as the best.
-pub fn verdicts(fitting: &Fitting, answer: &Answer, sets: &[&Record]) -> Vec<ParameterFound> {
+pub(crate) fn verdicts(fitting: &Fitting, answer: &Answer, sets: &[&Record]) -> Vec<ParameterFound> {
     let parameters = 0..fitting.parameters().len();
     parameters.map(|i| parameter(fitting, answer, sets, i)).collect()
 }

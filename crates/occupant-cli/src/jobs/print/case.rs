@@ -15,23 +15,22 @@ use crate::files::mcap::column::Group;
 use crate::files::mcap::topics;
 
 /// A run to print.
-pub struct Case {
+pub(crate) struct Case {
     /// The recorded run.
-    pub file: RunFile,
+    pub(crate) file: RunFile,
     /// The scenario, overrides included.
-    pub loaded: Loaded,
-    /// Its model.
-    pub model: Model,
+    pub(crate) loaded: Loaded,
+    pub(crate) model: Model,
     /// Warnings about it, in words.
-    pub warnings: Vec<String>,
+    pub(crate) warnings: Vec<String>,
     /// Topics of the spheres, in the body's order.
-    pub spheres: Vec<String>,
+    pub(crate) spheres: Vec<String>,
     /// Topics of the belts, in the setup's order.
-    pub belts: Vec<String>,
+    pub(crate) belts: Vec<String>,
     /// Numbers of the surfaces, in the setup's order.
-    pub numbers: Vec<usize>,
+    pub(crate) numbers: Vec<usize>,
     /// Whether they are the report's.
-    pub numbers_of_report: bool,
+    pub(crate) numbers_of_report: bool,
 }
 
 impl Case {
@@ -39,7 +38,7 @@ impl Case {
     ///
     /// # Errors
     /// The file lacks its scenario or a table that it names; this program refuses the scenario.
-    pub fn new(file: RunFile) -> Result<Self, String> {
+    pub(crate) fn new(file: RunFile) -> Result<Self, String> {
         let loaded = load(&file)?;
         let (model, warnings) = loaded.model().map_err(|d| format!("the scenario in the file is refused:\n{d}"))?;
         let named = |parent, names: Vec<&str>| topics::named(parent, names);
@@ -62,7 +61,7 @@ impl Case {
     }
 
     /// The units of the scenario.
-    pub fn units(&self) -> &'static Units {
+    pub(crate) fn units(&self) -> &'static Units {
         match self.loaded.scenario.units {
             Some(UnitSystem::InchPound) => &INCH_POUND,
             _ => &SI,
@@ -70,7 +69,7 @@ impl Case {
     }
 
     /// The two lines on top of each page: the title cards, or the title and where the run comes from.
-    pub fn titles(&self) -> [String; 2] {
+    pub(crate) fn titles(&self) -> [String; 2] {
         let notes = self.loaded.scenario.notes.as_deref().unwrap_or_default();
         let second = notes.lines().find_map(|line| line.trim().strip_prefix("TITLE 2 = "));
         let known = |key: &str| self.file.run.get(key).map_or("-", String::as_str);
@@ -79,13 +78,13 @@ impl Case {
     }
 
     /// Whether the run reached its end.
-    pub fn is_complete(&self) -> bool {
+    pub(crate) fn is_complete(&self) -> bool {
         let status = self.file.result.as_ref().and_then(|r| r.get("status"));
         status.is_some_and(|s| s == "completed")
     }
 
     /// Number of outputs of which every group is in the file.
-    pub fn outputs(&self) -> usize {
+    pub(crate) fn outputs(&self) -> usize {
         let segments = Segment::ALL.map(topics::segment);
         let single = [topics::VEHICLE, topics::JOINTS, topics::ENERGY, topics::SOLVER];
         let all = segments.iter().chain(&self.spheres).chain(&self.belts);
@@ -97,7 +96,7 @@ impl Case {
     ///
     /// # Errors
     /// It is not there, or its bytes are no message.
-    pub fn message(&self, topic: &str, group: &'static Group, output: usize) -> Result<Message<'_>, String> {
+    pub(crate) fn message(&self, topic: &str, group: &'static Group, output: usize) -> Result<Message<'_>, String> {
         let bytes = self.file.messages(topic).get(output);
         bytes
             .and_then(|bytes| Message::read(group, bytes))
@@ -105,14 +104,14 @@ impl Case {
     }
 
     /// A surface by its number and name.
-    pub fn surface(&self, index: usize) -> String {
+    pub(crate) fn surface(&self, index: usize) -> String {
         let name = self.model.setup().surfaces.get(index).map(|s| &s.name);
         let number = self.numbers.get(index).copied().unwrap_or_default();
         format!("{number:>2} {}", name.map_or("-", String::as_str))
     }
 
     /// The pairs (sphere, surface), by index, that have passed a surface's edge: those with NARRY = 0.
-    pub fn passed(&self, pairs: &[PairHistory<f64>]) -> Vec<(usize, usize)> {
+    pub(crate) fn passed(&self, pairs: &[PairHistory<f64>]) -> Vec<(usize, usize)> {
         let contacts = &self.model.system().contacts;
         let mut passed = Vec::new();
         for group in contacts.groups() {

@@ -14,7 +14,7 @@ use super::table::Table;
 use super::unit::Units;
 
 /// Writes the last sheet.
-pub fn write(pages: &mut Pages, case: &Case, units: &Units, times_s: &[f64]) {
+pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units, times_s: &[f64]) {
     pages.begin("END OF SOLUTION");
     ending(pages, case, times_s);
     if let Some(&last_s) = times_s.last() {
@@ -112,7 +112,7 @@ fn spine_rest_rad(case: &Case) -> [f64; 2] {
 }
 
 /// A list of pairs, two to a line.
-pub fn pairs(pages: &mut Pages, case: &Case, title: &str, passed: &[(usize, usize)]) {
+pub(crate) fn pairs(pages: &mut Pages, case: &Case, title: &str, passed: &[(usize, usize)]) {
     let head = ["J", "<SPHERE", "<K  SURFACE"];
     let mut table = Table::new(title, &[head, head].concat());
     for row in passed.chunks(2) {

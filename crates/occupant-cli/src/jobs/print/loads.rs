@@ -16,7 +16,7 @@ use crate::files::mcap::topics;
 const APPLICATION: [&str; 3] = ["head", "chest", "pelvis"];
 
 /// Writes the loads' tables.
-pub fn write(pages: &mut Pages, case: &Case, units: &Units, output: usize) -> Result<(), String> {
+pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units, output: usize) -> Result<(), String> {
     let mut spheres = Vec::new();
     for topic in &case.spheres {
         spheres.push(case.message(topic, &SPHERE, output)?);

@@ -4,7 +4,7 @@ use crate::files::mcap::column::{Group, TOUCH};
 
 /// A message: its group's table and its fields.
 #[derive(Debug)]
-pub struct Message<'a> {
+pub(crate) struct Message<'a> {
     group: &'static Group,
     fields: Vec<(u32, Field<'a>)>,
 }
@@ -19,28 +19,27 @@ enum Field<'a> {
 
 /// A surface that a sphere touches.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Touch {
-    /// Its name.
-    pub surface: String,
+pub(crate) struct Touch {
+    pub(crate) surface: String,
     /// Δ, m.
-    pub depth_m: f64,
+    pub(crate) depth_m: f64,
     /// wF, N.
-    pub normal_force_n: f64,
+    pub(crate) normal_force_n: f64,
     /// Friction, vehicle axes, N.
-    pub friction_n: [f64; 3],
+    pub(crate) friction_n: [f64; 3],
     /// Slip, m/s.
-    pub slip_m_s: f64,
+    pub(crate) slip_m_s: f64,
 }
 
 impl<'a> Message<'a> {
     /// Reads a message of `group`; `None` if the bytes are not in the wire format.
-    pub fn read(group: &'static Group, bytes: &'a [u8]) -> Option<Self> {
+    pub(crate) fn read(group: &'static Group, bytes: &'a [u8]) -> Option<Self> {
         let fields = fields(bytes)?;
         Some(Message { group, fields })
     }
 
     /// A number or a count; not a number where the message has none.
-    pub fn number(&self, name: &str) -> f64 {
+    pub(crate) fn number(&self, name: &str) -> f64 {
         match self.field(name) {
             Some(Field::Number(number)) => number,
             Some(Field::Count(count)) => count as f64,
@@ -49,7 +48,7 @@ impl<'a> Message<'a> {
     }
 
     /// A vector, if the message has it.
-    pub fn vector(&self, name: &str) -> Option<[f64; 3]> {
+    pub(crate) fn vector(&self, name: &str) -> Option<[f64; 3]> {
         match self.field(name)? {
             Field::Bytes(bytes) => components(bytes),
             _ => None,
@@ -57,12 +56,12 @@ impl<'a> Message<'a> {
     }
 
     /// A vector; not a number where the message has none.
-    pub fn components(&self, name: &str) -> [f64; 3] {
+    pub(crate) fn components(&self, name: &str) -> [f64; 3] {
         self.vector(name).unwrap_or([f64::NAN; 3])
     }
 
     /// The surfaces touched; `None` where one of them cannot be read.
-    pub fn touches(&self) -> Option<Vec<Touch>> {
+    pub(crate) fn touches(&self) -> Option<Vec<Touch>> {
         let number = self.number_of("touches")?;
         let own = self.fields.iter().filter(|(n, _)| *n == number);
         own.map(|(_, field)| match field {

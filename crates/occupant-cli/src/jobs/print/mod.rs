@@ -16,9 +16,9 @@ mod table;
 mod unit;
 mod vehicle;
 
-pub use case::Case;
-pub use run_file::RunFile;
-pub use unit::{INCH_POUND, SI, Units};
+pub(crate) use case::Case;
+pub(crate) use run_file::RunFile;
+pub(crate) use unit::{INCH_POUND, SI, Units};
 
 use occupant_core::body::Segment;
 use page::Pages;
@@ -31,7 +31,7 @@ use crate::files::mcap::topics;
 ///
 /// # Errors
 /// A message of the file that cannot be read; a print interval shorter than the recorded one.
-pub fn printout(case: &Case, units: &Units, every_s: Option<f64>) -> Result<String, String> {
+pub(crate) fn printout(case: &Case, units: &Units, every_s: Option<f64>) -> Result<String, String> {
     let mut pages = Pages::new(case.titles());
     echo::write(&mut pages, case, units);
     let times_s = times(case)?;

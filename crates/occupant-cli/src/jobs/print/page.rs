@@ -1,9 +1,9 @@
 //! Pages of a line printer: 132 columns, 60 lines, the titles and the page number on top, a form feed at the end.
 
 /// Columns of a line.
-pub const COLUMNS: usize = 132;
+pub(crate) const COLUMNS: usize = 132;
 /// Lines of a page, its head included.
-pub const LINES: usize = 60;
+pub(crate) const LINES: usize = 60;
 /// Lines of the head: two titles, the section, a blank.
 const HEAD: usize = 4;
 /// Indent of a line that goes on.
@@ -11,7 +11,7 @@ const INDENT: &str = "        ";
 
 /// A printout under construction.
 #[derive(Debug)]
-pub struct Pages {
+pub(crate) struct Pages {
     titles: [String; 2],
     section: String,
     text: String,
@@ -22,24 +22,24 @@ pub struct Pages {
 
 impl Pages {
     /// No page yet; `titles` stand on top of each.
-    pub fn new(titles: [String; 2]) -> Self {
+    pub(crate) fn new(titles: [String; 2]) -> Self {
         Pages { titles, section: String::new(), text: String::new(), page: 0, line: 0 }
     }
 
     /// The text; every page ends in a form feed.
-    pub fn text(mut self) -> String {
+    pub(crate) fn text(mut self) -> String {
         self.end_page();
         self.text
     }
 
     /// Begins a page; `section` stands below the titles of it and of the pages that continue it.
-    pub fn begin(&mut self, section: &str) {
+    pub(crate) fn begin(&mut self, section: &str) {
         self.section = section.to_owned();
         self.turn();
     }
 
     /// A line of words, folded where it is too long.
-    pub fn say(&mut self, words: &str) {
+    pub(crate) fn say(&mut self, words: &str) {
         for line in folded(words) {
             if self.line >= LINES {
                 self.turn();
@@ -50,7 +50,7 @@ impl Pages {
 
     /// Lines that belong together, after a blank: on the next page if they do not fit on this one. Lines that fit on no page
     /// are continued, with the first `head` of them repeated.
-    pub fn block(&mut self, lines: &[String], head: usize) {
+    pub(crate) fn block(&mut self, lines: &[String], head: usize) {
         if self.line > HEAD {
             match self.line + 1 + lines.len() <= LINES || self.line + head + 3 < LINES && lines.len() > LINES - HEAD {
                 true => self.put(""),
@@ -95,7 +95,7 @@ impl Pages {
 }
 
 /// The first `width` characters; a text that is cut ends in `~`. Characters that would move the paper become blanks.
-pub fn cut(text: &str, width: usize) -> String {
+pub(crate) fn cut(text: &str, width: usize) -> String {
     let plain = |c: char| if c.is_control() { ' ' } else { c };
     match text.chars().count() > width {
         false => text.chars().map(plain).collect(),

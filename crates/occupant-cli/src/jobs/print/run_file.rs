@@ -10,17 +10,15 @@ use occupant_core::checkpoint::Checkpoint;
 use crate::files::mcap::StoredRun;
 use crate::files::mcap::about::RUN;
 
-/// The file.
 #[derive(Debug, Default)]
-pub struct RunFile {
+pub(crate) struct RunFile {
     /// The record `occupant.run`.
-    pub run: BTreeMap<String, String>,
+    pub(crate) run: BTreeMap<String, String>,
     /// The record `occupant.result`; none in a file that was cut off.
-    pub result: Option<BTreeMap<String, String>>,
-    /// Attachments by name.
-    pub attachments: BTreeMap<String, Vec<u8>>,
+    pub(crate) result: Option<BTreeMap<String, String>>,
+    pub(crate) attachments: BTreeMap<String, Vec<u8>>,
     /// Checkpoints, one an output.
-    pub checkpoints: Vec<Checkpoint>,
+    pub(crate) checkpoints: Vec<Checkpoint>,
     topics: BTreeMap<String, Vec<Vec<u8>>>,
 }
 
@@ -29,7 +27,7 @@ impl RunFile {
     ///
     /// # Errors
     /// It is no MCAP file, or one that `occupant run` has not written.
-    pub fn read(bytes: &[u8]) -> Result<Self, String> {
+    pub(crate) fn read(bytes: &[u8]) -> Result<Self, String> {
         let stored = StoredRun::read(bytes)?;
         if stored.run.is_empty() {
             return Err(format!("it is an MCAP file without the record `{RUN}`: no result of `occupant run`"));
@@ -44,7 +42,7 @@ impl RunFile {
     }
 
     /// Messages of a topic, one an output.
-    pub fn messages(&self, topic: &str) -> &[Vec<u8>] {
+    pub(crate) fn messages(&self, topic: &str) -> &[Vec<u8>] {
         self.topics.get(topic).map_or(&[], Vec::as_slice)
     }
 }

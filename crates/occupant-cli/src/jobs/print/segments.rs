@@ -11,7 +11,7 @@ use crate::files::mcap::groups::SEGMENT;
 use crate::files::mcap::topics;
 
 /// Writes the segments' tables.
-pub fn write(pages: &mut Pages, case: &Case, units: &Units, output: usize) -> Result<(), String> {
+pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units, output: usize) -> Result<(), String> {
     let mut messages = Vec::new();
     for segment in Segment::ALL {
         let message = case.message(&topics::segment(segment), &SEGMENT, output)?;
@@ -24,7 +24,7 @@ pub fn write(pages: &mut Pages, case: &Case, units: &Units, output: usize) -> Re
 }
 
 /// The first cells of a segment's row.
-pub fn label(segment: Segment) -> [String; 2] {
+pub(crate) fn label(segment: Segment) -> [String; 2] {
     [segment.number().to_string(), segment.name().to_owned()]
 }
 
@@ -81,6 +81,6 @@ fn turning(messages: &[(Segment, Message<'_>)]) -> Table {
 }
 
 /// √(x² + y² + z²).
-pub fn magnitude([x, y, z]: [f64; 3]) -> f64 {
+pub(crate) fn magnitude([x, y, z]: [f64; 3]) -> f64 {
     (x * x + y * y + z * z).sqrt()
 }

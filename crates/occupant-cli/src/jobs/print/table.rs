@@ -9,7 +9,7 @@ const SHORTEST: usize = 6;
 
 /// A table under construction.
 #[derive(Debug)]
-pub struct Table {
+pub(crate) struct Table {
     title: String,
     /// By column: true for words, which stand to the left.
     words: Vec<bool>,
@@ -18,7 +18,7 @@ pub struct Table {
 
 impl Table {
     /// A table; the heads of columns of words begin with `<`.
-    pub fn new(title: impl Into<String>, head: &[&str]) -> Self {
+    pub(crate) fn new(title: impl Into<String>, head: &[&str]) -> Self {
         let plain = |h: &&str| h.trim_start_matches('<').to_owned();
         Table {
             title: title.into(),
@@ -28,17 +28,17 @@ impl Table {
     }
 
     /// Adds a row; cells missing at its end are blank.
-    pub fn row(&mut self, cells: impl IntoIterator<Item = String>) {
+    pub(crate) fn row(&mut self, cells: impl IntoIterator<Item = String>) {
         self.rows.push(cells.into_iter().collect());
     }
 
     /// True without any row.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.rows.len() == 1
     }
 
     /// Writes it; its title and head are repeated on pages that continue it.
-    pub fn write(&self, pages: &mut Pages) {
+    pub(crate) fn write(&self, pages: &mut Pages) {
         let widths = self.widths();
         let mut lines = vec![self.title.clone()];
         lines.extend(self.rows.iter().map(|row| self.line(row, &widths)));

@@ -6,9 +6,9 @@ use occupant_core::setup::STANDARD_GRAVITY_M_S2;
 
 /// A unit: its name in headings, its size and the decimals that are worth printing.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Unit {
+pub(crate) struct Unit {
     /// Name in headings.
-    pub name: &'static str,
+    pub(crate) name: &'static str,
     /// SI units in one of it.
     si: f64,
     decimals: usize,
@@ -16,20 +16,20 @@ pub struct Unit {
 
 /// The units of a printout.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Units {
+pub(crate) struct Units {
     /// Name of the system.
-    pub name: &'static str,
-    pub length: Unit,
-    pub speed: Unit,
-    pub acceleration: Unit,
-    pub force: Unit,
-    pub mass: Unit,
-    pub inertia: Unit,
-    pub stiffness: Unit,
-    pub energy: Unit,
-    pub moment: Unit,
-    pub joint_stiffness: Unit,
-    pub joint_damping: Unit,
+    pub(crate) name: &'static str,
+    pub(crate) length: Unit,
+    pub(crate) speed: Unit,
+    pub(crate) acceleration: Unit,
+    pub(crate) force: Unit,
+    pub(crate) mass: Unit,
+    pub(crate) inertia: Unit,
+    pub(crate) stiffness: Unit,
+    pub(crate) energy: Unit,
+    pub(crate) moment: Unit,
+    pub(crate) joint_stiffness: Unit,
+    pub(crate) joint_damping: Unit,
 }
 
 /// International inch, m (exact).
@@ -44,7 +44,7 @@ const fn unit(name: &'static str, si: f64, decimals: usize) -> Unit {
 }
 
 /// Metre, kilogram, newton.
-pub const SI: Units = Units {
+pub(crate) const SI: Units = Units {
     name: "SI",
     length: unit("M", 1.0, 4),
     speed: unit("M/S", 1.0, 3),
@@ -60,7 +60,7 @@ pub const SI: Units = Units {
 };
 
 /// Inch, pound-force, second; masses as weights in pounds, inertias in lbf-in-s².
-pub const INCH_POUND: Units = Units {
+pub(crate) const INCH_POUND: Units = Units {
     name: "INCH-POUND",
     length: unit("IN", INCH_M, 3),
     speed: unit("IN/S", INCH_M, 2),
@@ -75,20 +75,18 @@ pub const INCH_POUND: Units = Units {
     joint_damping: unit("IN-LBF-S/RAD", POUND_FORCE_N * INCH_M, 3),
 };
 
-/// Degree.
-pub const DEGREE: Unit = unit("DEG", PI / 180.0, 2);
-/// Standard gravity.
-pub const G: Unit = unit("G", STANDARD_GRAVITY_M_S2, 3);
+pub(crate) const DEGREE: Unit = unit("DEG", PI / 180.0, 2);
+pub(crate) const G: Unit = unit("G", STANDARD_GRAVITY_M_S2, 3);
 /// Angular velocity.
-pub const RAD_S: Unit = unit("RAD/S", 1.0, 3);
+pub(crate) const RAD_S: Unit = unit("RAD/S", 1.0, 3);
 /// Angular acceleration.
-pub const RAD_S2: Unit = unit("RAD/S2", 1.0, 2);
+pub(crate) const RAD_S2: Unit = unit("RAD/S2", 1.0, 2);
 /// Plain number.
-pub const RATIO: Unit = unit("-", 1.0, 4);
+pub(crate) const RATIO: Unit = unit("-", 1.0, 4);
 
 impl Unit {
     /// An SI value in this unit with its decimals; with an exponent where no column would hold it.
-    pub fn show(&self, si: f64) -> String {
+    pub(crate) fn show(&self, si: f64) -> String {
         let (value, decimals) = (si / self.si, self.decimals);
         if value == 0.0 || value.abs() < 1e7 && value.abs() >= 0.5 * 0.1_f64.powi(decimals as i32) {
             // minus zero is zero
@@ -101,22 +99,22 @@ impl Unit {
     }
 
     /// SI units in one of it.
-    pub const fn size(&self) -> f64 {
+    pub(crate) const fn size(&self) -> f64 {
         self.si
     }
 
     /// The same as [`Unit::show`], or `-` where there is none.
-    pub fn perhaps(&self, si: Option<f64>) -> String {
+    pub(crate) fn perhaps(&self, si: Option<f64>) -> String {
         si.map_or_else(|| "-".to_owned(), |si| self.show(si))
     }
 
     /// Three components.
-    pub fn vector(&self, si: [f64; 3]) -> [String; 3] {
+    pub(crate) fn vector(&self, si: [f64; 3]) -> [String; 3] {
         si.map(|component| self.show(component))
     }
 
     /// Three components in words.
-    pub fn point(&self, si: [f64; 3]) -> String {
+    pub(crate) fn point(&self, si: [f64; 3]) -> String {
         format!("({})", self.vector(si).join(", "))
     }
 }

@@ -8,7 +8,7 @@ use crate::files::mcap::groups::VEHICLE;
 use crate::files::mcap::topics;
 
 /// Writes the vehicle's lines.
-pub fn write(pages: &mut Pages, case: &Case, units: &Units, output: usize) -> Result<(), String> {
+pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units, output: usize) -> Result<(), String> {
     let m = case.message(topics::VEHICLE, &VEHICLE, output)?;
     let title = format!(
         "VEHICLE: POSITION ({}) FORWARD, RIGHT, DOWN; ATTITUDE (DEG) ROLL, PITCH, YAW; THE REST IN VEHICLE COORDINATES",

@@ -6,28 +6,28 @@ use serde::{Serialize, Serializer};
 
 /// Numbers that travel as base64.
 #[derive(Clone, Debug, Default)]
-pub struct Array(Vec<u8>);
+pub(crate) struct Array(Vec<u8>);
 
 impl Array {
     /// Of single precision: 7 figures, enough for the eye.
-    pub fn float32(values: impl IntoIterator<Item = f64>) -> Self {
+    pub(crate) fn float32(values: impl IntoIterator<Item = f64>) -> Self {
         let bytes = values.into_iter().flat_map(|v| (v as f32).to_le_bytes());
         Array(bytes.collect())
     }
 
     /// Of double precision.
-    pub fn float64(values: impl IntoIterator<Item = f64>) -> Self {
+    pub(crate) fn float64(values: impl IntoIterator<Item = f64>) -> Self {
         Array(values.into_iter().flat_map(f64::to_le_bytes).collect())
     }
 
     /// Of small counts; a greater one is the greatest.
-    pub fn uint16(values: impl IntoIterator<Item = usize>) -> Self {
+    pub(crate) fn uint16(values: impl IntoIterator<Item = usize>) -> Self {
         let short = |v| u16::try_from(v).unwrap_or(u16::MAX).to_le_bytes();
         Array(values.into_iter().flat_map(short).collect())
     }
 
     /// Of counts; a greater one is the greatest.
-    pub fn uint32(values: impl IntoIterator<Item = usize>) -> Self {
+    pub(crate) fn uint32(values: impl IntoIterator<Item = usize>) -> Self {
         let long = |v| u32::try_from(v).unwrap_or(u32::MAX).to_le_bytes();
         Array(values.into_iter().flat_map(long).collect())
     }

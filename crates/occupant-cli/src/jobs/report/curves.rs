@@ -10,15 +10,13 @@ use super::array::Array;
 /// Spheres with the greatest contact forces that are plotted.
 const MOST_SPHERES: usize = 8;
 
-/// A plot.
 #[derive(Debug, Serialize)]
-pub struct Plot {
+pub(crate) struct Plot {
     title: &'static str,
     unit: &'static str,
     curves: Vec<Curve>,
 }
 
-/// A curve.
 #[derive(Debug, Serialize)]
 struct Curve {
     name: String,
@@ -90,7 +88,7 @@ const RECIPES: [Recipe; 9] = [
 const CONTACTS: &str = "Contact force";
 
 /// A recorder of all channels that the plots need.
-pub fn series(model: &Model) -> Series {
+pub(crate) fn series(model: &Model) -> Series {
     let needed = |c: &Channel| {
         let mut all = RECIPES.iter().flat_map(|r| r.channels);
         all.any(|(pattern, _)| star(pattern, &c.name).is_some())
@@ -99,7 +97,7 @@ pub fn series(model: &Model) -> Series {
 }
 
 /// The plots, without those that would be empty.
-pub fn plots(series: &Series) -> Vec<Plot> {
+pub(crate) fn plots(series: &Series) -> Vec<Plot> {
     let plots =
         RECIPES.iter().map(|recipe| Plot { title: recipe.title, unit: recipe.unit, curves: curves(recipe, series) });
     plots.filter(|p| !p.curves.is_empty()).collect()

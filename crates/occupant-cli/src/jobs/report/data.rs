@@ -18,16 +18,16 @@ use crate::pictures::body::{Lump, PATCH_M, Part, Tone, parts, sphere_centre_m};
 
 /// All that the page shows.
 #[derive(Debug, Serialize)]
-pub struct Report {
+pub(crate) struct Report {
     /// The program that made it, with its version.
-    pub program: String,
+    pub(crate) program: String,
     /// The run, and the one it is compared with.
-    pub runs: Vec<Run>,
+    pub(crate) runs: Vec<Run>,
 }
 
 impl Report {
     /// The title of the page.
-    pub fn title(&self) -> String {
+    pub(crate) fn title(&self) -> String {
         let titles = self.runs.iter().map(|run| match run.title.as_str() {
             "" => run.label.as_str(),
             title => title,
@@ -36,9 +36,8 @@ impl Report {
     }
 }
 
-/// One run.
 #[derive(Debug, Serialize)]
-pub struct Run {
+pub(crate) struct Run {
     label: String,
     title: String,
     /// What a reader should know before trusting the results.
@@ -103,7 +102,7 @@ impl Run {
     ///
     /// # Errors
     /// None for a file that was opened.
-    pub fn of(results: &Results) -> Result<Self, Failure> {
+    pub(crate) fn of(results: &Results) -> Result<Self, Failure> {
         let model = &results.model;
         let mut motion = Motion::of(model);
         let mut series = curves::series(model);

@@ -8,7 +8,7 @@ use serde::Serialize;
 
 /// A row of the table.
 #[derive(Debug, Serialize)]
-pub struct Measure {
+pub(crate) struct Measure {
     group: &'static str,
     name: String,
     value: Option<f64>,
@@ -38,7 +38,7 @@ impl Measure {
 }
 
 /// All rows, group by group.
-pub fn measures(summary: &Summary) -> Vec<Measure> {
+pub(crate) fn measures(summary: &Summary) -> Vec<Measure> {
     let mut rows: Vec<_> = summary.measures.iter().flat_map(injury_rows).collect();
     add_loads(&mut rows, summary);
     add_excursion(&mut rows, summary);

@@ -15,13 +15,13 @@ use crate::base::failure::Failure;
 use crate::base::names::program;
 use crate::files::results::Results;
 
-pub use data::Report;
+pub(crate) use data::Report;
 
 /// The page for a run, or for a run and another to compare it with.
 ///
 /// # Errors
 /// None for files that were opened, but the words of whatever refuses.
-pub fn page(run: &Results, against: Option<&Results>) -> Result<String, Failure> {
+pub(crate) fn page(run: &Results, against: Option<&Results>) -> Result<String, Failure> {
     let mut runs = vec![data::Run::of(run)?];
     if let Some(other) = against {
         runs.push(data::Run::of(other)?);

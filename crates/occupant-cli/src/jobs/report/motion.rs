@@ -15,7 +15,7 @@ const BELT_POINTS: usize = 20;
 
 /// Gathers what moves.
 #[derive(Debug)]
-pub struct Motion {
+pub(crate) struct Motion {
     poses: Vec<f64>,
     vehicle: Vec<f64>,
     courses: Vec<Vec<f64>>,
@@ -26,7 +26,7 @@ pub struct Motion {
 
 /// A belt; points x, y, z, `count` of them an output, vehicle axes, m.
 #[derive(Debug, Serialize)]
-pub struct Belt {
+pub(crate) struct Belt {
     name: String,
     count: usize,
     points: Array,
@@ -36,7 +36,7 @@ pub struct Belt {
 
 /// Contacts; those of output i are from `start[i]` to `start[i + 1]`. Points in m, forces on the body in N, vehicle axes.
 #[derive(Debug, Serialize)]
-pub struct Contacts {
+pub(crate) struct Contacts {
     start: Array,
     sphere: Array,
     surface: Array,
@@ -45,8 +45,7 @@ pub struct Contacts {
 }
 
 impl Motion {
-    /// Nothing seen yet.
-    pub fn of(model: &Model) -> Self {
+    pub(crate) fn of(model: &Model) -> Self {
         let belts = model.setup().belts.len();
         Motion {
             poses: Vec::new(),
@@ -58,8 +57,7 @@ impl Motion {
         }
     }
 
-    /// Adds an output.
-    pub fn add(&mut self, sample: &Sample<'_>) {
+    pub(crate) fn add(&mut self, sample: &Sample<'_>) {
         for segment in Segment::ALL {
             let turn = sample.orientation(segment);
             push_pose(&mut self.poses, sample.cg_m(segment).coords, &turn);
@@ -86,17 +84,16 @@ impl Motion {
     }
 
     /// Poses of the segments: x, y, z, quaternion x, y, z, w; vehicle axes.
-    pub fn poses(&self) -> Array {
+    pub(crate) fn poses(&self) -> Array {
         Array::float32(self.poses.iter().copied())
     }
 
     /// Poses of the vehicle in vehicle-space.
-    pub fn vehicle(&self) -> Array {
+    pub(crate) fn vehicle(&self) -> Array {
         Array::float32(self.vehicle.iter().copied())
     }
 
-    /// Belts.
-    pub fn belts(&self, model: &Model) -> Vec<Belt> {
+    pub(crate) fn belts(&self, model: &Model) -> Vec<Belt> {
         let all = model.setup().belts.iter().enumerate();
         all.map(|(i, belt)| Belt {
             name: belt.name.clone(),
@@ -107,8 +104,7 @@ impl Motion {
         .collect()
     }
 
-    /// Contacts.
-    pub fn contacts(&self) -> Contacts {
+    pub(crate) fn contacts(&self) -> Contacts {
         let all = || self.contacts.iter();
         Contacts {
             start: Array::uint32(self.starts.iter().copied()),

@@ -14,7 +14,7 @@ const STYLE: &str = include_str!("../../../assets/viewer/dist/viewer.css");
 ///
 /// # Errors
 /// Data that are no JSON, which those of a report always are.
-pub fn fill(report: &Report) -> Result<String, Failure> {
+pub(crate) fn fill(report: &Report) -> Result<String, Failure> {
     let data =
         serde_json::to_string(report).map_err(|e| Failure::plain(format!("the report's data are not JSON: {e}")))?;
     let parts = [

@@ -5,7 +5,7 @@ use occupant_core::summary::{RunStatus, Summary};
 use crate::files::results::Results;
 
 /// Key and value, in order.
-pub fn lines(results: &Results, summary: &Summary) -> Vec<[String; 2]> {
+pub(crate) fn lines(results: &Results, summary: &Summary) -> Vec<[String; 2]> {
     let mut lines = Vec::new();
     let mut put = |key: &str, value: String| lines.push([key.to_owned(), value]);
     let status = match summary.status {

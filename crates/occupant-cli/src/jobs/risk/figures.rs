@@ -7,72 +7,64 @@ use super::Report;
 
 /// A unit of the table: its name and SI units in one of it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Unit {
-    /// Name.
-    pub name: &'static str,
+pub(crate) struct Unit {
+    pub(crate) name: &'static str,
     /// SI units in one of it.
-    pub si: f64,
+    pub(crate) si: f64,
     /// Decimals worth printing.
-    pub decimals: usize,
+    pub(crate) decimals: usize,
 }
 
 const fn unit(name: &'static str, si: f64, decimals: usize) -> Unit {
     Unit { name, si, decimals }
 }
 
-/// m/s.
-pub const M_S: Unit = unit("m/s", 1.0, 2);
-/// ft/s.
-pub const FT_S: Unit = unit("ft/s", 0.3048, 1);
-/// km/h.
-pub const KM_H: Unit = unit("km/h", 1.0 / 3.6, 1);
-/// mph.
-pub const MPH: Unit = unit("mph", 0.44704, 1);
+pub(crate) const M_S: Unit = unit("m/s", 1.0, 2);
+const FT_S: Unit = unit("ft/s", 0.3048, 1);
+pub(crate) const KM_H: Unit = unit("km/h", 1.0 / 3.6, 1);
+const MPH: Unit = unit("mph", 0.44704, 1);
 /// Standard gravity.
-pub const G_UNIT: Unit = unit("g", G, 2);
+pub(crate) const G_UNIT: Unit = unit("g", G, 2);
 /// m/s².
-pub const M_S2: Unit = unit("m/s²", 1.0, 1);
+const M_S2: Unit = unit("m/s²", 1.0, 1);
 /// Plain number.
-pub const PLAIN: Unit = unit("", 1.0, 2);
-/// Degree.
-pub const DEGREE: Unit = unit("°", std::f64::consts::PI / 180.0, 1);
+pub(crate) const PLAIN: Unit = unit("", 1.0, 2);
+pub(crate) const DEGREE: Unit = unit("°", std::f64::consts::PI / 180.0, 1);
 
 /// A measure of the table.
 #[derive(Clone, Debug)]
-pub struct Figure {
+pub(crate) struct Figure {
     /// Name in the table.
-    pub name: String,
+    pub(crate) name: String,
     /// Key in JSON, with its SI unit.
-    pub key: String,
+    pub(crate) key: String,
     /// Value, SI, with its sign.
-    pub value: f64,
+    pub(crate) value: f64,
     /// Its units: that of reports in SI, that of reports in the US.
-    pub units: [Unit; 2],
+    pub(crate) units: [Unit; 2],
     /// When, s of the record: an instant, or the ends of a window.
-    pub when_s: Vec<f64>,
+    pub(crate) when_s: Vec<f64>,
     /// What else there is to say.
-    pub remark: &'static str,
+    pub(crate) remark: &'static str,
 }
 
 /// What was left out.
 #[derive(Clone, Debug)]
-pub struct LeftOut {
-    /// The measure.
-    pub name: String,
-    /// Why.
-    pub reason: String,
+pub(crate) struct LeftOut {
+    pub(crate) name: String,
+    pub(crate) reason: String,
 }
 
 /// All measures, and those left out.
-pub struct Figures {
-    pub figures: Vec<Figure>,
-    pub left_out: Vec<LeftOut>,
+pub(crate) struct Figures {
+    pub(crate) figures: Vec<Figure>,
+    pub(crate) left_out: Vec<LeftOut>,
     start_s: f64,
 }
 
 impl Figures {
     /// The measures of a report.
-    pub fn of(report: &Report) -> Self {
+    pub(crate) fn of(report: &Report) -> Self {
         let mut all = Figures { figures: Vec::new(), left_out: Vec::new(), start_s: report.signals.start_s };
         all.flail(report);
         all.head_impact(report);

@@ -7,8 +7,7 @@ use super::figures::Figures;
 use super::table::{basis_name, family_name, grade_name, source_name, verdict_name};
 use occupant_core::vehicle_risk::VerticalGravity;
 
-/// The report as JSON.
-pub fn json(report: &Report) -> Value {
+pub(crate) fn json(report: &Report) -> Value {
     let figures = Figures::of(report);
     let (signals, preparation) = (&report.signals, &report.preparation);
     let measures: Map<String, Value> = figures

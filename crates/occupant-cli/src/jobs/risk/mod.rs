@@ -8,30 +8,29 @@ mod table;
 use occupant_core::measure::limits::Rule;
 use occupant_core::vehicle_risk::{Flight, Judgement, Preparation, ROADSIDE_RULES, VehicleRisk, VehicleSignals, judge};
 
-pub use json::json;
-pub use subject::Subject;
-pub use table::text;
+pub(crate) use json::json;
+pub(crate) use subject::Subject;
+pub(crate) use table::text;
 
 /// Everything that is reported.
 #[derive(Debug)]
-pub struct Report {
+pub(crate) struct Report {
     /// What was measured, and where it came from.
-    pub subject: Subject,
+    pub(crate) subject: Subject,
     /// How it was prepared.
-    pub preparation: Preparation,
+    pub(crate) preparation: Preparation,
     /// Where the occupant starts and how far it may fly.
-    pub flight: Flight,
+    pub(crate) flight: Flight,
     /// What was measured on.
-    pub signals: VehicleSignals,
-    /// The measures.
-    pub risk: VehicleRisk,
+    pub(crate) signals: VehicleSignals,
+    pub(crate) risk: VehicleRisk,
     /// The measures against limits.
-    pub judgements: Vec<Judgement>,
+    pub(crate) judgements: Vec<Judgement>,
 }
 
 impl Report {
     /// Measures, and judges by `rules`; by all of them if none is named.
-    pub fn new(
+    pub(crate) fn new(
         subject: Subject,
         preparation: Preparation,
         signals: VehicleSignals,

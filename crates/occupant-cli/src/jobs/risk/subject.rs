@@ -7,7 +7,7 @@ use occupant_core::vehicle_risk::sampled;
 
 /// Where the motion comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Source {
+pub(crate) enum Source {
     /// Sensors.
     Recorded,
     /// The path of a scenario, sampled.
@@ -16,22 +16,20 @@ pub enum Source {
     PathOfStraightLines,
 }
 
-/// What is measured.
 #[derive(Debug)]
-pub struct Subject {
+pub(crate) struct Subject {
     /// Its name: the file's.
-    pub name: String,
+    pub(crate) name: String,
     /// Where it comes from.
-    pub source: Source,
-    /// The record.
-    pub record: AccelerationRecord,
+    pub(crate) source: Source,
+    pub(crate) record: AccelerationRecord,
     /// Attitude of the vehicle at the first sample; level if it was not recorded.
-    pub initial: Attitude,
+    pub(crate) initial: Attitude,
 }
 
 impl Subject {
     /// Recorded data.
-    pub fn recorded(name: &str, file: &RecordFile) -> Self {
+    pub(crate) fn recorded(name: &str, file: &RecordFile) -> Self {
         Subject {
             name: name.to_owned(),
             source: Source::Recorded,
@@ -41,7 +39,7 @@ impl Subject {
     }
 
     /// The path of a scenario's vehicle over its run; none if it cannot be sampled at this interval.
-    pub fn path(name: &str, setup: &Setup, interval_s: f64) -> Option<Self> {
+    pub(crate) fn path(name: &str, setup: &Setup, interval_s: f64) -> Option<Self> {
         let (path, time) = (&setup.path, setup.time);
         let straight = matches!(path, VehiclePath::Table(table) if table.interpolation() == Interpolation::Linear);
         let pose = path.attitude(time.start_s, &mut PathCursor::default());

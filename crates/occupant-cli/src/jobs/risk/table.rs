@@ -9,8 +9,7 @@ use super::figures::{Figure, Figures, G_UNIT, KM_H, M_S, PLAIN, Unit};
 use super::subject::Source;
 use crate::base::text_table::{Align, NONE, Table, facts, number};
 
-/// The report as text.
-pub fn text(report: &Report) -> String {
+pub(crate) fn text(report: &Report) -> String {
     let figures = Figures::of(report);
     let mut parts = vec![head(report), measures(&figures)];
     if !report.judgements.is_empty() {
@@ -73,7 +72,7 @@ fn head(report: &Report) -> String {
 }
 
 /// Name of a family of filter coefficients.
-pub fn family_name(family: CfcFamily) -> &'static str {
+pub(crate) fn family_name(family: CfcFamily) -> &'static str {
     match family {
         CfcFamily::Iso6487 => "ISO 6487",
         CfcFamily::SaeJ211 => "SAE J211",
@@ -81,7 +80,7 @@ pub fn family_name(family: CfcFamily) -> &'static str {
 }
 
 /// Where the motion comes from, in words.
-pub fn source_name(report: &Report) -> &'static str {
+pub(crate) fn source_name(report: &Report) -> &'static str {
     match report.subject.source {
         Source::Recorded => "recorded",
         Source::Path => "path of a scenario, sampled",
@@ -170,7 +169,7 @@ fn unit_of(quantity: Quantity) -> Unit {
 }
 
 /// What a limit is, in words.
-pub fn grade_name(grade: Grade) -> &'static str {
+pub(crate) fn grade_name(grade: Grade) -> &'static str {
     match grade {
         Grade::Maximum => "maximum",
         Grade::Preferred => "preferred",
@@ -181,7 +180,7 @@ pub fn grade_name(grade: Grade) -> &'static str {
 }
 
 /// Where a limit was read, in words.
-pub fn basis_name(basis: Basis) -> &'static str {
+pub(crate) fn basis_name(basis: Basis) -> &'static str {
     match basis {
         Basis::SecondarySource => "a source that quotes the rule",
         Basis::CommonKnowledge => "general knowledge",
@@ -189,7 +188,7 @@ pub fn basis_name(basis: Basis) -> &'static str {
 }
 
 /// The verdict in a word.
-pub fn verdict_name(judgement: &Judgement) -> &'static str {
+pub(crate) fn verdict_name(judgement: &Judgement) -> &'static str {
     match judgement.verdict {
         None => "not measured",
         Some(verdict) if verdict.passed => "pass",

@@ -10,7 +10,7 @@ const FREE: [&str; 4] = ["time.end", "title", "notes", "provenance"];
 ///
 /// # Errors
 /// A scenario that JSON cannot hold.
-pub fn differences(there: &Scenario, here: &Scenario) -> serde_json::Result<Vec<String>> {
+pub(crate) fn differences(there: &Scenario, here: &Scenario) -> serde_json::Result<Vec<String>> {
     let (there, here) = (serde_json::to_value(there)?, serde_json::to_value(here)?);
     let mut found = Vec::new();
     compare("", Some(&there), Some(&here), &mut found);

@@ -17,7 +17,7 @@ use crate::files::mcap::{About, Document, McapOptions, McapRecorder};
 use crate::files::scenario::{Opened, ScenarioArgs};
 
 /// A recorder that writes a file, or none.
-pub struct Recording(Option<Open>);
+pub(crate) struct Recording(Option<Open>);
 
 struct Open {
     partial: PathBuf,
@@ -26,10 +26,9 @@ struct Open {
 
 /// What became of the file.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub enum Written {
+pub(crate) enum Written {
     /// None was asked for.
     Nothing,
-    /// It is complete.
     Complete(PathBuf),
     /// The run did not complete; this is what there is.
     Partial(PathBuf),
@@ -37,7 +36,7 @@ pub enum Written {
 
 impl Written {
     /// Its name, if there is one.
-    pub fn name(&self) -> Option<String> {
+    pub(crate) fn name(&self) -> Option<String> {
         match self {
             Written::Nothing => None,
             Written::Complete(path) | Written::Partial(path) => Some(path.display().to_string()),
@@ -47,7 +46,7 @@ impl Written {
 
 impl Written {
     /// Words about what there is, for messages of what came after it.
-    pub fn left(&self) -> String {
+    pub(crate) fn left(&self) -> String {
         match self.name() {
             Some(name) => format!("the run itself is in {name}"),
             None => "the run itself was completed; no file was asked for".to_owned(),
@@ -56,8 +55,7 @@ impl Written {
 }
 
 impl Recording {
-    /// Writes nothing.
-    pub fn none() -> Self {
+    pub(crate) fn none() -> Self {
         Recording(None)
     }
 
@@ -65,7 +63,7 @@ impl Recording {
     ///
     /// # Errors
     /// A file that exists, without `force`; the file that is being resumed; whatever the file system says.
-    pub fn begin(
+    pub(crate) fn begin(
         name: &Path,
         existing: Existing,
         args: &ScenarioArgs,
@@ -98,7 +96,7 @@ impl Recording {
     }
 
     /// Words about what a run that broke off left behind.
-    pub fn left(&self) -> String {
+    pub(crate) fn left(&self) -> String {
         match &self.0 {
             Some(open) => format!("\n = done: what was written before is in {}", open.partial.display()),
             None => String::new(),
@@ -109,7 +107,7 @@ impl Recording {
     ///
     /// # Errors
     /// Whatever the file system says.
-    pub fn close(self, completed: bool) -> Result<Written, Failure> {
+    pub(crate) fn close(self, completed: bool) -> Result<Written, Failure> {
         let Some(open) = self.0 else {
             return Ok(Written::Nothing);
         };

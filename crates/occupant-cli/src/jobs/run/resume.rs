@@ -23,18 +23,18 @@ use crate::files::scenario::{self, Opened};
 const SHOWN: usize = 8;
 
 /// What a run goes on from.
-pub struct Resumption {
+pub(crate) struct Resumption {
     /// The output it goes on from.
-    pub checkpoint: Checkpoint,
+    pub(crate) checkpoint: Checkpoint,
     /// The outputs of the file before that.
-    pub earlier: Vec<Checkpoint>,
+    pub(crate) earlier: Vec<Checkpoint>,
     file: PathBuf,
     sha256: String,
 }
 
 /// What `--json` says of it.
 #[derive(Serialize)]
-pub struct Resumed {
+pub(crate) struct Resumed {
     file: String,
     at_s: f64,
     output: usize,
@@ -45,7 +45,7 @@ impl Resumption {
     ///
     /// # Errors
     /// A file that cannot be read or holds no checkpoint; another scenario; an end that lies not after the file's.
-    pub fn find(file: &Path, opened: &Opened) -> Result<Self, Failure> {
+    pub(crate) fn find(file: &Path, opened: &Opened) -> Result<Self, Failure> {
         let name = file.display();
         let bytes = fs::read(file).map_err(|e| Failure::plain(format!("{name}, to resume, cannot be read: {e}")))?;
         let stored = StoredRun::read(&bytes).map_err(|e| Failure::plain(format!("{name} cannot be resumed: {e}")))?;
@@ -69,7 +69,7 @@ impl Resumption {
     }
 
     /// What the new file says of it.
-    pub fn notes(&self) -> BTreeMap<String, String> {
+    pub(crate) fn notes(&self) -> BTreeMap<String, String> {
         let checkpoint = &self.checkpoint;
         [
             ("resumed_from", file_name(&self.file)),
@@ -82,7 +82,7 @@ impl Resumption {
     }
 
     /// Says where the run goes on, and what the summary leaves out.
-    pub fn announce(&self) {
+    pub(crate) fn announce(&self) {
         let (file, at_s) = (self.file.display(), self.checkpoint.time_s);
         say(&format!("resumed {file} at t = {at_s} s"));
         let first = self.earlier.first().unwrap_or(&self.checkpoint);
@@ -95,7 +95,7 @@ impl Resumption {
     }
 
     /// For `--json`.
-    pub fn describe(&self) -> Resumed {
+    pub(crate) fn describe(&self) -> Resumed {
         Resumed { file: self.file.display().to_string(), at_s: self.checkpoint.time_s, output: self.checkpoint.index }
     }
 
@@ -103,7 +103,7 @@ impl Resumption {
     ///
     /// # Errors
     /// `target`, or the name that it has until it is complete, is the file.
-    pub fn keep_from(&self, target: &Path, partial: &Path) -> Result<(), Failure> {
+    pub(crate) fn keep_from(&self, target: &Path, partial: &Path) -> Result<(), Failure> {
         let same = |a: &Path| match (fs::canonicalize(a), fs::canonicalize(&self.file)) {
             (Ok(a), Ok(b)) => a == b,
             _ => false,
@@ -178,11 +178,10 @@ fn same_scenario(file: &Path, stored: &StoredRun, opened: &Opened) -> Result<(),
 }
 
 /// Recorders that first see again what an earlier run has recorded.
-pub struct Retold<R> {
-    /// Its outputs.
-    pub earlier: Vec<Checkpoint>,
+pub(crate) struct Retold<R> {
+    pub(crate) earlier: Vec<Checkpoint>,
     /// Who sees them.
-    pub to: R,
+    pub(crate) to: R,
 }
 
 impl<R: Recorder> Recorder for Retold<R> {

@@ -15,48 +15,41 @@ use occupant_core::summary::{Figure, Summarizer};
 use crate::base::failure::Failure;
 
 /// What is asked for, all of it there.
-pub struct Asked<'a> {
-    /// By which numbers.
-    pub parameters: Vec<Parameter<'a>>,
-    /// Of what.
-    pub wish: Wish,
+pub(crate) struct Asked<'a> {
+    pub(crate) parameters: Vec<Parameter<'a>>,
+    pub(crate) wish: Wish,
     /// Units of the figures.
-    pub units: Vec<&'static str>,
+    pub(crate) units: Vec<&'static str>,
 }
 
 /// What came of it.
-pub struct Analysis {
+pub(crate) struct Analysis {
     /// The plain run's values.
-    pub values: Values,
-    /// The run.
-    pub trajectory: Trajectory,
+    pub(crate) values: Values,
+    pub(crate) trajectory: Trajectory,
     /// What the models are built of, by parameter.
-    pub built: Vec<Built>,
-    /// By parameter.
-    pub derivatives: Vec<Derivatives>,
+    pub(crate) built: Vec<Built>,
+    pub(crate) derivatives: Vec<Derivatives>,
     /// Finite changes by parameter.
-    pub finite: Vec<Vec<Finite>>,
+    pub(crate) finite: Vec<Vec<Finite>>,
     /// By parameter, then by figure.
-    pub comparisons: Vec<Vec<Comparison>>,
+    pub(crate) comparisons: Vec<Vec<Comparison>>,
     /// Time of a plain run and of the run in duals beside it, s.
-    pub cost_s: [f64; 2],
+    pub(crate) cost_s: [f64; 2],
 }
 
 /// Words of the command line.
-pub struct Words<'a> {
-    /// Figures.
-    pub to: &'a [String],
-    /// Parameters.
-    pub of: &'a [String],
-    /// Channels.
-    pub channels: &'a [String],
+pub(crate) struct Words<'a> {
+    pub(crate) to: &'a [String],
+    pub(crate) of: &'a [String],
+    pub(crate) channels: &'a [String],
 }
 
 /// Finds what the words ask for.
 ///
 /// # Errors
 /// Everything that is not there, at once.
-pub fn ask<'a>(
+pub(crate) fn ask<'a>(
     draft: &'a Draft,
     model: &Model,
     resolver: Resolver<'a>,
@@ -159,7 +152,7 @@ fn figures(model: &Model) -> Result<Vec<Figure>, Failure> {
 ///
 /// # Errors
 /// Every parameter that has none; a run that cannot be followed.
-pub fn analyse(model: &Model, asked: &Asked<'_>) -> Result<Analysis, Failure> {
+pub(crate) fn analyse(model: &Model, asked: &Asked<'_>) -> Result<Analysis, Failure> {
     let mut built = Vec::with_capacity(asked.parameters.len());
     let mut wrong = Vec::new();
     for parameter in &asked.parameters {
@@ -199,7 +192,7 @@ pub fn analyse(model: &Model, asked: &Asked<'_>) -> Result<Analysis, Failure> {
 }
 
 /// Relative sensitivity: parts of the figure per part of the parameter; none where one of them is 0.
-pub fn relative(derivative: f64, value: f64, nominal: f64) -> Option<f64> {
+pub(crate) fn relative(derivative: f64, value: f64, nominal: f64) -> Option<f64> {
     let relative = derivative * nominal / value;
     (value != 0.0 && nominal != 0.0 && relative.is_finite()).then_some(relative)
 }

@@ -12,7 +12,7 @@ use crate::base::names::program;
 
 /// All that was found. Every number is SI, angles in radians; null where there is none.
 #[derive(Debug, Serialize)]
-pub struct Answer {
+pub(crate) struct Answer {
     program: String,
     scenario: String,
     title: String,
@@ -94,7 +94,7 @@ struct Cost {
 
 impl Answer {
     /// Of this analysis of a scenario file.
-    pub fn new(file: &str, model: &Model, asked: &Asked<'_>, found: &Analysis) -> Self {
+    pub(crate) fn new(file: &str, model: &Model, asked: &Asked<'_>, found: &Analysis) -> Self {
         let setup = model.setup();
         let [plain, dual] = found.cost_s;
         Answer {

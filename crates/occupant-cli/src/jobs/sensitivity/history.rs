@@ -9,7 +9,7 @@ use crate::files::export::{About, ColumnAbout};
 use crate::files::history::{Column, Histories, UnitChoice, shown};
 
 /// Channels and their derivatives over the outputs.
-pub fn histories(asked: &Asked<'_>, found: &Analysis) -> Histories {
+pub(crate) fn histories(asked: &Asked<'_>, found: &Analysis) -> Histories {
     let mut columns = Vec::new();
     for (c, channel) in asked.wish.channels.iter().enumerate() {
         let mut column = |values: Vec<f64>| {
@@ -25,7 +25,7 @@ pub fn histories(asked: &Asked<'_>, found: &Analysis) -> Histories {
 }
 
 /// What the columns are; `source` is the scenario's name and SHA-256.
-pub fn about(model: &Model, asked: &Asked<'_>, found: &Analysis, [source, sha256]: [&str; 2]) -> About {
+pub(crate) fn about(model: &Model, asked: &Asked<'_>, found: &Analysis, [source, sha256]: [&str; 2]) -> About {
     let mut columns = vec![ColumnAbout {
         name: "time".to_owned(),
         unit: "s".to_owned(),

@@ -6,7 +6,7 @@ mod history;
 mod text;
 mod units;
 
-pub use analysis::{Analysis, Asked, Words, analyse, ask};
-pub use answer::Answer;
-pub use history::{about, histories};
-pub use text::text;
+pub(crate) use analysis::{Analysis, Asked, Words, analyse, ask};
+pub(crate) use answer::Answer;
+pub(crate) use history::{about, histories};
+pub(crate) use text::text;

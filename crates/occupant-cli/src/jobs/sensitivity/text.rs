@@ -14,7 +14,7 @@ const KINK: f64 = 1e-2;
 const TOLD: usize = 30;
 
 /// The whole answer.
-pub fn text(model: &Model, asked: &Asked<'_>, found: &Analysis) -> String {
+pub(crate) fn text(model: &Model, asked: &Asked<'_>, found: &Analysis) -> String {
     let mut text = heading(model, asked, found);
     if !asked.wish.figures.is_empty() {
         text.push('\n');

@@ -1,7 +1,7 @@
 //! Units of derivatives.
 
 /// The unit of a derivative: that of what changes, per that of the parameter.
-pub fn per(measure: &str, parameter: &str) -> String {
+pub(crate) fn per(measure: &str, parameter: &str) -> String {
     let bare = |unit: &str| unit == "1" || unit.is_empty();
     let parameter_in_brackets = match parameter.contains(['*', '·', '/', '^', ' ']) {
         true => format!("({parameter})"),
@@ -14,8 +14,7 @@ pub fn per(measure: &str, parameter: &str) -> String {
     }
 }
 
-/// In ASCII.
-pub fn ascii(unit: &str) -> String {
+pub(crate) fn ascii(unit: &str) -> String {
     unit.replace('·', "*").replace('²', "^2")
 }
 

@@ -19,7 +19,7 @@ const REGRESSION_ROWS: usize = 20_000;
 #[derive(Clone, Debug)]
 pub struct Analysis {
     /// Which response of the table.
-    pub response: usize,
+    pub(crate) response: usize,
     /// How its values spread; none if no sample has one.
     pub spread: Option<Spread>,
     /// Why nothing can be said of what matters: it is the same everywhere.
@@ -36,9 +36,9 @@ pub struct Analysis {
 #[derive(Clone, Debug)]
 pub struct Linear {
     /// Why there is none, if there is none at all.
-    pub without: Option<String>,
+    pub(crate) without: Option<String>,
     /// By parameter: its rank correlation, or why it has none.
-    pub ranks: Vec<Result<RankCorrelation, String>>,
+    pub(crate) ranks: Vec<Result<RankCorrelation, String>>,
     /// The regression on these parameters, or why there is none.
     pub regression: Result<(Vec<usize>, Regression), String>,
 }
@@ -60,13 +60,13 @@ pub enum ByDesign {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Reach {
     /// The response of the base.
-    pub nominal: f64,
+    pub(crate) nominal: f64,
     /// Value of the parameter and response, in the order of the design; those that have a value.
-    pub levels: Vec<(f64, f64)>,
+    pub(crate) levels: Vec<(f64, f64)>,
     /// Levels without a value.
-    pub missing: usize,
+    pub(crate) missing: usize,
     /// Whether the values of the parameter have an order; words have none.
-    pub ordered: bool,
+    ordered: bool,
 }
 
 impl Reach {

@@ -13,24 +13,24 @@ use super::samples::Samples;
 use super::shown::part as shown_part;
 
 /// A Sobol index is marked if its 95 % interval is wider.
-pub const INDEX_WIDTH: f64 = 0.1;
+const INDEX_WIDTH: f64 = 0.1;
 /// A regression is marked with fewer rows for each parameter.
-pub const ROWS_PER_PARAMETER: usize = 10;
+const ROWS_PER_PARAMETER: usize = 10;
 /// A regression is marked if it explains a smaller part of the variance.
-pub const EXPLAINED: f64 = 0.7;
+const EXPLAINED: f64 = 0.7;
 /// A rank correlation is marked with fewer rows.
-pub const RANKED_ROWS: usize = 20;
+const RANKED_ROWS: usize = 20;
 /// Morris's effects are marked with fewer trajectories.
-pub const TRAJECTORIES: usize = 10;
+const TRAJECTORIES: usize = 10;
 /// Everything is marked where a greater part of the runs has no figure.
-pub const MISSING: f64 = 0.05;
+const MISSING: f64 = 0.05;
 /// Parameters with a stronger rank correlation are named.
-pub const TOGETHER: f64 = 0.3;
+const TOGETHER: f64 = 0.3;
 /// At most so many pairs of them.
 const NAMED: usize = 3;
 
 /// The rules, for the page and the documentation.
-pub fn rules() -> [String; 6] {
+pub(crate) fn rules() -> [String; 6] {
     [
         format!("a Sobol index whose 95 % interval is wider than {INDEX_WIDTH}: its first digit is not known"),
         format!(
@@ -49,7 +49,7 @@ pub fn rules() -> [String; 6] {
 }
 
 /// Why a rank correlation is marked.
-pub fn rank(found: &RankCorrelation) -> Option<String> {
+pub(crate) fn rank(found: &RankCorrelation) -> Option<String> {
     (found.rows < RANKED_ROWS).then(|| format!("{} rows, fewer than {RANKED_ROWS}", found.rows))
 }
 
@@ -82,7 +82,7 @@ pub fn effect(found: &Effect) -> Option<String> {
 }
 
 /// Why all numbers of a response are marked: samples without a value.
-pub fn lacking(spread: Option<&Spread>) -> Option<String> {
+pub(crate) fn lacking(spread: Option<&Spread>) -> Option<String> {
     spread.and_then(|s| missing(s.missing, s.members + s.missing))
 }
 
@@ -96,7 +96,7 @@ fn part(some: usize, all: usize) -> f64 {
 }
 
 /// What a reader should know of the whole study.
-pub fn of_the_study(opened: &Opened, gathered: &Gathered) -> Vec<String> {
+pub(crate) fn of_the_study(opened: &Opened, gathered: &Gathered) -> Vec<String> {
     let ends = &gathered.ends;
     let mut notes = opened.notes.clone();
     if ends.finished < ends.planned {

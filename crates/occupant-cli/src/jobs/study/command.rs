@@ -16,7 +16,7 @@ use crate::jobs::sweep::plan::Plan;
 const FILE: &str = "path.file";
 
 /// The command that runs a run of the study again, given in the folder of the sweep. None where no shell can say it.
-pub fn command(plan: &Plan, manifest: &Manifest, run: u64) -> Option<String> {
+pub(crate) fn command(plan: &Plan, manifest: &Manifest, run: u64) -> Option<String> {
     let (args, _) = plan.command(run);
     let base = manifest.texts.iter().find(|t| t.by == NamedBy::StudyAsBase)?;
     let mut words = vec!["occupant".to_owned(), "run".to_owned(), base.copy.clone()];
@@ -43,7 +43,7 @@ fn table(plan: &Plan, manifest: &Manifest, run: u64) -> Option<String> {
 }
 
 /// A word as a POSIX shell reads it back unchanged; none if it holds a character that no argument can.
-pub fn quoted(word: &str) -> Option<String> {
+pub(crate) fn quoted(word: &str) -> Option<String> {
     let plain = |c: char| c.is_ascii_alphanumeric() || "_./=,:@%+-".contains(c);
     match word {
         _ if word.contains('\0') => None,

@@ -8,7 +8,7 @@ use super::shown::{given, given_with_unit};
 const NAMED: usize = 6;
 
 /// A design in words.
-pub fn design(study: &Study) -> String {
+pub(crate) fn design(study: &Study) -> String {
     match study.design() {
         Design::Single => "the scenario itself".to_owned(),
         Design::FullFactorial => "full factorial: every value with every other".to_owned(),
@@ -30,7 +30,7 @@ pub fn design(study: &Study) -> String {
 }
 
 /// How the values of a parameter are spread, in words.
-pub fn law(parameter: &Parameter) -> String {
+pub(crate) fn law(parameter: &Parameter) -> String {
     let unit = parameter.unit;
     let range = |from: f64, to: f64| format!("{} to {}", given(from, unit), given_with_unit(to, unit));
     let text = match &parameter.law {
@@ -73,7 +73,7 @@ fn value(value: &Value, unit: &str) -> String {
 }
 
 /// Where a parameter acts.
-pub fn places(parameter: &Parameter) -> String {
+pub(crate) fn places(parameter: &Parameter) -> String {
     let paths: Vec<&str> = parameter.targets.iter().take(NAMED).map(|t| t.path.as_str()).collect();
     match parameter.targets.len().saturating_sub(NAMED) {
         0 => paths.join(", "),
@@ -82,7 +82,7 @@ pub fn places(parameter: &Parameter) -> String {
 }
 
 /// What the base scenario says of a parameter.
-pub fn nominal(parameter: &Parameter) -> String {
+pub(crate) fn nominal(parameter: &Parameter) -> String {
     match parameter.nominal() {
         Value::Number(x) if parameter.unit.is_empty() => given(x, ""),
         nominal => value(&nominal, parameter.unit),

@@ -5,16 +5,16 @@ const COUNT: usize = 3;
 
 /// The runs at both ends of a response: value and number of the run.
 #[derive(Clone, Debug, Default)]
-pub struct Extremes {
+pub(crate) struct Extremes {
     /// Greatest first; of equal ones the lowest number.
-    pub worst: Vec<(f64, u64)>,
+    pub(crate) worst: Vec<(f64, u64)>,
     /// Least first.
-    pub best: Vec<(f64, u64)>,
+    pub(crate) best: Vec<(f64, u64)>,
 }
 
 impl Extremes {
     /// Looks at the next run. One without a value is at no end.
-    pub fn see(&mut self, run: u64, value: f64) {
+    pub(crate) fn see(&mut self, run: u64, value: f64) {
         if value.is_finite() {
             put(&mut self.worst, (value, run), |a, b| a > b);
             put(&mut self.best, (value, run), |a, b| a < b);

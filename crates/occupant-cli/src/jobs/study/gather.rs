@@ -20,41 +20,41 @@ const REASONS: usize = 12;
 
 /// The table of a study, and how its runs ended.
 #[derive(Clone, Debug, Default)]
-pub struct Gathered {
+pub(crate) struct Gathered {
     /// One row for each sample that is finished.
-    pub samples: Samples,
+    pub(crate) samples: Samples,
     /// By response: the runs at its ends.
-    pub extremes: Vec<Extremes>,
+    pub(crate) extremes: Vec<Extremes>,
     /// How the runs ended.
-    pub ends: Ends,
+    pub(crate) ends: Ends,
 }
 
 /// How the runs ended.
 #[derive(Clone, Debug, Default)]
-pub struct Ends {
+pub(crate) struct Ends {
     /// All runs of the study.
-    pub planned: u64,
+    pub(crate) planned: u64,
     /// Runs that have ended, however.
-    pub finished: u64,
+    pub(crate) finished: u64,
     /// At their end time.
-    pub completed: u64,
+    pub(crate) completed: u64,
     /// The integration failed.
-    pub failed: u64,
+    pub(crate) failed: u64,
     /// The scenario was refused.
-    pub refused: u64,
+    pub(crate) refused: u64,
     /// The program broke off.
-    pub broken: u64,
+    pub(crate) broken: u64,
     /// Completed, with an energy balance that is off by more than 10 %: their figures count for nothing.
-    pub doubtful: u64,
+    pub(crate) doubtful: u64,
     /// Reasons of runs that did not complete: words, how many, the first run.
-    pub reasons: Vec<(String, u64, u64)>,
+    pub(crate) reasons: Vec<(String, u64, u64)>,
     /// Runs with other reasons still.
-    pub other_reasons: u64,
+    pub(crate) other_reasons: u64,
 }
 
 impl Ends {
     /// Finished runs without figures.
-    pub fn without_figures(&self) -> u64 {
+    pub(crate) fn without_figures(&self) -> u64 {
         self.finished - self.completed + self.doubtful
     }
 
@@ -85,7 +85,7 @@ impl Ends {
 ///
 /// # Errors
 /// A journal that cannot be read.
-pub fn gather(opened: &Opened, figures: &[usize]) -> Result<Gathered, Failure> {
+pub(crate) fn gather(opened: &Opened, figures: &[usize]) -> Result<Gathered, Failure> {
     let study = opened.plan.study();
     let columns = &opened.manifest.columns;
     let named: Vec<(String, String)> =

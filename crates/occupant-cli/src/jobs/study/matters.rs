@@ -59,7 +59,7 @@ impl<'a> Found<'a> {
 }
 
 /// What the design is made for.
-pub fn by_design(html: &mut Html, report: &Report, analysis: &Analysis) {
+pub(crate) fn by_design(html: &mut Html, report: &Report, analysis: &Analysis) {
     let of = Found::of(report, analysis);
     let (what, found) = match &analysis.by_design {
         ByDesign::Plain => return,
@@ -136,7 +136,7 @@ fn alone(of: &Found<'_>, found: &[Reach]) -> Matter {
 }
 
 /// Rank correlation and regression.
-pub fn linear(html: &mut Html, report: &Report, analysis: &Analysis) {
+pub(crate) fn linear(html: &mut Html, report: &Report, analysis: &Analysis) {
     let of = Found::of(report, analysis);
     if of.samples.inputs.is_empty() {
         return;

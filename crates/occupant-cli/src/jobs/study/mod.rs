@@ -22,22 +22,22 @@ mod sections;
 mod shown;
 mod tables;
 
-pub use open::{Opened, open};
-pub use page::page;
-pub use tables::{Tables, write as write_tables};
+pub(crate) use open::{Opened, open};
+pub(crate) use page::page;
+pub(crate) use tables::{Tables, write as write_tables};
 
 use crate::base::failure::Failure;
 use analysis::Analysis;
 use gather::Gathered;
 
 /// Everything that a report says of a study.
-pub struct Report {
+pub(crate) struct Report {
     /// The folder it comes from.
-    pub opened: Opened,
+    pub(crate) opened: Opened,
     gathered: Gathered,
     analyses: Vec<Analysis>,
     /// What a reader should know before trusting any number of it.
-    pub notes: Vec<String>,
+    pub(crate) notes: Vec<String>,
 }
 
 impl Report {
@@ -45,7 +45,7 @@ impl Report {
     ///
     /// # Errors
     /// A name that is none; a journal that cannot be read.
-    pub fn of(opened: Opened, names: &[String]) -> Result<Report, Failure> {
+    pub(crate) fn of(opened: Opened, names: &[String]) -> Result<Report, Failure> {
         let candidates = responses::candidates(&opened.manifest, names)?;
         let mut gathered = gather::gather(&opened, &candidates)?;
         if names.is_empty() {

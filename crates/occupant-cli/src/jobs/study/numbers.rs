@@ -8,31 +8,29 @@ use super::{Report, caution};
 
 /// One number of the report, SI units.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Number {
+pub(crate) struct Number {
     /// Name of the response.
-    pub response: String,
+    pub(crate) response: String,
     /// What it is: `median`, `rank_correlation`, `sobol_total`, …
-    pub quantity: &'static str,
+    pub(crate) quantity: &'static str,
     /// Name of the parameter, empty where it is of none.
-    pub parameter: String,
+    pub(crate) parameter: String,
     /// Number of the run, where it is of one.
-    pub run: Option<u64>,
-    /// Its value.
-    pub value: f64,
+    pub(crate) run: Option<u64>,
+    pub(crate) value: f64,
     /// Ends of its 95 % interval; NaN without one.
-    pub interval: [f64; 2],
+    pub(crate) interval: [f64; 2],
     /// Its unit, `1` for a plain number.
-    pub unit: String,
+    pub(crate) unit: String,
     /// Rows, points or effects that it is made of.
-    pub rows: usize,
+    pub(crate) rows: usize,
     /// Why it should not be relied on; empty if no rule speaks against it.
-    pub mark: String,
+    pub(crate) mark: String,
     /// The command that runs the run again.
-    pub command: String,
+    pub(crate) command: String,
 }
 
-/// Every number of the report.
-pub fn numbers(report: &Report) -> Vec<Number> {
+pub(crate) fn numbers(report: &Report) -> Vec<Number> {
     let of = |analysis: &Analysis| {
         let mut list = List::of(report, analysis);
         list.spread();

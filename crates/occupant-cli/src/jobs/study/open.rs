@@ -14,24 +14,23 @@ use crate::jobs::sweep::parts::{common_manifest, read_journal, sha256_of};
 use crate::jobs::sweep::plan::Plan;
 
 /// A sweep, finished or not.
-pub struct Opened {
+pub(crate) struct Opened {
     /// What it is the sweep of.
-    pub manifest: Manifest,
-    /// What names it.
-    pub manifest_sha256: String,
+    pub(crate) manifest: Manifest,
+    pub(crate) manifest_sha256: String,
     /// The study, made from the copies.
-    pub plan: Plan,
+    pub(crate) plan: Plan,
     /// The rows that are there.
-    pub journal: Journal,
+    pub(crate) journal: Journal,
     /// What a reader should know.
-    pub notes: Vec<String>,
+    pub(crate) notes: Vec<String>,
 }
 
 /// Opens the folders of one sweep, or of its shards.
 ///
 /// # Errors
 /// A folder that is none of a sweep, or of another one than the first; copies that were changed; a damaged journal.
-pub fn open(folders: &[PathBuf]) -> Result<Opened, Failure> {
+pub(crate) fn open(folders: &[PathBuf]) -> Result<Opened, Failure> {
     let folders: Vec<Folder> = folders.iter().map(|f| Folder::at(f)).collect();
     let manifest = common_manifest(&folders)?;
     let (Some(first), Some(study)) = (folders.first(), manifest.texts.first()) else {

@@ -11,7 +11,7 @@ const STYLE: &str = include_str!("../../../assets/viewer/dist/viewer.css");
 const OWN_STYLE: &str = include_str!("../../../assets/study/study.css");
 
 /// The whole file.
-pub fn page(report: &Report) -> String {
+pub(crate) fn page(report: &Report) -> String {
     let title = match report.opened.manifest.title.as_str() {
         "" => "Study",
         title => title,

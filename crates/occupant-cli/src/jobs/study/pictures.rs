@@ -15,7 +15,7 @@ const MAPPED: usize = 4;
 const MAPPED_ROWS: usize = 10;
 
 /// A response over each parameter, and over two at a time.
-pub fn pictures(html: &mut Html, report: &Report, analysis: &Analysis) {
+pub(crate) fn pictures(html: &mut Html, report: &Report, analysis: &Analysis) {
     let samples = &report.gathered.samples;
     let response = &samples.responses[analysis.response];
     let drawn: Vec<&Input> =

@@ -14,9 +14,9 @@ const SIZE: [f64; 2] = [380.0, 290.0];
 const HEAD: f64 = 84.0;
 const EACH: f64 = 24.0;
 /// At most so many parameters stand in a plot of words.
-pub const MOST_WORDS: usize = 16;
+const MOST_WORDS: usize = 16;
 /// At most so many dots are drawn.
-pub const MOST_DOTS: usize = 1500;
+pub(crate) const MOST_DOTS: usize = 1500;
 
 const BLUE: &str = "#0072b2";
 const ORANGE: &str = "#d55e00";
@@ -47,7 +47,7 @@ impl Entry {
 }
 
 /// Rank correlations and regression coefficients with their intervals.
-pub fn linear(samples: &Samples, analysis: &Analysis) -> String {
+pub(crate) fn linear(samples: &Samples, analysis: &Analysis) -> String {
     let names = names(samples, &analysis.order);
     let place = |parameter: usize| analysis.order.iter().position(|p| *p == parameter);
     let mut ranks = Vec::new();
@@ -75,7 +75,7 @@ pub fn linear(samples: &Samples, analysis: &Analysis) -> String {
 }
 
 /// First-order and total indices with their intervals.
-pub fn sobol(samples: &Samples, analysis: &Analysis, found: &SobolIndices) -> String {
+pub(crate) fn sobol(samples: &Samples, analysis: &Analysis, found: &SobolIndices) -> String {
     let of = |estimates: &[Estimate]| -> Vec<Entry> {
         let all = analysis.order.iter().enumerate();
         all.filter_map(|(at, i)| {
@@ -95,7 +95,7 @@ pub fn sobol(samples: &Samples, analysis: &Analysis, found: &SobolIndices) -> St
 }
 
 /// μ* with its interval, and σ.
-pub fn morris(samples: &Samples, analysis: &Analysis, found: &[Effect]) -> String {
+pub(crate) fn morris(samples: &Samples, analysis: &Analysis, found: &[Effect]) -> String {
     let response = &samples.responses[analysis.response];
     let (per, unit) = shown_unit(&response.unit);
     let all = || analysis.order.iter().enumerate();
@@ -119,7 +119,7 @@ pub fn morris(samples: &Samples, analysis: &Analysis, found: &[Effect]) -> Strin
 }
 
 /// What each parameter alone does.
-pub fn tornado(samples: &Samples, analysis: &Analysis, found: &[Reach]) -> String {
+pub(crate) fn tornado(samples: &Samples, analysis: &Analysis, found: &[Reach]) -> String {
     let response = &samples.responses[analysis.response];
     let (per, unit) = shown_unit(&response.unit);
     let names = names(samples, &analysis.order);
@@ -150,7 +150,7 @@ pub fn tornado(samples: &Samples, analysis: &Analysis, found: &[Reach]) -> Strin
 }
 
 /// A response over a parameter.
-pub fn scatter(input: &Input, response: &Response) -> String {
+pub(crate) fn scatter(input: &Input, response: &Response) -> String {
     let (across, up) = (axis_of(input), axis_of_response(response));
     let every = input.values.len().div_ceil(MOST_DOTS).max(1);
     let pairs = input.values.iter().zip(&response.values).step_by(every);
@@ -168,7 +168,7 @@ pub fn scatter(input: &Input, response: &Response) -> String {
 }
 
 /// Two parameters, each sample coloured by the fifth that its response lies in.
-pub fn map(across: &Input, up: &Input, response: &Response, fifths: &[f64; 4]) -> String {
+pub(crate) fn map(across: &Input, up: &Input, response: &Response, fifths: &[f64; 4]) -> String {
     let (unit_per, unit) = shown_unit(&response.unit);
     let every = response.values.len().div_ceil(MOST_DOTS).max(1);
     let mut points: [Vec<[f64; 2]>; 5] = Default::default();

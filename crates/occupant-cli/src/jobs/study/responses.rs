@@ -29,7 +29,7 @@ const MOST: usize = 8;
 ///
 /// # Errors
 /// A name or pattern that fits no figure.
-pub fn candidates(manifest: &Manifest, names: &[String]) -> Result<Vec<usize>, Failure> {
+pub(crate) fn candidates(manifest: &Manifest, names: &[String]) -> Result<Vec<usize>, Failure> {
     let columns = &manifest.columns;
     let fitting = |pattern: &str| -> Vec<usize> {
         let is_it = |c: &Column| c.role == Role::Figure && fits(pattern, &c.name);
@@ -75,7 +75,7 @@ fn fits(pattern: &str, name: &str) -> bool {
 }
 
 /// Of the customary figures leaves the first that vary, or the first of all where none does.
-pub fn keep_telling(gathered: &mut Gathered) {
+pub(crate) fn keep_telling(gathered: &mut Gathered) {
     let responses = &gathered.samples.responses;
     let mut kept: Vec<usize> = (0..responses.len()).filter(|i| varies(&responses[*i].values)).take(MOST).collect();
     if kept.is_empty() {

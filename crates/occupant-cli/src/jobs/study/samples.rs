@@ -6,11 +6,11 @@ use occupant_core::study::{Role, Study};
 #[derive(Clone, Debug, Default)]
 pub struct Samples {
     /// Numbers of the samples, increasing; those that are not finished are not there.
-    pub numbers: Vec<u64>,
+    pub(crate) numbers: Vec<u64>,
     /// What each is in its design.
-    pub roles: Vec<Role>,
+    pub(crate) roles: Vec<Role>,
     /// By how much a step of Morris moved its parameter, as a part of its range.
-    pub steps: Vec<Option<f64>>,
+    pub(crate) steps: Vec<Option<f64>>,
     /// What was varied.
     pub inputs: Vec<Input>,
     /// What came of it.
@@ -20,27 +20,24 @@ pub struct Samples {
 /// A parameter's column.
 #[derive(Clone, Debug, Default)]
 pub struct Input {
-    /// Its name.
-    pub name: String,
+    pub(crate) name: String,
     /// SI unit, empty for plain numbers and words.
-    pub unit: String,
+    pub(crate) unit: String,
     /// Its values, NaN where a sample has none; of words, their places in `words`.
     pub values: Vec<f64>,
     /// The words of a parameter that has words for values; none for one with numbers.
-    pub words: Option<Vec<String>>,
+    pub(crate) words: Option<Vec<String>>,
 }
 
 /// A figure's column.
 #[derive(Clone, Debug, Default)]
 pub struct Response {
-    /// Its name.
-    pub name: String,
-    /// Its unit.
-    pub unit: String,
+    pub(crate) name: String,
+    pub(crate) unit: String,
     /// Its values, NaN where a run failed or has none.
     pub values: Vec<f64>,
     /// With an ensemble: samples whose members agree, and samples whose members do not.
-    pub stable: [u64; 2],
+    pub(crate) stable: [u64; 2],
 }
 
 impl Samples {
@@ -64,17 +61,17 @@ impl Samples {
     }
 
     /// How many samples there are.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.numbers.len()
     }
 
     /// Whether there is none.
-    pub fn is_empty(&self) -> bool {
+    pub(crate) fn is_empty(&self) -> bool {
         self.numbers.is_empty()
     }
 
     /// The row of a sample, if it is there.
-    pub fn row_of(&self, number: u64) -> Option<usize> {
+    pub(crate) fn row_of(&self, number: u64) -> Option<usize> {
         self.numbers.binary_search(&number).ok()
     }
 
@@ -88,18 +85,18 @@ impl Samples {
 
 impl Input {
     /// Whether its values are numbers.
-    pub fn is_number(&self) -> bool {
+    pub(crate) fn is_number(&self) -> bool {
         self.words.is_none()
     }
 
     /// Whether it takes more than one value.
-    pub fn varies(&self) -> bool {
+    pub(crate) fn varies(&self) -> bool {
         varies(&self.values)
     }
 }
 
 /// Whether finite numbers differ by more than rounding.
-pub fn varies(values: &[f64]) -> bool {
+pub(crate) fn varies(values: &[f64]) -> bool {
     let finite = || values.iter().copied().filter(|x| x.is_finite());
     let (low, high) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
     high - low > 1e-12 * low.abs().max(high.abs())

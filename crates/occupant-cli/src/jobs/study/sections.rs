@@ -7,8 +7,7 @@ use super::shown::{shown, shown_unit, with_unit};
 use super::{Report, caution, describe, matters, pictures};
 use crate::pictures::html::{Cell, Html};
 
-/// What the study is.
-pub fn study(html: &mut Html, report: &Report) {
+pub(crate) fn study(html: &mut Html, report: &Report) {
     let opened = &report.opened;
     let (study, manifest) = (opened.plan.study(), &opened.manifest);
     let ends = &report.gathered.ends;
@@ -33,8 +32,7 @@ pub fn study(html: &mut Html, report: &Report) {
     html.facts(&facts);
 }
 
-/// What is varied.
-pub fn varied(html: &mut Html, report: &Report) {
+pub(crate) fn varied(html: &mut Html, report: &Report) {
     let study = report.opened.plan.study();
     if study.parameters().is_empty() {
         return;
@@ -53,7 +51,7 @@ pub fn varied(html: &mut Html, report: &Report) {
 }
 
 /// How the runs ended.
-pub fn ends(html: &mut Html, report: &Report) {
+pub(crate) fn ends(html: &mut Html, report: &Report) {
     let ends = &report.gathered.ends;
     html.text("h2", "How the runs ended");
     let mut facts = vec![("completed", ends.completed.to_string())];
@@ -86,8 +84,7 @@ pub fn ends(html: &mut Html, report: &Report) {
     html.table(&["runs", "first", "reason"], &rows);
 }
 
-/// One response.
-pub fn response(html: &mut Html, report: &Report, analysis: &Analysis) {
+pub(crate) fn response(html: &mut Html, report: &Report, analysis: &Analysis) {
     let samples = &report.gathered.samples;
     let response = &samples.responses[analysis.response];
     html.raw(&format!("<section id=\"r{}\">\n", analysis.response));

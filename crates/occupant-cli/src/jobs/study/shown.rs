@@ -3,7 +3,7 @@
 use crate::jobs::ensemble::text::shown_unit as shown_figure_unit;
 
 /// SI units in one unit that is shown, and its symbol; empty for a plain number.
-pub fn shown_unit(unit: &str) -> (f64, &str) {
+pub(crate) fn shown_unit(unit: &str) -> (f64, &str) {
     match unit {
         "rad" => (1.0_f64.to_radians(), "°"),
         "rad/s" => (1.0_f64.to_radians(), "°/s"),
@@ -12,12 +12,12 @@ pub fn shown_unit(unit: &str) -> (f64, &str) {
 }
 
 /// A number in its shown unit.
-pub fn shown(value: f64, unit: &str) -> String {
+pub(crate) fn shown(value: f64, unit: &str) -> String {
     significant(value / shown_unit(unit).0)
 }
 
 /// A number with its shown unit.
-pub fn with_unit(value: f64, unit: &str) -> String {
+pub(crate) fn with_unit(value: f64, unit: &str) -> String {
     match shown_unit(unit).1 {
         "" => shown(value, unit),
         "°" => format!("{}°", shown(value, unit)),
@@ -26,7 +26,7 @@ pub fn with_unit(value: f64, unit: &str) -> String {
 }
 
 /// Four significant digits; an exponent where no reader would count zeros.
-pub fn significant(value: f64) -> String {
+pub(crate) fn significant(value: f64) -> String {
     let size = value.abs();
     let text = match size {
         _ if !value.is_finite() => return "–".to_owned(),
@@ -41,7 +41,7 @@ pub fn significant(value: f64) -> String {
 }
 
 /// The same without zeros at the end: of numbers that somebody gave.
-pub fn given(value: f64, unit: &str) -> String {
+pub(crate) fn given(value: f64, unit: &str) -> String {
     let text = shown(value, unit);
     match text.contains('.') && !text.contains('e') {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
@@ -50,7 +50,7 @@ pub fn given(value: f64, unit: &str) -> String {
 }
 
 /// A given number with its shown unit.
-pub fn given_with_unit(value: f64, unit: &str) -> String {
+pub(crate) fn given_with_unit(value: f64, unit: &str) -> String {
     match shown_unit(unit).1 {
         "" => given(value, unit),
         "°" => format!("{}°", given(value, unit)),
@@ -59,7 +59,7 @@ pub fn given_with_unit(value: f64, unit: &str) -> String {
 }
 
 /// Three decimals: parts and correlations.
-pub fn part(value: f64) -> String {
+pub(crate) fn part(value: f64) -> String {
     match value.is_finite() {
         true => format!("{:.3}", value + 0.0).replace('-', "−"),
         false => "–".to_owned(),

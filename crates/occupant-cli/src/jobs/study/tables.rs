@@ -25,16 +25,14 @@ const COLUMNS: [(&str, Kind); 12] = [
 
 /// Where the tables of a report go.
 #[derive(Clone, Debug)]
-pub struct Tables {
-    /// All numbers.
-    pub numbers: PathBuf,
-    /// The samples.
-    pub samples: PathBuf,
+pub(crate) struct Tables {
+    pub(crate) numbers: PathBuf,
+    pub(crate) samples: PathBuf,
 }
 
 impl Tables {
     /// Beside the page: `report.html` has `report.parquet` and `report-samples.parquet`.
-    pub fn beside(page: &Path) -> Self {
+    pub(crate) fn beside(page: &Path) -> Self {
         let stem = page.file_stem().unwrap_or_default().to_string_lossy();
         Tables {
             numbers: page.with_file_name(format!("{stem}.parquet")),
@@ -47,7 +45,7 @@ impl Tables {
 ///
 /// # Errors
 /// A file that is there and may not be replaced; the operating system refuses.
-pub fn write(report: &Report, tables: &Tables, existing: Existing) -> Result<(), String> {
+pub(crate) fn write(report: &Report, tables: &Tables, existing: Existing) -> Result<(), String> {
     let columns: Vec<(String, Kind)> = COLUMNS.iter().map(|(n, k)| ((*n).to_owned(), *k)).collect();
     let about = [
         ("occupant.study", report.opened.manifest_sha256.clone()),

@@ -13,44 +13,42 @@ const BROKEN_BALANCE: f64 = 0.1;
 
 /// Counts how samples ended.
 #[derive(Clone, Debug, Default)]
-pub struct Census {
+pub(crate) struct Census {
     /// Samples at their end time.
-    pub completed: u64,
+    pub(crate) completed: u64,
     /// Samples whose integration failed.
-    pub failed: u64,
+    pub(crate) failed: u64,
     /// Samples whose scenario is refused.
-    pub refused: u64,
+    pub(crate) refused: u64,
     /// Samples on which the program broke off.
-    pub broken: u64,
+    pub(crate) broken: u64,
     /// Completed samples whose energy balance is off by more than a tenth.
-    pub unbalanced: u64,
+    pub(crate) unbalanced: u64,
     /// The first samples that did not complete, and why.
-    pub reasons: Vec<(u64, String)>,
+    pub(crate) reasons: Vec<(u64, String)>,
     balance: Option<usize>,
     worst: Option<(usize, Worst)>,
 }
 
 impl Census {
-    /// Nothing counted yet.
-    pub fn new(manifest: &Manifest) -> Self {
+    pub(crate) fn new(manifest: &Manifest) -> Self {
         Census { balance: column(manifest, "energy.balance_error"), ..Census::default() }
     }
 
     /// Looks for the `count` worst by a figure too; false if there is no such figure.
-    pub fn look_for(&mut self, manifest: &Manifest, count: usize, figure: &str) -> bool {
+    pub(crate) fn look_for(&mut self, manifest: &Manifest, count: usize, figure: &str) -> bool {
         let column = column(manifest, figure);
         self.worst = column.map(|c| (c, Worst::new(count)));
         column.is_some()
     }
 
     /// The worst, if they were looked for.
-    pub fn worst(&self) -> Vec<u64> {
+    pub(crate) fn worst(&self) -> Vec<u64> {
         let worst = self.worst.as_ref();
         worst.map(|(_, worst)| worst.indices()).unwrap_or_default()
     }
 
-    /// Counts a sample.
-    pub fn see(&mut self, row: &Row) {
+    pub(crate) fn see(&mut self, row: &Row) {
         *match row.status {
             Status::Completed => &mut self.completed,
             Status::Failed => &mut self.failed,

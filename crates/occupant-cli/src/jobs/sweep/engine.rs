@@ -9,7 +9,7 @@ use crate::files::study_folder::finished::Finished;
 use crate::files::study_folder::row::Row;
 
 /// Computes samples. One is shared by all threads.
-pub trait Worker: Sync {
+pub(crate) trait Worker: Sync {
     /// What ends the sweep.
     type Error: Send;
 
@@ -22,19 +22,17 @@ pub trait Worker: Sync {
 }
 
 /// Takes a finished row.
-pub type HandOn<'a> = &'a dyn Fn(Row) -> ControlFlow<()>;
+pub(crate) type HandOn<'a> = &'a dyn Fn(Row) -> ControlFlow<()>;
 
 /// What is to be done, and how.
 #[derive(Clone, Copy, Debug)]
-pub struct Job<'a> {
-    /// The samples.
-    pub samples: &'a Range<u64>,
+pub(crate) struct Job<'a> {
+    pub(crate) samples: &'a Range<u64>,
     /// Those of them that are finished already.
-    pub finished: &'a Finished,
-    /// How many threads.
-    pub threads: usize,
+    pub(crate) finished: &'a Finished,
+    pub(crate) threads: usize,
     /// Once true, nothing new is begun.
-    pub stop: &'a AtomicBool,
+    pub(crate) stop: &'a AtomicBool,
 }
 
 /// Computes every sample of the job that is not finished and hands each row to `sink` on the calling thread, in the order
@@ -43,7 +41,7 @@ pub struct Job<'a> {
 ///
 /// # Errors
 /// What a worker or `sink` reports.
-pub fn run<W: Worker>(
+pub(crate) fn run<W: Worker>(
     job: Job<'_>,
     worker: &W,
     sink: &mut dyn FnMut(Row) -> Result<(), W::Error>,
@@ -73,7 +71,6 @@ pub fn run<W: Worker>(
     })
 }
 
-/// One thread.
 fn work<W: Worker>(job: Job<'_>, worker: &W, counter: &AtomicU64, rows: &SyncSender<Result<Row, W::Error>>) {
     let hand_on = |row| match rows.send(Ok(row)) {
         Ok(()) => ControlFlow::Continue(()),

@@ -5,7 +5,7 @@ use crate::base::failure::Failure;
 use crate::files::study_folder::problem::Problem;
 
 /// A study that cannot be run.
-pub fn no_plan(reason: NoPlan) -> Failure {
+pub(crate) fn no_plan(reason: NoPlan) -> Failure {
     match reason.0.starts_with("error") {
         true => Failure::CouldNotRun(reason.0),
         false => Failure::plain(reason.0),
@@ -13,7 +13,7 @@ pub fn no_plan(reason: NoPlan) -> Failure {
 }
 
 /// A problem of the folder, in words.
-pub fn told(problem: Problem) -> Failure {
+pub(crate) fn told(problem: Problem) -> Failure {
     let help = problem.help();
     let broke_off =
         matches!(problem, Problem::Io { doing: "write", .. } | Problem::Table { .. } | Problem::Incomplete { .. });

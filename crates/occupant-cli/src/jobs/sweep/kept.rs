@@ -19,7 +19,7 @@ use crate::files::study_folder::problem::Problem;
 use crate::files::study_folder::row::Status;
 
 /// Reads `none`, `all`, `3, 17` or `worst 5 by head.peak`.
-pub fn parse(text: &str) -> Option<Keep> {
+pub(crate) fn parse(text: &str) -> Option<Keep> {
     let words: Vec<&str> = text.split_whitespace().collect();
     match words[..] {
         ["none"] => Some(Keep::None),
@@ -42,7 +42,7 @@ pub fn parse(text: &str) -> Option<Keep> {
 ///
 /// # Errors
 /// The operating system refuses.
-pub fn prepare(keep: &Keep, folder: &Folder) -> Result<(), Problem> {
+pub(crate) fn prepare(keep: &Keep, folder: &Folder) -> Result<(), Problem> {
     if *keep == Keep::None {
         return Ok(());
     }
@@ -55,7 +55,7 @@ pub fn prepare(keep: &Keep, folder: &Folder) -> Result<(), Problem> {
 ///
 /// # Errors
 /// A journal that cannot be read.
-pub fn missing(
+pub(crate) fn missing(
     folder: &Folder,
     journal: &Journal,
     samples: impl IntoIterator<Item = u64>,
@@ -80,7 +80,7 @@ pub fn missing(
 }
 
 /// Those of a range that are kept beforehand.
-pub fn wanted(keep: &Keep, samples: Range<u64>) -> Box<dyn Iterator<Item = u64> + '_> {
+pub(crate) fn wanted(keep: &Keep, samples: Range<u64>) -> Box<dyn Iterator<Item = u64> + '_> {
     match keep {
         Keep::All => Box::new(samples),
         Keep::Indices(_) => Box::new(samples.filter(|i| is_kept(keep, *i))),
@@ -92,7 +92,7 @@ pub fn wanted(keep: &Keep, samples: Range<u64>) -> Box<dyn Iterator<Item = u64> 
 ///
 /// # Errors
 /// A file that cannot be written.
-pub fn write(
+pub(crate) fn write(
     plan: &Plan,
     folder: &Folder,
     samples: &[u64],

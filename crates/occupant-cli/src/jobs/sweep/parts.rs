@@ -10,7 +10,7 @@ use crate::files::study_folder::manifest::{Manifest, Text};
 ///
 /// # Errors
 /// A folder without one, or with another; the operating system refuses.
-pub fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
+pub(crate) fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
     let mut common: Option<(&Folder, Manifest)> = None;
     for folder in folders {
         let found = folder.manifest().map_err(told)?;
@@ -40,12 +40,12 @@ pub fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
 }
 
 /// Reads through the journals.
-pub fn read_journal(folders: &[Folder], sha256: &str, manifest: &Manifest) -> Result<Journal, Failure> {
+pub(crate) fn read_journal(folders: &[Folder], sha256: &str, manifest: &Manifest) -> Result<Journal, Failure> {
     Journal::read(folders, sha256, manifest.samples).map_err(told)
 }
 
 /// What names a manifest.
-pub fn sha256_of(manifest: &Manifest) -> Result<String, Failure> {
+pub(crate) fn sha256_of(manifest: &Manifest) -> Result<String, Failure> {
     let sha256 = manifest.sha256();
     sha256.map_err(|error| Failure::plain(format!("the manifest cannot be written: {error}")))
 }

@@ -21,33 +21,32 @@ use crate::files::study_folder::texts::{NamedBy, Texts};
 const TRIED: u64 = 16;
 
 /// A study and everything it needs. Shared by all threads.
-pub struct Plan {
+pub(crate) struct Plan {
     study: Study,
     /// Path of the scenario that is varied, for messages and results.
     scenario: PathBuf,
-    /// Its bytes.
     bytes: Vec<u8>,
     /// Changes of the study and of the command line that are the same in all samples.
     changes: Vec<String>,
     /// What the scenarios of the samples name.
     tables: Vec<(String, Vec<u8>)>,
     /// What the folder of the sweep will hold.
-    pub manifest: Manifest,
+    pub(crate) manifest: Manifest,
     /// Bytes of the manifest's texts.
-    pub texts: Vec<Vec<u8>>,
+    pub(crate) texts: Vec<Vec<u8>>,
     /// Warnings about study and scenario.
-    pub warnings: Diagnostics,
+    pub(crate) warnings: Diagnostics,
 }
 
 /// Why there is no plan, in words.
-pub struct NoPlan(pub String);
+pub(crate) struct NoPlan(pub(crate) String);
 
 impl Plan {
     /// Reads a study and all that it names; `name` is what messages call it.
     ///
     /// # Errors
     /// Everything that is wrong with it, in words.
-    pub fn open(name: &Path, overrides: &[String], texts: &Texts, program: String) -> Result<Plan, NoPlan> {
+    pub(crate) fn open(name: &Path, overrides: &[String], texts: &Texts, program: String) -> Result<Plan, NoPlan> {
         let shown = name.display();
         let bytes = texts.get(NamedBy::CommandLine, &file_name(name));
         let bytes = bytes.map_err(|e| NoPlan(format!("the study {shown} cannot be read: {e}")))?;
@@ -83,13 +82,12 @@ impl Plan {
         Ok(plan)
     }
 
-    /// The study.
-    pub fn study(&self) -> &Study {
+    pub(crate) fn study(&self) -> &Study {
         &self.study
     }
 
     /// The values of a sample, by the columns that are inputs.
-    pub fn inputs(&self, index: u64) -> Vec<Cell> {
+    pub(crate) fn inputs(&self, index: u64) -> Vec<Cell> {
         let columns = &self.manifest.columns;
         let cell = |(at, setting): (usize, &Setting)| {
             let is_text = columns.get(at).is_some_and(|c| c.role == Role::InputText);
@@ -114,7 +112,7 @@ impl Plan {
     ///
     /// # Errors
     /// What is wrong with its scenario.
-    pub fn open_sample(&self, index: u64) -> Result<Opened, Diagnostics> {
+    pub(crate) fn open_sample(&self, index: u64) -> Result<Opened, Diagnostics> {
         let (loaded, model, warnings) = self.model(Some(index))?;
         Ok(Opened {
             // only a run that is kept needs them
@@ -126,13 +124,13 @@ impl Plan {
     }
 
     /// The bytes of a table that a scenario of the study names.
-    pub fn table(&self, name: &str) -> Result<Vec<u8>, String> {
+    pub(crate) fn table(&self, name: &str) -> Result<Vec<u8>, String> {
         let found = self.tables.iter().find(|(table, _)| table == name);
         found.map(|(_, bytes)| bytes.clone()).ok_or_else(|| "it was not there when the sweep began".to_owned())
     }
 
     /// The words with which `occupant run` runs a sample, and the scenario's bytes.
-    pub fn command(&self, index: u64) -> (ScenarioArgs, Vec<u8>) {
+    pub(crate) fn command(&self, index: u64) -> (ScenarioArgs, Vec<u8>) {
         let mut overrides = self.changes.clone();
         let assignments = self.study.assignments(index);
         overrides.extend(assignments.iter().map(|a| format!("{}={}", a.path, a.text())));

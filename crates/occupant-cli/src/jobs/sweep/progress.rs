@@ -12,7 +12,7 @@ const LINE_EVERY: Duration = Duration::from_secs(10);
 
 /// How far a sweep is.
 #[derive(Debug)]
-pub struct Progress {
+pub(crate) struct Progress {
     bar: ProgressBar,
     quiet: bool,
     samples: u64,
@@ -26,7 +26,7 @@ pub struct Progress {
 
 impl Progress {
     /// Of `samples`, `before` are finished.
-    pub fn new(samples: u64, before: u64, quiet: bool) -> Self {
+    pub(crate) fn new(samples: u64, before: u64, quiet: bool) -> Self {
         let target = match quiet {
             true => ProgressDrawTarget::hidden(),
             false => ProgressDrawTarget::stderr(),
@@ -41,8 +41,7 @@ impl Progress {
         Progress { bar, quiet, samples, before, now: 0, failed: 0, began: Instant::now(), line: Instant::now() }
     }
 
-    /// One more.
-    pub fn see(&mut self, row: &Row) {
+    pub(crate) fn see(&mut self, row: &Row) {
         self.now += 1;
         self.failed += u64::from(row.status != Status::Completed);
         if self.quiet {
@@ -60,17 +59,17 @@ impl Progress {
     }
 
     /// So many were computed by this process.
-    pub fn computed(&self) -> u64 {
+    pub(crate) fn computed(&self) -> u64 {
         self.now
     }
 
     /// Seconds since the beginning.
-    pub fn elapsed_s(&self) -> f64 {
+    pub(crate) fn elapsed_s(&self) -> f64 {
         self.began.elapsed().as_secs_f64()
     }
 
     /// No more.
-    pub fn end(&self) {
+    pub(crate) fn end(&self) {
         self.bar.finish_and_clear();
     }
 

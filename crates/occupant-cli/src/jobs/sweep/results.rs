@@ -18,7 +18,7 @@ use crate::files::study_folder::table::{TableSink, stream};
 /// # Errors
 /// Samples that are missing or disagree; another process at the same work; the operating system refuses. A table that was
 /// there stays until the new one is complete.
-pub fn write(
+pub(crate) fn write(
     folder: &Folder,
     journal: &Journal,
     manifest: &Manifest,

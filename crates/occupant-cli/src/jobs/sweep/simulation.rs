@@ -27,21 +27,19 @@ use crate::files::study_folder::row::{Cell, Row, Status};
 use crate::jobs::run::recording::Recording;
 
 /// Runs the samples of a plan.
-pub struct Simulation<'a> {
-    /// The plan.
-    pub plan: &'a Plan,
+pub(crate) struct Simulation<'a> {
+    pub(crate) plan: &'a Plan,
     /// Of which samples the whole run is written.
-    pub keep: &'a Keep,
-    /// Where to.
-    pub folder: &'a Folder,
+    pub(crate) keep: &'a Keep,
+    pub(crate) folder: &'a Folder,
     /// Once true, runs end at their next output and leave no row.
-    pub stop: &'a AtomicBool,
+    pub(crate) stop: &'a AtomicBool,
     /// How many runs a thread computes side by side.
-    pub kernel: Kernel,
+    pub(crate) kernel: Kernel,
 }
 
 /// Whether a keep says, beforehand, that the run of a sample is written.
-pub fn is_kept(keep: &Keep, index: u64) -> bool {
+pub(crate) fn is_kept(keep: &Keep, index: u64) -> bool {
     match keep {
         Keep::All => true,
         Keep::Indices(numbers) => numbers.binary_search(&index).is_ok(),
@@ -216,7 +214,6 @@ enum Begun<'a> {
     Row(Row),
 }
 
-/// Stops a run.
 struct Stop<'a>(&'a AtomicBool);
 
 impl Recorder for Stop<'_> {

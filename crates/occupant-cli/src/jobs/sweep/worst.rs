@@ -4,20 +4,19 @@ use std::cmp::Ordering;
 
 /// The samples with the greatest values so far.
 #[derive(Clone, Debug)]
-pub struct Worst {
+pub(crate) struct Worst {
     count: usize,
     /// Greatest first.
     found: Vec<(f64, u64)>,
 }
 
 impl Worst {
-    /// Nothing seen yet.
-    pub fn new(count: usize) -> Self {
+    pub(crate) fn new(count: usize) -> Self {
         Worst { count, found: Vec::new() }
     }
 
     /// Looks at a sample; samples come in order.
-    pub fn see(&mut self, value: f64, index: u64) {
+    pub(crate) fn see(&mut self, value: f64, index: u64) {
         let not_less = |(v, _): &(f64, u64)| v.total_cmp(&value) != Ordering::Less;
         let at = self.found.partition_point(not_less);
         if at < self.count {
@@ -27,7 +26,7 @@ impl Worst {
     }
 
     /// Their numbers, greatest value first.
-    pub fn indices(&self) -> Vec<u64> {
+    pub(crate) fn indices(&self) -> Vec<u64> {
         self.found.iter().map(|(_, index)| *index).collect()
     }
 }

@@ -10,7 +10,7 @@ mod snapshot;
 use nalgebra::Vector3;
 use occupant_core::body::{Body, Segment, SegmentProperties};
 
-pub use snapshot::{PATCH_M, Snapshot};
+pub(crate) use snapshot::{PATCH_M, Snapshot};
 
 /// Drawn width of the trunk over that of equal inertia.
 const SLIM: f64 = 0.85;
@@ -25,16 +25,16 @@ const NEAR_END_M: f64 = 0.02;
 
 /// An ellipsoid along its segment's axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Lump {
+pub(crate) struct Lump {
     /// Centre from the centre of gravity, segment axes.
-    pub centre_m: Vector3<f64>,
+    pub(crate) centre_m: Vector3<f64>,
     /// Half axes.
-    pub half_m: Vector3<f64>,
+    pub(crate) half_m: Vector3<f64>,
 }
 
 /// What a part wears.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Tone {
+pub(crate) enum Tone {
     /// Head, forearms.
     Skin,
     /// Upper trunk, upper arms.
@@ -45,17 +45,16 @@ pub enum Tone {
 
 /// The convex hull of two ellipsoids.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Part {
+pub(crate) struct Part {
     /// The segment it is fixed to.
-    pub segment: Segment,
+    pub(crate) segment: Segment,
     /// What it wears.
-    pub tone: Tone,
-    /// Its ends.
-    pub ends: [Lump; 2],
+    pub(crate) tone: Tone,
+    pub(crate) ends: [Lump; 2],
 }
 
 /// All parts of a body, in the order of the segments.
-pub fn parts(body: &Body) -> Vec<Part> {
+pub(crate) fn parts(body: &Body) -> Vec<Part> {
     let of_segment = |segment| {
         let ends = match segment {
             Segment::Head => head(body),
@@ -71,7 +70,7 @@ pub fn parts(body: &Body) -> Vec<Part> {
 }
 
 /// Centre of a sphere from its segment's centre of gravity, segment axes, m.
-pub fn sphere_centre_m(body: &Body, sphere: usize) -> Vector3<f64> {
+pub(crate) fn sphere_centre_m(body: &Body, sphere: usize) -> Vector3<f64> {
     let s = &body.spheres[sphere];
     let cg = body.segment(s.segment).cg_from_lower_end_m;
     s.centre_from_lower_end_m.coords - Vector3::z() * cg

@@ -11,37 +11,34 @@ use crate::files::mcap::scene::belts::course_m;
 use crate::files::mcap::scene::compartment::corners_m;
 
 /// Half side of the square that stands for an unbounded plane, m.
-pub const PATCH_M: f64 = 3.0;
+pub(crate) const PATCH_M: f64 = 3.0;
 
 /// The body, the belts and the contacts at one output.
 #[derive(Clone, Debug)]
-pub struct Snapshot {
-    /// Its time.
-    pub time_s: f64,
+pub(crate) struct Snapshot {
+    pub(crate) time_s: f64,
     /// By segment: turns and moves from segment axes at the centre of gravity to vehicle axes.
-    pub poses: Vec<Isometry3<f64>>,
+    pub(crate) poses: Vec<Isometry3<f64>>,
     /// Centres of the spheres, m.
-    pub spheres_m: Vec<Point3<f64>>,
+    pub(crate) spheres_m: Vec<Point3<f64>>,
     /// Belts, in the setup's order.
-    pub belts: Vec<BeltCourse>,
+    pub(crate) belts: Vec<BeltCourse>,
     /// Touching pairs.
-    pub contacts: Vec<Contact>,
+    pub(crate) contacts: Vec<Contact>,
     /// Motion of the vehicle in space.
-    pub vehicle: FrameMotion,
+    pub(crate) vehicle: FrameMotion,
 }
 
 /// A belt from anchor to anchor.
 #[derive(Clone, Debug)]
-pub struct BeltCourse {
-    /// Its points, m.
-    pub points_m: Vec<Point3<f64>>,
+pub(crate) struct BeltCourse {
+    pub(crate) points_m: Vec<Point3<f64>>,
     /// F_L, N.
-    pub force_n: f64,
+    pub(crate) force_n: f64,
 }
 
 impl Snapshot {
-    /// Of a sample.
-    pub fn of(sample: &Sample<'_>) -> Self {
+    pub(crate) fn of(sample: &Sample<'_>) -> Self {
         let pose = |segment| {
             let at = Translation3::from(sample.cg_m(segment));
             Isometry3::from_parts(at, sample.orientation(segment))
@@ -64,7 +61,7 @@ impl Snapshot {
     }
 
     /// A surface's corners, an unbounded one's as a square below the vehicle's origin, m.
-    pub fn corners_m(&self, face: &FlatFace) -> Vec<Point3<f64>> {
+    pub(crate) fn corners_m(&self, face: &FlatFace) -> Vec<Point3<f64>> {
         let corners = match &face.outline {
             Outline::Unbounded { .. } => self.patch_m(face),
             _ => corners_m(face),

@@ -12,31 +12,28 @@ use crate::files::signals::scale_of;
 
 /// The histories of one run with its name in legends.
 #[derive(Clone, Debug)]
-pub struct RunCurves {
+pub(crate) struct RunCurves {
     /// Name; empty if the run is alone.
-    pub label: String,
-    /// Histories.
-    pub histories: Histories,
+    pub(crate) label: String,
+    pub(crate) histories: Histories,
 }
 
 /// A measured signal to draw over a channel.
 #[derive(Clone, Debug)]
-pub struct Overlay {
-    /// Channel.
-    pub channel: String,
+pub(crate) struct Overlay {
+    pub(crate) channel: String,
     /// Name of the file.
-    pub file: String,
+    pub(crate) file: String,
     /// The signal.
-    pub pair: Pair,
+    pub(crate) pair: Pair,
 }
 
 /// `channel=value unit`: a level to draw where the channel is.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LimitArgument {
-    /// Channel.
-    pub channel: String,
+pub(crate) struct LimitArgument {
+    pub(crate) channel: String,
     /// Level as written.
-    pub text: String,
+    pub(crate) text: String,
     value: f64,
     unit: Option<String>,
 }
@@ -92,26 +89,24 @@ impl LimitArgument {
 
 /// What figures are made of.
 #[derive(Clone, Debug)]
-pub struct Material<'a> {
+pub(crate) struct Material<'a> {
     /// Runs, at least one.
-    pub runs: &'a [RunCurves],
+    pub(crate) runs: &'a [RunCurves],
     /// Measured signals.
-    pub overlays: &'a [Overlay],
-    /// Limits.
-    pub limits: &'a [LimitArgument],
+    pub(crate) overlays: &'a [Overlay],
+    pub(crate) limits: &'a [LimitArgument],
     /// Channel across; time if absent.
-    pub x: Option<&'a str>,
-    /// Units.
-    pub units: UnitChoice,
+    pub(crate) x: Option<&'a str>,
+    pub(crate) units: UnitChoice,
     /// First and last time drawn, s.
-    pub window_s: [f64; 2],
+    pub(crate) window_s: [f64; 2],
 }
 
 /// One figure for each wish.
 ///
 /// # Errors
 /// Channels of different units in a figure, a limit in another unit.
-pub fn figures(wishes: &[Wish], material: &Material<'_>) -> Result<Vec<Figure>, String> {
+pub(crate) fn figures(wishes: &[Wish], material: &Material<'_>) -> Result<Vec<Figure>, String> {
     wishes.iter().map(|w| figure(w, material)).collect()
 }
 

@@ -6,7 +6,11 @@ use super::figure::drawable;
 ///
 /// `to_page` places a point. Curves with far more points than `columns` keep, in each column, first, least, greatest and last:
 /// what the eye sees stays the same.
-pub fn strokes(points: &[[f64; 2]], columns: usize, to_page: impl Fn([f64; 2]) -> [f64; 2]) -> Vec<Vec<[f64; 2]>> {
+pub(crate) fn strokes(
+    points: &[[f64; 2]],
+    columns: usize,
+    to_page: impl Fn([f64; 2]) -> [f64; 2],
+) -> Vec<Vec<[f64; 2]>> {
     let mut strokes: Vec<Vec<[f64; 2]>> = vec![Vec::new()];
     for point in points {
         if drawable(point[0]) && drawable(point[1]) {

@@ -20,7 +20,7 @@ const FRAME: &str = "fill=\"none\" stroke=\"#444444\" stroke-width=\"1\"";
 const WORDS: f64 = 0.42;
 
 /// Height of what stands below the axes of a figure this wide.
-pub fn legend_height(figure: &Figure, width: f64) -> f64 {
+pub(crate) fn legend_height(figure: &Figure, width: f64) -> f64 {
     Legend::new(figure, width - 2.0 * EDGE).height()
 }
 
@@ -28,14 +28,13 @@ pub fn legend_height(figure: &Figure, width: f64) -> f64 {
 struct Page {
     /// Upper left corner of the plotting area.
     corner: [f64; 2],
-    /// Its size.
     size: [f64; 2],
     x: Scale,
     y: Scale,
 }
 
 /// Draws a figure into a rectangle; `below` is the room for the legend, as figures in one row share it.
-pub fn draw(svg: &mut Svg, figure: &Figure, [left, top]: [f64; 2], [width, height]: [f64; 2], below: f64) {
+pub(crate) fn draw(svg: &mut Svg, figure: &Figure, [left, top]: [f64; 2], [width, height]: [f64; 2], below: f64) {
     let title = shortened(&figure.title, TITLE, Weight::Bold, width - 2.0 * EDGE);
     let style = Text { size: TITLE, weight: Weight::Bold, anchor: Anchor::Middle, ..Text::default() };
     svg.begin("");

@@ -2,37 +2,35 @@
 
 /// One plot.
 #[derive(Clone, Debug)]
-pub struct Figure {
+pub(crate) struct Figure {
     /// Heading.
-    pub title: String,
+    pub(crate) title: String,
     /// Across.
-    pub x: Axis,
+    pub(crate) x: Axis,
     /// Upward.
-    pub y: Axis,
+    pub(crate) y: Axis,
     /// Curves in the order of the legend.
-    pub curves: Vec<Curve>,
+    pub(crate) curves: Vec<Curve>,
     /// Limits on Y.
-    pub limits: Vec<Limit>,
+    pub(crate) limits: Vec<Limit>,
     /// What stands in the middle if there is no curve.
-    pub empty: String,
+    pub(crate) empty: String,
 }
 
-/// An axis.
 #[derive(Clone, Debug)]
-pub struct Axis {
-    /// What it measures.
-    pub name: String,
+pub(crate) struct Axis {
+    pub(crate) name: String,
     /// Symbol of the unit.
-    pub unit: String,
+    pub(crate) unit: String,
     /// Words that stand at 0, 1, 2, …, instead of figures; empty for an axis of numbers. Upward they go down the page.
-    pub words: Vec<String>,
+    pub(crate) words: Vec<String>,
     /// Least and greatest value that an axis of numbers shows whatever the curves need.
-    pub includes: Option<[f64; 2]>,
+    pub(crate) includes: Option<[f64; 2]>,
 }
 
 impl Axis {
     /// An axis of numbers.
-    pub fn of(name: impl Into<String>, unit: impl Into<String>) -> Self {
+    pub(crate) fn of(name: impl Into<String>, unit: impl Into<String>) -> Self {
         Axis { name: name.into(), unit: unit.into(), words: Vec::new(), includes: None }
     }
 
@@ -45,70 +43,66 @@ impl Axis {
     }
 
     /// An axis of words.
-    pub fn of_words(name: impl Into<String>, words: Vec<String>) -> Self {
+    pub(crate) fn of_words(name: impl Into<String>, words: Vec<String>) -> Self {
         Axis { words, ..Axis::of(name, "") }
     }
 }
 
 /// A curve: points in the units of the axes, a gap where a number is not finite.
 #[derive(Clone, Debug)]
-pub struct Curve {
+pub(crate) struct Curve {
     /// For the legend.
-    pub label: String,
+    pub(crate) label: String,
     /// How it is drawn.
-    pub style: Style,
+    pub(crate) style: Style,
     /// Points in their order.
-    pub points: Vec<[f64; 2]>,
+    pub(crate) points: Vec<[f64; 2]>,
 }
 
 /// How a curve is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Style {
-    /// Colour.
-    pub colour: &'static str,
+pub(crate) struct Style {
+    pub(crate) colour: &'static str,
     /// SVG dash pattern; solid if empty.
-    pub dash: &'static str,
+    pub(crate) dash: &'static str,
     /// Width of the line, or of a dot.
-    pub width: f64,
+    pub(crate) width: f64,
     /// Line or dots.
-    pub mark: Mark,
+    pub(crate) mark: Mark,
 }
 
 /// What stands at the points of a curve.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Mark {
+pub(crate) enum Mark {
     /// A line through them.
     #[default]
     Line,
-    /// A dot at each.
     Dots,
 }
 
 /// A level that should not be passed.
 #[derive(Clone, Debug)]
-pub struct Limit {
+pub(crate) struct Limit {
     /// For the legend.
-    pub label: String,
+    pub(crate) label: String,
     /// Level in the unit of Y.
-    pub level: f64,
+    pub(crate) level: f64,
 }
 
 /// Colours that most colour-blind people tell apart (Okabe and Ito, 2008), their yellow left out for white paper.
 const COLOURS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#666666"];
 const DASHES: [&str; 4] = ["", "7 3", "2 2.5", "9 3 2 3"];
-/// Lines of limits.
-pub const LIMIT: Style = Style { colour: "#c00000", dash: "5 3", width: 1.1, mark: Mark::Line };
+pub(crate) const LIMIT: Style = Style { colour: "#c00000", dash: "5 3", width: 1.1, mark: Mark::Line };
 
 impl Style {
-    /// Colours.
-    pub const COLOURS: usize = COLOURS.len();
+    pub(crate) const COLOURS: usize = COLOURS.len();
     /// Dash patterns, the solid line counted.
-    pub const DASHES: usize = DASHES.len();
+    pub(crate) const DASHES: usize = DASHES.len();
     /// Styles that differ.
-    pub const DISTINCT: usize = COLOURS.len() * DASHES.len();
+    pub(crate) const DISTINCT: usize = COLOURS.len() * DASHES.len();
 
     /// The style of a curve: colours by `colour`, dashes by `dash`; colours that come round again bring the next dash.
-    pub fn of(colour: usize, dash: usize) -> Self {
+    pub(crate) fn of(colour: usize, dash: usize) -> Self {
         let dash = dash + colour / COLOURS.len();
         Style {
             colour: COLOURS[colour % COLOURS.len()],
@@ -119,22 +113,21 @@ impl Style {
     }
 
     /// Measured curves: black.
-    pub fn measured(dash: usize) -> Self {
+    pub(crate) fn measured(dash: usize) -> Self {
         Style { colour: "#000000", dash: DASHES[dash % DASHES.len()], width: 1.2, mark: Mark::Line }
     }
 
     /// A solid line of any width: a bar, a whisker.
-    pub fn line(colour: &'static str, width: f64) -> Self {
+    pub(crate) fn line(colour: &'static str, width: f64) -> Self {
         Style { colour, dash: "", width, mark: Mark::Line }
     }
 
-    /// Dots.
-    pub fn dots(colour: &'static str, diameter: f64) -> Self {
+    pub(crate) fn dots(colour: &'static str, diameter: f64) -> Self {
         Style { mark: Mark::Dots, ..Style::line(colour, diameter) }
     }
 
     /// As attributes of SVG.
-    pub fn attributes(&self) -> String {
+    pub(crate) fn attributes(&self) -> String {
         let dash = match self.dash {
             "" => String::new(),
             dash => format!(" stroke-dasharray=\"{dash}\""),
@@ -156,13 +149,13 @@ const LIMIT_ROOM: f64 = 0.02;
 const GREATEST: f64 = 1e300;
 
 /// Whether a number can be drawn.
-pub fn drawable(value: f64) -> bool {
+pub(crate) fn drawable(value: f64) -> bool {
     value.abs() <= GREATEST
 }
 
 impl Figure {
     /// Least and greatest of X and of Y, limits included; none without a point.
-    pub fn extent(&self) -> Option<[[f64; 2]; 2]> {
+    pub(crate) fn extent(&self) -> Option<[[f64; 2]; 2]> {
         let points = self.curves.iter().flat_map(|c| &c.points);
         let mut extent: Option<[[f64; 2]; 2]> = None;
         for point in points.filter(|[x, y]| drawable(*x) && drawable(*y)) {

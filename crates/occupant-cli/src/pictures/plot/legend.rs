@@ -22,14 +22,14 @@ struct Entry {
 }
 
 /// A legend set to a width.
-pub struct Legend {
+pub(crate) struct Legend {
     entries: Vec<Entry>,
     rows: usize,
 }
 
 impl Legend {
     /// Of a figure's curves and limits. A lone curve whose label says no more than the title needs none.
-    pub fn new(figure: &Figure, width: f64) -> Self {
+    pub(crate) fn new(figure: &Figure, width: f64) -> Self {
         let curves = figure.curves.iter().map(|c| (c.label.as_str(), c.style));
         let limits = figure.limits.iter().map(|l| (l.label.as_str(), LIMIT));
         let mut legend = Legend { entries: Vec::new(), rows: 0 };
@@ -49,12 +49,12 @@ impl Legend {
     }
 
     /// Height of its rows.
-    pub fn height(&self) -> f64 {
+    pub(crate) fn height(&self) -> f64 {
         self.rows as f64 * ROW
     }
 
     /// Draws it with its upper left corner at a place.
-    pub fn draw(&self, svg: &mut Svg, [left, top]: [f64; 2]) {
+    pub(crate) fn draw(&self, svg: &mut Svg, [left, top]: [f64; 2]) {
         for entry in &self.entries {
             let y = top + (entry.row as f64 + 0.5) * ROW;
             let x = left + entry.x;
@@ -70,7 +70,7 @@ impl Legend {
 }
 
 /// A text that fits into a width; one that is too long loses its middle.
-pub fn shortened(text: &str, size: f64, weight: Weight, width: f64) -> String {
+pub(crate) fn shortened(text: &str, size: f64, weight: Weight, width: f64) -> String {
     if font::width(text, size, weight) <= width {
         return text.to_owned();
     }

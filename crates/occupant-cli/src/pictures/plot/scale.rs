@@ -2,13 +2,13 @@
 
 /// An axis' range, its ticks, and how they are written.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Scale {
+pub(crate) struct Scale {
     /// Least and greatest value shown.
-    pub range: [f64; 2],
+    pub(crate) range: [f64; 2],
     /// Ticks, increasing.
-    pub ticks: Vec<f64>,
+    pub(crate) ticks: Vec<f64>,
     /// Power of ten that stands in the axis' label, for the ticks' sake.
-    pub exponent: i32,
+    pub(crate) exponent: i32,
     decimals: usize,
     /// What stands at the ticks 0, 1, 2, … instead of figures.
     words: Vec<String>,
@@ -18,7 +18,7 @@ impl Scale {
     /// A scale with about `count` ticks that covers a range and ends on ticks.
     ///
     /// A range without extent (a constant) is opened round its value; zero is shown where it is not far from the values.
-    pub fn new([low, high]: [f64; 2], count: usize) -> Self {
+    pub(crate) fn new([low, high]: [f64; 2], count: usize) -> Self {
         let [low, high] = opened(low, high);
         let step = round_step((high - low) / count.max(1) as f64);
         // multiples of the step, counted, so that ticks carry no sums of rounding errors
@@ -29,7 +29,7 @@ impl Scale {
     }
 
     /// A scale for the axis across: the range as it is, ticks inside it.
-    pub fn inside([low, high]: [f64; 2], count: usize) -> Self {
+    pub(crate) fn inside([low, high]: [f64; 2], count: usize) -> Self {
         let size = low.abs().max(high.abs());
         let [low, high] = match high - low > SMALLEST.max(1e-12 * size) {
             true => [low, high],
@@ -46,7 +46,7 @@ impl Scale {
     }
 
     /// A scale of words at 0, 1, 2, …; `downward` if the first is to stand at its end.
-    pub fn of_words(words: Vec<String>, downward: bool) -> Self {
+    pub(crate) fn of_words(words: Vec<String>, downward: bool) -> Self {
         let ticks: Vec<f64> = (0..words.len()).map(|i| i as f64).collect();
         let beyond = words.len().max(1) as f64 - 0.5;
         Scale {
@@ -62,7 +62,7 @@ impl Scale {
     }
 
     /// Whether words stand at its ticks.
-    pub fn has_words(&self) -> bool {
+    pub(crate) fn has_words(&self) -> bool {
         !self.words.is_empty()
     }
 
@@ -83,7 +83,7 @@ impl Scale {
     }
 
     /// A tick in figures, without its power of ten, or its word.
-    pub fn figures(&self, tick: f64) -> String {
+    pub(crate) fn figures(&self, tick: f64) -> String {
         if self.has_words() {
             // ticks of words are 0, 1, 2, …
             return self.words.get(tick as usize).cloned().unwrap_or_default();
@@ -100,7 +100,7 @@ impl Scale {
     }
 
     /// Where a value stands, 0 at the range's begin and 1 at its end.
-    pub fn place(&self, value: f64) -> f64 {
+    pub(crate) fn place(&self, value: f64) -> f64 {
         let [low, high] = self.range;
         // halves, so that no difference overflows
         (0.5 * value - 0.5 * low) / (0.5 * high - 0.5 * low)

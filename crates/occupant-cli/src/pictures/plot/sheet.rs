@@ -8,13 +8,13 @@ use crate::pictures::{Svg, Text};
 
 /// A sheet's words.
 #[derive(Clone, Debug)]
-pub struct Sheet {
+pub(crate) struct Sheet {
     /// Heading.
-    pub title: String,
+    pub(crate) title: String,
     /// Lines below it, small.
-    pub lines: Vec<String>,
+    pub(crate) lines: Vec<String>,
     /// Figures beside each other.
-    pub columns: usize,
+    pub(crate) columns: usize,
 }
 
 /// Width of a figure, and its height without legend.
@@ -25,8 +25,7 @@ const EDGE: f64 = 16.0;
 const TITLE: f64 = 18.0;
 const SMALL: f64 = 11.0;
 
-/// All figures on one sheet.
-pub fn sheet(sheet: &Sheet, figures: &[Figure]) -> String {
+pub(crate) fn sheet(sheet: &Sheet, figures: &[Figure]) -> String {
     let columns = sheet.columns.clamp(1, figures.len().max(1));
     let size = if figures.len() == 1 { ALONE } else { SIZE };
     let below: Vec<f64> =
@@ -49,7 +48,7 @@ pub fn sheet(sheet: &Sheet, figures: &[Figure]) -> String {
 }
 
 /// One figure as an element of an HTML page, `size` without its legend.
-pub fn inline(figure: &Figure, size: [f64; 2]) -> String {
+pub(crate) fn inline(figure: &Figure, size: [f64; 2]) -> String {
     let below = legend_height(figure, size[0]);
     let whole = [size[0], size[1] + below];
     let mut svg = Svg::new(whole[0], whole[1], &figure.title);

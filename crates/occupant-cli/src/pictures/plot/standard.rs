@@ -10,24 +10,22 @@ use occupant_core::model::Model;
 
 /// A plot that is wished for.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Wish {
+pub(crate) struct Wish {
     /// Heading.
-    pub title: String,
+    pub(crate) title: String,
     /// What Y measures.
-    pub axis: String,
+    pub(crate) axis: String,
     /// What is drawn.
-    pub entries: Vec<Entry>,
+    pub(crate) entries: Vec<Entry>,
     /// What stands there if a scenario has none of it.
-    pub empty: String,
+    pub(crate) empty: String,
 }
 
 /// A channel with its name in the legend.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Entry {
-    /// Channel.
-    pub channel: String,
-    /// Name.
-    pub label: String,
+pub(crate) struct Entry {
+    pub(crate) channel: String,
+    pub(crate) label: String,
 }
 
 const ACCELERATIONS: [(&str, &str); 3] = [("head", "Head"), ("upper_torso", "Chest"), ("lower_torso", "Pelvis")];
@@ -46,7 +44,7 @@ const ENERGIES: [(&str, &str); 8] = [
 const FEW_ENERGIES: usize = 4;
 
 /// The plots, for the spheres and belts of a model; of several runs over each other, the energies that matter most.
-pub fn standard(model: &Model, several: bool) -> Vec<Wish> {
+pub(crate) fn standard(model: &Model, several: bool) -> Vec<Wish> {
     let mut wishes = Vec::with_capacity(14);
     for (segment, name) in ACCELERATIONS {
         for (component, words) in [("x", "X, ahead"), ("z", "Z, up"), ("resultant", "resultant")] {

@@ -11,7 +11,7 @@ use crate::pictures::body::{Lump, Part};
 const POINTS: usize = 40;
 
 /// Outline of a part at its segment's pose, picture axes, m.
-pub fn outline(part: &Part, pose: &Isometry3<f64>, view: View) -> Vec<[f64; 2]> {
+pub(crate) fn outline(part: &Part, pose: &Isometry3<f64>, view: View) -> Vec<[f64; 2]> {
     let mut points: Vec<[f64; 2]> = Vec::with_capacity(2 * POINTS);
     for lump in &part.ends {
         points.extend(ellipse(lump, pose, view));
@@ -35,7 +35,7 @@ fn ellipse(lump: &Lump, pose: &Isometry3<f64>, view: View) -> impl Iterator<Item
 }
 
 /// The convex hull of points (monotone chain), in order.
-pub fn convex(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
+pub(crate) fn convex(mut points: Vec<[f64; 2]>) -> Vec<[f64; 2]> {
     points.sort_by(|a, b| a[0].total_cmp(&b[0]).then(a[1].total_cmp(&b[1])));
     points.dedup();
     if points.len() < 3 {

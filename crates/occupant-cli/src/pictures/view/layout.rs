@@ -9,11 +9,11 @@ const COLUMNS: usize = 6;
 /// Width of the widest panel.
 const PANEL: f64 = 230.0;
 /// Room on the left for the names of the views.
-pub const LEFT: f64 = 84.0;
+pub(crate) const LEFT: f64 = 84.0;
 /// Room on top for the title.
 const TOP: f64 = 52.0;
 /// Room above a block for its times.
-pub const TIMES: f64 = 24.0;
+pub(crate) const TIMES: f64 = 24.0;
 /// Between panels.
 const GAP: f64 = 8.0;
 /// Room below for scales and legend.
@@ -22,15 +22,15 @@ const FOOT: f64 = 74.0;
 const LEAST_WIDTH: f64 = 560.0;
 
 /// The measures of a sheet, in user units.
-pub struct Layout {
+pub(crate) struct Layout {
     /// User units a metre.
-    pub scale: f64,
+    pub(crate) scale: f64,
     /// What the panels show.
-    pub window: Window,
+    pub(crate) window: Window,
     /// Width of the sheet.
-    pub width: f64,
+    pub(crate) width: f64,
     /// Height of the sheet.
-    pub height: f64,
+    pub(crate) height: f64,
     views: Vec<View>,
     column: f64,
     columns: usize,
@@ -38,8 +38,7 @@ pub struct Layout {
 }
 
 impl Layout {
-    /// Of a strip.
-    pub fn of(strip: &Strip<'_>) -> Self {
+    pub(crate) fn of(strip: &Strip<'_>) -> Self {
         let window = Window::of(strip);
         let widths = strip.views.iter().map(|v| window.size_m(*v)[0]);
         let widest = widths.fold(0.0, f64::max);
@@ -63,7 +62,7 @@ impl Layout {
     }
 
     /// Upper left corner, width and height of the panel of a moment in a row, centred in its column.
-    pub fn panel(&self, moment: usize, row: usize) -> ([f64; 2], [f64; 2]) {
+    pub(crate) fn panel(&self, moment: usize, row: usize) -> ([f64; 2], [f64; 2]) {
         let size = self.window.size_m(self.views[row]).map(|m| m * self.scale);
         let [x, y] = self.head(moment);
         let aside = 0.5 * (self.column - size[0]);
@@ -71,23 +70,23 @@ impl Layout {
     }
 
     /// Upper left corner of the column of a moment.
-    pub fn head(&self, moment: usize) -> [f64; 2] {
+    pub(crate) fn head(&self, moment: usize) -> [f64; 2] {
         let (block, column) = (moment / self.columns, moment % self.columns);
         [LEFT + column as f64 * (self.column + GAP), TOP + block as f64 * self.block]
     }
 
     /// Width of a column.
-    pub fn column(&self) -> f64 {
+    pub(crate) fn column(&self) -> f64 {
         self.column
     }
 
     /// Whether a moment is the first of its block.
-    pub fn begins_block(&self, moment: usize) -> bool {
+    pub(crate) fn begins_block(&self, moment: usize) -> bool {
         moment.is_multiple_of(self.columns)
     }
 
     /// Top of the room for scales and legend.
-    pub fn foot(&self) -> f64 {
+    pub(crate) fn foot(&self) -> f64 {
         self.height - FOOT
     }
 

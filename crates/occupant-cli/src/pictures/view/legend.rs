@@ -10,7 +10,7 @@ const SMALL: Text<'_> =
     Text { size: 11.0, fill: "#333333", anchor: Anchor::Start, weight: Weight::Regular, turn_deg: 0.0, halo: None };
 
 /// Name and axes of a view, left of its first panel.
-pub fn name_row(svg: &mut Svg, view: View, y: f64) {
+pub(crate) fn name_row(svg: &mut Svg, view: View, y: f64) {
     let name = Text { size: 12.0, weight: Weight::Bold, ..SMALL };
     svg.text([8.0, y + 14.0], view.name(), &name);
     svg.text([8.0, y + 28.0], view.from(), &Text { size: 9.5, ..SMALL });
@@ -27,7 +27,7 @@ pub fn name_row(svg: &mut Svg, view: View, y: f64) {
 }
 
 /// The line of scales and signs, and the small print.
-pub fn draw(svg: &mut Svg, layout: &Layout, pen: &Pen<'_>) {
+pub(crate) fn draw(svg: &mut Svg, layout: &Layout, pen: &Pen<'_>) {
     let y = layout.foot() + 22.0;
     let mut row = Row { svg, x: 12.0, y };
     let bar_m = round_length(90.0 / layout.scale);
@@ -95,7 +95,7 @@ impl Row<'_> {
 }
 
 /// The greatest of 1, 2, 5 times a power of ten that is not above `most`.
-pub fn round_length(most: f64) -> f64 {
+fn round_length(most: f64) -> f64 {
     let power = 10.0_f64.powf(most.log10().floor());
     let steps = [5.0, 2.0, 1.0].map(|s| s * power);
     steps.into_iter().find(|s| *s <= most).unwrap_or(power)

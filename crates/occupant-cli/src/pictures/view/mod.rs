@@ -12,23 +12,22 @@ mod window;
 
 use occupant_core::model::Model;
 
-pub use projection::View;
+pub(crate) use projection::View;
 
 use super::body::Snapshot;
 
 /// What is drawn.
-pub struct Strip<'a> {
-    /// The model.
-    pub model: &'a Model,
+pub(crate) struct Strip<'a> {
+    pub(crate) model: &'a Model,
     /// The moments, in order.
-    pub moments: Vec<Snapshot>,
+    pub(crate) moments: Vec<Snapshot>,
     /// The rows.
-    pub views: Vec<View>,
+    pub(crate) views: Vec<View>,
     /// Small print: where the pictures come from.
-    pub origin: String,
+    pub(crate) origin: String,
 }
 
 /// The strip as SVG.
-pub fn draw(strip: &Strip<'_>) -> String {
+pub(crate) fn draw(strip: &Strip<'_>) -> String {
     sheet::draw(strip)
 }

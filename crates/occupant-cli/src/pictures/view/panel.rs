@@ -16,26 +16,25 @@ use crate::pictures::svg::{Svg, number};
 /// A surface whose normal is this near to the picture's plane is drawn as a line.
 const EDGE_ON: f64 = 0.02;
 /// Colours of the drawing.
-pub const SURFACE: &str = "#5b6770";
+pub(crate) const SURFACE: &str = "#5b6770";
 /// A belt that pulls.
-pub const TAUT: &str = "#c2410c";
+pub(crate) const TAUT: &str = "#c2410c";
 /// A belt that does not.
-pub const SLACK: &str = "#8a8a8a";
+pub(crate) const SLACK: &str = "#8a8a8a";
 /// Contact points and forces.
-pub const CONTACT: &str = "#be123c";
+pub(crate) const CONTACT: &str = "#be123c";
 /// Length of an arrow's head over its width.
 const SLENDER: f64 = 2.2;
 
 /// What a panel needs to know besides its moment.
-pub struct Pen<'a> {
-    /// The strip.
-    pub strip: &'a Strip<'a>,
+pub(crate) struct Pen<'a> {
+    pub(crate) strip: &'a Strip<'a>,
     /// The parts of the body.
-    pub parts: &'a [Part],
+    pub(crate) parts: &'a [Part],
     /// User units a metre.
-    pub scale: f64,
+    pub(crate) scale: f64,
     /// User units a newton; none where nothing touches.
-    pub per_n: Option<f64>,
+    pub(crate) per_n: Option<f64>,
 }
 
 /// Turns picture places into the sheet's.
@@ -62,7 +61,7 @@ impl Place {
 }
 
 /// Draws a panel; `corner` is the sheet place of the picture place `corner_m`.
-pub fn draw(svg: &mut Svg, pen: &Pen<'_>, moment: &Snapshot, view: View, corner: [f64; 2], corner_m: [f64; 2]) {
+pub(crate) fn draw(svg: &mut Svg, pen: &Pen<'_>, moment: &Snapshot, view: View, corner: [f64; 2], corner_m: [f64; 2]) {
     let place = Place { view, scale: pen.scale, origin: [0, 1].map(|i| corner[i] - pen.scale * corner_m[i]) };
     let (before, behind) = surfaces(pen, moment, view);
     for face in &behind {
@@ -182,7 +181,7 @@ fn draw_contacts(svg: &mut Svg, place: &Place, pen: &Pen<'_>, moment: &Snapshot)
 }
 
 /// An arrow; one shorter than its head is left out.
-pub fn arrow(svg: &mut Svg, from: [f64; 2], to: [f64; 2], color: &str) {
+pub(crate) fn arrow(svg: &mut Svg, from: [f64; 2], to: [f64; 2], color: &str) {
     let along = [to[0] - from[0], to[1] - from[1]];
     let length = along[0].hypot(along[1]);
     let head = 6.0_f64.min(0.5 * length);

@@ -11,7 +11,7 @@ use crate::pictures::svg::{Anchor, Svg, Text};
 const LONGEST_FORCE: f64 = 70.0;
 
 /// The strip as SVG.
-pub fn draw(strip: &Strip<'_>) -> String {
+pub(crate) fn draw(strip: &Strip<'_>) -> String {
     let layout = Layout::of(strip);
     let title = &strip.model.setup().title;
     let mut svg = Svg::new(layout.width, layout.height, title);
@@ -60,7 +60,7 @@ fn draw_moment(svg: &mut Svg, layout: &Layout, pen: &Pen<'_>, moment: usize) {
 }
 
 /// `40 ms`, with as many decimals (up to three) as the time has.
-pub fn time_label(time_s: f64) -> String {
+fn time_label(time_s: f64) -> String {
     let text = format!("{:.3}", time_s * 1e3);
     let text = text.trim_end_matches('0').trim_end_matches('.');
     let text = if text == "-0" { "0" } else { text };

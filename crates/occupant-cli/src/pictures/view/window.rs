@@ -14,14 +14,13 @@ const REACH_M: f64 = 0.7;
 
 /// A box along the vehicle's axes, m.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Window {
+pub(crate) struct Window {
     low: Vector3<f64>,
     high: Vector3<f64>,
 }
 
 impl Window {
-    /// Of a strip.
-    pub fn of(strip: &Strip<'_>) -> Self {
+    pub(crate) fn of(strip: &Strip<'_>) -> Self {
         let mut window = Window { low: Vector3::repeat(f64::INFINITY), high: Vector3::repeat(f64::NEG_INFINITY) };
         for moment in &strip.moments {
             window.add_body(strip, moment);
@@ -34,13 +33,13 @@ impl Window {
     }
 
     /// Width and height in a view, m.
-    pub fn size_m(&self, view: View) -> [f64; 2] {
+    pub(crate) fn size_m(&self, view: View) -> [f64; 2] {
         let size = view.turn(self.high - self.low);
         [size.x.abs(), size.y.abs()]
     }
 
     /// Picture place of its upper left corner in a view, m.
-    pub fn corner_m(&self, view: View) -> [f64; 2] {
+    pub(crate) fn corner_m(&self, view: View) -> [f64; 2] {
         let (a, b) = (view.turn(self.low), view.turn(self.high));
         [a.x.min(b.x), a.y.min(b.y)]
     }

@@ -4,7 +4,7 @@ use crate::files::mcap::column::{Group, TIME, Value, column};
 use Value::{Number, Vector};
 
 /// Message `occupant.BeltState`; the index counts the belts.
-pub const BELT: Group = Group {
+pub(crate) const BELT: Group = Group {
     message: "BeltState",
     columns: &[
         TIME,

@@ -12,7 +12,7 @@ use Value::{Count, Indices, Number, Numbers};
 
 /// Message `occupant.Checkpoint`; `mcap::stored` reads it.
 #[rustfmt::skip]
-pub const CHECKPOINT: Group = Group {
+pub(crate) const CHECKPOINT: Group = Group {
     message: "Checkpoint",
     columns: &[
         TIME,

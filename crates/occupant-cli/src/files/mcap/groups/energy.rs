@@ -4,7 +4,7 @@ use crate::files::mcap::column::{Group, TIME, Value, column};
 use Value::Number;
 
 /// Message `occupant.EnergyLedger`.
-pub const ENERGY: Group = Group {
+pub(crate) const ENERGY: Group = Group {
     message: "EnergyLedger",
     columns: &[
         TIME,

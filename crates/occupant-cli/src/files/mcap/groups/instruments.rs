@@ -14,7 +14,7 @@ fn j211(v: Vector3<f64>) -> Vector3<f64> {
 }
 
 /// Message `occupant.Instruments`.
-pub const INSTRUMENTS: Group = Group {
+pub(crate) const INSTRUMENTS: Group = Group {
     message: "Instruments",
     columns: &[
         TIME,

@@ -7,7 +7,7 @@ use crate::files::mcap::column::{Group, TIME, Value, column};
 use Value::Vector;
 
 /// Message `occupant.JointLoad`; the index counts the joints in the report's order.
-pub const JOINT_LOAD: Group = Group {
+pub(crate) const JOINT_LOAD: Group = Group {
     message: "JointLoad",
     columns: &[
         TIME,

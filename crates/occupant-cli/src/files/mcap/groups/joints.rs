@@ -6,7 +6,7 @@ use crate::files::mcap::column::{Group, TIME, Value, column};
 use Value::Number;
 
 /// Message `occupant.JointAngles`: field number = the report's joint number + 1.
-pub const JOINTS: Group = Group {
+pub(crate) const JOINTS: Group = Group {
     message: "JointAngles",
     columns: &[
         TIME,

@@ -15,17 +15,17 @@ mod solver;
 mod sphere;
 mod vehicle;
 
-pub use belt::BELT;
-pub use checkpoint::CHECKPOINT;
-pub use energy::ENERGY;
-pub use instruments::INSTRUMENTS;
-pub use joint_load::JOINT_LOAD;
-pub use joints::JOINTS;
-pub use report_coordinates::REPORT_COORDINATES;
-pub use segment::SEGMENT;
-pub use solver::SOLVER;
-pub use sphere::SPHERE;
-pub use vehicle::VEHICLE;
+pub(crate) use belt::BELT;
+pub(crate) use checkpoint::CHECKPOINT;
+pub(crate) use energy::ENERGY;
+pub(crate) use instruments::INSTRUMENTS;
+pub(crate) use joint_load::JOINT_LOAD;
+pub(crate) use joints::JOINTS;
+pub(crate) use report_coordinates::REPORT_COORDINATES;
+pub(crate) use segment::SEGMENT;
+pub(crate) use solver::SOLVER;
+pub(crate) use sphere::SPHERE;
+pub(crate) use vehicle::VEHICLE;
 
 use super::column::Group;
 

@@ -4,7 +4,7 @@ use crate::files::mcap::column::{Group, TIME, Value, column};
 use Value::Coordinates;
 
 /// Message `occupant.ReportCoordinates`.
-pub const REPORT_COORDINATES: Group = Group {
+pub(crate) const REPORT_COORDINATES: Group = Group {
     message: "ReportCoordinates",
     columns: &[
         TIME,

@@ -6,7 +6,7 @@ use crate::files::mcap::column::{Group, TIME, Value, column};
 use Value::{Number, Rotation, Vector};
 
 /// Message `occupant.SegmentState`; the index counts [`Segment::ALL`].
-pub const SEGMENT: Group = Group {
+pub(crate) const SEGMENT: Group = Group {
     message: "SegmentState",
     columns: &[
         TIME,

@@ -4,7 +4,7 @@ use crate::files::mcap::column::{Group, TIME, Value, column};
 use Value::{Count, Number};
 
 /// Message `occupant.SolverState`.
-pub const SOLVER: Group = Group {
+pub(crate) const SOLVER: Group = Group {
     message: "SolverState",
     columns: &[
         TIME,

@@ -4,7 +4,7 @@ use crate::files::mcap::column::{Group, TIME, Value, column};
 use Value::{Number, Perhaps, Touches, Vector};
 
 /// Message `occupant.SphereLoad`; the index counts the body's spheres.
-pub const SPHERE: Group = Group {
+pub(crate) const SPHERE: Group = Group {
     message: "SphereLoad",
     columns: &[
         TIME,

@@ -4,7 +4,7 @@ use crate::files::mcap::column::{Group, TIME, Value, column};
 use Value::{Number, Vector};
 
 /// Message `occupant.VehicleMotion`.
-pub const VEHICLE: Group = Group {
+pub(crate) const VEHICLE: Group = Group {
     message: "VehicleMotion",
     columns: &[
         TIME,

@@ -17,7 +17,7 @@ const TAUT: Color = Color(0.85, 0.25, 0.15, 1.0);
 const SLACK: Color = Color(0.45, 0.45, 0.45, 1.0);
 
 /// A message with one entity for each belt, vehicle axes.
-pub fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>) {
+pub(crate) fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>) {
     replace(wire, ns, |w| {
         for (belt, action) in sample.model.setup().belts.iter().zip(sample.belts) {
             let radius_m = sample.model.body().spheres[belt.sphere].radius_m;

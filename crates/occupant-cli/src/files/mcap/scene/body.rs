@@ -27,7 +27,7 @@ const TROUSERS: Color = Color(0.25, 0.27, 0.33, 1.0);
 const SPHERE: Color = Color(0.95, 0.80, 0.30, 0.35);
 
 /// Limbs and trunk, one entity for each segment.
-pub fn write(wire: &mut Wire, body: &Body, frames: &FrameNames) {
+pub(crate) fn write(wire: &mut Wire, body: &Body, frames: &FrameNames) {
     for segment in Segment::ALL {
         entity(wire, 0, frames.of(segment), segment.name(), |w| {
             write_segment(w, body, segment);
@@ -36,7 +36,7 @@ pub fn write(wire: &mut Wire, body: &Body, frames: &FrameNames) {
 }
 
 /// Contact spheres, one entity for each.
-pub fn write_spheres(wire: &mut Wire, body: &Body, frames: &FrameNames) {
+pub(crate) fn write_spheres(wire: &mut Wire, body: &Body, frames: &FrameNames) {
     for sphere in &body.spheres {
         let centre = sphere_centre_m(body, sphere.segment, sphere.centre_from_lower_end_m.coords);
         let size = Vector3::repeat(2.0 * sphere.radius_m);

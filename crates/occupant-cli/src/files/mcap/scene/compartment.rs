@@ -32,7 +32,7 @@ const PALETTE: [Color; 8] = [
 ];
 
 /// One entity for each surface.
-pub fn write(wire: &mut Wire, model: &Model) {
+pub(crate) fn write(wire: &mut Wire, model: &Model) {
     for (surface, face) in model.setup().surfaces.iter().zip(model.faces()) {
         let corners = corners_m(face);
         let color = PALETTE[surface.material % PALETTE.len()];
@@ -44,7 +44,7 @@ pub fn write(wire: &mut Wire, model: &Model) {
 }
 
 /// The viewer's name of a surface's frame.
-pub fn frame_name(frame: Frame) -> &'static str {
+pub(crate) fn frame_name(frame: Frame) -> &'static str {
     match frame {
         Frame::Vehicle => VEHICLE_FRAME,
         Frame::Space => SPACE_FRAME,
@@ -52,7 +52,7 @@ pub fn frame_name(frame: Frame) -> &'static str {
 }
 
 /// The outline as a polygon, counter-clockwise seen from the open side, in the axes of its frame.
-pub fn corners_m(face: &FlatFace) -> Vec<Point3<f64>> {
+pub(crate) fn corners_m(face: &FlatFace) -> Vec<Point3<f64>> {
     let (u, v) = face.plane_axes();
     match &face.outline {
         Outline::Polygon(corners) => corners.clone(),

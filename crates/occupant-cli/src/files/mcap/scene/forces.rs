@@ -14,7 +14,7 @@ const CONTACT: Color = Color(0.90, 0.15, 0.15, 1.0);
 const BELT: Color = Color(0.95, 0.55, 0.10, 1.0);
 
 /// A message with one entity for each force, vehicle axes, drawn with `m_per_n`.
-pub fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>, m_per_n: f64) {
+pub(crate) fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>, m_per_n: f64) {
     let setup = sample.model.setup();
     replace(wire, ns, |w| {
         for contact in sample.contacts() {

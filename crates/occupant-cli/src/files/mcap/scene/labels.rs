@@ -13,7 +13,7 @@ const HEIGHT_M: f64 = 0.04;
 const ARROW_M: f64 = 0.08;
 
 /// One entity for each surface.
-pub fn write(wire: &mut Wire, model: &Model) {
+pub(crate) fn write(wire: &mut Wire, model: &Model) {
     for (surface, face) in model.setup().surfaces.iter().zip(model.faces()) {
         let corners = corners_m(face);
         let sum: Vector3<f64> = corners.iter().map(|p| p.coords).sum();

@@ -4,27 +4,27 @@
 //! whole in every message, so that a viewer that jumps in time and reads only the last message shows the right thing.
 
 pub mod belts;
-pub mod body;
-pub mod compartment;
-pub mod forces;
-pub mod labels;
+pub(crate) mod body;
+pub(crate) mod compartment;
+pub(crate) mod forces;
+pub(crate) mod labels;
 mod primitive;
 
 use super::wire::Wire;
 
 /// Red, green, blue and opacity, 0 to 1.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Color(pub f64, pub f64, pub f64, pub f64);
+pub(crate) struct Color(pub(crate) f64, pub(crate) f64, pub(crate) f64, pub(crate) f64);
 
 impl Color {
     /// The same with another opacity.
-    pub const fn with_opacity(self, opacity: f64) -> Self {
+    const fn with_opacity(self, opacity: f64) -> Self {
         Color(self.0, self.1, self.2, opacity)
     }
 }
 
 /// A message that replaces all that the topic showed before.
-pub fn replace(wire: &mut Wire, ns: u64, content: impl FnOnce(&mut Wire)) {
+pub(crate) fn replace(wire: &mut Wire, ns: u64, content: impl FnOnce(&mut Wire)) {
     const ALL: u64 = 1;
     wire.message(1, |w| {
         w.time(1, ns);
@@ -35,7 +35,7 @@ pub fn replace(wire: &mut Wire, ns: u64, content: impl FnOnce(&mut Wire)) {
 }
 
 /// An entity that is drawn until it is replaced and that moves with `frame`.
-pub fn entity(wire: &mut Wire, ns: u64, frame: &str, id: &str, content: impl FnOnce(&mut Wire)) {
+fn entity(wire: &mut Wire, ns: u64, frame: &str, id: &str, content: impl FnOnce(&mut Wire)) {
     const FOR_EVER: u64 = 0;
     wire.message(2, |w| {
         w.time(1, ns);

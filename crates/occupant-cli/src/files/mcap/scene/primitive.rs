@@ -8,7 +8,7 @@ use super::Color;
 use crate::files::mcap::wire::Wire;
 
 /// An ellipsoid along the frame's axes.
-pub fn ellipsoid(wire: &mut Wire, centre_m: Vector3<f64>, size_m: Vector3<f64>, color: Color) {
+pub(crate) fn ellipsoid(wire: &mut Wire, centre_m: Vector3<f64>, size_m: Vector3<f64>, color: Color) {
     wire.message(9, |w| {
         pose(w, centre_m, UnitQuaternion::identity());
         w.vector(2, &size_m);
@@ -17,7 +17,7 @@ pub fn ellipsoid(wire: &mut Wire, centre_m: Vector3<f64>, size_m: Vector3<f64>, 
 }
 
 /// An elliptic cylinder; `size_m` is along its own axes.
-pub fn cylinder(
+pub(crate) fn cylinder(
     wire: &mut Wire,
     centre_m: Vector3<f64>,
     orientation: UnitQuaternion<f64>,
@@ -34,7 +34,7 @@ pub fn cylinder(
 }
 
 /// An arrow along `arrow_m`.
-pub fn arrow(wire: &mut Wire, start_m: Vector3<f64>, arrow_m: Vector3<f64>, diameter_m: f64, color: Color) {
+pub(crate) fn arrow(wire: &mut Wire, start_m: Vector3<f64>, arrow_m: Vector3<f64>, diameter_m: f64, color: Color) {
     let length_m = arrow_m.norm();
     let head_m = (3.0 * diameter_m).min(0.5 * length_m);
     // None for the half turn from X to −X
@@ -52,7 +52,7 @@ pub fn arrow(wire: &mut Wire, start_m: Vector3<f64>, arrow_m: Vector3<f64>, diam
 
 /// Whether a line ends where it began.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Closing {
+pub(crate) enum Closing {
     /// `LINE_STRIP`.
     Open = 0,
     /// `LINE_LOOP`.
@@ -60,7 +60,7 @@ pub enum Closing {
 }
 
 /// A line through `points_m`.
-pub fn line(wire: &mut Wire, closing: Closing, points_m: &[Point3<f64>], thickness_m: f64, color: Color) {
+pub(crate) fn line(wire: &mut Wire, closing: Closing, points_m: &[Point3<f64>], thickness_m: f64, color: Color) {
     wire.message(11, |w| {
         w.count(1, closing as u64);
         // field 2 here, unlike the other primitives
@@ -73,7 +73,7 @@ pub fn line(wire: &mut Wire, closing: Closing, points_m: &[Point3<f64>], thickne
 }
 
 /// A convex polygon as triangles.
-pub fn polygon(wire: &mut Wire, corners_m: &[Point3<f64>], color: Color) {
+pub(crate) fn polygon(wire: &mut Wire, corners_m: &[Point3<f64>], color: Color) {
     let last = corners_m.len() as u32;
     let fan: Vec<u32> = (2..last).flat_map(|i| [0, i - 1, i]).collect();
     wire.message(12, |w| {
@@ -85,7 +85,7 @@ pub fn polygon(wire: &mut Wire, corners_m: &[Point3<f64>], color: Color) {
 }
 
 /// A text that faces the viewer.
-pub fn text(wire: &mut Wire, place_m: Vector3<f64>, height_m: f64, color: Color, words: &str) {
+pub(crate) fn text(wire: &mut Wire, place_m: Vector3<f64>, height_m: f64, color: Color, words: &str) {
     wire.message(13, |w| {
         pose(w, place_m, UnitQuaternion::identity());
         w.flag(2, true);

@@ -8,7 +8,7 @@ use crate::jobs::print::table::Table;
 use crate::jobs::print::unit::{RATIO, Units};
 
 /// Writes the belts as read; what was computed of them stands with the start.
-pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
+pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units) {
     let (k, l) = (units.stiffness, units.length);
     let mut table = Table::new(
         format!("BELTS ({}, {}); ANCHORS IN VEHICLE COORDINATES", k.name, l.name),

@@ -9,7 +9,7 @@ use crate::jobs::print::table::Table;
 use crate::jobs::print::unit::Units;
 
 /// Writes the body.
-pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
+pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units) {
     let body = case.model.body();
     // the resolved scenario writes a preset out, and calls it the scenario's own
     let name = case.file.run.get("body").unwrap_or(&body.name);

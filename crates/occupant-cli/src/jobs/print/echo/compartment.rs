@@ -11,7 +11,7 @@ use crate::jobs::print::table::Table;
 use crate::jobs::print::unit::{RATIO, Units};
 
 /// Writes materials and surfaces.
-pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
+pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units) {
     materials(case, units).write(pages);
     surfaces(case).write(pages);
     outlines(case, units).write(pages);

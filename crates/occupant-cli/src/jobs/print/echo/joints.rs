@@ -8,7 +8,7 @@ use crate::jobs::print::table::Table;
 use crate::jobs::print::unit::{DEGREE, Units};
 
 /// Writes the joints.
-pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
+pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units) {
     let joints = &case.model.setup().joints;
     balls(joints, units).write(pages);
     hinges(joints, units).write(pages);

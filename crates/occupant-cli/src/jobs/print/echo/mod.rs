@@ -9,14 +9,14 @@ mod run;
 mod seating;
 mod sensors;
 
-pub use seating::coordinates;
+pub(crate) use seating::coordinates;
 
 use super::case::Case;
 use super::page::Pages;
 use super::unit::Units;
 
 /// Writes the echo.
-pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
+pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units) {
     run::write(pages, case, units);
     pages.begin("INPUT: OCCUPANT");
     body::write(pages, case, units);

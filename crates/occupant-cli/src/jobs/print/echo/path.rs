@@ -10,8 +10,7 @@ use crate::jobs::print::page::Pages;
 use crate::jobs::print::table::Table;
 use crate::jobs::print::unit::{DEGREE, G, RATIO, Units};
 
-/// Writes the path.
-pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
+pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units) {
     match &case.model.setup().path {
         VehiclePath::Fixed(path) => {
             pages.say(&format!("THE VEHICLE STANDS {}", pose(&path.pose(), units)));
@@ -23,7 +22,7 @@ pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
     }
 }
 
-pub(super) fn pose(pose: &VehiclePose, units: &Units) -> String {
+pub(crate) fn pose(pose: &VehiclePose, units: &Units) -> String {
     let a = &pose.attitude;
     let angles = [a.roll_rad, a.pitch_rad, a.yaw_rad].map(|x| DEGREE.show(x));
     format!(
@@ -67,7 +66,7 @@ fn pulse(pages: &mut Pages, path: &PulsePath, units: &Units) {
     }
 }
 
-pub(super) fn direction(direction: &TravelDirection) -> String {
+pub(crate) fn direction(direction: &TravelDirection) -> String {
     match *direction {
         TravelDirection::Heading => "NOSE FIRST".to_owned(),
         TravelDirection::Along(v) => {
@@ -76,7 +75,7 @@ pub(super) fn direction(direction: &TravelDirection) -> String {
     }
 }
 
-pub(super) fn after(after: AfterEnd) -> &'static str {
+pub(crate) fn after(after: AfterEnd) -> &'static str {
     match after {
         AfterEnd::Error => "NO PATH",
         AfterEnd::Coast => "THE LAST VELOCITY",

@@ -7,7 +7,7 @@ use crate::jobs::print::page::Pages;
 use crate::jobs::print::unit::Units;
 
 /// Writes the first page.
-pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
+pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units) {
     pages.begin("INPUT: RUN");
     let setup = case.model.setup();
     let known = |key: &str| case.file.run.get(key).map_or("-", String::as_str);

@@ -12,7 +12,7 @@ use crate::jobs::print::table::Table;
 use crate::jobs::print::unit::{DEGREE, Units};
 
 /// Writes the start.
-pub fn write(pages: &mut Pages, case: &Case, units: &Units) {
+pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units) {
     let (setup, start) = (case.model.setup(), case.model.start());
     match &setup.posture {
         InitialPosture::Seated(seating) => read(pages, case, units, seating),
@@ -108,7 +108,7 @@ fn came_to_rest(pages: &mut Pages, units: &Units, settled: &Settled) {
 }
 
 /// q and their rates, four to a line, with the six decimals of cards.
-pub fn coordinates(pages: &mut Pages, units: &Units, title: &str, at: &ReportCoordinates) {
+pub(crate) fn coordinates(pages: &mut Pages, units: &Units, title: &str, at: &ReportCoordinates) {
     let l = units.length;
     let title = format!("{title}: Q(1) TO Q(3) ({}), THE REST (RAD), AND RATES (PER SEC)", l.name);
     let head = ["NO", "Q", "RATE"];

@@ -8,7 +8,7 @@ use crate::jobs::print::table::Table;
 use crate::jobs::print::unit::{DEGREE, G, Units};
 
 /// Writes how the record is read, then the record.
-pub fn write(pages: &mut Pages, path: &SensorPath, units: &Units) {
+pub(crate) fn write(pages: &mut Pages, path: &SensorPath, units: &Units) {
     let (d, v) = (path.definition(), units.speed);
     let (from_s, to_s) = path.span_s();
     pages.say("RECORDED MOTION, INTEGRATED");
