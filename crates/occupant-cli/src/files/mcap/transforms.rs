@@ -1,0 +1,47 @@
+//! `/tf`: space → vehicle → the twelve segments. Every message holds every frame, because a viewer that jumps in time
+//! reads only the last one.
+
+use nalgebra::{Rotation3, UnitQuaternion, Vector3};
+use occupant_core::body::{SEGMENTS, Segment};
+use occupant_core::results::sample::Sample;
+
+use super::topics::{SPACE_FRAME, VEHICLE_FRAME, segment_frame};
+use super::wire::Wire;
+
+/// Names of the segments' frames, made once.
+#[derive(Debug)]
+pub(crate) struct FrameNames([String; SEGMENTS]);
+
+impl Default for FrameNames {
+    fn default() -> Self {
+        FrameNames(Segment::ALL.map(segment_frame))
+    }
+}
+
+impl FrameNames {
+    /// The frame of a segment.
+    pub(crate) fn of(&self, segment: Segment) -> &str {
+        &self.0[segment.index()]
+    }
+}
+
+/// A `foxglove.FrameTransforms`.
+pub(crate) fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>, names: &FrameNames) {
+    let vehicle = sample.vehicle;
+    let turned = Rotation3::from_matrix_unchecked(vehicle.rotation);
+    let rotation = UnitQuaternion::from_rotation_matrix(&turned);
+    let mut transform = |parent: &str, child: &str, translation: &Vector3<f64>, rotation: &UnitQuaternion<f64>| {
+        wire.message(1, |w| {
+            w.time(1, ns);
+            w.text(2, parent);
+            w.text(3, child);
+            w.vector(4, translation);
+            w.rotation(5, rotation);
+        });
+    };
+    transform(SPACE_FRAME, VEHICLE_FRAME, &vehicle.origin_m, &rotation);
+    for segment in Segment::ALL {
+        let (place, turn) = (sample.cg_m(segment), sample.orientation(segment));
+        transform(VEHICLE_FRAME, names.of(segment), &place.coords, &turn);
+    }
+}

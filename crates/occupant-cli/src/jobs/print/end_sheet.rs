@@ -1,0 +1,129 @@
+//! The last sheet: how the run ended, and what an extension needs (series 6 and 14 of the cards): the pairs with
+//! NARRY(J,K) = 0, the coordinates, the rest angles of the spine and the belts' lengths.
+
+use occupant_core::body::Segment;
+use occupant_core::forces::joint::BALLS;
+use occupant_core::motion::kinematics::Kinematics;
+use occupant_core::motion::report_coordinates::ReportCoordinates;
+use occupant_core::results::checkpoint::Checkpoint;
+
+use super::case::Case;
+use super::echo::coordinates;
+use super::page::Pages;
+use super::table::Table;
+use super::unit::Units;
+
+/// Writes the last sheet.
+pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units, times_s: &[f64]) {
+    pages.begin("END OF SOLUTION");
+    ending(pages, case, times_s);
+    if let Some(&last_s) = times_s.last() {
+        let at_last = |c: &&Checkpoint| c.time_s.to_bits() == last_s.to_bits();
+        let checkpoint = case.file.checkpoints.iter().rev().find(at_last);
+        match checkpoint.map(|c| (c, fits(c, case))) {
+            Some((checkpoint, Ok(()))) => extension(pages, case, units, checkpoint),
+            Some((_, Err(reason))) => withheld(pages, &reason),
+            None => withheld(pages, "THE FILE HOLDS NO CHECKPOINT OF ITS LAST OUTPUT."),
+        }
+    }
+    pages.block(&["END OF PRINTOUT".to_owned()], 0);
+}
+
+/// Whether the checkpoint has the model's pairs.
+fn fits(checkpoint: &Checkpoint, case: &Case) -> Result<(), String> {
+    let pairs = case.model.system().contacts.pairs().len();
+    match checkpoint.pairs.len() == pairs {
+        true => Ok(()),
+        false => Err(format!("THE CHECKPOINT HAS {} PAIRS, THE SCENARIO {pairs}.", checkpoint.pairs.len())),
+    }
+}
+
+/// How far the run got, loudly where it is not complete.
+fn ending(pages: &mut Pages, case: &Case, times_s: &[f64]) {
+    let end_s = case.model.setup().time.end_s;
+    let reached = times_s.last().map_or_else(
+        || "NO OUTPUT IS IN THE FILE".to_owned(),
+        |t| format!("LAST OUTPUT AT {t:.6} SEC OF {end_s:.6} SEC, {} OUTPUTS", times_s.len()),
+    );
+    let Some(result) = &case.file.result else {
+        pages.say("*** PARTIAL: THE FILE WAS CUT OFF; IT HOLDS NO END OF THE RUN ***");
+        pages.say(&reached);
+        return;
+    };
+    let known = |key: &str| result.get(key).map_or("-", String::as_str);
+    let imbalance = known("balance_error").parse().unwrap_or(f64::NAN);
+    match known("status") {
+        "completed" => pages.say("THE RUN REACHED ITS END TIME"),
+        status => pages.say(&format!("*** PARTIAL: THE RUN WAS NOT COMPLETED ({status}): {} ***", known("reason"))),
+    }
+    pages.say(&reached);
+    pages.say(&format!(
+        "GREATEST ENERGY IMBALANCE {imbalance:.2E} OF THE GREATEST KINETIC ENERGY; {} STEPS, {} REJECTED, {} EVALUATIONS",
+        known("steps"),
+        known("rejected"),
+        known("evaluations")
+    ));
+}
+
+fn withheld(pages: &mut Pages, reason: &str) {
+    pages.say("");
+    pages.say("PAIRS WITH NARRY(J,K) = 0 AND COORDINATES AT THE END: NOT GIVEN.");
+    pages.say(reason);
+}
+
+fn extension(pages: &mut Pages, case: &Case, units: &Units, checkpoint: &Checkpoint) {
+    pages.say("");
+    pages.say("TO EXTEND THIS SOLUTION BY CARDS (SERIES 6 AND 14), FROM THE CHECKPOINT OF THE LAST OUTPUT.");
+    pages.say("CARDS CARRY NO GREATEST DEFORMATION, SO AN EXTENSION BY CARDS IS APPROXIMATE; `occupant run --resume` IS EXACT.");
+    let numbers = match case.numbers_of_report {
+        true => "SURFACE NUMBERS ARE THOSE OF THE CARDS",
+        false => "SURFACES ARE NUMBERED IN THE ORDER OF THE SCENARIO",
+    };
+    pairs(
+        pages,
+        case,
+        &format!("PAIRS WITH NARRY(J,K) = 0: THE SPHERE HAS PASSED THE SURFACE'S EDGE ({numbers})"),
+        &case.passed(&checkpoint.pairs),
+    );
+    let q = ReportCoordinates::from_state(&checkpoint.state);
+    coordinates(pages, units, "GENERALIZED COORDINATES AT THE END", &q);
+    pages.say("");
+    let [upper, lower] = spine_rest_rad(case);
+    pages.say(&format!("REST ANGLES OF THE BACK JOINTS: BETA4 {upper:.6} RAD, BETA7 {lower:.6} RAD"));
+    for (belt, law) in case.model.setup().belts.iter().zip(&case.model.system().belts) {
+        pages.say(&format!(
+            "UNSTRETCHED LENGTH OF THE BELT {}: {} {}",
+            belt.name,
+            units.length.show(law.rest_length),
+            units.length.name
+        ));
+    }
+}
+
+/// β₀ of the upper and the lower back joint, rad: the scenario's, or the angles at the start.
+fn spine_rest_rad(case: &Case) -> [f64; 2] {
+    let (system, joints) = (case.model.system(), &case.model.setup().joints);
+    let start = Kinematics::new(&system.skeleton, &case.model.start().state);
+    [(joints.upper_back, Segment::UpperTorso), (joints.lower_back, Segment::LowerTorso)].map(|(data, distal)| {
+        let ball = BALLS.iter().position(|&(_, n)| n == distal.index());
+        let at_start = ball.map_or(f64::NAN, |i| system.joints.beta(i, &start));
+        data.spring.and_then(|s| s.rest_rad).unwrap_or(at_start)
+    })
+}
+
+/// A list of pairs, two to a line.
+pub(crate) fn pairs(pages: &mut Pages, case: &Case, title: &str, passed: &[(usize, usize)]) {
+    let head = ["J", "<SPHERE", "<K  SURFACE"];
+    let mut table = Table::new(title, &[head, head].concat());
+    for row in passed.chunks(2) {
+        let pair = |&(sphere, surface): &(usize, usize)| {
+            let name = case.model.body().spheres.get(sphere).map(|s| s.name.clone());
+            [(sphere + 1).to_string(), name.unwrap_or_default(), case.surface(surface)]
+        };
+        table.row(row.iter().flat_map(pair));
+    }
+    match table.is_empty() {
+        true => pages.block(&[title.to_owned(), "NONE".to_owned()], 0),
+        false => table.write(pages),
+    }
+}
