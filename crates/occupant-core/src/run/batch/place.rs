@@ -91,7 +91,7 @@ impl<T, R: Recorder> Place<T, R> {
 pub(super) struct Witness<'a, T, R>(pub &'a mut [Option<Box<Place<T, R>>>]);
 
 impl<L: Lanes, T, R> Observer<L> for Witness<'_, T, R> {
-    fn touch(&mut self, touch: &Touch<L>) {
+    fn contacts(&mut self, touch: &Touch<L>) {
         for (i, place) in self.0.iter_mut().enumerate() {
             let Some(place) = place else { continue };
             if touch.weight.lane(i) > 0.0 {
