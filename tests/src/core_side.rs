@@ -58,7 +58,7 @@ impl CoreSide {
         let joints = JointSystem::new(&system.joints, &[f64::NAN; 7]);
         let kinematics = Kinematics::new(&skeleton, &state);
         let mut wrench = external(system, &kinematics);
-        let dissipated = joints.apply(&kinematics, &state, &mut wrench);
+        let dissipated = joints.apply(&kinematics, &state, &mut wrench, &mut |_| {});
         let found = dynamics::solve(&skeleton, &kinematics, &state.hinge_rate, &wrench);
         let accelerations = SpaceMotion {
             t1: found.joint[0].to_vector(),

@@ -96,17 +96,17 @@ impl Probe {
 
     /// State of pair `i`: open, touching or passed.
     pub fn phase(&self, i: usize) -> f64 {
-        self.history.pairs[i].phase
+        self.history.memory.contacts[i].phase
     }
 
     /// Δ_m of pair `i`, m.
     pub fn greatest_m(&self, i: usize) -> f64 {
-        self.history.pairs[i].greatest
+        self.history.memory.contacts[i].greatest
     }
 
     /// Number of pairs.
     pub fn pairs(&self) -> usize {
-        self.history.pairs.len()
+        self.history.memory.contacts.len()
     }
 
     fn place(&mut self, centre_m: Vector3<f64>, velocity_m_s: Vector3<f64>, omega: Vector3<f64>) {
@@ -127,7 +127,7 @@ impl Probe {
 struct Touches(Vec<Touch<f64>>);
 
 impl Observer<f64> for Touches {
-    fn touch(&mut self, touch: &Touch<f64>) {
+    fn contacts(&mut self, touch: &Touch<f64>) {
         self.0.push(*touch);
     }
 }

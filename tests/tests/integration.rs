@@ -2,6 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 use occupant_core::body::joint::{AngularSpring, BallJoint, HingeJoint, Joints};
+use occupant_core::forces::{belt, joint};
 use occupant_core::model::Model;
 use occupant_core::model::seating::InitialPosture;
 use occupant_core::model::setup::{Integrator, Setup};
@@ -79,7 +80,7 @@ fn end(setup: Setup) -> (State<f64>, Outcome) {
         &model,
         Watch(|s: &Sample<'_>| {
             last = Some(*s.state);
-            assert!(s.belts.iter().all(|b| b.loop_force > 0.0));
+            assert!(s.actions.belts.iter().all(|b| b.loop_force > 0.0));
         }),
     )
     .unwrap();
@@ -102,7 +103,7 @@ fn distances(a: &State<f64>, b: &State<f64>) -> [f64; 4] {
         speeds += (a.hinge_rate[i] - b.hinge_rate[i]).powi(2);
     }
     let (w, u) = (&a.work, &b.work);
-    let work = [w.joints - u.joints, w.belts - u.belts];
+    let work = [w.sums[joint::DAMPING] - u.sums[joint::DAMPING], w.sums[belt::STRETCH] - u.sums[belt::STRETCH]];
     let work: f64 = work.iter().map(|d| d * d).sum();
     [v(a.t1, b.t1), angles, speeds, work].map(f64::sqrt)
 }

@@ -252,7 +252,7 @@ fn both_segments_of_a_joint_get_opposite_moments() {
     state.hinge_rate = [-3.0, 2.0, -4.0, 1.0];
     let k = kinematics(&state);
     let mut wrench = [occupant_core::motion::dynamics::Wrench::zero(); 12];
-    let dissipated = system.apply(&k, &state, &mut wrench);
+    let dissipated = system.apply(&k, &state, &mut wrench, &mut |_| {});
     let sum: Vector3<f64> = wrench.iter().map(|w| w.moment.to_vector()).sum();
     // Measured: 8.6e-15.
     assert_below("sum of moments, N·m", sum.norm(), 1e-10);

@@ -2,8 +2,10 @@
 
 use std::ops::ControlFlow;
 
+use occupant_core::forces::belt::OTHER_BELTS;
+use occupant_core::forces::contact::OTHER_PAIRS;
+use occupant_core::forces::joint::OTHER_SPRINGS;
 use occupant_core::forces::material::Memory;
-use occupant_core::kernel::Unlike;
 use occupant_core::model::Model;
 use occupant_core::model::setup::{Integrator, Setup};
 use occupant_core::results::outcome::{Outcome, Status};
@@ -29,7 +31,7 @@ impl Recorder for Texts {
         if self.break_at == Some(s.index) {
             return Err("the disk is full".into());
         }
-        let derived = (s.evaluation, s.touches, s.belts, s.energy, s.vehicle);
+        let derived = (s.evaluation, s.actions, s.energy, s.vehicle);
         let text = format!("{:?} {derived:?} {:?}", s.checkpoint(), s.frames);
         self.outputs.push(text);
         Ok(match self.stop_at == Some(s.index) {
@@ -223,8 +225,8 @@ fn what_keeps_models_apart_has_a_name() {
     let unlike = |change: &dyn Fn(&mut Setup)| base.zip(&system(change), |a, _| a).err();
     assert_eq!(unlike(&|s| s.gravity_m_s2 = 9.0), None);
     let belts = unlike(&|s| s.belts.truncate(1));
-    assert_eq!(belts, Some(Unlike::Belts));
-    assert_eq!(unlike(&|s| s.joints.upper_back.spring = None), Some(Unlike::Springs));
+    assert_eq!(belts, Some(OTHER_BELTS));
+    assert_eq!(unlike(&|s| s.joints.upper_back.spring = None), Some(OTHER_SPRINGS));
     let fewer = unlike(&|s| s.surfaces.truncate(s.surfaces.len() - 1));
-    assert_eq!(fewer, Some(Unlike::Pairs));
+    assert_eq!(fewer, Some(OTHER_PAIRS));
 }

@@ -55,7 +55,7 @@ fn compare(sample: &Sample<'_>, row: &Row, peak: &Peaks, worst: &mut Difference)
         let expected = row.sphere_forces[i] * LBF_N;
         worst.force = worst.force.max((force - expected).abs() / peak.force_n);
     }
-    let belt = sample.belts[0].loop_force - row.lap_belt * LBF_N;
+    let belt = sample.actions.belts[0].loop_force - row.lap_belt * LBF_N;
     worst.belt = worst.belt.max(belt.abs() / peak.belt_n);
     for (segment, expected) in [
         (Segment::Head, row.head_cg_acc),

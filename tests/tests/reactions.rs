@@ -38,7 +38,7 @@ fn a_ball_joint_carries_no_moment_but_that_of_its_damper_stop_and_spring() {
         let k = &s.evaluation.kinematics;
         for (i, &(_, outer)) in BALLS.iter().enumerate() {
             let joint = Joint::ALL.into_iter().find(|j| !j.is_hinge() && segments(*j).1.index() == outer).unwrap();
-            let moment = s.model.system().joints.ball(i, k).moment;
+            let moment = s.model.system().forces.joints.ball(i, k).moment;
             let passive = k.axes[outer].into_frame(moment).to_vector();
             let carried = reaction(s, joint).moment_n_m;
             worst = worst.max((carried - passive).norm());
@@ -56,8 +56,8 @@ fn a_hinge_carries_its_torque_about_its_axis_and_more_across() {
     watch(&cart(), |s| {
         let mut passive = [Wrench::zero(); 12];
         let k = &s.evaluation.kinematics;
-        let joints = &s.model.system().joints;
-        joints.apply(k, s.state, &mut passive);
+        let joints = &s.model.system().forces.joints;
+        joints.apply(k, s.state, &mut passive, &mut |_| {});
         for joint in Joint::ALL.into_iter().filter(|j| j.is_hinge()) {
             let n = segments(joint).1.index();
             let torque = k.axes[n].y.dot(passive[n].moment);

@@ -18,8 +18,8 @@ fn fingerprint(model: &Model) -> Vec<u64> {
         Watch(|s: &Sample<'_>| {
             let q = s.report_coordinates();
             bits.extend(q.q.iter().chain(&q.rates).map(|x| x.to_bits()));
-            bits.extend(s.touches.iter().map(|t| t.normal_force.to_bits()));
-            bits.extend(s.belts.iter().map(|b| b.loop_force.to_bits()));
+            bits.extend(s.actions.contacts.iter().map(|t| t.normal_force.to_bits()));
+            bits.extend(s.actions.belts.iter().map(|b| b.loop_force.to_bits()));
             bits.push(s.energy.balance_j.to_bits());
         }),
     )

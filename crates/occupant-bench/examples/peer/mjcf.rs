@@ -91,7 +91,7 @@ fn body(model: &Model, now: &Instant, parts: Parts, n: usize) -> String {
         link.mass,
         list(&link.central),
     );
-    for (i, site) in now.system.contacts.sites.iter().enumerate() {
+    for (i, site) in now.system.spheres.iter().enumerate() {
         if site.segment == n && parts >= Parts::Held {
             let centre = [site.offset.x, site.offset.y, site.offset.z];
             text += &format!(

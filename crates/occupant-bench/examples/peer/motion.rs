@@ -4,9 +4,8 @@
 use occupant_bench::{self as scene, Instant};
 use occupant_core::body::SEGMENTS;
 use occupant_core::body::joint::{BallJoint, HingeJoint, Joints};
-use occupant_core::forces::History;
-use occupant_core::forces::contact::ContactSystem;
 use occupant_core::forces::joint::JointSystem;
+use occupant_core::forces::{History, Memory};
 use occupant_core::model::Model;
 use occupant_core::motion::frame::VEHICLE;
 use occupant_core::motion::integrate::rk4;
@@ -37,7 +36,7 @@ pub fn describe(model: &Model, now: &Instant) -> Value {
         "interval": STEPS_PER_PLACE as f64 * STEP_S,
         "places": places(model, now),
         "vehicle": vehicle(model),
-        "belts": model.system().belts.iter().map(|belt| belt.rest_length).collect::<Vec<_>>(),
+        "belts": model.system().forces.belts.iter().map(|belt| belt.rest_length).collect::<Vec<_>>(),
     })
 }
 
@@ -90,12 +89,11 @@ fn alone(model: &Model, now: &Instant) -> Instant {
         right_knee: damper(&j.right_knee),
         epsilon: j.epsilon,
     };
-    let contacts = ContactSystem::new(&setup.body, &[], &[], &[], setup.edge_force, STEP_S);
-    let mut now = now.clone();
-    now.history = History::new(&contacts, Vec::new(), Vec::new());
-    now.system.contacts = contacts;
-    now.system.belts = Vec::new();
-    now.system.joints = JointSystem::new(&joints, &[0.0; 7]);
+    let mut now = now.held(model);
+    now.system.forces.belts = Vec::new();
+    now.system.forces.joints = JointSystem::new(&joints, &[0.0; 7]);
+    let memory = Memory { contacts: Vec::new(), belts: Vec::new(), joints: Vec::new() };
+    now.history = History::new(&now.system.forces, memory);
     now
 }
 

@@ -86,7 +86,7 @@ impl FrictionMasses {
 
 /// Pairs of sphere and surface that can touch.
 fn pairs(model: &Model) -> impl Iterator<Item = (usize, usize)> + '_ {
-    let contacts = &model.system().contacts;
+    let contacts = &model.system().forces.contacts;
     contacts.groups().iter().flat_map(move |group| {
         let parts = contacts.pairs()[group.pairs.clone()].iter().flat_map(|p| &p.parts);
         parts.map(move |part| (group.sphere, part.surface))
@@ -96,7 +96,7 @@ fn pairs(model: &Model) -> impl Iterator<Item = (usize, usize)> + '_ {
 /// Smallest effective mass along the surface at the point of contact A = centre − r N̂, kg.
 fn tangential(model: &Model, mobility: &Mobility<'_>, sphere: usize, surface: usize) -> f64 {
     let system = model.system();
-    let site = &system.contacts.sites[sphere];
+    let site = &system.spheres[sphere];
     let normal = normal_in_space(model, &model.faces()[surface]);
     let (_, centre, _) = system.sphere(mobility.kinematics(), sphere);
     let point = centre - crate::motion::vector::V3::of(&normal) * site.radius;
@@ -129,7 +129,7 @@ pub(super) fn of_spheres(
         let own = || pairs(model).filter(move |&(s, _)| s == sphere).map(|(_, f)| f);
         let slope = |&surface: &usize| steepest(&material_of(setup, surface).spring);
         let stiffest = own().max_by(|a, b| slope(a).total_cmp(&slope(b)))?;
-        let site = &model.system().contacts.sites[sphere];
+        let site = &model.system().spheres[sphere];
         let (_, centre, _) = model.system().sphere(mobility.kinematics(), sphere);
         let mass_kg = 1.0 / greatest(mobility.of_point(site.segment, centre));
         let friction = step_s.and_then(|step_s| {
@@ -161,13 +161,13 @@ pub(super) fn of_belts(sample: &Sample<'_>, mobility: &Mobility<'_>) -> Vec<Rate
     let one = |(belt, action): (&crate::forces::belt::Belt, &crate::forces::belt::law::BeltAction<f64>)| {
         // −gradient of the length with respect to the centre
         let gradient = vehicle.axes.out(action.free[0] + action.free[1]).to_vector();
-        let site = &model.system().contacts.sites[belt.sphere];
+        let site = &model.system().spheres[belt.sphere];
         let (_, centre, _) = model.system().sphere(mobility.kinematics(), belt.sphere);
         let give = gradient.dot(&(mobility.of_point(site.segment, centre) * gradient));
         let sphere = &setup.body.spheres[belt.sphere].name;
         spring_rate(belt.name.clone(), format!("on {sphere}"), 1.0 / give, steepest(&belt.webbing))
     };
-    setup.belts.iter().zip(sample.belts).map(one).collect()
+    setup.belts.iter().zip(&sample.actions.belts).map(one).collect()
 }
 
 /// Joints: the damper at its strongest, and the spring.

@@ -15,7 +15,7 @@ pub const FREE: [usize; 8] = [0, 1, 2, 3, 4, 5, 8, 9];
 pub const HINGED: [usize; 4] = [6, 7, 10, 11];
 
 /// Numbers in a [`State`].
-pub const NUMBERS: usize = 75;
+pub const NUMBERS: usize = 71 + WORK_SUMS;
 
 /// Place of a free segment in [`FREE`]; hinged segments are not in it.
 pub const fn free_slot(segment: usize) -> usize {
@@ -54,18 +54,15 @@ impl<S: Scalar> Quat<S> {
     }
 }
 
+/// Work sums of the force elements.
+pub const WORK_SUMS: usize = 4;
+
 /// Work done since the start, for the energy ledger, J.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Work<S> {
-    /// Put into contacts along their normals and edge bands (stored and dissipated).
-    pub contact: S,
-    /// Dissipated by friction.
-    pub friction: S,
-    /// Dissipated by joint dampers and stops.
-    pub joints: S,
-    /// Put into belts (stored and dissipated).
-    pub belts: S,
-    /// Done on the occupant by the motion of the vehicle through contacts and belts.
+    /// Done on force elements, as each of them says (`forces::SUMS`).
+    pub sums: [S; WORK_SUMS],
+    /// Done on the occupant by the motion of the vehicle through force elements.
     pub vehicle: S,
 }
 
@@ -98,7 +95,7 @@ impl<S: Scalar> Work<S> {
     #[inline(always)]
     pub fn zero() -> Self {
         let o = S::zero();
-        Work { contact: o, friction: o, joints: o, belts: o, vehicle: o }
+        Work { sums: [o; WORK_SUMS], vehicle: o }
     }
 }
 
@@ -135,13 +132,7 @@ impl<S: Copy> State<S> {
                 u[7].zip(&v[7], &f),
             ],
             hinge_rate: zip_4(&self.hinge_rate, &other.hinge_rate, &f),
-            work: Work {
-                contact: f(a.contact, b.contact),
-                friction: f(a.friction, b.friction),
-                joints: f(a.joints, b.joints),
-                belts: f(a.belts, b.belts),
-                vehicle: f(a.vehicle, b.vehicle),
-            },
+            work: Work { sums: zip_4(&a.sums, &b.sums, &f), vehicle: f(a.vehicle, b.vehicle) },
         }
     }
 }
@@ -222,7 +213,7 @@ impl State<f64> {
             velocity: vector(39),
             omega: from_fn(|k| vector(42 + 3 * k)),
             hinge_rate: from_fn(|k| n(66 + k)),
-            work: Work { contact: n(70), friction: n(71), joints: n(72), belts: n(73), vehicle: n(74) },
+            work: Work { sums: from_fn(|k| n(70 + k)), vehicle: n(70 + WORK_SUMS) },
         }
     }
 
@@ -242,7 +233,8 @@ impl State<f64> {
         }
         see_all(&self.hinge_rate);
         let w = &self.work;
-        see_all(&[w.contact, w.friction, w.joints, w.belts, w.vehicle]);
+        see_all(&w.sums);
+        see_all(&[w.vehicle]);
     }
 
     /// True if every component but the work sums is a finite number.
@@ -261,6 +253,6 @@ mod tests {
         let state = State::from_numbers(&numbers);
         assert_eq!(state.to_numbers(), numbers);
         assert_eq!(state.orientation[7].v.z, 34.5);
-        assert_eq!(state.work.contact, 70.5);
+        assert_eq!(state.work.sums[0], 70.5);
     }
 }

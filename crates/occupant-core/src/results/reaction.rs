@@ -94,7 +94,7 @@ impl<'s, 'a> Loads<'s, 'a> {
     fn new(sample: &'s Sample<'a>) -> Self {
         let mut passive = [Wrench::zero(); SEGMENTS];
         let k = &sample.evaluation.kinematics;
-        sample.model.system().joints.apply(k, sample.state, &mut passive);
+        sample.model.system().forces.joints.apply(k, sample.state, &mut passive, &mut |_| {});
         Loads { sample, passive }
     }
 

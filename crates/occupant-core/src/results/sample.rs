@@ -4,10 +4,9 @@ use nalgebra::{Point3, UnitQuaternion, Vector3};
 
 use crate::body::Segment;
 use crate::body::joint::Joint;
-use crate::forces::History;
-use crate::forces::belt::law::BeltAction;
 use crate::forces::contact::Touch;
 use crate::forces::joint::BALLS;
+use crate::forces::{Actions, History};
 use crate::kernel::Evaluation;
 use crate::model::Model;
 use crate::motion::frame::Frames;
@@ -45,7 +44,7 @@ pub struct Sample<'a> {
     pub model: &'a Model,
     /// Integrated state.
     pub state: &'a State<f64>,
-    /// Pair states and belt histories.
+    /// History of the force elements.
     pub history: &'a History<f64>,
     /// Frames.
     pub frames: &'a Frames<f64>,
@@ -55,10 +54,8 @@ pub struct Sample<'a> {
     pub vehicle_pose: VehiclePose,
     /// Derived motion, loads and accelerations.
     pub evaluation: &'a Evaluation<f64>,
-    /// Pairs that exert a force.
-    pub touches: &'a [Touch<f64>],
-    /// Belts, in the setup's order.
-    pub belts: &'a [BeltAction<f64>],
+    /// What force elements do: pairs that exert a force, belts and ball joints in the model's order.
+    pub actions: &'a Actions<f64>,
     /// Energies.
     pub energy: EnergyLedger,
     /// Work of the integrator so far.
@@ -99,8 +96,7 @@ impl<'a> Sample<'a> {
             index: self.index,
             time_s: self.time_s,
             state: *self.state,
-            pairs: self.history.pairs.clone(),
-            belts: self.history.belts.clone(),
+            memory: self.history.memory.clone(),
             first_touches: self.first_touches.to_vec(),
             progress: self.progress,
             under_way: self.under_way.map(|step| step.to_start()),
@@ -161,19 +157,19 @@ impl<'a> Sample<'a> {
     /// Touching pairs, one by one (item 5).
     pub fn contacts(&self) -> impl Iterator<Item = Contact> + 'a {
         let sample = *self;
-        self.touches.iter().map(move |t| sample.contact(t))
+        self.actions.contacts.iter().map(move |t| sample.contact(t))
     }
 
     /// Sum of contact and friction forces on a sphere, vehicle axes, N; belts apart (item 5).
     pub fn sphere_force_n(&self, sphere: usize) -> Vector3<f64> {
-        let own = self.touches.iter().filter(|t| t.sphere == sphere);
+        let own = self.actions.contacts.iter().filter(|t| t.sphere == sphere);
         own.map(|t| self.contact(t).force_n).sum()
     }
 
     /// Force of belts on a sphere, vehicle axes, N.
     pub fn sphere_belt_force_n(&self, sphere: usize) -> Vector3<f64> {
-        let laws = &self.model.system().belts;
-        let own = laws.iter().zip(self.belts).filter(|(law, _)| law.sphere == sphere);
+        let laws = &self.model.system().forces.belts;
+        let own = laws.iter().zip(&self.actions.belts).filter(|(law, _)| law.sphere == sphere);
         own.map(|(_, action)| action.force.to_vector()).sum()
     }
 
@@ -185,8 +181,8 @@ impl<'a> Sample<'a> {
     /// Point of application of a sphere's contact force relative to its centre, segment axes, m: the mean over the faces
     /// touched, weighted by wF (item 6). `None` without contact.
     pub fn application_point_m(&self, sphere: usize) -> Option<Vector3<f64>> {
-        let site = &self.model.system().contacts.sites[sphere];
-        let own = self.touches.iter().filter(|t| t.sphere == sphere);
+        let site = &self.model.system().spheres[sphere];
+        let own = self.actions.contacts.iter().filter(|t| t.sphere == sphere);
         let (mut sum, mut total) = (Vector3::zeros(), 0.0);
         for t in own {
             let normal = self.frames[t.frame].axes.out(t.normal);
@@ -200,7 +196,7 @@ impl<'a> Sample<'a> {
     /// β of a ball joint or α of a hinge, rad.
     pub fn joint_angle_rad(&self, joint: Joint) -> f64 {
         match place(joint) {
-            Place::Ball(i) => self.model.system().joints.beta(i, &self.evaluation.kinematics),
+            Place::Ball(i) => self.model.system().forces.joints.beta(i, &self.evaluation.kinematics),
             Place::Hinge(i) => self.state.hinge[i],
         }
     }
@@ -217,7 +213,7 @@ impl<'a> Sample<'a> {
 
     fn contact(&self, t: &Touch<f64>) -> Contact {
         let system = self.model.system();
-        let site = &system.contacts.sites[t.sphere];
+        let site = &system.spheres[t.sphere];
         let to_vehicle = |v: V3<f64>| {
             if t.frame == VEHICLE {
                 v.to_vector()
@@ -226,7 +222,7 @@ impl<'a> Sample<'a> {
                 self.frames[VEHICLE].axes.into_frame(space).to_vector()
             }
         };
-        let part = &system.contacts.pairs()[t.pair].parts[t.part as usize];
+        let part = &system.forces.contacts.pairs()[t.pair].parts[t.part as usize];
         let normal = to_vehicle(t.normal);
         Contact {
             sphere: t.sphere,

@@ -8,10 +8,9 @@
 
 use super::trouble::Trouble;
 use occupant_core::body::joint::{Joint, Joints};
-use occupant_core::forces::History;
-use occupant_core::forces::Observer;
 use occupant_core::forces::belt::law::BeltAction;
 use occupant_core::forces::contact::Touch;
+use occupant_core::forces::{Actions, History};
 use occupant_core::model::Model;
 use occupant_core::motion::dual::Dual;
 use occupant_core::motion::kinematics::Kinematics;
@@ -168,39 +167,22 @@ impl Happening {
 pub(super) struct Scene<const N: usize> {
     time_s: f64,
     state: State<f64>,
-    touches: Vec<Touch<Dual<N>>>,
-    belts: Vec<BeltAction<Dual<N>>>,
+    /// What force elements do.
+    pub actions: Actions<Dual<N>>,
 }
 
 impl<const N: usize> Scene<N> {
     /// Room for all that `model` can show.
     pub fn new(model: &Model) -> Self {
-        let system = model.system();
-        Scene {
-            time_s: f64::NAN,
-            state: model.start().state,
-            touches: Vec::with_capacity(system.contacts.pairs().len()),
-            belts: Vec::with_capacity(system.belts.len()),
-        }
+        let actions = Actions::with_room(&model.system().forces);
+        Scene { time_s: f64::NAN, state: model.start().state, actions }
     }
 
     /// Another one.
     pub fn begin(&mut self, time_s: f64, state: &State<Dual<N>>) {
         self.time_s = time_s;
         self.state = state.zip(state, |x, _| x.value);
-        self.touches.clear();
-        self.belts.clear();
-    }
-}
-
-impl<const N: usize> Observer<Dual<N>> for Scene<N> {
-    #[inline(always)]
-    fn touch(&mut self, touch: &Touch<Dual<N>>) {
-        self.touches.push(*touch);
-    }
-    #[inline(always)]
-    fn belt(&mut self, _index: usize, action: &BeltAction<Dual<N>>) {
-        self.belts.push(*action);
+        self.actions.clear();
     }
 }
 
@@ -246,12 +228,12 @@ impl<const N: usize> Lookout<N> {
     /// Nothing seen yet of `model`.
     pub fn new(model: &Model) -> Self {
         let system = model.system();
-        let pairs = system.contacts.pairs().len();
+        let pairs = system.forces.contacts.pairs().len();
         Lookout {
             looks: NONE_YET,
             pairs: vec![PairNow::default(); pairs],
             touching: Vec::with_capacity(pairs),
-            belts: vec![BeltNow::default(); system.belts.len()],
+            belts: vec![BeltNow::default(); system.forces.belts.len()],
             stops: [None; 11],
             list: Vec::with_capacity(MOST),
             dropped: 0,
@@ -273,11 +255,11 @@ impl<const N: usize> Lookout<N> {
     /// Compares what `scene` shows with what was seen before.
     pub fn look(&mut self, model: &Model, scene: &Scene<N>, history: &History<Dual<N>>) {
         self.looks += 1;
-        for touch in &scene.touches {
+        for touch in &scene.actions.contacts {
             self.look_at_pair(model, scene.time_s, touch, history);
         }
         self.look_for_ends(scene.time_s, history);
-        for (i, belt) in scene.belts.iter().enumerate() {
+        for (i, belt) in scene.actions.belts.iter().enumerate() {
             self.look_at_belt(i, scene.time_s, belt);
         }
         self.look_at_stops(model, scene);
@@ -285,7 +267,7 @@ impl<const N: usize> Lookout<N> {
 
     fn look_at_pair(&mut self, model: &Model, t: f64, touch: &Touch<Dual<N>>, history: &History<Dual<N>>) {
         let setup = model.setup();
-        let part = &model.system().contacts.pairs()[touch.pair].parts[touch.part.value as usize];
+        let part = &model.system().forces.contacts.pairs()[touch.pair].parts[touch.part.value as usize];
         let (sphere, surface) = (touch.sphere, part.surface);
         let material = &setup.materials[setup.surfaces[surface].material];
         let before = self.pairs[touch.pair];
@@ -299,7 +281,7 @@ impl<const N: usize> Lookout<N> {
             surface,
             on_edge: touch.weight.value < 1.0,
             stiff: depth > material.spring.break_m,
-            unloading: depth < history.pairs[touch.pair].greatest.value,
+            unloading: depth < history.memory.contacts[touch.pair].greatest.value,
             slip: Some(slip),
             edge_n,
         };
@@ -356,7 +338,7 @@ impl<const N: usize> Lookout<N> {
                 continue;
             }
             self.touching.swap_remove(at);
-            let passed = history.pairs[i].phase.value > occupant_core::forces::contact::TOUCHING;
+            let passed = history.memory.contacts[i].phase.value > occupant_core::forces::contact::TOUCHING;
             let (what, jump_n) = match passed {
                 true => (Touching::Passes, Some(pair.edge_n)),
                 false => (Touching::Ends, None),
@@ -393,7 +375,7 @@ impl<const N: usize> Lookout<N> {
         let k = Kinematics::new(&system.skeleton, &scene.state);
         for (i, joint) in JOINTS.into_iter().enumerate() {
             let angle_rad = match i.checked_sub(7) {
-                None => system.joints.beta(i, &k),
+                None => system.forces.joints.beta(i, &k),
                 Some(hinge) => scene.state.hinge[hinge],
             };
             let inside = in_stop(&model.setup().joints, joint, angle_rad);

@@ -1,6 +1,5 @@
 //! Segments and spheres of the body.
 
-use super::{at_least_zero, positive};
 use crate::body::{Body, Segment, SegmentProperties};
 use crate::problem::Problems;
 
@@ -14,11 +13,11 @@ pub(super) fn check_body(body: &Body, problems: &mut Problems) {
     }
     for (key, value) in [("shoulder_half_width", body.shoulder_half_width_m), ("hip_half_width", body.hip_half_width_m)]
     {
-        at_least_zero(problems, &format!("body.{key}"), value, "m");
+        problems.check_at_least_zero(&format!("body.{key}"), value, "m");
     }
     for (i, sphere) in body.spheres.iter().enumerate() {
         let path = format!("body.spheres.{}", sphere.name);
-        positive(problems, &format!("{path}.radius"), sphere.radius_m, "m");
+        problems.check_positive(&format!("{path}.radius"), sphere.radius_m, "m");
         let twin = body.spheres[..i].iter().any(|s| s.name == sphere.name);
         if twin {
             problems.error(&path, format!("a second sphere named {}", sphere.name), "unique names");
@@ -49,8 +48,8 @@ pub(super) fn check_body(body: &Body, problems: &mut Problems) {
 }
 
 fn check_segment(p: &SegmentProperties, path: &str, problems: &mut Problems) {
-    positive(problems, &format!("{path}.length"), p.length_m, "m");
-    positive(problems, &format!("{path}.mass"), p.mass_kg, "kg");
+    problems.check_positive(&format!("{path}.length"), p.length_m, "m");
+    problems.check_positive(&format!("{path}.mass"), p.mass_kg, "kg");
     let rho = p.cg_from_lower_end_m;
     if !(rho >= 0.0 && rho <= p.length_m) {
         problems.error(
@@ -62,7 +61,7 @@ fn check_segment(p: &SegmentProperties, path: &str, problems: &mut Problems) {
     let inertia = p.inertia_kg_m2;
     let mut sound = true;
     for (axis, value) in ["x", "y", "z"].iter().zip(inertia.iter()) {
-        sound &= positive(problems, &format!("{path}.inertia"), *value, &format!("kg·m² about {axis}"));
+        sound &= problems.check_positive(&format!("{path}.inertia"), *value, &format!("kg·m² about {axis}"));
     }
     let sum: f64 = inertia.sum();
     for (axis, value) in ["I_x", "I_y", "I_z"].iter().zip(inertia.iter()) {

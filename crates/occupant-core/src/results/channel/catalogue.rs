@@ -4,6 +4,7 @@ use super::quantity::{Component, Source};
 use super::{Axes, Channel};
 use crate::body::Segment;
 use crate::body::joint::Joint;
+use crate::forces::{belt, contact, joint};
 use crate::model::Model;
 use crate::results::energy::EnergyLedger;
 use crash_measures::unit::Unit;
@@ -214,13 +215,13 @@ impl List {
             ("kinetic", "kinetic energy in space", |e| e.kinetic_j),
             ("kinetic_relative", "kinetic energy of the motion relative to the vehicle", |e| e.kinetic_relative_j),
             ("gravity", "potential energy of gravity, zero at Z′ = 0", |e| e.gravity_j),
-            ("spine", "stored in the joints' springs", |e| e.spine_j),
-            ("contacts", "stored in contacts", |e| e.contacts_j),
-            ("belts", "stored in belts", |e| e.belts_j),
-            ("lost_contacts", "dissipated by contacts", |e| e.lost_contacts_j),
-            ("lost_friction", "dissipated by friction", |e| e.lost_friction_j),
-            ("lost_joints", "dissipated by joints", |e| e.lost_joints_j),
-            ("lost_belts", "dissipated by belts", |e| e.lost_belts_j),
+            ("spine", "stored in the joints' springs", |e| e.stored_j[joint::STORED]),
+            ("contacts", "stored in contacts", |e| e.stored_j[contact::STORED]),
+            ("belts", "stored in belts", |e| e.stored_j[belt::STORED]),
+            ("lost_contacts", "dissipated by contacts", |e| e.lost_j[contact::PRESS]),
+            ("lost_friction", "dissipated by friction", |e| e.lost_j[contact::FRICTION]),
+            ("lost_joints", "dissipated by joints", |e| e.lost_j[joint::DAMPING]),
+            ("lost_belts", "dissipated by belts", |e| e.lost_j[belt::STRETCH]),
             ("vehicle_work", "work of the vehicle on the occupant", |e| e.vehicle_work_j),
             ("balance", "present sum less the sum at the start", |e| e.balance_j),
         ];

@@ -85,7 +85,7 @@ impl Source {
     /// Its value; a scalar stands in X.
     pub fn value(&self, s: &Sample<'_>) -> Vector3<f64> {
         let to_vehicle = |v| s.vehicle.vector_to_frame(v);
-        let belt = |i: &usize| s.belts.get(*i);
+        let belt = |i: &usize| s.actions.belts.get(*i);
         match self {
             Source::VehicleAcceleration => to_vehicle(s.vehicle.acceleration_m_s2),
             Source::VehicleVelocity => to_vehicle(s.vehicle.velocity_m_s),
@@ -105,7 +105,7 @@ impl Source {
             Source::SphereForce(i) => s.sphere_force_n(*i),
             Source::SphereBeltForce(i) => s.sphere_belt_force_n(*i),
             Source::Penetration(i) => {
-                let own = s.touches.iter().filter(|t| t.sphere == *i);
+                let own = s.actions.contacts.iter().filter(|t| t.sphere == *i);
                 scalar(own.map(|t| t.depth).fold(0.0, f64::max))
             }
             Source::LoopForce(i) => scalar(belt(i).map_or(f64::NAN, |b| b.loop_force)),

@@ -219,7 +219,7 @@ impl Summarizer {
     fn see_contacts(&mut self, sample: &Sample<'_>) {
         // touches come sphere by sphere or frame by frame: add up first, then compare
         for (sphere, track) in self.spheres.iter_mut().enumerate() {
-            if !sample.touches.iter().any(|t| t.sphere == sphere) {
+            if !sample.actions.contacts.iter().any(|t| t.sphere == sphere) {
                 continue;
             }
             let mut sum_n = Vector3::zeros();
@@ -239,7 +239,7 @@ impl Summarizer {
     }
 
     fn see_belts(&mut self, sample: &Sample<'_>) {
-        for (track, action) in self.belts.iter_mut().zip(sample.belts) {
+        for (track, action) in self.belts.iter_mut().zip(&sample.actions.belts) {
             let t = sample.time_s;
             track.loop_force.see(action.loop_force, t);
             track.elongation.see(action.elongation, t);

@@ -148,12 +148,19 @@ impl<S: Scalar> JointSystem<S> {
         }
     }
 
-    /// Adds all joint moments to `wrench`; returns the power that they dissipate, W.
+    /// Adds all joint moments to `wrench` and shows what the ball joints do; returns the power that they dissipate, W.
     #[inline(always)]
-    pub fn apply(&self, k: &Kinematics<S>, state: &State<S>, wrench: &mut [Wrench<S>; SEGMENTS]) -> S {
+    pub fn apply(
+        &self,
+        k: &Kinematics<S>,
+        state: &State<S>,
+        wrench: &mut [Wrench<S>; SEGMENTS],
+        show: &mut impl FnMut(&BallAction<S>),
+    ) -> S {
         let mut dissipated = S::zero();
         for (i, &(inner, outer)) in BALLS.iter().enumerate() {
             let action = self.ball(i, k);
+            show(&action);
             wrench[outer].moment += action.moment;
             wrench[inner].moment -= action.moment;
             dissipated += action.dissipated;

@@ -1,10 +1,9 @@
 //! Dampers, stops and springs of the joints.
 
-use super::at_least_zero;
 use crate::body::joint::{BallJoint, HingeJoint, Joints, Stop};
 use crate::problem::Problems;
 
-pub(super) fn check_joints(j: &Joints, problems: &mut Problems) {
+pub(super) fn check(j: &Joints, problems: &mut Problems) {
     let balls = [
         ("neck", &j.neck),
         ("right_shoulder", &j.right_shoulder),
@@ -32,8 +31,8 @@ pub(super) fn check_joints(j: &Joints, problems: &mut Problems) {
 }
 
 fn check_ball(ball: &BallJoint, path: &str, problems: &mut Problems) {
-    at_least_zero(problems, &format!("{path}.damping"), ball.damping_n_m_s, "N·m·s");
-    at_least_zero(problems, &format!("{path}.twist_damping"), ball.twist_damping_n_m_s, "N·m·s");
+    problems.check_at_least_zero(&format!("{path}.damping"), ball.damping_n_m_s, "N·m·s");
+    problems.check_at_least_zero(&format!("{path}.twist_damping"), ball.twist_damping_n_m_s, "N·m·s");
     if let Some(stop) = &ball.stop {
         check_stop(stop, 1.0, ball.damping_n_m_s, &format!("{path}.stop"), problems);
         if stop.begin_rad < 0.0 || stop.full_rad > std::f64::consts::PI {
@@ -45,7 +44,7 @@ fn check_ball(ball: &BallJoint, path: &str, problems: &mut Problems) {
         }
     }
     if let Some(spring) = &ball.spring {
-        at_least_zero(problems, &format!("{path}.stiffness"), spring.stiffness_n_m, "N·m/rad");
+        problems.check_at_least_zero(&format!("{path}.stiffness"), spring.stiffness_n_m, "N·m/rad");
         if spring.rest_rad.is_some_and(|r| !r.is_finite()) {
             problems.error(format!("{path}.rest_angle"), "not a finite number", "an angle");
         }
@@ -53,7 +52,7 @@ fn check_ball(ball: &BallJoint, path: &str, problems: &mut Problems) {
 }
 
 fn check_hinge(hinge: &HingeJoint, path: &str, problems: &mut Problems) {
-    at_least_zero(problems, &format!("{path}.damping"), hinge.damping_n_m_s, "N·m·s");
+    problems.check_at_least_zero(&format!("{path}.damping"), hinge.damping_n_m_s, "N·m·s");
     if let Some(stop) = &hinge.lower_stop {
         check_stop(stop, -1.0, hinge.damping_n_m_s, &format!("{path}.lower_stop"), problems);
     }
@@ -63,7 +62,7 @@ fn check_hinge(hinge: &HingeJoint, path: &str, problems: &mut Problems) {
 }
 
 fn check_stop(stop: &Stop, sign: f64, damping: f64, path: &str, problems: &mut Problems) {
-    at_least_zero(problems, &format!("{path}.damping"), stop.damping_n_m_s, "N·m·s");
+    problems.check_at_least_zero(&format!("{path}.damping"), stop.damping_n_m_s, "N·m·s");
     let rise = sign * (stop.full_rad - stop.begin_rad);
     if !rise.is_finite() || rise < 0.0 {
         problems.error_with_hint(
