@@ -3,6 +3,7 @@
 //! Report: "Lap and Torso Restraint Belts", Eqs 95–108, Figs 17 and 18.
 
 pub mod law;
+pub mod results;
 
 use nalgebra::Point3;
 
