@@ -80,6 +80,7 @@ pub mod kernel;
 pub mod model;
 pub mod motion;
 pub mod problem;
+pub mod quantity;
 pub mod results;
 pub mod run;
 pub mod scenario;

@@ -6,15 +6,16 @@ use nalgebra::Vector3;
 use crate::body::Segment;
 use crate::body::joint::Joint;
 use crate::model::Model;
+use crate::quantity::to_j211;
 use crate::results::reaction::{femur_axial_n, reaction};
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
 
-/// Segment axes (left, up) to J211 axes (right, down).
+/// Adds a vector of segment axes in J211 axes.
 fn push(into: &mut Components, v: Vector3<f64>) {
-    into[0].push(v.x);
-    into[1].push(-v.y);
-    into[2].push(-v.z);
+    for (values, component) in into.iter_mut().zip(&to_j211(v)) {
+        values.push(*component);
+    }
 }
 
 impl Recorder for Signals {

@@ -166,6 +166,12 @@ impl<'a> Sample<'a> {
         own.map(|t| self.contact(t).force_n).sum()
     }
 
+    /// Greatest Δ of a sphere, m; 0 without contact.
+    pub fn penetration_m(&self, sphere: usize) -> f64 {
+        let own = self.actions.contacts.iter().filter(|t| t.sphere == sphere);
+        own.map(|t| t.depth).fold(0.0, f64::max)
+    }
+
     /// Force of belts on a sphere, vehicle axes, N.
     pub fn sphere_belt_force_n(&self, sphere: usize) -> Vector3<f64> {
         let laws = &self.model.system().forces.belts;

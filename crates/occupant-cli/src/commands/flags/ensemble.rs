@@ -73,7 +73,7 @@ impl EnsembleArgs {
         let changes = changes(&self.change)?;
         let within = part("--stable-within", &self.stable_within)?;
         let channels = choose(&opened.model, &self.channels)?;
-        refuse_too_much(members, channels.len(), opened.model.).output_count()?;
+        refuse_too_much(members, channels.len(), opened.model.output_count())?;
         let files = self.bands.iter().map(|path| {
             refuse_input(path, scenario).map_err(|e| Failure::plain(e.to_string()))?;
             if existing == Existing::Keep && path.exists() {

@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use indicatif::{ProgressBar, ProgressDrawTarget};
 use occupant_core::results::channel::{Channel, Series};
-use occupant_study::{Study, Tolerances};
 use occupant_core::results::summary::Summary;
+use occupant_study::{Study, Tolerances};
 
 use super::bands::Bands;
 use super::judge::Tolerance;

@@ -114,7 +114,7 @@ impl StudyBands<'_> {
         };
         let channels = choose(&opened.model, self.channels)?;
         let members = self.plan.study().members();
-        refuse_too_much(members, channels.len(), opened.model.).output_count()?;
+        refuse_too_much(members, channels.len(), opened.model.output_count())?;
         Ok(channels)
     }
 

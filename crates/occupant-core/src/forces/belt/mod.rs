@@ -4,6 +4,7 @@
 
 mod check;
 pub mod law;
+pub mod results;
 
 use nalgebra::Point3;
 
