@@ -12,7 +12,6 @@ use crate::files::measured::MapArgument;
 use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::shard::Shard;
 use crate::jobs::fit::evaluator::{Evaluator, Means};
-use crate::jobs::fit::failures::told;
 use crate::jobs::fit::fitting::{Fitting, Given};
 use crate::jobs::fit::identified::search;
 use crate::jobs::fit::output::Output;
@@ -82,7 +81,7 @@ pub(crate) fn fit(args: &Args) -> Result<Done, Failure> {
     let sha256 = fitting.manifest.sha256();
     let sha256 = sha256.map_err(|e| Failure::plain(format!("the manifest cannot be written: {e}")))?;
     let claimed = folder.claim(&fitting.manifest, &fitting.texts, Shard::WHOLE, args.restart);
-    let held = claimed.map_err(told)?;
+    let held = claimed?;
     if let (Some(reason), false) = (&held.unlocked, args.quiet) {
         say(&format!(
             "warning: this file system has no locks ({reason}): nothing but you keeps two processes from fitting into one folder"
@@ -91,12 +90,12 @@ pub(crate) fn fit(args: &Args) -> Result<Done, Failure> {
     let interrupt = Interrupt::listen_for("stopping; once more to stop at once");
     let progress = Progress::new(fitting.fit.budget, args.quiet);
     let evaluator = Evaluator::new(&fitting, &folder, &sha256, means, &interrupt, progress);
-    let mut evaluator = evaluator.map_err(told)?;
+    let mut evaluator = evaluator?;
     if evaluator.known() > 0 && !args.quiet {
         say(&format!("going on: {} runs are there", evaluator.known()));
     }
     let answer = search(&fitting, &mut evaluator)?;
-    let records = evaluator.close().map_err(told)?;
+    let records = evaluator.close()?;
     let found = Output { fitting: &fitting, folder: &folder }.write(&answer, &records)?;
     match (args.json, args.quiet) {
         (true, _) => print(&json(&found)?)?,

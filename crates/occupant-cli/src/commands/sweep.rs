@@ -22,7 +22,6 @@ use crate::files::study_folder::journal::{Journal, JournalWriter};
 use crate::files::study_folder::shard::Shard;
 use crate::files::study_folder::texts::Texts;
 use crate::jobs::sweep::engine::Job;
-use crate::jobs::sweep::failures::{no_plan, told};
 use crate::jobs::sweep::parts::{read_journal, sha256_of};
 use crate::jobs::sweep::plan::Plan;
 use crate::jobs::sweep::progress::Progress;
@@ -115,7 +114,7 @@ impl Sweep {
     fn open(args: &Args, study: &Path, output: &Path) -> Result<Self, Failure> {
         let (shard, told_by) = flags::shard(args.shard.as_deref())?;
         let texts = Texts::of_files(study);
-        let plan = Plan::open(study, &args.overrides, &texts, program()).map_err(no_plan)?;
+        let plan = Plan::open(study, &args.overrides, &texts, program())?;
         let keep = flags::keep(args.keep.as_deref(), &plan)?;
         if args.restart && !shard.is_whole() {
             return Err(Failure::with_help(
@@ -150,20 +149,20 @@ impl Sweep {
         let Sweep { plan, folder, .. } = self;
         let manifest = &plan.manifest;
         let held = folder.claim(manifest, &plan.texts, self.shard, args.restart);
-        let held = held.map_err(told)?;
+        let held = held?;
         if let (Some(reason), false) = (&held.unlocked, args.quiet) {
             say(&format!(
                 "warning: this file system has no locks ({reason}): nothing but you keeps two processes from computing the same shard"
             ));
         }
-        kept::prepare(&self.keep, folder).map_err(told)?;
+        kept::prepare(&self.keep, folder)?;
         let samples = self.shard.range(manifest.samples);
         let sha256 = sha256_of(manifest)?;
         let journal = read_journal(std::slice::from_ref(folder), &sha256, manifest)?;
         let progress = self.compute(&journal.finished, &samples, &sha256, args.quiet)?;
         let journal = read_journal(std::slice::from_ref(folder), &sha256, manifest)?;
         let wanted = kept::wanted(&self.keep, samples.clone());
-        let lacking = kept::missing(folder, &journal, wanted).map_err(told)?;
+        let lacking = kept::missing(folder, &journal, wanted)?;
         self.write_kept(&lacking)?;
         if self.shard.is_whole() {
             return self.finish(&journal, &progress, args.quiet);
@@ -194,7 +193,7 @@ impl Sweep {
             say(&format!("going on: {before} of {count} samples are there"));
         }
         let mut progress = Progress::new(count, before, quiet);
-        let mut journal = JournalWriter::new(&self.folder, sha256, self.shard).map_err(told)?;
+        let mut journal = JournalWriter::new(&self.folder, sha256, self.shard)?;
         let simulation = Simulation {
             plan: &self.plan,
             keep: &self.keep,
@@ -204,7 +203,7 @@ impl Sweep {
         };
         let job = Job { samples, finished, threads: self.threads, stop: self.interrupt.flag() };
         let ended = engine::run(job, &simulation, &mut |row| {
-            journal.append(&row).map_err(told)?;
+            journal.append(&row)?;
             progress.see(&row);
             Ok(())
         });
@@ -239,8 +238,8 @@ impl Sweep {
     /// The table, and the worst.
     fn finish(&self, journal: &Journal, progress: &Progress, quiet: bool) -> Result<Done, Failure> {
         let manifest = &self.plan.manifest;
-        let (census, files) = results::write(&self.folder, journal, manifest, &self.keep, self.csv).map_err(told)?;
-        let lacking = kept::missing(&self.folder, journal, census.worst()).map_err(told)?;
+        let (census, files) = results::write(&self.folder, journal, manifest, &self.keep, self.csv)?;
+        let lacking = kept::missing(&self.folder, journal, census.worst())?;
         self.write_kept(&lacking)?;
         let ensembles = ensembles(&self.folder, manifest, self.csv)?;
         if quiet {

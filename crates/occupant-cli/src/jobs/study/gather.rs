@@ -11,7 +11,6 @@ use crate::files::study_folder::manifest::Role;
 use crate::files::study_folder::row::{Cell, Row, Status};
 use crate::jobs::ensemble::judge::{Judged, Tolerance};
 use crate::jobs::ensemble::members::BROKEN_BALANCE;
-use crate::jobs::sweep::failures::told;
 
 /// So many values are read at a time.
 const CELLS: usize = 400_000;
@@ -106,7 +105,7 @@ pub(crate) fn gather(opened: &Opened, figures: &[usize]) -> Result<Gathered, Fai
     let mut start = 0;
     while start < opened.manifest.samples {
         let end = (start + at_once).min(opened.manifest.samples);
-        for row in opened.journal.rows_there(start..end).map_err(told)? {
+        for row in opened.journal.rows_there(start..end)? {
             gathering.see(&row);
         }
         start = end;
