@@ -19,6 +19,13 @@ pub(crate) enum Existing {
     Replace,
 }
 
+impl Existing {
+    /// As `--force` asks.
+    pub(crate) fn by(force: bool) -> Self {
+        if force { Existing::Replace } else { Existing::Keep }
+    }
+}
+
 /// A file under its provisional name, buffered.
 #[derive(Debug)]
 pub(crate) struct PartialFile {
@@ -213,10 +220,7 @@ impl Seek for PartialFile {
 /// # Errors
 /// A file is there and may not be replaced; the operating system refuses.
 pub(crate) fn publish(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Failure> {
-    let existing = match force {
-        true => Existing::Replace,
-        false => Existing::Keep,
-    };
+    let existing = Existing::by(force);
     let refused = |e: &dyn fmt::Display| Failure::plain(e.to_string());
     let mut file = PartialFile::create(path, existing).map_err(|e| refused(&e))?;
     let written = file.write_all(bytes);

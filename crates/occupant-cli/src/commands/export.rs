@@ -120,16 +120,9 @@ fn beside(table: &Path) -> PathBuf {
     table.with_file_name(name)
 }
 
-fn existing(args: &Args) -> Existing {
-    match args.force {
-        true => Existing::Replace,
-        false => Existing::Keep,
-    }
-}
-
 fn begin(args: &Args, path: &Path) -> Result<PartialFile, Failure> {
     refuse_input(path, &args.run).map_err(|e| problem(&e))?;
-    PartialFile::create(path, existing(args)).map_err(|e| problem(&e))
+    PartialFile::create(path, Existing::by(args.force)).map_err(|e| problem(&e))
 }
 
 fn write_file(args: &Args, path: &Path, bytes: &[u8]) -> Result<(), Failure> {

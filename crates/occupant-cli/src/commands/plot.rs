@@ -341,13 +341,6 @@ fn words(args: &Args, runs: &[Results]) -> Sheet {
     Sheet { title, lines, columns: usize::from(args.columns) }
 }
 
-fn existing(args: &Args) -> Existing {
-    match args.force {
-        true => Existing::Replace,
-        false => Existing::Keep,
-    }
-}
-
 fn write_sheet(args: &Args, kind: Format, words: &Sheet, figures: &[Figure]) -> Result<Done, Failure> {
     let Some(path) = &args.output else {
         return Ok(Done::Well);
@@ -395,7 +388,7 @@ fn write(args: &Args, path: &Path, kind: Format, drawing: &str) -> Result<(), Fa
     }
     let bytes = kind.encode(drawing, args.pixels).map_err(|e| Failure::plain(format!("{name} cannot be made: {e}")))?;
     let problem = |e: FileProblem| Failure::plain(e.to_string());
-    let mut file = PartialFile::create(path, existing(args)).map_err(problem)?;
+    let mut file = PartialFile::create(path, Existing::by(args.force)).map_err(problem)?;
     file.write_all(&bytes).map_err(|e| Failure::BrokeOff(format!("error: cannot write {name}: {e}")))?;
     file.publish().map_err(problem)?;
     Ok(())

@@ -93,7 +93,7 @@ pub(crate) fn run(args: &Args) -> Result<Done, Failure> {
     let chosen = chosen(args);
     let (bytes, draft) = scenario::draft(&chosen)?;
     let opened = scenario::open_draft(&chosen, bytes, draft.clone())?;
-    let existing = existing(args);
+    let existing = Existing::by(args.force);
     let ensemble = (args.ensemble).wanted(&draft, &opened, &chosen.scenario, existing)?;
     let from = args.resume.as_deref();
     let from = from.map(|f| Resumption::find(f, &opened)).transpose()?;
@@ -221,13 +221,6 @@ fn output_name(args: &Args) -> Result<Option<PathBuf>, Failure> {
         None => ".mcap",
     });
     Ok(Some(PathBuf::from(name)))
-}
-
-fn existing(args: &Args) -> Existing {
-    match args.force {
-        true => Existing::Replace,
-        false => Existing::Keep,
-    }
 }
 
 /// Prints the results, and what to know of them.

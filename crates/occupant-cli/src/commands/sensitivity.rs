@@ -111,10 +111,7 @@ fn begin(args: &Args, kind: Option<Kind>) -> Result<Option<Files>, Failure> {
     let (Some(output), Some(kind)) = (&args.output, kind) else {
         return Ok(None);
     };
-    let existing = match args.force {
-        true => Existing::Replace,
-        false => Existing::Keep,
-    };
+    let existing = Existing::by(args.force);
     let create = |path: &Path| {
         refuse_input(path, &args.scenario.scenario)
             .and_then(|()| PartialFile::create(path, existing))

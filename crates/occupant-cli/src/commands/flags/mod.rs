@@ -1,4 +1,4 @@
-//! Flags that several commands share, and what they mean.
+//! Flags that several commands share, and what they mean. They start nothing.
 
 pub(crate) mod ensemble;
 pub(crate) mod history;

@@ -43,10 +43,7 @@ pub(crate) fn report(args: &ReportArgs) -> Result<Done, Failure> {
     for note in &report.notes {
         say(note);
     }
-    let existing = match args.force {
-        true => Existing::Replace,
-        false => Existing::Keep,
-    };
+    let existing = Existing::by(args.force);
     write_tables(&report, &tables, existing).map_err(Failure::plain)?;
     publish(&page_at, args.force, page(&report).as_bytes())?;
     Ok(Done::Well)

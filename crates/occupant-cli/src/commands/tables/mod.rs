@@ -1,4 +1,4 @@
-//! The tables that commands print.
+//! The tables that commands print, as text. Nothing is printed here.
 
 pub(crate) mod check;
 pub(crate) mod measures;

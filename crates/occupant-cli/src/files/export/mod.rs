@@ -1,4 +1,4 @@
-//! Results for other programs: CSV, Parquet, ISO-MME.
+//! Histories for other programs: the content of CSV and Parquet files. Names and writes no file.
 
 mod about;
 mod csv;

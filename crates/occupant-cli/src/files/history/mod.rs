@@ -1,6 +1,7 @@
 //! Time histories taken from a run: chosen by name, filtered, resampled, in the units asked for.
 //!
 //! Exports, plots and comparisons are made of these. Everything is SI until it is shown.
+//! Opens no file: results come to it open.
 
 mod choose;
 mod filter;

@@ -1,6 +1,6 @@
 //! Measured signals: read from text tables and ISO-MME tests, matched to the channels of a run.
 //!
-//! Values stay in their file's unit until a channel claims them; then they are SI in that channel's axes.
+//! Knows no run, only the channels that are wanted. Values stay in their file's unit until a channel claims them; then they are SI in that channel's axes.
 
 mod pair;
 mod table;

@@ -1,4 +1,4 @@
-//! `occupant risk`: what a vehicle's motion alone says of the risk to its occupants.
+//! What a vehicle's motion alone says of the risk to its occupants: measures, limits, their table and JSON. Reads no file.
 
 mod figures;
 mod json;

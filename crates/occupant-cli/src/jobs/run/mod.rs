@@ -1,4 +1,4 @@
-//! One run: the file it writes, and the file it goes on from.
+//! One run: the file that it writes, and the file that it resumes. The integration itself is the core's.
 
 mod difference;
 pub(crate) mod recording;

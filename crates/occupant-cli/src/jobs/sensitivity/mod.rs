@@ -1,4 +1,4 @@
-//! Derivatives of a scenario's run: what was asked, what came of it, how it is told.
+//! Derivatives of a scenario's run: what was asked, what came of it, how it is told. Writes no file.
 
 mod analysis;
 mod answer;
