@@ -8,8 +8,8 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::Subcommand;
-use occupant_core::run::batch::Kernel;
 use occupant_study::Keep;
+use occupant_study::engine::Engine;
 
 use super::flags::sweep as flags;
 use crate::base::failure::{Done, Failure};
@@ -21,12 +21,11 @@ use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::journal::{Journal, JournalWriter};
 use crate::files::study_folder::shard::Shard;
 use crate::files::study_folder::texts::Texts;
-use crate::jobs::sweep::engine::Job;
 use crate::jobs::sweep::parts::{read_journal, sha256_of};
 use crate::jobs::sweep::plan::Plan;
 use crate::jobs::sweep::progress::Progress;
 use crate::jobs::sweep::simulation::Simulation;
-use crate::jobs::sweep::{engine, kept, results};
+use crate::jobs::sweep::{kept, results};
 use words::{ensembles, tell};
 
 /// Run every sample of a study and write one table
@@ -105,8 +104,7 @@ struct Sweep {
     shard: Shard,
     keep: Keep,
     csv: bool,
-    threads: usize,
-    kernel: Kernel,
+    engine: Engine,
     interrupt: Interrupt,
 }
 
@@ -136,8 +134,7 @@ impl Sweep {
         Ok(Sweep {
             csv: args.csv || (plan.study().csv() && shard.is_whole()),
             folder: Folder::at(output),
-            threads: flags::threads(args.threads),
-            kernel: flags::kernel(args.kernel.as_deref())?,
+            engine: flags::engine(args.threads, flags::kernel(args.kernel.as_deref())?)?,
             interrupt: Interrupt::listen_for("stopping; once more to stop at once"),
             plan,
             shard,
@@ -148,8 +145,7 @@ impl Sweep {
     fn go(&self, args: &Args) -> Result<Done, Failure> {
         let Sweep { plan, folder, .. } = self;
         let manifest = &plan.manifest;
-        let held = folder.claim(manifest, &plan.texts, self.shard, args.restart);
-        let held = held?;
+        let held = folder.claim(manifest, &plan.texts, self.shard, args.restart)?;
         if let (Some(reason), false) = (&held.unlocked, args.quiet) {
             say(&format!(
                 "warning: this file system has no locks ({reason}): nothing but you keeps two processes from computing the same shard"
@@ -194,21 +190,15 @@ impl Sweep {
         }
         let mut progress = Progress::new(count, before, quiet);
         let mut journal = JournalWriter::new(&self.folder, sha256, self.shard)?;
-        let simulation = Simulation {
-            plan: &self.plan,
-            keep: &self.keep,
-            folder: &self.folder,
-            stop: self.interrupt.flag(),
-            kernel: self.kernel,
-        };
-        let job = Job { samples, finished, threads: self.threads, stop: self.interrupt.flag() };
-        let ended = engine::run(job, &simulation, &mut |row| {
+        let simulation = Simulation { plan: &self.plan, keep: &self.keep, folder: &self.folder };
+        let missing = samples.clone().filter(|index| !finished.has(*index));
+        let ended = self.engine.run(&simulation, missing, self.interrupt.flag(), |row| {
             journal.append(&row)?;
             progress.see(&row);
             Ok(())
         });
         progress.end();
-        let ended = ended.and_then(|()| journal.close().map_err(told));
+        let ended = ended.and_then(|()| Ok(journal.close()?));
         let done = before + progress.computed();
         ended.map_err(|failure| {
             failure.with_done(&format!(
@@ -225,8 +215,7 @@ impl Sweep {
 
     /// Writes whole runs of finished samples.
     fn write_kept(&self, samples: &[u64]) -> Result<(), Failure> {
-        let stop = self.interrupt.flag();
-        kept::write(&self.plan, &self.folder, samples, self.threads, self.kernel, stop)?;
+        kept::write(&self.plan, &self.folder, samples, &self.engine, self.interrupt.flag())?;
         match self.interrupt.is_asked() {
             true => Err(Failure::BrokeOff(
                 "error: interrupted\n = done: all samples are finished; the same command goes on from there".to_owned(),
@@ -246,7 +235,7 @@ impl Sweep {
             return Ok(Done::Well);
         }
         let work =
-            format!("{} samples in {:.1} s, {} threads", progress.computed(), progress.elapsed_s(), self.threads);
+            format!("{} samples in {:.1} s, {} threads", progress.computed(), progress.elapsed_s(), self.engine.threads());
         tell(&census, &files, Some(work), ensembles.as_ref())
     }
 }

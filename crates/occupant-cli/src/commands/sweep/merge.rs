@@ -10,7 +10,7 @@ use occupant_study::Keep;
 use super::words::{ensembles, tell};
 use crate::base::failure::{Done, Failure};
 use crate::base::names::program;
-use crate::commands::flags::sweep::{keep, threads};
+use crate::commands::flags::sweep::{engine, keep};
 use crate::files::study_folder::folder::{Folder, Holds};
 use crate::files::study_folder::manifest::Manifest;
 use crate::files::study_folder::problem::Problem;
@@ -71,9 +71,8 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     let csv = args.csv || plan.study().csv();
     let (census, files) = results::write(&target, &journal, &manifest, &keep, csv)?;
     let lacking = kept::missing(&target, &journal, census.worst())?;
-    let stop = AtomicBool::new(false);
-    let kernel = Kernel::best();
-    kept::write(&plan, &target, &lacking, threads(args.threads), kernel, &stop)?;
+    let engine = engine(args.threads, Kernel::best())?;
+    kept::write(&plan, &target, &lacking, &engine, &AtomicBool::new(false))?;
     let ensembles = ensembles(&target, &manifest, csv)?;
     match args.quiet {
         true => Ok(Done::Well),
@@ -90,7 +89,7 @@ fn stored_plan(args: &MergeArgs, folders: &[Folder], manifest: &Manifest) -> Res
     let study = Path::new(&study.name);
     let plan = Plan::open(study, &manifest.overrides, &texts, program())?;
     if plan.manifest != *manifest {
-        return Err(told(Problem::Differs {
+        return Err(Failure::from(Problem::Differs {
             folder: folder.path().to_owned(),
             holds: Holds::Sweep,
             differences: manifest.differences(&plan.manifest, |_| None, |_| None),

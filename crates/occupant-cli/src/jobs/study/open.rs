@@ -38,10 +38,9 @@ pub(crate) fn open(folders: &[PathBuf]) -> Result<Opened, Failure> {
     let texts = Texts::of_copies(first, &manifest);
     // the study as the sweep saw it, whichever program that was
     let name = Path::new(&study.name);
-    let plan = Plan::open(name, &manifest.overrides, &texts, manifest.program.clone());
-    let plan = plan?;
+    let plan = Plan::open(name, &manifest.overrides, &texts, manifest.program.clone())?;
     if plan.manifest.samples != manifest.samples || inputs(&plan.manifest) != inputs(&manifest) {
-        return Err(told(Problem::Differs {
+        return Err(Failure::from(Problem::Differs {
             folder: first.path().to_owned(),
             holds: Holds::Sweep,
             differences: manifest.differences(&plan.manifest, |_| None, |_| None),

@@ -40,7 +40,7 @@ pub(crate) fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
 
 /// Reads through the journals.
 pub(crate) fn read_journal(folders: &[Folder], sha256: &str, manifest: &Manifest) -> Result<Journal, Failure> {
-    Journal::read(folders, sha256, manifest.samples).map_err(told)
+    Ok(Journal::read(folders, sha256, manifest.samples)?)
 }
 
 /// What names a manifest.
