@@ -191,6 +191,7 @@ fn vehicle(model: &Model) -> VehicleFigures {
             VehiclePath::Pulse(_) => "pulse",
             VehiclePath::Sensors(_) => "sensors",
             VehiclePath::Fixed(_) => "fixed",
+            VehiclePath::Own(_) => "own",
         },
         start_speed_m_s: first.norm(),
         end_speed_m_s: last.norm(),

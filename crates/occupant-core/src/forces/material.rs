@@ -17,6 +17,24 @@ pub struct BilinearSpring {
     pub returned_2: f64,
 }
 
+impl BilinearSpring {
+    /// One straight line of slope `k_n_per_m` (N/m), of whose energy unloading returns the fraction `returned`.
+    pub fn linear(k_n_per_m: f64, returned: f64) -> Self {
+        BilinearSpring {
+            k1_n_per_m: k_n_per_m,
+            k2_n_per_m: k_n_per_m,
+            break_m: 0.0,
+            returned_1: returned,
+            returned_2: returned,
+        }
+    }
+
+    /// The same up to the deformation `break_m` (m), and the slope `k2_n_per_m` (N/m) beyond.
+    pub fn then(self, break_m: f64, k2_n_per_m: f64) -> Self {
+        BilinearSpring { break_m, k2_n_per_m, ..self }
+    }
+}
+
 /// Whether a pair remembers its crush after it has opened.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Memory {
@@ -40,6 +58,19 @@ pub struct Material {
     pub friction_speed_m_s: f64,
     /// What is remembered after opening.
     pub memory: Memory,
+}
+
+impl Material {
+    /// A material with the usual friction speed, which forgets its crush when a pair opens.
+    pub fn new(name: impl Into<String>, spring: BilinearSpring, friction: f64) -> Self {
+        Material {
+            name: name.into(),
+            spring,
+            friction,
+            friction_speed_m_s: DEFAULT_FRICTION_SPEED_M_S,
+            memory: Memory::default(),
+        }
+    }
 }
 
 /// v_s unless a scenario gives another: 5 in/s.

@@ -23,6 +23,13 @@ pub enum RestLength {
     },
 }
 
+impl Default for RestLength {
+    /// Neither slack nor preload.
+    fn default() -> Self {
+        RestLength::Slack { slack_m: 0.0 }
+    }
+}
+
 /// A belt.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Belt {
@@ -36,4 +43,11 @@ pub struct Belt {
     pub webbing: BilinearSpring,
     /// Unstretched length.
     pub rest: RestLength,
+}
+
+impl Belt {
+    /// A belt without slack round the sphere `sphere` (index), from anchor to anchor (vehicle axes).
+    pub fn new(name: impl Into<String>, sphere: usize, anchors_m: [Point3<f64>; 2], webbing: BilinearSpring) -> Self {
+        Belt { name: name.into(), sphere, anchors_m, webbing, rest: RestLength::default() }
+    }
 }

@@ -6,28 +6,22 @@ use nalgebra::{Point3, Vector3};
 use super::builder::Builder;
 use crate::body::{Body, ContactSphere, SEGMENTS, SPHERE_NAMES, Segment, SegmentProperties, standard_spheres};
 use crate::model::setup::STANDARD_GRAVITY_M_S2;
-use crate::scenario::model::{BodySection, Scenario, SegmentSection, Segments, SphereSection};
+use crate::scenario::model::{BodySection, SegmentSection, Segments, SphereSection};
 use crate::scenario::path_text::with_key;
 
-/// The body; `body` is explicit, `written` says which preset it came from.
-pub(super) fn body(b: &mut Builder, written: &Scenario, body: &BodySection) -> Body {
-    let weighed_at_m_s2 = b.optional("body.weighed_at", &body.weighed_at, STANDARD_GRAVITY_M_S2);
+/// The body; `section` is explicit, `preset` is the one it came from.
+pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection) -> Body {
+    let weighed_at_m_s2 = b.optional("body.weighed_at", &section.weighed_at, STANDARD_GRAVITY_M_S2);
     let none = Segments::default();
-    let sections = body.segments.as_ref().unwrap_or(&none);
-    let segments = Segment::ALL.map(|s| segment(b, s, section(sections, s), weighed_at_m_s2));
-    let shoulder_half_width_m = b.needed("body", "shoulder_half_width", &body.shoulder_half_width);
-    let hip_half_width_m = b.needed("body", "hip_half_width", &body.hip_half_width);
-    let spheres = spheres(b, &body.spheres, &segments, shoulder_half_width_m);
-    Body {
-        name: written.body.preset.clone().unwrap_or_else(|| "own".into()),
-        segments,
-        shoulder_half_width_m,
-        hip_half_width_m,
-        spheres,
-    }
+    let sections = section.segments.as_ref().unwrap_or(&none);
+    let segments = Segment::ALL.map(|s| segment(b, s, segment_section(sections, s), weighed_at_m_s2));
+    let shoulder_half_width_m = b.needed("body", "shoulder_half_width", &section.shoulder_half_width);
+    let hip_half_width_m = b.needed("body", "hip_half_width", &section.hip_half_width);
+    let spheres = spheres(b, &section.spheres, &segments, shoulder_half_width_m);
+    Body { name: preset.unwrap_or("own").to_owned(), segments, shoulder_half_width_m, hip_half_width_m, spheres }
 }
 
-fn section(s: &Segments, segment: Segment) -> Option<&SegmentSection> {
+fn segment_section(s: &Segments, segment: Segment) -> Option<&SegmentSection> {
     match segment {
         Segment::MiddleTorso => s.middle_torso.as_ref(),
         Segment::UpperTorso => s.upper_torso.as_ref(),

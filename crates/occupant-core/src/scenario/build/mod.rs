@@ -10,6 +10,7 @@ mod joints;
 mod path;
 mod plausible;
 mod posture;
+mod presets;
 mod pulse;
 mod run;
 pub(super) mod sensors;
@@ -33,7 +34,7 @@ pub(super) fn build(
     path_table: Option<SourceId>,
 ) -> Result<(Setup, Diagnostics), Diagnostics> {
     let mut b = Builder::new(sources, root, written.units.unwrap_or_default());
-    let body = body::body(&mut b, written, &explicit.body);
+    let body = body::body(&mut b, written.body.preset.as_deref(), &explicit.body);
     let joints = joints::joints(&mut b, &explicit.joints);
     let materials = surfaces::materials(&mut b, explicit);
     let surfaces = surfaces::surfaces(&mut b, explicit, &body);

@@ -78,7 +78,8 @@ fn table_path(b: &mut Builder, s: &TableSection, file: Option<SourceId>) -> Opti
     let stations = table.rows.iter().map(|r| Station::new(r[0], [r[1], r[2], r[3]], [r[4], r[5], r[6]])).collect();
     let interpolation = match s.interpolation {
         Some(Interpolate::Linear) => Interpolation::Linear,
-        Some(Interpolate::Spline) | None => Interpolation::Spline,
+        Some(Interpolate::Spline) => Interpolation::Spline,
+        None => Interpolation::default(),
     };
     let path = TablePath::new(stations, interpolation, after(s.after));
     path.map_err(|p| refuse(b, &p, Some(&table))).ok()
@@ -88,7 +89,8 @@ pub(super) fn after(word: Option<After>) -> AfterEnd {
     match word {
         Some(After::Coast) => AfterEnd::Coast,
         Some(After::Hold) => AfterEnd::Hold,
-        Some(After::Error) | None => AfterEnd::Error,
+        Some(After::Error) => AfterEnd::Error,
+        None => AfterEnd::default(),
     }
 }
 
@@ -104,13 +106,14 @@ fn pulse_path(b: &mut Builder, s: &PulseSection, file: Option<SourceId>) -> Opti
     });
     let shape = pulse::shape(b, s, points)?;
     let direction = direction(b, &s.direction);
+    let initial = pose(b, &s.position, [&s.roll, &s.pitch, &s.yaw]);
+    let plain = PulseDefinition::new(b.si("path.speed", &s.speed), shape);
     let definition = PulseDefinition {
-        initial: pose(b, &s.position, [&s.roll, &s.pitch, &s.yaw]),
-        initial_speed_m_s: b.si("path.speed", &s.speed),
+        initial,
         direction,
-        starts_at_s: b.optional("path.start", &s.start, 0.0),
-        shape,
+        starts_at_s: b.optional("path.start", &s.start, plain.starts_at_s),
         rebound_m_s: s.rebound.as_ref().map(|r| b.si("path.rebound", r)),
+        ..plain
     };
     let path = PulsePath::new(definition);
     path.map_err(|p| refuse(b, &p, table.as_ref())).ok()
@@ -128,7 +131,7 @@ pub(super) fn numbers(b: &mut Builder, file: Option<SourceId>, columns: &[Column
 pub(super) fn direction(b: &mut Builder, words: &Option<[Ratio; 3]>) -> TravelDirection {
     match words {
         Some(words) => TravelDirection::Along(Vector3::from(b.triple("path.direction", words))),
-        None => TravelDirection::Heading,
+        None => TravelDirection::default(),
     }
 }
 

@@ -14,8 +14,8 @@ pub(super) fn posture(b: &mut Builder, s: &Scenario, body: &Body) -> (Option<Ini
     check_seats(b, s);
     match (&s.posture, &s.initial_state) {
         (Some(posture), _) => (seating(b, s, posture).map(InitialPosture::Seated), velocity(b, posture)),
-        (None, Some(state)) => (state_of(b, s, state, body), InitialVelocity::WithVehicle),
-        (None, None) => (None, InitialVelocity::WithVehicle),
+        (None, Some(state)) => (state_of(b, s, state, body), InitialVelocity::default()),
+        (None, None) => (None, InitialVelocity::default()),
     }
 }
 
@@ -54,7 +54,8 @@ fn velocity(b: &mut Builder, p: &PostureSection) -> InitialVelocity {
     match (&p.velocity, p.moves_with_vehicle) {
         (Some(v), _) => InitialVelocity::Given(Vector3::from(b.triple("posture.velocity", v))),
         (None, Some(false)) => InitialVelocity::VehicleOrigin,
-        (None, _) => InitialVelocity::WithVehicle,
+        (None, Some(true)) => InitialVelocity::WithVehicle,
+        (None, None) => InitialVelocity::default(),
     }
 }
 

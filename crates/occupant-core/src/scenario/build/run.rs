@@ -2,11 +2,8 @@
 
 use super::builder::Builder;
 use crate::forces::contact::EdgeForce;
-use crate::model::setup::{Integrator, OutputOptions, TimeSpan};
+use crate::model::setup::{DEFAULT_OUTPUT_S, Integrator, OutputOptions, TimeSpan};
 use crate::scenario::model::{AdaptiveSection, EdgeForceChoice, IntegratorSection, Scenario};
-
-/// Time between records unless given: 1 ms.
-const DEFAULT_OUTPUT_S: f64 = 1e-3;
 
 /// Start, end and output interval.
 pub(super) fn time(b: &mut Builder, s: &Scenario) -> TimeSpan {
@@ -23,7 +20,7 @@ pub(super) fn time(b: &mut Builder, s: &Scenario) -> TimeSpan {
     span
 }
 
-/// The integrator; the defaults are chosen in `docs/accuracy.md`.
+/// The integrator.
 pub(super) fn integrator(b: &mut Builder, s: &Scenario) -> Integrator {
     match &s.integrator {
         None => adaptive(b, &AdaptiveSection::default()),
@@ -33,26 +30,27 @@ pub(super) fn integrator(b: &mut Builder, s: &Scenario) -> Integrator {
 }
 
 fn adaptive(b: &mut Builder, a: &AdaptiveSection) -> Integrator {
-    let (min_step_s, max_step_s) =
-        (b.optional("integrator.min_step", &a.min_step, 1e-8), b.optional("integrator.max_step", &a.max_step, 2e-3));
-    if max_step_s < min_step_s {
-        let found = format!("a largest step of {max_step_s} s below the smallest, {min_step_s} s");
-        b.error("integrator.max_step", found, "min_step ≤ max_step");
+    let mut integrator = Integrator::default();
+    if let Integrator::Adaptive { relative, absolute_m, absolute_m_s, min_step_s, max_step_s } = &mut integrator {
+        *min_step_s = b.optional("integrator.min_step", &a.min_step, *min_step_s);
+        *max_step_s = b.optional("integrator.max_step", &a.max_step, *max_step_s);
+        if max_step_s < min_step_s {
+            let found = format!("a largest step of {max_step_s} s below the smallest, {min_step_s} s");
+            b.error("integrator.max_step", found, "min_step ≤ max_step");
+        }
+        *relative = b.optional("integrator.relative", &a.relative, *relative);
+        *absolute_m = b.optional("integrator.absolute_length", &a.absolute_length, *absolute_m);
+        *absolute_m_s = b.optional("integrator.absolute_speed", &a.absolute_speed, *absolute_m_s);
     }
-    Integrator::Adaptive {
-        relative: b.optional("integrator.relative", &a.relative, 3e-6),
-        absolute_m: b.optional("integrator.absolute_length", &a.absolute_length, 3e-7),
-        absolute_m_s: b.optional("integrator.absolute_speed", &a.absolute_speed, 3e-5),
-        min_step_s,
-        max_step_s,
-    }
+    integrator
 }
 
 /// Where the edge force acts.
 pub(super) fn edge_force(s: &Scenario) -> EdgeForce {
     match s.contact.as_ref().and_then(|c| c.edge_force) {
         Some(EdgeForceChoice::Centre) => EdgeForce::AtCentre,
-        Some(EdgeForceChoice::ContactPoint) | None => EdgeForce::AtContactPoint,
+        Some(EdgeForceChoice::ContactPoint) => EdgeForce::AtContactPoint,
+        None => EdgeForce::default(),
     }
 }
 

@@ -1,16 +1,15 @@
 //! `[materials]` and `[surfaces]` → [`Material`]s and [`Surface`]s.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Vector3;
 
 use super::builder::Builder;
 use crate::body::Body;
 use crate::forces::contact::surface::{Facing, Frame, Outline, Surface};
-use crate::forces::material::{BilinearSpring, DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
+use crate::forces::material::{BilinearSpring, Material, Memory};
 use crate::scenario::model::{
     DiscSection, FrameChoice, Length, MaterialSection, MemoryChoice, Ratio, Scenario, Stiffness, SurfaceSection,
 };
 use crate::scenario::path_text::with_key;
-use crash_measures::trig;
 
 /// All materials, in the order written.
 pub(super) fn materials(b: &mut Builder, scenario: &Scenario) -> Vec<Material> {
@@ -21,19 +20,21 @@ pub(super) fn materials(b: &mut Builder, scenario: &Scenario) -> Vec<Material> {
 fn material(b: &mut Builder, name: &str, section: &MaterialSection) -> Material {
     let path = with_key("materials", name);
     let returned_1 = b.si(&with_key(&path, "mu1"), &section.mu1);
+    let spring = spring(b, &path, (&section.k1, &section.k2, &section.delta_b), (returned_1, &section.mu2));
+    let friction = b.si(&with_key(&path, "friction"), &section.friction);
+    let plain = Material::new(name, spring, friction);
     Material {
-        name: name.to_owned(),
-        spring: spring(b, &path, (&section.k1, &section.k2, &section.delta_b), (returned_1, &section.mu2)),
-        friction: b.si(&with_key(&path, "friction"), &section.friction),
         friction_speed_m_s: b.optional(
             &with_key(&path, "friction_speed"),
             &section.friction_speed,
-            DEFAULT_FRICTION_SPEED_M_S,
+            plain.friction_speed_m_s,
         ),
         memory: match section.memory {
             Some(MemoryChoice::Retain) => Memory::Retain,
-            Some(MemoryChoice::Reset) | None => Memory::Reset,
+            Some(MemoryChoice::Reset) => Memory::Reset,
+            None => plain.memory,
         },
+        ..plain
     }
 }
 
@@ -45,12 +46,12 @@ pub(super) fn spring(
     (returned_1, mu2): (f64, &Option<Ratio>),
 ) -> BilinearSpring {
     let k1_n_per_m = b.si(&with_key(path, "k1"), k1);
+    let line = BilinearSpring::linear(k1_n_per_m, returned_1);
     BilinearSpring {
-        k1_n_per_m,
-        k2_n_per_m: b.optional(&with_key(path, "k2"), k2, k1_n_per_m),
-        break_m: b.optional(&with_key(path, "delta_b"), delta_b, 0.0),
-        returned_1,
-        returned_2: b.optional(&with_key(path, "mu2"), mu2, returned_1),
+        k2_n_per_m: b.optional(&with_key(path, "k2"), k2, line.k2_n_per_m),
+        break_m: b.optional(&with_key(path, "delta_b"), delta_b, line.break_m),
+        returned_2: b.optional(&with_key(path, "mu2"), mu2, line.returned_2),
+        ..line
     }
 }
 
@@ -75,7 +76,8 @@ fn surface(
     let material = b.index_of(&with_key(&path, "material"), "material", &section.material, names);
     let frame = match section.frame {
         Some(FrameChoice::Space) => Frame::Space,
-        Some(FrameChoice::Vehicle) | None => Frame::Vehicle,
+        Some(FrameChoice::Vehicle) => Frame::Vehicle,
+        None => Frame::default(),
     };
     let outline = outline(b, &path, section, frame);
     let facing = facing(b, scenario, (&path, section), frame, undecided);
@@ -108,49 +110,34 @@ fn outline(b: &mut Builder, path: &str, section: &SurfaceSection, frame: Frame) 
         return disc(b, &with_key(path, "disc"), section, frame);
     }
     if let Some([from, to]) = &section.edge {
-        return Outline::Polygon(strip(b, path, section, [from, to]));
+        return strip(b, path, section, [from, to]);
     }
     let points = section.points.iter().flatten().enumerate();
     Outline::Polygon(points.map(|(i, point)| b.point(&format!("{path}.points[{i}]"), point)).collect())
 }
 
-/// The corners of a rectangle, trapezoid or triangle that looks like an edge from the side.
-fn strip(b: &mut Builder, path: &str, section: &SurfaceSection, edge: [&[Length; 2]; 2]) -> Vec<Point3<f64>> {
+/// A surface that looks like an edge from the side.
+fn strip(b: &mut Builder, path: &str, section: &SurfaceSection, edge: [&[Length; 2]; 2]) -> Outline {
     let y = b.optional(&with_key(path, "y"), &section.y, 0.0);
     let near = b.needed(path, "half_width", &section.half_width);
     let far = b.optional(&with_key(path, "end_half_width"), &section.end_half_width, near);
-    let mut ends = edge.iter().enumerate().map(|(i, end)| {
-        let x = b.si(&format!("{path}.edge[{i}][0]"), &end[0]);
-        (x, b.si(&format!("{path}.edge[{i}][1]"), &end[1]))
-    });
-    let (Some((x1, z1)), Some((x2, z2))) = (ends.next(), ends.next()) else {
-        return Vec::new();
-    };
-    let mut corners = vec![Point3::new(x1, y - near, z1), Point3::new(x1, y + near, z1)];
-    match far == 0.0 {
-        true => corners.push(Point3::new(x2, y, z2)),
-        false => corners.extend([Point3::new(x2, y + far, z2), Point3::new(x2, y - far, z2)]),
-    }
-    corners
+    let edge = [0, 1].map(|i| [0, 1].map(|axis| b.si(&format!("{path}.edge[{i}][{axis}]"), &edge[i][axis])));
+    Outline::strip(edge, y, near, far)
 }
 
 fn disc(b: &mut Builder, path: &str, section: &DiscSection, frame: Frame) -> Outline {
-    let axis = match (&section.tilt, &section.normal) {
-        (_, Some(normal)) => Vector3::from(b.triple(&with_key(path, "normal"), normal)),
-        (Some(tilt), None) => {
-            // Rearward and up: N̂ = (−cos τ, 0, −sin τ) in vehicle axes, z down; z is up in space.
-            let (sin, cos) = trig::sin_cos(b.si(&with_key(path, "tilt"), tilt));
-            match frame {
-                Frame::Vehicle => Vector3::new(-cos, 0.0, -sin),
-                Frame::Space => Vector3::new(-cos, 0.0, sin),
-            }
-        }
-        (None, None) => Vector3::zeros(),
-    };
-    Outline::Disc {
-        centre_m: b.point(&with_key(path, "centre"), &section.centre),
-        radius_m: 0.5 * b.si(&with_key(path, "diameter"), &section.diameter),
-        axis,
+    let centre_m = b.point(&with_key(path, "centre"), &section.centre);
+    let diameter_m = b.si(&with_key(path, "diameter"), &section.diameter);
+    match (&section.tilt, &section.normal) {
+        (Some(tilt), None) => Outline::wheel(frame, centre_m, diameter_m, b.si(&with_key(path, "tilt"), tilt)),
+        (_, normal) => Outline::Disc {
+            centre_m,
+            radius_m: 0.5 * diameter_m,
+            axis: match normal {
+                Some(normal) => Vector3::from(b.triple(&with_key(path, "normal"), normal)),
+                None => Vector3::zeros(),
+            },
+        },
     }
 }
 

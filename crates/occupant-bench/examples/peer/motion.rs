@@ -1,6 +1,7 @@
 //! Our own motion of the body without contacts, belts and moments in its ball joints, with the hinges' dampers: physics
 //! that every engine states alike.
 
+use occupant_bench::{self as scene, Instant};
 use occupant_core::body::SEGMENTS;
 use occupant_core::body::joint::{BallJoint, HingeJoint, Joints};
 use occupant_core::forces::History;
@@ -17,7 +18,6 @@ use serde_json::{Value, json};
 
 use crate::coordinates::{ORDER, PARENTS, limb, positions, rates, speeds};
 use crate::mjcf::place;
-use crate::scene::{self, Instant};
 
 /// Length of the motion that is compared, its step and the interval of its places, s.
 const LENGTH_S: f64 = 0.25;

@@ -1,12 +1,11 @@
 //! Eight samples of a sweep with every kernel that this processor has: their events alone, and with all that goes with a
 //! sample: the scenario with its value, checked and built, the occupant seated, the run summed up.
 
-mod scene;
-
 use std::hint::black_box;
 use std::ops::ControlFlow;
 
 use criterion::{BatchSize, Criterion, SamplingMode};
+use occupant_bench as scene;
 use occupant_core::model::Model;
 use occupant_core::results::recorder::Recorder;
 use occupant_core::results::summary::Summarizer;
@@ -17,7 +16,7 @@ use occupant_study::{Study, StudyText};
 /// Samples side by side.
 const COUNT: usize = 8;
 /// Its base is the scene.
-const STUDY: &str = include_str!("peers/study.toml");
+const STUDY: &str = include_str!("../peers/study.toml");
 
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();

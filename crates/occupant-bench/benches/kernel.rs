@@ -1,14 +1,12 @@
 //! One derivative evaluation, one step, one event.
 
-mod scene;
-
 use std::hint::black_box;
 
 use criterion::{Criterion, SamplingMode};
+use occupant_bench::{self as scene, Instant, TOUCHING_S};
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::simulate;
-use scene::{Instant, TOUCHING_S};
 
 fn main() {
     let mut criterion = Criterion::default().configure_from_args();

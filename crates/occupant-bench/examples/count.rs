@@ -1,18 +1,15 @@
 //! Runs one piece of the kernel a given number of times and measures nothing: what callgrind counts instructions of.
 //!
-//! `count NAME N`; without arguments it prints the names that this processor can run. `benches/instructions.py` calls it
+//! `count NAME N`; without arguments it prints the names that this processor can run. `instructions.py` calls it
 //! with two numbers and takes the difference, so that reading the scenario falls out.
-
-#[path = "../benches/scene/mod.rs"]
-mod scene;
 
 use std::hint::black_box;
 use std::ops::ControlFlow;
 
+use occupant_bench::{self as scene, Instant, STEP_S, TOUCHING_S};
 use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
 use occupant_core::run::batch::{Job, Kernel, simulate_many_with};
-use scene::{Instant, STEP_S, TOUCHING_S};
 
 /// A piece of work: calls that are counted.
 type Work = fn(count: usize);

@@ -1,4 +1,4 @@
-//! A scenario's occupant for other engines (`benches/peers`): as MJCF, and our own motion and accelerations of it as JSON.
+//! A scenario's occupant for other engines (`peers`): as MJCF, and our own motion and accelerations of it as JSON.
 //!
 //! ```text
 //! peer mjcf SCENARIO SECONDS free|hinges|held|contact    the model for MuJoCo
@@ -8,9 +8,6 @@
 //! SECONDS is an instant of the scenario. Everything is seen from the vehicle of that instant and put where the vehicle
 //! stands at the scenario's start, so that surfaces stand still. SI, space axes, quaternions as w, x, y, z; positions q,
 //! speeds v and accelerations in the coordinates of [`coordinates`], which are MuJoCo's.
-
-#[path = "../../benches/scene/mod.rs"]
-mod scene;
 
 mod belts;
 mod coordinates;

@@ -1,10 +1,9 @@
 //! What comes before the first step: a scenario read and checked, an occupant seated, a model made.
 
-mod scene;
-
 use std::hint::black_box;
 
 use criterion::{BatchSize, Criterion};
+use occupant_bench as scene;
 use occupant_core::model::Model;
 
 fn main() {

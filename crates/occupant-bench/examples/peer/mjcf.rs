@@ -2,12 +2,12 @@
 //! bending resists all three turns, a spring in β holds the whole turn of its joint, a belt is a tendon round its sphere
 //! with one stiffness. Stops that damp and the force law of the contacts have no counterpart and are left out.
 
+use occupant_bench::Instant;
 use occupant_core::body::joint::{BallJoint, Joints};
 use occupant_core::body::{SEGMENTS, Segment};
 use occupant_core::model::Model;
 
 use crate::coordinates::{ORDER, PARENTS, Placed, limb, positions, speeds};
-use crate::scene::Instant;
 use crate::{belts, faces};
 
 /// How much of the model is written.

@@ -1,8 +1,8 @@
 """Times MuJoCo, Pinocchio and occupant on the same skeleton, after checking that all move it alike.
 
     python -m venv peers && peers/bin/pip install mujoco pin numpy
-    cargo build --release --package occupant-core --examples
-    peers/bin/python crates/occupant-core/benches/peers/compare.py target/release/examples [--write FILE.md ...]
+    cargo build --release --package occupant-bench --examples
+    peers/bin/python crates/occupant-bench/peers/compare.py target/release/examples [--write FILE.md ...]
 
 aba.cpp, Pinocchio's aba without Python, is built if a C++ compiler and Eigen are there (apt-get install clang
 libeigen3-dev; it takes minutes once). Times of the engines are processor time of the thread; ours and those of aba.cpp are

@@ -1,8 +1,8 @@
 """Runs a second: our sweep against MuJoCo's batched rollout of the same occupant in the same crash, two threads each.
 
     python -m venv peers && peers/bin/pip install mujoco numpy
-    cargo build --release --package occupant-core --examples && cargo build --release --package occupant-cli
-    peers/bin/python crates/occupant-core/benches/peers/rollout.py target/release [--threads 2]
+    cargo build --release --package occupant-bench --examples && cargo build --release --package occupant-cli
+    peers/bin/python crates/occupant-bench/peers/rollout.py target/release [--threads 2]
 
 Events of 0.25 s, RK4 at 0.1 ms, no time histories. What can be compared with what stands in README.md beside this file;
 here in addition: MuJoCo varies the speed of the start and keeps the model, our sweep varies a stiffness, so that every

@@ -1,7 +1,7 @@
 //! What accuracy costs: error against evaluations and milliseconds, for rk4 at several steps and the adaptive integrator at
 //! several tolerances, in the cart cases and the rollover.
 //!
-//! `cargo run --release -p occupant-core --example work_precision -- DIRECTORY` writes `work-precision.csv` and two
+//! `cargo run --release -p occupant-bench --example work_precision -- DIRECTORY` writes `work-precision.csv` and two
 //! drawings into DIRECTORY and prints the table of `docs/accuracy.md`.
 //!
 //! A single run may be right by luck: where in a step a contact happens to begin makes its error. So every point is the root

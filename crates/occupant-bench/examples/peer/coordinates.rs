@@ -5,6 +5,7 @@
 //! angular velocity relative to the parent in the child's axes. Hinge: angle about Y.
 
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use occupant_bench::Instant;
 use occupant_core::body::SEGMENTS;
 use occupant_core::model::Model;
 use occupant_core::motion::dynamics::Accelerations;
@@ -12,8 +13,6 @@ use occupant_core::motion::frame::{Moving, VEHICLE};
 use occupant_core::motion::kinematics::LIMBS;
 use occupant_core::motion::state::{Quat, State, free_slot};
 use occupant_core::motion::vector::V3;
-
-use crate::scene::Instant;
 
 /// Segment that carries each segment: the middle torso carries the upper one at the common root.
 pub const PARENTS: [Option<usize>; SEGMENTS] =

@@ -1,21 +1,18 @@
 //! How long one derivative evaluation, one step and one event take on this machine, one thread.
 //!
-//! `cargo run --release --example speed` prints nanoseconds: the least of many medians of short batches, taken in turn, so
+//! `cargo run --release -p occupant-bench --example speed` prints nanoseconds: the least of many medians of short batches, taken in turn, so
 //! that a disturbed moment spoils no figure and all figures alike. Instructions are counted with the example `count`.
-
-#[path = "../benches/scene/mod.rs"]
-mod scene;
 
 use std::hint::black_box;
 use std::ops::ControlFlow;
 use std::time::Instant as Clock;
 
+use occupant_bench::{self as scene, Instant, TOUCHING_S};
 use occupant_core::model::Model;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::run::batch::{Job, Kernel, simulate_many_with};
 use occupant_core::run::simulate::simulate;
-use scene::{Instant, TOUCHING_S};
 
 /// Rounds over all figures.
 const ROUNDS: usize = 200;

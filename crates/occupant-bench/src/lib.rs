@@ -1,9 +1,7 @@
-//! What the benchmarks and the examples time: one car, one occupant, one instant with a realistic handful of touches.
+//! What the benchmarks and the helper programs time: one car, one occupant, one instant with a realistic handful of touches.
 //!
 //! Three sizes of the same problem: *bare* (the skeleton under given loads), *held* (joint moments and belts as well), *full*
 //! (all 17 × 25 contact pairs as well).
-
-#![allow(dead_code, reason = "each benchmark and each example compiles this file and takes what it wants")]
 
 use occupant_core::body::SEGMENTS;
 use occupant_core::forces::contact::{ContactSystem, Touch};
@@ -58,9 +56,13 @@ pub fn models(count: usize) -> Vec<Model> {
 /// A system with its occupant at one instant of the crash.
 #[derive(Clone)]
 pub struct Instant {
+    /// Skeleton, contacts, joints, belts.
     pub system: System<f64>,
+    /// The body's motion.
     pub state: State<f64>,
+    /// Motion of space and of the vehicle.
     pub frames: Frames<f64>,
+    /// What contacts and belts remember.
     pub history: History<f64>,
 }
 

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """Counts the instructions of one evaluation and one step (callgrind) and compares them with instructions.toml.
 
-    cargo build --release --package occupant-core --example count
-    python3 crates/occupant-core/benches/instructions.py target/release/examples/count [--update]
+    cargo build --release --package occupant-bench --example count
+    python3 crates/occupant-bench/instructions.py target/release/examples/count [--update]
 
 Only instructions of our own program count: what it calls in the C library (memcpy) picks its code by the processor. The
 count of one call is (that of N2 calls - that of N1)/(N2 - N1). A difference of more than the file's tolerance, up or

@@ -1,12 +1,12 @@
 //! Belts as tendons that wrap round their spheres: K₁ beyond the length at rest, nothing below it.
 
+use occupant_bench::Instant;
 use occupant_core::model::Model;
 use occupant_core::motion::frame::VEHICLE;
 use occupant_core::motion::kinematics::Kinematics;
 use occupant_core::motion::vector::V3;
 
 use crate::mjcf::list;
-use crate::scene::Instant;
 
 /// Sites in space where the anchors are, in a vehicle that stands as at `now`.
 pub fn anchors(model: &Model, now: &Instant) -> String {
