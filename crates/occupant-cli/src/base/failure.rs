@@ -1,5 +1,7 @@
 //! How a command ends: what it came to, or why it could not do its work. Each end has its exit code.
 
+use occupant_study::engine::Unrecorded;
+
 /// A command that ran to its end.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Done {
@@ -33,8 +35,21 @@ impl Failure {
         }
     }
 
+    /// Its words.
+    pub(crate) fn words(self) -> String {
+        match self {
+            Failure::CouldNotRun(words) | Failure::BrokeOff(words) => words,
+        }
+    }
+
     /// Could not run.
     pub(crate) fn plain(found: impl Into<String>) -> Self {
         Failure::CouldNotRun(format!("error: {}", found.into()))
+    }
+}
+
+impl From<Unrecorded> for Failure {
+    fn from(error: Unrecorded) -> Self {
+        Failure::BrokeOff(format!("error: {error}"))
     }
 }

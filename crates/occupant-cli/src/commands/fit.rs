@@ -3,7 +3,7 @@
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use super::flags::sweep::{kernel, threads};
+use super::flags::sweep::{engine, kernel};
 use crate::base::failure::{Done, Failure};
 use crate::base::interrupt::Interrupt;
 use crate::base::names::program;
@@ -11,8 +11,7 @@ use crate::base::talk::{json, print, say};
 use crate::files::measured::MapArgument;
 use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::shard::Shard;
-use crate::jobs::fit::evaluator::{Evaluator, Means};
-use crate::jobs::fit::failures::told;
+use crate::jobs::fit::evaluator::Evaluator;
 use crate::jobs::fit::fitting::{Fitting, Given};
 use crate::jobs::fit::identified::search;
 use crate::jobs::fit::output::Output;
@@ -72,7 +71,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn fit(args: &Args) -> Result<Done, Failure> {
-    let means = Means { threads: threads(args.threads), kernel: kernel(args.kernel.as_deref())? };
+    let engine = engine(args.threads, kernel(args.kernel.as_deref())?)?;
     let given = Given { files: &args.to, maps: &args.map, overrides: &args.overrides };
     let fitting = Fitting::open(&args.study, &given, program()).map_err(Failure::CouldNotRun)?;
     if !args.quiet {
@@ -82,7 +81,7 @@ pub(crate) fn fit(args: &Args) -> Result<Done, Failure> {
     let sha256 = fitting.manifest.sha256();
     let sha256 = sha256.map_err(|e| Failure::plain(format!("the manifest cannot be written: {e}")))?;
     let claimed = folder.claim(&fitting.manifest, &fitting.texts, Shard::WHOLE, args.restart);
-    let held = claimed.map_err(told)?;
+    let held = claimed?;
     if let (Some(reason), false) = (&held.unlocked, args.quiet) {
         say(&format!(
             "warning: this file system has no locks ({reason}): nothing but you keeps two processes from fitting into one folder"
@@ -90,13 +89,13 @@ pub(crate) fn fit(args: &Args) -> Result<Done, Failure> {
     }
     let interrupt = Interrupt::listen_for("stopping; once more to stop at once");
     let progress = Progress::new(fitting.fit.budget, args.quiet);
-    let evaluator = Evaluator::new(&fitting, &folder, &sha256, means, &interrupt, progress);
-    let mut evaluator = evaluator.map_err(told)?;
+    let evaluator = Evaluator::new(&fitting, &folder, &sha256, &engine, &interrupt, progress);
+    let mut evaluator = evaluator?;
     if evaluator.known() > 0 && !args.quiet {
         say(&format!("going on: {} runs are there", evaluator.known()));
     }
     let answer = search(&fitting, &mut evaluator)?;
-    let records = evaluator.close().map_err(told)?;
+    let records = evaluator.close()?;
     let found = Output { fitting: &fitting, folder: &folder }.write(&answer, &records)?;
     match (args.json, args.quiet) {
         (true, _) => print(&json(&found)?)?,

@@ -9,6 +9,7 @@ use occupant_core::results::outcome::{ResumeError, Status};
 use occupant_core::results::summary::{RunStatus, Summarizer, Summary};
 use occupant_core::run::simulate::{resume, simulate};
 use occupant_core::scenario::Diagnostics;
+use occupant_study::ending::Balance;
 use serde::Serialize;
 
 use super::flags::ensemble::EnsembleArgs;
@@ -132,9 +133,9 @@ pub(crate) fn run(args: &Args) -> Result<Done, Failure> {
     let written = recording.close(completed)?;
     let summary = summarizer.summary(Some(wall_time_s));
     let summary = summary.ok_or_else(|| Failure::plain("the run left no summary"))?;
-    let energy = Balance::of(&summary);
+    let energy = Balance::of(summary.energy.balance_error);
     let ran = match ensemble {
-        Some(wanted) if completed && energy != Balance::Broken => {
+        Some(wanted) if completed && energy != Balance::Lost => {
             let left = written.left();
             let ran = wanted.run(&opened, &summary, histories, &interrupt, args.quiet);
             Some(ran.map_err(|failure| failure.with_done(&left))?)
@@ -153,47 +154,26 @@ pub(crate) fn run(args: &Args) -> Result<Done, Failure> {
         warnings: Vec::new(),
     };
     tell(args, &opened, answer, &friction, &written, ran.as_ref())?;
-    if !args.quiet || energy == Balance::Broken {
-        energy.tell(&summary);
+    if !args.quiet || energy == Balance::Lost {
+        tell_balance(energy, &summary);
     }
     match completed {
-        true if energy == Balance::Broken => Ok(Done::Unwell),
+        true if energy == Balance::Lost => Ok(Done::Unwell),
         true => Ok(Done::Well),
         false => Err(Failure::BrokeOff(broke_off(&summary, &written))),
     }
 }
 
-/// How well a run kept its energy.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Balance {
-    Kept,
-    /// The figures are doubtful.
-    Doubtful,
-    /// The figures mean nothing.
-    Broken,
-}
-
-impl Balance {
-    /// Doubtful above 1 % of the greatest kinetic energy, broken above 10 %.
-    fn of(summary: &Summary) -> Self {
-        match summary.energy.balance_error.abs() {
-            error if error > 0.1 => Balance::Broken,
-            error if error > 0.01 => Balance::Doubtful,
-            _ => Balance::Kept,
-        }
-    }
-
-    fn tell(self, summary: &Summary) {
-        let percent = 100.0 * summary.energy.balance_error.abs();
-        let (word, means) = match self {
-            Balance::Kept => return,
-            Balance::Doubtful => ("warning", "the figures are doubtful"),
-            Balance::Broken => ("error", "the figures mean nothing"),
-        };
-        say(&format!(
-            "{word}: the energy balance is off by {percent:.1} %: {means}\n = help: a smaller step or tolerance; `occupant check` shows the fastest time scale"
-        ));
-    }
+fn tell_balance(balance: Balance, summary: &Summary) {
+    let percent = 100.0 * summary.energy.balance_error.abs();
+    let (word, means) = match balance {
+        Balance::Kept => return,
+        Balance::Doubtful => ("warning", "the figures are doubtful"),
+        Balance::Lost => ("error", "the figures mean nothing"),
+    };
+    say(&format!(
+        "{word}: the energy balance is off by {percent:.1} %: {means}\n = help: a smaller step or tolerance; `occupant check` shows the fastest time scale"
+    ));
 }
 
 /// The scenario with its end as `--until` has it.

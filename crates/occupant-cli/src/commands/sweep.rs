@@ -8,8 +8,8 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use clap::Subcommand;
-use occupant_core::run::batch::Kernel;
 use occupant_study::Keep;
+use occupant_study::engine::Engine;
 
 use super::flags::sweep as flags;
 use crate::base::failure::{Done, Failure};
@@ -21,13 +21,11 @@ use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::journal::{Journal, JournalWriter};
 use crate::files::study_folder::shard::Shard;
 use crate::files::study_folder::texts::Texts;
-use crate::jobs::sweep::engine::Job;
-use crate::jobs::sweep::failures::{no_plan, told};
 use crate::jobs::sweep::parts::{read_journal, sha256_of};
 use crate::jobs::sweep::plan::Plan;
 use crate::jobs::sweep::progress::Progress;
 use crate::jobs::sweep::simulation::Simulation;
-use crate::jobs::sweep::{engine, kept, results};
+use crate::jobs::sweep::{kept, results};
 use words::{ensembles, tell};
 
 /// Run every sample of a study and write one table
@@ -106,8 +104,7 @@ struct Sweep {
     shard: Shard,
     keep: Keep,
     csv: bool,
-    threads: usize,
-    kernel: Kernel,
+    engine: Engine,
     interrupt: Interrupt,
 }
 
@@ -115,7 +112,7 @@ impl Sweep {
     fn open(args: &Args, study: &Path, output: &Path) -> Result<Self, Failure> {
         let (shard, told_by) = flags::shard(args.shard.as_deref())?;
         let texts = Texts::of_files(study);
-        let plan = Plan::open(study, &args.overrides, &texts, program()).map_err(no_plan)?;
+        let plan = Plan::open(study, &args.overrides, &texts, program())?;
         let keep = flags::keep(args.keep.as_deref(), &plan)?;
         if args.restart && !shard.is_whole() {
             return Err(Failure::with_help(
@@ -137,8 +134,7 @@ impl Sweep {
         Ok(Sweep {
             csv: args.csv || (plan.study().csv() && shard.is_whole()),
             folder: Folder::at(output),
-            threads: flags::threads(args.threads),
-            kernel: flags::kernel(args.kernel.as_deref())?,
+            engine: flags::engine(args.threads, flags::kernel(args.kernel.as_deref())?)?,
             interrupt: Interrupt::listen_for("stopping; once more to stop at once"),
             plan,
             shard,
@@ -149,21 +145,20 @@ impl Sweep {
     fn go(&self, args: &Args) -> Result<Done, Failure> {
         let Sweep { plan, folder, .. } = self;
         let manifest = &plan.manifest;
-        let held = folder.claim(manifest, &plan.texts, self.shard, args.restart);
-        let held = held.map_err(told)?;
+        let held = folder.claim(manifest, &plan.texts, self.shard, args.restart)?;
         if let (Some(reason), false) = (&held.unlocked, args.quiet) {
             say(&format!(
                 "warning: this file system has no locks ({reason}): nothing but you keeps two processes from computing the same shard"
             ));
         }
-        kept::prepare(&self.keep, folder).map_err(told)?;
+        kept::prepare(&self.keep, folder)?;
         let samples = self.shard.range(manifest.samples);
         let sha256 = sha256_of(manifest)?;
         let journal = read_journal(std::slice::from_ref(folder), &sha256, manifest)?;
         let progress = self.compute(&journal.finished, &samples, &sha256, args.quiet)?;
         let journal = read_journal(std::slice::from_ref(folder), &sha256, manifest)?;
         let wanted = kept::wanted(&self.keep, samples.clone());
-        let lacking = kept::missing(folder, &journal, wanted).map_err(told)?;
+        let lacking = kept::missing(folder, &journal, wanted)?;
         self.write_kept(&lacking)?;
         if self.shard.is_whole() {
             return self.finish(&journal, &progress, args.quiet);
@@ -194,22 +189,16 @@ impl Sweep {
             say(&format!("going on: {before} of {count} samples are there"));
         }
         let mut progress = Progress::new(count, before, quiet);
-        let mut journal = JournalWriter::new(&self.folder, sha256, self.shard).map_err(told)?;
-        let simulation = Simulation {
-            plan: &self.plan,
-            keep: &self.keep,
-            folder: &self.folder,
-            stop: self.interrupt.flag(),
-            kernel: self.kernel,
-        };
-        let job = Job { samples, finished, threads: self.threads, stop: self.interrupt.flag() };
-        let ended = engine::run(job, &simulation, &mut |row| {
-            journal.append(&row).map_err(told)?;
+        let mut journal = JournalWriter::new(&self.folder, sha256, self.shard)?;
+        let simulation = Simulation { plan: &self.plan, keep: &self.keep, folder: &self.folder };
+        let missing = samples.clone().filter(|index| !finished.has(*index));
+        let ended = self.engine.run(&simulation, missing, self.interrupt.flag(), |row| {
+            journal.append(&row)?;
             progress.see(&row);
             Ok(())
         });
         progress.end();
-        let ended = ended.and_then(|()| journal.close().map_err(told));
+        let ended = ended.and_then(|()| Ok(journal.close()?));
         let done = before + progress.computed();
         ended.map_err(|failure| {
             failure.with_done(&format!(
@@ -226,8 +215,7 @@ impl Sweep {
 
     /// Writes whole runs of finished samples.
     fn write_kept(&self, samples: &[u64]) -> Result<(), Failure> {
-        let stop = self.interrupt.flag();
-        kept::write(&self.plan, &self.folder, samples, self.threads, self.kernel, stop)?;
+        kept::write(&self.plan, &self.folder, samples, &self.engine, self.interrupt.flag())?;
         match self.interrupt.is_asked() {
             true => Err(Failure::BrokeOff(
                 "error: interrupted\n = done: all samples are finished; the same command goes on from there".to_owned(),
@@ -239,15 +227,19 @@ impl Sweep {
     /// The table, and the worst.
     fn finish(&self, journal: &Journal, progress: &Progress, quiet: bool) -> Result<Done, Failure> {
         let manifest = &self.plan.manifest;
-        let (census, files) = results::write(&self.folder, journal, manifest, &self.keep, self.csv).map_err(told)?;
-        let lacking = kept::missing(&self.folder, journal, census.worst()).map_err(told)?;
+        let (census, files) = results::write(&self.folder, journal, manifest, &self.keep, self.csv)?;
+        let lacking = kept::missing(&self.folder, journal, census.worst())?;
         self.write_kept(&lacking)?;
         let ensembles = ensembles(&self.folder, manifest, self.csv)?;
         if quiet {
             return Ok(Done::Well);
         }
-        let work =
-            format!("{} samples in {:.1} s, {} threads", progress.computed(), progress.elapsed_s(), self.threads);
+        let work = format!(
+            "{} samples in {:.1} s, {} threads",
+            progress.computed(),
+            progress.elapsed_s(),
+            self.engine.threads()
+        );
         tell(&census, &files, Some(work), ensembles.as_ref())
     }
 }

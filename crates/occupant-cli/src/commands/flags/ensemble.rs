@@ -2,14 +2,15 @@
 
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
-use std::thread;
 
+use occupant_core::run::batch::Kernel;
 use occupant_core::scenario::Draft;
 use occupant_core::scenario::kind::UnitSystem;
 use occupant_core::scenario::model::{Angle, Length, Ratio};
 use occupant_core::scenario::unit::UnitError;
 use occupant_study::{Study, Tolerances};
 
+use super::sweep::engine;
 use crate::base::failure::Failure;
 use crate::base::output_file::{Existing, refuse_input};
 use crate::files::scenario::Opened;
@@ -82,7 +83,6 @@ impl EnsembleArgs {
             }
             band_file(path).map(|kind| (path.clone(), kind))
         });
-        let cores = || thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
         let name = scenario.display().to_string();
         Ok(Some(Wanted {
             files: files.collect::<Result<_, _>>()?,
@@ -90,7 +90,7 @@ impl EnsembleArgs {
             seed: self.seed,
             changes,
             tolerance: Tolerance { relative: within },
-            threads: self.threads.unwrap_or_else(cores).get(),
+            engine: engine(self.threads, Kernel::best())?,
             channels,
             existing,
         }))

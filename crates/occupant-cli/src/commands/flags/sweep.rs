@@ -1,10 +1,11 @@
 //! What flags and environment choose for a sweep.
 
 use std::num::NonZeroUsize;
-use std::thread;
+use std::thread::available_parallelism;
 
 use occupant_core::run::batch::Kernel;
 use occupant_study::Keep;
+use occupant_study::engine::Engine;
 
 use crate::base::failure::Failure;
 use crate::files::study_folder::manifest::Role;
@@ -62,10 +63,11 @@ pub(crate) fn keep(given: Option<&str>, plan: &Plan) -> Result<Keep, Failure> {
     }
 }
 
-/// As many as the command line says, or one for each core.
-pub(crate) fn threads(given: Option<NonZeroUsize>) -> usize {
-    let cores = || thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
-    given.unwrap_or_else(cores).get()
+/// As many threads as the command line says, or one for each core.
+pub(crate) fn engine(threads: Option<NonZeroUsize>, kernel: Kernel) -> Result<Engine, Failure> {
+    let cores = || available_parallelism().unwrap_or(NonZeroUsize::MIN);
+    Engine::new(threads.unwrap_or_else(cores).get(), kernel)
+        .map_err(|e| Failure::plain(format!("no thread can be started: {e}")))
 }
 
 /// The form of the kernel: as the command line says, or the fastest of this processor.

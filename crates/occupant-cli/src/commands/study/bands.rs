@@ -1,12 +1,15 @@
 //! `occupant study bands`.
 
+use std::fs;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
-use std::{fs, thread};
+
+use occupant_core::run::batch::Kernel;
 
 use crate::base::failure::{Done, Failure};
 use crate::base::interrupt::Interrupt;
 use crate::base::talk::say;
+use crate::commands::flags::sweep::engine;
 use crate::jobs::ensemble::bands::choose;
 use crate::jobs::ensemble::study_bands::{StudyBands, There};
 use crate::jobs::study::open;
@@ -56,14 +59,13 @@ pub(crate) fn bands(args: &BandsArgs) -> Result<Done, Failure> {
     for note in &opened.notes {
         say(note);
     }
-    let cores = || thread::available_parallelism().unwrap_or(NonZeroUsize::MIN);
     let interrupt = Interrupt::listen_for("stopping; once more to stop at once");
     let bands = StudyBands {
         plan: &opened.plan,
         manifest_sha256: &opened.manifest_sha256,
         channels: &args.channels,
         folder: args.folder.join("bands"),
-        threads: args.threads.unwrap_or_else(cores).get(),
+        engine: &engine(args.threads, Kernel::best())?,
         interrupt: &interrupt,
     };
     let samples = study.samples();

@@ -10,12 +10,11 @@ use occupant_study::Keep;
 use super::words::{ensembles, tell};
 use crate::base::failure::{Done, Failure};
 use crate::base::names::program;
-use crate::commands::flags::sweep::{keep, threads};
+use crate::commands::flags::sweep::{engine, keep};
 use crate::files::study_folder::folder::{Folder, Holds};
 use crate::files::study_folder::manifest::Manifest;
 use crate::files::study_folder::problem::Problem;
 use crate::files::study_folder::texts::Texts;
-use crate::jobs::sweep::failures::{no_plan, told};
 use crate::jobs::sweep::parts::{common_manifest, read_journal, sha256_of};
 use crate::jobs::sweep::plan::Plan;
 use crate::jobs::sweep::{kept, results};
@@ -58,23 +57,22 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     let gaps = journal.finished.gaps(0..manifest.samples);
     if !gaps.is_empty() {
         let shards = journal.lacking(manifest.samples);
-        return Err(told(Problem::Incomplete { gaps, samples: manifest.samples, shards }));
+        return Err(Problem::Incomplete { gaps, samples: manifest.samples, shards }.into());
     }
     let target = match (&args.output, folders.first()) {
         (Some(output), _) => Folder::at(output),
         (None, Some(first)) => first.clone(),
         (None, None) => return Err(Failure::plain("no folder was given")),
     };
-    std::fs::create_dir_all(target.path()).map_err(Problem::io("create", target.path())).map_err(told)?;
-    target.refuse_other_results(&manifest).map_err(told)?;
+    std::fs::create_dir_all(target.path()).map_err(Problem::io("create", target.path()))?;
+    target.refuse_other_results(&manifest)?;
     let (plan, keep) = stored_plan(args, &folders, &manifest)?;
-    kept::prepare(&keep, &target).map_err(told)?;
+    kept::prepare(&keep, &target)?;
     let csv = args.csv || plan.study().csv();
-    let (census, files) = results::write(&target, &journal, &manifest, &keep, csv).map_err(told)?;
-    let lacking = kept::missing(&target, &journal, census.worst()).map_err(told)?;
-    let stop = AtomicBool::new(false);
-    let kernel = Kernel::best();
-    kept::write(&plan, &target, &lacking, threads(args.threads), kernel, &stop)?;
+    let (census, files) = results::write(&target, &journal, &manifest, &keep, csv)?;
+    let lacking = kept::missing(&target, &journal, census.worst())?;
+    let engine = engine(args.threads, Kernel::best())?;
+    kept::write(&plan, &target, &lacking, &engine, &AtomicBool::new(false))?;
     let ensembles = ensembles(&target, &manifest, csv)?;
     match args.quiet {
         true => Ok(Done::Well),
@@ -89,9 +87,9 @@ fn stored_plan(args: &MergeArgs, folders: &[Folder], manifest: &Manifest) -> Res
     };
     let texts = Texts::of_copies(folder, manifest);
     let study = Path::new(&study.name);
-    let plan = Plan::open(study, &manifest.overrides, &texts, program()).map_err(no_plan)?;
+    let plan = Plan::open(study, &manifest.overrides, &texts, program())?;
     if plan.manifest != *manifest {
-        return Err(told(Problem::Differs {
+        return Err(Failure::from(Problem::Differs {
             folder: folder.path().to_owned(),
             holds: Holds::Sweep,
             differences: manifest.differences(&plan.manifest, |_| None, |_| None),

@@ -1,6 +1,5 @@
 //! What can go wrong with a folder of results.
 
-use std::fmt;
 use std::io;
 use std::ops::Range;
 use std::path::{Path, PathBuf};
@@ -8,63 +7,36 @@ use std::path::{Path, PathBuf};
 use super::finished::ranges_text;
 use super::folder::Holds;
 use super::shard::Shard;
+use crate::base::failure::Failure;
 
 /// So many ranges or shards are named.
 const SHOWN: usize = 20;
 
 /// What can go wrong with a folder of results.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 pub(crate) enum Problem {
-    /// The operating system refuses.
-    Io {
-        /// What was being done, e.g. `write`.
-        doing: &'static str,
-        path: PathBuf,
-        /// Its reason.
-        source: io::Error,
-    },
-    /// Results of something else are there.
-    Exists {
-        /// What is there.
-        path: PathBuf,
-    },
+    #[error("cannot {doing} {}: {source}", path.display())]
+    Io { doing: &'static str, path: PathBuf, source: io::Error },
+    #[error("{} exists and is not of this sweep", path.display())]
+    Exists { path: PathBuf },
     /// There are files, but none of ours.
-    NotOurs {
-        folder: PathBuf,
-        /// What was looked for.
-        holds: Holds,
-    },
-    /// The folder holds something else, or the same of another version.
-    Differs {
-        folder: PathBuf,
-        holds: Holds,
-        /// What differs, a line each.
-        differences: Vec<String>,
-    },
+    #[error("{} holds files that are no {}'s", folder.display(), holds.word())]
+    NotOurs { folder: PathBuf, holds: Holds },
+    /// The folder holds something else, or the same of another version; a line for each difference.
+    #[error("{} holds another {} (there → here):\n   {}", folder.display(), holds.word(), differences.join("\n   "))]
+    Differs { folder: PathBuf, holds: Holds, differences: Vec<String> },
     /// A file of the folder is not what it should be.
-    Damaged {
-        path: PathBuf,
-        /// What is wrong with it.
-        found: String,
-    },
-    /// Another process is at work.
+    #[error("{} {found}", path.display())]
+    Damaged { path: PathBuf, found: String },
+    #[error("another process is at work in {}: it {doing}", folder.display())]
     Busy { folder: PathBuf, doing: String },
-    /// Samples are not finished.
-    Incomplete {
-        gaps: Vec<Range<u64>>,
-        samples: u64,
-        /// Shards that have begun and lack samples.
-        shards: Vec<(Shard, u64)>,
-    },
+    /// Samples are not finished; shards that have begun and how many samples each lacks.
+    #[error("{}", incomplete(gaps, *samples, shards))]
+    Incomplete { gaps: Vec<Range<u64>>, samples: u64, shards: Vec<(Shard, u64)> },
     /// Two results of one sample disagree.
-    Disagree {
-        index: u64,
-        /// Where the one stands.
-        first: PathBuf,
-        /// Where the other stands.
-        second: PathBuf,
-    },
-    /// The table cannot be written.
+    #[error("sample {index} has one result in {} and another in {}", first.display(), second.display())]
+    Disagree { index: u64, first: PathBuf, second: PathBuf },
+    #[error("{} cannot be written: {reason}", path.display())]
     Table { path: PathBuf, reason: String },
 }
 
@@ -95,54 +67,28 @@ impl Problem {
     }
 }
 
-impl fmt::Display for Problem {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Problem::Io { doing, path, source } => write!(f, "cannot {doing} {}: {source}", path.display()),
-            Problem::Exists { path } => {
-                write!(f, "{} exists and is not of this sweep", path.display())
-            }
-            Problem::NotOurs { folder, holds } => {
-                let (folder, word) = (folder.display(), holds.word());
-                write!(f, "{folder} holds files that are no {word}'s")
-            }
-            Problem::Differs { folder, holds, differences } => {
-                let (folder, word) = (folder.display(), holds.word());
-                write!(f, "{folder} holds another {word} (there → here):")?;
-                differences.iter().try_for_each(|line| write!(f, "\n   {line}"))
-            }
-            Problem::Damaged { path, found } => write!(f, "{} {found}", path.display()),
-            Problem::Busy { folder, doing } => {
-                write!(f, "another process is at work in {}: it {doing}", folder.display())
-            }
-            Problem::Incomplete { gaps, samples, shards } => {
-                let missing: u64 = gaps.iter().map(|g| g.end - g.start).sum();
-                let which = ranges_text(gaps, SHOWN);
-                write!(f, "{missing} of {samples} samples are missing: {which}")?;
-                let lines = shards.iter().take(SHOWN);
-                for (shard, missing) in lines {
-                    write!(f, "\n   shard {shard}: {missing}")?;
-                }
-                match shards.len().checked_sub(SHOWN) {
-                    Some(more) if more > 0 => write!(f, "\n   and {more} more shards"),
-                    _ => Ok(()),
-                }
-            }
-            Problem::Disagree { index, first, second } => {
-                write!(f, "sample {index} has one result in {} and another in {}", first.display(), second.display())
-            }
-            Problem::Table { path, reason } => {
-                write!(f, "{} cannot be written: {reason}", path.display())
-            }
-        }
+/// Gaps among so many samples, and the shards that have begun and lack samples.
+fn incomplete(gaps: &[Range<u64>], samples: u64, shards: &[(Shard, u64)]) -> String {
+    let missing: u64 = gaps.iter().map(|g| g.end - g.start).sum();
+    let mut text = format!("{missing} of {samples} samples are missing: {}", ranges_text(gaps, SHOWN));
+    for (shard, missing) in shards.iter().take(SHOWN) {
+        text += &format!("\n   shard {shard}: {missing}");
     }
+    if shards.len() > SHOWN {
+        text += &format!("\n   and {} more shards", shards.len() - SHOWN);
+    }
+    text
 }
 
-impl std::error::Error for Problem {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            Problem::Io { source, .. } => Some(source),
-            _ => None,
+impl From<Problem> for Failure {
+    fn from(problem: Problem) -> Self {
+        let help = problem.help().map(|h| format!("\n = help: {h}")).unwrap_or_default();
+        let message = format!("error: {problem}{help}");
+        match problem {
+            Problem::Io { doing: "write", .. } | Problem::Table { .. } | Problem::Incomplete { .. } => {
+                Failure::BrokeOff(message)
+            }
+            _ => Failure::CouldNotRun(message),
         }
     }
 }

@@ -1,5 +1,8 @@
 //! One sample's line of the table, and its bytes in the journal.
 
+use occupant_study::ending::Ending;
+use occupant_study::engine::Finished;
+
 /// How a sample ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Status {
@@ -65,6 +68,18 @@ pub(crate) struct Row {
 }
 
 impl Row {
+    /// The row of a run. One that is out of balance counts as completed here: its balance stands in the table.
+    pub(crate) fn of<R>(run: &Finished<R>, cells: Vec<Cell>) -> Row {
+        let (status, reason) = match &run.ending {
+            Ending::Completed | Ending::OutOfBalance(_) => (Status::Completed, String::new()),
+            Ending::Failed(reason) => (Status::Failed, reason.clone()),
+            Ending::Refused(reason) => (Status::Refused, reason.clone()),
+            Ending::Broken(reason) => (Status::Broken, reason.clone()),
+        };
+        let kernel = run.ran.as_ref().map_or("", |ran| ran.kernel.name()).to_owned();
+        Row { index: run.index, status, reason, cells, wall_time_s: run.wall_time_s, kernel }
+    }
+
     /// Whether two rows are the same bits, wall time and kernel aside.
     pub(crate) fn agrees(&self, other: &Row) -> bool {
         let same = |(a, b): (&Cell, &Cell)| match (a, b) {

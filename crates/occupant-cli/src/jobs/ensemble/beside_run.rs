@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use indicatif::{ProgressBar, ProgressDrawTarget};
 use occupant_core::results::channel::{Channel, Series};
 use occupant_core::results::summary::Summary;
+use occupant_study::engine::Engine;
 use occupant_study::{Study, Tolerances};
 
 use super::bands::Bands;
@@ -30,7 +31,7 @@ pub(crate) struct Wanted {
     pub(crate) seed: u64,
     pub(crate) changes: Tolerances,
     pub(crate) tolerance: Tolerance,
-    pub(crate) threads: usize,
+    pub(crate) engine: Engine,
     /// Whose histories are kept.
     pub(crate) channels: Vec<Channel>,
     pub(crate) files: Vec<(PathBuf, BandFile)>,
@@ -82,17 +83,13 @@ impl Wanted {
             runs: 1..self.study.len(),
             resolver: &resolver,
             channels: &self.channels,
-            threads: self.threads,
             interrupt,
             bar: &bar,
         };
-        let others = members.run()?;
+        let others = members.run(&self.engine)?;
         let time_s = histories.time_s.clone();
         let nominal = Left::of(summary, &opened.model, histories);
-        let completed = others.iter().filter_map(|member| match member {
-            Member::Completed(left) => Some(left.values.as_slice()),
-            Member::Failed(_) => None,
-        });
+        let completed = others.iter().flatten().map(|left| left.values.as_slice());
         let runs: Vec<&[Vec<f64>]> = std::iter::once(nominal.values.as_slice()).chain(completed).collect();
         let bands = Bands::of(&self.channels, time_s, &runs, self.tolerance);
         let set = (self.seed, self.changes);

@@ -7,6 +7,7 @@
 use std::fs::File;
 use std::path::{Path, PathBuf};
 
+use occupant_study::ending::Balance;
 use occupant_study::spread::Verdict;
 use parquet::column::reader::get_typed_column_reader;
 use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType};
@@ -17,9 +18,6 @@ use super::judge::{Judged, Tolerance, is_result, judge, rule, word};
 use crate::base::output_file::Existing;
 use crate::files::study_folder::manifest::{Manifest, Role};
 use crate::files::table_file::{Cell, Form, Kind, TableFile};
-
-/// The figures of a run mean nothing above this error of its energy balance.
-const BROKEN_BALANCE: f64 = 0.1;
 
 const COLUMNS: [(&str, Kind); 16] = [
     ("sample", Kind::Count),
@@ -144,7 +142,7 @@ impl Rows {
         if let Some(balance) = places.balance {
             let errors = values::<DoubleType>(group, balance)?;
             for (ok, error) in completed.iter_mut().zip(errors) {
-                *ok &= error.is_some_and(|e| e.abs() <= BROKEN_BALANCE);
+                *ok &= error.is_some_and(|e| Balance::of(e) != Balance::Lost);
             }
         }
         let figures = places.figures.iter();

@@ -34,14 +34,9 @@ impl Report {
         bands: Bands,
         (seed, changes): (u64, Tolerances),
     ) -> Report {
-        let failed = (1..).zip(others).filter_map(|(number, member)| match member {
-            Member::Failed(reason) => Some((number, reason.clone())),
-            Member::Completed(_) => None,
-        });
-        let value = |i: usize, member: &Member| match member {
-            Member::Completed(left) => left.value(i),
-            Member::Failed(_) => f64::NAN,
-        };
+        let failed = (1..).zip(others);
+        let failed = failed.filter_map(|(number, member)| Some((number, member.as_ref().err()?.clone())));
+        let value = |i: usize, member: &Member| member.as_ref().map_or(f64::NAN, |left| left.value(i));
         let figures = nominal.figures.iter().enumerate().map(|(i, (name, unit, _))| {
             let first = std::iter::once(nominal.value(i));
             let values = first.chain(others.iter().map(|m| value(i, m)));

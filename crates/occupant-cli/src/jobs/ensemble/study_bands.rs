@@ -9,6 +9,7 @@ use std::path::{Path, PathBuf};
 
 use indicatif::ProgressBar;
 use occupant_core::results::channel::Channel;
+use occupant_study::engine::Engine;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 
 use super::bands::{Bands, choose, refuse_too_much};
@@ -48,7 +49,7 @@ pub(crate) struct StudyBands<'a> {
     pub(crate) channels: &'a [String],
     /// Where the files go.
     pub(crate) folder: PathBuf,
-    pub(crate) threads: usize,
+    pub(crate) engine: &'a Engine,
     /// What stops it.
     pub(crate) interrupt: &'a Interrupt,
 }
@@ -99,11 +100,10 @@ impl StudyBands<'_> {
             runs,
             resolver: &|name: &str| self.plan.table(name),
             channels: &channels,
-            threads: self.threads,
             interrupt: self.interrupt,
             bar: &ProgressBar::hidden(),
         };
-        let members = members.run()?;
+        let members = members.run(self.engine)?;
         self.publish(sample, &channels, &members).map_err(|reason| Failure::BrokeOff(format!("error: {reason}")))
     }
 
@@ -119,18 +119,12 @@ impl StudyBands<'_> {
     }
 
     fn publish(&self, sample: u64, channels: &[Channel], members: &[Member]) -> Result<(), String> {
-        let completed: Vec<&Left> = members
-            .iter()
-            .filter_map(|member| match member {
-                Member::Completed(left) => Some(left),
-                Member::Failed(_) => None,
-            })
-            .collect();
+        let completed: Vec<&Left> = members.iter().flatten().collect();
         let runs: Vec<&[Vec<f64>]> = completed.iter().map(|l| l.values.as_slice()).collect();
         let time_s = completed.first().map_or(Vec::new(), |l| l.time_s.clone());
         let bands = Bands::of(channels, time_s, &runs, Tolerance::default());
         let counts = [completed.len(), members.len() - completed.len()].map(|n| n as u64);
-        let unchanged = matches!(members.first(), Some(Member::Completed(_)));
+        let unchanged = matches!(members.first(), Some(Ok(_)));
         let about = [(ABOUT, self.about())];
         let path = self.file(sample);
         let mut table = TableFile::create(&path, Form::Parquet, Existing::Replace, &COLUMNS, &about)?;

@@ -4,29 +4,24 @@
 //! which the search asks for them. Run e of evaluation i is row i·E + e of the journal. The journal is appended to when a
 //! run ends; what a killed process had under way is computed again.
 
-use std::cell::RefCell;
 use std::collections::BTreeMap;
-use std::ops::ControlFlow;
-use std::time::Instant;
 
-use occupant_core::problem::Severity;
+use occupant_core::model::Model;
 use occupant_core::results::channel::Series;
-use occupant_core::results::outcome::Status as RunEnd;
-use occupant_core::run::batch::{Ended, Job as Run, Kernel, simulate_many_with};
-use occupant_core::scenario::Diagnostics;
+use occupant_study::ending::Ending;
+use occupant_study::engine::{Engine, Finished, NotBegun, Source};
 use occupant_study::search::Stage;
 
+use super::experiment::Experiment;
 use super::fitting::Fitting;
 use super::progress::Progress;
 use crate::base::failure::Failure;
 use crate::base::interrupt::Interrupt;
-use crate::files::study_folder::finished::Finished;
 use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::journal::{Journal, JournalWriter};
 use crate::files::study_folder::problem::Problem;
 use crate::files::study_folder::row::{Cell, Row, Status};
 use crate::files::study_folder::shard::Shard;
-use crate::jobs::sweep::engine::{self, HandOn, Job, Worker};
 
 /// The score of a candidate that could not be run: worse than any that could.
 pub(crate) const WORST: f64 = 1e6;
@@ -49,18 +44,10 @@ pub(crate) struct Record {
     pub(crate) kernel: String,
 }
 
-/// How candidates are run.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Means {
-    pub(crate) threads: usize,
-    /// Runs side by side.
-    pub(crate) kernel: Kernel,
-}
-
 /// Evaluates candidates and remembers them.
 pub(crate) struct Evaluator<'a> {
     fitting: &'a Fitting,
-    means: Means,
+    engine: &'a Engine,
     interrupt: &'a Interrupt,
     known: BTreeMap<u64, Row>,
     journal: JournalWriter,
@@ -78,7 +65,7 @@ impl<'a> Evaluator<'a> {
         fitting: &'a Fitting,
         folder: &Folder,
         sha256: &str,
-        means: Means,
+        engine: &'a Engine,
         interrupt: &'a Interrupt,
         progress: Progress,
     ) -> Result<Self, Problem> {
@@ -96,7 +83,7 @@ impl<'a> Evaluator<'a> {
         }
         Ok(Evaluator {
             fitting,
-            means,
+            engine,
             interrupt,
             known,
             journal: JournalWriter::new(folder, sha256, Shard::WHOLE)?,
@@ -122,27 +109,14 @@ impl<'a> Evaluator<'a> {
         let experiments = self.fitting.experiments.len() as u64;
         let first = self.records.len() as u64 * experiments;
         let rows = first..first + candidates.len() as u64 * experiments;
-        let mut finished = Finished::none(rows.end);
-        for index in self.known.range(rows.clone()).map(|(index, _)| *index) {
-            finished.add(index);
-        }
-        let batch = Batch {
-            fitting: self.fitting,
-            interrupt: self.interrupt,
-            kernel: self.means.kernel,
-            first,
-            candidates: &candidates,
-        };
-        if finished.count(rows.clone()) < rows.end - rows.start {
-            let job =
-                Job { samples: &rows, finished: &finished, threads: self.means.threads, stop: self.interrupt.flag() };
-            let (journal, known) = (&mut self.journal, &mut self.known);
-            engine::run(job, &batch, &mut |row| {
-                journal.append(&row).map_err(super::failures::told)?;
-                known.insert(row.index, row);
-                Ok(())
-            })?;
-        }
+        let batch = Batch { fitting: self.fitting, first, candidates: &candidates };
+        let missing: Vec<u64> = rows.filter(|index| !self.known.contains_key(index)).collect();
+        let (journal, known) = (&mut self.journal, &mut self.known);
+        self.engine.run(&batch, missing.into_iter(), self.interrupt.flag(), |row| {
+            journal.append(&row)?;
+            known.insert(row.index, row);
+            Ok(())
+        })?;
         let before = self.records.len();
         for (i, candidate) in candidates.iter().enumerate() {
             let rows: Option<Vec<&Row>> =
@@ -221,98 +195,48 @@ fn record(
 /// Candidates under way.
 struct Batch<'a> {
     fitting: &'a Fitting,
-    interrupt: &'a Interrupt,
-    kernel: Kernel,
     first: u64,
     candidates: &'a [Option<Vec<f64>>],
 }
 
-type Tag = (u64, Instant);
-type Recorders = (Interrupt, Series);
-
-impl Worker for Batch<'_> {
-    type Error = Failure;
-
-    fn work(&self, next: &dyn Fn() -> Option<u64>, hand_on: HandOn<'_>) -> Result<(), Failure> {
-        let refused = RefCell::new(ControlFlow::Continue(()));
-        let jobs = std::iter::from_fn(|| {
-            while refused.borrow().is_continue() {
-                let begun = (next()?, Instant::now());
-                match self.begin(begun) {
-                    Ok(run) => return Some(run),
-                    Err(row) => *refused.borrow_mut() = hand_on(*row),
-                }
-            }
-            None
-        });
-        simulate_many_with(self.kernel, jobs, |ended| match self.end(ended) {
-            Some(row) => hand_on(row),
-            None => ControlFlow::Break(()),
-        });
-        Ok(())
-    }
-}
-
 impl Batch<'_> {
-    fn place(&self, index: u64) -> (&Option<Vec<f64>>, usize) {
+    /// The candidate and the experiment of a run.
+    fn place(&self, index: u64) -> (Option<&[f64]>, &Experiment) {
         let experiments = self.fitting.experiments.len() as u64;
         let at = index - self.first;
         let candidate = &self.candidates[(at / experiments) as usize];
-        (candidate, (at % experiments) as usize)
+        (candidate.as_deref(), &self.fitting.experiments[(at % experiments) as usize])
+    }
+}
+
+impl Source for Batch<'_> {
+    type Recorder = Series;
+    type Row = Row;
+    type Error = Failure;
+
+    fn begin(&self, index: u64) -> Result<(Model, Series), NotBegun<Failure>> {
+        let (candidate, experiment) = self.place(index);
+        let values = candidate.map(|at| self.fitting.values(at));
+        Ok((experiment.model_of(values.as_deref())?, Series::new(experiment.recorded.clone())))
     }
 
-    fn begin(&self, tag: Tag) -> Result<Run<Tag, Recorders>, Box<Row>> {
-        let (candidate, e) = self.place(tag.0);
-        let experiment = &self.fitting.experiments[e];
-        let values = candidate.as_ref().map(|at| self.fitting.values(at));
-        match experiment.model_of(values.as_deref()) {
-            Ok(model) => {
-                Ok(Run { tag, model, recorder: (self.interrupt.clone(), Series::new(experiment.recorded.clone())) })
-            }
-            Err(problems) => {
-                let mut row = self.row(tag, Status::Refused, reason(&problems));
-                row.kernel = String::new();
-                Err(Box::new(row))
-            }
-        }
-    }
-
-    /// The row of a run; none of one that was stopped.
-    fn end(&self, ended: Ended<Tag, Recorders>) -> Option<Row> {
-        let (_, e) = self.place(ended.tag.0);
-        let (status, reason) = match &ended.outcome {
-            Ok(outcome) => match &outcome.status {
-                RunEnd::Completed => (Status::Completed, String::new()),
-                RunEnd::Stopped => return None,
-                RunEnd::Failed(error) => (Status::Failed, error.to_string()),
-            },
-            Err(error) => (Status::Failed, error.to_string()),
-        };
-        let mut row = self.row(ended.tag, status, reason);
-        row.kernel = ended.kernel.name().to_owned();
-        if status == Status::Completed {
-            let (_, series) = &ended.recorder;
-            match self.fitting.experiments[e].misfits(self.fitting.fit.misfit, series) {
-                Ok(parts) => row.cells.extend(parts.into_iter().map(Cell::Number)),
-                Err(reason) => (row.status, row.reason) = (Status::Failed, reason),
-            }
-        }
-        Some(row)
-    }
-
-    fn row(&self, (index, begun): Tag, status: Status, reason: String) -> Row {
-        let (candidate, _) = self.place(index);
+    fn end(&self, run: Finished<Series>) -> Result<Row, Failure> {
+        let (candidate, experiment) = self.place(run.index);
         let cells = match candidate {
             Some(at) => at.iter().map(|u| Cell::Number(*u)).collect(),
             None => vec![Cell::Absent; self.fitting.bounds.len()],
         };
-        Row { index, status, reason, cells, wall_time_s: begun.elapsed().as_secs_f64(), kernel: String::new() }
+        let mut row = Row::of(&run, cells);
+        let misfits = match (run.ending, run.ran) {
+            (Ending::Completed, Some(ran)) => experiment.misfits(self.fitting.fit.misfit, &ran.recorder),
+            // what it would be compared with means nothing
+            (ending @ Ending::OutOfBalance(_), _) => Err(ending.reason().unwrap_or_default()),
+            _ => return Ok(row),
+        };
+        match misfits {
+            Ok(parts) => row.cells.extend(parts.into_iter().map(Cell::Number)),
+            Err(reason) => (row.status, row.reason) = (Status::Failed, reason),
+        }
+        Ok(row)
     }
-}
-
-/// All errors in one line.
-fn reason(problems: &Diagnostics) -> String {
-    let errors = problems.iter().filter(|d| d.problem.severity == Severity::Error);
-    let line = |d: &occupant_core::scenario::Diagnostic| format!("{}: {}", d.problem.path, d.problem.found);
-    errors.map(line).collect::<Vec<_>>().join(" | ")
 }

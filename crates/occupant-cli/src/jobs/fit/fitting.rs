@@ -8,7 +8,6 @@ use occupant_core::scenario::Draft;
 use occupant_study::{Bounds, Fit, FitChannel, FitTest, Parameter, Study, StudyText};
 
 use super::experiment::Experiment;
-use super::failures::of_failure;
 use super::target::{Target, filter_of};
 use crate::base::names::file_name;
 use crate::files::measured::{self, MapArgument, Wanted, pairs};
@@ -373,7 +372,7 @@ impl Opening<'_> {
                 Some(recording)
             }
             Err(failure) => {
-                self.problems.push(of_failure(failure));
+                self.problems.push(failure.words());
                 None
             }
         }
@@ -394,7 +393,7 @@ impl Opening<'_> {
         let found = match found {
             Ok(found) => found,
             Err(failure) => {
-                self.problems.push(of_failure(failure));
+                self.problems.push(failure.words());
                 return Vec::new();
             }
         };

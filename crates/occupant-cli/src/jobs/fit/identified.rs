@@ -2,9 +2,9 @@
 
 use occupant_core::model::Model;
 use occupant_core::results::channel::Series;
-use occupant_core::results::outcome::Status;
 use occupant_core::run::simulate::simulate;
 use occupant_study::Misfit;
+use occupant_study::ending::Ending;
 use occupant_study::misfit::{likelihood_rise, unrelated_samples};
 use occupant_study::search::{Descents, Global, Point, Profiles, Reach, Shape, Stage, descend, profile, refine, scan};
 
@@ -152,8 +152,8 @@ pub(crate) fn run(experiment: &Experiment, values: Option<&[f64]>) -> Result<Ser
 pub(crate) fn run_model(experiment: &Experiment, model: &Model) -> Result<Series, String> {
     let mut series = Series::new(experiment.recorded.clone());
     let outcome = simulate(model, &mut series).map_err(|e| e.to_string())?;
-    match outcome.status {
-        Status::Completed | Status::Stopped => Ok(series),
-        Status::Failed(error) => Err(error.to_string()),
+    match Ending::of(&outcome).and_then(|ending| ending.reason()) {
+        None => Ok(series),
+        Some(reason) => Err(reason),
     }
 }

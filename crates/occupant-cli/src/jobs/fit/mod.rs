@@ -10,7 +10,6 @@
 mod candidates;
 pub(crate) mod evaluator;
 mod experiment;
-pub(crate) mod failures;
 pub(crate) mod fitting;
 mod found;
 pub(crate) mod identified;

@@ -8,7 +8,6 @@ use occupant_core::scenario::Draft;
 
 use super::evaluator::Record;
 use super::experiment::opened;
-use super::failures::told;
 use super::fitting::Fitting;
 use super::found::{Fittings, Found, found};
 use super::identified::{Answer, run, run_model};
@@ -34,7 +33,7 @@ impl Output<'_> {
         let (fittings, runs) = self.run_fitted(&values).map_err(broke_off)?;
         let found = found(self.fitting, answer, records, &fittings, program());
         self.write_scenarios(&found, &fittings)?;
-        candidates::write(self.folder, self.fitting, records).map_err(told)?;
+        candidates::write(self.folder, self.fitting, records)?;
         let lines = [format!("{}: {} score {:.5}", found.study.file, found.objective, found.score.after)];
         for (name, svg) in sheets(self.fitting, &runs, &lines).map_err(broke_off)? {
             let name = format!("plots/{}.svg", file_stem(&name));

@@ -4,6 +4,7 @@ use crash_measures::signal::{ChannelClass, whole_steps};
 use occupant_core::results::channel::Channel;
 use occupant_study::{FilterChoice, Misfit};
 
+use crate::base::failure::Failure;
 use crate::files::history::{Family, Filter, Histories};
 use crate::files::measured::Pair;
 use crate::jobs::compare::{RATE_HZ, Track, Window, overlap, sampled};
@@ -58,7 +59,7 @@ impl Target {
         let class = filter.class_of(&channel.name);
         if let Some(class) = class {
             let filtered = measured.filter(class, FAMILY);
-            filtered.map_err(super::failures::of_failure)?;
+            filtered.map_err(Failure::words)?;
         }
         measured.time_s.iter_mut().for_each(|t| *t += shift_s);
         let theirs = Track { time_s: &measured.time_s, values: &measured.values };

@@ -1,5 +1,6 @@
 //! From the rows of a journal to a table of samples: only the columns that are asked for.
 
+use occupant_study::ending::Balance;
 use occupant_study::spread::{Verdict, median};
 use occupant_study::{Law, Study, Value};
 
@@ -10,8 +11,6 @@ use crate::base::failure::Failure;
 use crate::files::study_folder::manifest::Role;
 use crate::files::study_folder::row::{Cell, Row, Status};
 use crate::jobs::ensemble::judge::{Judged, Tolerance};
-use crate::jobs::ensemble::members::BROKEN_BALANCE;
-use crate::jobs::sweep::failures::told;
 
 /// So many values are read at a time.
 const CELLS: usize = 400_000;
@@ -106,7 +105,7 @@ pub(crate) fn gather(opened: &Opened, figures: &[usize]) -> Result<Gathered, Fai
     let mut start = 0;
     while start < opened.manifest.samples {
         let end = (start + at_once).min(opened.manifest.samples);
-        for row in opened.journal.rows_there(start..end).map_err(told)? {
+        for row in opened.journal.rows_there(start..end)? {
             gathering.see(&row);
         }
         start = end;
@@ -145,8 +144,7 @@ impl Gathering<'_> {
     fn see(&mut self, row: &Row) {
         let cell = |at: usize| row.cells.get(at).and_then(Cell::number);
         let completed = row.status == Status::Completed;
-        // an imbalance that is no number is as bad as any
-        let balanced = |at| cell(at).is_some_and(|off: f64| off.abs() <= BROKEN_BALANCE);
+        let balanced = |at| cell(at).is_some_and(|off| Balance::of(off) != Balance::Lost);
         let counts = completed && self.balance.is_none_or(balanced);
         self.found.ends.see(row, completed && !counts);
         let (number, _) = self.study.sample_and_member(row.index);

@@ -9,7 +9,6 @@ use crate::files::study_folder::journal::Journal;
 use crate::files::study_folder::manifest::{Manifest, Role};
 use crate::files::study_folder::problem::Problem;
 use crate::files::study_folder::texts::Texts;
-use crate::jobs::sweep::failures::{no_plan, told};
 use crate::jobs::sweep::parts::{common_manifest, read_journal, sha256_of};
 use crate::jobs::sweep::plan::Plan;
 
@@ -39,10 +38,9 @@ pub(crate) fn open(folders: &[PathBuf]) -> Result<Opened, Failure> {
     let texts = Texts::of_copies(first, &manifest);
     // the study as the sweep saw it, whichever program that was
     let name = Path::new(&study.name);
-    let plan = Plan::open(name, &manifest.overrides, &texts, manifest.program.clone());
-    let plan = plan.map_err(no_plan)?;
+    let plan = Plan::open(name, &manifest.overrides, &texts, manifest.program.clone())?;
     if plan.manifest.samples != manifest.samples || inputs(&plan.manifest) != inputs(&manifest) {
-        return Err(told(Problem::Differs {
+        return Err(Failure::from(Problem::Differs {
             folder: first.path().to_owned(),
             holds: Holds::Sweep,
             differences: manifest.differences(&plan.manifest, |_| None, |_| None),

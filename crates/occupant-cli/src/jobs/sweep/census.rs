@@ -1,5 +1,7 @@
 //! What a sweep came to: how its samples ended, and which of them are the worst.
 
+use occupant_study::ending::Balance;
+
 use super::worst::Worst;
 use crate::files::study_folder::manifest::{Manifest, Role};
 use crate::files::study_folder::problem::Problem;
@@ -8,8 +10,6 @@ use crate::files::study_folder::table::TableSink;
 
 /// So many reasons are told.
 const TOLD: usize = 3;
-/// The figures of a run mean nothing above this error of its energy balance.
-const BROKEN_BALANCE: f64 = 0.1;
 
 /// Counts how samples ended.
 #[derive(Clone, Debug, Default)]
@@ -62,7 +62,7 @@ impl Census {
             return;
         }
         let value = |column: usize| row.cells.get(column).and_then(|cell| cell.number());
-        if self.balance.and_then(value).is_some_and(|e| e.abs() > BROKEN_BALANCE) {
+        if self.balance.and_then(value).is_some_and(|e| Balance::of(e) == Balance::Lost) {
             self.unbalanced += 1;
         }
         if let Some((column, worst)) = &mut self.worst

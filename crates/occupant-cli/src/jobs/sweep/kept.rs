@@ -4,15 +4,13 @@ use std::fs;
 use std::ops::Range;
 use std::sync::atomic::AtomicBool;
 
-use occupant_core::run::batch::Kernel;
 use occupant_study::Keep;
+use occupant_study::engine::Engine;
 
-use super::engine::{HandOn, Job, Worker, run};
 use super::plan::Plan;
 use super::simulation::{Simulation, is_kept};
 use crate::base::failure::Failure;
 use crate::base::output_file::partial_path;
-use crate::files::study_folder::finished::Finished;
 use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::journal::Journal;
 use crate::files::study_folder::problem::Problem;
@@ -96,29 +94,11 @@ pub(crate) fn write(
     plan: &Plan,
     folder: &Folder,
     samples: &[u64],
-    threads: usize,
-    kernel: Kernel,
+    engine: &Engine,
     stop: &AtomicBool,
 ) -> Result<(), Failure> {
-    let again = Again { samples, simulation: Simulation { plan, keep: &Keep::All, folder, stop, kernel } };
-    let count = samples.len() as u64;
-    let job = Job { samples: &(0..count), finished: &Finished::none(count), threads, stop };
-    run(job, &again, &mut |_row| Ok(()))
-}
-
-/// Samples of a list, by their places in it.
-struct Again<'a> {
-    samples: &'a [u64],
-    simulation: Simulation<'a>,
-}
-
-impl Worker for Again<'_> {
-    type Error = Failure;
-
-    fn work(&self, next: &dyn Fn() -> Option<u64>, hand_on: HandOn<'_>) -> Result<(), Failure> {
-        let sample = |place: u64| self.samples.get(place as usize).copied();
-        self.simulation.work(&|| next().and_then(sample), hand_on)
-    }
+    let simulation = Simulation { plan, keep: &Keep::All, folder };
+    engine.run(&simulation, samples.iter().copied(), stop, |_row| Ok(()))
 }
 
 #[cfg(test)]

@@ -1,6 +1,5 @@
 //! The folders that hold parts of one sweep: the manifest that they share, and their journals.
 
-use super::failures::told;
 use crate::base::failure::Failure;
 use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::journal::Journal;
@@ -13,7 +12,7 @@ use crate::files::study_folder::manifest::{Manifest, Text};
 pub(crate) fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
     let mut common: Option<(&Folder, Manifest)> = None;
     for folder in folders {
-        let found = folder.manifest().map_err(told)?;
+        let found = folder.manifest()?;
         let shown = folder.path().display();
         let found = found.ok_or_else(|| {
             Failure::with_help(
@@ -41,7 +40,7 @@ pub(crate) fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
 
 /// Reads through the journals.
 pub(crate) fn read_journal(folders: &[Folder], sha256: &str, manifest: &Manifest) -> Result<Journal, Failure> {
-    Journal::read(folders, sha256, manifest.samples).map_err(told)
+    Ok(Journal::read(folders, sha256, manifest.samples)?)
 }
 
 /// What names a manifest.

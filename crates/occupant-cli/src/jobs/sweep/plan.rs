@@ -11,6 +11,7 @@ use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Diagnostics, Draft, Loaded};
 use occupant_study::{Design, Free, Law, Parameter, Setting, Study, StudyText, Value};
 
+use crate::base::failure::Failure;
 use crate::base::names::file_name;
 use crate::files::scenario::{Opened, ScenarioArgs, format_of};
 use crate::files::study_folder::manifest::{Column, Manifest, Role};
@@ -38,24 +39,21 @@ pub(crate) struct Plan {
     pub(crate) warnings: Diagnostics,
 }
 
-/// Why there is no plan, in words.
-pub(crate) struct NoPlan(pub(crate) String);
-
 impl Plan {
     /// Reads a study and all that it names; `name` is what messages call it.
     ///
     /// # Errors
     /// Everything that is wrong with it, in words.
-    pub(crate) fn open(name: &Path, overrides: &[String], texts: &Texts, program: String) -> Result<Plan, NoPlan> {
+    pub(crate) fn open(name: &Path, overrides: &[String], texts: &Texts, program: String) -> Result<Plan, Failure> {
         let shown = name.display();
         let bytes = texts.get(NamedBy::CommandLine, &file_name(name));
-        let bytes = bytes.map_err(|e| NoPlan(format!("the study {shown} cannot be read: {e}")))?;
+        let bytes = bytes.map_err(|e| Failure::plain(format!("the study {shown} cannot be read: {e}")))?;
         let text = StudyText::read_bytes(&bytes, format_of(name), &shown.to_string())
             .map_err(|problems| refused(&shown.to_string(), &problems))?;
         let scenario = name.parent().unwrap_or(Path::new("")).join(text.base());
         let bytes = texts.get(NamedBy::StudyAsBase, text.base()).map_err(|e| {
             let base = scenario.display();
-            NoPlan(format!("the scenario {base}, which the study {shown} varies, cannot be read: {e}"))
+            Failure::plain(format!("the scenario {base}, which the study {shown} varies, cannot be read: {e}"))
         })?;
         let scenario_name = scenario.display().to_string();
         let draft = Draft::read_bytes(&bytes, format_of(&scenario), &scenario_name)
@@ -183,7 +181,7 @@ impl Plan {
     }
 
     /// Inputs as the study names them, figures as the base scenario has them.
-    fn columns(&self) -> Result<Vec<Column>, NoPlan> {
+    fn columns(&self) -> Result<Vec<Column>, Failure> {
         let number = |name: &str, unit: &str| Column {
             name: format!("input.{name}"),
             unit: match unit {
@@ -212,7 +210,7 @@ impl Plan {
     }
 
     /// The figures of the first scenario that can be run.
-    fn figures(&self) -> Result<Vec<Figure>, NoPlan> {
+    fn figures(&self) -> Result<Vec<Figure>, Failure> {
         let tried = std::iter::once(None).chain((0..self.study.len().min(TRIED)).map(Some));
         let mut first_refusal = None;
         for index in tried {
@@ -265,11 +263,11 @@ impl Recorder for Enough {
     }
 }
 
-fn refused(name: &str, problems: &Diagnostics) -> NoPlan {
+fn refused(name: &str, problems: &Diagnostics) -> Failure {
     let errors = problems.iter().filter(|d| d.problem.severity == Severity::Error);
     let count = match errors.count() {
         1 => "1 error".to_owned(),
         n => format!("{n} errors"),
     };
-    NoPlan(format!("{problems}\n\n{name}: {count}, nothing was run"))
+    Failure::CouldNotRun(format!("{problems}\n\n{name}: {count}, nothing was run"))
 }
