@@ -23,9 +23,10 @@ use crate::forces::{History, Observer};
 use crate::motion::dynamics::{self, Accelerations, Wrench};
 use crate::motion::frame::{Frames, VEHICLE};
 use crate::motion::kinematics::Kinematics;
+use crate::motion::layout::FREE;
 use crate::motion::scalar::Scalar;
 use crate::motion::skeleton::Skeleton;
-use crate::motion::state::{FREE, State, Work};
+use crate::motion::state::{State, Work};
 use crate::motion::vector::V3;
 
 /// Constants of everything that acts: body, joints, contacts, belts.

@@ -13,7 +13,7 @@ use crate::forces::History;
 use crate::forces::belt::law::BeltLaw;
 use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::contact::{ContactSystem, PairHistory};
-use crate::forces::joint::{BALLS, JointSystem};
+use crate::forces::joint::JointSystem;
 use crate::kernel::System;
 use crate::model::seat::{Seat, Seated, seat};
 use crate::model::seating::{InitialPosture, InitialVelocity, Seating};
@@ -22,8 +22,9 @@ use crate::model::setup::Setup;
 use crate::motion::frame::Frames;
 use crate::motion::frame::{Moving, VEHICLE};
 use crate::motion::kinematics::Kinematics;
+use crate::motion::layout::{BALLS, FREE};
 use crate::motion::skeleton::Skeleton;
-use crate::motion::state::{FREE, State};
+use crate::motion::state::State;
 use crate::motion::vector::V3;
 use crate::problem::Problems;
 use crate::vehicle::{FrameMotion, PathCursor};
@@ -147,7 +148,7 @@ fn begin(setup: &Setup, faces: &[FlatFace], problems: &mut Problems) -> Option<(
         setup.integrator.longest_step_s(),
     );
     let mut system =
-        System { skeleton, joints: JointSystem::new(&setup.joints, &[0.0; 7]), contacts, belts: Vec::new() };
+        System { skeleton, joints: JointSystem::new(&setup.joints, &[0.0; BALLS.len()]), contacts, belts: Vec::new() };
     let (mut state, seated, settled) = match &setup.posture {
         InitialPosture::Coordinates(q) | InitialPosture::Continued { coordinates: q, .. } => (q.to_state(), None, None),
         InitialPosture::Seated(seating) => {
@@ -170,8 +171,7 @@ fn begin(setup: &Setup, faces: &[FlatFace], problems: &mut Problems) -> Option<(
         set_velocity(&mut state, &setup.velocity, &vehicle);
     }
     let k = Kinematics::new(&system.skeleton, &state);
-    let rest: [f64; 7] = std::array::from_fn(|i| system.joints.beta(i, &k));
-    debug_assert_eq!(rest.len(), BALLS.len());
+    let rest: [f64; BALLS.len()] = std::array::from_fn(|i| system.joints.beta(i, &k));
     system.joints = JointSystem::new(&setup.joints, &rest);
     system.belts = belts(setup, &system, &k, &vehicle, problems);
     let mut history = initial_history(&system, &k, &frames(&vehicle));

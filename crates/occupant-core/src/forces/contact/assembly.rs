@@ -58,7 +58,7 @@ impl<S: Scalar> ContactSystem<S> {
 
 fn site<S: Scalar>(body: &Body, sphere: &ContactSphere) -> Site<S> {
     // the proximal joint of a hanging segment is its upper end
-    let joint = if sphere.segment.hangs() { body.segment(sphere.segment).length_m } else { 0.0 };
+    let joint = if body.tree[sphere.segment].hangs() { body.segment(sphere.segment).length_m } else { 0.0 };
     let mut offset = sphere.centre_from_lower_end_m.coords;
     offset.z -= joint;
     Site { segment: sphere.segment.index(), offset: V3::of(&offset), radius: S::of(sphere.radius_m) }

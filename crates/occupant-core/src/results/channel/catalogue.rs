@@ -2,28 +2,30 @@
 
 use super::quantity::{Component, Source};
 use super::{Axes, Channel};
-use crate::body::Segment;
 use crate::body::joint::Joint;
+use crate::body::tree::{JointRow, Landmarks};
+use crate::body::{Segment, Tree};
 use crate::model::Model;
 use crate::results::energy::EnergyLedger;
 use crash_measures::unit::Unit;
 
 /// All channels of a model, in a fixed order: vehicle, segments, neck and femurs, spheres, belts, joints, energies.
 pub fn channels(model: &Model) -> Vec<Channel> {
+    let tree = model.body().tree;
     let mut list = List::default();
     list.vehicle();
-    for segment in Segment::ALL {
-        list.segment(segment);
+    for segment in tree.segments() {
+        list.segment(segment, tree[segment].name);
     }
-    list.neck_and_femurs();
+    list.neck_and_femurs(tree);
     for (i, sphere) in model.body().spheres.iter().enumerate() {
         list.sphere(i, &sphere.name);
     }
     for (i, belt) in model.setup().belts.iter().enumerate() {
         list.belt(i, &belt.name);
     }
-    for joint in Joint::ALL {
-        list.joint(joint);
+    for joint in tree.joints() {
+        list.joint(joint, &tree[joint]);
     }
     list.energies();
     list.0
@@ -61,9 +63,8 @@ impl List {
         }
     }
 
-    fn segment(&mut self, segment: Segment) {
+    fn segment(&mut self, segment: Segment, name: &str) {
         use Source::*;
-        let name = segment.name();
         let words = name.replace('_', " ");
         let s = Axes::Segment;
         let mut add = |what: &str, unit, axes, meaning: &str, source| {
@@ -101,8 +102,9 @@ impl List {
         add("position", Unit::Metre, Axes::Vehicle, "place of the centre of gravity", Position(segment));
     }
 
-    fn neck_and_femurs(&mut self) {
-        let (force, moment) = (Source::NeckForce, Source::NeckMoment);
+    fn neck_and_femurs(&mut self, tree: &Tree) {
+        let Landmarks { neck, legs, .. } = tree.landmarks();
+        let (force, moment) = (Source::NeckForce(*neck), Source::NeckMoment(*neck));
         self.vector(
             "neck.force",
             Unit::Newton,
@@ -117,7 +119,7 @@ impl List {
             "upper neck moment on the head at its joint: +y in flexion",
             moment,
         );
-        for (thigh, name) in [(Segment::RightThigh, "right_femur"), (Segment::LeftThigh, "left_femur")] {
+        for (thigh, name) in [(legs.right.upper, "right_femur"), (legs.left.upper, "left_femur")] {
             let meaning = "axial force at the knee end of the thigh, tension positive".to_owned();
             self.push(format!("{name}.axial"), Unit::Newton, Axes::None, meaning, Source::Femur(thigh), Component::X);
         }
@@ -179,10 +181,10 @@ impl List {
         );
     }
 
-    fn joint(&mut self, joint: Joint) {
-        let name = joint.name();
+    fn joint(&mut self, joint: Joint, row: &JointRow) {
+        let name = row.name;
         let words = name.replace('_', " ");
-        let kind = if joint.is_hinge() { "α" } else { "β" };
+        let kind = if row.is_hinge() { "α" } else { "β" };
         self.push(
             format!("joint.{name}.angle"),
             Unit::Radian,

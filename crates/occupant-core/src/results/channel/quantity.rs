@@ -41,9 +41,9 @@ pub(super) enum Source {
     JointForce(Joint),
     JointMoment(Joint),
     /// The neck's force on the head in J211 axes.
-    NeckForce,
+    NeckForce(Joint),
     /// The neck's moment on the head in J211 axes.
-    NeckMoment,
+    NeckMoment(Joint),
     Femur(Segment),
     Energy(fn(&EnergyLedger) -> f64),
 }
@@ -114,8 +114,8 @@ impl Source {
             Source::Angle(joint) => scalar(s.joint_angle_rad(*joint)),
             Source::JointForce(joint) => reaction(s, *joint).force_n,
             Source::JointMoment(joint) => reaction(s, *joint).moment_n_m,
-            Source::NeckForce => to_j211(reaction(s, Joint::Neck).force_n),
-            Source::NeckMoment => to_j211(reaction(s, Joint::Neck).moment_n_m),
+            Source::NeckForce(neck) => to_j211(reaction(s, *neck).force_n),
+            Source::NeckMoment(neck) => to_j211(reaction(s, *neck).moment_n_m),
             Source::Femur(thigh) => scalar(femur_axial_n(s, *thigh)),
             Source::Energy(of) => scalar(of(&s.energy)),
         }

@@ -6,7 +6,6 @@ use super::{
     Acceleration, Accelerations, BeltPeak, ContactBegin, EnergyCheck, Excursion, FirstContact, Level, Peak, RunStatus,
     Solver, SpherePeak, Summary,
 };
-use crate::body::Segment;
 use crate::model::Model;
 use crate::model::setup::{Integrator, STANDARD_GRAVITY_M_S2, TimeSpan};
 use crate::results::outcome::{FirstTouch, Outcome, Status};
@@ -15,8 +14,6 @@ use crate::results::sample::Sample;
 use crash_measures::injury::{self, Signals, assess};
 use crash_measures::measure::{ThreeMs, three_ms_contiguous, three_ms_cumulative};
 
-/// Segments whose accelerations are summarised: head, chest, pelvis.
-const MEASURED: [Segment; 3] = [Segment::Head, Segment::UpperTorso, Segment::LowerTorso];
 /// Spheres whose first contacts are summarised.
 const STRUCK: [&str; 4] = ["head", "chest", "left_knee", "right_knee"];
 
@@ -30,7 +27,7 @@ pub struct Summarizer {
     outputs: usize,
     /// Time of the first output seen: the start, unless the run was resumed and its beginning is not at hand.
     first_s: Option<f64>,
-    /// Resultants at the regular output times, by [`MEASURED`], m/s².
+    /// Resultants of head, chest and pelvis at the regular output times, m/s².
     resultants_m_s2: [Vec<f64>; 3],
     accelerations: [Option<Peak>; 3],
     belts: Vec<BeltTrack>,
@@ -207,7 +204,8 @@ impl Summarizer {
             let due_s = time.start_s + sample.index as f64 * time.output_s;
             (t - due_s).abs() <= 1e-6 * time.output_s
         });
-        for (i, segment) in MEASURED.into_iter().enumerate() {
+        let marks = sample.model.body().tree.landmarks();
+        for (i, segment) in [marks.head, marks.chest, marks.pelvis].into_iter().enumerate() {
             let resultant_m_s2 = sample.specific_force_m_s2(segment).norm();
             self.accelerations[i].get_or_insert(Peak::NONE).see(resultant_m_s2, t);
             if regular {
