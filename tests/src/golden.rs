@@ -101,7 +101,7 @@ impl Golden {
         };
         let sphere = |s: &GoldenSphere| ContactSphere {
             name: s.name.clone(),
-            segment: TTI12.segments().nth(s.segment - 1).expect("a segment number"),
+            segment: TTI12.segment(s.segment - 1),
             centre_from_lower_end_m: Point3::from(s.centre_from_lower_end),
             radius_m: s.radius,
         };

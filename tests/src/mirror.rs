@@ -75,7 +75,7 @@ fn mirrored_body(body: &Body) -> Body {
 }
 
 fn other_segment(segment: Segment) -> Segment {
-    TTI12.segments().nth(other_side(segment.index())).expect("one of the twelve")
+    TTI12.segment(other_side(segment.index()))
 }
 
 const fn other_side(segment: usize) -> usize {

@@ -139,15 +139,13 @@ pub struct SphereRow {
     pub beside: Option<(Width, Side)>,
 }
 
-/// Two segments and the hinge between them.
+/// An arm or a leg.
 #[derive(Clone, Copy, Debug)]
 pub struct Limb {
     /// Upper arm or thigh.
     pub upper: Segment,
-    /// Forearm or lower leg.
+    /// Forearm or lower leg, on a hinge.
     pub lower: Segment,
-    /// Elbow or knee.
-    pub hinge: Joint,
 }
 
 /// One of each side.
@@ -216,14 +214,20 @@ impl Tree {
         &self.landmarks
     }
 
-    /// The segment at a place in the table, which must exist.
-    pub(crate) const fn segment(&self, index: usize) -> Segment {
+    /// The segment at a place in the table.
+    ///
+    /// # Panics
+    /// If the table has no such row.
+    pub const fn segment(&self, index: usize) -> Segment {
         assert!(index < self.segments.len());
         Segment(index)
     }
 
-    /// The joint at a place in the table, which must exist.
-    pub(crate) const fn joint(&self, index: usize) -> Joint {
+    /// The joint at a place in the table.
+    ///
+    /// # Panics
+    /// If the table has no such row.
+    pub const fn joint(&self, index: usize) -> Joint {
         assert!(index < self.joints.len());
         Joint(index)
     }
@@ -241,11 +245,6 @@ impl Tree {
     /// The segment with this name.
     pub fn segment_named(&self, name: &str) -> Option<Segment> {
         self.segments().find(|s| self[*s].name == name)
-    }
-
-    /// The joint with this name.
-    pub fn joint_named(&self, name: &str) -> Option<Joint> {
-        self.joints().find(|j| self[*j].name == name)
     }
 
     /// The joint that carries a segment; nothing carries the first.

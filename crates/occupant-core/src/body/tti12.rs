@@ -64,12 +64,12 @@ pub const TTI12: Tree = Tree {
         middle: MIDDLE_TORSO,
         neck: NECK,
         arms: Pair {
-            left: Limb { upper: LEFT_UPPER_ARM, lower: LEFT_FOREARM, hinge: LEFT_ELBOW },
-            right: Limb { upper: RIGHT_UPPER_ARM, lower: RIGHT_FOREARM, hinge: RIGHT_ELBOW },
+            left: Limb { upper: LEFT_UPPER_ARM, lower: LEFT_FOREARM },
+            right: Limb { upper: RIGHT_UPPER_ARM, lower: RIGHT_FOREARM },
         },
         legs: Pair {
-            left: Limb { upper: LEFT_THIGH, lower: LEFT_LOWER_LEG, hinge: LEFT_KNEE },
-            right: Limb { upper: RIGHT_THIGH, lower: RIGHT_LOWER_LEG, hinge: RIGHT_KNEE },
+            left: Limb { upper: LEFT_THIGH, lower: LEFT_LOWER_LEG },
+            right: Limb { upper: RIGHT_THIGH, lower: RIGHT_LOWER_LEG },
         },
     },
 };

@@ -3,6 +3,9 @@
 //! Segments are indices here; a segment's joint is the one that carries it. How [`super::dynamics`] reduces a segment to
 //! what it asks of its joint follows from the shape of the tree: a limb (a ball joint, one hinged segment beyond) and a
 //! leaf (a ball joint, nothing beyond) have closed forms, a trunk segment carries any subtrees on ball joints.
+//!
+//! The kernel is compiled for one tree. A second one makes these constants, and the lengths of the arrays that have their
+//! lengths, a parameter of it; a segment that fits none of the three kinds needs a reduction of its own.
 
 use crate::body::SEGMENTS;
 use crate::body::tree::{Joint, JointRow, Place, Tree};
