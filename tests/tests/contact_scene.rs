@@ -6,7 +6,7 @@ use occupant_core::forces::contact::surface::Frame;
 use occupant_core::forces::contact::{FRICTION, PRESS, Touch};
 use occupant_core::forces::{History, Observer};
 use occupant_core::kernel::Evaluation;
-use occupant_core::motion::state::FREE;
+use occupant_core::motion::layout::FREE;
 use occupant_tests::{
     compartment::{Compartment, ContactForce},
     random::Random,
@@ -32,7 +32,7 @@ fn accelerations(evaluation: &Evaluation<f64>) -> SpaceMotion {
     let found = &evaluation.accelerations;
     SpaceMotion {
         t1: found.joint[0].to_vector(),
-        angular: FREE.map(|n| found.alpha[n].to_vector()),
+        angular: std::array::from_fn(|i| found.alpha[FREE[i]].to_vector()),
         hinge: found.hinge,
     }
 }

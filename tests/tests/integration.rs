@@ -3,6 +3,7 @@
 use nalgebra::{Point3, Vector3};
 use occupant_core::body::joint::{AngularSpring, BallJoint, HingeJoint, Joints};
 use occupant_core::forces::{belt, joint};
+use occupant_core::body::tti12::TTI12;
 use occupant_core::model::Model;
 use occupant_core::model::seating::InitialPosture;
 use occupant_core::model::setup::{Integrator, Setup};
@@ -26,20 +27,7 @@ fn supple() -> Joints {
         spring: Some(AngularSpring { stiffness_n_m: 120.0, rest_rad: None }),
     };
     let hinge = HingeJoint { damping_n_m_s: 1.0, ..HingeJoint::default() };
-    Joints {
-        neck: ball,
-        right_shoulder: ball,
-        left_shoulder: ball,
-        upper_back: ball,
-        left_elbow: hinge,
-        right_elbow: hinge,
-        lower_back: ball,
-        right_hip: ball,
-        left_hip: ball,
-        right_knee: hinge,
-        left_knee: hinge,
-        epsilon: 0.1,
-    }
+    Joints::alike(&TTI12, ball, hinge).with_epsilon(0.1)
 }
 
 /// A bent posture that turns and moves: every angle and rate different.

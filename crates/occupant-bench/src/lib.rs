@@ -12,7 +12,8 @@ use occupant_core::motion::dynamics::{self, Accelerations, Wrench};
 use occupant_core::motion::frame::Frames;
 use occupant_core::motion::integrate::rk4::{self, Stage};
 use occupant_core::motion::kinematics::Kinematics;
-use occupant_core::motion::state::{FREE, State};
+use occupant_core::motion::layout::FREE;
+use occupant_core::motion::state::State;
 use occupant_core::scenario::{Format, Loaded, Scenario};
 use occupant_core::vehicle::PathCursor;
 

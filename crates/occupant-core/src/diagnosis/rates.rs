@@ -9,15 +9,15 @@ use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
 use super::mobility::{Mobility, across, greatest};
-use crate::body::joint::{BallJoint, HingeJoint};
+use crate::body::joint::{BallJoint, Joint};
 use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::contact::surface::Frame;
-use crate::forces::joint::BALLS;
 use crate::forces::material::{BilinearSpring, Material};
 use crate::forces::spring::Spring;
 use crate::model::Model;
 use crate::model::setup::Setup;
 use crate::motion::frame::Moving;
+use crate::motion::layout::{BALL_JOINTS, BALLS, HINGE_JOINTS};
 use crate::results::sample::Sample;
 use crate::vehicle::{FrameMotion, PathCursor};
 
@@ -173,30 +173,18 @@ pub(super) fn of_belts(sample: &Sample<'_>, mobility: &Mobility<'_>) -> Vec<Rate
 /// Joints: the damper at its strongest, and the spring.
 pub(super) fn of_joints(model: &Model, mobility: &Mobility<'_>) -> Vec<Rate> {
     let j = &model.setup().joints;
-    let balls: [(&str, &BallJoint); 7] = [
-        ("neck", &j.neck),
-        ("right_shoulder", &j.right_shoulder),
-        ("left_shoulder", &j.left_shoulder),
-        ("upper_back", &j.upper_back),
-        ("lower_back", &j.lower_back),
-        ("right_hip", &j.right_hip),
-        ("left_hip", &j.left_hip),
-    ];
-    let hinges: [(&str, &HingeJoint); 4] = [
-        ("left_elbow", &j.left_elbow),
-        ("right_elbow", &j.right_elbow),
-        ("left_knee", &j.left_knee),
-        ("right_knee", &j.right_knee),
-    ];
+    let name = |joint: Joint| j.tree()[joint].name;
     let mut rates = Vec::new();
-    for ((name, joint), &(inner, outer)) in balls.into_iter().zip(&BALLS) {
+    for (joint, &(inner, outer)) in BALL_JOINTS.iter().zip(BALLS) {
+        let Some(law) = j[*joint].ball() else { continue };
         let relative = mobility.of_joint(inner, outer);
-        rates.extend(ball_rates(name, joint, &relative, mobility, inner, outer, j.epsilon));
+        rates.extend(ball_rates(name(*joint), law, &relative, mobility, inner, outer, j.epsilon));
     }
-    for (limb, (name, joint)) in hinges.into_iter().enumerate() {
-        let stops = [joint.lower_stop, joint.upper_stop];
-        let strongest = stops.iter().flatten().fold(joint.damping_n_m_s, |most, stop| most.max(stop.damping_n_m_s));
-        rates.extend(damper_rate(name, 1.0 / mobility.of_hinge(limb), strongest));
+    for (limb, joint) in HINGE_JOINTS.iter().enumerate() {
+        let Some(law) = j[*joint].hinge() else { continue };
+        let stops = [law.lower_stop, law.upper_stop];
+        let strongest = stops.iter().flatten().fold(law.damping_n_m_s, |most, stop| most.max(stop.damping_n_m_s));
+        rates.extend(damper_rate(name(*joint), 1.0 / mobility.of_hinge(limb), strongest));
     }
     rates
 }

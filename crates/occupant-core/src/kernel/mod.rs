@@ -14,9 +14,10 @@ use crate::forces::{Forces, History, Instant, Load, Observer, Unlike};
 use crate::motion::dynamics::{self, Accelerations, Wrench};
 use crate::motion::frame::Frames;
 use crate::motion::kinematics::Kinematics;
+use crate::motion::layout::FREE;
 use crate::motion::scalar::Scalar;
 use crate::motion::skeleton::Skeleton;
-use crate::motion::state::{FREE, State, Work};
+use crate::motion::state::{State, Work};
 use crate::motion::vector::V3;
 
 /// Other spheres, or spheres on other segments.

@@ -5,22 +5,12 @@
 
 use std::array::from_fn;
 
+use crate::motion::layout::{FREE, HINGED};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{V3, v3};
 
-/// Segments (indices) whose orientation is free, in the order of [`State::orientation`].
-pub const FREE: [usize; 8] = [0, 1, 2, 3, 4, 5, 8, 9];
-
-/// Hinged segments (indices), in the order of [`State::hinge`].
-pub const HINGED: [usize; 4] = [6, 7, 10, 11];
-
 /// Numbers in a [`State`].
-pub const NUMBERS: usize = 71 + WORK_SUMS;
-
-/// Place of a free segment in [`FREE`]; hinged segments are not in it.
-pub const fn free_slot(segment: usize) -> usize {
-    if segment < 6 { segment } else { segment - 2 }
-}
+pub const NUMBERS: usize = 7 + 7 * FREE.len() + 2 * HINGED.len() + WORK_SUMS;
 
 /// A quaternion w + xi + yj + zk; a unit quaternion turns segment axes into space axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,15 +62,15 @@ pub struct State<S> {
     /// T1, space axes, m.
     pub t1: V3<S>,
     /// Orientations of the free segments.
-    pub orientation: [Quat<S>; 8],
+    pub orientation: [Quat<S>; FREE.len()],
     /// α of the hinged segments, rad.
-    pub hinge: [S; 4],
+    pub hinge: [S; HINGED.len()],
     /// Velocity of T1, space axes, m/s.
     pub velocity: V3<S>,
     /// Absolute angular velocities of the free segments, space axes, rad/s.
-    pub omega: [V3<S>; 8],
+    pub omega: [V3<S>; FREE.len()],
     /// α̇, rad/s.
-    pub hinge_rate: [S; 4],
+    pub hinge_rate: [S; HINGED.len()],
     /// Work sums.
     pub work: Work<S>,
 }
@@ -143,11 +133,11 @@ impl<S: Scalar> State<S> {
         let o = S::zero();
         State {
             t1: V3::zero(),
-            orientation: [Quat { w: o, v: V3::zero() }; 8],
-            hinge: [o; 4],
+            orientation: [Quat { w: o, v: V3::zero() }; FREE.len()],
+            hinge: [o; HINGED.len()],
             velocity: V3::zero(),
-            omega: [V3::zero(); 8],
-            hinge_rate: [o; 4],
+            omega: [V3::zero(); FREE.len()],
+            hinge_rate: [o; HINGED.len()],
             work: Work::zero(),
         }
     }
@@ -190,6 +180,11 @@ fn finite<S: Scalar>(v: V3<S>) -> S::Mask {
     v.x.abs().lt(limit) & v.y.abs().lt(limit) & v.z.abs().lt(limit)
 }
 
+/// The next three numbers.
+fn vector(next: &mut impl FnMut() -> f64) -> V3<f64> {
+    v3(next(), next(), next())
+}
+
 impl State<f64> {
     /// All components in a row: T1, orientations (w, x, y, z), hinges, velocity, angular velocities, hinge rates, work sums.
     pub fn to_numbers(&self) -> [f64; NUMBERS] {
@@ -204,16 +199,17 @@ impl State<f64> {
 
     /// The state whose [`State::to_numbers`] these are.
     pub fn from_numbers(numbers: &[f64; NUMBERS]) -> Self {
-        let n = |i: usize| numbers[i];
-        let vector = |i: usize| v3(n(i), n(i + 1), n(i + 2));
+        let mut rest = numbers.iter().copied();
+        let mut n = || rest.next().unwrap_or(f64::NAN);
+        // in the order in which the fields are written
         State {
-            t1: vector(0),
-            orientation: from_fn(|k| Quat { w: n(3 + 4 * k), v: vector(4 + 4 * k) }),
-            hinge: from_fn(|k| n(35 + k)),
-            velocity: vector(39),
-            omega: from_fn(|k| vector(42 + 3 * k)),
-            hinge_rate: from_fn(|k| n(66 + k)),
-            work: Work { sums: from_fn(|k| n(70 + k)), vehicle: n(70 + WORK_SUMS) },
+            t1: vector(&mut n),
+            orientation: from_fn(|_| Quat { w: n(), v: vector(&mut n) }),
+            hinge: from_fn(|_| n()),
+            velocity: vector(&mut n),
+            omega: from_fn(|_| vector(&mut n)),
+            hinge_rate: from_fn(|_| n()),
+            work: Work { sums: from_fn(|_| n()), vehicle: n() },
         }
     }
 

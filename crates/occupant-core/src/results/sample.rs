@@ -5,13 +5,12 @@ use nalgebra::{Point3, UnitQuaternion, Vector3};
 use crate::body::Segment;
 use crate::body::joint::Joint;
 use crate::forces::contact::Touch;
-use crate::forces::joint::BALLS;
 use crate::forces::{Actions, History};
 use crate::kernel::Evaluation;
 use crate::model::Model;
 use crate::motion::frame::Frames;
 use crate::motion::frame::VEHICLE;
-use crate::motion::kinematics::LIMBS;
+use crate::motion::layout::{BALL_JOINTS, HINGE_JOINTS};
 use crate::motion::report_coordinates::ReportCoordinates;
 use crate::motion::state::State;
 use crate::motion::vector::V3;
@@ -109,7 +108,7 @@ impl<'a> Sample<'a> {
         let n = segment.index();
         let near = k.joint[n];
         let far = near + k.axes[n].z * self.model.system().skeleton.links[n].far;
-        let (upper, lower) = if segment.hangs() { (near, far) } else { (far, near) };
+        let (upper, lower) = if self.model.body().tree[segment].hangs() { (near, far) } else { (far, near) };
         [self.place_m(upper), self.place_m(lower)]
     }
 
@@ -201,9 +200,12 @@ impl<'a> Sample<'a> {
 
     /// β of a ball joint or α of a hinge, rad.
     pub fn joint_angle_rad(&self, joint: Joint) -> f64 {
-        match place(joint) {
-            Place::Ball(i) => self.model.system().forces.joints.beta(i, &self.evaluation.kinematics),
-            Place::Hinge(i) => self.state.hinge[i],
+        let ball = BALL_JOINTS.iter().position(|j| *j == joint);
+        let hinge = HINGE_JOINTS.iter().position(|j| *j == joint);
+        match (ball, hinge) {
+            (Some(i), _) => self.model.system().forces.joints.beta(i, &self.evaluation.kinematics),
+            (None, Some(i)) => self.state.hinge[i],
+            (None, None) => f64::NAN,
         }
     }
 
@@ -253,30 +255,5 @@ impl<'a> Sample<'a> {
 
     fn place_m(&self, space: V3<f64>) -> Point3<f64> {
         self.vehicle.point_to_frame(space.to_vector()).into()
-    }
-}
-
-/// Where the kernel keeps a joint.
-enum Place {
-    Ball(usize),
-    Hinge(usize),
-}
-
-fn place(joint: Joint) -> Place {
-    // index of the distal segment
-    let ball = |lower| BALLS.iter().position(|&(_, l)| l == lower).map_or(Place::Ball(0), Place::Ball);
-    let hinge = |lower| LIMBS.iter().position(|&(_, l)| l == lower).map_or(Place::Hinge(0), Place::Hinge);
-    match joint {
-        Joint::Neck => ball(2),
-        Joint::RightShoulder => ball(5),
-        Joint::LeftShoulder => ball(4),
-        Joint::UpperBack => ball(1),
-        Joint::LowerBack => ball(3),
-        Joint::RightHip => ball(9),
-        Joint::LeftHip => ball(8),
-        Joint::LeftElbow => hinge(6),
-        Joint::RightElbow => hinge(7),
-        Joint::LeftKnee => hinge(10),
-        Joint::RightKnee => hinge(11),
     }
 }

@@ -15,13 +15,13 @@ pub use fixed::{Step, Stretch};
 use adaptive::{Control, Memory};
 use front::Front;
 
-use crate::body::Segment;
 use crate::forces::{Actions, History};
 use crate::model::setup::Integrator;
 use crate::model::{Model, frames};
 use crate::motion::frame::VEHICLE;
 use crate::motion::integrate::bogacki_shampine::Tolerance;
-use crate::motion::state::{FREE, HINGED, State};
+use crate::motion::layout::{FREE, HINGED, TREE};
+use crate::motion::state::State;
 use crate::results::checkpoint::{Checkpoint, CheckpointError, Progress};
 use crate::results::energy::{EnergyLedger, EnergyStart};
 use crate::results::outcome::{Outcome, RecordingFailed, Status, StepError};
@@ -259,16 +259,17 @@ fn first_step(integrator: &Integrator) -> f64 {
 
 /// Name of the first component that is not finite.
 fn broken_component(state: &State<f64>) -> String {
+    let name = |n: usize| TREE.segment_rows()[n].name;
     let bad = |x: f64, y: f64, z: f64| !(x.is_finite() && y.is_finite() && z.is_finite());
     for (slot, &n) in FREE.iter().enumerate() {
         let (q, w) = (&state.orientation[slot], &state.omega[slot]);
         if bad(q.v.x, q.v.y, q.v.z) || bad(w.x, w.y, w.z) || !q.w.is_finite() {
-            return format!("orientation or angular velocity of the {}", Segment::ALL[n].name());
+            return format!("orientation or angular velocity of the {}", name(n));
         }
     }
     for (slot, &n) in HINGED.iter().enumerate() {
         if !(state.hinge[slot].is_finite() && state.hinge_rate[slot].is_finite()) {
-            return format!("joint angle of the {}", Segment::ALL[n].name());
+            return format!("joint angle of the {}", name(n));
         }
     }
     "place or velocity of the reference point T1".to_owned()

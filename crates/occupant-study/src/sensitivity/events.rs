@@ -7,13 +7,14 @@
 //! instant.
 
 use super::trouble::Trouble;
-use occupant_core::body::joint::{Joint, Joints};
+use occupant_core::body::joint::{Joint, JointLaw};
 use occupant_core::forces::belt::law::BeltAction;
 use occupant_core::forces::contact::Touch;
 use occupant_core::forces::{Actions, History};
 use occupant_core::model::Model;
 use occupant_core::motion::dual::Dual;
 use occupant_core::motion::kinematics::Kinematics;
+use occupant_core::motion::layout::{BALL_JOINTS, HINGE_JOINTS};
 use occupant_core::motion::state::State;
 use occupant_core::motion::vector::V3;
 
@@ -21,21 +22,6 @@ use occupant_core::motion::vector::V3;
 const MOST: usize = 4096;
 /// Number of the look before the first; a pair that was never seen has 0.
 const NONE_YET: u64 = 1;
-/// Ball joints in the kernel's order, then hinges.
-const JOINTS: [Joint; 11] = [
-    Joint::Neck,
-    Joint::RightShoulder,
-    Joint::LeftShoulder,
-    Joint::UpperBack,
-    Joint::LowerBack,
-    Joint::RightHip,
-    Joint::LeftHip,
-    Joint::LeftElbow,
-    Joint::RightElbow,
-    Joint::LeftKnee,
-    Joint::RightKnee,
-];
-
 /// What happens to a sphere on a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Touching {
@@ -157,7 +143,7 @@ impl Happening {
             }
             Happening::Stop { joint, enters } => {
                 let verb = if enters { "enters" } else { "leaves" };
-                format!("{} {verb} the range of its stop", joint.name())
+                format!("{} {verb} the range of its stop", model.body().tree[joint].name)
             }
         }
     }
@@ -215,7 +201,7 @@ pub(super) struct Lookout<const N: usize> {
     pairs: Vec<PairNow>,
     touching: Vec<usize>,
     belts: Vec<BeltNow>,
-    stops: [Option<bool>; 11],
+    stops: [Option<bool>; BALL_JOINTS.len() + HINGE_JOINTS.len()],
     list: Vec<(Event0, [f64; N])>,
     /// How many were not kept.
     pub dropped: u64,
@@ -234,7 +220,7 @@ impl<const N: usize> Lookout<N> {
             pairs: vec![PairNow::default(); pairs],
             touching: Vec::with_capacity(pairs),
             belts: vec![BeltNow::default(); system.forces.belts.len()],
-            stops: [None; 11],
+            stops: [None; BALL_JOINTS.len() + HINGE_JOINTS.len()],
             list: Vec::with_capacity(MOST),
             dropped: 0,
         }
@@ -373,12 +359,12 @@ impl<const N: usize> Lookout<N> {
     fn look_at_stops(&mut self, model: &Model, scene: &Scene<N>) {
         let system = model.system();
         let k = Kinematics::new(&system.skeleton, &scene.state);
-        for (i, joint) in JOINTS.into_iter().enumerate() {
-            let angle_rad = match i.checked_sub(7) {
+        for (i, joint) in BALL_JOINTS.iter().chain(HINGE_JOINTS).copied().enumerate() {
+            let angle_rad = match i.checked_sub(BALL_JOINTS.len()) {
                 None => system.forces.joints.beta(i, &k),
                 Some(hinge) => scene.state.hinge[hinge],
             };
-            let inside = in_stop(&model.setup().joints, joint, angle_rad);
+            let inside = in_stop(&model.setup().joints[joint], angle_rad);
             let before = self.stops[i].replace(inside);
             if before.is_some_and(|b| b != inside) {
                 let enters = inside;
@@ -418,25 +404,12 @@ fn length<const N: usize>(v: &V3<Dual<N>>) -> f64 {
 }
 
 /// Whether a joint is in the range of one of its stops.
-fn in_stop(joints: &Joints, joint: Joint, angle_rad: f64) -> bool {
-    let ball = match joint {
-        Joint::Neck => &joints.neck,
-        Joint::RightShoulder => &joints.right_shoulder,
-        Joint::LeftShoulder => &joints.left_shoulder,
-        Joint::UpperBack => &joints.upper_back,
-        Joint::LowerBack => &joints.lower_back,
-        Joint::RightHip => &joints.right_hip,
-        Joint::LeftHip => &joints.left_hip,
-        Joint::LeftElbow | Joint::RightElbow | Joint::LeftKnee | Joint::RightKnee => {
-            let hinge = match joint {
-                Joint::LeftElbow => &joints.left_elbow,
-                Joint::RightElbow => &joints.right_elbow,
-                Joint::LeftKnee => &joints.left_knee,
-                _ => &joints.right_knee,
-            };
-            let lower = hinge.lower_stop.is_some_and(|s| angle_rad < s.begin_rad);
-            return lower || hinge.upper_stop.is_some_and(|s| angle_rad > s.begin_rad);
+fn in_stop(law: &JointLaw, angle_rad: f64) -> bool {
+    match law {
+        JointLaw::Ball(ball) => ball.stop.is_some_and(|s| angle_rad > s.begin_rad),
+        JointLaw::Hinge(hinge) => {
+            hinge.lower_stop.is_some_and(|s| angle_rad < s.begin_rad)
+                || hinge.upper_stop.is_some_and(|s| angle_rad > s.begin_rad)
         }
-    };
-    ball.stop.is_some_and(|s| angle_rad > s.begin_rad)
+    }
 }

@@ -1,29 +1,19 @@
 //! Dampers, stops and springs of the joints.
 
-use crate::body::joint::{BallJoint, HingeJoint, Joints, Stop};
+use crate::body::joint::{BallJoint, HingeJoint, JointLaw, Joints, Stop};
 use crate::problem::Problems;
 
 pub(super) fn check(j: &Joints, problems: &mut Problems) {
-    let balls = [
-        ("neck", &j.neck),
-        ("right_shoulder", &j.right_shoulder),
-        ("left_shoulder", &j.left_shoulder),
-        ("upper_back", &j.upper_back),
-        ("lower_back", &j.lower_back),
-        ("right_hip", &j.right_hip),
-        ("left_hip", &j.left_hip),
-    ];
-    for (name, ball) in balls {
-        check_ball(ball, &format!("joints.{name}"), problems);
+    // ball joints first, as ever
+    for (joint, law) in j.iter() {
+        if let JointLaw::Ball(ball) = law {
+            check_ball(ball, &format!("joints.{}", j.tree()[joint].name), problems);
+        }
     }
-    let hinges = [
-        ("left_elbow", &j.left_elbow),
-        ("right_elbow", &j.right_elbow),
-        ("right_knee", &j.right_knee),
-        ("left_knee", &j.left_knee),
-    ];
-    for (name, hinge) in hinges {
-        check_hinge(hinge, &format!("joints.{name}"), problems);
+    for (joint, law) in j.iter() {
+        if let JointLaw::Hinge(hinge) = law {
+            check_hinge(hinge, &format!("joints.{}", j.tree()[joint].name), problems);
+        }
     }
     if !(0.0..=0.1).contains(&j.epsilon) {
         problems.error("joints.epsilon", format!("{}", j.epsilon), "a number from 0 to 0.1");

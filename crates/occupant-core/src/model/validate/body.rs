@@ -1,14 +1,14 @@
 //! Segments and spheres of the body.
 
-use crate::body::{Body, Segment, SegmentProperties};
+use crate::body::{Body, SegmentProperties};
 use crate::problem::Problems;
 
 /// A sphere may lie this far beside even a short segment, m.
 const WIDEST_M: f64 = 0.3;
 
 pub(super) fn check_body(body: &Body, problems: &mut Problems) {
-    for segment in Segment::ALL {
-        let path = format!("body.segments.{}", segment.name());
+    for segment in body.tree.segments() {
+        let path = format!("body.segments.{}", body.tree[segment].name);
         check_segment(body.segment(segment), &path, problems);
     }
     for (key, value) in [("shoulder_half_width", body.shoulder_half_width_m), ("hip_half_width", body.hip_half_width_m)]
@@ -35,10 +35,7 @@ pub(super) fn check_body(body: &Body, problems: &mut Problems) {
                 &path,
                 format!(
                     "a centre {:.4} m along and {:.4} m beside the {:.4} m long {}",
-                    z,
-                    beside,
-                    length,
-                    sphere.segment.name()
+                    z, beside, length, body.tree[sphere.segment].name
                 ),
                 "a sphere on its segment",
                 "the centre is measured from the segment's lower end, upwards",

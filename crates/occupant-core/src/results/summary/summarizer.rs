@@ -6,7 +6,6 @@ use super::{
     Acceleration, Accelerations, BeltPeak, ContactBegin, EnergyCheck, Excursion, FirstContact, Level, Peak, RunStatus,
     Solver, SpherePeak, Summary,
 };
-use crate::body::Segment;
 use crate::model::Model;
 use crate::model::setup::{Integrator, STANDARD_GRAVITY_M_S2, TimeSpan};
 use crate::results::outcome::{FirstTouch, Outcome, Status};
@@ -15,8 +14,6 @@ use crate::results::sample::Sample;
 use crash_measures::injury::{self, Readings, Signals};
 use crash_measures::measure::ThreeMs;
 
-/// Segments whose accelerations are summarised: head, chest, pelvis.
-const MEASURED: [Segment; 3] = [Segment::Head, Segment::UpperTorso, Segment::LowerTorso];
 /// Spheres whose first contacts are summarised.
 const STRUCK: [&str; 4] = ["head", "chest", "left_knee", "right_knee"];
 
@@ -28,7 +25,7 @@ pub struct Summarizer {
     time: Option<TimeSpan>,
     head: Option<usize>,
     outputs: usize,
-    /// By [`MEASURED`].
+    /// Of head, chest and pelvis.
     accelerations: [Option<Peak>; 3],
     belts: Vec<BeltTrack>,
     spheres: Vec<SphereTrack>,
@@ -196,7 +193,8 @@ impl Summarizer {
     }
 
     fn see_accelerations(&mut self, sample: &Sample<'_>) {
-        for (peak, segment) in self.accelerations.iter_mut().zip(MEASURED) {
+        let marks = sample.model.body().tree.landmarks();
+        for (peak, segment) in self.accelerations.iter_mut().zip([marks.head, marks.chest, marks.pelvis]) {
             peak.get_or_insert(Peak::NONE).see(sample.specific_force_m_s2(segment).norm(), sample.time_s);
         }
     }
