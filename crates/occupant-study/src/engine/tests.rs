@@ -41,7 +41,7 @@ impl Recorder for Last {
         if self.fails {
             return Err("no room".into());
         }
-        self.bits = sample.evaluation.kinematics.p.iter().map(|p| p.z.to_bits()).collect();
+        self.bits = sample.evaluation.kinematics.joint.iter().map(|p| p.z.to_bits()).collect();
         Ok(Flow::Continue)
     }
 }
