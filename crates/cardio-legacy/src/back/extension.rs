@@ -2,12 +2,13 @@
 
 use std::collections::BTreeSet;
 
-use occupant_core::body::joint::Joint;
+use occupant_core::body::tti12::{LOWER_BACK, UPPER_BACK};
 use occupant_core::forces::contact::PASSED;
 use occupant_core::motion::report_coordinates::ReportCoordinates;
 use occupant_core::results::sample::Sample;
 
 use super::digits::{digits, factor};
+use super::joints::ball_of;
 use crate::builder::DeckBuilder;
 use crate::compartment::CompartmentLayout;
 use crate::deck::Deck;
@@ -43,7 +44,7 @@ impl RunEnd {
                 .belts
                 .iter()
                 .position(|b| model.body().spheres.get(b.sphere).is_some_and(|s| s.name == sphere));
-            belt.and_then(|at| model.system().belts.get(at)).map(|law| law.rest_length)
+            belt.and_then(|at| model.system().forces.belts.get(at)).map(|law| law.rest_length)
         };
         Self {
             time_s: last.time_s,
@@ -58,17 +59,18 @@ impl RunEnd {
 /// β₀ of the upper and the lower back joint: the scenario's, or the angles at the start.
 pub fn spine_rest(first: &Sample<'_>) -> [f64; 2] {
     let joints = &first.model.setup().joints;
-    [(joints.upper_back, Joint::UpperBack), (joints.lower_back, Joint::LowerBack)]
-        .map(|(data, joint)| data.spring.and_then(|s| s.rest_rad).unwrap_or_else(|| first.joint_angle_rad(joint)))
+    [UPPER_BACK, LOWER_BACK].map(|joint| {
+        ball_of(joints, joint).spring.and_then(|s| s.rest_rad).unwrap_or_else(|| first.joint_angle_rad(joint))
+    })
 }
 
 fn passed(sample: &Sample<'_>, layout: &CompartmentLayout) -> Vec<(u32, u32)> {
-    let contacts = &sample.model.system().contacts;
+    let contacts = &sample.model.system().forces.contacts;
     let surfaces = &sample.model.setup().surfaces;
     let mut pairs = BTreeSet::new();
     for group in contacts.groups() {
         for at in group.pairs.clone() {
-            let is_passed = sample.history.pairs.get(at).is_some_and(|p| p.phase == PASSED);
+            let is_passed = sample.history.memory.contacts.get(at).is_some_and(|p| p.phase == PASSED);
             let parts = contacts.pairs().get(at).map(|p| p.parts.as_slice()).unwrap_or_default();
             for part in parts.iter().filter(|_| is_passed) {
                 let number = surfaces.get(part.surface).and_then(|s| layout.number_of(&s.name));

@@ -1,25 +1,48 @@
 //! Joints → series 11.
 
 use occupant_core::body::joint::{BallJoint, HingeJoint, Joints, Stop};
+use occupant_core::body::tree::Joint;
+use occupant_core::body::tti12::*;
 
 use super::Back;
 use crate::layout::Unit;
 
 pub(super) fn read(back: &mut Back<'_>) {
-    let joints = back.setup.joints;
-    let smooth = joints.epsilon == Joints::default().epsilon;
+    let joints = back.setup.joints.clone();
+    let smooth = joints.epsilon == Joints::free(&TTI12).epsilon;
     back.misfit_if(!smooth, "joints.epsilon: cards cannot choose it");
-    let same = joints.left_shoulder == joints.right_shoulder && joints.left_hip == joints.right_hip;
+    let same = joints[LEFT_SHOULDER] == joints[RIGHT_SHOULDER] && joints[LEFT_HIP] == joints[RIGHT_HIP];
     back.misfit_if(!same, "shoulders or hips that differ between left and right: cards have one of each");
-    let same = joints.left_elbow == joints.right_elbow && joints.left_knee == joints.right_knee;
+    let same = joints[LEFT_ELBOW] == joints[RIGHT_ELBOW] && joints[LEFT_KNEE] == joints[RIGHT_KNEE];
     back.misfit_if(!same, "elbows or knees that differ between left and right: cards have one of each");
-    ball(back, "neck", &joints.neck, ["XJNN", "XJSN", "AGNN", "AGSN"], None);
-    ball(back, "shoulders", &joints.left_shoulder, ["XJNS", "XJSS", "AGNS", "AGSS"], None);
-    ball(back, "upper_back", &joints.upper_back, ["XJNUB", "XJSUB", "AGNUB", "AGSUB"], Some(("SPJNT4", "BETA4")));
-    ball(back, "lower_back", &joints.lower_back, ["XJNLB", "XJSLB", "AGNLB", "AGSLB"], Some(("SPJNT7", "BETA7")));
-    ball(back, "hips", &joints.left_hip, ["XJNH", "XJSH", "AGNH", "AGSH"], None);
-    hinge(back, "elbows", &joints.left_elbow, ["XJNE", "XJSE", "AGNE", "AGSE"]);
-    hinge(back, "knees", &joints.left_knee, ["XJNK", "XJSK", "AGNK", "AGSK"]);
+    ball(back, "neck", &ball_of(&joints, NECK), ["XJNN", "XJSN", "AGNN", "AGSN"], None);
+    ball(back, "shoulders", &ball_of(&joints, LEFT_SHOULDER), ["XJNS", "XJSS", "AGNS", "AGSS"], None);
+    ball(
+        back,
+        "upper_back",
+        &ball_of(&joints, UPPER_BACK),
+        ["XJNUB", "XJSUB", "AGNUB", "AGSUB"],
+        Some(("SPJNT4", "BETA4")),
+    );
+    ball(
+        back,
+        "lower_back",
+        &ball_of(&joints, LOWER_BACK),
+        ["XJNLB", "XJSLB", "AGNLB", "AGSLB"],
+        Some(("SPJNT7", "BETA7")),
+    );
+    ball(back, "hips", &ball_of(&joints, LEFT_HIP), ["XJNH", "XJSH", "AGNH", "AGSH"], None);
+    hinge(back, "elbows", &hinge_of(&joints, LEFT_ELBOW), ["XJNE", "XJSE", "AGNE", "AGSE"]);
+    hinge(back, "knees", &hinge_of(&joints, LEFT_KNEE), ["XJNK", "XJSK", "AGNK", "AGSK"]);
+}
+
+/// The law of a ball joint of the report's body.
+pub(super) fn ball_of(joints: &Joints, joint: Joint) -> BallJoint {
+    joints[joint].ball().copied().unwrap_or_default()
+}
+
+fn hinge_of(joints: &Joints, joint: Joint) -> HingeJoint {
+    joints[joint].hinge().copied().unwrap_or_default()
 }
 
 fn ball(back: &mut Back<'_>, name: &str, joint: &BallJoint, fields: [&str; 4], spring: Option<(&str, &str)>) {

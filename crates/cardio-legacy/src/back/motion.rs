@@ -1,10 +1,12 @@
 //! Start of the occupant and belts → series 4 and 10, or 6, and 13.
 
+use occupant_core::body::tti12::{LOWER_BACK, UPPER_BACK};
 use occupant_core::forces::belt::{Belt, RestLength};
 use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating};
 use occupant_core::motion::report_coordinates::ReportCoordinates;
 
 use super::Back;
+use super::joints::ball_of;
 use crate::compartment::CompartmentLayout;
 use crate::convert::{BELTS, POSTURE, SEATS};
 use crate::layout::Unit;
@@ -17,7 +19,7 @@ pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
             back.builder.with_series(10);
             seated(back, layout, seating);
             velocity(back);
-            let rest = [back.setup.joints.upper_back, back.setup.joints.lower_back]
+            let rest = [ball_of(&back.setup.joints, UPPER_BACK), ball_of(&back.setup.joints, LOWER_BACK)]
                 .iter()
                 .any(|j| j.spring.is_some_and(|s| s.rest_rad.is_some()));
             back.misfit_if(rest, "joints.*.rest_angle beside a posture: cards take β₀ from the posture if NPOS = 0");
@@ -27,8 +29,8 @@ pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
             back.builder.with_series(6);
             coordinates_on(back, coordinates);
             for (joint, spring) in [
-                ("upper_back", back.setup.joints.upper_back.spring),
-                ("lower_back", back.setup.joints.lower_back.spring),
+                ("upper_back", ball_of(&back.setup.joints, UPPER_BACK).spring),
+                ("lower_back", ball_of(&back.setup.joints, LOWER_BACK).spring),
             ] {
                 let open = spring.is_some_and(|s| s.rest_rad.is_none());
                 back.misfit_if(

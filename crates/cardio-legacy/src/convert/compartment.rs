@@ -1,6 +1,6 @@
 //! Materials and surfaces (series 8 and 9).
 
-use occupant_core::body::SPHERE_NAMES;
+use occupant_core::body::tti12::TTI12;
 
 use super::ConversionError;
 use super::writer::{Writer, negated};
@@ -84,8 +84,8 @@ pub(super) fn passed_pair(
     let surface = u32::from(surface);
     let left_out = left_out(w.deck, layout).iter().any(|l| l.number == surface);
     let name = layout.name_of(surface)?.to_owned();
-    let sphere = SPHERE_NAMES.get(usize::from(sphere).checked_sub(1)?)?;
-    (w.value("NPOS") == 1.0 && !left_out).then_some((*sphere, name))
+    let sphere = TTI12.spheres().get(usize::from(sphere).checked_sub(1)?)?.name;
+    (w.value("NPOS") == 1.0 && !left_out).then_some((sphere, name))
 }
 
 /// The numbers of surfaces that the scenario leaves out, and their passed pairs, are kept for the way back.

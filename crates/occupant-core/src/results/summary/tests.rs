@@ -146,7 +146,7 @@ fn a_last_output_between_two_regular_times_does_not_bend_the_levels() {
     // the last interval is half as long as the others
     let model = falling(&floor(), 0.2035);
     let s = summary_of(&model);
-    assert_eq!(s.solver.outputs, model.).output_count();
+    assert_eq!(s.solver.outputs, model.output_count());
     assert_eq!(s.reached_s, 0.2035);
     let whole = summary_of(&falling(&floor(), 0.203));
     assert_eq!(s.accelerations.head.three_ms_contiguous, whole.accelerations.head.three_ms_contiguous);
