@@ -9,7 +9,7 @@ use occupant_core::scenario::model::Time;
 
 use crate::base::failure::{Done, Failure};
 use crate::base::talk::{print, say};
-use crate::jobs::print::{Case, RunFile, Units, printout};
+use crate::jobs::print::{Case, Units, printout};
 
 /// Print a run as paged text, as the report's program did
 ///
@@ -58,7 +58,7 @@ pub(crate) fn print_run(args: &Args) -> Result<Done, Failure> {
             "give a file that `occupant run` of this version has written",
         )
     };
-    let case = RunFile::read(&bytes).and_then(Case::new).map_err(refused)?;
+    let case = Case::read(&bytes).map_err(refused)?;
     let units: &Units = match args.units {
         Some(UnitsChoice::Si) => &crate::jobs::print::SI,
         Some(UnitsChoice::InchPound) => &crate::jobs::print::INCH_POUND,

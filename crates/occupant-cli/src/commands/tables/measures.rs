@@ -8,13 +8,9 @@ use super::summary::Marks;
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, Table, number};
 
-/// Measures that the table at the end of a run shows.
-const SHORT: [&str; 8] =
-    ["hic15", "hic36", "nij", "neck_tension", "neck_compression", "chest_3ms_cumulative", "right_femur", "left_femur"];
-
 /// The table at the end of a run.
 pub(crate) fn short(measures: &[Measure], marks: &Marks) -> String {
-    let chosen = measures.iter().filter(|m| SHORT.contains(&m.name));
+    let chosen = measures.iter().filter(|m| m.brief);
     table(chosen, marks)
 }
 
@@ -56,7 +52,7 @@ fn table<'m>(measures: impl Iterator<Item = &'m Measure>, marks: &Marks) -> Stri
         let [limit, of, margin, verdict] = verdict(m, limits.next());
         table.row([
             m.label.to_owned(),
-            marks.put(figure_name(m.name), m.value.map_or(NONE.to_owned(), |v| shown(m, v))),
+            marks.put(m.figure.unwrap_or(m.name), m.value.map_or(NONE.to_owned(), |v| shown(m, v))),
             unit(m).to_owned(),
             at(m),
             limit,
@@ -71,14 +67,6 @@ fn table<'m>(measures: impl Iterator<Item = &'m Measure>, marks: &Marks) -> Stri
         }
     }
     table.text()
-}
-
-/// What the list of a run's figures calls a measure that is there under another name.
-fn figure_name(measure: &str) -> &str {
-    match measure {
-        "chest_3ms_cumulative" => "chest.three_ms_cumulative",
-        other => other,
-    }
 }
 
 fn verdict(m: &Measure, limit: Option<&Judgement>) -> [String; 4] {

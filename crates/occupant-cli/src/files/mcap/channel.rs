@@ -5,10 +5,12 @@ use std::io::{Seek, Write};
 
 use mcap::records::MessageHeader;
 use mcap::{McapResult, Writer};
+use occupant_core::quantity::Kind;
+use occupant_core::results::catalogue::{Field, Message, touch};
 use prost_types::FileDescriptorProto;
 
-use super::column::{Group, TOUCH};
-use super::{descriptor, foxglove};
+use super::descriptor::{self, many, one};
+use super::foxglove;
 
 const PROTOBUF: &str = "protobuf";
 /// Package of our own messages.
@@ -35,10 +37,11 @@ pub(crate) struct Schemas {
 }
 
 impl Default for Schemas {
-    /// Foxglove's types and our own below the groups.
+    /// Foxglove's types and our own within messages.
     fn default() -> Self {
         let mut library = foxglove::library();
-        library.push(descriptor::file(PACKAGE, "Touch", TOUCH, None));
+        let fields = touch();
+        library.push(file("Touch", fields.iter().map(|(number, name, kind)| described(*number, name, *kind))));
         Schemas { library }
     }
 }
@@ -49,13 +52,6 @@ impl Schemas {
         let path = format!("foxglove/{name}.proto");
         let found = self.library.iter().find(|f| f.name() == path);
         found.map_or_else(Vec::new, |file| descriptor::set(file, &self.library))
-    }
-
-    /// The schema record's bytes of a group.
-    pub(crate) fn group(&self, group: &Group) -> Vec<u8> {
-        let fields: Vec<_> = group.columns.iter().map(|c| c.field()).collect();
-        let file = descriptor::file(PACKAGE, group.message, &fields, None);
-        descriptor::set(&file, &self.library)
     }
 
     /// A channel of a Foxglove type.
@@ -71,18 +67,34 @@ impl Schemas {
         Ok(Channel { id, sequence: 0 })
     }
 
-    /// A channel of a group; its metadata say what each field means.
-    pub(crate) fn add_group(
-        &self,
-        writer: &mut Writer<impl Write + Seek>,
-        topic: &str,
-        group: &Group,
-    ) -> McapResult<Channel> {
-        let full = format!("{PACKAGE}.{}", group.message);
-        let schema = writer.add_schema(&full, PROTOBUF, &self.group(group))?;
-        let meaning = |c: &super::column::Column| (c.name.to_owned(), c.meaning.to_owned());
-        let metadata: BTreeMap<String, String> = group.columns.iter().map(meaning).collect();
-        let id = writer.add_channel(schema, topic, PROTOBUF, &metadata)?;
+    /// A channel of a message of the catalogue; its metadata say what each field means.
+    pub(crate) fn add(&self, writer: &mut Writer<impl Write + Seek>, message: &Message) -> McapResult<Channel> {
+        let full = format!("{PACKAGE}.{}", message.name);
+        let fields = message.fields.iter().map(|f| described(f.number, &f.name, f.kind));
+        let described = descriptor::set(&file(message.name, fields), &self.library);
+        let schema = writer.add_schema(&full, PROTOBUF, &described)?;
+        let meaning = |field: &Field| (field.name.clone(), field.meaning.to_owned());
+        let metadata: BTreeMap<String, String> = message.fields.iter().map(meaning).collect();
+        let id = writer.add_channel(schema, &message.topic, PROTOBUF, &metadata)?;
         Ok(Channel { id, sequence: 0 })
+    }
+}
+
+/// The file that declares one of our messages.
+fn file<'a>(name: &str, fields: impl Iterator<Item = descriptor::Field<'a>>) -> FileDescriptorProto {
+    descriptor::file(PACKAGE, name, &fields.collect::<Vec<_>>(), None)
+}
+
+fn described(number: u32, name: &str, kind: Kind) -> descriptor::Field<'_> {
+    use descriptor::Kind::{Count, Index, Message, Number, Text};
+    match kind {
+        Kind::Number => one(number, name, Number),
+        Kind::Count => one(number, name, Count),
+        Kind::Text => one(number, name, Text),
+        Kind::Vector => one(number, name, Message("foxglove.Vector3")),
+        Kind::Rotation => one(number, name, Message("foxglove.Quaternion")),
+        Kind::Numbers => many(number, name, Number),
+        Kind::Indices => many(number, name, Index),
+        Kind::Parts(message) => many(number, name, Message(message)),
     }
 }

@@ -34,11 +34,11 @@ pub(crate) enum Kind {
 
 /// A field of a message.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Field {
+pub(crate) struct Field<'a> {
     /// Its number, which never changes.
     pub(crate) number: u32,
     /// Its name, with the unit of what it holds.
-    pub name: &'static str,
+    pub(crate) name: &'a str,
     /// Its type.
     pub(crate) kind: Kind,
     /// A list of values.
@@ -46,12 +46,12 @@ pub struct Field {
 }
 
 /// A single value.
-pub(crate) const fn one(number: u32, name: &'static str, kind: Kind) -> Field {
+pub(crate) const fn one(number: u32, name: &str, kind: Kind) -> Field<'_> {
     Field { number, name, kind, repeated: false }
 }
 
 /// A list of values.
-pub(crate) const fn many(number: u32, name: &'static str, kind: Kind) -> Field {
+pub(crate) const fn many(number: u32, name: &str, kind: Kind) -> Field<'_> {
     Field { number, name, kind, repeated: true }
 }
 
@@ -59,7 +59,7 @@ pub(crate) const fn many(number: u32, name: &'static str, kind: Kind) -> Field {
 pub(crate) type NestedEnum = (&'static str, &'static [&'static str]);
 
 /// A `.proto` file with one message of its own name; `package/Name.proto` declares `package.Name`.
-pub(crate) fn file(package: &str, name: &str, fields: &[Field], nested: Option<NestedEnum>) -> FileDescriptorProto {
+pub(crate) fn file(package: &str, name: &str, fields: &[Field<'_>], nested: Option<NestedEnum>) -> FileDescriptorProto {
     let mut dependency: Vec<String> = fields.iter().filter_map(|f| home(f.kind)).collect();
     dependency.sort();
     dependency.dedup();
@@ -112,7 +112,7 @@ fn home(kind: Kind) -> Option<String> {
     Some(format!("{}/{}.proto", words.next()?, words.next()?))
 }
 
-fn describe(field: &Field) -> FieldDescriptorProto {
+fn describe(field: &Field<'_>) -> FieldDescriptorProto {
     let label = if field.repeated { Label::Repeated } else { Label::Optional };
     let (kind, type_name) = match field.kind {
         Kind::Number => (Type::Double, None),

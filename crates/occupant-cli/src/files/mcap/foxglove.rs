@@ -18,7 +18,7 @@ const QUATERNION: Kind = Message("foxglove.Quaternion");
 const VECTOR: Kind = Message("foxglove.Vector3");
 
 /// A message of the library: its name, fields and nested enum.
-type Entry = (&'static str, &'static [Field], Option<NestedEnum>);
+type Entry = (&'static str, &'static [Field<'static>], Option<NestedEnum>);
 
 /// Name of the schema of a scene.
 pub(crate) const SCENE_UPDATE: &str = "SceneUpdate";
@@ -192,4 +192,4 @@ const MESSAGES: &[Entry] = &[
     ),
 ];
 
-const XYZ: &[Field] = &[one(1, "x", Number), one(2, "y", Number), one(3, "z", Number)];
+const XYZ: &[Field<'static>] = &[one(1, "x", Number), one(2, "y", Number), one(3, "z", Number)];

@@ -1,7 +1,7 @@
 //! A layout for Foxglove-compatible viewers: the scene beside the plots that a crash engineer looks at first. Viewers hide
 //! three-dimensional topics until a layout shows them, so it travels with every file.
 
-use occupant_core::model::Model;
+use occupant_core::results::catalogue::Message;
 use serde_json::{Value, json};
 
 use super::topics::{self, VEHICLE_FRAME};
@@ -9,19 +9,19 @@ use super::topics::{self, VEHICLE_FRAME};
 /// File name of the attachment.
 pub(crate) const NAME: &str = "layout.json";
 
-/// The layout; `belts` are the topics of the belts.
-pub(crate) fn layout(model: &Model, belts: &[String]) -> Value {
-    let head = "/occupant/segment/head.accelerometer_resultant_m_s2";
-    let chest = "/occupant/segment/upper_torso.accelerometer_resultant_m_s2";
-    let pelvis = "/occupant/segment/lower_torso.accelerometer_resultant_m_s2";
-    let loops: Vec<String> = belts.iter().map(|b| format!("{b}.loop_force_n")).collect();
-    let names = model.body().spheres.iter().map(|s| s.name.as_str());
-    let forces: Vec<String> =
-        topics::named(topics::SPHERES, names).iter().map(|t| format!("{t}.contact_force_resultant_n")).collect();
-    let energies = ["kinetic_relative_j", "balance_j"].map(|f| format!("{}.{f}", topics::ENERGY));
+pub(crate) fn layout(messages: &[Message]) -> Value {
+    let fields = |message: &str, field: &str| -> Vec<String> {
+        let own = messages.iter().filter(|m| m.name == message);
+        own.map(|m| format!("{}.{field}", m.topic)).collect()
+    };
+    let accelerometers = ["head", "upper_torso", "lower_torso"]
+        .map(|segment| format!("/occupant/segment/{segment}.accelerometer_resultant_m_s2"));
+    let loops = fields("BeltState", "loop_force_n");
+    let forces = fields("SphereLoad", "contact_force_resultant_n");
+    let energies = ["kinetic_relative_j", "balance_j"].map(|field| fields("EnergyLedger", field)).concat();
     let panels = json!({
         "3D!scene": scene(),
-        "Plot!accelerations": plot("Accelerometers, m/s²", &[head, chest, pelvis]),
+        "Plot!accelerations": plot("Accelerometers, m/s²", &accelerometers),
         "Plot!belts": plot("Belts, N", &loops),
         "Plot!contacts": plot("Contact forces, N", &forces),
         "Plot!energy": plot("Energy, J", &energies),

@@ -7,11 +7,10 @@
 
 pub(crate) mod about;
 mod channel;
+mod checkpoint;
 mod clock;
-pub mod column;
 mod descriptor;
 mod foxglove;
-pub mod groups;
 mod layout;
 mod log;
 mod press;
@@ -22,6 +21,16 @@ pub(crate) mod topics;
 mod transforms;
 pub(crate) mod wire;
 
+use occupant_core::model::Model;
+use occupant_core::results::catalogue::{self, Message};
+
 pub use about::{About, Document};
 pub use recorder::{McapOptions, McapRecorder};
 pub use stored::StoredRun;
+
+/// The messages of every output, in the order in which they are written: the catalogue of the model and the checkpoint.
+pub fn messages(model: &Model) -> Vec<Message> {
+    let mut messages = catalogue::messages(model);
+    messages.push(checkpoint::checkpoint());
+    messages
+}

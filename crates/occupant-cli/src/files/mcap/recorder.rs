@@ -5,9 +5,8 @@ use std::io::{Seek, Write};
 use std::num::NonZeroU32;
 
 use mcap::{Attachment, Compression, McapResult, WriteOptions, Writer};
-use occupant_core::body::Segment;
-use occupant_core::body::joint::Joint;
 use occupant_core::model::Model;
+use occupant_core::results::catalogue::Message;
 use occupant_core::results::outcome::Outcome;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
@@ -15,18 +14,17 @@ use occupant_core::results::sample::Sample;
 use super::about::{About, Document};
 use super::channel::{Channel, Schemas};
 use super::clock::{nanoseconds, stride};
-use super::column::Group;
 use super::foxglove::{FRAME_TRANSFORMS, LOG, Level, SCENE_UPDATE};
 use super::log::Names;
 use super::press::Press;
 use super::transforms::FrameNames;
 use super::wire::Wire;
-use super::{about, groups, layout, log, scene, topics, transforms};
+use super::{about, layout, log, messages, scene, topics, transforms};
 
 /// How a run is written.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct McapOptions {
-    /// Transforms and scenes at most this often, 1/s; the groups come with every output.
+    /// Transforms and scenes at most this often, 1/s; the messages of results come with every output.
     pub frames_per_s: NonZeroU32,
     /// A chunk is closed and handed to the operating system after this many outputs: what a killed run leaves.
     pub outputs_per_chunk: NonZeroU32,
@@ -68,18 +66,11 @@ struct Tracks {
     last: usize,
     frames: FrameNames,
     names: Names,
-    groups: Vec<Track>,
+    messages: Vec<(Message, Channel)>,
     transforms: Channel,
     belts: Channel,
     forces: Channel,
     log: Channel,
-}
-
-/// A group, what it belongs to and its channel.
-struct Track {
-    group: &'static Group,
-    index: usize,
-    channel: Channel,
 }
 
 impl<W: Write + Seek + Send + 'static> McapRecorder<W> {
@@ -120,13 +111,13 @@ impl<W: Write + Seek + Send + 'static> McapRecorder<W> {
         self.press.into_inner()
     }
 
-    fn write_documents(&mut self, model: &Model, belts: &[String]) -> Result<(), RecorderError> {
+    fn write_documents(&mut self, model: &Model, messages: &[Message]) -> Result<(), RecorderError> {
         let writer = self.press.home()?;
         writer.write_metadata(&about::run(&self.about, &self.tables, model))?;
         let layout = Document {
             name: layout::NAME.to_owned(),
             media_type: "application/json".to_owned(),
-            content: serde_json::to_vec_pretty(&layout::layout(model, belts))?,
+            content: serde_json::to_vec_pretty(&layout::layout(messages))?,
         };
         let scenario = [&self.about.scenario].into_iter().chain(&self.tables);
         for document in scenario.chain(&self.about.resolved).chain([&layout]) {
@@ -161,46 +152,18 @@ impl<W: Write + Seek + Send + 'static> McapRecorder<W> {
     }
 }
 
-/// The groups of a model with their topics, in the order in which they are written.
-fn plan(model: &Model, belts: &[String]) -> Vec<(String, &'static Group, usize)> {
-    let mut plan = vec![(topics::VEHICLE.to_owned(), &groups::VEHICLE, 0)];
-    for segment in Segment::ALL {
-        plan.push((topics::segment(segment), &groups::SEGMENT, segment.index()));
-    }
-    let names = model.body().spheres.iter().map(|s| s.name.as_str());
-    for (i, topic) in topics::named(topics::SPHERES, names).into_iter().enumerate() {
-        plan.push((topic, &groups::SPHERE, i));
-    }
-    for (i, topic) in belts.iter().enumerate() {
-        plan.push((topic.clone(), &groups::BELT, i));
-    }
-    plan.push((topics::JOINTS.to_owned(), &groups::JOINTS, 0));
-    for (i, joint) in Joint::ALL.into_iter().enumerate() {
-        plan.push((topics::joint_load(joint), &groups::JOINT_LOAD, i));
-    }
-    plan.push((topics::INSTRUMENTS.to_owned(), &groups::INSTRUMENTS, 0));
-    plan.push((topics::ENERGY.to_owned(), &groups::ENERGY, 0));
-    plan.push((topics::SOLVER.to_owned(), &groups::SOLVER, 0));
-    if model.setup().output.report_coordinates {
-        let topic = topics::REPORT_COORDINATES.to_owned();
-        plan.push((topic, &groups::REPORT_COORDINATES, 0));
-    }
-    plan.push((topics::CHECKPOINT.to_owned(), &groups::CHECKPOINT, 0));
-    plan
-}
-
 impl Tracks {
     fn new(
         writer: &mut Writer<impl Write + Seek>,
         schemas: &Schemas,
         model: &Model,
-        belts: &[String],
+        messages: Vec<Message>,
         options: &McapOptions,
     ) -> McapResult<Self> {
-        let mut groups = Vec::new();
-        for (topic, group, index) in plan(model, belts) {
-            let channel = schemas.add_group(writer, &topic, group)?;
-            groups.push(Track { group, index, channel });
+        let mut with_channels = Vec::with_capacity(messages.len());
+        for message in messages {
+            let channel = schemas.add(writer, &message)?;
+            with_channels.push((message, channel));
         }
         let mut add = |topic, name| schemas.add_foxglove(writer, topic, name);
         let time = &model.setup().time;
@@ -210,7 +173,7 @@ impl Tracks {
             last: model.output_count() - 1,
             frames: FrameNames::default(),
             names: Names::of(model),
-            groups,
+            messages: with_channels,
             transforms: add(topics::TRANSFORMS, FRAME_TRANSFORMS)?,
             belts: add(topics::BELTS_SCENE, SCENE_UPDATE)?,
             forces: add(topics::FORCES_SCENE, SCENE_UPDATE)?,
@@ -218,19 +181,19 @@ impl Tracks {
         })
     }
 
-    fn write_groups(
+    fn write_messages(
         &mut self,
         press: &mut Press<impl Write + Seek + Send + 'static>,
         wire: &mut Wire,
         sample: &Sample<'_>,
     ) {
         let ns = nanoseconds(sample.time_s, self.start_s);
-        for track in &mut self.groups {
+        for (message, channel) in &mut self.messages {
             wire.clear();
-            for column in track.group.columns {
-                column.write(sample, track.index, wire);
+            for field in &message.fields {
+                wire.value(field.number, &field.source.value(sample));
             }
-            press.write(track.channel.next(ns), wire.bytes());
+            press.write(channel.next(ns), wire.bytes());
         }
     }
 
@@ -269,12 +232,11 @@ impl Tracks {
 
 impl<W: Write + Seek + Send + 'static> Recorder for McapRecorder<W> {
     fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
-        let names = model.setup().belts.iter().map(|b| b.name.as_str());
-        let belts = topics::named(topics::BELTS, names);
-        self.write_documents(model, &belts)?;
+        let messages = messages(model);
+        self.write_documents(model, &messages)?;
         let schemas = Schemas::default();
         let writer = self.press.home()?;
-        let mut tracks = Tracks::new(writer, &schemas, model, &belts, &self.options)?;
+        let mut tracks = Tracks::new(writer, &schemas, model, messages, &self.options)?;
         self.write_still_scenes(model, &schemas, &tracks.frames)?;
         for problem in model.warnings().iter() {
             let words = problem.to_string();
@@ -289,7 +251,7 @@ impl<W: Write + Seek + Send + 'static> Recorder for McapRecorder<W> {
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
         let (press, wire) = (&mut self.press, &mut self.wire);
         let tracks = self.tracks.as_mut().ok_or("an output before the run began")?;
-        tracks.write_groups(press, wire, sample);
+        tracks.write_messages(press, wire, sample);
         let (first, last) = (self.outputs == 0, sample.index == tracks.last);
         if first || last || sample.index.is_multiple_of(tracks.stride) {
             tracks.write_frame(press, wire, sample, self.options.force_scale_m_per_n);

@@ -15,7 +15,7 @@ use occupant_core::results::sample::Effort;
 use prost::Message as _;
 
 use super::about::{RESULT, RUN};
-use super::topics;
+use super::checkpoint;
 
 /// A file that has more pairs than this is none of ours.
 const MOST_PAIRS: u64 = 1 << 20;
@@ -64,7 +64,7 @@ impl StoredRun {
         found: &mut Vec<Checkpoint>,
     ) -> Result<(), String> {
         match record {
-            Record::Channel(channel) if channel.topic == topics::CHECKPOINT => {
+            Record::Channel(channel) if channel.topic == checkpoint::TOPIC => {
                 *wanted = Some(channel.id);
             }
             Record::Message { header: MessageHeader { channel_id, .. }, data } if *wanted == Some(channel_id) => {
@@ -84,7 +84,7 @@ impl StoredRun {
     }
 }
 
-/// `occupant.Checkpoint` as `groups::CHECKPOINT` writes it.
+/// `occupant.Checkpoint` as `mcap::checkpoint` writes it.
 #[derive(Clone, PartialEq, prost::Message)]
 struct Message {
     #[prost(double, tag = "1")]

@@ -4,6 +4,7 @@
 //! leave zeros out, and −0 with them).
 
 use nalgebra::{UnitQuaternion, Vector3};
+use occupant_core::quantity::Value;
 
 /// Wire types of the protobuf encoding.
 const VARINT: u32 = 0;
@@ -26,6 +27,24 @@ impl Wire {
     /// Begins a new message.
     pub(crate) fn clear(&mut self) {
         self.bytes.clear();
+    }
+
+    /// A value of the catalogue; nothing for a vector that does not exist.
+    pub(crate) fn value(&mut self, field: u32, value: &Value) {
+        match value {
+            Value::Number(number) => self.number(field, *number),
+            Value::Count(count) => self.count(field, *count),
+            Value::Text(text) => self.text(field, text),
+            Value::Vector(vector) => vector.iter().for_each(|v| self.vector(field, v)),
+            Value::Rotation(rotation) => self.rotation(field, rotation),
+            Value::Numbers(numbers) => self.numbers(field, numbers),
+            Value::Indices(indices) => self.indices(field, indices),
+            Value::Parts(parts) => {
+                for part in parts {
+                    self.message(field, |wire| part.iter().for_each(|(field, value)| wire.value(*field, value)));
+                }
+            }
+        }
     }
 
     /// A `double`.

@@ -1,6 +1,5 @@
 //! What is printed: the recorded run, and the model rebuilt from the scenario that travels with it.
 
-use occupant_core::body::Segment;
 use occupant_core::forces::contact::{PASSED, PairHistory};
 use occupant_core::model::Model;
 use occupant_core::scenario::kind::UnitSystem;
@@ -8,25 +7,19 @@ use occupant_core::scenario::{Draft, Loaded};
 
 use cardio_legacy::CompartmentLayout;
 
-use super::message::Message;
-use super::run_file::RunFile;
 use super::unit::{INCH_POUND, SI, Units};
-use crate::files::mcap::column::Group;
-use crate::files::mcap::topics;
+use crate::files::mcap::StoredRun;
+use crate::files::mcap::about::RUN;
 
 /// A run to print.
 pub(crate) struct Case {
     /// The recorded run.
-    pub(crate) file: RunFile,
+    pub(crate) file: StoredRun,
     /// The scenario, overrides included.
     pub(crate) loaded: Loaded,
     pub(crate) model: Model,
     /// Warnings about it, in words.
     pub(crate) warnings: Vec<String>,
-    /// Topics of the spheres, in the body's order.
-    pub(crate) spheres: Vec<String>,
-    /// Topics of the belts, in the setup's order.
-    pub(crate) belts: Vec<String>,
     /// Numbers of the surfaces, in the setup's order.
     pub(crate) numbers: Vec<usize>,
     /// Whether they are the report's.
@@ -34,24 +27,23 @@ pub(crate) struct Case {
 }
 
 impl Case {
-    /// Rebuilds the model of a recorded run.
+    /// Reads a result file and rebuilds its model.
     ///
     /// # Errors
-    /// The file lacks its scenario or a table that it names; this program refuses the scenario.
-    pub(crate) fn new(file: RunFile) -> Result<Self, String> {
+    /// A file that `occupant run` has not written, that lacks its scenario or a table that it names, or whose scenario or
+    /// checkpoints this program refuses.
+    pub(crate) fn read(bytes: &[u8]) -> Result<Self, String> {
+        let file = StoredRun::read(bytes)?;
+        if file.run.is_empty() {
+            return Err(format!("it is an MCAP file without the record `{RUN}`: no result of `occupant run`"));
+        }
         let loaded = load(&file)?;
         let (model, warnings) = loaded.model().map_err(|d| format!("the scenario in the file is refused:\n{d}"))?;
-        let named = |parent, names: Vec<&str>| topics::named(parent, names);
-        let sphere_names = model.body().spheres.iter().map(|s| s.name.as_str());
-        let belt_names = model.setup().belts.iter().map(|b| b.name.as_str());
-        let spheres = named(topics::SPHERES, sphere_names.collect());
-        let belts = named(topics::BELTS, belt_names.collect());
+        file.checkpoints.iter().try_for_each(|c| c.check(&model)).map_err(|e| e.to_string())?;
         let report = report_numbers(&model);
         let in_order = || (1..=model.setup().surfaces.len()).collect();
         Ok(Case {
             warnings: warnings.iter().map(|w| w.problem.to_string()).collect(),
-            spheres,
-            belts,
             numbers_of_report: report.is_some(),
             numbers: report.unwrap_or_else(in_order),
             file,
@@ -81,26 +73,6 @@ impl Case {
     pub(crate) fn is_complete(&self) -> bool {
         let status = self.file.result.as_ref().and_then(|r| r.get("status"));
         status.is_some_and(|s| s == "completed")
-    }
-
-    /// Number of outputs of which every group is in the file.
-    pub(crate) fn outputs(&self) -> usize {
-        let segments = Segment::ALL.map(topics::segment);
-        let single = [topics::VEHICLE, topics::JOINTS, topics::ENERGY, topics::SOLVER];
-        let all = segments.iter().chain(&self.spheres).chain(&self.belts);
-        let all = all.map(String::as_str).chain(single);
-        all.map(|t| self.file.messages(t).len()).min().unwrap_or(0)
-    }
-
-    /// A message of the file.
-    ///
-    /// # Errors
-    /// It is not there, or its bytes are no message.
-    pub(crate) fn message(&self, topic: &str, group: &'static Group, output: usize) -> Result<Message<'_>, String> {
-        let bytes = self.file.messages(topic).get(output);
-        bytes
-            .and_then(|bytes| Message::read(group, bytes))
-            .ok_or_else(|| format!("message {output} of the topic {topic} cannot be read"))
     }
 
     /// A surface by its number and name.
@@ -137,7 +109,7 @@ fn report_numbers(model: &Model) -> Option<Vec<usize>> {
 }
 
 /// The scenario as it was run: the resolved one, else the one that was read.
-fn load(file: &RunFile) -> Result<Loaded, String> {
+fn load(file: &StoredRun) -> Result<Loaded, String> {
     let read = file.run.get("scenario").map(String::as_str);
     let resolved = ["resolved.toml"].into_iter().chain(read);
     let found = resolved.filter_map(|name| Some((name, file.attachments.get(name)?)));

@@ -14,36 +14,22 @@ use super::table::Table;
 use super::unit::Units;
 
 /// Writes the last sheet.
-pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units, times_s: &[f64]) {
+pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units) {
     pages.begin("END OF SOLUTION");
-    ending(pages, case, times_s);
-    if let Some(&last_s) = times_s.last() {
-        let at_last = |c: &&Checkpoint| c.time_s.to_bits() == last_s.to_bits();
-        let checkpoint = case.file.checkpoints.iter().rev().find(at_last);
-        match checkpoint.map(|c| (c, fits(c, case))) {
-            Some((checkpoint, Ok(()))) => extension(pages, case, units, checkpoint),
-            Some((_, Err(reason))) => withheld(pages, &reason),
-            None => withheld(pages, "THE FILE HOLDS NO CHECKPOINT OF ITS LAST OUTPUT."),
-        }
+    ending(pages, case);
+    if let Some(last) = case.file.checkpoints.last() {
+        extension(pages, case, units, last);
     }
     pages.block(&["END OF PRINTOUT".to_owned()], 0);
 }
 
-/// Whether the checkpoint has the model's pairs.
-fn fits(checkpoint: &Checkpoint, case: &Case) -> Result<(), String> {
-    let pairs = case.model.system().contacts.pairs().len();
-    match checkpoint.pairs.len() == pairs {
-        true => Ok(()),
-        false => Err(format!("THE CHECKPOINT HAS {} PAIRS, THE SCENARIO {pairs}.", checkpoint.pairs.len())),
-    }
-}
-
 /// How far the run got, loudly where it is not complete.
-fn ending(pages: &mut Pages, case: &Case, times_s: &[f64]) {
+fn ending(pages: &mut Pages, case: &Case) {
     let end_s = case.model.setup().time.end_s;
-    let reached = times_s.last().map_or_else(
+    let outputs = &case.file.checkpoints;
+    let reached = outputs.last().map_or_else(
         || "NO OUTPUT IS IN THE FILE".to_owned(),
-        |t| format!("LAST OUTPUT AT {t:.6} SEC OF {end_s:.6} SEC, {} OUTPUTS", times_s.len()),
+        |last| format!("LAST OUTPUT AT {:.6} SEC OF {end_s:.6} SEC, {} OUTPUTS", last.time_s, outputs.len()),
     );
     let Some(result) = &case.file.result else {
         pages.say("*** PARTIAL: THE FILE WAS CUT OFF; IT HOLDS NO END OF THE RUN ***");
@@ -63,12 +49,6 @@ fn ending(pages: &mut Pages, case: &Case, times_s: &[f64]) {
         known("rejected"),
         known("evaluations")
     ));
-}
-
-fn withheld(pages: &mut Pages, reason: &str) {
-    pages.say("");
-    pages.say("PAIRS WITH NARRY(J,K) = 0 AND COORDINATES AT THE END: NOT GIVEN.");
-    pages.say(reason);
 }
 
 fn extension(pages: &mut Pages, case: &Case, units: &Units, checkpoint: &Checkpoint) {

@@ -8,52 +8,41 @@ mod case;
 mod echo;
 mod end_sheet;
 mod loads;
-mod message;
 mod page;
-mod run_file;
 mod segments;
 mod table;
 mod unit;
 mod vehicle;
 
 pub(crate) use case::Case;
-pub(crate) use run_file::RunFile;
 pub(crate) use unit::{INCH_POUND, SI, Units};
 
-use occupant_core::body::Segment;
+use occupant_core::results::recorder::Watch;
+use occupant_core::results::sample::Sample;
+use occupant_core::run::simulate::replay;
 use page::Pages;
-
-use crate::files::mcap::topics;
 
 /// The whole printout.
 ///
 /// `every_s` is the print interval (DTPRNT); without it every recorded output is printed.
 ///
 /// # Errors
-/// A message of the file that cannot be read; a print interval shorter than the recorded one.
+/// An output that cannot be evaluated; a print interval shorter than the recorded one.
 pub(crate) fn printout(case: &Case, units: &Units, every_s: Option<f64>) -> Result<String, String> {
     let mut pages = Pages::new(case.titles());
     echo::write(&mut pages, case, units);
-    let times_s = times(case)?;
+    let times_s: Vec<f64> = case.file.checkpoints.iter().map(|c| c.time_s).collect();
     for output in chosen(&times_s, every_s, case.model.setup().time.output_s)? {
         pages.begin(&format!("TIME {:.6} SEC    OUTPUT {}", times_s[output], output));
-        vehicle::write(&mut pages, case, units, output)?;
-        segments::write(&mut pages, case, units, output)?;
-        loads::write(&mut pages, case, units, output)?;
+        let page = Watch(|sample: &Sample<'_>| {
+            vehicle::write(&mut pages, units, sample);
+            segments::write(&mut pages, units, sample);
+            loads::write(&mut pages, case, units, sample);
+        });
+        replay(&case.model, &case.file.checkpoints[output], page).map_err(|e| e.to_string())?;
     }
-    end_sheet::write(&mut pages, case, units, &times_s);
+    end_sheet::write(&mut pages, case, units);
     Ok(pages.text())
-}
-
-/// Times of the outputs that the file holds whole, s.
-fn times(case: &Case) -> Result<Vec<f64>, String> {
-    let count = case.outputs();
-    let time = |i| {
-        let topic = topics::segment(Segment::MiddleTorso);
-        let message = case.message(&topic, &crate::files::mcap::groups::SEGMENT, i)?;
-        Ok(message.number("time_s"))
-    };
-    (0..count).map(time).collect()
 }
 
 /// Numbers of the outputs to print: the first at or after each print time, and the last.

@@ -109,8 +109,8 @@ impl Unit {
     }
 
     /// Three components.
-    pub(crate) fn vector(&self, si: [f64; 3]) -> [String; 3] {
-        si.map(|component| self.show(component))
+    pub(crate) fn vector(&self, si: impl Into<[f64; 3]>) -> [String; 3] {
+        si.into().map(|component| self.show(component))
     }
 
     /// Three components in words.

@@ -1,36 +1,35 @@
 //! Place, attitude and motion of the vehicle at one output.
 
-use super::case::Case;
+use occupant_core::results::sample::Sample;
+
 use super::page::Pages;
 use super::table::Table;
 use super::unit::{DEGREE, G, RAD_S, RAD_S2, Units};
-use crate::files::mcap::groups::VEHICLE;
-use crate::files::mcap::topics;
 
 /// Writes the vehicle's lines.
-pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units, output: usize) -> Result<(), String> {
-    let m = case.message(topics::VEHICLE, &VEHICLE, output)?;
+pub(crate) fn write(pages: &mut Pages, units: &Units, s: &Sample<'_>) {
     let title = format!(
         "VEHICLE: POSITION ({}) FORWARD, RIGHT, DOWN; ATTITUDE (DEG) ROLL, PITCH, YAW; THE REST IN VEHICLE COORDINATES",
         units.length.name
     );
     let mut table = Table::new(title, &["<", "X", "Y", "Z", "<", "X", "Y", "Z"]);
-    let angles = ["roll_rad", "pitch_rad", "yaw_rad"].map(|name| DEGREE.show(m.number(name)));
-    let motion = |name, unit: &super::unit::Unit| unit.vector(m.components(name));
+    let attitude = &s.vehicle_pose.attitude;
+    let angles = DEGREE.vector([attitude.roll_rad, attitude.pitch_rad, attitude.yaw_rad]);
+    let along = |v| s.vehicle.vector_to_frame(v);
     let speed = format!("VELOCITY ({})", units.speed.name);
     let rows = [
-        ("POSITION", motion("position_path_m", &units.length), "ROLL, PITCH, YAW (DEG)", angles),
+        ("POSITION", units.length.vector(s.vehicle_pose.position_m), "ROLL, PITCH, YAW (DEG)", angles),
         (
             speed.as_str(),
-            motion("velocity_vehicle_m_s", &units.speed),
+            units.speed.vector(along(s.vehicle.velocity_m_s)),
             "ANGULAR VELOCITY (RAD/S)",
-            motion("angular_velocity_vehicle_rad_s", &RAD_S),
+            RAD_S.vector(along(s.vehicle.angular_velocity_rad_s)),
         ),
         (
             "ACCELERATION (G)",
-            motion("acceleration_vehicle_m_s2", &G),
+            G.vector(along(s.vehicle.acceleration_m_s2)),
             "ANGULAR ACCELERATION (RAD/S2)",
-            motion("angular_acceleration_vehicle_rad_s2", &RAD_S2),
+            RAD_S2.vector(along(s.vehicle.angular_acceleration_rad_s2)),
         ),
     ];
     for (left, place, right, turn) in rows {
@@ -38,5 +37,4 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units, output: usize
         table.row(left.into_iter().chain(place).chain(right).chain(turn));
     }
     table.write(pages);
-    Ok(())
 }

@@ -4,7 +4,7 @@ use crash_measures::unit::Unit::{
     Metre, MetrePerSecond, MetrePerSecondSquared, Newton, NewtonMetre, One, RadianPerSecond, RadianPerSecondSquared,
 };
 
-use super::Whole;
+use super::Run;
 use crate::body::Segment;
 use crate::body::tree::Landmarks;
 use crate::quantity::{Axes, Owner, Quantity, Take, to_j211};
@@ -62,7 +62,7 @@ pub(super) const SEGMENT: &[Of] = &[
     ),
 ];
 
-type Instrument = Quantity<Whole>;
+type Instrument = Quantity<Run>;
 
 fn marks<'a>(s: &Sample<'a>) -> &'a Landmarks {
     s.model.body().tree.landmarks()

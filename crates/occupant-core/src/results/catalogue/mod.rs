@@ -19,7 +19,7 @@ use crate::quantity::{Kind, Owner, Quantity, Value};
 use crate::results::channel::{Channel, Component};
 use crate::results::sample::Sample;
 
-pub use sphere::TOUCH;
+pub use sphere::touch;
 
 /// How a value is taken from a sample of the model that was catalogued.
 #[derive(Clone)]
@@ -43,11 +43,11 @@ impl fmt::Debug for Source {
     }
 }
 
-/// The run as a whole.
+/// The run as a whole: what a model has once.
 #[derive(Debug)]
-struct Whole;
+pub struct Run;
 
-impl Owner for Whole {
+impl Owner for Run {
     type At<'a> = &'a Sample<'a>;
 }
 
@@ -212,35 +212,47 @@ impl Catalogue {
     }
 
     fn add_fields<O: Owner>(&mut self, place: &Place<'_>, quantity: &Quantity<O>, source: Source) {
-        let own = quantity.field.map(|words| Field {
-            number: words.number,
-            name: quantity.field_name(words.stem),
-            meaning: words.meaning,
-            kind: quantity.kind(),
-            source: source.clone(),
-        });
-        let resultant = quantity.resultant.map(|words| Field {
-            number: words.number,
-            name: quantity.resultant_name(words.stem),
-            meaning: words.meaning,
-            kind: Kind::Number,
-            source: Source::new(move |sample| Value::Number(Component::Resultant.of(&source.value(sample)))),
-        });
-        let message = match self.messages.iter().position(|m| m.topic == place.topic) {
-            Some(at) => &mut self.messages[at],
-            None => {
-                let message = Message { name: place.message, topic: place.topic.clone(), fields: vec![time()] };
-                self.messages.push(message);
-                let last = self.messages.len() - 1;
-                &mut self.messages[last]
-            }
-        };
-        message.fields.extend(own.into_iter().chain(resultant));
+        let fields = fields(quantity, source);
+        match self.messages.iter_mut().find(|m| m.topic == place.topic) {
+            Some(message) => message.fields.extend(fields),
+            None => self.messages.push(Message {
+                name: place.message,
+                topic: place.topic.clone(),
+                fields: [time()].into_iter().chain(fields).collect(),
+            }),
+        }
     }
 }
 
+impl Message {
+    /// A message of what a model has once.
+    pub fn of(name: &'static str, topic: &str, list: &[Quantity<Run>]) -> Self {
+        let own = list.iter().flat_map(|&quantity| fields(&quantity, Source::new(move |s| quantity.value(&s))));
+        Message { name, topic: topic.to_owned(), fields: [time()].into_iter().chain(own).collect() }
+    }
+}
+
+/// The fields of a quantity: its own and that of its magnitude.
+fn fields<O: Owner>(quantity: &Quantity<O>, source: Source) -> impl Iterator<Item = Field> + use<O> {
+    let own = quantity.field.map(|words| Field {
+        number: words.number,
+        name: quantity.field_name(words.stem),
+        meaning: words.meaning,
+        kind: quantity.kind(),
+        source: source.clone(),
+    });
+    let resultant = quantity.resultant.map(|words| Field {
+        number: words.number,
+        name: quantity.resultant_name(words.stem),
+        meaning: words.meaning,
+        kind: Kind::Number,
+        source: Source::new(move |sample| Value::Number(Component::Resultant.of(&source.value(sample)))),
+    });
+    own.into_iter().chain(resultant)
+}
+
 /// The time, in the first field of every message.
-pub fn time() -> Field {
+fn time() -> Field {
     Field {
         number: 1,
         name: "time_s".to_owned(),

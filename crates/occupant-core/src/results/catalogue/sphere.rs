@@ -2,7 +2,7 @@
 
 use crash_measures::unit::Unit::{Metre, MetrePerSecond, Newton, One};
 
-use crate::quantity::{Axes, Owner, Quantity, Take, Value, values};
+use crate::quantity::{Axes, Kind, Owner, Quantity, Take, Value, values};
 use crate::results::sample::{Contact, Sample};
 
 /// A contact sphere, by its number.
@@ -33,7 +33,7 @@ pub(super) const QUANTITIES: &[Of] = &[
         "application_point",
         "where the contact force acts, from the centre; absent without contact (item 6, which asks it for head, chest and pelvis)",
     ),
-    Of::new(One, Axes::None, Take::Parts("Touch", |at| touches(at))).field(7, "touches", "surfaces touched, one by one (item 5)"),
+    Of::new(One, Axes::None, Take::Parts("occupant.Touch", |at| touches(at))).field(7, "touches", "surfaces touched, one by one (item 5)"),
 ];
 
 fn touches<'a>((s, i): &(&'a Sample<'a>, usize)) -> Vec<Vec<(u32, Value)>> {
@@ -41,8 +41,7 @@ fn touches<'a>((s, i): &(&'a Sample<'a>, usize)) -> Vec<Vec<(u32, Value)>> {
 }
 
 /// A sphere and a surface that touch.
-#[derive(Debug)]
-pub struct OfTouch;
+struct OfTouch;
 
 impl Owner for OfTouch {
     type At<'a> = (&'a Sample<'a>, Contact);
@@ -51,7 +50,7 @@ impl Owner for OfTouch {
 type Part = Quantity<OfTouch>;
 
 /// Message `Touch` within `SphereLoad`.
-pub const TOUCH: &[Part] = &[
+const TOUCH: &[Part] = &[
     Part::new(One, Axes::None, Take::Text(|(s, c)| s.model.setup().surfaces[c.surface].name.clone()))
         .field(1, "surface", ""),
     Part::number(Metre, |(_, c)| c.depth_m).field(2, "depth", ""),
@@ -61,3 +60,8 @@ pub const TOUCH: &[Part] = &[
     Part::vector(Metre, Axes::Vehicle, |(_, c)| c.point_m.coords).field(6, "point", ""),
     Part::number(MetrePerSecond, |(_, c)| c.slip_m_s).field(7, "slip", ""),
 ];
+
+/// Number, name and type of the fields of the message `Touch`.
+pub fn touch() -> Vec<(u32, String, Kind)> {
+    TOUCH.iter().filter_map(|q| q.field.map(|words| (words.number, q.field_name(words.stem), q.kind()))).collect()
+}

@@ -4,10 +4,10 @@ use crash_measures::unit::Unit::{
     Metre, MetrePerSecond, MetrePerSecondSquared, Radian, RadianPerSecond, RadianPerSecondSquared,
 };
 
-use super::Whole;
+use super::Run;
 use crate::quantity::{Axes, Quantity};
 
-type Of = Quantity<Whole>;
+type Of = Quantity<Run>;
 
 /// Message `VehicleMotion`.
 pub(super) const QUANTITIES: &[Of] = &[
