@@ -36,8 +36,6 @@ pub(crate) enum Problem {
     /// Two results of one sample disagree.
     #[error("sample {index} has one result in {} and another in {}", first.display(), second.display())]
     Disagree { index: u64, first: PathBuf, second: PathBuf },
-    #[error("{} cannot be written: {reason}", path.display())]
-    Table { path: PathBuf, reason: String },
 }
 
 impl Problem {
@@ -62,7 +60,7 @@ impl Problem {
             Problem::Disagree { .. } => Some(
                 "the results were computed by programs or machines that do not agree; compute them anew with --restart",
             ),
-            Problem::Io { .. } | Problem::Table { .. } => None,
+            Problem::Io { .. } => None,
         }
     }
 }
@@ -85,9 +83,7 @@ impl From<Problem> for Failure {
         let help = problem.help().map(|h| format!("\n = help: {h}")).unwrap_or_default();
         let message = format!("error: {problem}{help}");
         match problem {
-            Problem::Io { doing: "write", .. } | Problem::Table { .. } | Problem::Incomplete { .. } => {
-                Failure::BrokeOff(message)
-            }
+            Problem::Io { doing: "write", .. } | Problem::Incomplete { .. } => Failure::BrokeOff(message),
             _ => Failure::CouldNotRun(message),
         }
     }

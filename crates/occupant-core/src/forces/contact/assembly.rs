@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 
-use crate::kernel::EdgeForce;
+use crate::forces::contact::EdgeForce;
 use crate::body::{Body, ContactSphere};
 use crate::forces::contact::face::{Outline, V2};
 use crate::forces::contact::flat_face::FlatFace;
