@@ -159,12 +159,12 @@ impl<W: Write + Send> Table<W> {
     }
 }
 
-fn begin<W: Write + Send>(
+fn begin<W: Write + Send, N: AsRef<str>>(
     to: W,
-    columns: &[(impl AsRef<str>, Kind)],
+    columns: &[(N, Kind)],
     about: &[(&str, String)],
 ) -> Result<SerializedFileWriter<W>, ParquetError> {
-    let column = |(name, kind): &(_, Kind)| {
+    let column = |(name, kind): &(N, Kind)| {
         let (physical, logical) = match kind {
             Kind::Count => (Physical::INT64, None),
             Kind::Number | Kind::MaybeNumber => (Physical::DOUBLE, None),
@@ -174,8 +174,7 @@ fn begin<W: Write + Send>(
             Kind::MaybeNumber | Kind::MaybeText => Repetition::OPTIONAL,
             Kind::Count | Kind::Number | Kind::Text => Repetition::REQUIRED,
         };
-        let name = AsRef::<str>::as_ref(name);
-        let column = Type::primitive_type_builder(name, physical);
+        let column = Type::primitive_type_builder(name.as_ref(), physical);
         column.with_repetition(repetition).with_logical_type(logical).build().map(Arc::new)
     };
     let fields = columns.iter().map(column).collect::<Result<Vec<_>, _>>()?;
@@ -222,7 +221,7 @@ fn write_column<'a, W: Write + Send>(
             column.typed::<DoubleType>().write_batch(&values, Some(&levels), None)?;
         }
         Kind::Text => {
-            let values: Vec<ByteArray> = cells.map(|c| c.bytes().unwrap_or_else(|| Vec::new().into())).collect();
+            let values: Vec<ByteArray> = cells.map(|c| c.bytes().unwrap_or_else(|| ByteArray::from(Vec::new()))).collect();
             column.typed::<ByteArrayType>().write_batch(&values, None, None)?;
         }
         Kind::MaybeText => {

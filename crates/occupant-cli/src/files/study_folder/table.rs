@@ -88,7 +88,7 @@ pub(crate) fn write_columns(path: PathBuf, manifest: &Manifest) -> Result<PathBu
     let mut table = TableFile::create(path, Form::Csv, Existing::Replace, &headings, &[])?;
     for column in &manifest.columns {
         let role = if column.role == Role::Figure { "figure" } else { "input" };
-        table.row([&column.name, &column.unit, role].map(Cell::text).into())?;
+        table.row([column.name.as_str(), &column.unit, role].map(Cell::text).into())?;
     }
     table.row(["wall_time_s", "s", "work"].map(Cell::text).into())?;
     table.publish()
