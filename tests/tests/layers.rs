@@ -13,7 +13,16 @@ const ROOMS: [(&str, &[&str]); 3] = [
     (
         "occupant-core",
         &[
-            "problem", "body", "vehicle", "motion", "forces", "kernel", "model", "results", "run", "scenario",
+            "problem",
+            "body",
+            "vehicle",
+            "motion",
+            "forces",
+            "kernel",
+            "model",
+            "results",
+            "run",
+            "scenario",
             "diagnosis",
         ],
     ),
@@ -104,7 +113,8 @@ fn rooms_use_only_rooms_below_them() {
             sources(&entry, &mut files);
             for file in files {
                 let above = uses(&code(&file)).into_iter().filter(|used| rooms[height + 1..].contains(&used.as_str()));
-                wrong.extend(above.map(|used| format!("{} uses `{used}`, which stands above `{room}`", file.display())));
+                wrong
+                    .extend(above.map(|used| format!("{} uses `{used}`, which stands above `{room}`", file.display())));
             }
         }
     }

@@ -4,15 +4,16 @@
 //! (all 17 × 25 contact pairs as well).
 
 use occupant_core::body::SEGMENTS;
-use occupant_core::forces::contact::{ContactSystem, Touch};
-use occupant_core::forces::{History, Observer};
+use occupant_core::forces::contact::{ContactData, ContactSystem, Touch};
+use occupant_core::forces::{History, Memory, Observer};
 use occupant_core::kernel::System;
 use occupant_core::model::Model;
 use occupant_core::motion::dynamics::{self, Accelerations, Wrench};
 use occupant_core::motion::frame::Frames;
 use occupant_core::motion::integrate::rk4::{self, Stage};
 use occupant_core::motion::kinematics::Kinematics;
-use occupant_core::motion::state::{FREE, State};
+use occupant_core::motion::layout::FREE;
+use occupant_core::motion::state::State;
 use occupant_core::scenario::{Format, Loaded, Scenario};
 use occupant_core::vehicle::PathCursor;
 
@@ -90,9 +91,16 @@ impl Instant {
     pub fn held(&self, model: &Model) -> Instant {
         let setup = model.setup();
         let mut now = self.clone();
-        let contacts = ContactSystem::new(&setup.body, &[], &[], &[], setup.edge_force, STEP_S);
-        now.history = History::new(&contacts, Vec::new(), self.history.belts.clone());
-        now.system.contacts = contacts;
+        let nothing = ContactData {
+            surfaces: &[],
+            faces: &[],
+            materials: &[],
+            edge_force: setup.edge_force,
+            longest_step_s: STEP_S,
+        };
+        now.system.forces.contacts = ContactSystem::new(&setup.body, &nothing);
+        let memory = Memory { contacts: Vec::new(), ..self.history.memory.clone() };
+        now.history = History::new(&now.system.forces, memory);
         now
     }
 
@@ -159,7 +167,7 @@ pub fn no_loads() -> [Wrench<f64>; SEGMENTS] {
 struct Count(usize);
 
 impl Observer<f64> for Count {
-    fn touch(&mut self, _touch: &Touch<f64>) {
+    fn contacts(&mut self, _touch: &Touch<f64>) {
         self.0 += 1;
     }
 }

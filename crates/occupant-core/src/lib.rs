@@ -15,7 +15,7 @@
 //! [`recorder::Recorder`], which takes what it wants of the [`sample::Sample`].
 //!
 //! ```
-//! use occupant_core::body::Segment;
+//! use occupant_core::body::tti12::HEAD;
 //! use occupant_core::results::recorder::Watch;
 //! use occupant_core::results::sample::Sample;
 //! use occupant_core::scenario::{Format, Scenario};
@@ -40,7 +40,7 @@
 //! let (mut drop_m, mut reading_m_s2) = (0.0, f64::NAN);
 //! let outcome = simulate(&model, Watch(|sample: &Sample<'_>| {
 //!     drop_m = 2.0 - sample.state.t1.z;
-//!     reading_m_s2 = sample.specific_force_m_s2(Segment::Head).norm();
+//!     reading_m_s2 = sample.specific_force_m_s2(HEAD).norm();
 //! }))?;
 //!
 //! assert_eq!(outcome.status, Status::Completed);
@@ -80,6 +80,7 @@ pub mod kernel;
 pub mod model;
 pub mod motion;
 pub mod problem;
+pub mod quantity;
 pub mod results;
 pub mod run;
 pub mod scenario;

@@ -23,7 +23,7 @@ pub fn anchors(model: &Model, now: &Instant) -> String {
 /// Sites on the segment of `sphere` that say on which side the belts round it lie: away from their anchors.
 pub fn sides(model: &Model, now: &Instant, sphere: usize) -> String {
     let system = &now.system;
-    let site = &system.contacts.sites[sphere];
+    let site = &system.spheres[sphere];
     let k = Kinematics::new(&system.skeleton, &now.state);
     let (_, centre, _) = system.sphere(&k, sphere);
     let mut text = String::new();
@@ -43,7 +43,7 @@ pub fn sides(model: &Model, now: &Instant, sphere: usize) -> String {
 /// The tendons.
 pub fn tendons(model: &Model) -> String {
     let mut text = String::new();
-    for (i, (belt, law)) in model.setup().belts.iter().zip(&model.system().belts).enumerate() {
+    for (i, (belt, law)) in model.setup().belts.iter().zip(&model.system().forces.belts).enumerate() {
         text += &format!(
             "<spatial name=\"belt {i}\" stiffness=\"{}\" springlength=\"0 {}\">\
              <site site=\"anchor {i} 0\"/><geom geom=\"sphere {}\" sidesite=\"side {i}\"/><site site=\"anchor {i} 1\"/>\

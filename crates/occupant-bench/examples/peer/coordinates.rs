@@ -10,8 +10,8 @@ use occupant_core::body::SEGMENTS;
 use occupant_core::model::Model;
 use occupant_core::motion::dynamics::Accelerations;
 use occupant_core::motion::frame::{Moving, VEHICLE};
-use occupant_core::motion::kinematics::LIMBS;
-use occupant_core::motion::state::{Quat, State, free_slot};
+use occupant_core::motion::layout::{LIMBS, free_slot};
+use occupant_core::motion::state::{Quat, State};
 use occupant_core::motion::vector::V3;
 
 /// Segment that carries each segment: the middle torso carries the upper one at the common root.
@@ -78,7 +78,7 @@ fn quaternion(q: &Quat<f64>) -> Quaternion<f64> {
 
 /// Turn of a free segment.
 fn turn(state: &State<f64>, n: usize) -> UnitQuaternion<f64> {
-    UnitQuaternion::from_quaternion(quaternion(&state.orientation[free_slot(n)]))
+    UnitQuaternion::from_quaternion(quaternion(&state.orientation[free_slot(n).expect("a free segment")]))
 }
 
 fn push(numbers: &mut Vec<f64>, v: Vector3<f64>) {
@@ -107,7 +107,7 @@ pub fn positions(state: &State<f64>) -> Vec<f64> {
 
 /// v.
 pub fn speeds(state: &State<f64>) -> Vec<f64> {
-    let omega = |n: usize| state.omega[free_slot(n)].to_vector();
+    let omega = |n: usize| state.omega[free_slot(n).expect("a free segment")].to_vector();
     let mut v = Vec::new();
     for n in ORDER {
         if let Some(limb) = limb(n) {
@@ -126,7 +126,7 @@ pub fn speeds(state: &State<f64>) -> Vec<f64> {
 
 /// v̇ for the accelerations of the segments: d/dt of Rᵀ(ω − ω_p) is Rᵀ(α − α_p + ω × ω_p).
 pub fn rates(state: &State<f64>, motion: &Accelerations<f64>) -> Vec<f64> {
-    let omega = |n: usize| state.omega[free_slot(n)].to_vector();
+    let omega = |n: usize| state.omega[free_slot(n).expect("a free segment")].to_vector();
     let alpha = |n: usize| motion.alpha[n].to_vector();
     let mut rates = Vec::new();
     for n in ORDER {

@@ -3,8 +3,9 @@
 //! with one stiffness. Stops that damp and the force law of the contacts have no counterpart and are left out.
 
 use occupant_bench::Instant;
+use occupant_core::body::SEGMENTS;
 use occupant_core::body::joint::{BallJoint, Joints};
-use occupant_core::body::{SEGMENTS, Segment};
+use occupant_core::body::tti12::{self, TTI12};
 use occupant_core::model::Model;
 
 use crate::coordinates::{ORDER, PARENTS, Placed, limb, positions, speeds};
@@ -84,14 +85,14 @@ fn body(model: &Model, now: &Instant, parts: Parts, n: usize) -> String {
     let link = &now.system.skeleton.links[n];
     let mut text = format!(
         "<body name=\"{}\" pos=\"{}\">\n{}\n<inertial pos=\"0 0 {}\" mass=\"{}\" diaginertia=\"{}\"/>\n",
-        Segment::ALL[n].name(),
+        TTI12.segment_rows()[n].name,
         list(&place(now, n)),
         joint(&model.setup().joints, parts, n),
         link.cg,
         link.mass,
         list(&link.central),
     );
-    for (i, site) in now.system.contacts.sites.iter().enumerate() {
+    for (i, site) in now.system.spheres.iter().enumerate() {
         if site.segment == n && parts >= Parts::Held {
             let centre = [site.offset.x, site.offset.y, site.offset.z];
             text += &format!(
@@ -112,19 +113,8 @@ fn body(model: &Model, now: &Instant, parts: Parts, n: usize) -> String {
 
 /// Proximal joint of segment `n` in its parent's axes, seen from the parent's joint.
 pub fn place(now: &Instant, n: usize) -> [f64; 3] {
-    let skeleton = &now.system.skeleton;
-    let half_width = match n {
-        4 => skeleton.shoulder,
-        5 => -skeleton.shoulder,
-        8 => skeleton.hip,
-        9 => -skeleton.hip,
-        _ => 0.0,
-    };
-    match PARENTS[n] {
-        // the upper torso sits at the root itself, every other segment at the far end of its parent
-        Some(parent) if n != 1 => [0.0, half_width, skeleton.links[parent].far],
-        _ => [0.0; 3],
-    }
+    let link = &now.system.skeleton.links[n];
+    [0.0, link.joint_y, link.joint_z]
 }
 
 fn joint(joints: &Joints, parts: Parts, n: usize) -> String {
@@ -133,22 +123,22 @@ fn joint(joints: &Joints, parts: Parts, n: usize) -> String {
     let j = joints;
     let damping: [f64; SEGMENTS] = [
         0.0,
-        of(ball, j.upper_back.damping_n_m_s),
-        of(ball, j.neck.damping_n_m_s),
-        of(ball, j.lower_back.damping_n_m_s),
-        of(ball, j.left_shoulder.damping_n_m_s),
-        of(ball, j.right_shoulder.damping_n_m_s),
-        of(hinge, j.left_elbow.damping_n_m_s),
-        of(hinge, j.right_elbow.damping_n_m_s),
-        of(ball, j.left_hip.damping_n_m_s),
-        of(ball, j.right_hip.damping_n_m_s),
-        of(hinge, j.left_knee.damping_n_m_s),
-        of(hinge, j.right_knee.damping_n_m_s),
+        of(ball, j[tti12::UPPER_BACK].ball().unwrap().damping_n_m_s),
+        of(ball, j[tti12::NECK].ball().unwrap().damping_n_m_s),
+        of(ball, j[tti12::LOWER_BACK].ball().unwrap().damping_n_m_s),
+        of(ball, j[tti12::LEFT_SHOULDER].ball().unwrap().damping_n_m_s),
+        of(ball, j[tti12::RIGHT_SHOULDER].ball().unwrap().damping_n_m_s),
+        of(hinge, j[tti12::LEFT_ELBOW].hinge().unwrap().damping_n_m_s),
+        of(hinge, j[tti12::RIGHT_ELBOW].hinge().unwrap().damping_n_m_s),
+        of(ball, j[tti12::LEFT_HIP].ball().unwrap().damping_n_m_s),
+        of(ball, j[tti12::RIGHT_HIP].ball().unwrap().damping_n_m_s),
+        of(hinge, j[tti12::LEFT_KNEE].hinge().unwrap().damping_n_m_s),
+        of(hinge, j[tti12::RIGHT_KNEE].hinge().unwrap().damping_n_m_s),
     ];
     let spring = |joint: &BallJoint| joint.spring.map_or(0.0, |s| of(ball, s.stiffness_n_m));
     let stiffness = |n: usize| match n {
-        1 => spring(&j.upper_back),
-        3 => spring(&j.lower_back),
+        1 => spring(j[tti12::UPPER_BACK].ball().unwrap()),
+        3 => spring(j[tti12::LOWER_BACK].ball().unwrap()),
         _ => 0.0,
     };
     match (PARENTS[n], limb(n)) {

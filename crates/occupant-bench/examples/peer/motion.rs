@@ -3,10 +3,9 @@
 
 use occupant_bench::{self as scene, Instant};
 use occupant_core::body::SEGMENTS;
-use occupant_core::body::joint::{BallJoint, HingeJoint, Joints};
-use occupant_core::forces::History;
-use occupant_core::forces::contact::ContactSystem;
+use occupant_core::body::joint::{HingeJoint, JointLaw, Joints};
 use occupant_core::forces::joint::JointSystem;
+use occupant_core::forces::{History, Memory};
 use occupant_core::model::Model;
 use occupant_core::motion::frame::VEHICLE;
 use occupant_core::motion::integrate::rk4;
@@ -37,7 +36,7 @@ pub fn describe(model: &Model, now: &Instant) -> Value {
         "interval": STEPS_PER_PLACE as f64 * STEP_S,
         "places": places(model, now),
         "vehicle": vehicle(model),
-        "belts": model.system().belts.iter().map(|belt| belt.rest_length).collect::<Vec<_>>(),
+        "belts": model.system().forces.belts.iter().map(|belt| belt.rest_length).collect::<Vec<_>>(),
     })
 }
 
@@ -73,29 +72,17 @@ fn places(model: &Model, now: &Instant) -> Vec<Vec<[f64; 3]>> {
 /// The body with nothing but its hinges' dampers.
 fn alone(model: &Model, now: &Instant) -> Instant {
     let setup = model.setup();
-    let damper = |joint: &HingeJoint| HingeJoint { damping_n_m_s: joint.damping_n_m_s, ..HingeJoint::default() };
-    let loose = BallJoint::default();
-    let j = &setup.joints;
-    let joints = Joints {
-        neck: loose,
-        right_shoulder: loose,
-        left_shoulder: loose,
-        upper_back: loose,
-        lower_back: loose,
-        right_hip: loose,
-        left_hip: loose,
-        left_elbow: damper(&j.left_elbow),
-        right_elbow: damper(&j.right_elbow),
-        left_knee: damper(&j.left_knee),
-        right_knee: damper(&j.right_knee),
-        epsilon: j.epsilon,
-    };
-    let contacts = ContactSystem::new(&setup.body, &[], &[], &[], setup.edge_force, STEP_S);
-    let mut now = now.clone();
-    now.history = History::new(&contacts, Vec::new(), Vec::new());
-    now.system.contacts = contacts;
-    now.system.belts = Vec::new();
-    now.system.joints = JointSystem::new(&joints, &[0.0; 7]);
+    let mut joints = Joints::free(setup.body.tree).with_epsilon(setup.joints.epsilon);
+    for (joint, law) in setup.joints.iter() {
+        if let JointLaw::Hinge(HingeJoint { damping_n_m_s, .. }) = *law {
+            joints = joints.with(joint, HingeJoint { damping_n_m_s, ..HingeJoint::default() });
+        }
+    }
+    let mut now = now.held(model);
+    now.system.forces.belts = Vec::new();
+    now.system.forces.joints = JointSystem::new(&joints, &[0.0; 7]);
+    let memory = Memory { contacts: Vec::new(), belts: Vec::new(), joints: Vec::new() };
+    now.history = History::new(&now.system.forces, memory);
     now
 }
 

@@ -3,7 +3,7 @@
 use std::time::Instant;
 
 use nalgebra::Point3;
-use occupant_core::body::Segment;
+use occupant_core::body::tti12;
 use occupant_core::model::Model;
 use occupant_core::model::setup::{Integrator, Setup};
 use occupant_core::results::outcome::{Outcome, Status};
@@ -169,7 +169,7 @@ impl Recorder for Log {
         self.summary.begin(model)
     }
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
-        self.head.push(sample.cg_m(Segment::Head));
+        self.head.push(sample.cg_m(tti12::HEAD));
         self.summary.record(sample)
     }
     fn end(&mut self, outcome: &Outcome) -> Result<(), RecorderError> {

@@ -2,6 +2,9 @@
 //!
 //! Report: "Magnitude of the Contact Force", Fig. 16 (lost; the curve is our reading, see the theory manual).
 
+use crate::forces::spring::LEAST_FRACTION;
+use crate::problem::Problems;
+
 /// Force over deformation while loading: slope K₁ up to Δ_b, then K₂.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BilinearSpring {
@@ -32,6 +35,25 @@ impl BilinearSpring {
     /// The same up to the deformation `break_m` (m), and the slope `k2_n_per_m` (N/m) beyond.
     pub fn then(self, break_m: f64, k2_n_per_m: f64) -> Self {
         BilinearSpring { break_m, k2_n_per_m, ..self }
+    }
+
+    /// Reports what is wrong with it under `path`.
+    pub(crate) fn check(&self, path: &str, problems: &mut Problems) {
+        problems.check_at_least_zero(&format!("{path}.k1"), self.k1_n_per_m, "N/m");
+        problems.check_at_least_zero(&format!("{path}.k2"), self.k2_n_per_m, "N/m");
+        problems.check_at_least_zero(&format!("{path}.break_at"), self.break_m, "m");
+        for (key, value) in [("mu1", self.returned_1), ("mu2", self.returned_2)] {
+            if !(0.0..=1.0).contains(&value) {
+                let expected = "a fraction of returned energy, from 0 to 1";
+                problems.error(format!("{path}.{key}"), format!("{value}"), expected);
+            } else if value < LEAST_FRACTION {
+                problems.warning(
+                    format!("{path}.{key}"),
+                    format!("{value}, which counts as {LEAST_FRACTION}"),
+                    "at least 0.01: unloading needs some slope",
+                );
+            }
+        }
     }
 }
 

@@ -4,9 +4,11 @@
 
 use crate::body::Body;
 use crate::body::joint::Joints;
+use crate::forces::Data;
 use crate::forces::belt::Belt;
-use crate::forces::contact::EdgeForce;
+use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::contact::surface::Surface;
+use crate::forces::contact::{ContactData, EdgeForce};
 use crate::forces::material::Material;
 use crate::model::seating::{InitialPosture, InitialVelocity};
 use crate::vehicle::VehiclePath;
@@ -119,4 +121,18 @@ pub struct Setup {
     pub integrator: Integrator,
     /// Extra outputs.
     pub output: OutputOptions,
+}
+
+impl Setup {
+    /// What it says of force elements; `faces` are the planes of its surfaces.
+    pub(crate) fn forces<'a>(&'a self, faces: &'a [FlatFace]) -> Data<'a> {
+        let contacts = ContactData {
+            surfaces: &self.surfaces,
+            faces,
+            materials: &self.materials,
+            edge_force: self.edge_force,
+            longest_step_s: self.integrator.longest_step_s(),
+        };
+        Data { contacts, belts: &self.belts, joints: &self.joints }
+    }
 }

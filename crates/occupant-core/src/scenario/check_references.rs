@@ -6,7 +6,7 @@
 use super::check::{Checker, one_of};
 use super::document::{Entry, Node, Value};
 use super::path_text::with_key;
-use crate::body::SPHERE_NAMES;
+use crate::body::tti12::TTI12;
 use crate::problem::nearest;
 
 impl Checker<'_> {
@@ -15,7 +15,7 @@ impl Checker<'_> {
         let keys = |table: &str| -> Vec<&str> { entries(root, table).map(|e| &*e.key).collect() };
         let materials = keys("materials");
         let surfaces = keys("surfaces");
-        let mut spheres = SPHERE_NAMES.to_vec();
+        let mut spheres: Vec<&str> = TTI12.spheres().iter().map(|row| row.name).collect();
         let own = root.get("body").and_then(|b| b.get("spheres")).and_then(Node::as_table);
         spheres.extend(own.iter().flat_map(|t| t.iter()).map(|e| &*e.key));
         for entry in entries(root, "surfaces") {

@@ -173,7 +173,7 @@ impl<L: Machine, T, R: Recorder> Group<L, T, R> {
         // the output touched the history; and a lane that failed gets numbers again
         if let Some(bench) = &mut self.bench {
             let put = &mut |lanes: &mut L, x: &mut f64| lanes.set_lane(i, *x);
-            bench.history.each(&mut place.run.history, put);
+            bench.history.memory.each(&mut place.run.history.memory, put);
         }
         let state = &place.run.state;
         self.state = self.state.zip(state, |lanes, x| lanes.with_lane(i, x));
@@ -195,7 +195,7 @@ impl<L: Machine, T, R: Recorder> Group<L, T, R> {
     fn fetch_history(&mut self, i: usize, run: &mut Run) {
         if let Some(bench) = &mut self.bench {
             let fetch = &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i);
-            bench.history.each(&mut run.history, fetch);
+            bench.history.memory.each(&mut run.history.memory, fetch);
         }
         run.history.look_again();
     }
@@ -224,9 +224,7 @@ fn none<L: Machine, P>() -> Vec<Option<P>> {
 fn new_bench<L: Machine>(model: &Model) -> Option<Bench<L>> {
     let system = model.system();
     let system = system.zip(system, |x, _| L::of(x)).ok()?;
-    let mut start = model.start().history.clone();
-    let mut history = History::like(&system.contacts, &start, L::zero());
-    history.each(&mut start, &mut |lanes, x| *lanes = L::of(*x));
+    let history = History::new(&system.forces, model.start().history.memory.map(&mut L::of));
     let mut cursor = Default::default();
     let start_s = model.setup().time.start_s;
     let frames = model.frames(start_s, start_s, &mut cursor);

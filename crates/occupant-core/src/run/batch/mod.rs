@@ -24,7 +24,7 @@ use std::ops::ControlFlow;
 use group::Group;
 
 #[cfg(doc)]
-use crate::kernel::Unlike;
+use crate::forces::Unlike;
 use crate::model::Model;
 use crate::results::outcome::{Outcome, RecordingFailed};
 use crate::results::recorder::Recorder;

@@ -93,7 +93,7 @@ impl Place {
 pub(crate) struct Witness<'a>(pub(super) &'a mut [Option<Box<Place>>]);
 
 impl<L: Lanes> Observer<L> for Witness<'_> {
-    fn touch(&mut self, touch: &Touch<L>) {
+    fn contacts(&mut self, touch: &Touch<L>) {
         for (i, place) in self.0.iter_mut().enumerate() {
             let Some(place) = place else { continue };
             if touch.weight.lane(i) > 0.0 {

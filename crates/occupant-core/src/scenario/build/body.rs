@@ -4,7 +4,9 @@ use indexmap::IndexMap;
 use nalgebra::{Point3, Vector3};
 
 use super::builder::Builder;
-use crate::body::{Body, ContactSphere, SEGMENTS, SPHERE_NAMES, Segment, SegmentProperties, standard_spheres};
+use crate::body::tree::SphereRow;
+use crate::body::tti12::TTI12;
+use crate::body::{Body, ContactSphere, SegmentProperties, Tree};
 use crate::model::setup::STANDARD_GRAVITY_M_S2;
 use crate::scenario::model::{BodySection, SegmentSection, Segments, SphereSection};
 use crate::scenario::path_text::with_key;
@@ -13,42 +15,52 @@ use crate::scenario::path_text::with_key;
 pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection) -> Body {
     let weighed_at_m_s2 = b.optional("body.weighed_at", &section.weighed_at, STANDARD_GRAVITY_M_S2);
     let none = Segments::default();
-    let sections = section.segments.as_ref().unwrap_or(&none);
-    let segments = Segment::ALL.map(|s| segment(b, s, segment_section(sections, s), weighed_at_m_s2));
-    let shoulder_half_width_m = b.needed("body", "shoulder_half_width", &section.shoulder_half_width);
-    let hip_half_width_m = b.needed("body", "hip_half_width", &section.hip_half_width);
-    let spheres = spheres(b, &section.spheres, &segments, shoulder_half_width_m);
-    Body { name: preset.unwrap_or("own").to_owned(), segments, shoulder_half_width_m, hip_half_width_m, spheres }
+    let sections = body.segments.as_ref().unwrap_or(&none);
+    let tree = &TTI12;
+    let segment = |i: usize| {
+        let name = tree.segment_rows()[i].name;
+        segment(b, name, section(sections, name), weighed_at_m_s2)
+    };
+    let segments = std::array::from_fn(segment);
+    let shoulder_half_width_m = b.needed("body", "shoulder_half_width", &body.shoulder_half_width);
+    let hip_half_width_m = b.needed("body", "hip_half_width", &body.hip_half_width);
+    let mut out = Body {
+        name: written.body.preset.clone().unwrap_or_else(|| "own".into()),
+        tree,
+        segments,
+        shoulder_half_width_m,
+        hip_half_width_m,
+        spheres: Vec::new(),
+    };
+    out.spheres = spheres(b, &body.spheres, &out);
+    out
 }
 
-fn segment_section(s: &Segments, segment: Segment) -> Option<&SegmentSection> {
-    match segment {
-        Segment::MiddleTorso => s.middle_torso.as_ref(),
-        Segment::UpperTorso => s.upper_torso.as_ref(),
-        Segment::Head => s.head.as_ref(),
-        Segment::LowerTorso => s.lower_torso.as_ref(),
-        Segment::LeftUpperArm => s.left_upper_arm.as_ref(),
-        Segment::RightUpperArm => s.right_upper_arm.as_ref(),
-        Segment::LeftForearm => s.left_forearm.as_ref(),
-        Segment::RightForearm => s.right_forearm.as_ref(),
-        Segment::LeftThigh => s.left_thigh.as_ref(),
-        Segment::RightThigh => s.right_thigh.as_ref(),
-        Segment::LeftLowerLeg => s.left_lower_leg.as_ref(),
-        Segment::RightLowerLeg => s.right_lower_leg.as_ref(),
+/// What is said of a segment.
+fn section<'s>(s: &'s Segments, name: &str) -> Option<&'s SegmentSection> {
+    match name {
+        "middle_torso" => s.middle_torso.as_ref(),
+        "upper_torso" => s.upper_torso.as_ref(),
+        "head" => s.head.as_ref(),
+        "lower_torso" => s.lower_torso.as_ref(),
+        "left_upper_arm" => s.left_upper_arm.as_ref(),
+        "right_upper_arm" => s.right_upper_arm.as_ref(),
+        "left_forearm" => s.left_forearm.as_ref(),
+        "right_forearm" => s.right_forearm.as_ref(),
+        "left_thigh" => s.left_thigh.as_ref(),
+        "right_thigh" => s.right_thigh.as_ref(),
+        "left_lower_leg" => s.left_lower_leg.as_ref(),
+        "right_lower_leg" => s.right_lower_leg.as_ref(),
+        _ => None,
     }
 }
 
-fn segment(
-    b: &mut Builder,
-    segment: Segment,
-    section: Option<&SegmentSection>,
-    weighed_at_m_s2: f64,
-) -> SegmentProperties {
-    let path = format!("body.segments.{}", segment.name());
+fn segment(b: &mut Builder, name: &str, section: Option<&SegmentSection>, weighed_at_m_s2: f64) -> SegmentProperties {
+    let path = format!("body.segments.{name}");
     let Some(section) = section else {
         b.error_with_hint(
             &path,
-            format!("the body has no segment `{}`", segment.name()),
+            format!("the body has no segment `{name}`"),
             "all twelve segments",
             "body.preset = \"male50\" gives a whole body to change",
         );
@@ -79,40 +91,34 @@ fn segment(
 }
 
 /// The spheres: the report's in its order, then others as written.
-fn spheres(
-    b: &mut Builder,
-    sections: &IndexMap<String, SphereSection>,
-    segments: &[SegmentProperties; SEGMENTS],
-    shoulder_half_width_m: f64,
-) -> Vec<ContactSphere> {
+fn spheres(b: &mut Builder, sections: &IndexMap<String, SphereSection>, body: &Body) -> Vec<ContactSphere> {
     let kept = |name: &str| {
         let section = sections.get(name)?;
         (section.remove != Some(true)).then_some(section)
     };
-    let mut radii_m = [0.0; 17];
-    for (radius_m, name) in radii_m.iter_mut().zip(SPHERE_NAMES) {
-        if let Some(section) = kept(name) {
-            *radius_m = b.needed(&format!("body.spheres.{name}"), "radius", &section.radius);
-        }
-    }
+    let standard = body.tree.spheres();
+    let radius_m = |row: &SphereRow| {
+        kept(row.name).map_or(0.0, |s| b.needed(&format!("body.spheres.{}", row.name), "radius", &s.radius))
+    };
+    let radii_m: Vec<f64> = standard.iter().map(radius_m).collect();
     let mut spheres = Vec::new();
-    for standard in standard_spheres(segments, shoulder_half_width_m, &radii_m) {
-        if let Some(section) = kept(&standard.name) {
-            spheres.push(moved(b, standard, section));
+    for sphere in body.standard_spheres(&radii_m) {
+        if let Some(section) = kept(&sphere.name) {
+            spheres.push(moved(b, body.tree, sphere, section));
         }
     }
     for (name, section) in sections {
-        if !SPHERE_NAMES.contains(&name.as_str()) && section.remove != Some(true) {
-            spheres.extend(own_sphere(b, name, section));
+        if standard.iter().all(|row| row.name != name) && section.remove != Some(true) {
+            spheres.extend(own_sphere(b, body.tree, name, section));
         }
     }
     spheres
 }
 
 /// A standard sphere with a place of its own.
-fn moved(b: &mut Builder, mut sphere: ContactSphere, section: &SphereSection) -> ContactSphere {
+fn moved(b: &mut Builder, tree: &Tree, mut sphere: ContactSphere, section: &SphereSection) -> ContactSphere {
     let path = with_key("body.spheres", &sphere.name);
-    let segment = section.segment.as_deref().and_then(segment_named);
+    let segment = section.segment.as_deref().and_then(|name| tree.segment_named(name));
     if let Some(centre) = &section.centre {
         sphere.centre_from_lower_end_m = b.point(&with_key(&path, "centre"), centre);
         sphere.segment = segment.unwrap_or(sphere.segment);
@@ -126,17 +132,17 @@ fn moved(b: &mut Builder, mut sphere: ContactSphere, section: &SphereSection) ->
     sphere
 }
 
-fn own_sphere(b: &mut Builder, name: &str, section: &SphereSection) -> Option<ContactSphere> {
+fn own_sphere(b: &mut Builder, tree: &Tree, name: &str, section: &SphereSection) -> Option<ContactSphere> {
     let path = with_key("body.spheres", name);
     let radius_m = b.needed(&path, "radius", &section.radius);
-    let segment = section.segment.as_deref().and_then(segment_named);
+    let segment = section.segment.as_deref().and_then(|name| tree.segment_named(name));
     if segment.is_none() {
         let found = format!("sphere `{name}` without a segment");
         b.error_with_hint(
             &path,
             found,
             "segment = the segment that carries it",
-            format!("only the report's 17 spheres know theirs: {}", SPHERE_NAMES.join(", ")),
+            format!("only the report's 17 spheres know theirs: {}", standard_names(tree).join(", ")),
         );
     }
     let centre = match &section.centre {
@@ -155,6 +161,7 @@ fn own_sphere(b: &mut Builder, name: &str, section: &SphereSection) -> Option<Co
     })
 }
 
-fn segment_named(name: &str) -> Option<Segment> {
-    Segment::ALL.into_iter().find(|s| s.name() == name)
+/// Names of the spheres that know their segment.
+fn standard_names(tree: &Tree) -> Vec<&'static str> {
+    tree.spheres().iter().map(|row| row.name).collect()
 }

@@ -1,7 +1,8 @@
 //! `[joints]` → [`Joints`].
 
 use super::builder::Builder;
-use crate::body::joint::{AngularSpring, BallJoint, HingeJoint, Joint, Joints, Stop};
+use crate::body::joint::{AngularSpring, BallJoint, HingeJoint, Joint, JointLaw, Joints, Stop};
+use crate::body::tti12::TTI12;
 use crate::scenario::document::{Node, Table};
 use crate::scenario::model::{JointSection, JointsSection, StopSection};
 use crate::scenario::path_text::with_key;
@@ -9,28 +10,24 @@ use crate::scenario::path_text::with_key;
 /// The eleven joints; `section` is explicit.
 pub(super) fn joints(b: &mut Builder, section: &JointsSection) -> Joints {
     report_undamped(b, section);
-    Joints {
-        neck: ball(b, Joint::Neck, section),
-        right_shoulder: ball(b, Joint::RightShoulder, section),
-        left_shoulder: ball(b, Joint::LeftShoulder, section),
-        upper_back: ball(b, Joint::UpperBack, section),
-        left_elbow: hinge(b, Joint::LeftElbow, section),
-        right_elbow: hinge(b, Joint::RightElbow, section),
-        lower_back: ball(b, Joint::LowerBack, section),
-        right_hip: ball(b, Joint::RightHip, section),
-        left_hip: ball(b, Joint::LeftHip, section),
-        right_knee: hinge(b, Joint::RightKnee, section),
-        left_knee: hinge(b, Joint::LeftKnee, section),
-        epsilon: b.optional("joints.epsilon", &section.epsilon, Joints::default().epsilon),
+    let mut joints = Joints::free(&TTI12);
+    for joint in TTI12.joints() {
+        let law = if TTI12[joint].is_hinge() {
+            hinge(b, joint, section).into()
+        } else {
+            JointLaw::from(ball(b, joint, section))
+        };
+        joints = joints.with(joint, law);
     }
+    joints.with_epsilon(b.optional("joints.epsilon", &section.epsilon, Joints::EPSILON))
 }
 
 /// What is said of a joint; nothing where its damping is missing, which is reported for all joints at once.
 fn given<'s>(b: &mut Builder, joint: Joint, joints: &'s JointsSection) -> Option<&'s JointSection> {
-    let section = joints.of(joint)?;
+    let section = joints.of(TTI12[joint].name)?;
     if let Some(name) = &section.set {
         // Sets that exist have been laid under the joint: this one does not.
-        let path = format!("joints.{}.set", joint.name());
+        let path = format!("joints.{}.set", TTI12[joint].name);
         let sets = b.root.get("joint_sets").and_then(Node::as_table);
         let names: Vec<&str> = sets.into_iter().flat_map(Table::iter).map(|entry| entry.key.as_str()).collect();
         b.index_of(&path, "joint set", name, names.into_iter());
@@ -40,14 +37,8 @@ fn given<'s>(b: &mut Builder, joint: Joint, joints: &'s JointsSection) -> Option
 
 /// One message for all joints that nobody gave a damping.
 fn report_undamped(b: &mut Builder, section: &JointsSection) {
-    let undamped: Vec<&str> = Joint::ALL
-        .into_iter()
-        .filter(|joint| {
-            let said = section.of(*joint);
-            said.is_none_or(|said| said.damping.is_none())
-        })
-        .map(Joint::name)
-        .collect();
+    let names = TTI12.joint_rows().iter().map(|row| row.name);
+    let undamped: Vec<&str> = names.filter(|name| section.of(name).is_none_or(|said| said.damping.is_none())).collect();
     let Some((first, others)) = undamped.split_first() else {
         return;
     };
@@ -67,7 +58,7 @@ fn ball(b: &mut Builder, joint: Joint, joints: &JointsSection) -> BallJoint {
     let Some(section) = given(b, joint, joints) else {
         return BallJoint::default();
     };
-    let path = format!("joints.{}", joint.name());
+    let path = format!("joints.{}", TTI12[joint].name);
     for (key, stop) in [("lower_stop", &section.lower_stop), ("upper_stop", &section.upper_stop)] {
         if stop.is_some() {
             let found = format!("`{key}` of a ball joint");
@@ -93,7 +84,7 @@ fn hinge(b: &mut Builder, joint: Joint, joints: &JointsSection) -> HingeJoint {
     let Some(section) = given(b, joint, joints) else {
         return HingeJoint::default();
     };
-    let path = format!("joints.{}", joint.name());
+    let path = format!("joints.{}", TTI12[joint].name);
     let foreign = [
         ("stop", section.stop.is_some()),
         ("twist_damping", section.twist_damping.is_some()),

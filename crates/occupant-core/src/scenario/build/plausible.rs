@@ -2,7 +2,7 @@
 //! lbf/in as N/m, milliseconds as seconds.
 
 use super::builder::Builder;
-use crate::body::joint::Joint;
+use crate::body::tti12::TTI12;
 use crate::forces::material::BilinearSpring;
 use crate::model::seating::InitialPosture;
 use crate::model::setup::Setup;
@@ -164,15 +164,15 @@ fn check_posture_angles(b: &mut Builder, p: &PostureSection) {
 }
 
 fn check_stop_angles(b: &mut Builder, scenario: &Scenario) {
-    for joint in Joint::ALL {
-        let Some(section) = scenario.joints.of(joint) else {
+    for row in TTI12.joint_rows() {
+        let Some(section) = scenario.joints.of(row.name) else {
             continue;
         };
         let stops = [("stop", &section.stop), ("lower_stop", &section.lower_stop), ("upper_stop", &section.upper_stop)];
         for (key, stop) in stops {
             if stop.as_ref().is_some_and(|s| look_like_radians(&[&s.begin, &s.full])) {
                 b.warning(
-                    &format!("joints.{}.{key}", joint.name()),
+                    &format!("joints.{}.{key}", row.name),
                     "angles of a stop that are both below 3.2°, as if they were radians",
                     "degrees",
                     "bare angles are degrees; write \"0.79 rad\" for radians",

@@ -3,8 +3,6 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::body::joint::Joint;
-
 use super::{Angle, Ratio, RotationalDamping, RotationalStiffness};
 
 /// The eleven joints. What is said of one joint replaces what is said of its pair, that replaces what is said of `all`,
@@ -72,19 +70,20 @@ pub struct JointsSection {
 
 impl JointsSection {
     /// What is said of one joint by its own name.
-    pub fn of(&self, joint: Joint) -> Option<&JointSection> {
-        match joint {
-            Joint::Neck => self.neck.as_ref(),
-            Joint::RightShoulder => self.right_shoulder.as_ref(),
-            Joint::LeftShoulder => self.left_shoulder.as_ref(),
-            Joint::UpperBack => self.upper_back.as_ref(),
-            Joint::LeftElbow => self.left_elbow.as_ref(),
-            Joint::RightElbow => self.right_elbow.as_ref(),
-            Joint::LowerBack => self.lower_back.as_ref(),
-            Joint::RightHip => self.right_hip.as_ref(),
-            Joint::LeftHip => self.left_hip.as_ref(),
-            Joint::RightKnee => self.right_knee.as_ref(),
-            Joint::LeftKnee => self.left_knee.as_ref(),
+    pub fn of(&self, name: &str) -> Option<&JointSection> {
+        match name {
+            "neck" => self.neck.as_ref(),
+            "right_shoulder" => self.right_shoulder.as_ref(),
+            "left_shoulder" => self.left_shoulder.as_ref(),
+            "upper_back" => self.upper_back.as_ref(),
+            "left_elbow" => self.left_elbow.as_ref(),
+            "right_elbow" => self.right_elbow.as_ref(),
+            "lower_back" => self.lower_back.as_ref(),
+            "right_hip" => self.right_hip.as_ref(),
+            "left_hip" => self.left_hip.as_ref(),
+            "right_knee" => self.right_knee.as_ref(),
+            "left_knee" => self.left_knee.as_ref(),
+            _ => None,
         }
     }
 }

@@ -7,17 +7,14 @@
 use std::array::from_fn;
 
 use crate::body::SEGMENTS;
-use crate::body::joint::{BallJoint, HingeJoint, Joints, Stop};
+use crate::body::joint::{BallJoint, HingeJoint, Joint, Joints, Stop};
 use crate::motion::dynamics::Wrench;
-use crate::motion::kinematics::{Kinematics, LIMBS};
+use crate::motion::kinematics::Kinematics;
+use crate::motion::layout::{BALL_JOINTS, BALLS, HINGE_JOINTS, LIMBS};
 use crate::motion::scalar::Scalar;
 use crate::motion::state::State;
 use crate::motion::vector::V3;
 use crash_measures::trig;
-
-/// Segments (k, l) of the ball joints, in the order of [`JointSystem::balls`]: neck, right and left shoulder, upper and
-/// lower back, right and left hip.
-pub const BALLS: [(usize, usize); 7] = [(1, 2), (1, 5), (1, 4), (0, 1), (0, 3), (3, 9), (3, 8)];
 
 /// Damping that rises from `begin` over `1/slope` radians by `rise`.
 #[derive(Clone, Copy, Debug)]
@@ -76,10 +73,10 @@ pub struct Hinge<S> {
 /// Force laws of all joints.
 #[derive(Clone, Debug)]
 pub struct JointSystem<S> {
-    /// In the order of [`BALLS`].
-    pub balls: [Ball<S>; 7],
-    /// In the order of [`LIMBS`].
-    pub hinges: [Hinge<S>; 4],
+    /// In the order of [`BALL_JOINTS`].
+    pub balls: [Ball<S>; BALLS.len()],
+    /// In the order of [`HINGE_JOINTS`].
+    pub hinges: [Hinge<S>; LIMBS.len()],
     epsilon_squared: S,
 }
 
@@ -129,31 +126,36 @@ impl<S: Copy> JointSystem<S> {
     }
 
     /// Which ball joints have a spring.
-    pub fn springs(&self) -> [bool; 7] {
+    pub fn springs(&self) -> [bool; BALLS.len()] {
         from_fn(|i| self.balls[i].has_spring)
     }
 }
 
 impl<S: Scalar> JointSystem<S> {
     /// Constants from data; `rest_rad` are the β₀ of the ball joints that do not give their own.
-    pub fn new(joints: &Joints, rest_rad: &[f64; 7]) -> Self {
-        let j = joints;
-        let balls =
-            [&j.neck, &j.right_shoulder, &j.left_shoulder, &j.upper_back, &j.lower_back, &j.right_hip, &j.left_hip];
-        let hinges = [&j.left_elbow, &j.right_elbow, &j.left_knee, &j.right_knee];
+    pub fn new(joints: &Joints, rest_rad: &[f64; BALLS.len()]) -> Self {
+        let ball_law = |joint: Joint| joints[joint].ball().copied().unwrap_or_default();
+        let hinge_law = |joint: Joint| joints[joint].hinge().copied().unwrap_or_default();
         JointSystem {
-            balls: from_fn(|i| ball(balls[i], rest_rad[i], j.epsilon)),
-            hinges: hinges.map(hinge),
-            epsilon_squared: S::of(j.epsilon * j.epsilon),
+            balls: from_fn(|i| ball(&ball_law(BALL_JOINTS[i]), rest_rad[i], joints.epsilon)),
+            hinges: from_fn(|i| hinge(&hinge_law(HINGE_JOINTS[i]))),
+            epsilon_squared: S::of(joints.epsilon * joints.epsilon),
         }
     }
 
-    /// Adds all joint moments to `wrench`; returns the power that they dissipate, W.
+    /// Adds all joint moments to `wrench` and shows what the ball joints do; returns the power that they dissipate, W.
     #[inline(always)]
-    pub fn apply(&self, k: &Kinematics<S>, state: &State<S>, wrench: &mut [Wrench<S>; SEGMENTS]) -> S {
+    pub fn apply(
+        &self,
+        k: &Kinematics<S>,
+        state: &State<S>,
+        wrench: &mut [Wrench<S>; SEGMENTS],
+        show: &mut impl FnMut(&BallAction<S>),
+    ) -> S {
         let mut dissipated = S::zero();
         for (i, &(inner, outer)) in BALLS.iter().enumerate() {
             let action = self.ball(i, k);
+            show(&action);
             wrench[outer].moment += action.moment;
             wrench[inner].moment -= action.moment;
             dissipated += action.dissipated;

@@ -1,4 +1,4 @@
-//! What pairs and belts remember between steps, and which pairs are worth looking at.
+//! Which pairs are worth looking at.
 //!
 //! Nearly all pairs of a sphere and a face are far apart, or have passed each other for good. A commit looks at all pairs
 //! of a group, keeps in mind those that touch or may soon come near or open, and how far the nearest of the others is from
@@ -8,11 +8,11 @@
 
 use std::ops::Range;
 
-use crate::forces::belt::law::BeltHistory;
 use crate::forces::contact::encounter::Sphere;
 use crate::forces::contact::{ContactSystem, Group, OPEN, PASSED, PairHistory};
+use crate::forces::element::Hints;
 use crate::motion::scalar::Scalar;
-use crate::motion::vector::{V3, v3};
+use crate::motion::vector::V3;
 
 /// Distances are trusted to this, m.
 const MARGIN_M: f64 = 1e-9;
@@ -20,24 +20,20 @@ const MARGIN_M: f64 = 1e-9;
 /// shorter one more looks.
 const LEAST_WAY_M: f64 = 0.02;
 
-/// What pairs and belts remember between steps; changed only at accepted steps.
+/// Which pairs are worth looking at.
 #[derive(Clone, Debug)]
-pub struct History<S: Scalar> {
-    /// By pair.
-    pub pairs: Vec<PairHistory<S>>,
-    /// By belt.
-    pub belts: Vec<BeltHistory<S>>,
+pub struct ContactHints<S: Scalar> {
     /// Pairs that a commit must look at: those of each group in ascending order, from the place of its first pair on.
-    pub(crate) watched: Vec<u32>,
+    pub(super) watched: Vec<u32>,
     /// Pairs that an evaluation within a step must look at, in the same way.
-    pub(crate) near: Vec<Near<S>>,
+    pub(super) near: Vec<Near<S>>,
     /// By group of pairs.
-    pub(crate) looks: Vec<Look<S>>,
+    looks: Vec<Look<S>>,
 }
 
 /// A pair that can exert a force before the next commit.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Near<S: Scalar> {
+pub(super) struct Near<S: Scalar> {
     pub pair: u32,
     /// Where it can.
     pub lanes: S::Mask,
@@ -45,7 +41,7 @@ pub(crate) struct Near<S: Scalar> {
 
 /// The last look at all pairs of a group.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Look<S> {
+pub(super) struct Look<S> {
     /// How many pairs are watched since.
     watched: usize,
     /// How many pairs were near at the last commit.
@@ -56,90 +52,63 @@ pub(crate) struct Look<S> {
     reach_squared: S,
 }
 
-impl<S: Scalar> History<S> {
-    /// A history in which every pair counts as near until the first commit.
-    pub fn new(contacts: &ContactSystem<S>, pairs: Vec<PairHistory<S>>, belts: Vec<BeltHistory<S>>) -> Self {
+impl<S: Scalar> ContactHints<S> {
+    /// Every pair counts as near until the first commit.
+    pub(super) fn new(contacts: &ContactSystem<S>) -> Self {
         let lanes = S::truth(true);
-        let all = 0..pairs.len() as u32;
+        let all = 0..contacts.pairs.len() as u32;
         let looks = contacts.groups.iter().map(|group| Look {
             watched: group.pairs.len(),
             near: group.pairs.len(),
             centre: V3::zero(),
             reach_squared: -S::one(),
         });
-        History {
+        ContactHints {
             watched: all.clone().collect(),
             near: all.map(|pair| Near { pair, lanes }).collect(),
             looks: looks.collect(),
-            pairs,
-            belts,
-        }
-    }
-
-    /// A history of the shape of `other` whose numbers are all `value`.
-    pub fn like<A: Scalar>(contacts: &ContactSystem<S>, other: &History<A>, value: S) -> Self {
-        let pair = PairHistory { phase: value, greatest: value };
-        let belt = BeltHistory { normal: v3(value, value, value), greatest: value };
-        let pairs = vec![pair; other.pairs.len()];
-        History::new(contacts, pairs, vec![belt; other.belts.len()])
-    }
-
-    /// f called with every remembered number and the one in the same place of `other`, a history of the same pairs and
-    /// belts: to hand numbers over, either way. Which pairs are watched is not handed over; see [`History::look_again`].
-    pub fn each<A: Scalar>(&mut self, other: &mut History<A>, f: &mut impl FnMut(&mut S, &mut A)) {
-        for (a, b) in self.pairs.iter_mut().zip(&mut other.pairs) {
-            f(&mut a.phase, &mut b.phase);
-            f(&mut a.greatest, &mut b.greatest);
-        }
-        for (a, b) in self.belts.iter_mut().zip(&mut other.belts) {
-            f(&mut a.normal.x, &mut b.normal.x);
-            f(&mut a.normal.y, &mut b.normal.y);
-            f(&mut a.normal.z, &mut b.normal.z);
-            f(&mut a.greatest, &mut b.greatest);
-        }
-    }
-
-    /// Becomes what `other`, a history of the same pairs and belts, is.
-    pub fn take_over(&mut self, other: &History<S>) {
-        self.pairs.copy_from_slice(&other.pairs);
-        self.belts.copy_from_slice(&other.belts);
-        self.watched.copy_from_slice(&other.watched);
-        self.near.copy_from_slice(&other.near);
-        self.looks.copy_from_slice(&other.looks);
-    }
-
-    /// Lets the next commit look at every pair, as it must where the remembered numbers are those of another place.
-    pub fn look_again(&mut self) {
-        for look in &mut self.looks {
-            look.reach_squared = -S::one();
         }
     }
 
     /// Places of the watched pairs of `group`, number `g`.
     #[inline(always)]
-    pub(crate) fn watched_of(&self, g: usize, group: &Group) -> Range<usize> {
+    pub(super) fn watched_of(&self, g: usize, group: &Group) -> Range<usize> {
         let start = group.pairs.start;
         start..start + self.looks[g].watched
     }
 
     /// Places of the near pairs of `group`, number `g`.
     #[inline(always)]
-    pub(crate) fn near_of(&self, g: usize, group: &Group) -> Range<usize> {
+    pub(super) fn near_of(&self, g: usize, group: &Group) -> Range<usize> {
         let start = group.pairs.start;
         start..start + self.looks[g].near
     }
 
     /// True if the sphere may have come near pairs of group `g` that are not watched.
     #[inline(always)]
-    pub(crate) fn must_look(&self, g: usize, centre: V3<S>) -> bool {
+    pub(super) fn must_look(&self, g: usize, centre: V3<S>) -> bool {
         let look = &self.looks[g];
         let way = (centre - look.centre).norm_squared();
         S::any(!way.lt(look.reach_squared))
     }
 }
 
+impl<S: Scalar> Hints for ContactHints<S> {
+    fn take_over(&mut self, other: &Self) {
+        self.watched.copy_from_slice(&other.watched);
+        self.near.copy_from_slice(&other.near);
+        self.looks.copy_from_slice(&other.looks);
+    }
+
+    fn look_again(&mut self) {
+        for look in &mut self.looks {
+            look.reach_squared = -S::one();
+        }
+    }
+}
+
 /// The near pairs of a group, being found.
-pub(crate) struct Nearing {
+pub(super) struct Nearing {
     first: usize,
     count: usize,
 }
@@ -152,24 +121,31 @@ impl Nearing {
 
     /// Decides whether pair `i`, committed at deformation `depth`, is near.
     #[inline(always)]
-    pub fn at<S: Scalar>(&mut self, i: usize, depth: S, contacts: &ContactSystem<S>, history: &mut History<S>) {
-        let lanes = contacts.is_near(depth, &history.pairs[i]);
+    pub fn at<S: Scalar>(
+        &mut self,
+        i: usize,
+        depth: S,
+        contacts: &ContactSystem<S>,
+        pair: &PairHistory<S>,
+        hints: &mut ContactHints<S>,
+    ) {
+        let lanes = contacts.is_near(depth, pair);
         if S::any(lanes) {
             let pair = i as u32;
-            history.near[self.first + self.count] = Near { pair, lanes };
+            hints.near[self.first + self.count] = Near { pair, lanes };
             self.count += 1;
         }
     }
 
     /// Remembers the near pairs of group `g`.
     #[inline(always)]
-    pub fn end<S: Scalar>(self, g: usize, history: &mut History<S>) {
-        history.looks[g].near = self.count;
+    pub fn end<S: Scalar>(self, g: usize, hints: &mut ContactHints<S>) {
+        hints.looks[g].near = self.count;
     }
 }
 
 /// A look at all pairs of a group, under way.
-pub(crate) struct Looking<S> {
+pub(super) struct Looking<S> {
     first: usize,
     count: usize,
     /// |Δ| of the pair that is not watched and has the least.
@@ -185,12 +161,19 @@ impl<S: Scalar> Looking<S> {
     /// Decides whether pair `i`, committed at deformation `depth`, is watched: an open one until the sphere comes near, a
     /// passed one until the sphere comes back, one that touches always.
     #[inline(always)]
-    pub fn at(&mut self, i: usize, depth: S, contacts: &ContactSystem<S>, history: &mut History<S>) {
-        let phase = history.pairs[i].phase;
+    pub fn at(
+        &mut self,
+        i: usize,
+        depth: S,
+        contacts: &ContactSystem<S>,
+        pair: &PairHistory<S>,
+        hints: &mut ContactHints<S>,
+    ) {
+        let phase = pair.phase;
         let touches = phase.gt(S::of(OPEN)) & phase.lt(S::of(PASSED));
         let (off, enough) = (depth.abs(), contacts.reach_of_a_step + S::of(LEAST_WAY_M));
         if S::any(touches | off.lt(enough)) {
-            history.watched[self.first + self.count] = i as u32;
+            hints.watched[self.first + self.count] = i as u32;
             self.count += 1;
         } else {
             self.least = self.least.min(off);
@@ -199,9 +182,9 @@ impl<S: Scalar> Looking<S> {
 
     /// Remembers the look of `sphere` at group `g`.
     #[inline(always)]
-    pub fn end(self, g: usize, sphere: &Sphere<'_, S>, contacts: &ContactSystem<S>, history: &mut History<S>) {
+    pub fn end(self, g: usize, sphere: &Sphere<'_, S>, contacts: &ContactSystem<S>, hints: &mut ContactHints<S>) {
         let way = (self.least - contacts.reach_of_a_step - S::of(MARGIN_M)).max(S::zero());
-        let look = &mut history.looks[g];
+        let look = &mut hints.looks[g];
         look.watched = self.count;
         look.centre = sphere.centre_f;
         look.reach_squared = way * way;

@@ -1,30 +1,19 @@
 //! Dampers, stops and springs of the joints.
 
-use super::at_least_zero;
-use crate::body::joint::{BallJoint, HingeJoint, Joints, Stop};
+use crate::body::joint::{BallJoint, HingeJoint, JointLaw, Joints, Stop};
 use crate::problem::Problems;
 
-pub(super) fn check_joints(j: &Joints, problems: &mut Problems) {
-    let balls = [
-        ("neck", &j.neck),
-        ("right_shoulder", &j.right_shoulder),
-        ("left_shoulder", &j.left_shoulder),
-        ("upper_back", &j.upper_back),
-        ("lower_back", &j.lower_back),
-        ("right_hip", &j.right_hip),
-        ("left_hip", &j.left_hip),
-    ];
-    for (name, ball) in balls {
-        check_ball(ball, &format!("joints.{name}"), problems);
+pub(super) fn check(j: &Joints, problems: &mut Problems) {
+    // ball joints first, as ever
+    for (joint, law) in j.iter() {
+        if let JointLaw::Ball(ball) = law {
+            check_ball(ball, &format!("joints.{}", j.tree()[joint].name), problems);
+        }
     }
-    let hinges = [
-        ("left_elbow", &j.left_elbow),
-        ("right_elbow", &j.right_elbow),
-        ("right_knee", &j.right_knee),
-        ("left_knee", &j.left_knee),
-    ];
-    for (name, hinge) in hinges {
-        check_hinge(hinge, &format!("joints.{name}"), problems);
+    for (joint, law) in j.iter() {
+        if let JointLaw::Hinge(hinge) = law {
+            check_hinge(hinge, &format!("joints.{}", j.tree()[joint].name), problems);
+        }
     }
     if !(0.0..=0.1).contains(&j.epsilon) {
         problems.error("joints.epsilon", format!("{}", j.epsilon), "a number from 0 to 0.1");
@@ -32,8 +21,8 @@ pub(super) fn check_joints(j: &Joints, problems: &mut Problems) {
 }
 
 fn check_ball(ball: &BallJoint, path: &str, problems: &mut Problems) {
-    at_least_zero(problems, &format!("{path}.damping"), ball.damping_n_m_s, "N·m·s");
-    at_least_zero(problems, &format!("{path}.twist_damping"), ball.twist_damping_n_m_s, "N·m·s");
+    problems.check_at_least_zero(&format!("{path}.damping"), ball.damping_n_m_s, "N·m·s");
+    problems.check_at_least_zero(&format!("{path}.twist_damping"), ball.twist_damping_n_m_s, "N·m·s");
     if let Some(stop) = &ball.stop {
         check_stop(stop, 1.0, ball.damping_n_m_s, &format!("{path}.stop"), problems);
         if stop.begin_rad < 0.0 || stop.full_rad > std::f64::consts::PI {
@@ -45,7 +34,7 @@ fn check_ball(ball: &BallJoint, path: &str, problems: &mut Problems) {
         }
     }
     if let Some(spring) = &ball.spring {
-        at_least_zero(problems, &format!("{path}.stiffness"), spring.stiffness_n_m, "N·m/rad");
+        problems.check_at_least_zero(&format!("{path}.stiffness"), spring.stiffness_n_m, "N·m/rad");
         if spring.rest_rad.is_some_and(|r| !r.is_finite()) {
             problems.error(format!("{path}.rest_angle"), "not a finite number", "an angle");
         }
@@ -53,7 +42,7 @@ fn check_ball(ball: &BallJoint, path: &str, problems: &mut Problems) {
 }
 
 fn check_hinge(hinge: &HingeJoint, path: &str, problems: &mut Problems) {
-    at_least_zero(problems, &format!("{path}.damping"), hinge.damping_n_m_s, "N·m·s");
+    problems.check_at_least_zero(&format!("{path}.damping"), hinge.damping_n_m_s, "N·m·s");
     if let Some(stop) = &hinge.lower_stop {
         check_stop(stop, -1.0, hinge.damping_n_m_s, &format!("{path}.lower_stop"), problems);
     }
@@ -63,7 +52,7 @@ fn check_hinge(hinge: &HingeJoint, path: &str, problems: &mut Problems) {
 }
 
 fn check_stop(stop: &Stop, sign: f64, damping: f64, path: &str, problems: &mut Problems) {
-    at_least_zero(problems, &format!("{path}.damping"), stop.damping_n_m_s, "N·m·s");
+    problems.check_at_least_zero(&format!("{path}.damping"), stop.damping_n_m_s, "N·m·s");
     let rise = sign * (stop.full_rad - stop.begin_rad);
     if !rise.is_finite() || rise < 0.0 {
         problems.error_with_hint(

@@ -4,46 +4,15 @@
 //! `head.acceleration.x`, `belt.lap.force`, `joint.neck.moment.resultant`; names of spheres and belts are those of the
 //! scenario. The list depends on the model alone, so every run of a scenario has the same channels.
 
-mod catalogue;
-mod quantity;
-mod series;
+pub use crash_measures::unit::Unit;
 
 use crate::model::Model;
 use crate::problem::nearest;
+pub use crate::quantity::Axes;
+use crate::quantity::Value;
+use crate::results::catalogue::{self, Source};
+use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
-
-pub use catalogue::channels;
-pub use crash_measures::unit::Unit;
-use quantity::{Component, Source};
-pub use series::Series;
-
-/// The axes that a component is along.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
-pub enum Axes {
-    /// No axes: a scalar or a resultant.
-    None,
-    /// Vehicle axes: X forward, Y right, Z down.
-    Vehicle,
-    /// Axes of the segment: X ahead, Y to the occupant's left, Z up when standing upright.
-    Segment,
-    /// SAE J211 axes of the segment: X ahead, Y to the occupant's right, Z down when standing upright.
-    J211,
-    /// Vehicle-space: X′_v forward, Y′_v right, Z′_v down, fixed.
-    VehicleSpace,
-}
-
-impl Axes {
-    /// Its name in metadata.
-    pub const fn name(self) -> &'static str {
-        match self {
-            Axes::None => "none",
-            Axes::Vehicle => "vehicle",
-            Axes::Segment => "segment",
-            Axes::J211 => "segment (SAE J211)",
-            Axes::VehicleSpace => "vehicle-space",
-        }
-    }
-}
 
 /// A scalar time history of a run.
 #[derive(Clone, Debug)]
@@ -56,8 +25,8 @@ pub struct Channel {
     pub axes: Axes,
     /// What it is, in a sentence without a full stop.
     pub meaning: String,
-    source: Source,
-    component: Component,
+    pub(super) source: Source,
+    pub(super) component: Component,
 }
 
 impl Channel {
@@ -65,6 +34,42 @@ impl Channel {
     pub fn value(&self, sample: &Sample<'_>) -> f64 {
         self.component.of(&self.source.value(sample))
     }
+}
+
+/// A component of a vector; a number counts as X.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Component {
+    X,
+    Y,
+    Z,
+    Resultant,
+}
+
+impl Component {
+    pub const ALL: [Component; 4] = [Component::X, Component::Y, Component::Z, Component::Resultant];
+
+    pub const fn name(self) -> &'static str {
+        ["x", "y", "z", "resultant"][self as usize]
+    }
+
+    /// A resultant has no axes.
+    pub fn axes(self, of_vector: Axes) -> Axes {
+        if self == Component::Resultant { Axes::None } else { of_vector }
+    }
+
+    pub fn of(self, value: &Value) -> f64 {
+        match (value, self) {
+            (Value::Number(x), _) => *x,
+            (Value::Vector(Some(v)), Component::Resultant) => v.norm(),
+            (Value::Vector(Some(v)), component) => v[component as usize],
+            _ => f64::NAN,
+        }
+    }
+}
+
+/// All channels of a model, in a fixed order: vehicle, segments, neck and femurs, spheres, belts, joints, energies.
+pub fn channels(model: &Model) -> Vec<Channel> {
+    catalogue::channels(model)
 }
 
 /// The channel of this name.
@@ -105,6 +110,52 @@ pub fn matches(name: &str, pieces: &[&str]) -> bool {
         }
     }
     left.ends_with(last)
+}
+
+/// A recorder that keeps the values of chosen channels at every output.
+#[derive(Clone, Debug, Default)]
+pub struct Series {
+    /// The channels.
+    pub channels: Vec<Channel>,
+    /// Output times, s.
+    pub time_s: Vec<f64>,
+    /// By channel: a value for each output time, in the channel's SI unit.
+    pub values: Vec<Vec<f64>>,
+}
+
+impl Series {
+    /// Nothing seen yet.
+    pub fn new(channels: Vec<Channel>) -> Self {
+        let values = vec![Vec::new(); channels.len()];
+        Series { channels, time_s: Vec::new(), values }
+    }
+
+    /// Values of the channel of this name, if it was chosen.
+    pub fn of(&self, name: &str) -> Option<&[f64]> {
+        let at = self.channels.iter().position(|c| c.name == name)?;
+        Some(&self.values[at])
+    }
+}
+
+impl Recorder for Series {
+    fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
+        let outputs = model.output_count();
+        self.time_s.clear();
+        self.time_s.reserve(outputs);
+        for values in &mut self.values {
+            values.clear();
+            values.reserve(outputs);
+        }
+        Ok(())
+    }
+
+    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        self.time_s.push(sample.time_s);
+        for (values, channel) in self.values.iter_mut().zip(&self.channels) {
+            values.push(channel.value(sample));
+        }
+        Ok(Flow::Continue)
+    }
 }
 
 #[cfg(test)]
