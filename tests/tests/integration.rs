@@ -2,8 +2,8 @@
 
 use nalgebra::{Point3, Vector3};
 use occupant_core::body::joint::{AngularSpring, BallJoint, HingeJoint, Joints};
-use occupant_core::forces::{belt, joint};
 use occupant_core::body::tti12::TTI12;
+use occupant_core::forces::{belt, joint};
 use occupant_core::model::Model;
 use occupant_core::model::seating::InitialPosture;
 use occupant_core::model::setup::{Integrator, Setup};

@@ -2,10 +2,10 @@
 
 use std::ops::ControlFlow;
 
+use occupant_core::body::tti12;
 use occupant_core::forces::belt::OTHER_BELTS;
 use occupant_core::forces::contact::OTHER_PAIRS;
 use occupant_core::forces::joint::OTHER_SPRINGS;
-use occupant_core::body::tti12;
 use occupant_core::forces::material::Memory;
 use occupant_core::model::Model;
 use occupant_core::model::setup::{Integrator, Setup};

@@ -18,7 +18,7 @@ use crate::model::settle::{Settled, settle};
 use crate::model::setup::Setup;
 use crate::motion::frame::{Frames, Moving};
 use crate::motion::kinematics::Kinematics;
-use crate::motion::layout::{BALLS, FREE};
+use crate::motion::layout::FREE;
 use crate::motion::skeleton::Skeleton;
 use crate::motion::state::State;
 use crate::motion::vector::V3;

@@ -8,6 +8,7 @@ pub use law::*;
 use crate::body::Body;
 use crate::body::joint::Joints;
 use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkSum};
+use crate::motion::layout::BALLS;
 use crate::motion::scalar::Scalar;
 use crate::problem::Problems;
 

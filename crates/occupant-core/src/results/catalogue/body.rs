@@ -6,7 +6,7 @@ use crash_measures::unit::Unit::{
 
 use super::Whole;
 use crate::body::Segment;
-use crate::body::joint::Joint;
+use crate::body::tree::Landmarks;
 use crate::quantity::{Axes, Owner, Quantity, Take, to_j211};
 use crate::results::reaction::{femur_axial_n, reaction};
 use crate::results::sample::Sample;
@@ -64,27 +64,28 @@ pub(super) const SEGMENT: &[Of] = &[
 
 type Instrument = Quantity<Whole>;
 
+fn marks<'a>(s: &Sample<'a>) -> &'a Landmarks {
+    s.model.body().tree.landmarks()
+}
+
 /// Message `Instruments`: what the load cells of a dummy would read.
-pub(super) const INSTRUMENTS: &[Instrument] =
-    &[
-        Instrument::vector(Newton, Axes::J211, |s| to_j211(reaction(s, Joint::Neck).force_n))
-            .channel(
-                "neck.force",
-                "upper neck force on the head at its joint: +x shear that pushes the head ahead, +z tension",
-            )
-            .field(2, "neck_force", "upper neck force on the head at its joint, SAE J211 axes: +z tension"),
-        Instrument::vector(NewtonMetre, Axes::J211, |s| to_j211(reaction(s, Joint::Neck).moment_n_m))
-            .channel("neck.moment", "upper neck moment on the head at its joint: +y in flexion")
-            .field(3, "neck_moment", "upper neck moment on the head at its joint, SAE J211 axes: +y flexion"),
-        Instrument::number(Newton, |s| femur_axial_n(s, Segment::RightThigh))
-            .channel("right_femur.axial", FEMUR)
-            .field(4, "right_femur_axial", "axial force at the knee end of the right thigh, tension positive"),
-        Instrument::number(Newton, |s| femur_axial_n(s, Segment::LeftThigh)).channel("left_femur.axial", FEMUR).field(
-            5,
-            "left_femur_axial",
-            "axial force at the knee end of the left thigh, tension positive",
-        ),
-    ];
+pub(super) const INSTRUMENTS: &[Instrument] = &[
+    Instrument::vector(Newton, Axes::J211, |s| to_j211(reaction(s, marks(s).neck).force_n))
+        .channel(
+            "neck.force",
+            "upper neck force on the head at its joint: +x shear that pushes the head ahead, +z tension",
+        )
+        .field(2, "neck_force", "upper neck force on the head at its joint, SAE J211 axes: +z tension"),
+    Instrument::vector(NewtonMetre, Axes::J211, |s| to_j211(reaction(s, marks(s).neck).moment_n_m))
+        .channel("neck.moment", "upper neck moment on the head at its joint: +y in flexion")
+        .field(3, "neck_moment", "upper neck moment on the head at its joint, SAE J211 axes: +y flexion"),
+    Instrument::number(Newton, |s| femur_axial_n(s, marks(s).legs.right.upper))
+        .channel("right_femur.axial", FEMUR)
+        .field(4, "right_femur_axial", "axial force at the knee end of the right thigh, tension positive"),
+    Instrument::number(Newton, |s| femur_axial_n(s, marks(s).legs.left.upper))
+        .channel("left_femur.axial", FEMUR)
+        .field(5, "left_femur_axial", "axial force at the knee end of the left thigh, tension positive"),
+];
 
 const FEMUR: &str = "axial force at the knee end of the thigh, tension positive";
 

@@ -2,7 +2,7 @@
 
 use crash_measures::unit::Unit::{Newton, NewtonMetre, Radian};
 
-use crate::body::joint::Joint;
+use crate::body::tree::{Joint, Tree};
 use crate::quantity::{Axes, Owner, Quantity};
 use crate::results::reaction::reaction;
 use crate::results::sample::Sample;
@@ -18,15 +18,19 @@ impl Owner for OfJoint {
 type Of = Quantity<OfJoint>;
 
 /// A field of the message `JointAngles`, which has one for each joint: its number is the report's joint number + 1.
-pub(super) fn angle(joint: Joint) -> Of {
-    let (history, meaning) = match joint {
-        Joint::LeftElbow | Joint::RightElbow => ("α of the {}", "α about Y; negative brings the hand forward"),
-        Joint::LeftKnee | Joint::RightKnee => ("α of the {}", "α about Y; positive brings the heel back"),
-        _ => ("β of the {}", "β, angle between the Z axes of the two segments"),
+pub(super) fn angle(tree: &Tree, joint: Joint) -> Of {
+    let row = &tree[joint];
+    let arms = &tree.landmarks().arms;
+    let (history, meaning) = if !row.is_hinge() {
+        ("β of the {}", "β, angle between the Z axes of the two segments")
+    } else if [arms.left.lower, arms.right.lower].contains(&row.distal) {
+        ("α of the {}", "α about Y; negative brings the hand forward")
+    } else {
+        ("α of the {}", "α about Y; positive brings the heel back")
     };
     Of::number(Radian, |(s, joint)| s.joint_angle_rad(*joint)).channel("angle", history).field(
         joint.number() as u32 + 1,
-        joint.name(),
+        row.name,
         meaning,
     )
 }

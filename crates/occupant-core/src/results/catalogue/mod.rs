@@ -13,8 +13,6 @@ use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::Arc;
 
-use crate::body::Segment;
-use crate::body::joint::Joint;
 use crate::forces::belt::results as belt;
 use crate::model::Model;
 use crate::quantity::{Kind, Owner, Quantity, Value};
@@ -130,8 +128,9 @@ impl Catalogue {
     fn of(model: &Model) -> Self {
         let mut all = Catalogue::default();
         all.whole("VehicleMotion", "/vehicle", "vehicle", vehicle::QUANTITIES, |s| s);
-        for segment in Segment::ALL {
-            let name = segment.name();
+        let tree = model.body().tree;
+        for segment in tree.segments() {
+            let name = tree[segment].name;
             let topic = format!("/occupant/segment/{name}");
             let place = Place { message: "SegmentState", topic, name, words: &name.replace('_', " ") };
             all.add(&place, body::SEGMENT, move |s| (s, segment));
@@ -149,12 +148,12 @@ impl Catalogue {
             let place = Place { message: "BeltState", topic, name: &channel, words: &words };
             all.add(&place, belt::QUANTITIES, move |s| s.actions.belts[i]);
         }
-        for joint in Joint::ALL {
-            let name = joint.name();
+        for joint in tree.joints() {
+            let name = tree[joint].name;
             let (channel, words) = (format!("joint.{name}"), name.replace('_', " "));
             let topic = "/occupant/joints".to_owned();
             let place = Place { message: "JointAngles", topic, name: &channel, words: &words };
-            all.add(&place, &[joint::angle(joint)], move |s| (s, joint));
+            all.add(&place, &[joint::angle(tree, joint)], move |s| (s, joint));
             let topic = format!("/occupant/joint/{name}");
             let place = Place { message: "JointLoad", topic, name: &channel, words: &words };
             all.add(&place, joint::LOAD, move |s| (s, joint));

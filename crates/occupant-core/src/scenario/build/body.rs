@@ -15,29 +15,29 @@ use crate::scenario::path_text::with_key;
 pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection) -> Body {
     let weighed_at_m_s2 = b.optional("body.weighed_at", &section.weighed_at, STANDARD_GRAVITY_M_S2);
     let none = Segments::default();
-    let sections = body.segments.as_ref().unwrap_or(&none);
+    let sections = section.segments.as_ref().unwrap_or(&none);
     let tree = &TTI12;
     let segment = |i: usize| {
         let name = tree.segment_rows()[i].name;
-        segment(b, name, section(sections, name), weighed_at_m_s2)
+        segment(b, name, said_of(sections, name), weighed_at_m_s2)
     };
     let segments = std::array::from_fn(segment);
-    let shoulder_half_width_m = b.needed("body", "shoulder_half_width", &body.shoulder_half_width);
-    let hip_half_width_m = b.needed("body", "hip_half_width", &body.hip_half_width);
+    let shoulder_half_width_m = b.needed("body", "shoulder_half_width", &section.shoulder_half_width);
+    let hip_half_width_m = b.needed("body", "hip_half_width", &section.hip_half_width);
     let mut out = Body {
-        name: written.body.preset.clone().unwrap_or_else(|| "own".into()),
+        name: preset.unwrap_or("own").to_owned(),
         tree,
         segments,
         shoulder_half_width_m,
         hip_half_width_m,
         spheres: Vec::new(),
     };
-    out.spheres = spheres(b, &body.spheres, &out);
+    out.spheres = spheres(b, &section.spheres, &out);
     out
 }
 
 /// What is said of a segment.
-fn section<'s>(s: &'s Segments, name: &str) -> Option<&'s SegmentSection> {
+fn said_of<'s>(s: &'s Segments, name: &str) -> Option<&'s SegmentSection> {
     match name {
         "middle_torso" => s.middle_torso.as_ref(),
         "upper_torso" => s.upper_torso.as_ref(),

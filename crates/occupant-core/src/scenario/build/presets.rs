@@ -26,7 +26,7 @@ impl Body {
 impl Joints {
     /// A starting set of dampings, stops and spinal springs for [`Body::male50`]: `joints.preset = "male50"`.
     pub fn male50() -> Self {
-        male50().1
+        male50().1.clone()
     }
 }
 
