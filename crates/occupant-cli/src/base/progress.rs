@@ -15,17 +15,19 @@ pub(crate) struct Progress {
 impl Progress {
     /// A bar on standard error where that is a terminal, else nothing.
     pub(crate) fn new(quiet: bool) -> Self {
-        let target = match quiet {
-            true => ProgressDrawTarget::hidden(),
-            false => ProgressDrawTarget::stderr(),
-        };
-        let bar = ProgressBar::with_draw_target(None, target);
-        // the words of the template are ours; should they not parse, the plain bar does
-        if let Ok(style) = ProgressStyle::with_template("{bar:40} {msg}, {elapsed} so far, {eta} to go") {
-            bar.set_style(style);
-        }
-        Progress { bar }
+        Progress { bar: bar(None, "{bar:40} {msg}, {elapsed} so far, {eta} to go", quiet) }
     }
+}
+
+/// A bar on standard error where that is a terminal, else nothing.
+pub(crate) fn bar(length: Option<u64>, template: &str, quiet: bool) -> ProgressBar {
+    let target = if quiet { ProgressDrawTarget::hidden() } else { ProgressDrawTarget::stderr() };
+    let bar = ProgressBar::with_draw_target(length, target);
+    // the words of the template are ours; should they not parse, the plain bar does
+    if let Ok(style) = ProgressStyle::with_template(template) {
+        bar.set_style(style);
+    }
+    bar
 }
 
 impl Recorder for Progress {

@@ -9,10 +9,11 @@ use crate::base::failure::{Done, Failure};
 use crate::base::names::{file_name, program};
 use crate::base::output_file::{Existing, FileProblem, PartialFile, refuse_input};
 use crate::base::talk::{json, say};
-use crate::files::export::{About, csv, metadata, parquet};
+use crate::files::export::{About, metadata, table};
 use crate::files::history::{Filter, Histories, UnitChoice, choose, load};
 use crate::files::mme::{Labels, files};
 use crate::files::results::Results;
+use crate::files::table::Form;
 
 /// Write a run's time histories as CSV, Parquet or ISO-MME
 ///
@@ -60,8 +61,7 @@ pub(crate) struct Args {
 /// Kinds of output.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Kind {
-    Csv,
-    Parquet,
+    Table(Form),
     Mme,
 }
 
@@ -74,26 +74,25 @@ pub(crate) fn export(args: &Args) -> Result<Done, Failure> {
     for note in &histories.notes {
         say(&format!("note: {note}"));
     }
-    if kind == Kind::Mme {
+    let Kind::Table(form) = kind else {
         return export_mme(args, &results, &histories);
-    }
+    };
     let family = args.treatment.family_name();
     let coefficients = (treatment.filter != Filter::None).then_some(family);
     let words = treatment.filter.words();
     let about = About::new(&results, &histories, args.units, words, coefficients);
-    if kind == Kind::Parquet {
-        let bytes = parquet(&histories, &about, args.units)
-            .map_err(|e| Failure::plain(format!("{} cannot be made: {e}", args.output.display())))?;
+    let bytes = table(&histories, &about, args.units, form)
+        .map_err(|e| Failure::plain(format!("{} cannot be made: {e}", args.output.display())))?;
+    if form == Form::Parquet {
         write_file(args, &args.output, &bytes)?;
         return Ok(Done::Well);
     }
     let beside = beside(&args.output);
     let name = file_name(&args.output);
     let about_text = json(&metadata(&about, &name))?;
-    let table = csv(&histories, &about, args.units);
     // both names must be free before one is taken
     let mut described = begin(args, &beside)?;
-    write_file(args, &args.output, table.as_bytes())?;
+    write_file(args, &args.output, &bytes)?;
     let written = described.write_all(about_text.as_bytes());
     written.map_err(|e| Failure::BrokeOff(format!("error: cannot write {}: {e}", beside.display())))?;
     described.publish().map_err(|e| problem(&e))?;
@@ -102,15 +101,15 @@ pub(crate) fn export(args: &Args) -> Result<Done, Failure> {
 
 fn kind(output: &Path) -> Result<Kind, Failure> {
     let ending = output.extension().and_then(|e| e.to_str()).unwrap_or_default();
-    match ending.to_ascii_lowercase().as_str() {
-        "csv" => Ok(Kind::Csv),
-        "parquet" => Ok(Kind::Parquet),
-        "mme" => Ok(Kind::Mme),
-        _ => Err(Failure::with_help(
+    if ending.eq_ignore_ascii_case("mme") {
+        return Ok(Kind::Mme);
+    }
+    Form::of(output).map(Kind::Table).ok_or_else(|| {
+        Failure::with_help(
             format!("-o {}: the ending says nothing of a format", output.display()),
             "end it in .csv, .parquet or .mme",
-        )),
-    }
+        )
+    })
 }
 
 /// `out.csv` → `out.csv-metadata.json`.

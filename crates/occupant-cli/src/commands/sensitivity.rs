@@ -8,9 +8,10 @@ use crate::base::names::file_name;
 use crate::base::output_file::{Existing, PartialFile, refuse_input};
 use crate::base::sha256::sha256;
 use crate::base::talk::{self, print, say};
-use crate::files::export::{csv, metadata, parquet};
+use crate::files::export::{metadata, table};
 use crate::files::history::UnitChoice;
 use crate::files::scenario::{ScenarioArgs, draft, open_draft};
+use crate::files::table::Form;
 use crate::jobs::sensitivity::{Analysis, Answer, Asked, Words, about, analyse, ask, histories, text};
 
 /// How measures and channels change with numbers of the scenario
@@ -52,16 +53,9 @@ pub(crate) struct Args {
     force: bool,
 }
 
-/// Kinds of table.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Kind {
-    Csv,
-    Parquet,
-}
-
 /// Computes and tells the derivatives.
 pub(crate) fn sensitivity(args: &Args) -> Result<Done, Failure> {
-    let kind = args.output.as_deref().map(kind).transpose()?;
+    let form = args.output.as_deref().map(form).transpose()?;
     let (bytes, base) = draft(&args.scenario)?;
     let opened = open_draft(&args.scenario, bytes, base.clone())?;
     if !opened.warnings.is_empty() {
@@ -71,7 +65,7 @@ pub(crate) fn sensitivity(args: &Args) -> Result<Done, Failure> {
     let resolver = |file: &str| std::fs::read(folder.join(file)).map_err(|error| error.to_string());
     let words = Words { to: &args.to, of: &args.of, channels: &args.channels };
     // names that are taken are told before the work
-    let files = begin(args, kind)?;
+    let files = begin(args, form)?;
     let asked = ask(&base, &opened.model, &resolver, &words).inspect_err(|_| discard(&files))?;
     let found = analyse(&opened.model, &asked).inspect_err(|_| discard(&files))?;
     let name = file_name(&args.scenario.scenario);
@@ -88,16 +82,13 @@ pub(crate) fn sensitivity(args: &Args) -> Result<Done, Failure> {
     Ok(Done::Well)
 }
 
-fn kind(output: &Path) -> Result<Kind, Failure> {
-    let ending = output.extension().and_then(|e| e.to_str());
-    match ending.unwrap_or_default().to_ascii_lowercase().as_str() {
-        "csv" => Ok(Kind::Csv),
-        "parquet" => Ok(Kind::Parquet),
-        _ => Err(Failure::with_help(
+fn form(output: &Path) -> Result<Form, Failure> {
+    Form::of(output).ok_or_else(|| {
+        Failure::with_help(
             format!("-o {}: the ending says nothing of a format", output.display()),
             "end it in .csv or .parquet",
-        )),
-    }
+        )
+    })
 }
 
 /// Files under their provisional names: the table, and what is beside it.
@@ -107,8 +98,8 @@ struct Files {
     beside: Option<PartialFile>,
 }
 
-fn begin(args: &Args, kind: Option<Kind>) -> Result<Option<Files>, Failure> {
-    let (Some(output), Some(kind)) = (&args.output, kind) else {
+fn begin(args: &Args, form: Option<Form>) -> Result<Option<Files>, Failure> {
+    let (Some(output), Some(form)) = (&args.output, form) else {
         return Ok(None);
     };
     let existing = Existing::by(args.force);
@@ -118,9 +109,9 @@ fn begin(args: &Args, kind: Option<Kind>) -> Result<Option<Files>, Failure> {
             .map_err(|e| Failure::plain(e.to_string()))
     };
     let table = create(output)?;
-    let beside = match kind {
-        Kind::Parquet => None,
-        Kind::Csv => match create(&beside(output)) {
+    let beside = match form {
+        Form::Parquet => None,
+        Form::Csv => match create(&beside(output)) {
             Ok(file) => Some(file),
             Err(failure) => {
                 let _it_may_stay = std::fs::remove_file(table.partial_path());
@@ -154,20 +145,18 @@ fn write(
     found: &Analysis,
     source: [&str; 2],
 ) -> Result<(), Failure> {
-    let table = histories(asked, found);
+    let histories = histories(asked, found);
     let about = about(model, asked, found, source);
     let broke_off = |e: &dyn std::fmt::Display| Failure::BrokeOff(format!("error: {e}"));
     let Files { table: mut file, beside } = files;
-    let bytes = match beside {
-        None => parquet(&table, &about, UnitChoice::Si).map_err(|e| broke_off(&e))?,
-        Some(mut beside) => {
-            let output = args.output.as_deref().unwrap_or(Path::new(""));
-            let described = talk::json(&metadata(&about, &file_name(output)))?;
-            beside.write_all(described.as_bytes()).map_err(|e| broke_off(&e))?;
-            beside.publish().map_err(|e| broke_off(&e))?;
-            csv(&table, &about, UnitChoice::Si).into_bytes()
-        }
-    };
+    let form = if beside.is_some() { Form::Csv } else { Form::Parquet };
+    if let Some(mut beside) = beside {
+        let output = args.output.as_deref().unwrap_or(Path::new(""));
+        let described = talk::json(&metadata(&about, &file_name(output)))?;
+        beside.write_all(described.as_bytes()).map_err(|e| broke_off(&e))?;
+        beside.publish().map_err(|e| broke_off(&e))?;
+    }
+    let bytes = table(&histories, &about, UnitChoice::Si, form).map_err(|e| broke_off(&e))?;
     file.write_all(&bytes).map_err(|e| broke_off(&e))?;
     file.publish().map_err(|e| broke_off(&e))?;
     Ok(())

@@ -200,28 +200,23 @@ impl Sweep {
         progress.end();
         let ended = ended.and_then(|()| Ok(journal.close()?));
         let done = before + progress.computed();
-        ended.map_err(|failure| {
-            failure.with_done(&format!(
-                "{done} of {count} samples are finished and kept; the same command goes on from there"
-            ))
-        })?;
-        match self.interrupt.is_asked() {
-            true => Err(Failure::BrokeOff(format!(
-                "error: interrupted\n = done: {done} of {count} samples are finished and kept; the same command goes on from there"
-            ))),
-            false => Ok(progress),
-        }
+        let kept = format!("{done} of {count} samples are finished and kept; the same command goes on from there");
+        ended.map_err(|failure| failure.with_done(&kept))?;
+        self.refuse_interrupted(&kept)?;
+        Ok(progress)
     }
 
     /// Writes whole runs of finished samples.
     fn write_kept(&self, samples: &[u64]) -> Result<(), Failure> {
         kept::write(&self.plan, &self.folder, samples, &self.engine, self.interrupt.flag())?;
-        match self.interrupt.is_asked() {
-            true => Err(Failure::BrokeOff(
-                "error: interrupted\n = done: all samples are finished; the same command goes on from there".to_owned(),
-            )),
-            false => Ok(()),
+        self.refuse_interrupted("all samples are finished; the same command goes on from there")
+    }
+
+    fn refuse_interrupted(&self, done: &str) -> Result<(), Failure> {
+        if self.interrupt.is_asked() {
+            return Err(Failure::BrokeOff("error: interrupted".to_owned()).with_done(done));
         }
+        Ok(())
     }
 
     /// The table, and the worst.

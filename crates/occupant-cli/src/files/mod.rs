@@ -11,5 +11,5 @@ pub mod results;
 pub(crate) mod scenario;
 pub(crate) mod signals;
 pub(crate) mod study_folder;
-pub(crate) mod table_file;
+pub(crate) mod table;
 mod trouble;

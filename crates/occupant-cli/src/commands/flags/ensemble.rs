@@ -14,7 +14,7 @@ use super::sweep::engine;
 use crate::base::failure::Failure;
 use crate::base::output_file::{Existing, refuse_input};
 use crate::files::scenario::Opened;
-use crate::files::table_file::Form;
+use crate::files::table::Form;
 use crate::jobs::ensemble::bands::{choose, refuse_too_much};
 use crate::jobs::ensemble::beside_run::{BandFile, Wanted};
 use crate::jobs::ensemble::judge::Tolerance;
@@ -143,10 +143,7 @@ fn part(flag: &str, text: &str) -> Result<f64, Failure> {
     let refused = |found: String| Failure::with_help(format!("{flag} {text}: {found}"), "give a part such as '10 %'");
     let value = ratio(text).si(UnitSystem::Si);
     let value = value.map_err(|e| refused(format!("{}; expected {}", e.found, e.expected)))?;
-    match value > 0.0 && value.is_finite() {
-        true => Ok(value),
-        false => Err(refused("it is not above 0".to_owned())),
-    }
+    if value > 0.0 && value.is_finite() { Ok(value) } else { Err(refused("it is not above 0".to_owned())) }
 }
 
 /// `10 %` or a bare 0.1.

@@ -41,26 +41,27 @@ pub(crate) fn keep(given: Option<&str>, plan: &Plan) -> Result<Keep, Failure> {
     };
     let manifest = &plan.manifest;
     match &keep {
-        Keep::Indices(numbers) => match numbers.iter().find(|n| **n >= manifest.samples) {
-            Some(number) => Err(Failure::plain(format!(
-                "keep: there is no sample {number}; the study has {}, counted from 0",
-                manifest.samples
-            ))),
-            None => Ok(keep),
-        },
+        Keep::Indices(numbers) => {
+            if let Some(number) = numbers.iter().find(|n| **n >= manifest.samples) {
+                return Err(Failure::plain(format!(
+                    "keep: there is no sample {number}; the study has {}, counted from 0",
+                    manifest.samples
+                )));
+            }
+        }
         Keep::Worst { measure, .. } => {
             let figures = manifest.columns.iter().filter(|c| c.role == Role::Figure);
             let names: Vec<&str> = figures.map(|c| c.name.as_str()).collect();
-            match names.contains(&measure.as_str()) {
-                true => Ok(keep),
-                false => Err(Failure::with_help(
+            if !names.contains(&measure.as_str()) {
+                return Err(Failure::with_help(
                     format!("keep: no measure is named `{measure}`"),
                     &format!("the measures are {}", names.join(", ")),
-                )),
+                ));
             }
         }
-        Keep::All | Keep::None => Ok(keep),
+        Keep::All | Keep::None => {}
     }
+    Ok(keep)
 }
 
 /// As many threads as the command line says, or one for each core.

@@ -68,7 +68,11 @@ pub(crate) fn bands(args: &BandsArgs) -> Result<Done, Failure> {
         engine: &engine(args.threads, Kernel::best())?,
         interrupt: &interrupt,
     };
-    let samples = study.samples();
+    write_all(&bands, args)
+}
+
+fn write_all(bands: &StudyBands<'_>, args: &BandsArgs) -> Result<Done, Failure> {
+    let samples = bands.plan.study().samples();
     let mut all = 0..samples;
     if !args.force
         && let Some(sample) = all.find(|s| bands.there(*s) == There::Other)

@@ -44,7 +44,7 @@ pub(crate) fn report(args: &ReportArgs) -> Result<Done, Failure> {
         say(note);
     }
     let existing = Existing::by(args.force);
-    write_tables(&report, &tables, existing).map_err(Failure::plain)?;
+    write_tables(&report, &tables, existing)?;
     publish(&page_at, args.force, page(&report).as_bytes())?;
     Ok(Done::Well)
 }

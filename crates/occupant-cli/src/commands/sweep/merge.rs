@@ -17,6 +17,7 @@ use crate::files::study_folder::problem::Problem;
 use crate::files::study_folder::texts::Texts;
 use crate::jobs::sweep::parts::{common_manifest, read_journal, sha256_of};
 use crate::jobs::sweep::plan::Plan;
+use crate::jobs::sweep::results::refuse_gaps;
 use crate::jobs::sweep::{kept, results};
 
 /// Make one table of a sweep's shards
@@ -54,11 +55,7 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     let folders: Vec<Folder> = args.folders.iter().map(|f| Folder::at(f)).collect();
     let manifest = common_manifest(&folders)?;
     let journal = read_journal(&folders, &sha256_of(&manifest)?, &manifest)?;
-    let gaps = journal.finished.gaps(0..manifest.samples);
-    if !gaps.is_empty() {
-        let shards = journal.lacking(manifest.samples);
-        return Err(Problem::Incomplete { gaps, samples: manifest.samples, shards }.into());
-    }
+    refuse_gaps(&journal, &manifest)?;
     let target = match (&args.output, folders.first()) {
         (Some(output), _) => Folder::at(output),
         (None, Some(first)) => first.clone(),
@@ -74,10 +71,7 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     let engine = engine(args.threads, Kernel::best())?;
     kept::write(&plan, &target, &lacking, &engine, &AtomicBool::new(false))?;
     let ensembles = ensembles(&target, &manifest, csv)?;
-    match args.quiet {
-        true => Ok(Done::Well),
-        false => tell(&census, &files, None, ensembles.as_ref()),
-    }
+    if args.quiet { Ok(Done::Well) } else { tell(&census, &files, None, ensembles.as_ref()) }
 }
 
 /// The plan as the first folder holds it, and what is to be kept.

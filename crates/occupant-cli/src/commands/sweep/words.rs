@@ -16,8 +16,7 @@ pub(crate) fn ensembles(folder: &Folder, manifest: &Manifest, csv: bool) -> Resu
     if !of_table::has_ensembles(manifest) {
         return Ok(None);
     }
-    let found = of_table::write(&folder.parquet(), manifest, csv);
-    found.map(Some).map_err(|reason| Failure::BrokeOff(format!("error: {reason}")))
+    of_table::write(&folder.parquet(), manifest, csv).map(Some)
 }
 
 /// What it came to.

@@ -12,9 +12,12 @@ use super::piece::{NotOurs, PieceWriter, frames};
 use super::problem::Problem;
 use super::row::Row;
 use super::shard::Shard;
+use crate::base::failure::Failure;
 
 /// What was written is made safe against a loss of power at least so often.
 const SYNC_EVERY: Duration = Duration::from_secs(10);
+/// So many samples are read at a time.
+const AT_ONCE: u64 = 2048;
 
 /// Appends the rows of one process.
 #[derive(Debug)]
@@ -97,6 +100,7 @@ impl JournalWriter {
 #[derive(Clone, Debug)]
 pub(crate) struct Journal {
     manifest_sha256: String,
+    samples: u64,
     pieces: Vec<Piece>,
     /// The samples that are finished.
     pub(crate) finished: Finished,
@@ -121,6 +125,7 @@ impl Journal {
     pub(crate) fn read(folders: &[Folder], manifest_sha256: &str, samples: u64) -> Result<Self, Problem> {
         let mut journal = Journal {
             manifest_sha256: manifest_sha256.to_owned(),
+            samples,
             pieces: Vec::new(),
             finished: Finished::none(samples),
             torn: 0,
@@ -173,30 +178,26 @@ impl Journal {
         all.filter(|(_, missing)| *missing > 0).collect()
     }
 
-    /// The rows of a range of samples, all of them finished, in order. Where two processes have computed one sample its
-    /// results must agree.
+    /// Hands over all rows in the order of their samples, read in portions: memory does not grow with their number. Where
+    /// two processes have computed one sample its results must agree.
     ///
     /// # Errors
-    /// A sample that is not there; results that disagree; the operating system refuses.
-    pub(crate) fn rows(&self, range: Range<u64>) -> Result<Vec<Row>, Problem> {
-        let rows: Option<Vec<Row>> = self.found(range.clone())?.into_iter().collect();
-        rows.ok_or_else(|| Problem::Incomplete {
-            gaps: self.finished.gaps(range.clone()),
-            samples: range.end - range.start,
-            shards: Vec::new(),
-        })
+    /// Results that disagree; the operating system refuses; what `see` says.
+    pub(crate) fn each_row(&self, mut see: impl FnMut(Row) -> Result<(), Failure>) -> Result<(), Failure> {
+        let mut start = 0;
+        while start < self.samples {
+            let end = (start + AT_ONCE).min(self.samples);
+            self.rows(start..end)?.into_iter().try_for_each(&mut see)?;
+            start = end;
+        }
+        Ok(())
     }
 
     /// The rows of those of a range of samples that are finished, in order.
     ///
     /// # Errors
-    /// As [`Journal::rows`], samples that are missing apart.
-    pub(crate) fn rows_there(&self, range: Range<u64>) -> Result<Vec<Row>, Problem> {
-        Ok(self.found(range)?.into_iter().flatten().collect())
-    }
-
-    /// By sample of a range: its row, if it is finished.
-    fn found(&self, range: Range<u64>) -> Result<Vec<Option<Row>>, Problem> {
+    /// As [`Journal::each_row`].
+    pub(crate) fn rows(&self, range: Range<u64>) -> Result<Vec<Row>, Problem> {
         let mut found: Vec<Option<(Row, &Path)>> = Vec::new();
         found.resize_with((range.end - range.start) as usize, || None);
         let overlapping = |p: &&Piece| p.samples.start < range.end && range.start < p.samples.end;
@@ -219,7 +220,7 @@ impl Journal {
                 }
             }
         }
-        Ok(found.into_iter().map(|f| f.map(|(row, _)| row)).collect())
+        Ok(found.into_iter().flatten().map(|(row, _)| row).collect())
     }
 }
 

@@ -3,12 +3,10 @@
 //! Runs nothing: jobs hand rows in and read them back. What a folder holds stands in [`folder`], what a piece of the journal
 //! is in [`piece`].
 
-pub(crate) mod csv_table;
 pub(crate) mod finished;
 pub(crate) mod folder;
 pub(crate) mod journal;
 pub(crate) mod manifest;
-pub(crate) mod parquet_table;
 mod piece;
 pub(crate) mod problem;
 pub(crate) mod row;

@@ -15,29 +15,27 @@ const SHOWN: usize = 20;
 /// What can go wrong with a folder of results.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Problem {
-    #[error("cannot {doing} {}: {source}", path.display())]
+    #[error("cannot {doing} {}: {source}", .path.display())]
     Io { doing: &'static str, path: PathBuf, source: io::Error },
-    #[error("{} exists and is not of this sweep", path.display())]
+    #[error("{} exists and is not of this sweep", .path.display())]
     Exists { path: PathBuf },
     /// There are files, but none of ours.
-    #[error("{} holds files that are no {}'s", folder.display(), holds.word())]
+    #[error("{} holds files that are no {}'s", .folder.display(), .holds.word())]
     NotOurs { folder: PathBuf, holds: Holds },
     /// The folder holds something else, or the same of another version; a line for each difference.
-    #[error("{} holds another {} (there → here):\n   {}", folder.display(), holds.word(), differences.join("\n   "))]
+    #[error("{} holds another {} (there → here):\n   {}", .folder.display(), .holds.word(), .differences.join("\n   "))]
     Differs { folder: PathBuf, holds: Holds, differences: Vec<String> },
     /// A file of the folder is not what it should be.
-    #[error("{} {found}", path.display())]
+    #[error("{} {found}", .path.display())]
     Damaged { path: PathBuf, found: String },
-    #[error("another process is at work in {}: it {doing}", folder.display())]
+    #[error("another process is at work in {}: it {doing}", .folder.display())]
     Busy { folder: PathBuf, doing: String },
     /// Samples are not finished; shards that have begun and how many samples each lacks.
-    #[error("{}", incomplete(gaps, *samples, shards))]
+    #[error("{}", incomplete(.gaps, .samples, .shards))]
     Incomplete { gaps: Vec<Range<u64>>, samples: u64, shards: Vec<(Shard, u64)> },
     /// Two results of one sample disagree.
-    #[error("sample {index} has one result in {} and another in {}", first.display(), second.display())]
+    #[error("sample {index} has one result in {} and another in {}", .first.display(), .second.display())]
     Disagree { index: u64, first: PathBuf, second: PathBuf },
-    #[error("{} cannot be written: {reason}", path.display())]
-    Table { path: PathBuf, reason: String },
 }
 
 impl Problem {
@@ -62,13 +60,13 @@ impl Problem {
             Problem::Disagree { .. } => Some(
                 "the results were computed by programs or machines that do not agree; compute them anew with --restart",
             ),
-            Problem::Io { .. } | Problem::Table { .. } => None,
+            Problem::Io { .. } => None,
         }
     }
 }
 
 /// Gaps among so many samples, and the shards that have begun and lack samples.
-fn incomplete(gaps: &[Range<u64>], samples: u64, shards: &[(Shard, u64)]) -> String {
+fn incomplete(gaps: &[Range<u64>], samples: &u64, shards: &[(Shard, u64)]) -> String {
     let missing: u64 = gaps.iter().map(|g| g.end - g.start).sum();
     let mut text = format!("{missing} of {samples} samples are missing: {}", ranges_text(gaps, SHOWN));
     for (shard, missing) in shards.iter().take(SHOWN) {
@@ -85,9 +83,7 @@ impl From<Problem> for Failure {
         let help = problem.help().map(|h| format!("\n = help: {h}")).unwrap_or_default();
         let message = format!("error: {problem}{help}");
         match problem {
-            Problem::Io { doing: "write", .. } | Problem::Table { .. } | Problem::Incomplete { .. } => {
-                Failure::BrokeOff(message)
-            }
+            Problem::Io { doing: "write", .. } | Problem::Incomplete { .. } => Failure::BrokeOff(message),
             _ => Failure::CouldNotRun(message),
         }
     }

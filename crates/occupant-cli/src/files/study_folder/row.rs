@@ -3,6 +3,8 @@
 use occupant_study::ending::Ending;
 use occupant_study::engine::Finished;
 
+use crate::files::table::Cell;
+
 /// How a sample ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Status {
@@ -27,25 +29,6 @@ impl Status {
             Status::Failed => "failed",
             Status::Refused => "refused",
             Status::Broken => "broken",
-        }
-    }
-}
-
-/// A value of a row.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) enum Cell {
-    /// None.
-    Absent,
-    /// A number in the unit of its column.
-    Number(f64),
-    Text(Box<str>),
-}
-
-impl Cell {
-    pub(crate) fn number(&self) -> Option<f64> {
-        match self {
-            Cell::Number(x) => Some(*x),
-            Cell::Absent | Cell::Text(_) => None,
         }
     }
 }

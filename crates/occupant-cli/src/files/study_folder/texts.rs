@@ -99,10 +99,10 @@ impl Texts {
                 let text = texts.iter().find(|t| t.by == by && t.name == name);
                 let text = text.ok_or("the sweep holds no copy of it")?;
                 let bytes = folder.copy_of(text).map_err(|e| e.to_string())?;
-                match sha256(&bytes) == text.sha256 {
-                    true => Ok(bytes),
-                    false => Err(format!("the copy {} was changed", text.copy)),
+                if sha256(&bytes) != text.sha256 {
+                    return Err(format!("the copy {} was changed", text.copy));
                 }
+                Ok(bytes)
             }
         }
     }

@@ -96,16 +96,16 @@ fn unknown(model: &Model, name: &str) -> Failure {
 pub(crate) fn refuse_too_much(members: u64, channels: usize, outputs: usize) -> Result<(), Failure> {
     let members = usize::try_from(members).unwrap_or(usize::MAX);
     let bytes = members.saturating_mul(channels).saturating_mul(outputs).saturating_mul(size_of::<f64>());
-    match bytes > MOST_BYTES {
-        false => Ok(()),
-        true => Err(Failure::with_help(
-            format!(
-                "bands of {channels} channels over {outputs} outputs of {members} members need {:.1} GiB, more than the 1 GiB allowed",
-                bytes as f64 / MOST_BYTES as f64
-            ),
-            "ask for fewer --channels or members, or set a longer output.interval",
-        )),
+    if bytes <= MOST_BYTES {
+        return Ok(());
     }
+    Err(Failure::with_help(
+        format!(
+            "bands of {channels} channels over {outputs} outputs of {members} members need {:.1} GiB, more than the 1 GiB allowed",
+            bytes as f64 / MOST_BYTES as f64
+        ),
+        "ask for fewer --channels or members, or set a longer output.interval",
+    ))
 }
 
 impl Bands {

@@ -2,7 +2,6 @@
 
 use std::path::{Path, PathBuf};
 
-use indicatif::{ProgressBar, ProgressDrawTarget};
 use occupant_core::results::channel::{Channel, Series};
 use occupant_core::results::summary::Summary;
 use occupant_study::engine::Engine;
@@ -17,9 +16,10 @@ use crate::base::failure::Failure;
 use crate::base::interrupt::Interrupt;
 use crate::base::names::program;
 use crate::base::output_file::{Existing, PartialFile};
+use crate::base::progress::bar;
 use crate::base::text_table::plain;
 use crate::files::scenario::Opened;
-use crate::files::table_file::Form;
+use crate::files::table::Form;
 use crate::pictures::Format;
 
 /// Pixels of a PNG for each unit of the drawing (1/96 inch).
@@ -66,11 +66,7 @@ impl Wanted {
         interrupt: &Interrupt,
         quiet: bool,
     ) -> Result<Ran, Failure> {
-        let target = match quiet {
-            true => ProgressDrawTarget::hidden(),
-            false => ProgressDrawTarget::stderr(),
-        };
-        let bar = ProgressBar::with_draw_target(Some(self.study.len() - 1), target);
+        let bar = bar(Some(self.study.len() - 1), "{wide_bar} {pos}/{len}", quiet);
         // what the scenario names was read with it and is not read again
         let table = opened.loaded.table();
         let resolver = |name: &str| match table {
@@ -105,17 +101,18 @@ impl Wanted {
         let written = match kind {
             BandFile::Table(form) => {
                 let about = format!("{}: {title}: {words}", program());
-                band_table::write(&report.bands, path, *form, self.existing, about)
+                band_table::write(&report.bands, path, *form, self.existing, about)?
             }
             BandFile::Picture(format) => {
                 let drawing = plot::svg(&report.bands, title, &words);
                 let bytes = format
                     .encode(&drawing, PIXELS)
                     .map_err(|e| Failure::BrokeOff(format!("error: {} cannot be made: {e}", path.display())))?;
-                write_bytes(path, self.existing, &bytes)
+                let written = write_bytes(path, self.existing, &bytes);
+                written.map_err(|reason| Failure::BrokeOff(format!("error: {reason}")))?
             }
         };
-        written.map(|path| path.display().to_string()).map_err(|reason| Failure::BrokeOff(format!("error: {reason}")))
+        Ok(written.display().to_string())
     }
 }
 

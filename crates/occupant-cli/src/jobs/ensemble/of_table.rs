@@ -15,26 +15,27 @@ use parquet::errors::ParquetError;
 use parquet::file::reader::{FileReader, RowGroupReader, SerializedFileReader};
 
 use super::judge::{Judged, Tolerance, is_result, judge, rule, word};
+use crate::base::failure::Failure;
 use crate::base::output_file::Existing;
 use crate::files::study_folder::manifest::{Manifest, Role};
-use crate::files::table_file::{Cell, Form, Kind, TableFile};
+use crate::files::table::{Cell, Form, Kind, TableFile};
 
 const COLUMNS: [(&str, Kind); 16] = [
     ("sample", Kind::Count),
     ("figure", Kind::Text),
     ("unit", Kind::Text),
-    ("nominal", Kind::Number),
+    ("nominal", Kind::MaybeNumber),
     ("members", Kind::Count),
     ("missing", Kind::Count),
     ("failed", Kind::Count),
-    ("least", Kind::Number),
-    ("q05", Kind::Number),
-    ("q25", Kind::Number),
-    ("median", Kind::Number),
-    ("q75", Kind::Number),
-    ("q95", Kind::Number),
-    ("greatest", Kind::Number),
-    ("tolerance", Kind::Number),
+    ("least", Kind::MaybeNumber),
+    ("q05", Kind::MaybeNumber),
+    ("q25", Kind::MaybeNumber),
+    ("median", Kind::MaybeNumber),
+    ("q75", Kind::MaybeNumber),
+    ("q95", Kind::MaybeNumber),
+    ("greatest", Kind::MaybeNumber),
+    ("tolerance", Kind::MaybeNumber),
     ("verdict", Kind::Text),
 ];
 
@@ -87,11 +88,12 @@ const SAMPLE: &str = "input.ensemble.sample";
 ///
 /// # Errors
 /// A table that cannot be read; a file that cannot be written.
-pub(crate) fn write(table: &Path, manifest: &Manifest, csv: bool) -> Result<Ensembles, String> {
-    let unread = |error: ParquetError| format!("{} cannot be read: {error}", table.display());
-    let file = File::open(table).map_err(|e| format!("{} cannot be read: {e}", table.display()))?;
+pub(crate) fn write(table: &Path, manifest: &Manifest, csv: bool) -> Result<Ensembles, Failure> {
+    let broke_off = |reason: &dyn std::fmt::Display| Failure::BrokeOff(format!("error: {} {reason}", table.display()));
+    let unread = |error: ParquetError| broke_off(&format!("cannot be read: {error}"));
+    let file = File::open(table).map_err(|e| unread(e.into()))?;
     let reader = SerializedFileReader::new(file).map_err(unread)?;
-    let places = Places::of(&reader, manifest).ok_or_else(|| format!("{} has no ensembles", table.display()))?;
+    let places = Places::of(&reader, manifest).ok_or_else(|| broke_off(&"has no ensembles"))?;
     let mut writing = Writing::begin(table, csv, &places)?;
     let mut present: Option<Sample> = None;
     for i in 0..reader.num_row_groups() {
@@ -206,14 +208,13 @@ struct Writing {
 }
 
 impl Writing {
-    fn begin(table: &Path, csv: bool, places: &Places) -> Result<Self, String> {
+    fn begin(table: &Path, csv: bool, places: &Places) -> Result<Self, Failure> {
         let forms = [(Form::Parquet, "ensemble.parquet"), (Form::Csv, "ensemble.csv")];
         let tolerance = Tolerance::default();
         let about = [("occupant.stable_within", tolerance.relative.to_string())];
         let asked = forms.iter().filter(|(form, _)| csv || *form == Form::Parquet);
         let tables = asked.map(|(form, name)| {
-            let path = table.with_file_name(name);
-            TableFile::create(&path, *form, Existing::Replace, &COLUMNS, &about)
+            TableFile::create(table.with_file_name(name), *form, Existing::Replace, &COLUMNS, &about)
         });
         let counted = |(name, _, _): &(String, String, usize)| Counted {
             name: name.clone(),
@@ -229,7 +230,7 @@ impl Writing {
         })
     }
 
-    fn sample(&mut self, sample: &Sample, places: &Places) -> Result<(), String> {
+    fn sample(&mut self, sample: &Sample, places: &Places) -> Result<(), Failure> {
         self.found.samples += 1;
         self.found.failed += sample.failed;
         let figures = places.figures.iter().zip(&sample.values);
@@ -256,7 +257,7 @@ impl Writing {
         Ok(())
     }
 
-    fn finish(mut self) -> Result<Ensembles, String> {
+    fn finish(mut self) -> Result<Ensembles, Failure> {
         for table in self.tables {
             self.found.files.push(table.publish()?);
         }
@@ -269,16 +270,16 @@ fn row(sample: &Sample, judged: &Judged, tolerance: Tolerance) -> Vec<Cell> {
     let rule = rule(&judged.name, &judged.unit, tolerance);
     let within = (rule.relative * s.median.abs()).max(rule.absolute);
     let mut row = vec![
-        Cell::Count(sample.number),
-        Cell::Text(judged.name.clone()),
-        Cell::Text(judged.unit.clone()),
-        Cell::Number(judged.nominal.unwrap_or(f64::NAN)),
-        Cell::Count(s.members as u64),
-        Cell::Count(s.missing as u64),
-        Cell::Count(sample.failed),
+        Cell::count(sample.number),
+        Cell::text(&judged.name),
+        Cell::text(&judged.unit),
+        judged.nominal.map_or(Cell::Absent, Cell::finite),
+        Cell::count(s.members as u64),
+        Cell::count(s.missing as u64),
+        Cell::count(sample.failed),
     ];
     let spread = [s.least, s.q05, s.q25, s.median, s.q75, s.q95, s.greatest, within];
-    row.extend(spread.map(Cell::Number));
-    row.push(Cell::Text(word(judged.verdict).to_owned()));
+    row.extend(spread.map(Cell::finite));
+    row.push(Cell::text(word(judged.verdict)));
     row
 }

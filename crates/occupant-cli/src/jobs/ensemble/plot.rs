@@ -103,10 +103,7 @@ fn panel(out: &mut String, band: &ChannelBand, time_s: &[f64], [left, top]: [f64
     if let Some(lost_s) = band.lost_at_s {
         let [x, y] = axes.place(lost_s * 1e3, axes.value[1]);
         let bottom = y + axes.size[1];
-        let (anchor, at) = match x > axes.corner[0] + 0.7 * axes.size[0] {
-            true => ("end", x - 4.0),
-            false => ("start", x + 4.0),
-        };
+        let (anchor, at) = if x > axes.corner[0] + 0.7 * axes.size[0] { ("end", x - 4.0) } else { ("start", x + 4.0) };
         let _ = writeln!(
             out,
             "<path d=\"M{x:.2} {y:.2}V{bottom:.2}\" stroke=\"{RED}\"/><text x=\"{at:.2}\" y=\"{:.2}\" text-anchor=\"{anchor}\" fill=\"{RED}\" stroke=\"#fff\" stroke-width=\"3\" paint-order=\"stroke\">{:.1} ms</text>",
@@ -198,9 +195,10 @@ fn round_step(step: f64) -> f64 {
 fn figures(value: f64, step: f64) -> String {
     let decimals = (-step.log10().floor()).clamp(0.0, 9.0) as usize;
     let text = format!("{:.decimals$}", value + 0.0);
-    match text.trim_start_matches(['-', '0', '.']).is_empty() {
-        true => text.trim_start_matches('-').to_owned(),
-        false => text.replace('-', "−"),
+    if text.trim_start_matches(['-', '0', '.']).is_empty() {
+        text.trim_start_matches('-').to_owned()
+    } else {
+        text.replace('-', "−")
     }
 }
 

@@ -18,7 +18,7 @@ use super::members::{Left, Member, Members};
 use crate::base::failure::Failure;
 use crate::base::interrupt::Interrupt;
 use crate::base::output_file::Existing;
-use crate::files::table_file::{Cell, Form, Kind, TableFile};
+use crate::files::table::{Cell, Form, Kind, TableFile};
 use crate::jobs::sweep::plan::Plan;
 
 /// What a file says of itself.
@@ -28,15 +28,15 @@ const COLUMNS: [(&str, Kind); 14] = [
     ("sample", Kind::Count),
     ("channel", Kind::Text),
     ("unit", Kind::Text),
-    ("time_s", Kind::Number),
-    ("nominal", Kind::Number),
-    ("q05", Kind::Number),
-    ("q25", Kind::Number),
-    ("median", Kind::Number),
-    ("q75", Kind::Number),
-    ("q95", Kind::Number),
-    ("tolerance", Kind::Number),
-    ("lost_at_s", Kind::Number),
+    ("time_s", Kind::MaybeNumber),
+    ("nominal", Kind::MaybeNumber),
+    ("q05", Kind::MaybeNumber),
+    ("q25", Kind::MaybeNumber),
+    ("median", Kind::MaybeNumber),
+    ("q75", Kind::MaybeNumber),
+    ("q95", Kind::MaybeNumber),
+    ("tolerance", Kind::MaybeNumber),
+    ("lost_at_s", Kind::MaybeNumber),
     ("members", Kind::Count),
     ("failed", Kind::Count),
 ];
@@ -104,7 +104,7 @@ impl StudyBands<'_> {
             bar: &ProgressBar::hidden(),
         };
         let members = members.run(self.engine)?;
-        self.publish(sample, &channels, &members).map_err(|reason| Failure::BrokeOff(format!("error: {reason}")))
+        self.publish(sample, &channels, &members)
     }
 
     /// The channels of a sample; none of one that is refused.
@@ -118,36 +118,26 @@ impl StudyBands<'_> {
         Ok(channels)
     }
 
-    fn publish(&self, sample: u64, channels: &[Channel], members: &[Member]) -> Result<(), String> {
+    fn publish(&self, sample: u64, channels: &[Channel], members: &[Member]) -> Result<(), Failure> {
         let completed: Vec<&Left> = members.iter().flatten().collect();
         let runs: Vec<&[Vec<f64>]> = completed.iter().map(|l| l.values.as_slice()).collect();
         let time_s = completed.first().map_or(Vec::new(), |l| l.time_s.clone());
-        let bands = Bands::of(channels, time_s, &runs, Tolerance::default());
+        let mut bands = Bands::of(channels, time_s, &runs, Tolerance::default());
         let counts = [completed.len(), members.len() - completed.len()].map(|n| n as u64);
-        let unchanged = matches!(members.first(), Some(Ok(_)));
+        if !matches!(members.first(), Some(Ok(_))) {
+            // the first that completed is not the unchanged one
+            bands.channels.iter_mut().for_each(|band| band.nominal.clear());
+        }
         let about = [(ABOUT, self.about())];
         let path = self.file(sample);
-        let mut table = TableFile::create(&path, Form::Parquet, Existing::Replace, &COLUMNS, &about)?;
+        let mut table = TableFile::create(path, Form::Parquet, Existing::Replace, &COLUMNS, &about)?;
         for band in &bands.channels {
-            let (b, text) = (&band.band, |t: &str| Cell::Text(t.to_owned()));
-            for (i, time_s) in bands.time_s.iter().enumerate() {
-                let at = |values: &[f64]| values.get(i).copied().unwrap_or(f64::NAN);
-                // the first that completed need not be the unchanged one
-                let nominal = if unchanged { at(&band.nominal) } else { f64::NAN };
-                let numbers = [
-                    *time_s,
-                    nominal,
-                    at(&b.q05),
-                    at(&b.q25),
-                    at(&b.median),
-                    at(&b.q75),
-                    at(&b.q95),
-                    band.tolerance,
-                    band.lost_at_s.unwrap_or(f64::NAN),
-                ];
-                let mut row = vec![Cell::Count(sample), text(&band.name), text(band.unit)];
-                row.extend(numbers.map(Cell::Number));
-                row.extend(counts.map(Cell::Count));
+            let lost_at_s = band.lost_at_s.map_or(Cell::Absent, Cell::Number);
+            for i in 0..bands.time_s.len() {
+                let mut row = vec![Cell::count(sample)];
+                row.extend(band.cells(&bands.time_s, i));
+                row.extend([Cell::finite(band.tolerance), lost_at_s.clone()]);
+                row.extend(counts.map(Cell::count));
                 table.row(row)?;
             }
         }

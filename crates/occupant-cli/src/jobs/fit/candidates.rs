@@ -3,29 +3,23 @@
 use super::evaluator::Record;
 use super::fitting::Fitting;
 use super::progress::words_of;
-use crate::files::study_folder::csv_table::CsvTable;
+use crate::base::failure::Failure;
 use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::manifest::{Column, Manifest, Role};
-use crate::files::study_folder::parquet_table::ParquetTable;
-use crate::files::study_folder::problem::Problem;
-use crate::files::study_folder::row::{Cell, Row, Status};
-use crate::files::study_folder::table::TableSink;
+use crate::files::study_folder::row::{Row, Status};
+use crate::files::study_folder::table::StudyTable;
+use crate::files::table::Cell;
 use occupant_study::search::Stage;
 
 /// Writes both tables.
 ///
 /// # Errors
 /// The operating system refuses.
-pub(crate) fn write(folder: &Folder, fitting: &Fitting, records: &[Record]) -> Result<(), Problem> {
-    let manifest = manifest(fitting);
-    let rows = rows(fitting, records);
-    let mut parquet = ParquetTable::create(folder.path().join("history.parquet"), &manifest)?;
-    let mut csv = CsvTable::create(folder.path().join("history.csv"), &manifest)?;
-    parquet.rows(&rows)?;
-    csv.rows(&rows)?;
-    parquet.publish()?;
-    csv.publish()?;
-    Ok(())
+pub(crate) fn write(folder: &Folder, fitting: &Fitting, records: &[Record]) -> Result<(), Failure> {
+    let [parquet, csv] = ["history.parquet", "history.csv"].map(|name| folder.path().join(name));
+    let mut table = StudyTable::create(parquet, Some(csv), &manifest(fitting))?;
+    rows(fitting, records).iter().try_for_each(|row| table.row(row))?;
+    table.publish().map(|_| ())
 }
 
 fn manifest(fitting: &Fitting) -> Manifest {
@@ -58,9 +52,7 @@ fn rows(fitting: &Fitting, records: &[Record]) -> Vec<Row> {
             Some(Stage::Descent { number, generation }) => [number, generation].map(|n| n as f64),
             _ => [f64::NAN; 2],
         };
-        let number = |x: f64| {
-            if x.is_nan() { Cell::Absent } else { Cell::Number(x) }
-        };
+        let number = |x: f64| if x.is_nan() { Cell::Absent } else { Cell::Number(x) };
         let mut cells = vec![Cell::Text(stage.into())];
         cells.extend(counted.map(number));
         match &record.at {
@@ -68,10 +60,7 @@ fn rows(fitting: &Fitting, records: &[Record]) -> Vec<Row> {
             None => cells.extend(vec![Cell::Absent; fitting.bounds.len()]),
         }
         best = if record.at.is_some() { record.score.min(best) } else { best };
-        cells.extend([record.score, best].map(|x| match x.is_finite() {
-            true => Cell::Number(x),
-            false => Cell::Absent,
-        }));
+        cells.extend([record.score, best].map(Cell::finite));
         let parts = (0..targets).map(|i| record.parts.get(i).copied().unwrap_or(f64::NAN));
         cells.extend(parts.map(number));
         Row {

@@ -20,8 +20,9 @@ use crate::base::interrupt::Interrupt;
 use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::journal::{Journal, JournalWriter};
 use crate::files::study_folder::problem::Problem;
-use crate::files::study_folder::row::{Cell, Row, Status};
+use crate::files::study_folder::row::{Row, Status};
 use crate::files::study_folder::shard::Shard;
+use crate::files::table::Cell;
 
 /// The score of a candidate that could not be run: worse than any that could.
 pub(crate) const WORST: f64 = 1e6;
@@ -68,19 +69,14 @@ impl<'a> Evaluator<'a> {
         engine: &'a Engine,
         interrupt: &'a Interrupt,
         progress: Progress,
-    ) -> Result<Self, Problem> {
+    ) -> Result<Self, Failure> {
         let samples = fitting.manifest.samples;
         let journal = Journal::read(std::slice::from_ref(folder), sha256, samples)?;
         let mut known = BTreeMap::new();
-        let mut next = 0;
-        let gaps = journal.finished.gaps(0..samples);
-        for gap in gaps.into_iter().chain(std::iter::once(samples..samples)) {
-            if next < gap.start {
-                let rows = journal.rows(next..gap.start)?;
-                known.extend(rows.into_iter().map(|row| (row.index, row)));
-            }
-            next = gap.end;
-        }
+        journal.each_row(|row| {
+            known.insert(row.index, row);
+            Ok(())
+        })?;
         Ok(Evaluator {
             fitting,
             engine,
@@ -159,16 +155,8 @@ fn record(
     let mut parts = Vec::new();
     let mut reason = None;
     for row in rows {
-        let coordinates = fitting.bounds.len();
-        let (at, misfits) = row.cells.split_at(coordinates.min(row.cells.len()));
-        let at: Vec<f64> = at.iter().filter_map(Cell::number).collect();
-        let bits = |v: &[f64]| v.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
-        if bits(&at) != bits(candidate.as_deref().unwrap_or(&[])) {
-            return Err(Failure::with_help(
-                format!("row {} of the journal is of another candidate", row.index),
-                "the journal was written by another program or on a machine that computes differently: begin anew with --restart",
-            ));
-        }
+        let (at, misfits) = row.cells.split_at(fitting.bounds.len().min(row.cells.len()));
+        refuse_other(row.index, at, candidate.as_deref().unwrap_or(&[]))?;
         parts.extend(misfits.iter().filter_map(Cell::number));
         if row.status != Status::Completed {
             reason.get_or_insert_with(|| row.reason.clone());
@@ -190,6 +178,18 @@ fn record(
         wall_time_s: rows.iter().map(|r| r.wall_time_s).sum(),
         kernel: rows.last().map_or(String::new(), |r| r.kernel.clone()),
     })
+}
+
+/// Refuses the row of a candidate that stands elsewhere than the one asked for.
+fn refuse_other(index: u64, found: &[Cell], asked: &[f64]) -> Result<(), Failure> {
+    let found = found.iter().filter_map(Cell::number).map(f64::to_bits);
+    if found.eq(asked.iter().map(|x| x.to_bits())) {
+        return Ok(());
+    }
+    Err(Failure::with_help(
+        format!("row {index} of the journal is of another candidate"),
+        "the journal was written by another program or on a machine that computes differently: begin anew with --restart",
+    ))
 }
 
 /// Candidates under way.

@@ -84,6 +84,7 @@ impl Fitting {
         let bytes = bytes.map_err(|e| format!("error: the study {shown} cannot be read: {e}"))?;
         let text = StudyText::read_bytes(&bytes, format_of(name), &shown);
         let text = text.map_err(|problems| ended(vec![problems.to_string()], &shown))?;
+        let fit = text.fit().map_err(|problems| ended(vec![problems.to_string()], &shown))?;
         let mut opening = Opening {
             folder: name.parent().unwrap_or(Path::new("")).to_owned(),
             text: &text,
@@ -93,13 +94,6 @@ impl Fitting {
             warnings: Vec::new(),
             experiments: Vec::new(),
             failed: Vec::new(),
-        };
-        let fit = match text.fit() {
-            Ok(fit) => fit,
-            Err(problems) => {
-                opening.problems.push(problems.to_string());
-                return Err(ended(opening.problems, &shown));
-            }
         };
         let named = opening.named(&fit);
         let tests = opening.tests(&fit, named);
@@ -111,30 +105,18 @@ impl Fitting {
         let bounds: Option<Vec<Bounds>> = bounds.map(Parameter::bounds).collect();
         // bind_fit has refused parameters without ends
         let bounds = bounds.ok_or("error: a parameter without ends")?;
-        let title = text.section.title.clone().unwrap_or_default();
-        let samples = experiments.len() as u64 * fit.budget.saturating_add(ON_TOP);
-        let words = given.overrides.iter().cloned();
-        let words = words.chain(given.maps.iter().map(|m| format!("--map {m}")));
-        let mut manifest = Manifest::new(program, title.clone(), samples, words.collect());
-        let (texts, bytes) = texts.all();
-        let study_sha256 = texts[0].sha256.clone();
-        // where a test lies is no part of the fit
-        let named = |text: Text| match text.by {
-            NamedBy::CommandLineTest => Text { name: file_name(Path::new(&text.name)), ..text },
-            _ => text,
-        };
-        manifest.texts = texts.into_iter().map(named).collect();
+        let (manifest, texts) = manifest(&text, &texts, given, experiments.len() as u64, fit.budget, program);
         Ok(Fitting {
             study_name: file_name(name),
-            study_sha256,
-            title,
+            study_sha256: manifest.texts[0].sha256.clone(),
+            title: manifest.title.clone(),
             fit,
             experiments,
             tests,
             bounds,
             overrides: given.overrides.to_vec(),
             manifest,
-            texts: bytes,
+            texts,
             warnings,
         })
     }
@@ -171,6 +153,30 @@ impl Fitting {
         };
         self.parameters().iter().zip(&self.bounds).map(start).collect()
     }
+}
+
+/// What the folder of the fit will hold, and the bytes of its texts.
+fn manifest(
+    text: &StudyText,
+    texts: &Texts,
+    given: &Given<'_>,
+    experiments: u64,
+    budget: u64,
+    program: String,
+) -> (Manifest, Vec<Vec<u8>>) {
+    let title = text.section.title.clone().unwrap_or_default();
+    let words = given.overrides.iter().cloned();
+    let words = words.chain(given.maps.iter().map(|m| format!("--map {m}")));
+    let samples = experiments * budget.saturating_add(ON_TOP);
+    let mut manifest = Manifest::new(program, title, samples, words.collect());
+    let (texts, bytes) = texts.all();
+    // where a test lies is no part of the fit
+    let named = |text: Text| match text.by {
+        NamedBy::CommandLineTest => Text { name: file_name(Path::new(&text.name)), ..text },
+        _ => text,
+    };
+    manifest.texts = texts.into_iter().map(named).collect();
+    (manifest, bytes)
 }
 
 /// Work on a fit that is being opened, with the problems found so far.

@@ -1,7 +1,7 @@
 //! What a fit has found, in the form of fit.json. Nothing in it depends on the day, the machine or the number of threads.
 
 use occupant_study::ApplyChoice;
-use occupant_study::search::Stage;
+use occupant_study::search::{Descent, Stage};
 use serde::Serialize;
 
 use super::evaluator::Record;
@@ -233,40 +233,36 @@ pub(crate) fn found(
         tolerance: fitting.fit.tolerance,
         tests: tests(fitting, fitted),
         score: Score { before, after: fitting.score(&fitted.parts), channels: channels(fitting, answer, fitted) },
-        near: NearFound {
-            score: limit,
-            by: by(answer.near),
-            unrelated_residuals: match answer.near {
-                Near::Likelihood { unrelated } => Some(unrelated),
-                _ => None,
-            },
-            sets: sets.len(),
-        },
+        near: NearFound::of(answer.near, limit, sets.len()),
         parameters,
         correlations: correlations(fitting, answer),
         written: written(fitted),
-        descents: answer
-            .global
-            .descents
-            .iter()
-            .map(|d| DescentFound {
-                population: d.population,
-                evaluations: d.evaluations,
-                score: d.best.value,
-                ended: d.ending.words(),
-            })
-            .collect(),
+        descents: answer.global.descents.iter().map(DescentFound::of).collect(),
         evaluations,
         warnings,
     }
 }
 
-fn by(near: Near) -> &'static str {
-    match near {
-        Near::Study => "the study",
-        Near::Likelihood { .. } => "95 % likelihood of the residuals",
-        Near::Peak => "0.05 % of the measured peaks: the residuals are smaller",
-        Near::Score => "scores that differ by less than 0.01",
+impl NearFound {
+    fn of(near: Near, score: f64, sets: usize) -> Self {
+        let (by, unrelated_residuals) = match near {
+            Near::Study => ("the study", None),
+            Near::Likelihood { unrelated } => ("95 % likelihood of the residuals", Some(unrelated)),
+            Near::Peak => ("0.05 % of the measured peaks: the residuals are smaller", None),
+            Near::Score => ("scores that differ by less than 0.01", None),
+        };
+        NearFound { score, by, unrelated_residuals, sets }
+    }
+}
+
+impl DescentFound {
+    fn of(descent: &Descent) -> Self {
+        DescentFound {
+            population: descent.population,
+            evaluations: descent.evaluations,
+            score: descent.best.value,
+            ended: descent.ending.words(),
+        }
     }
 }
 

@@ -130,10 +130,7 @@ fn rise(fitting: &Fitting, best: &Point) -> Result<(f64, Near), Failure> {
     }
     let likely = likelihood_rise(best.value, unrelated);
     let least = NONE * NONE;
-    Ok(match likely > least {
-        true => (likely, Near::Likelihood { unrelated }),
-        false => (least, Near::Peak),
-    })
+    Ok(if likely > least { (likely, Near::Likelihood { unrelated }) } else { (least, Near::Peak) })
 }
 
 /// The recorded channels of an experiment with these parameters.

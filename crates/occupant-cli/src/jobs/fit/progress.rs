@@ -2,10 +2,11 @@
 
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 use occupant_study::search::Stage;
 
 use super::evaluator::{Record, WORST};
+use crate::base::progress::bar;
 use crate::base::talk::say;
 
 /// At most a line so often where there is no terminal, stages apart.
@@ -27,17 +28,8 @@ pub(crate) struct Progress {
 impl Progress {
     /// Of a search of so many evaluations.
     pub(crate) fn new(budget: u64, quiet: bool) -> Self {
-        let target = match quiet {
-            true => ProgressDrawTarget::hidden(),
-            false => ProgressDrawTarget::stderr(),
-        };
-        let bar = ProgressBar::with_draw_target(Some(budget), target);
-        // the words of the template are ours; should they not parse, the plain bar does
-        if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos} of {len} evaluations, {msg}") {
-            bar.set_style(style);
-        }
         Progress {
-            bar,
+            bar: bar(Some(budget), "{bar:30} {pos} of {len} evaluations, {msg}", quiet),
             quiet,
             budget,
             evaluations: 0,
@@ -87,10 +79,7 @@ impl Progress {
 
 /// A score in words.
 fn score(score: f64) -> String {
-    match score < WORST {
-        true => format!("score {score:.5}"),
-        false => "no run has completed".to_owned(),
-    }
+    if score < WORST { format!("score {score:.5}") } else { "no run has completed".to_owned() }
 }
 
 /// A stage's name, and in words.

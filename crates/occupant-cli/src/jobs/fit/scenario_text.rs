@@ -103,14 +103,11 @@ fn edited(experiment: &Experiment, numbers: &[Fitted], provenance: &[(String, St
     for (path, text) in changes.map(|(p, t)| (p, t)).chain(numbers) {
         let new = text.parse().unwrap_or_else(|_| Value::from(text.as_str()));
         // a path with wildcards stands for many places
-        let places = match path.contains('*') {
-            true => experiment.study.base().places(path).ok()?,
-            false => Vec::new(),
-        };
-        let paths: Vec<&str> = match places.is_empty() {
-            true => vec![path],
-            false => places.iter().map(|p| p.path.as_str()).collect(),
-        };
+        let places = if path.contains('*') { experiment.study.base().places(path).ok()? } else { Vec::new() };
+        let mut paths: Vec<&str> = places.iter().map(|p| p.path.as_str()).collect();
+        if paths.is_empty() {
+            paths.push(path);
+        }
         for path in paths {
             put(document.as_item_mut(), &parse(path).ok()?, new.clone())?;
         }

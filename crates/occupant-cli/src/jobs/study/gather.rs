@@ -9,11 +9,10 @@ use super::open::Opened;
 use super::samples::Samples;
 use crate::base::failure::Failure;
 use crate::files::study_folder::manifest::Role;
-use crate::files::study_folder::row::{Cell, Row, Status};
+use crate::files::study_folder::row::{Row, Status};
+use crate::files::table::Cell;
 use crate::jobs::ensemble::judge::{Judged, Tolerance};
 
-/// So many values are read at a time.
-const CELLS: usize = 400_000;
 /// So many different reasons are remembered.
 const REASONS: usize = 12;
 
@@ -101,15 +100,10 @@ pub(crate) fn gather(opened: &Opened, figures: &[usize]) -> Result<Gathered, Fai
         members: vec![Vec::new(); figures.len()],
     };
     gathering.name_words(|at| columns.get(at).is_some_and(|c| c.role == Role::InputText));
-    let at_once = (CELLS / columns.len().max(1)).clamp(64, 16_384) as u64;
-    let mut start = 0;
-    while start < opened.manifest.samples {
-        let end = (start + at_once).min(opened.manifest.samples);
-        for row in opened.journal.rows_there(start..end)? {
-            gathering.see(&row);
-        }
-        start = end;
-    }
+    opened.journal.each_row(|row| {
+        gathering.see(&row);
+        Ok(())
+    })?;
     gathering.close();
     Ok(gathering.found)
 }

@@ -5,17 +5,18 @@ use std::path::{Path, PathBuf};
 use super::Report;
 use super::numbers::{Number, numbers};
 use super::samples::Samples;
+use crate::base::failure::Failure;
 use crate::base::output_file::Existing;
-use crate::files::table_file::{Cell, Form, Kind, TableFile};
+use crate::files::table::{Cell, Form, Kind, TableFile};
 
 const COLUMNS: [(&str, Kind); 12] = [
     ("response", Kind::Text),
     ("quantity", Kind::Text),
     ("parameter", Kind::Text),
-    ("run", Kind::Number),
-    ("value", Kind::Number),
-    ("low", Kind::Number),
-    ("high", Kind::Number),
+    ("run", Kind::MaybeNumber),
+    ("value", Kind::MaybeNumber),
+    ("low", Kind::MaybeNumber),
+    ("high", Kind::MaybeNumber),
     ("unit", Kind::Text),
     ("rows", Kind::Count),
     ("mark", Kind::Text),
@@ -45,8 +46,7 @@ impl Tables {
 ///
 /// # Errors
 /// A file that is there and may not be replaced; the operating system refuses.
-pub(crate) fn write(report: &Report, tables: &Tables, existing: Existing) -> Result<(), String> {
-    let columns: Vec<(String, Kind)> = COLUMNS.iter().map(|(n, k)| ((*n).to_owned(), *k)).collect();
+pub(crate) fn write(report: &Report, tables: &Tables, existing: Existing) -> Result<(), Failure> {
     let about = [
         ("occupant.study", report.opened.manifest_sha256.clone()),
         (
@@ -54,7 +54,7 @@ pub(crate) fn write(report: &Report, tables: &Tables, existing: Existing) -> Res
             "{\"value\": \"column unit\", \"low\": \"column unit\", \"high\": \"column unit\"}".to_owned(),
         ),
     ];
-    let mut table = TableFile::create(&tables.numbers, Form::Parquet, existing, &columns, &about)?;
+    let mut table = TableFile::create(tables.numbers.clone(), Form::Parquet, existing, &COLUMNS, &about)?;
     let mut place = 0;
     let mut last = ("", String::new());
     for number in numbers(report) {
@@ -69,28 +69,27 @@ pub(crate) fn write(report: &Report, tables: &Tables, existing: Existing) -> Res
 }
 
 fn row(number: &Number, place: u64) -> Vec<Cell> {
-    let text = |t: &str| Cell::Text(t.to_owned());
     vec![
-        text(&number.response),
-        text(number.quantity),
-        text(&number.parameter),
-        Cell::Number(number.run.map_or(f64::NAN, |run| run as f64)),
-        Cell::Number(number.value),
-        Cell::Number(number.interval[0]),
-        Cell::Number(number.interval[1]),
-        text(&number.unit),
-        Cell::Count(number.rows as u64),
-        text(&number.mark),
-        text(&number.command),
-        Cell::Count(place),
+        Cell::text(&number.response),
+        Cell::text(number.quantity),
+        Cell::text(&number.parameter),
+        number.run.map_or(Cell::Absent, Cell::count),
+        Cell::finite(number.value),
+        Cell::finite(number.interval[0]),
+        Cell::finite(number.interval[1]),
+        Cell::text(&number.unit),
+        Cell::count(number.rows as u64),
+        Cell::text(&number.mark),
+        Cell::text(&number.command),
+        Cell::count(place),
     ]
 }
 
-fn samples(samples: &Samples, report: &Report, path: &Path, existing: Existing) -> Result<(), String> {
+fn samples(samples: &Samples, report: &Report, path: &Path, existing: Existing) -> Result<(), Failure> {
     let mut columns = vec![("sample".to_owned(), Kind::Count)];
     let mut units = serde_json::Map::new();
     for input in &samples.inputs {
-        let kind = if input.is_number() { Kind::Number } else { Kind::Text };
+        let kind = if input.is_number() { Kind::MaybeNumber } else { Kind::Text };
         let name = format!("input.{}", input.name);
         let unit = if input.unit.is_empty() && input.is_number() { "1" } else { &input.unit };
         units.insert(name.clone(), unit.into());
@@ -98,25 +97,25 @@ fn samples(samples: &Samples, report: &Report, path: &Path, existing: Existing) 
     }
     for response in &samples.responses {
         units.insert(response.name.clone(), response.unit.clone().into());
-        columns.push((response.name.clone(), Kind::Number));
+        columns.push((response.name.clone(), Kind::MaybeNumber));
     }
     let about = [
         ("occupant.study", report.opened.manifest_sha256.clone()),
         ("occupant.units", serde_json::Value::Object(units).to_string()),
     ];
-    let mut table = TableFile::create(path, Form::Parquet, existing, &columns, &about)?;
+    let mut table = TableFile::create(path.to_owned(), Form::Parquet, existing, &columns, &about)?;
     for (i, number) in samples.numbers.iter().enumerate() {
-        let mut row = vec![Cell::Count(*number)];
+        let mut row = vec![Cell::count(*number)];
         for input in &samples.inputs {
             let value = input.values[i];
-            let word = |words: &Vec<String>| words.get(value as usize).cloned();
+            let word = |words: &Vec<String>| words.get(value as usize).filter(|_| !value.is_nan()).cloned();
             row.push(match &input.words {
-                None => Cell::Number(value),
-                Some(words) => Cell::Text(word(words).filter(|_| !value.is_nan()).unwrap_or_default()),
+                None => Cell::finite(value),
+                Some(words) => Cell::text(&word(words).unwrap_or_default()),
             });
         }
         let values = samples.responses.iter();
-        row.extend(values.map(|response| Cell::Number(response.values[i])));
+        row.extend(values.map(|response| Cell::finite(response.values[i])));
         table.row(row)?;
     }
     table.publish().map(|_| ())

@@ -3,10 +3,8 @@
 use occupant_study::ending::Balance;
 
 use super::worst::Worst;
-use crate::files::study_folder::manifest::{Manifest, Role};
-use crate::files::study_folder::problem::Problem;
+use crate::files::study_folder::manifest::{Column, Manifest, Role};
 use crate::files::study_folder::row::{Row, Status};
-use crate::files::study_folder::table::TableSink;
 
 /// So many reasons are told.
 const TOLD: usize = 3;
@@ -73,15 +71,8 @@ impl Census {
     }
 }
 
-impl TableSink for Census {
-    fn rows(&mut self, rows: &[Row]) -> Result<(), Problem> {
-        rows.iter().for_each(|row| self.see(row));
-        Ok(())
-    }
-}
-
 /// Where a figure stands.
 fn column(manifest: &Manifest, figure: &str) -> Option<usize> {
-    let ours = |c: &crate::files::study_folder::manifest::Column| c.role == Role::Figure && c.name == figure;
+    let ours = |c: &Column| c.role == Role::Figure && c.name == figure;
     manifest.columns.iter().position(ours)
 }

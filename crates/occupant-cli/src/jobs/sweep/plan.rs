@@ -15,8 +15,8 @@ use crate::base::failure::Failure;
 use crate::base::names::file_name;
 use crate::files::scenario::{Opened, ScenarioArgs, format_of};
 use crate::files::study_folder::manifest::{Column, Manifest, Role};
-use crate::files::study_folder::row::Cell;
 use crate::files::study_folder::texts::{NamedBy, Texts};
+use crate::files::table::Cell;
 
 /// So many samples are tried to find the columns where the base scenario itself cannot be run.
 const TRIED: u64 = 16;
@@ -190,9 +190,12 @@ impl Plan {
             },
             role: Role::Input,
         };
-        let input = |(at, parameter): (usize, &Parameter)| match has_texts(&self.study, at) {
-            true => Column { name: format!("input.{}", parameter.name), unit: String::new(), role: Role::InputText },
-            false => number(&parameter.name, parameter.unit),
+        let input = |(at, parameter): (usize, &Parameter)| {
+            if has_texts(&self.study, at) {
+                Column { name: format!("input.{}", parameter.name), unit: String::new(), role: Role::InputText }
+            } else {
+                number(&parameter.name, parameter.unit)
+            }
         };
         let parameters = self.study.parameters().iter().enumerate();
         let mut columns: Vec<Column> = parameters.map(input).collect();

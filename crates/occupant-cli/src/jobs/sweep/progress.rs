@@ -2,8 +2,9 @@
 
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+use indicatif::ProgressBar;
 
+use crate::base::progress::bar;
 use crate::base::talk::say;
 use crate::files::study_folder::row::{Row, Status};
 
@@ -27,16 +28,8 @@ pub(crate) struct Progress {
 impl Progress {
     /// Of `samples`, `before` are finished.
     pub(crate) fn new(samples: u64, before: u64, quiet: bool) -> Self {
-        let target = match quiet {
-            true => ProgressDrawTarget::hidden(),
-            false => ProgressDrawTarget::stderr(),
-        };
-        let bar = ProgressBar::with_draw_target(Some(samples), target).with_position(before);
-        // the words of the template are ours; should they not parse, the plain bar does
-        if let Ok(style) = ProgressStyle::with_template("{bar:30} {pos} of {len} samples, {per_sec}, {eta} to go{msg}")
-        {
-            bar.set_style(style);
-        }
+        let template = "{bar:30} {pos} of {len} samples, {per_sec}, {eta} to go{msg}";
+        let bar = bar(Some(samples), template, quiet).with_position(before);
         bar.reset_eta();
         Progress { bar, quiet, samples, before, now: 0, failed: 0, began: Instant::now(), line: Instant::now() }
     }

@@ -10,7 +10,8 @@ use crate::base::failure::Failure;
 use crate::base::output_file::Existing;
 use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::manifest::Role;
-use crate::files::study_folder::row::{Cell, Row, Status};
+use crate::files::study_folder::row::{Row, Status};
+use crate::files::table::Cell;
 use crate::jobs::run::recording::Recording;
 
 /// Runs the samples of a plan.
