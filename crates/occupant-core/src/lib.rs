@@ -19,9 +19,9 @@
 //!
 //! ```
 //! use occupant_core::body::Segment;
+//! use occupant_core::results::outcome::Status;
 //! use occupant_core::results::recorder::Watch;
 //! use occupant_core::results::sample::Sample;
-//! use occupant_core::results::outcome::Status;
 //! use occupant_core::run::simulate::simulate;
 //! use occupant_core::scenario::{Format, Scenario};
 //!
@@ -78,7 +78,7 @@
 //! });
 //!
 //! let (mut q, rates) = ([0.0; DOF], [0.0; DOF]);
-//! q[2] = 1.5; // height of T1, m: the feet hang 0.3 m above the ground
+//! q[2] = 1.4; // height of T1, m: the feet hang 0.3 m above the ground
 //! let standing = InitialPosture::Coordinates(Box::new(ReportCoordinates { q, rates }));
 //! let model = Model::new(case.build(VehiclePath::parked(), standing, 0.4))?;
 //!
@@ -124,7 +124,7 @@
 //! | [`model`] | [`model::setup`] and its [`model::builder`]; checks, seating, settling: everything before the first step |
 //! | [`run`] | steps, output times, many runs side by side ([`run::batch`]) |
 //! | [`results`] | samples, channels, reactions, energies, recorders, summaries, checkpoints to resume from |
-//! | [`diagnosis`] | what limits the step and where the numbers of a model look wrong, before a run |
+//! | [`diagnosis`] | what will be simulated and whether the step suits it, before a run |
 //! | [`scenario`] | scenarios as text: units, presets, overrides, messages with line and column |
 //! | [`problem`] | what is wrong with an input |
 //!
