@@ -1,6 +1,6 @@
 //! A program's own vehicle model as the path: alone, side by side, resumed and diagnosed like any other.
 
-#[path = "../../crates/occupant-core/examples/own_vehicle_path.rs"]
+#[path = "../examples/own_vehicle_path.rs"]
 #[allow(dead_code, reason = "the example's main")]
 mod example;
 
@@ -16,8 +16,8 @@ use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 use occupant_core::run::batch::{Job, Kernel, simulate_many_with};
 use occupant_core::run::simulate::{resume, simulate};
+use occupant_core::scenario::{Format, Scenario};
 use occupant_core::vehicle::{Attitude, PathCursor, VehicleMotion, VehiclePath, VehiclePose, VehicleState};
-use occupant_tests::cart::lap;
 
 const RK4: Integrator = Integrator::Rk4 { step_s: 2e-4 };
 const ADAPTIVE: Integrator =
@@ -37,6 +37,14 @@ impl Recorder for Outputs {
         self.checkpoints.push(s.checkpoint());
         Ok(Flow::Continue)
     }
+}
+
+/// The driver in a lap belt on a cart that stops.
+fn lap(integrator: Integrator) -> Setup {
+    let text = include_str!("../../../scenarios/cart-lap.toml");
+    let no_files = |name: &str| Err(format!("{name}: no files here"));
+    let loaded = Scenario::from_text(text, Format::Toml, "cart-lap.toml", &no_files).unwrap();
+    Setup { integrator, ..loaded.build().unwrap().0 }
 }
 
 fn struck(integrator: Integrator, yaw_rate_after_rad_s: f64) -> Model {
