@@ -106,6 +106,17 @@ pub struct Face {
     pub corners: Vec<Corner>,
 }
 
+/// A surface of a deck that a conversion leaves out.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct LeftOut {
+    /// Number in series 9.
+    pub number: u32,
+    /// Name in scenarios.
+    pub name: String,
+    /// Why, as the predicate of a sentence about it.
+    pub why: &'static str,
+}
+
 impl CompartmentLayout {
     /// The reconstruction that travels with the crate.
     ///
@@ -190,6 +201,21 @@ impl CompartmentLayout {
         let mut faces: Vec<_> = self.surfaces.iter().map(|surface| self.face(surface, deck)).collect();
         faces.sort_by_key(|face| face.number);
         faces
+    }
+
+    /// All surfaces of a deck that no scenario gets, by number: those without area and those that resist nothing. A number that
+    /// could not be read leaves none out.
+    pub(crate) fn left_out(&self, deck: &Deck) -> Vec<LeftOut> {
+        let faces = self.faces(deck).into_iter();
+        let no_extent = |face: Face| (face.corners.is_empty().then_some("has no area"), face.number, face.name);
+        let wheel = deck.value("DSW").is_some_and(|diameter| diameter <= 0.0).then_some("has no diameter");
+        let all = faces.map(no_extent).chain([(wheel, self.wheel.number, self.wheel.name.clone())]);
+        let resists_nothing = |number| deck.value(&format!("STIF1({number})")) == Some(0.0);
+        all.filter_map(|(why, number, name)| {
+            let why = why.or(resists_nothing(number).then_some("resists nothing (STIF1 = 0)"))?;
+            Some(LeftOut { number, name, why })
+        })
+        .collect()
     }
 
     fn face(&self, surface: &SurfaceLayout, deck: &Deck) -> Face {

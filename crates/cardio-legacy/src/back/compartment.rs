@@ -5,10 +5,10 @@ use occupant_core::material::{DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
 use occupant_core::setup::Setup;
 use occupant_core::surface::{Frame, Outline, Surface};
 
-use super::Back;
+use super::digits::{digits, factor};
 use super::points::{Polygon, place_points};
+use super::{Back, unit_of};
 use crate::compartment::{CompartmentLayout, Corner};
-use crate::layout::Unit;
 
 /// Places may differ by this much of 1 m and of themselves, and be the same: rounding of the wheel's place.
 const SAME_PLACE: f64 = 1e-9;
@@ -43,19 +43,18 @@ fn read_surface(back: &mut Back<'_>, layout: &CompartmentLayout, surface: &Surfa
     let name = &surface.name;
     back.misfit_if(
         surface.frame != Frame::Vehicle,
-        &format!("surfaces.{name}.frame: the cards' surfaces belong to the vehicle"),
+        format!("surfaces.{name}.frame: the cards' surfaces belong to the vehicle"),
     );
     back.misfit_if(
         surface.spheres.is_some(),
-        &format!("surfaces.{name}.spheres: on cards all spheres touch all surfaces"),
+        format!("surfaces.{name}.spheres: on cards all spheres touch all surfaces"),
     );
     if let Some(material) = back.setup.materials.get(surface.material) {
         read_material(back, material, number);
     }
     match (&surface.outline, number == layout.wheel.number) {
         (Outline::Disc { centre_m, radius_m, .. }, true) => {
-            back.set("DSW", 2.0 * radius_m, Unit::Inch);
-            back.set("SWP", -centre_m.y, Unit::Inch);
+            back.set_all([("DSW", 2.0 * radius_m), ("SWP", -centre_m.y)]);
         }
         (Outline::Polygon(_), false) => {}
         _ => back.misfit(format!("surfaces.{name}: cards have a disc for the wheel and polygons for the others")),
@@ -75,16 +74,20 @@ fn read_material(back: &mut Back<'_>, material: &Material, number: u32) {
     let spring = &material.spring;
     back.misfit_if(
         material.memory != Memory::Reset,
-        &format!("materials.{}.memory = \"retain\": cards forget", material.name),
+        format!("materials.{}.memory = \"retain\": cards forget", material.name),
     );
     let usual = material.friction_speed_m_s == DEFAULT_FRICTION_SPEED_M_S;
-    back.misfit_if(!usual, &format!("materials.{}.friction_speed: cards cannot choose it", material.name));
-    back.set(&format!("STIF1({number})"), spring.k1_n_per_m, Unit::Stiffness);
-    back.set(&format!("STIF2({number})"), spring.k2_n_per_m, Unit::Stiffness);
-    back.set(&format!("DELB({number})"), spring.break_m, Unit::Inch);
-    back.set(&format!("AMU1({number})"), spring.returned_1, Unit::One);
-    back.set(&format!("AMU2({number})"), spring.returned_2, Unit::One);
-    back.set(&format!("COFR({number})"), material.friction, Unit::One);
+    back.misfit_if(!usual, format!("materials.{}.friction_speed: cards cannot choose it", material.name));
+    for (field, si) in [
+        ("STIF1", spring.k1_n_per_m),
+        ("STIF2", spring.k2_n_per_m),
+        ("DELB", spring.break_m),
+        ("AMU1", spring.returned_1),
+        ("AMU2", spring.returned_2),
+        ("COFR", material.friction),
+    ] {
+        back.set(format!("{field}({number})"), si);
+    }
 }
 
 fn polygon(back: &mut Back<'_>, layout: &CompartmentLayout, surface: &Surface, number: u32) -> Option<Polygon> {
@@ -122,7 +125,7 @@ fn on_its_side(corner: &Corner, place: &Point3<f64>) -> bool {
 
 /// A corner's place as the fields of series 8.
 fn fields_at(corner: &Corner, place: &Point3<f64>) -> [(String, String); 3] {
-    let inches = |si: f64| super::digits::digits(si, Unit::Inch).0;
+    let inches = |si: f64| digits(si, unit_of("VCW")).0;
     [
         (format!("XV({})", corner.x_of), inches(place.x)),
         (format!("ZV({})", corner.z_of), inches(place.z)),
@@ -133,7 +136,7 @@ fn fields_at(corner: &Corner, place: &Point3<f64>) -> [(String, String); 3] {
 /// Cards have no place for the wheel's; where it is not where a conversion puts it, that is lost.
 fn check_wheel(back: &mut Back<'_>, layout: &CompartmentLayout, name: &str, centre: Point3<f64>, axis: Vector3<f64>) {
     let wheel = &layout.wheel;
-    let inch = super::digits::factor(Unit::Inch);
+    let inch = factor(unit_of("VCW"));
     let known =
         |name: String| back.builder.digits(&name).and_then(|d| d.parse::<f64>().ok()).unwrap_or(f64::NAN) * inch;
     let (x, z) = (known(format!("XV({})", wheel.point)), known(format!("ZV({})", wheel.point)));

@@ -7,11 +7,11 @@ use occupant_core::kernel::contact::PASSED;
 use occupant_core::report_coordinates::ReportCoordinates;
 use occupant_core::sample::Sample;
 
+use super::builder::DeckBuilder;
 use super::digits::{digits, factor};
-use crate::builder::DeckBuilder;
+use super::unit_of;
 use crate::compartment::CompartmentLayout;
 use crate::deck::Deck;
-use crate::layout::Unit;
 
 /// Where a run ended, as far as cards can say it. They carry no greatest deformation, so an extension by cards is approximate.
 #[derive(Debug, Clone, PartialEq)]
@@ -84,63 +84,50 @@ impl Deck {
     pub fn extended(&self, end: &RunEnd, final_s: f64) -> Deck {
         let mut builder = DeckBuilder::of(self);
         for (name, time_s) in [("T1", end.time_s), ("TF", final_s)] {
-            builder.set(name, &digits(time_s, Unit::Second).0);
+            builder.set(name, &digits(time_s, unit_of(name)).0);
         }
         builder.set("NPOS", "1");
         builder.without_series(4);
         builder.without_series(10);
         builder.with_series(6);
         for (name, angle) in ["BETA4", "BETA7"].into_iter().zip(end.spine_rest_rad) {
-            builder.set(name, &rounded(angle, Unit::Radian));
+            builder.set(name, &rounded(name, angle));
         }
         for (belt, length) in [1, 2].into_iter().zip(end.belt_lengths_m) {
             builder.clear(&format!("SLACK({belt})"));
+            let name = format!("BLTLEO({belt})");
             if let Some(length_m) = length {
-                builder.set(&format!("BLTLEO({belt})"), &rounded(length_m, Unit::Inch));
+                builder.set(&*name, &rounded(&name, length_m));
             }
         }
-        set_coordinates(&mut builder, &end.coordinates);
+        for (name, si) in coordinate_fields(&end.coordinates) {
+            builder.set(&*name, &rounded(&name, si));
+        }
         builder.without_series(14);
         let pairs: Vec<_> = end.passed.iter().map(|(j, k)| (j.to_string(), k.to_string())).collect();
-        if !pairs.is_empty() {
-            set_pairs(&mut builder, &pairs);
-        }
+        builder.set_pairs(&pairs);
         builder.build(self.titles().clone(), self.plot())
     }
 }
 
-/// q and their rates in inches and radians.
-fn set_coordinates(builder: &mut DeckBuilder, coordinates: &ReportCoordinates) {
-    for (at, (q, rate)) in coordinates.q.iter().zip(&coordinates.rates).enumerate() {
-        let (unit, rate_unit) =
-            if at < 3 { (Unit::Inch, Unit::InchPerSecond) } else { (Unit::Radian, Unit::RadianPerSecond) };
-        builder.set(&format!("Q0({})", at + 1), &rounded(*q, unit));
-        builder.set(&format!("QDO({})", at + 1), &rounded(*rate, rate_unit));
-    }
+/// The fields of the coordinates and of their rates.
+pub(super) fn coordinate_fields(coordinates: &ReportCoordinates) -> impl Iterator<Item = (String, f64)> {
+    let pairs = (1..).zip(coordinates.q.into_iter().zip(coordinates.rates));
+    pairs.flat_map(|(n, (q, rate))| [(format!("Q0({n})"), q), (format!("QDO({n})"), rate)])
 }
 
 /// A number of a state as cards show it: six decimals, fewer where they would not leave a blank before the next field.
-fn rounded(si: f64, unit: Unit) -> String {
-    let value = si / factor(unit);
+fn rounded(name: &str, si: f64) -> String {
+    let value = si / factor(unit_of(name));
     let texts = (0..=DECIMALS).rev().map(|decimals| format!("{value:.decimals$}"));
     let fitting = texts.into_iter().find(|text| text.len() <= STATE_WIDTH).unwrap_or_else(|| format!("{value:e}"));
-    match fitting.contains('.') {
-        true => fitting.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => fitting,
+    if !fitting.contains('.') {
+        return fitting;
     }
+    fitting.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
 /// Decimals of a state on cards.
 const DECIMALS: usize = 6;
 /// Columns of a number of a state; the tenth stays blank.
 const STATE_WIDTH: usize = 9;
-
-/// The cards of series 14.
-pub(super) fn set_pairs(builder: &mut DeckBuilder, pairs: &[(String, String)]) {
-    builder.with_series(14);
-    builder.set("NOCRD", &pairs.len().to_string());
-    for (at, (sphere, surface)) in pairs.iter().enumerate() {
-        builder.set(&format!("J({})", at + 1), sphere);
-        builder.set(&format!("K({})", at + 1), surface);
-    }
-}

@@ -3,7 +3,6 @@
 use occupant_core::path::{AfterEnd, Interpolation, Station, TablePath, VehiclePath};
 
 use super::Back;
-use crate::layout::Unit;
 
 pub(super) fn read(back: &mut Back<'_>) {
     let setup = back.setup;
@@ -45,15 +44,18 @@ fn read_table(back: &mut Back<'_>, table: &TablePath) {
 
 fn stations(back: &mut Back<'_>, stations: &[Station]) {
     back.builder.set("NVPOS", &stations.len().to_string());
-    for (at, station) in stations.iter().enumerate() {
-        let n = at + 1;
-        back.set(&format!("CALT({n})"), station.time_s, Unit::Second);
-        for (axis, place) in ["CALX", "CALY", "CALZ"].into_iter().zip(station.pose.position_m.iter()) {
-            back.set(&format!("{axis}({n})"), *place, Unit::Inch);
-        }
-        let attitude = station.pose.attitude;
-        for (angle, rad) in [("CALPH", attitude.roll_rad), ("CALTH", attitude.pitch_rad), ("CALPS", attitude.yaw_rad)] {
-            back.set(&format!("{angle}({n})"), rad, Unit::Degree);
+    for (n, station) in (1..).zip(stations) {
+        let (place, attitude) = (station.pose.position_m, station.pose.attitude);
+        for (name, si) in [
+            ("CALT", station.time_s),
+            ("CALX", place.x),
+            ("CALY", place.y),
+            ("CALZ", place.z),
+            ("CALPH", attitude.roll_rad),
+            ("CALTH", attitude.pitch_rad),
+            ("CALPS", attitude.yaw_rad),
+        ] {
+            back.set(format!("{name}({n})"), si);
         }
     }
 }
