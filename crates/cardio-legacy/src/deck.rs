@@ -1,8 +1,8 @@
 //! One deck: the numbers of one run, by the report's names.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use crate::cards::{CardId, Field, Need, SERIES, TERMINATOR, need};
+use crate::cards::{CardId, CardLayout, END_OF_NUMBERS, Field, Need, Repeat, need, series};
 
 /// A number of a card.
 #[derive(Debug, Clone, PartialEq)]
@@ -52,6 +52,19 @@ pub struct DeckCard {
 }
 
 impl DeckCard {
+    /// A card with nothing but its own numbers: the card number, the segment or the surface.
+    fn blank(id: CardId, layout: &CardLayout) -> Self {
+        let mut numbers = vec![Number::blank(); layout.fields.len()];
+        if let (Repeat::Each { .. }, Some(index)) = (layout.repeat, id.number) {
+            numbers[0] = Number::whole(index);
+        }
+        let ncard = series(id.series).and_then(|series| series.ncard);
+        if let (Some(last), Some(ncard)) = (layout.fields.iter().position(|f| f.variable == "NCARD"), ncard) {
+            numbers[last] = Number::whole(ncard);
+        }
+        Self { id, line: None, raw: None, numbers }
+    }
+
     /// The table's fields of this card.
     pub(crate) fn fields(&self) -> &'static [Field] {
         self.id.layout().map(|layout| layout.fields.as_slice()).unwrap_or_default()
@@ -112,21 +125,65 @@ pub struct Difference {
 
 impl Deck {
     /// Puts a deck together; the cards come in the report's order afterwards.
-    pub(crate) fn assemble(titles: [String; 2], mut cards: Vec<DeckCard>, plot: Plot) -> Self {
-        let terminator = SERIES.iter().find(|s| s.ncard == Some(TERMINATOR));
-        if let Some(series) = terminator.filter(|s| cards.iter().all(|c| c.id.series != s.number)) {
+    pub(crate) fn assemble(titles: [String; 2], cards: Vec<DeckCard>, plot: Plot) -> Self {
+        let mut deck = Self { titles, cards, plot, places: HashMap::new() };
+        if !deck.has_series(END_OF_NUMBERS) {
             // In lenient reading the card may have been missing.
-            let numbers = vec![Number::whole(TERMINATOR)];
-            cards.push(DeckCard { id: CardId::first_of(series), line: None, raw: None, numbers });
+            deck.add_series(END_OF_NUMBERS, 0);
         }
-        cards.sort_by_key(|card| card.id);
-        let mut places = HashMap::new();
-        for (at, card) in cards.iter().enumerate() {
+        deck.sort();
+        deck
+    }
+
+    fn sort(&mut self) {
+        self.cards.sort_by_key(|card| card.id);
+        self.places.clear();
+        for (at, card) in self.cards.iter().enumerate() {
             for (place, (name, ..)) in card.named().enumerate() {
-                places.entry(name).or_insert((at, place));
+                self.places.entry(name).or_insert((at, place));
             }
         }
-        Self { titles, cards, plot, places }
+    }
+
+    /// Adds the blank cards of a series; `count` of those that its first card counts.
+    pub(crate) fn add_series(&mut self, number: u8, count: u32) {
+        for layout in series(number).into_iter().flat_map(|series| &series.cards) {
+            let numbers = match layout.repeat {
+                Repeat::Once => vec![None],
+                Repeat::Each { count } => (1..=count).map(Some).collect(),
+                Repeat::Counted => (1..=count).map(Some).collect(),
+            };
+            let id = |n| CardId { series: number, letter: layout.letter, number: n };
+            self.cards.extend(numbers.into_iter().map(|n| DeckCard::blank(id(n), layout)));
+        }
+        self.sort();
+    }
+
+    /// Takes the cards of a series out.
+    pub(crate) fn remove_series(&mut self, number: u8) {
+        self.cards.retain(|card| card.id.series != number);
+        self.sort();
+    }
+
+    /// Sets a number by the report's name, if its card is there; digits that are no number leave it blank.
+    pub(crate) fn set(&mut self, name: &str, digits: &str) {
+        if let Some((card, place)) = self.places.get(name) {
+            self.cards[*card].numbers[*place] = Number::from_digits(digits).unwrap_or_else(Number::blank);
+        }
+    }
+
+    /// Sets the pairs (sphere, surface) of series 14; without pairs there is no such series.
+    pub(crate) fn set_pairs(&mut self, pairs: &[(String, String)]) {
+        self.remove_series(14);
+        if pairs.is_empty() {
+            return;
+        }
+        self.add_series(14, u32::try_from(pairs.len()).unwrap_or(u32::MAX));
+        self.set("NOCRD", &pairs.len().to_string());
+        for (n, (sphere, surface)) in (1..).zip(pairs) {
+            self.set(&format!("J({n})"), sphere);
+            self.set(&format!("K({n})"), surface);
+        }
     }
 
     /// The two title cards, without trailing blanks.
@@ -207,23 +264,23 @@ impl Deck {
     /// The fields in which two decks differ: by value, a blank counting as the zero that it means.
     /// Titles are compared without trailing blanks; lines and digits do not count.
     pub fn differences(&self, other: &Self) -> Vec<Difference> {
-        let mut differences = Vec::new();
-        let mut compare = |field: String, left: Option<String>, right: Option<String>| {
-            if left != right {
-                differences.push(Difference { field, left, right });
-            }
-        };
-        for (at, (left, right)) in self.titles.iter().zip(&other.titles).enumerate() {
-            compare(format!("title card {}", at + 1), Some(left.clone()), Some(right.clone()));
-        }
-        compare("plot option".into(), Some(format!("{:?}", self.plot)), Some(format!("{:?}", other.plot)));
-        for name in self.names_with(other) {
-            let shown = |deck: &Self| deck.number(&name).map(|n| format!("{:?}", n.value + 0.0));
-            compare(name.clone(), shown(self), shown(other));
-        }
-        let pairs = |deck: &Self| format!("{:?}", deck.passed_pairs());
-        compare("passed pairs".into(), Some(pairs(self)), Some(pairs(other)));
-        differences
+        let (mut left, mut right) = (self.shown(), other.shown());
+        let fields: BTreeSet<String> = left.keys().chain(right.keys()).cloned().collect();
+        let of_both = |field: String| Difference { left: left.remove(&field), right: right.remove(&field), field };
+        fields.into_iter().map(of_both).filter(|difference| difference.left != difference.right).collect()
+    }
+
+    /// What the deck says, by field. The pairs are one entry, because their order is free.
+    fn shown(&self) -> BTreeMap<String, String> {
+        let is_pair = |card: &&DeckCard| card.id.series == 14 && card.id.letter == Some('b');
+        let named = self.cards.iter().filter(|card| !is_pair(card)).flat_map(DeckCard::named);
+        let fields = named.filter(|(name, ..)| name != "NCARD");
+        let mut shown: BTreeMap<_, _> = fields.map(|(name, _, n)| (name, format!("{:?}", n.value + 0.0))).collect();
+        shown.insert("title card 1".into(), self.titles[0].clone());
+        shown.insert("title card 2".into(), self.titles[1].clone());
+        shown.insert("plot option".into(), self.plot.word().into());
+        shown.insert("passed pairs".into(), format!("{:?}", self.passed_pairs()));
+        shown
     }
 
     /// The pairs (sphere, surface) of series 14 that have passed the surface's edge.
@@ -232,16 +289,5 @@ impl Deck {
         let mut pairs: Vec<_> = self.cards_of(14, 'b').filter_map(pair).collect();
         pairs.sort_unstable();
         pairs
-    }
-
-    /// The names of all fields of both decks, those of the pairs left out: their order is free.
-    fn names_with(&self, other: &Self) -> Vec<String> {
-        let is_pair = |card: &DeckCard| card.id.series == 14 && card.id.letter == Some('b');
-        let cards = self.cards.iter().chain(&other.cards).filter(|card| !is_pair(card));
-        let mut names: Vec<String> = cards.flat_map(DeckCard::named).map(|(name, ..)| name).collect();
-        names.retain(|name| name != "NCARD");
-        names.sort_unstable();
-        names.dedup();
-        names
     }
 }

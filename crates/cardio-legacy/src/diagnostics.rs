@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::cards::CardId;
+use crate::cards::{CardId, Field};
 use crate::deck::DeckCard;
 use crate::punched::{Columns, PunchedCard};
 use crate::rule::{Rule, Severity, Strictness};
@@ -34,7 +34,7 @@ pub struct Diagnostic {
     pub remedy: Option<String>,
 }
 
-/// How a problem is put together; [`Sink::report`] adds the file and the severity.
+/// How a problem is put together; reporting it adds the file and the severity.
 impl Diagnostic {
     pub(crate) fn new(rule: Rule, message: impl Into<String>) -> Self {
         Self {
@@ -48,7 +48,7 @@ impl Diagnostic {
             raw: None,
             message: message.into(),
             expected: None,
-            remedy: None,
+            remedy: Some(rule.remedy()).filter(|remedy| !remedy.is_empty()).map(str::to_owned),
         }
     }
 
@@ -73,6 +73,10 @@ impl Diagnostic {
         Self { columns: Some(columns), ..self }
     }
 
+    pub(crate) fn in_field(self, field: &Field) -> Self {
+        self.at(field.columns).variable(&field.variable)
+    }
+
     pub(crate) fn variable(self, name: impl Into<String>) -> Self {
         Self { variable: Some(name.into()), ..self }
     }
@@ -84,25 +88,22 @@ impl Diagnostic {
     pub(crate) fn remedy(self, text: impl Into<String>) -> Self {
         Self { remedy: Some(text.into()), ..self }
     }
+
+    pub(crate) fn report(self, sink: &mut Sink) {
+        let severity = self.rule.grade().severity(sink.strictness);
+        sink.found.items.push(Self { severity, file: sink.file.clone(), ..self });
+    }
 }
 
 impl fmt::Display for Diagnostic {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         writeln!(f, "{}[{}]: {}", self.severity, self.rule.name(), self.message)?;
-        write!(f, "  --> {}", self.file)?;
-        if let Some(line) = self.line {
-            write!(f, ":{line}")?;
-        }
-        if let Some(card) = self.card {
-            write!(f, ", card {card}")?;
-        }
-        if let Some(columns) = self.columns {
-            write!(f, ", {columns}")?;
-        }
-        if let Some(variable) = &self.variable {
-            write!(f, ", {variable}")?;
-        }
-        writeln!(f)?;
+        let line = self.line.map(|line| format!(":{line}"));
+        let card = self.card.map(|card| format!(", card {card}"));
+        let columns = self.columns.map(|columns| format!(", {columns}"));
+        let variable = self.variable.as_ref().map(|variable| format!(", {variable}"));
+        let place: String = [line, card, columns, variable].into_iter().flatten().collect();
+        writeln!(f, "  --> {}{place}", self.file)?;
         if let Some(raw) = &self.raw {
             writeln!(f, "   | {raw}")?;
             if let Some(columns) = self.columns {
@@ -179,11 +180,6 @@ pub(crate) struct Sink {
 impl Sink {
     pub(crate) fn new(file: &str, strictness: Strictness) -> Self {
         Self { file: file.into(), strictness, found: Diagnostics::default() }
-    }
-
-    pub(crate) fn report(&mut self, found: Diagnostic) {
-        let severity = found.rule.grade().severity(self.strictness);
-        self.found.items.push(Diagnostic { severity, file: self.file.clone(), ..found });
     }
 
     pub(crate) fn errors(&self) -> usize {

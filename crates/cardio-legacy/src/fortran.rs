@@ -108,7 +108,7 @@ struct Parts {
     negative: bool,
     whole: String,
     fraction: Option<String>,
-    exponent: Option<(bool, String)>,
+    exponent: (bool, String),
     surprises: Vec<Surprise>,
 }
 
@@ -134,25 +134,17 @@ impl Parts {
 
     /// The number as Rust and TOML read it, leading zeros dropped, the card's other digits kept.
     fn as_rust(&self) -> String {
-        let mut text = String::new();
-        if self.negative {
-            text.push('-');
-        }
+        let sign = |negative| if negative { "-" } else { "" };
+        let mut text = sign(self.negative).to_owned();
         let whole = self.whole.trim_start_matches('0');
-        text.push_str(if whole.is_empty() { "0" } else { whole });
+        text += if whole.is_empty() { "0" } else { whole };
         if let Some(fraction) = self.fraction.as_deref().filter(|f| !f.is_empty()) {
-            text.push('.');
-            text.push_str(fraction);
+            text += &format!(".{fraction}");
         }
-        if let Some((negative, digits)) = &self.exponent {
-            let digits = digits.trim_start_matches('0');
-            if !digits.is_empty() {
-                text.push('e');
-                if *negative {
-                    text.push('-');
-                }
-                text.push_str(digits);
-            }
+        let (negative, exponent) = &self.exponent;
+        let exponent = exponent.trim_start_matches('0');
+        if !exponent.is_empty() {
+            text += &format!("e{}{exponent}", sign(*negative));
         }
         text
     }
@@ -194,24 +186,16 @@ fn split(field: &[u8]) -> Result<Option<Parts>, FieldError> {
 
 /// Reads `E3`, `D-3`, `+3`, `-3` and the blanks behind, from `offset` inside the field.
 fn read_exponent(rest: &[u8], offset: usize, parts: &mut Parts) -> Result<(), FieldError> {
-    let mut at = 0;
-    let lettered = rest[0].is_ascii_alphabetic();
-    if lettered {
-        if rest[0].is_ascii_lowercase() {
-            note(&mut parts.surprises, Surprise::SmallLetter);
-        }
-        at += 1;
-    } else {
-        note(&mut parts.surprises, Surprise::BareExponent);
+    match rest[0] {
+        b'E' | b'D' => {}
+        b'e' | b'd' => note(&mut parts.surprises, Surprise::SmallLetter),
+        _ => note(&mut parts.surprises, Surprise::BareExponent),
     }
-    let mut negative = false;
-    if let Some(sign @ (b'+' | b'-')) = rest.get(at) {
-        negative = *sign == b'-';
-        at += 1;
-    }
-    let digits_from = at;
+    let sign_at = usize::from(rest[0].is_ascii_alphabetic());
+    let negative = rest.get(sign_at) == Some(&b'-');
+    let digits_at = sign_at + usize::from(matches!(rest.get(sign_at), Some(b'+' | b'-')));
     let mut digits = String::new();
-    for (index, byte) in rest.iter().enumerate().skip(at) {
+    for (index, byte) in rest.iter().enumerate().skip(digits_at) {
         match byte {
             b'0'..=b'9' => digits.push(char::from(*byte)),
             b' ' => {
@@ -222,15 +206,13 @@ fn read_exponent(rest: &[u8], offset: usize, parts: &mut Parts) -> Result<(), Fi
                     note(&mut parts.surprises, surprise);
                 }
             }
-            _ => {
-                return Err(FieldError::Character { offset: offset + index, found: *byte });
-            }
+            _ => return Err(FieldError::Character { offset: offset + index, found: *byte }),
         }
     }
-    if !rest[digits_from.min(rest.len())..].iter().any(u8::is_ascii_digit) {
+    if !rest.iter().any(u8::is_ascii_digit) {
         return Err(FieldError::EmptyExponent);
     }
-    parts.exponent = Some((negative, digits));
+    parts.exponent = (negative, digits);
     Ok(())
 }
 

@@ -36,6 +36,10 @@
 //! | [`fortran`] | the field rules of FORTRAN IV |
 //! | [`CompartmentLayout`] | which points bound which surface, from `compartment.toml` |
 //!
+//! The sources by room, each using only those before it (`tests/rooms.rs`): `rule`, `punched` (80 columns), `fortran`
+//! (fields), `cards` (the table, a file for each series: what card 7 means stands in `cards/card_07_spheres.rs`), `deck`,
+//! `compartment`, `notes`, `diagnostics`, `check`, `read`, `write`, `convert` (deck → scenario), `back` (scenario → deck).
+//!
 //! # Rules that hold for any bytes
 //!
 //! Two fuzz targets (`fuzz/`, which says how to run them and what has been run) assert them; `tests/any_bytes.rs` and

@@ -62,9 +62,9 @@ impl Grade {
     }
 }
 
-/// The rules by name: what each says, its [`Grade`], its stable name.
+/// The rules: what each says, its [`Grade`], its stable name, and how to mend what breaks it where that is always the same.
 macro_rules! rules {
-    ($($(#[$meaning:meta])* $rule:ident: $grade:ident, $name:literal;)*) => {
+    ($($(#[$meaning:meta])* $rule:ident: $grade:ident, $name:literal $(, $remedy:literal)?;)*) => {
         /// A rule of the cards; [`Rule::name`] is the stable name printed with every diagnostic.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Rule {
@@ -85,6 +85,13 @@ macro_rules! rules {
                     $(Self::$rule => $name,)*
                 }
             }
+
+            /// How to mend what breaks the rule; empty where that depends on the case.
+            pub(crate) fn remedy(self) -> &'static str {
+                match self {
+                    $(Self::$rule => concat!($($remedy)?),)*
+                }
+            }
         }
     };
 }
@@ -94,41 +101,43 @@ rules! {
     /// No card at all.
     EmptyFile: Fatal, "empty-file";
     /// A tab, which has no column.
-    Tab: Repairable, "tab";
+    Tab: Repairable, "tab", "replace tabs by blanks; it was read as if tab stops stood every 8 columns";
     /// Characters behind column 80.
-    LineTooLong: Doubtful, "line-too-long";
+    LineTooLong: Doubtful, "line-too-long", "check that no field has slipped to the right, and cut the line";
     /// A control character.
     ControlCharacter: Doubtful, "control-character";
     /// Bytes that look like UTF-8; they are read as Latin-1, one byte a column.
-    LooksLikeUtf8: Doubtful, "looks-like-utf-8";
+    LooksLikeUtf8: Doubtful, "looks-like-utf-8", "save the deck as Latin-1 (ISO 8859-1) or use plain ASCII";
     /// Something behind the final card.
-    AfterFinalCard: Doubtful, "after-final-card";
+    AfterFinalCard: Doubtful, "after-final-card", "remove an earlier FINI if a deck follows; remove the rest otherwise";
     // The fields.
     /// Characters that are no number.
     NotANumber: Fatal, "not-a-number";
     /// A number beyond the range of the 360.
-    OutOfRange: Fatal, "out-of-range";
+    OutOfRange: Fatal, "out-of-range",
+        "an exponent must end in the last column of the field, because blanks behind it are zeros";
     /// Blanks between digits, read as zeros.
-    EmbeddedBlanks: Doubtful, "embedded-blanks";
+    EmbeddedBlanks: Doubtful, "embedded-blanks", "close the gap, or punch the zeros";
     /// Blanks behind the last digit that became zeros of a number without a point.
     LeftJustified: Doubtful, "left-justified";
     /// An exponent without its letter.
-    BareExponent: Remark, "bare-exponent";
+    BareExponent: Remark, "bare-exponent", "punch the E";
     /// A small exponent letter.
-    SmallLetter: Doubtful, "small-letter";
+    SmallLetter: Doubtful, "small-letter", "punch E or D";
     /// A number too near to zero for the 360.
-    Underflow: Doubtful, "underflow";
+    Underflow: Doubtful, "underflow", "punch 0.";
     /// Blank fields read as zero, counted once a deck.
     BlankIsZero: Remark, "blank-is-zero";
     /// Something in columns that the report leaves blank.
-    NotBlank: Doubtful, "not-blank";
+    NotBlank: Doubtful, "not-blank", "look whether a number has slipped out of its columns, or remove it";
     /// A number that has to be whole and is not, or counts nothing sensible.
     NotAWholeNumber: Fatal, "not-a-whole-number";
     /// A word other than those the report knows (STAN, NONE, FINI).
-    UnknownWord: Repairable, "unknown-word";
+    UnknownWord: Repairable, "unknown-word",
+        "punch the word in capitals from column 1; in lenient reading capitals do not matter, anything else is NONE";
     // The order of the cards.
     /// The file ends inside a deck.
-    Truncated: Fatal, "truncated";
+    Truncated: Fatal, "truncated", "look for the missing end of the file";
     /// A title card is missing.
     MissingTitle: Fatal, "missing-title";
     /// A card that starts no series where one must start.
@@ -138,15 +147,16 @@ rules! {
     /// The card number stands where the report's format I8 reads it.
     CardNumberByFormat: Remark, "card-number-by-format";
     /// A series has fewer cards than it needs.
-    SeriesTooShort: Fatal, "series-too-short";
+    SeriesTooShort: Fatal, "series-too-short", "add the missing cards";
     /// The number of cards differs from the count on the series' first card.
-    CountDiffers: Repairable, "count-differs";
+    CountDiffers: Repairable, "count-differs", "correct the count, or add or remove cards";
     /// A series comes twice.
-    SeriesTwice: Repairable, "series-twice";
+    SeriesTwice: Repairable, "series-twice",
+        "remove one of the two; in lenient reading the later one counts, as it did in the program";
     /// A series stands elsewhere than in the report's order.
-    OutOfOrder: Doubtful, "out-of-order";
+    OutOfOrder: Doubtful, "out-of-order", "sort the deck; the card number says which series it is, and so it was read";
     /// A series that the deck needs is not there.
-    SeriesMissing: Fatal, "series-missing";
+    SeriesMissing: Fatal, "series-missing", "add the cards, or punch the card number if they are there";
     /// A series that the deck does not need is there.
     SeriesUnused: Remark, "series-unused";
     /// A segment, surface or pair number outside its range.
@@ -154,13 +164,13 @@ rules! {
     /// The same segment, surface or pair twice.
     IndexTwice: Fatal, "index-twice";
     /// A segment or surface without its card.
-    IndexMissing: Fatal, "index-missing";
+    IndexMissing: Fatal, "index-missing", "add the cards, or correct their numbers";
     /// The card 1000 that ends the numbers is missing.
-    NoTerminator: Repairable, "no-terminator";
+    NoTerminator: Repairable, "no-terminator", "add the card";
     /// The plot card STAN or NONE is missing.
-    NoPlotCard: Repairable, "no-plot-card";
+    NoPlotCard: Repairable, "no-plot-card", "add the card; in lenient reading it is NONE";
     /// The final card FINI is missing.
-    NoFinalCard: Doubtful, "no-final-card";
+    NoFinalCard: Doubtful, "no-final-card", "add a card FINI; look whether the file is complete";
     // What the numbers mean.
     /// A number outside what the quantity can be.
     Impossible: Fatal, "impossible";

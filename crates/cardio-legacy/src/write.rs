@@ -7,7 +7,6 @@
 
 use crate::cards::Format;
 use crate::deck::{Deck, DeckCard, Number};
-use crate::punched::{CARD_WIDTH, Columns};
 
 impl Deck {
     /// The deck as cards, from the titles to the plot card. The final card FINI belongs to the file: [`write_file`].
@@ -37,7 +36,7 @@ impl Deck {
     }
 
     fn punch_card(&self, card: &DeckCard) -> String {
-        let mut columns = [b' '; CARD_WIDTH];
+        let mut line = String::new();
         for (name, field, number) in card.named() {
             let text = match field.format {
                 Format::Integer => format!("{:.0}", number.value),
@@ -45,9 +44,12 @@ impl Deck {
                 Format::Real => punch_real(number, field.columns.width()),
                 Format::Text => String::new(),
             };
-            place(&mut columns, field.columns, &text);
+            // at the right end of the field; what is too long, which `punch_real` prevents, is cut on the left
+            let width = usize::from(field.columns.last) - line.len();
+            let text = format!("{text:>width$}");
+            line.push_str(&text[text.len() - width..]);
         }
-        columns.iter().map(|b| char::from(*b)).collect()
+        line
     }
 }
 
@@ -61,15 +63,6 @@ pub fn write_file(decks: &[Deck]) -> Vec<u8> {
 fn push_line(text: &mut String, line: &str) {
     text.push_str(line.trim_end_matches(' '));
     text.push('\n');
-}
-
-/// Puts text at the right end of a field; what is too long is cut on the left, which [`punch_real`] prevents.
-fn place(columns: &mut [u8; CARD_WIDTH], Columns { first, last }: Columns, text: &str) {
-    let bytes = text.bytes().rev();
-    let cells = columns.iter_mut().take(usize::from(last)).skip(usize::from(first) - 1).rev();
-    for (cell, byte) in cells.zip(bytes) {
-        *cell = byte;
-    }
 }
 
 /// A number for an F field: with its point where there is room, with all its digits.

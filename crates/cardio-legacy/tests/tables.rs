@@ -26,7 +26,11 @@ fn every_number_has_a_name_of_its_own() {
     for series in SERIES.iter() {
         for card in &series.cards {
             for field in card.fields.iter().filter(|f| f.variable != "NCARD" && f.format != Format::Text) {
-                assert!(names.insert((&field.variable, format!("{:?}", card.repeat))), "{} comes twice", field.variable);
+                assert!(
+                    names.insert((&field.variable, format!("{:?}", card.repeat))),
+                    "{} comes twice",
+                    field.variable
+                );
                 numbers += 1;
             }
         }

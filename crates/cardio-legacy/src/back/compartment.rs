@@ -2,7 +2,6 @@
 
 use nalgebra::{Point3, Vector3};
 use occupant_core::material::{DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
-use occupant_core::setup::Setup;
 use occupant_core::surface::{Frame, Outline, Surface};
 
 use super::digits::{digits, factor};
@@ -26,14 +25,13 @@ pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
         }
     }
     place_points(back, polygons);
-    if let Some((surface, centre, axis)) = wheel(back.setup, layout) {
-        check_wheel(back, layout, &surface, centre, axis);
+    for surface in back.setup.surfaces.iter().filter(|surface| surface.name == layout.wheel.name) {
+        check_wheel(back, layout, surface);
     }
     let there = |name: &str| back.setup.surfaces.iter().any(|s| s.name == name);
     let kept = |number: u32| back.kept.contains_key(&format!("STIF1({number})"));
-    let numbered = (1..=25).zip(layout.names());
-    let missing: Vec<&str> =
-        numbered.filter(|(number, name)| !there(name) && !kept(*number)).map(|(_, name)| name).collect();
+    let missing = (1..=25).filter(|n| !kept(*n)).filter_map(|n| layout.name_of(n)).filter(|name| !there(name));
+    let missing: Vec<&str> = missing.collect();
     if !missing.is_empty() {
         back.misfit(format!("surfaces {} are missing: cards need all 25 surfaces", missing.join(", ")));
     }
@@ -58,15 +56,6 @@ fn read_surface(back: &mut Back<'_>, layout: &CompartmentLayout, surface: &Surfa
         }
         (Outline::Polygon(_), false) => {}
         _ => back.misfit(format!("surfaces.{name}: cards have a disc for the wheel and polygons for the others")),
-    }
-}
-
-/// The wheel's name, centre and axis.
-fn wheel(setup: &Setup, layout: &CompartmentLayout) -> Option<(String, Point3<f64>, Vector3<f64>)> {
-    let surface = setup.surfaces.iter().find(|s| s.name == layout.wheel.name)?;
-    match &surface.outline {
-        Outline::Disc { centre_m, axis, .. } => Some((surface.name.clone(), *centre_m, *axis)),
-        _ => None,
     }
 }
 
@@ -102,9 +91,9 @@ fn polygon(back: &mut Back<'_>, layout: &CompartmentLayout, surface: &Surface, n
     let count = corners.len();
     let orders = (0..count).flat_map(|start| [false, true].map(|turned| order(count, start, turned)));
     let on_their_sides =
-        orders.filter(|order| order.iter().zip(&wanted).all(|(at, corner)| on_its_side(corner, &corners[*at])));
+        orders.filter(|order| order.iter().zip(wanted).all(|(at, corner)| on_its_side(corner, &corners[*at])));
     let reading = |order: Vec<usize>| {
-        order.iter().zip(&wanted).flat_map(|(at, corner)| fields_at(corner, &corners[*at])).collect()
+        order.iter().zip(wanted).flat_map(|(at, corner)| fields_at(corner, &corners[*at])).collect()
     };
     let readings: Vec<_> = on_their_sides.map(reading).collect();
     if readings.is_empty() {
@@ -134,21 +123,23 @@ fn fields_at(corner: &Corner, place: &Point3<f64>) -> [(String, String); 3] {
 }
 
 /// Cards have no place for the wheel's; where it is not where a conversion puts it, that is lost.
-fn check_wheel(back: &mut Back<'_>, layout: &CompartmentLayout, name: &str, centre: Point3<f64>, axis: Vector3<f64>) {
+fn check_wheel(back: &mut Back<'_>, layout: &CompartmentLayout, surface: &Surface) {
+    let Outline::Disc { centre_m, axis, .. } = &surface.outline else {
+        return;
+    };
     let wheel = &layout.wheel;
     let inch = factor(unit_of("VCW"));
-    let known =
-        |name: String| back.builder.digits(&name).and_then(|d| d.parse::<f64>().ok()).unwrap_or(f64::NAN) * inch;
-    let (x, z) = (known(format!("XV({})", wheel.point)), known(format!("ZV({})", wheel.point)));
+    let known = |name: &str| back.digits(&format!("{name}({})", wheel.point)).and_then(|d| d.parse::<f64>().ok());
+    let [x, z] = ["XV", "ZV"].map(|name| known(name).unwrap_or(f64::NAN) * inch);
     let (sin, cos) = wheel.tilt_deg.to_radians().sin_cos();
-    let axis = axis / axis.norm();
-    let tilted = (axis - Vector3::new(-cos, 0.0, -sin)).norm() > SAME_PLACE;
+    let tilted = (axis / axis.norm() - Vector3::new(-cos, 0.0, -sin)).norm() > SAME_PLACE;
     let differ = |one: f64, two: f64| (one - two).abs() > SAME_PLACE * (1.0 + one.abs());
-    let moved = differ(x - wheel.behind_in * inch, centre.x) || differ(z, centre.z);
-    if moved || tilted {
-        back.misfit(format!(
+    let moved = differ(x - wheel.behind_in * inch, centre_m.x) || differ(z, centre_m.z);
+    back.misfit_if(
+        moved || tilted,
+        format!(
             "surfaces.{}: no card places the wheel; a deck has it {} in behind point {}, level with it, tilted {} degrees",
-            name, wheel.behind_in, wheel.point, wheel.tilt_deg
-        ));
-    }
+            wheel.name, wheel.behind_in, wheel.point, wheel.tilt_deg
+        ),
+    );
 }

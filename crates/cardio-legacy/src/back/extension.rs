@@ -2,16 +2,17 @@
 
 use std::collections::BTreeSet;
 
+use occupant_core::belt::Belt;
 use occupant_core::joint::Joint;
 use occupant_core::kernel::contact::PASSED;
 use occupant_core::report_coordinates::ReportCoordinates;
 use occupant_core::sample::Sample;
 
-use super::builder::DeckBuilder;
 use super::digits::{digits, factor};
 use super::unit_of;
+use crate::cards::BELTS;
 use crate::compartment::CompartmentLayout;
-use crate::deck::Deck;
+use crate::deck::{Deck, DeckCard};
 
 /// Where a run ended, as far as cards can say it. They carry no greatest deformation, so an extension by cards is approximate.
 #[derive(Debug, Clone, PartialEq)]
@@ -29,27 +30,20 @@ pub struct RunEnd {
 }
 
 impl RunEnd {
-    /// The end of a run from its first and its last sample. `first` gives β₀ where the scenario does not.
-    pub fn of(first: &Sample<'_>, last: &Sample<'_>, layout: &CompartmentLayout) -> Self {
-        Self::after(spine_rest(first), last, layout)
-    }
-
     /// The end of a run from its last sample and β₀ of the two back joints, [`spine_rest`] of the first sample.
     pub fn after(spine_rest_rad: [f64; 2], last: &Sample<'_>, layout: &CompartmentLayout) -> Self {
         let model = last.model;
-        let lengths = |sphere: &str| {
-            let belt = model
-                .setup()
-                .belts
-                .iter()
-                .position(|b| model.body().spheres.get(b.sphere).is_some_and(|s| s.name == sphere));
-            belt.and_then(|at| model.system().belts.get(at)).map(|law| law.rest_length)
+        let loops_round =
+            |belt: &Belt, sphere: &str| model.body().spheres.get(belt.sphere).is_some_and(|s| s.name == sphere);
+        let length = |sphere: &str| {
+            let at = model.setup().belts.iter().position(|belt| loops_round(belt, sphere))?;
+            Some(model.system().belts.get(at)?.rest_length)
         };
         Self {
             time_s: last.time_s,
             coordinates: last.report_coordinates(),
             spine_rest_rad,
-            belt_lengths_m: [lengths("pelvis"), lengths("chest")],
+            belt_lengths_m: BELTS.map(|(_, _, sphere)| length(sphere)),
             passed: passed(last, layout),
         }
     }
@@ -82,31 +76,27 @@ fn passed(sample: &Sample<'_>, layout: &CompartmentLayout) -> Vec<(u32, u32)> {
 impl Deck {
     /// The deck that extends this one's run from where it ended to `final_s`: NPOS = 1, series 6 and 14 in place of seating.
     pub fn extended(&self, end: &RunEnd, final_s: f64) -> Deck {
-        let mut builder = DeckBuilder::of(self);
+        let cards = self.cards().iter().filter(|card| ![4, 10].contains(&card.id.series));
+        let cards = cards.map(|card| DeckCard { line: None, raw: None, ..card.clone() });
+        let mut deck = Deck::assemble(self.titles().clone(), cards.collect(), self.plot());
+        if !deck.has_series(6) {
+            deck.add_series(6, 0);
+        }
         for (name, time_s) in [("T1", end.time_s), ("TF", final_s)] {
-            builder.set(name, &digits(time_s, unit_of(name)).0);
+            deck.set(name, &digits(time_s, unit_of(name)).0);
         }
-        builder.set("NPOS", "1");
-        builder.without_series(4);
-        builder.without_series(10);
-        builder.with_series(6);
-        for (name, angle) in ["BETA4", "BETA7"].into_iter().zip(end.spine_rest_rad) {
-            builder.set(name, &rounded(name, angle));
+        deck.set("NPOS", "1");
+        let springs = ["BETA4", "BETA7"].map(str::to_owned).into_iter().zip(end.spine_rest_rad);
+        let lengths = ["BLTLEO(1)", "BLTLEO(2)"].map(str::to_owned).into_iter().zip(end.belt_lengths_m);
+        let lengths = lengths.filter_map(|(name, length_m)| Some((name, length_m?)));
+        for (name, si) in springs.chain(lengths).chain(coordinate_fields(&end.coordinates)) {
+            deck.set(&name, &rounded(&name, si));
         }
-        for (belt, length) in [1, 2].into_iter().zip(end.belt_lengths_m) {
-            builder.clear(&format!("SLACK({belt})"));
-            let name = format!("BLTLEO({belt})");
-            if let Some(length_m) = length {
-                builder.set(&*name, &rounded(&name, length_m));
-            }
-        }
-        for (name, si) in coordinate_fields(&end.coordinates) {
-            builder.set(&*name, &rounded(&name, si));
-        }
-        builder.without_series(14);
+        deck.set("SLACK(1)", "");
+        deck.set("SLACK(2)", "");
         let pairs: Vec<_> = end.passed.iter().map(|(j, k)| (j.to_string(), k.to_string())).collect();
-        builder.set_pairs(&pairs);
-        builder.build(self.titles().clone(), self.plot())
+        deck.set_pairs(&pairs);
+        deck
     }
 }
 

@@ -37,7 +37,7 @@ fn ball(back: &mut Back<'_>, card: &Joint, joint: &BallJoint) {
                 back.set(rest, rest_rad);
             }
         }
-        (None, Some([stiffness, _])) => back.builder.set(stiffness, "0"),
+        (None, Some([stiffness, _])) => back.deck.set(stiffness, "0"),
         (None, None) => {}
     }
 }
@@ -62,8 +62,8 @@ fn stops(back: &mut Back<'_>, card: &Joint, stops: &[Option<Stop>]) {
             back.set(end, stop.full_rad);
             back.set(card.full_damping(), stop.damping_n_m_s);
         } else {
-            back.builder.set(begin, "0");
-            back.builder.set(end, "0");
+            back.deck.set(&begin, "0");
+            back.deck.set(&end, "0");
         }
     }
 }

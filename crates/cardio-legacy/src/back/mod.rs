@@ -1,7 +1,6 @@
-//! Scenario → deck, where the scenario fits one; otherwise a list of what does not.
+//! Scenario → deck, where the scenario fits one; otherwise a list of what does not. Nothing is left out in silence.
 
 mod body;
-mod builder;
 mod compartment;
 mod digits;
 mod extension;
@@ -11,6 +10,7 @@ mod path;
 mod points;
 
 use occupant_core::scenario::{Diagnostics as ScenarioDiagnostics, Loaded};
+use occupant_core::seating::InitialPosture;
 use occupant_core::setup::{EdgeForce, Integrator, Setup};
 use thiserror::Error;
 
@@ -21,7 +21,6 @@ use crate::compartment::CompartmentLayout;
 use crate::deck::{Deck, Plot};
 use crate::notes::{self, Kept};
 use crate::punched::CARD_WIDTH;
-use builder::DeckBuilder;
 
 /// A deck made from a scenario.
 #[derive(Debug, Clone, PartialEq)]
@@ -53,10 +52,7 @@ impl Deck {
     /// A scenario that is refused, or every feature of it that cards cannot hold.
     pub fn from_scenario(scenario: &Loaded, layout: Option<&CompartmentLayout>) -> Result<FromScenario, NoDeck> {
         let (setup, _) = scenario.build().map_err(|d| NoDeck::Refused(Box::new(d)))?;
-        let layout = match layout {
-            Some(layout) => layout.clone(),
-            None => CompartmentLayout::reconstruction().map_err(NoDeck::Compartment)?,
-        };
+        let layout = CompartmentLayout::or_reconstruction(layout).map_err(NoDeck::Compartment)?;
         let kept = notes::from_notes(scenario.scenario.notes.as_deref().unwrap_or_default());
         let mut back = Back::new(&setup, kept);
         times(&mut back);
@@ -73,7 +69,7 @@ impl Deck {
 struct Back<'a> {
     setup: &'a Setup,
     kept: Kept,
-    builder: DeckBuilder,
+    deck: Deck,
     /// Passed pairs (sphere, surface), by the report's numbers.
     passed: Vec<(String, String)>,
     remarks: Vec<String>,
@@ -82,7 +78,13 @@ struct Back<'a> {
 
 impl<'a> Back<'a> {
     fn new(setup: &'a Setup, kept: Kept) -> Self {
-        Self { setup, kept, builder: DeckBuilder::new(), passed: Vec::new(), remarks: Vec::new(), misfits: Vec::new() }
+        let mut deck = Deck::assemble(Default::default(), Vec::new(), Plot::None);
+        let is_seated = matches!(setup.posture, InitialPosture::Seated(_));
+        let of_start: &[u8] = if is_seated { &[4, 10] } else { &[6] };
+        for series in [3, 5, 7, 8, 9, 11].iter().chain(of_start) {
+            deck.add_series(*series, 0);
+        }
+        Self { setup, kept, deck, passed: Vec::new(), remarks: Vec::new(), misfits: Vec::new() }
     }
 
     /// Sets a field from an SI number.
@@ -94,7 +96,12 @@ impl<'a> Back<'a> {
             let exact = format!("{exact} {}", unit.symbol);
             self.remarks.push(format!("{name}: {exact} does not fit into ten columns and was rounded to {digits}"));
         }
-        self.builder.set(name, &digits);
+        self.deck.set(&name, &digits);
+    }
+
+    /// The digits of a field, if it has been set.
+    fn digits(&self, name: &str) -> Option<&str> {
+        self.deck.number(name).filter(|number| !number.blank).map(|number| number.digits.as_str())
     }
 
     /// Sets fields from SI numbers.
@@ -105,7 +112,7 @@ impl<'a> Back<'a> {
     /// Sets a field that has to be the same wherever the scenario says it.
     fn agree(&mut self, name: &str, si: f64, where_said: &str) {
         let (digits, _) = digits::digits(si, unit_of(name));
-        match self.builder.digits(name).map(str::to_owned) {
+        match self.digits(name).map(str::to_owned) {
             None => self.set(name, si),
             Some(before) if before == digits || before.parse::<f64>() == digits.parse::<f64>() => {}
             Some(before) => self.misfit(format!(
@@ -131,7 +138,8 @@ impl<'a> Back<'a> {
         let titles = self.titles();
         let plot = self.kept.get(notes::PLOT).and_then(|word| Plot::of_word(word)).unwrap_or(Plot::None);
         self.keep();
-        Ok(FromScenario { deck: self.builder.build(titles, plot), remarks: self.remarks })
+        let cards = self.deck.cards().to_vec();
+        Ok(FromScenario { deck: Deck::assemble(titles, cards, plot), remarks: self.remarks })
     }
 
     fn titles(&mut self) -> [String; 2] {
@@ -155,22 +163,22 @@ impl<'a> Back<'a> {
                     let at = place.saturating_sub(1).min(pairs.len());
                     pairs.insert(at, (sphere.to_owned(), surface.to_owned()));
                 }
-            } else if notes::is_kept_field(name) && !self.builder.has(name) {
-                self.builder.set(name, value);
+            } else if notes::is_kept_field(name) && self.digits(name).is_none() {
+                self.deck.set(name, value);
             }
         }
-        self.builder.set_pairs(&pairs);
+        self.deck.set_pairs(&pairs);
         for (name, value, why) in
             [("NDISK", "1", "no plot data on disk"), ("XV(14)", "0", "point 14 bounds no surface")]
         {
-            if !self.builder.has(name) {
-                self.builder.set(name, value);
+            if self.digits(name).is_none() {
+                self.deck.set(name, value);
                 self.remarks.push(format!("{name} = {value}: {why}"));
             }
         }
-        if !self.builder.has("ZV(14)") {
-            let floor = self.builder.digits("ZV(8)").unwrap_or("0").to_owned();
-            self.builder.set("ZV(14)", &floor);
+        if self.digits("ZV(14)").is_none() {
+            let floor = self.digits("ZV(8)").unwrap_or("0").to_owned();
+            self.deck.set("ZV(14)", &floor);
         }
     }
 }

@@ -9,29 +9,29 @@ use crate::cards::{BELTS, POSTURE, SEATS};
 use crate::compartment::CompartmentLayout;
 
 pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
+    let joints = &back.setup.joints;
+    let springs = [("upper_back", joints.upper_back.spring), ("lower_back", joints.lower_back.spring)];
     match &back.setup.posture {
         InitialPosture::Seated(seating) => {
-            back.builder.set("NPOS", "0");
-            back.builder.with_series(4);
-            back.builder.with_series(10);
+            back.deck.set("NPOS", "0");
             seated(back, layout, seating);
-            velocity(back);
-            let rest = [back.setup.joints.upper_back, back.setup.joints.lower_back]
-                .iter()
-                .any(|j| j.spring.is_some_and(|s| s.rest_rad.is_some()));
-            back.misfit_if(rest, "joints.*.rest_angle beside a posture: cards take β₀ from the posture if NPOS = 0");
+            match back.setup.velocity {
+                InitialVelocity::Given(v) => back.set_all([("VXVC", v.x), ("VYVC", v.y), ("VZVC", v.z)]),
+                _ => back.misfit(
+                    "posture.velocity is not given: cards need the occupant's velocity in vehicle axes (series 4)",
+                ),
+            }
+            back.misfit_if(
+                springs.iter().any(|(_, spring)| spring.is_some_and(|s| s.rest_rad.is_some())),
+                "joints.*.rest_angle beside a posture: cards take β₀ from the posture if NPOS = 0",
+            );
         }
         InitialPosture::Coordinates(coordinates) | InitialPosture::Continued { coordinates, .. } => {
-            back.builder.set("NPOS", "1");
-            back.builder.with_series(6);
+            back.deck.set("NPOS", "1");
             coordinate_fields(coordinates).for_each(|(name, si)| back.set(name, si));
-            for (joint, spring) in [
-                ("upper_back", back.setup.joints.upper_back.spring),
-                ("lower_back", back.setup.joints.lower_back.spring),
-            ] {
-                let open = spring.is_some_and(|s| s.rest_rad.is_none());
+            for (joint, spring) in springs {
                 back.misfit_if(
-                    open,
+                    spring.is_some_and(|s| s.rest_rad.is_none()),
                     format!("joints.{joint} without rest_angle: a deck with NPOS = 1 needs β₀ (BETA4, BETA7)"),
                 );
             }
@@ -46,9 +46,8 @@ pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
 /// Passed pairs by the report's numbers.
 fn passed_on(back: &mut Back<'_>, layout: &CompartmentLayout, passed: &[(usize, usize)]) {
     for &(sphere, surface) in passed {
-        let name = back.setup.surfaces.get(surface).map(|s| s.name.clone());
-        let name = name.unwrap_or_default();
-        match layout.number_of(&name) {
+        let name = back.setup.surfaces.get(surface).map_or("", |s| &s.name);
+        match layout.number_of(name) {
             Some(number) => back.passed.push(((sphere + 1).to_string(), number.to_string())),
             None => back.misfit(format!("initial_state.passed names {name}, which is none of the 25 surfaces")),
         }
@@ -59,14 +58,14 @@ fn seated(back: &mut Back<'_>, layout: &CompartmentLayout, seating: &Seating) {
     back.misfit_if(seating.settle, "posture.settle: cards have no settling");
     let number = |at: usize| back.setup.surfaces.get(at).and_then(|s| layout.number_of(&s.name));
     let (cushion, rest) = (number(seating.cushion), number(seating.back));
-    let right_hand_drive = back.builder.digits("SWP").is_some_and(|d| d.starts_with('-'));
+    let right_hand_drive = back.digits("SWP").is_some_and(|d| d.starts_with('-'));
     let is_left = (seating.lateral_m < 0.0) != right_hand_drive;
     let is_seat = |at: &usize| Some(SEATS[*at].cushion) == cushion && Some(SEATS[*at].back) == rest;
     let mut seats = (0..SEATS.len()).filter(is_seat);
     let seat = kept_seat(back).filter(is_seat).or_else(|| seats.find(|at| SEATS[*at].is_left == is_left));
     let is_left = seat.map_or(is_left, |at| SEATS[at].is_left);
     match seat {
-        Some(at) => back.builder.set("NOPTSP", &(at + 1).to_string()),
+        Some(at) => back.deck.set("NOPTSP", &(at + 1).to_string()),
         None => back.misfit(
             "posture.seat: cards have driver, right front, left rear and right rear on the front and rear seats",
         ),
@@ -86,19 +85,11 @@ fn kept_seat(back: &Back<'_>) -> Option<usize> {
     (0..SEATS.len()).find(|at| digits.parse() == Ok((at + 1) as f64))
 }
 
-fn velocity(back: &mut Back<'_>) {
-    match back.setup.velocity {
-        InitialVelocity::Given(v) => back.set_all([("VXVC", v.x), ("VYVC", v.y), ("VZVC", v.z)]),
-        InitialVelocity::WithVehicle | InitialVelocity::VehicleOrigin => {
-            back.misfit("posture.velocity is not given: cards need the occupant's velocity in vehicle axes (series 4)");
-        }
-    }
-}
-
 fn belts(back: &mut Back<'_>) {
     let setup = back.setup;
     let exact = !matches!(setup.posture, InitialPosture::Seated(_));
     let mut used = 0;
+    back.deck.add_series(13, 0);
     for belt in &setup.belts {
         let sphere = setup.body.spheres.get(belt.sphere).map_or("", |s| s.name.as_str());
         match BELTS.iter().find(|b| b.2 == sphere) {
@@ -110,9 +101,9 @@ fn belts(back: &mut Back<'_>) {
             None => back.misfit(format!("belts.{}: the cards' belts loop round pelvis and chest", belt.name)),
         }
     }
-    if used > 0 {
-        back.builder.with_series(13);
-        back.builder.set("NOPBLT", &used.to_string());
+    back.deck.set("NOPBLT", &used.to_string());
+    if used == 0 {
+        back.deck.remove_series(13);
     }
 }
 

@@ -7,14 +7,13 @@ use super::Back;
 pub(super) fn read(back: &mut Back<'_>) {
     let setup = back.setup;
     if let Some(stations) = back.kept.get("MREAD").filter(|d| d.parse::<f64>().is_ok_and(|v| v > 0.0)).cloned() {
-        back.builder.set("MREAD", &stations);
+        back.deck.set("MREAD", &stations);
         back.remarks.push(format!(
             "MREAD = {stations} as in the deck that the scenario came from: the path stays outside the cards"
         ));
         return;
     }
-    back.builder.set("MREAD", "0");
-    back.builder.with_series(12);
+    back.deck.set("MREAD", "0");
     match &setup.path {
         VehiclePath::Table(table) => read_table(back, table),
         VehiclePath::Fixed(path) => {
@@ -43,7 +42,8 @@ fn read_table(back: &mut Back<'_>, table: &TablePath) {
 }
 
 fn stations(back: &mut Back<'_>, stations: &[Station]) {
-    back.builder.set("NVPOS", &stations.len().to_string());
+    back.deck.add_series(12, u32::try_from(stations.len()).unwrap_or(u32::MAX));
+    back.deck.set("NVPOS", &stations.len().to_string());
     for (n, station) in (1..).zip(stations) {
         let (place, attitude) = (station.pose.position_m, station.pose.attitude);
         for (name, si) in [

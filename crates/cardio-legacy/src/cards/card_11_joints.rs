@@ -5,12 +5,13 @@ use super::field::{Field, INCH_PER_SECOND_SQUARED, RADIAN, ROTARY_DAMPING, ROTAR
 use crate::rule::Rule;
 
 /// A kind of joint: the letters with which its fields end (XJN damping, XJS damping at the full stop, AGN and AGS angles where
-/// the stop begins and is full), and its name in scenarios. Elbows and knees are hinges with two stops, indexed (1) and (2).
+/// the stop begins and is full), and its name in scenarios.
 pub(crate) struct Joint {
     pub letters: &'static str,
     pub key: &'static str,
     /// Stiffness and rest angle of the spring, of the two joints that have one.
     pub spring: Option<[&'static str; 2]>,
+    /// Elbows and knees are hinges with two stops, indexed (1) and (2).
     pub is_hinge: bool,
 }
 
@@ -44,70 +45,73 @@ impl Joint {
 }
 
 pub(super) fn series() -> SeriesLayout {
-    let [neck, shoulder, upper_back, lower_back, hip, elbow, knee] = &JOINTS;
-    let elbow_stops = [("closing", ", about −130°"), ("straightening", ", about −10°")];
-    let knee_stops = [("straightening", ", about 0°"), ("closing", ", about 140°")];
-    let mut fields = Vec::new();
-    fields.extend(ball(neck, "the neck", "neck"));
-    fields.extend(ball(shoulder, "a shoulder", "shoulder"));
-    fields.extend(ball(upper_back, "the upper back", "upper back"));
-    fields.extend(ball(lower_back, "the lower back", "lower back"));
-    fields.extend(ball(hip, "a hip", "hip"));
-    fields.extend(hinge(elbow, "an elbow", "elbow", elbow_stops));
-    fields.extend(hinge(knee, "a knee", "knee", knee_stops));
-    for joint in [upper_back, lower_back] {
-        fields.extend(spring(joint));
-    }
-    fields.push(gravity());
-    let further = fields.split_off(7);
-    SeriesLayout::new(11, "joints and gravity").first(11, "7F10.0,I10", fields).then("8F10.0", further)
+    let springs_and_gravity = [
+        spring("SPJNT4", "stiffness of the spine's spring in the upper back").key("joints.upper_back.stiffness"),
+        spring("SPJNT7", "stiffness of the spine's spring in the lower back").key("joints.lower_back.stiffness"),
+        gravity(),
+    ];
+    let mut fields = balls().into_iter().chain(hinges()).chain(springs_and_gravity);
+    SeriesLayout::new(11, "joints and gravity").first(11, "7F10.0,I10", fields.by_ref().take(7)).then("8F10.0", fields)
 }
 
-fn damping(variable: String, meaning: String) -> Field {
+fn balls() -> [Field; 20] {
+    [
+        damping("XJNN", "damping of the neck").key("joints.neck.damping"),
+        angle("AGSN", "neck: angle of the full stop"),
+        damping("XJSN", "neck: damping at AGSN"),
+        angle("AGNN", "neck: angle where damping begins to grow"),
+        damping("XJNS", "damping of a shoulder").key("joints.shoulders.damping"),
+        angle("AGSS", "shoulder: angle of the full stop"),
+        damping("XJSS", "shoulder: damping at AGSS"),
+        angle("AGNS", "shoulder: angle where damping begins to grow"),
+        damping("XJNUB", "damping of the upper back").key("joints.upper_back.damping"),
+        angle("AGSUB", "upper back: angle of the full stop"),
+        damping("XJSUB", "upper back: damping at AGSUB"),
+        angle("AGNUB", "upper back: angle where damping begins to grow"),
+        damping("XJNLB", "damping of the lower back").key("joints.lower_back.damping"),
+        angle("AGSLB", "lower back: angle of the full stop"),
+        damping("XJSLB", "lower back: damping at AGSLB"),
+        angle("AGNLB", "lower back: angle where damping begins to grow"),
+        damping("XJNH", "damping of a hip").key("joints.hips.damping"),
+        angle("AGSH", "hip: angle of the full stop"),
+        damping("XJSH", "hip: damping at AGSH"),
+        angle("AGNH", "hip: angle where damping begins to grow"),
+    ]
+}
+
+fn hinges() -> [Field; 12] {
+    [
+        damping("XJNE", "damping of an elbow").key("joints.elbows.damping"),
+        negative(angle("AGSE(1)", "elbow: full stop when closing, about −130°")),
+        angle("AGSE(2)", "elbow: full stop when straightening, about −10°"),
+        damping("XJSE", "elbow: damping at AGSE(1) and AGSE(2)"),
+        negative(angle("AGNE(1)", "elbow: angle where damping begins to grow when closing")),
+        angle("AGNE(2)", "elbow: angle where damping begins to grow when straightening"),
+        damping("XJNK", "damping of a knee").key("joints.knees.damping"),
+        angle("AGSK(1)", "knee: full stop when straightening, about 0°"),
+        angle("AGSK(2)", "knee: full stop when closing, about 140°"),
+        damping("XJSK", "knee: damping at AGSK(1) and AGSK(2)"),
+        angle("AGNK(1)", "knee: angle where damping begins to grow when straightening"),
+        angle("AGNK(2)", "knee: angle where damping begins to grow when closing"),
+    ]
+}
+
+fn damping(variable: &str, meaning: &str) -> Field {
     field(variable, ROTARY_DAMPING, meaning).not_negative("a damping takes energy away")
 }
 
-fn ball(joint: &Joint, of: &str, name: &str) -> Vec<Field> {
-    let mut fields =
-        vec![damping(joint.damping(), format!("damping of {of}")).key(format!("joints.{}.damping", joint.key))];
-    for [begin, full] in joint.stops() {
-        fields.push(field(&*full, RADIAN, format!("{name}: angle of the full stop")).radians());
-        fields.push(damping(joint.full_damping(), format!("{name}: damping at {full}")));
-        fields.push(field(begin, RADIAN, format!("{name}: angle where damping begins to grow")).radians());
-    }
-    fields
+fn angle(variable: &str, meaning: &str) -> Field {
+    field(variable, RADIAN, meaning).radians()
 }
 
-/// Two angles of the full stops, the damping there, and two angles where it begins to grow; `ways` says when each is met.
-fn hinge(joint: &Joint, of: &str, name: &str, ways: [(&str, &str); 2]) -> Vec<Field> {
-    let stops = joint.stops();
-    let angle = |variable: &str, meaning: String| {
-        let angle = field(variable, RADIAN, meaning).radians();
-        // The first stop of an elbow is met at −130°.
-        if !variable.ends_with("E(1)") {
-            return angle;
-        }
-        angle
-            .wrong_if(Rule::Unlikely, |v| v > 0.0, "elbows bend towards negative angles")
-            .expected("about −130° in radians, −2.27", "look for a missing minus sign")
-    };
-    let mut fields =
-        vec![damping(joint.damping(), format!("damping of {of}")).key(format!("joints.{}.damping", joint.key))];
-    for ([_, full], (way, about)) in stops.iter().zip(ways) {
-        fields.push(angle(full, format!("{name}: full stop when {way}{about}")));
-    }
-    fields.push(damping(joint.full_damping(), format!("{name}: damping at {} and {}", stops[0][1], stops[1][1])));
-    for ([begin, _], (way, _)) in stops.iter().zip(ways) {
-        fields.push(angle(begin, format!("{name}: angle where damping begins to grow when {way}")));
-    }
-    fields
+fn negative(angle: Field) -> Field {
+    angle
+        .wrong_if(Rule::Unlikely, |v| v > 0.0, "elbows bend towards negative angles")
+        .expected("about −130° in radians, −2.27", "look for a missing minus sign")
 }
 
-fn spring(joint: &Joint) -> Option<Field> {
-    let [stiffness, _] = joint.spring?;
-    let place = joint.key.replace('_', " ");
-    let spring = field(stiffness, ROTARY_STIFFNESS, format!("stiffness of the spine's spring in the {place}"));
-    Some(spring.key(format!("joints.{}.stiffness", joint.key)).not_negative("stiffness of a spring"))
+fn spring(variable: &str, meaning: &str) -> Field {
+    field(variable, ROTARY_STIFFNESS, meaning).not_negative("stiffness of a spring")
 }
 
 fn gravity() -> Field {

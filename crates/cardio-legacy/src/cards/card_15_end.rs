@@ -2,9 +2,9 @@
 
 use super::SeriesLayout;
 
-/// Card number that ends the numbers of a deck.
-pub(crate) const TERMINATOR: u32 = 1000;
+/// The series that ends the numbers of a deck.
+pub(crate) const END_OF_NUMBERS: u8 = 15;
 
 pub(super) fn series() -> SeriesLayout {
-    SeriesLayout::new(15, "end of the numbers").first(TERMINATOR, "70X,I10", [])
+    SeriesLayout::new(END_OF_NUMBERS, "end of the numbers").first(1000, "70X,I10", [])
 }

@@ -3,7 +3,7 @@
 //! An entry holds the report's name of a variable, its unit, what it means, the bounds outside of which it is doubted, and the
 //! scenario's key where there is a single one. Columns and kind of a field come from the card's FORTRAN format. Reader, checks,
 //! conversion both ways, writer and `docs/cards.md` use this table and no other. Where the report slips, the entry holds what is
-//! right and `docs/cards.md` says what the report prints.
+//! right and `docs/cards.md` says what the report prints. Nothing here reads a card or reports a problem.
 
 mod card_01_titles;
 mod card_03_times;
@@ -30,7 +30,7 @@ pub(crate) use card_03_times::{Need, need};
 pub(crate) use card_10_seating::{POSTURE, SEATS};
 pub(crate) use card_11_joints::{JOINTS, Joint};
 pub(crate) use card_13_belts::BELTS;
-pub(crate) use card_15_end::TERMINATOR;
+pub(crate) use card_15_end::END_OF_NUMBERS;
 pub(crate) use field::NCARD;
 pub use field::{Field, Format, Unit};
 pub use markdown::tables_as_markdown;
@@ -137,6 +137,12 @@ impl fmt::Display for CardId {
             Some(number) => write!(f, " no. {number}"),
             None => Ok(()),
         }
+    }
+}
+
+impl fmt::Display for SeriesLayout {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "series {} ({})", self.number, self.title)
     }
 }
 

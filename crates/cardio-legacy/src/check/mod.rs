@@ -1,7 +1,7 @@
 //! Whether the numbers of a deck can be a body in a car: the table's bounds, then sums, contradictions, units.
 //!
 //! A field that could not be read is NaN here, and every check asks for the violation (`a > b`), so that an unreadable number
-//! is reported once and not again.
+//! is reported once and not again. A check changes no number.
 
 mod body;
 mod compartment;
@@ -46,7 +46,7 @@ struct Pending<'a> {
 impl Pending<'_> {
     fn expected(self, expected: &str, remedy: &str) {
         if let Some(problem) = self.problem {
-            self.sink.report(problem.expected(expected).remedy(remedy));
+            problem.expected(expected).remedy(remedy).report(self.sink);
         }
     }
 }
@@ -64,30 +64,21 @@ impl Check<'_> {
 
     /// A problem of one number.
     fn problem(&mut self, rule: Rule, name: impl AsRef<str>, message: impl Into<String>) -> Pending<'_> {
-        self.problem_if(true, rule, name, |_| message.into())
+        let problem = Diagnostic::new(rule, message).variable(name.as_ref());
+        let problem = match self.deck.place_of(name.as_ref()) {
+            Some((card, field)) => problem.on_card_of_deck(card).at(field.columns),
+            None => problem,
+        };
+        Pending { sink: self.sink, problem: Some(problem) }
     }
 
     /// A problem of one number if `violated`; the message says the number first.
     fn wrong_if(&mut self, violated: bool, rule: Rule, name: impl AsRef<str>, message: impl Display) -> Pending<'_> {
-        self.problem_if(violated, rule, &name, |digits| format!("{} = {digits}: {message}", name.as_ref()))
-    }
-
-    fn problem_if(
-        &mut self,
-        violated: bool,
-        rule: Rule,
-        name: impl AsRef<str>,
-        message: impl FnOnce(&str) -> String,
-    ) -> Pending<'_> {
-        let name = name.as_ref();
-        let problem = violated.then(|| {
-            let problem = Diagnostic::new(rule, message(self.digits(name))).variable(name);
-            match self.deck.place_of(name) {
-                Some((card, field)) => problem.on_card_of_deck(card).at(field.columns),
-                None => problem,
-            }
-        });
-        Pending { sink: self.sink, problem }
+        if !violated {
+            return Pending { sink: self.sink, problem: None };
+        }
+        let message = format!("{} = {}: {message}", name.as_ref(), self.digits(&name));
+        self.problem(rule, name, message)
     }
 
     /// The bounds of the table, for all numbers that have an effect.
@@ -111,6 +102,6 @@ impl Check<'_> {
         let more = if blanks.len() > LISTED { format!(" and {} more", blanks.len() - LISTED) } else { String::new() };
         let listed: Vec<_> = blanks.iter().take(LISTED).map(String::as_str).collect();
         let message = format!("{} blank fields were read as zero: {}{more}", blanks.len(), listed.join(", "));
-        self.sink.report(Diagnostic::new(Rule::BlankIsZero, message).at_line(first_line));
+        Diagnostic::new(Rule::BlankIsZero, message).at_line(first_line).report(self.sink);
     }
 }

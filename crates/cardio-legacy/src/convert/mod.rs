@@ -91,10 +91,8 @@ impl Deck {
     /// # Errors
     /// A path that is missing or unreadable, numbers without counterpart, a scenario that the format refuses.
     pub fn to_scenario(&self, options: &ConvertOptions) -> Result<Conversion, ConversionError> {
-        let layout = match &options.compartment {
-            Some(layout) => layout.clone(),
-            None => CompartmentLayout::reconstruction().map_err(ConversionError::Compartment)?,
-        };
+        let layout = CompartmentLayout::or_reconstruction(options.compartment.as_ref());
+        let layout = layout.map_err(ConversionError::Compartment)?;
         let path = path::read(self, options.path.as_ref())?;
         let mut writer = Writer::new(self);
         head::write(&mut writer, options, &layout)?;

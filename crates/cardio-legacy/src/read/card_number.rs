@@ -22,6 +22,16 @@ pub(super) enum CardNumber {
     Other(String),
 }
 
+impl CardNumber {
+    /// The series that the number names.
+    pub(super) fn series(&self) -> Option<&'static SeriesLayout> {
+        match self {
+            Self::Series(series) | Self::ByFormat(series) | Self::Misplaced { series, .. } => Some(series),
+            Self::Blank | Self::Other(_) => None,
+        }
+    }
+}
+
 /// Reads the card number of a card on which a series should begin.
 pub(super) fn card_number(card: &PunchedCard) -> CardNumber {
     let text = card.text_of(NCARD);
@@ -48,12 +58,7 @@ pub(super) fn card_number(card: &PunchedCard) -> CardNumber {
 
 /// The series that a card's number names, wherever in its columns it stands.
 pub(super) fn series_by_number(card: &PunchedCard) -> Option<&'static SeriesLayout> {
-    match card_number(card) {
-        CardNumber::Series(series) | CardNumber::ByFormat(series) | CardNumber::Misplaced { series, .. } => {
-            Some(series)
-        }
-        CardNumber::Blank | CardNumber::Other(_) => None,
-    }
+    card_number(card).series()
 }
 
 fn with_number(value: f64) -> Option<&'static SeriesLayout> {

@@ -9,9 +9,9 @@ use crate::rule::Rule;
 /// Reports missing, surplus and doubled series and cards; true if the deck has all that it needs.
 pub(super) fn check_completeness(read: &SeriesRead, first_line: usize, sink: &mut Sink) -> bool {
     let before = sink.errors();
-    let switch =
-        |place: usize| read.get(&3).and_then(|c| c.first()).and_then(|c| c.numbers.get(place)).map(|n| n.value);
-    let (mread, npos) = (switch(4), switch(5));
+    let card_3 = read.get(&3).and_then(|cards| cards.first());
+    let switch = |name: &str| card_3?.named().find(|(n, ..)| n == name).map(|(_, _, number)| number.value);
+    let (mread, npos) = (switch("MREAD"), switch("NPOS"));
     for series in SERIES.iter().filter(|s| (3..15).contains(&s.number)) {
         match (need(series.number, mread, npos), read.get(&series.number)) {
             (Need::Needed, None) => report_missing(series, read, first_line, sink),
@@ -41,13 +41,11 @@ fn report_missing(series: &SeriesLayout, read: &SeriesRead, first_line: usize, s
         None => "it should stand behind the titles".to_owned(),
     };
     let ncard = series.ncard.unwrap_or_default();
-    sink.report(
-        Diagnostic::new(Rule::SeriesMissing, format!("series {} ({}) is missing{why}", series.number, series.title))
-            .at_line(line)
-            .in_card(CardId::first_of(series))
-            .expected(format!("{place} and begin with a card that has {ncard} at the end of columns 71–80"))
-            .remedy("add the cards, or punch the card number if they are there"),
-    );
+    Diagnostic::new(Rule::SeriesMissing, format!("{series} is missing{why}"))
+        .at_line(line)
+        .in_card(CardId::first_of(series))
+        .expected(format!("{place} and begin with a card that has {ncard} at the end of columns 71–80"))
+        .report(sink);
 }
 
 fn report_unused(series: &SeriesLayout, cards: &[DeckCard], sink: &mut Sink) {
@@ -57,8 +55,7 @@ fn report_unused(series: &SeriesLayout, cards: &[DeckCard], sink: &mut Sink) {
         14 => "NPOS = 0 seats the occupant, and there is no run to extend",
         _ => "MREAD ≠ 0 takes the path from elsewhere",
     };
-    let message = format!("series {} ({}) is not used: {why}", series.number, series.title);
-    sink.report(on_first(Diagnostic::new(Rule::SeriesUnused, message), cards));
+    on_first(Diagnostic::new(Rule::SeriesUnused, format!("{series} is not used: {why}")), cards).report(sink);
 }
 
 fn check_each_once(series: &SeriesLayout, layout: &CardLayout, count: u32, cards: &[DeckCard], sink: &mut Sink) {
@@ -73,24 +70,20 @@ fn check_each_once(series: &SeriesLayout, layout: &CardLayout, count: u32, cards
         }
         let line = first.and_then(|c| c.line).unwrap_or_default();
         for again in found {
-            sink.report(
-                Diagnostic::new(Rule::IndexTwice, format!("{variable} = {number} has been read at line {line}"))
-                    .on_card_of_deck(again)
-                    .at(index.columns)
-                    .variable(variable)
-                    .expected("each number once")
-                    .remedy("correct the number of one of the two cards"),
-            );
+            Diagnostic::new(Rule::IndexTwice, format!("{variable} = {number} has been read at line {line}"))
+                .on_card_of_deck(again)
+                .in_field(index)
+                .expected("each number once")
+                .remedy("correct the number of one of the two cards")
+                .report(sink);
         }
     }
     if !missing.is_empty() {
         let message = format!("no card for {variable} = {}", missing.join(", "));
-        sink.report(
-            on_first(Diagnostic::new(Rule::IndexMissing, message), cards)
-                .in_card(CardId { series: series.number, letter: layout.letter, number: None })
-                .expected(format!("a card for each number from 1 to {count}"))
-                .remedy("add the cards, or correct their numbers"),
-        );
+        on_first(Diagnostic::new(Rule::IndexMissing, message), cards)
+            .in_card(CardId { series: series.number, letter: layout.letter, number: None })
+            .expected(format!("a card for each number from 1 to {count}"))
+            .report(sink);
     }
 }
 

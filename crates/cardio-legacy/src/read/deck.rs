@@ -2,16 +2,15 @@
 
 use super::card_number::{CardNumber, card_number, looks_like_first_card, series_by_number};
 use super::complete::check_completeness;
-use super::series::{is_word, read_series};
+use super::series::{begins_something, is_word, read_series};
 use super::{PLOT_SERIES, Reader, SeriesRead, WORD, starts_with_fini};
-use crate::cards::{CardId, NCARD, SeriesLayout, series};
+use crate::cards::{CardId, END_OF_NUMBERS, NCARD, SeriesLayout, series};
 use crate::check::check_deck;
 use crate::deck::{Deck, Plot};
 use crate::diagnostics::Diagnostic;
 use crate::punched::PunchedCard;
 use crate::rule::Rule;
 
-const TERMINATOR_SERIES: u8 = 15;
 /// How many cards are searched for the third one when the titles are not where they should be.
 const TITLE_SEARCH: usize = 8;
 
@@ -54,12 +53,11 @@ impl Reader<'_> {
             (Rule::UnexpectedCard, "remove the cards between the titles and series 3")
         };
         let cards = if found == 1 { "card stands" } else { "cards stand" };
-        self.sink.report(
-            Diagnostic::new(rule, format!("{found} {cards} before the first card with a card number"))
-                .on(third)
-                .expected("exactly two title cards at the beginning of a deck")
-                .remedy(remedy),
-        );
+        Diagnostic::new(rule, format!("{found} {cards} before the first card with a card number"))
+            .on(third)
+            .expected("exactly two title cards at the beginning of a deck")
+            .remedy(remedy)
+            .report(self.sink);
     }
 
     /// The series with a card number, up to and with the card 1000.
@@ -67,23 +65,19 @@ impl Reader<'_> {
         let mut read = SeriesRead::new();
         let mut highest = 2;
         loop {
-            let Some(card) = self.card() else {
-                self.report_truncated();
+            let Some(card) = self.card().filter(|card| !is_word(card)) else {
+                self.report_no_end();
                 return read;
             };
-            if is_word(card) {
-                self.report_no_terminator(card);
-                return read;
-            }
             let Some(series) = self.series_here(card, highest, &read) else {
                 self.skip_unexpected(highest);
                 continue;
             };
             self.report_order(card, series, highest, &read);
-            let (cards, taken) = read_series(self.cards, self.at, series, self.sink);
+            let (cards, taken) = read_series(&self.cards[self.at..], series, self.sink);
             self.at += taken;
             read.insert(series.number, cards);
-            if series.number == TERMINATOR_SERIES {
+            if series.number == END_OF_NUMBERS {
                 return read;
             }
             highest = highest.max(series.number);
@@ -92,16 +86,14 @@ impl Reader<'_> {
 
     /// The series that begins with this card: by its number, or, where that is blank, by its place.
     fn series_here(&self, card: &PunchedCard, highest: u8, read: &SeriesRead) -> Option<&'static SeriesLayout> {
-        match card_number(card) {
-            CardNumber::Series(_) | CardNumber::ByFormat(_) | CardNumber::Misplaced { .. } => series_by_number(card),
-            CardNumber::Other(_) => None,
-            CardNumber::Blank => {
-                let next = series(highest + 1).filter(|s| s.ncard.is_some() && !read.contains_key(&s.number))?;
-                let behind = self.at + 1 + next.cards_behind_first()?;
-                let follows = self.cards.get(behind).is_some_and(|c| looks_like_first_card(c).is_some());
-                (follows && !card.is_blank()).then_some(next)
-            }
+        let number = card_number(card);
+        if !matches!(number, CardNumber::Blank) {
+            return number.series();
         }
+        let next = series(highest + 1).filter(|s| s.ncard.is_some() && !read.contains_key(&s.number))?;
+        let behind = self.at + 1 + next.cards_behind_first()?;
+        let follows = self.cards.get(behind).is_some_and(|c| looks_like_first_card(c).is_some());
+        (follows && !card.is_blank()).then_some(next)
     }
 
     fn report_order(&mut self, card: &PunchedCard, series: &SeriesLayout, highest: u8, read: &SeriesRead) {
@@ -109,20 +101,13 @@ impl Reader<'_> {
         let finding = |rule, message: String| Diagnostic::new(rule, message).on(card).in_card(id).at(NCARD);
         if let Some(earlier) = read.get(&series.number) {
             let line = earlier.first().and_then(|c| c.line).unwrap_or_default();
-            self.sink.report(
-                finding(
-                    Rule::SeriesTwice,
-                    format!("series {} ({}) has been read at line {line}", series.number, series.title),
-                )
+            finding(Rule::SeriesTwice, format!("{series} has been read at line {line}"))
                 .expected("each series once")
-                .remedy("remove one of the two; in lenient reading the later one counts, as it did in the program"),
-            );
+                .report(self.sink);
         } else if series.number < highest {
-            self.sink.report(
-                finding(Rule::OutOfOrder, format!("series {} stands behind series {highest}", series.number))
-                    .expected("the series in the order of their numbers")
-                    .remedy("sort the deck; the card number says which series it is, and so it was read"),
-            );
+            finding(Rule::OutOfOrder, format!("series {} stands behind series {highest}", series.number))
+                .expected("the series in the order of their numbers")
+                .report(self.sink);
         }
     }
 
@@ -130,8 +115,7 @@ impl Reader<'_> {
     fn skip_unexpected(&mut self, highest: u8) {
         let here = &self.cards[self.at..];
         let Some(first) = here.first() else { return };
-        let begins = |card: &PunchedCard| looks_like_first_card(card).is_some() || is_word(card);
-        let count = here.iter().skip(1).position(begins).map_or(here.len(), |place| place + 1);
+        let count = here.iter().skip(1).position(begins_something).map_or(here.len(), |place| place + 1);
         let last = here.get(count - 1).map_or(first.line, |c| c.line);
         let lines =
             if count == 1 { "this card belongs".into() } else { format!("lines {} to {last} belong", first.line) };
@@ -140,34 +124,26 @@ impl Reader<'_> {
             _ => "columns 71–80 are blank".to_owned(),
         };
         let after = if highest > 2 { format!(" behind series {highest}") } else { String::new() };
-        self.sink.report(
-            Diagnostic::new(Rule::UnexpectedCard, format!("{lines} to no series{after}: {number}"))
-                .on(first)
-                .at(NCARD)
-                .expected("the first card of a series, with its number ending in column 80, or the card 1000")
-                .remedy("look for a surplus card, a missing first card or a wrong card number"),
-        );
+        Diagnostic::new(Rule::UnexpectedCard, format!("{lines} to no series{after}: {number}"))
+            .on(first)
+            .at(NCARD)
+            .expected("the first card of a series, with its number ending in column 80, or the card 1000")
+            .remedy("look for a surplus card, a missing first card or a wrong card number")
+            .report(self.sink);
         self.at += count;
     }
 
-    fn report_truncated(&mut self) {
-        if let Some(last) = self.cards.last() {
-            self.sink.report(
-                Diagnostic::new(Rule::Truncated, "the file ends inside a deck")
-                    .on(last)
-                    .expected("the rest of the deck, a card 1000, a plot card and FINI")
-                    .remedy("look for the missing end of the file"),
-            );
+    /// Reports that the numbers end without a card 1000, before a word or with the file.
+    fn report_no_end(&mut self) {
+        let truncated = Diagnostic::new(Rule::Truncated, "the file ends inside a deck")
+            .expected("the rest of the deck, a card 1000, a plot card and FINI");
+        let no_terminator = Diagnostic::new(Rule::NoTerminator, "the numbers end without the card 1000 (series 15)")
+            .expected("a card with 1000 in columns 77–80 before this one");
+        match (self.card(), self.cards.last()) {
+            (Some(word), _) => no_terminator.on(word).report(self.sink),
+            (None, Some(last)) => truncated.on(last).report(self.sink),
+            (None, None) => {}
         }
-    }
-
-    fn report_no_terminator(&mut self, card: &PunchedCard) {
-        self.sink.report(
-            Diagnostic::new(Rule::NoTerminator, "the numbers end without the card 1000 (series 15)")
-                .on(card)
-                .expected("a card with 1000 in columns 77–80 before this one")
-                .remedy("add the card"),
-        );
     }
 
     /// The plot card; `None` if the deck ends without one and is not to be used.
@@ -178,34 +154,27 @@ impl Reader<'_> {
         let word = card.map(|c| c.text_of(WORD)).unwrap_or_default();
         let plot = Plot::of_word(&word.to_ascii_uppercase());
         if plot.is_none() && (card.is_none_or(starts_with_fini) || third_follows) {
-            self.report_no_plot_card(card, id);
+            let problem = Diagnostic::new(Rule::NoPlotCard, "the plot card (series 16) is missing")
+                .in_card(id)
+                .expected("STAN or NONE behind the card 1000");
+            match card.or(self.cards.last()) {
+                Some(card) => problem.on(card).report(self.sink),
+                None => problem.report(self.sink),
+            }
             return Some(Plot::None);
         }
         let card = card?;
         self.at += 1;
         if Plot::of_word(&word).is_none() {
-            self.sink.report(
-                Diagnostic::new(Rule::UnknownWord, format!("`{word}` is no plot option"))
-                    .on(card)
-                    .in_card(id)
-                    .at(WORD)
-                    .expected("STAN or NONE")
-                    .remedy("punch the word in capitals from column 1; in lenient reading capitals do not matter, anything else is NONE"),
-            );
+            Diagnostic::new(Rule::UnknownWord, format!("`{word}` is no plot option"))
+                .on(card)
+                .in_card(id)
+                .at(WORD)
+                .expected("STAN or NONE")
+                .report(self.sink);
         }
         self.check_rest_of_word_card(card, id);
         Some(plot.unwrap_or(Plot::None))
-    }
-
-    fn report_no_plot_card(&mut self, card: Option<&PunchedCard>, id: CardId) {
-        let mut finding = Diagnostic::new(Rule::NoPlotCard, "the plot card (series 16) is missing")
-            .in_card(id)
-            .expected("STAN or NONE behind the card 1000")
-            .remedy("add the card; in lenient reading it is NONE");
-        if let Some(card) = card.or(self.cards.last()) {
-            finding = finding.on(card);
-        }
-        self.sink.report(finding);
     }
 }
 

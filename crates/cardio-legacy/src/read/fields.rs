@@ -4,7 +4,7 @@ use crate::cards::{CardId, CardLayout, Field, Format};
 use crate::deck::Number;
 use crate::diagnostics::{Diagnostic, Sink};
 use crate::fortran::{FieldError, Surprise, read_integer, read_real};
-use crate::punched::{Columns, PunchedCard, latin1};
+use crate::punched::{Columns, PunchedCard};
 use crate::rule::Rule;
 
 /// Columns in which a punch may number the cards of a deck, where the format leaves them free.
@@ -15,68 +15,95 @@ pub(super) fn read_fields(card: &PunchedCard, layout: &CardLayout, id: CardId, s
     check_free_columns(card, layout, id, sink);
     let mut read = |field: &Field| match &*field.variable {
         "NCARD" => Number::blank(),
-        _ => read_field(card, layout, field, id, sink),
+        _ => FieldOnCard { card, id, field, name: layout.name_of(field, id.number) }.read(sink),
     };
     layout.fields.iter().map(&mut read).collect()
 }
 
-/// Reads one numeric field.
-fn read_field(card: &PunchedCard, layout: &CardLayout, field: &Field, id: CardId, sink: &mut Sink) -> Number {
-    let bytes = card.field(field.columns);
-    let reading = match field.format {
-        Format::Real => read_real(bytes),
-        Format::Integer => read_integer(bytes),
-        Format::Text => return Number::blank(),
-    };
-    let mut report = |(rule, message, columns, remedy): Problem| {
-        sink.report(
-            Diagnostic::new(rule, message)
-                .on(card)
-                .in_card(id)
-                .variable(layout.name_of(field, id.number))
-                .at(columns)
-                .expected(expectation(field))
-                .remedy(remedy),
-        );
-    };
-    match reading {
-        Ok(reading) => {
-            reading.surprises.iter().for_each(|surprise| report(surprising(*surprise, bytes, &reading.digits, field)));
-            Number { value: reading.value, digits: reading.digits, blank: reading.blank }
-        }
-        Err(error) => {
-            report(unreadable(&error, bytes, field));
-            Number::unreadable()
-        }
-    }
+/// A numeric field of a card under reading.
+struct FieldOnCard<'a> {
+    card: &'a PunchedCard,
+    id: CardId,
+    field: &'a Field,
+    name: String,
 }
 
-/// What is wrong with a field: rule, message, columns, remedy.
-type Problem = (Rule, String, Columns, &'static str);
+impl FieldOnCard<'_> {
+    fn read(&self, sink: &mut Sink) -> Number {
+        let bytes = self.card.field(self.field.columns);
+        let reading = match self.field.format {
+            Format::Real => read_real(bytes),
+            Format::Integer => read_integer(bytes),
+            Format::Text => return Number::blank(),
+        };
+        match reading {
+            Ok(reading) => {
+                for surprise in reading.surprises {
+                    self.surprising(surprise, &reading.digits).report(sink);
+                }
+                Number { value: reading.value, digits: reading.digits, blank: reading.blank }
+            }
+            Err(error) => {
+                self.unreadable(&error).report(sink);
+                Number::unreadable()
+            }
+        }
+    }
 
-fn unreadable(error: &FieldError, bytes: &[u8], field: &Field) -> Problem {
-    let what = &field.meaning;
-    let shown = latin1(bytes);
-    match error {
-        FieldError::Character { offset, found } => {
-            let column = field.columns.first.saturating_add(u8::try_from(*offset).unwrap_or(0));
-            let message = format!("`{shown}` is no number: {} in column {column}; {what}", character(*found));
-            let remedy = "punch the number again; look whether a neighbouring field has slipped into these columns";
-            (Rule::NotANumber, message, Columns::new(column, column), remedy)
+    fn problem(&self, rule: Rule, message: String) -> Diagnostic {
+        let problem = Diagnostic::new(rule, message).on(self.card).in_card(self.id).in_field(self.field);
+        problem.variable(&self.name).expected(expectation(self.field))
+    }
+
+    fn unreadable(&self, error: &FieldError) -> Diagnostic {
+        let (shown, what) = (self.card.text_of(self.field.columns), &self.field.meaning);
+        match error {
+            FieldError::Character { offset, found } => {
+                let column = self.field.columns.first.saturating_add(u8::try_from(*offset).unwrap_or(0));
+                let message = format!("`{shown}` is no number: {} in column {column}; {what}", character(*found));
+                let remedy = "punch the number again; look whether a neighbouring field has slipped into these columns";
+                self.problem(Rule::NotANumber, message).at(Columns::new(column, column)).remedy(remedy)
+            }
+            FieldError::NoDigits => self
+                .problem(Rule::NotANumber, format!("`{shown}` has no digit; {what}"))
+                .remedy("punch the number, or leave the field blank for zero"),
+            FieldError::EmptyExponent => self
+                .problem(Rule::NotANumber, format!("`{shown}` has an exponent without digits; {what}"))
+                .remedy("move the number to the left so that its exponent ends inside the field"),
+            FieldError::TooLarge { digits } => {
+                let message = format!("`{shown}` reads as {digits}, more than the 360 could hold; {what}");
+                self.problem(Rule::OutOfRange, message)
+            }
         }
-        FieldError::NoDigits => {
-            let message = format!("`{shown}` has no digit; {what}");
-            (Rule::NotANumber, message, field.columns, "punch the number, or leave the field blank for zero")
-        }
-        FieldError::EmptyExponent => {
-            let message = format!("`{shown}` has an exponent without digits; {what}");
-            let remedy = "move the number to the left so that its exponent ends inside the field";
-            (Rule::NotANumber, message, field.columns, remedy)
-        }
-        FieldError::TooLarge { digits } => {
-            let message = format!("`{shown}` reads as {digits}, more than the 360 could hold; {what}");
-            let remedy = "an exponent must end in the last column of the field, because blanks behind it are zeros";
-            (Rule::OutOfRange, message, field.columns, remedy)
+    }
+
+    fn surprising(&self, surprise: Surprise, digits: &str) -> Diagnostic {
+        let shown = self.card.text_of(self.field.columns);
+        let reads = format!("`{shown}` reads as {digits}");
+        let (rule, message) = match surprise {
+            Surprise::EmbeddedBlanks => {
+                (Rule::EmbeddedBlanks, format!("{reads}: FORTRAN IV takes blanks inside a number as zeros"))
+            }
+            Surprise::TrailingBlanks => {
+                (Rule::LeftJustified, format!("{reads}: FORTRAN IV takes the blanks behind the last digit as zeros"))
+            }
+            Surprise::BareExponent => (Rule::BareExponent, format!("{reads}: an exponent without its letter")),
+            Surprise::SmallLetter => {
+                (Rule::SmallLetter, format!("`{shown}` has a small exponent letter, which no card punch had"))
+            }
+            Surprise::Underflow => {
+                (Rule::Underflow, format!("`{shown}` was zero on the 360, which held nothing smaller than 5.4e-79"))
+            }
+        };
+        let problem = self.problem(rule, message);
+        match (surprise, self.field.format) {
+            (Surprise::TrailingBlanks, Format::Integer) => {
+                problem.remedy("punch the integer at the right end of its field")
+            }
+            (Surprise::TrailingBlanks, _) => {
+                problem.remedy("punch a decimal point, or move the number to the right end of its field")
+            }
+            _ => problem,
         }
     }
 }
@@ -100,74 +127,34 @@ fn expectation(field: &Field) -> String {
     }
 }
 
-fn surprising(surprise: Surprise, bytes: &[u8], digits: &str, field: &Field) -> Problem {
-    let shown = latin1(bytes);
-    let (rule, message, remedy) = match surprise {
-        Surprise::EmbeddedBlanks => (
-            Rule::EmbeddedBlanks,
-            format!("`{shown}` reads as {digits}: FORTRAN IV takes blanks inside a number as zeros"),
-            "close the gap, or punch the zeros",
-        ),
-        Surprise::TrailingBlanks => (
-            Rule::LeftJustified,
-            format!("`{shown}` reads as {digits}: FORTRAN IV takes the blanks behind the last digit as zeros"),
-            match field.format {
-                Format::Integer => "punch the integer at the right end of its field",
-                _ => "punch a decimal point, or move the number to the right end of its field",
-            },
-        ),
-        Surprise::BareExponent => {
-            (Rule::BareExponent, format!("`{shown}` reads as {digits}: an exponent without its letter"), "punch the E")
-        }
-        Surprise::SmallLetter => (
-            Rule::SmallLetter,
-            format!("`{shown}` has a small exponent letter, which no card punch had"),
-            "punch E or D",
-        ),
-        Surprise::Underflow => (
-            Rule::Underflow,
-            format!("`{shown}` was zero on the 360, which held nothing smaller than 5.4e-79"),
-            "punch 0.",
-        ),
-    };
-    (rule, message, field.columns, remedy)
-}
-
 /// Reports what stands in columns that no field covers, sequence numbers excepted.
 fn check_free_columns(card: &PunchedCard, layout: &CardLayout, id: CardId, sink: &mut Sink) {
     for gap in gaps(layout) {
-        if card.is_blank_in(gap) {
+        let is_punched = |column: &u8| !card.is_blank_in(Columns::new(*column, *column));
+        let mut punched = (gap.first..=gap.last).filter(is_punched);
+        let Some(first) = punched.next() else {
             continue;
-        }
-        let field = card.field(gap);
-        let first = field.iter().position(|b| *b != b' ').unwrap_or(0);
-        let last = field.iter().rposition(|b| *b != b' ').unwrap_or(0);
-        let at = |offset: usize| gap.first + u8::try_from(offset).unwrap_or(0);
-        let punched = Columns::new(at(first), at(last));
+        };
+        let punched = Columns::new(first, punched.next_back().unwrap_or(first));
         let message = format!("`{}` stands where the card is blank; it is not read", card.text_of(punched));
-        sink.report(
-            Diagnostic::new(Rule::NotBlank, message)
-                .on(card)
-                .in_card(id)
-                .at(punched)
-                .expected(format!("blanks in {gap}"))
-                .remedy("look whether a number has slipped out of its columns, or remove it"),
-        );
+        Diagnostic::new(Rule::NotBlank, message)
+            .on(card)
+            .in_card(id)
+            .at(punched)
+            .expected(format!("blanks in {gap}"))
+            .report(sink);
     }
 }
 
 /// The columns between the fields of a card; 73–80 are free for sequence numbers where no field reaches column 71.
 fn gaps(layout: &CardLayout) -> Vec<Columns> {
-    let mut gaps = Vec::new();
     let mut next = 1;
-    for field in &layout.fields {
-        if field.columns.first > next {
-            gaps.push(Columns::new(next, field.columns.first - 1));
+    let mut gaps = Vec::new();
+    for columns in layout.fields.iter().map(|field| field.columns).chain([SEQUENCE]) {
+        if columns.first > next {
+            gaps.push(Columns::new(next, columns.first - 1));
         }
-        next = field.columns.last + 1;
-    }
-    if next < SEQUENCE.first {
-        gaps.push(Columns::new(next, SEQUENCE.first - 1));
+        next = columns.last + 1;
     }
     gaps
 }

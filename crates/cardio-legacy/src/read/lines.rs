@@ -21,12 +21,11 @@ fn until_end_mark<'a>(bytes: &'a [u8], sink: &mut Sink) -> &'a [u8] {
     if bytes[end..].iter().any(|b| !matches!(*b, END_MARK | b' ' | b'\r' | b'\n')) {
         let line = lines(&bytes[..end]).len().max(1);
         let message = "a DOS end-of-file mark (0x1a) stands in the file; what follows it is not read";
-        sink.report(
-            Diagnostic::new(Rule::ControlCharacter, message)
-                .at_line(line)
-                .expected("the mark at the very end, or none")
-                .remedy("remove the character if the deck goes on behind it"),
-        );
+        Diagnostic::new(Rule::ControlCharacter, message)
+            .at_line(line)
+            .expected("the mark at the very end, or none")
+            .remedy("remove the character if the deck goes on behind it")
+            .report(sink);
     }
     &bytes[..end]
 }
@@ -47,23 +46,16 @@ fn read_card(line: usize, bytes: &[u8], sink: &mut Sink) -> PunchedCard {
     let expanded = expand_tabs(bytes);
     let card = PunchedCard::new(line, &expanded);
     if bytes.contains(&b'\t') {
-        sink.report(
-            Diagnostic::new(Rule::Tab, "the line contains a tab, which has no columns")
-                .on(&card)
-                .expected("blanks only, so that every character has its column")
-                .remedy("replace tabs by blanks; it was read as if tab stops stood every 8 columns"),
-        );
+        Diagnostic::new(Rule::Tab, "the line contains a tab, which has no columns")
+            .on(&card)
+            .expected("blanks only, so that every character has its column")
+            .report(sink);
     }
     let behind = expanded.get(CARD_WIDTH..).unwrap_or_default();
     if let Some(last) = behind.iter().rposition(|b| *b != b' ') {
         let (column, text) = (CARD_WIDTH + last + 1, latin1(&behind[..=last]));
         let message = format!("columns 81–{column} are not part of a card: {text:?} is not read");
-        sink.report(
-            Diagnostic::new(Rule::LineTooLong, message)
-                .on(&card)
-                .expected("80 columns")
-                .remedy("check that no field has slipped to the right, and cut the line"),
-        );
+        Diagnostic::new(Rule::LineTooLong, message).on(&card).expected("80 columns").report(sink);
     }
     report_strange_bytes(bytes, &card, sink);
     card
@@ -72,21 +64,15 @@ fn read_card(line: usize, bytes: &[u8], sink: &mut Sink) -> PunchedCard {
 fn report_strange_bytes(bytes: &[u8], card: &PunchedCard, sink: &mut Sink) {
     if let Some(offset) = bytes.iter().position(|b| is_control(*b) && *b != b'\t') {
         let message = format!("control character 0x{:02x} at column {}", bytes[offset], offset + 1);
-        sink.report(
-            Diagnostic::new(Rule::ControlCharacter, message)
-                .on(card)
-                .expected("printable characters")
-                .remedy("remove it; in a numeric field it is an error of its own"),
-        );
+        Diagnostic::new(Rule::ControlCharacter, message)
+            .on(card)
+            .expected("printable characters")
+            .remedy("remove it; in a numeric field it is an error of its own")
+            .report(sink);
     }
     if !bytes.is_ascii() && std::str::from_utf8(bytes).is_ok() {
         let message = "the line holds UTF-8 characters of several bytes; each byte was given a column";
-        sink.report(
-            Diagnostic::new(Rule::LooksLikeUtf8, message)
-                .on(card)
-                .expected("Latin-1, one byte a column")
-                .remedy("save the deck as Latin-1 (ISO 8859-1) or use plain ASCII"),
-        );
+        Diagnostic::new(Rule::LooksLikeUtf8, message).on(card).expected("Latin-1, one byte a column").report(sink);
     }
 }
 

@@ -1,4 +1,4 @@
-//! Cards of a file → decks: deck after deck, and the final card.
+//! Cards of a file → decks: deck after deck, and the final card. What numbers mean is no matter here but of [`crate::check`].
 
 mod card_number;
 mod complete;
@@ -57,11 +57,10 @@ fn read_file(bytes: &[u8], sink: &mut Sink) -> Vec<Deck> {
         cards.pop();
     }
     if cards.is_empty() {
-        sink.report(
-            Diagnostic::new(Rule::EmptyFile, "the file holds no card")
-                .expected("two title cards, series 3 to 16 and FINI")
-                .remedy("give the name of a deck"),
-        );
+        Diagnostic::new(Rule::EmptyFile, "the file holds no card")
+            .expected("two title cards, series 3 to 16 and FINI")
+            .remedy("give the name of a deck")
+            .report(sink);
     }
     let mut reader = Reader { cards: &cards, at: 0, sink };
     let mut decks = Vec::new();
@@ -78,12 +77,10 @@ fn read_file(bytes: &[u8], sink: &mut Sink) -> Vec<Deck> {
         decks.extend(deck.filter(|_| sound));
     }
     if let Some(last) = cards.last() {
-        sink.report(
-            Diagnostic::new(Rule::NoFinalCard, "the file ends without the final card")
-                .on(last)
-                .expected("FINI in columns 1–4 behind the last deck")
-                .remedy("add a card FINI; look whether the file is complete"),
-        );
+        Diagnostic::new(Rule::NoFinalCard, "the file ends without the final card")
+            .on(last)
+            .expected("FINI in columns 1–4 behind the last deck")
+            .report(sink);
     }
     decks
 }
@@ -107,23 +104,20 @@ impl<'a> Reader<'a> {
     /// The final card, and what stands behind it.
     fn end_file(&mut self, card: &PunchedCard) {
         if self.at == 0 {
-            self.sink.report(
-                Diagnostic::new(Rule::EmptyFile, "the first card is the final one: the file holds no deck")
-                    .on(card)
-                    .expected("two title cards, series 3 to 16 and FINI")
-                    .remedy("change the first word of the title if the card is meant to be one"),
-            );
+            Diagnostic::new(Rule::EmptyFile, "the first card is the final one: the file holds no deck")
+                .on(card)
+                .expected("two title cards, series 3 to 16 and FINI")
+                .remedy("change the first word of the title if the card is meant to be one")
+                .report(self.sink);
         }
         self.check_rest_of_word_card(card, CardId { series: FINAL_CARD, letter: None, number: None });
         let behind = self.cards.get(self.at + 1..).unwrap_or_default();
         if let Some(card) = behind.iter().find(|c| !c.is_blank()) {
-            self.sink.report(
-                Diagnostic::new(Rule::AfterFinalCard, "something stands behind the final card; it is not read")
-                    .on(card)
-                    .at(Columns::new(1, 80))
-                    .expected("FINI behind the last deck, and nothing more")
-                    .remedy("remove an earlier FINI if a deck follows; remove the rest otherwise"),
-            );
+            Diagnostic::new(Rule::AfterFinalCard, "something stands behind the final card; it is not read")
+                .on(card)
+                .at(Columns::new(1, 80))
+                .expected("FINI behind the last deck, and nothing more")
+                .report(self.sink);
         }
     }
 
