@@ -3,22 +3,20 @@
 use occupant_core::body::tti12::TTI12;
 
 use super::Back;
-use crate::layout::Unit;
 
 /// Centres may differ from the report's by this much, m: rounding of their computation.
 const SAME_PLACE_M: f64 = 1e-12;
 
 pub(super) fn read(back: &mut Back<'_>) {
     let body = &back.setup.body;
-    back.set("XLS", body.shoulder_half_width_m, Unit::Inch);
-    back.set("XLH", body.hip_half_width_m, Unit::Inch);
+    back.set_all([("XLS", body.shoulder_half_width_m), ("XLH", body.hip_half_width_m)]);
     for segment in TTI12.segments() {
         let (n, p) = (segment.number(), body.segment(segment));
-        back.set(&format!("XLE({n})"), p.length_m, Unit::Inch);
-        back.set(&format!("RHO({n})"), p.cg_from_lower_end_m, Unit::Inch);
-        back.set(&format!("XM({n})"), p.mass_kg, Unit::Mass);
+        back.set(format!("XLE({n})"), p.length_m);
+        back.set(format!("RHO({n})"), p.cg_from_lower_end_m);
+        back.set(format!("XM({n})"), p.mass_kg);
         for (axis, inertia) in ["XIN", "YIN", "ZIN"].into_iter().zip(p.inertia_kg_m2.iter()) {
-            back.set(&format!("{axis}({n})"), *inertia, Unit::Inertia);
+            back.set(format!("{axis}({n})"), *inertia);
         }
     }
     spheres(back);
@@ -48,7 +46,7 @@ fn spheres(back: &mut Back<'_>) {
                         sphere.name
                     ));
                 }
-                back.set(&format!("RS({})", at + 1), sphere.radius_m, Unit::Inch);
+                back.set(format!("RS({})", at + 1), sphere.radius_m);
             }
         }
     }

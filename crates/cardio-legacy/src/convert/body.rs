@@ -19,10 +19,8 @@ const SEGMENT_FIELDS: [&str; 6] = ["XLE", "RHO", "XM", "XIN", "YIN", "ZIN"];
 
 pub(super) fn write(w: &mut Writer<'_>) {
     w.table("body", "Series 5, card a");
-    for (key, name) in [("shoulder_half_width", "XLS"), ("hip_half_width", "XLH")] {
-        let value = w.quantity(name);
-        w.set_with(key, &value, name);
-    }
+    w.field("XLS");
+    w.field("XLH");
     w.table("body.segments", "Series 5, cards b: XLE, RHO, XM, XIN YIN ZIN of each NSEG");
     for (number, name) in TRUNK {
         segment(w, number, name, &format!("NSEG {number}"));
