@@ -7,11 +7,11 @@ use cardio_legacy::{
     spine_rest, write_file,
 };
 use occupant_core::model::Model;
+use occupant_core::results::outcome::{FirstTouch, Status};
 use occupant_core::results::recorder::Watch;
+use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::document::Format;
 use occupant_core::scenario::{Loaded, Scenario};
-use occupant_core::results::outcome::{FirstTouch, Status};
-use occupant_core::run::simulate::simulate;
 use support::{DECKS, bytes, path};
 
 fn deck(name: &str) -> Deck {

@@ -2,14 +2,14 @@
 
 use std::collections::BTreeSet;
 
-use occupant_core::forces::belt::Belt;
 use occupant_core::body::tti12::{LOWER_BACK, UPPER_BACK};
+use occupant_core::forces::belt::Belt;
 use occupant_core::forces::contact::PASSED;
 use occupant_core::motion::report_coordinates::ReportCoordinates;
 use occupant_core::results::sample::Sample;
 
-use super::joints::ball_of;
 use super::digits::{digits, factor};
+use super::joints::ball_of;
 use super::unit_of;
 use crate::cards::BELTS;
 use crate::compartment::CompartmentLayout;
@@ -53,8 +53,9 @@ impl RunEnd {
 /// β₀ of the upper and the lower back joint: the scenario's, or the angles at the start.
 pub fn spine_rest(first: &Sample<'_>) -> [f64; 2] {
     let joints = &first.model.setup().joints;
-    [UPPER_BACK, LOWER_BACK]
-        .map(|joint| ball_of(joints, joint).spring.and_then(|s| s.rest_rad).unwrap_or_else(|| first.joint_angle_rad(joint)))
+    [UPPER_BACK, LOWER_BACK].map(|joint| {
+        ball_of(joints, joint).spring.and_then(|s| s.rest_rad).unwrap_or_else(|| first.joint_angle_rad(joint))
+    })
 }
 
 fn passed(sample: &Sample<'_>, layout: &CompartmentLayout) -> Vec<(u32, u32)> {

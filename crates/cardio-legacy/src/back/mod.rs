@@ -9,10 +9,10 @@ mod motion;
 mod path;
 mod points;
 
-use occupant_core::scenario::{Diagnostics as ScenarioDiagnostics, Loaded};
+use occupant_core::forces::contact::EdgeForce;
 use occupant_core::model::seating::InitialPosture;
 use occupant_core::model::setup::{Integrator, Setup};
-use occupant_core::forces::contact::EdgeForce;
+use occupant_core::scenario::{Diagnostics as ScenarioDiagnostics, Loaded};
 use thiserror::Error;
 
 pub use extension::{RunEnd, spine_rest};

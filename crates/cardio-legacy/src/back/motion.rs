@@ -5,14 +5,15 @@ use occupant_core::forces::belt::{Belt, RestLength};
 use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating};
 
 use super::Back;
-use super::joints::ball_of;
 use super::extension::coordinate_fields;
+use super::joints::ball_of;
 use crate::cards::{BELTS, POSTURE, SEATS};
 use crate::compartment::CompartmentLayout;
 
 pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
     let joints = &back.setup.joints;
-    let springs = [("upper_back", UPPER_BACK), ("lower_back", LOWER_BACK)].map(|(name, joint)| (name, ball_of(joints, joint).spring));
+    let springs = [("upper_back", UPPER_BACK), ("lower_back", LOWER_BACK)]
+        .map(|(name, joint)| (name, ball_of(joints, joint).spring));
     match &back.setup.posture {
         InitialPosture::Seated(seating) => {
             back.deck.set("NPOS", "0");

@@ -221,7 +221,8 @@ fn write_column<'a, W: Write + Send>(
             column.typed::<DoubleType>().write_batch(&values, Some(&levels), None)?;
         }
         Kind::Text => {
-            let values: Vec<ByteArray> = cells.map(|c| c.bytes().unwrap_or_else(|| ByteArray::from(Vec::new()))).collect();
+            let values: Vec<ByteArray> =
+                cells.map(|c| c.bytes().unwrap_or_else(|| ByteArray::from(Vec::new()))).collect();
             column.typed::<ByteArrayType>().write_batch(&values, None, None)?;
         }
         Kind::MaybeText => {

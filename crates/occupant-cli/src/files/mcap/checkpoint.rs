@@ -3,8 +3,8 @@
 //! Pairs are numbered as the model numbers them; those in no list are open and have no greatest deformation.
 
 use crash_measures::unit::Unit;
-use occupant_core::forces::History;
 use occupant_core::forces::contact::{PASSED, PairHistory, TOUCHING};
+use occupant_core::forces::{History, belt, contact};
 use occupant_core::quantity::{Axes, Quantity, Take};
 use occupant_core::results::catalogue::{Message, Run};
 use occupant_core::results::checkpoint::StepUnderWay;
@@ -27,7 +27,7 @@ const fn field(number: u32, name: &'static str, take: Take<Run>, meaning: &'stat
 const FIELDS: &[Quantity<Run>] = &[
     field(2, "output", Count(|s| s.index as u64), "number of the output, from 0"),
     field(3, "state", Numbers(|s| s.state.to_numbers().to_vec()), STATE),
-    field(4, "pairs", Count(|s| s.history.pairs.len() as u64), "how many pairs of a sphere and a face there are"),
+    field(4, "pairs", Count(|s| s.history.memory.contacts.len() as u64), "how many pairs of a sphere and a face there are"),
     field(5, "passed", Indices(|s| pairs(s.history, |p| p.phase == PASSED)), "pairs whose sphere went round the edge"),
     field(6, "touching", Indices(|s| pairs(s.history, |p| p.phase == TOUCHING)), "pairs that touch"),
     field(7, "deformed", Indices(|s| pairs(s.history, is_deformed)), "pairs that remember a deformation"),
@@ -44,8 +44,8 @@ const FIELDS: &[Quantity<Run>] = &[
     field(18, "last_step_s", Number(|s| s.progress.effort.step_s), "last accepted step"),
     field(19, "wanted_step_s", Number(|s| s.progress.wanted_s), "step that the error control wants next"),
     field(20, "start_mechanical_j", Number(|s| s.progress.energy_start.mechanical_j), "kinetic, gravity and spring energy at the start of the run"),
-    field(21, "start_contacts_j", Number(|s| s.progress.energy_start.contacts_j), "stored in contacts at the start of the run"),
-    field(22, "start_belts_j", Number(|s| s.progress.energy_start.belts_j), "stored in belts at the start of the run"),
+    field(21, "start_contacts_j", Number(|s| s.progress.energy_start.stored_j[contact::STORED]), "stored in contacts at the start of the run"),
+    field(22, "start_belts_j", Number(|s| s.progress.energy_start.stored_j[belt::STORED]), "stored in belts at the start of the run"),
     field(23, "greatest_kinetic_j", Number(|s| s.progress.greatest_kinetic_j), "greatest kinetic energy relative to the vehicle so far"),
     field(24, "greatest_imbalance_j", Number(|s| s.progress.greatest_imbalance_j), "greatest energy imbalance so far"),
     field(25, "step_error", Number(|s| s.progress.step_error), "error of the last accepted step in units of the tolerance"),
@@ -74,20 +74,20 @@ fn of_step<T>(sample: &Sample<'_>, of: impl Fn(StepUnderWay<'_>) -> Vec<T>) -> V
 
 /// Numbers of the pairs that are `so`.
 fn pairs(history: &History<f64>, so: impl Fn(&PairHistory<f64>) -> bool) -> Vec<u32> {
-    let numbered = (0..).zip(&history.pairs);
+    let numbered = (0..).zip(&history.memory.contacts);
     numbered.filter(|(_, p)| so(p)).map(|(i, _)| i).collect()
 }
 
 fn greatest(history: &History<f64>) -> Vec<f64> {
-    let deformed = history.pairs.iter().filter(|p| is_deformed(p));
+    let deformed = history.memory.contacts.iter().filter(|p| is_deformed(p));
     deformed.map(|p| p.greatest).collect()
 }
 
 fn normals(history: &History<f64>) -> Vec<f64> {
-    let belts = history.belts.iter();
+    let belts = history.memory.belts.iter();
     belts.flat_map(|b| [b.normal.x, b.normal.y, b.normal.z]).collect()
 }
 
 fn elongations(history: &History<f64>) -> Vec<f64> {
-    history.belts.iter().map(|b| b.greatest).collect()
+    history.memory.belts.iter().map(|b| b.greatest).collect()
 }

@@ -171,7 +171,7 @@ impl Tracks {
             start_s: time.start_s,
             stride: stride(time.output_s, options.frames_per_s.get()),
             last: model.output_count() - 1,
-            frames: FrameNames::default(),
+            frames: FrameNames::new(model.body()),
             names: Names::of(model),
             messages: with_channels,
             transforms: add(topics::TRANSFORMS, FRAME_TRANSFORMS)?,

@@ -6,6 +6,7 @@ use mcap::read::ChunkFlattener;
 use mcap::records::{MessageHeader, Record};
 use occupant_core::forces::belt::law::BeltHistory;
 use occupant_core::forces::contact::{OPEN, PASSED, PairHistory, TOUCHING};
+use occupant_core::forces::{Memory, belt, contact};
 use occupant_core::motion::state::State;
 use occupant_core::motion::vector::v3;
 use occupant_core::results::checkpoint::{Checkpoint, Progress, StepStart};
@@ -161,15 +162,18 @@ impl Message {
             index: usize::try_from(self.output).map_err(|e| e.to_string())?,
             time_s: self.time_s,
             state: state(&self.state)?,
-            pairs: Pairs {
-                number: self.pairs,
-                passed: &self.passed,
-                touching: &self.touching,
-                deformed: &self.deformed,
-                greatest_m: &self.greatest_deformation_m,
-            }
-            .histories()?,
-            belts: belts(&self.belt_normal_vehicle, &self.belt_greatest_elongation_m)?,
+            memory: Memory {
+                contacts: Pairs {
+                    number: self.pairs,
+                    passed: &self.passed,
+                    touching: &self.touching,
+                    deformed: &self.deformed,
+                    greatest_m: &self.greatest_deformation_m,
+                }
+                .histories()?,
+                belts: belts(&self.belt_normal_vehicle, &self.belt_greatest_elongation_m)?,
+                joints: Vec::new(),
+            },
             first_touches: self.first_touches()?,
             progress: Progress {
                 effort: Effort {
@@ -180,16 +184,19 @@ impl Message {
                 },
                 wanted_s: self.wanted_step_s,
                 step_error: self.step_error,
-                energy_start: EnergyStart {
-                    contacts_j: self.start_contacts_j,
-                    belts_j: self.start_belts_j,
-                    mechanical_j: self.start_mechanical_j,
-                },
+                energy_start: self.energy_start(),
                 greatest_kinetic_j: self.greatest_kinetic_j,
                 greatest_imbalance_j: self.greatest_imbalance_j,
             },
             under_way: self.step_start()?,
         })
+    }
+
+    fn energy_start(&self) -> EnergyStart {
+        let mut start = EnergyStart { mechanical_j: self.start_mechanical_j, ..EnergyStart::default() };
+        start.stored_j[contact::STORED] = self.start_contacts_j;
+        start.stored_j[belt::STORED] = self.start_belts_j;
+        start
     }
 
     /// The start of the step in which the output lies.
@@ -202,15 +209,18 @@ impl Message {
             start_s,
             end_s,
             state: state(&self.step_state)?,
-            pairs: Pairs {
-                number: self.pairs,
-                passed: &self.step_passed,
-                touching: &self.step_touching,
-                deformed: &self.step_deformed,
-                greatest_m: &self.step_greatest_deformation_m,
-            }
-            .histories()?,
-            belts: belts(&self.step_belt_normal_vehicle, &self.step_belt_greatest_elongation_m)?,
+            memory: Memory {
+                contacts: Pairs {
+                    number: self.pairs,
+                    passed: &self.step_passed,
+                    touching: &self.step_touching,
+                    deformed: &self.step_deformed,
+                    greatest_m: &self.step_greatest_deformation_m,
+                }
+                .histories()?,
+                belts: belts(&self.step_belt_normal_vehicle, &self.step_belt_greatest_elongation_m)?,
+                joints: Vec::new(),
+            },
         }))
     }
 

@@ -1,7 +1,5 @@
 //! Names of frames, and of the topics that are not results of the catalogue. ASCII and small letters, the same in every run of a scenario.
 
-use occupant_core::body::Segment;
-
 /// Space: X forward, Y left, Z up; the root of all frames.
 pub(crate) const SPACE_FRAME: &str = "space";
 /// The vehicle: X forward, Y right, Z down, origin at its centre of gravity.
@@ -24,6 +22,6 @@ pub(crate) const LABELS_SCENE: &str = "/scene/labels";
 pub(crate) const LOG: &str = "/log";
 
 /// The frame of a segment: its axes, at its centre of gravity.
-pub(crate) fn segment_frame(segment: Segment) -> String {
-    format!("occupant/{}", segment.name())
+pub(crate) fn segment_frame(name: &str) -> String {
+    format!("occupant/{name}")
 }

@@ -2,7 +2,7 @@
 //! reads only the last one.
 
 use nalgebra::{Rotation3, UnitQuaternion, Vector3};
-use occupant_core::body::{SEGMENTS, Segment};
+use occupant_core::body::{Body, Segment};
 use occupant_core::results::sample::Sample;
 
 use super::topics::{SPACE_FRAME, VEHICLE_FRAME, segment_frame};
@@ -10,15 +10,14 @@ use super::wire::Wire;
 
 /// Names of the segments' frames, made once.
 #[derive(Debug)]
-pub(crate) struct FrameNames([String; SEGMENTS]);
-
-impl Default for FrameNames {
-    fn default() -> Self {
-        FrameNames(Segment::ALL.map(segment_frame))
-    }
-}
+pub(crate) struct FrameNames(Vec<String>);
 
 impl FrameNames {
+    /// Those of a body.
+    pub(crate) fn new(body: &Body) -> Self {
+        FrameNames(body.tree.segment_rows().iter().map(|row| segment_frame(row.name)).collect())
+    }
+
     /// The frame of a segment.
     pub(crate) fn of(&self, segment: Segment) -> &str {
         &self.0[segment.index()]
@@ -40,7 +39,7 @@ pub(crate) fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>, names: &Frame
         });
     };
     transform(SPACE_FRAME, VEHICLE_FRAME, &vehicle.origin_m, &rotation);
-    for segment in Segment::ALL {
+    for segment in sample.model.body().tree.segments() {
         let (place, turn) = (sample.cg_m(segment), sample.orientation(segment));
         transform(VEHICLE_FRAME, names.of(segment), &place.coords, &turn);
     }

@@ -18,7 +18,6 @@ use std::fmt;
 use std::str::FromStr;
 
 use crash_measures::signal::ChannelClass;
-use occupant_core::body::Segment;
 use occupant_core::model::Model;
 use occupant_core::results::channel::Channel;
 
@@ -112,9 +111,10 @@ pub(crate) fn place_of(model: &Model, channel: &Channel) -> Option<Place> {
     let name = rest.strip_suffix(".force")?;
     let belt = model.setup().belts.iter().find(|b| b.name == name)?;
     let segment = model.body().spheres.get(belt.sphere).map(|s| s.segment);
+    let (segment, marks) = (segment?, model.body().tree.landmarks());
     let point = match segment {
-        Some(Segment::LowerTorso) => "B6",
-        Some(Segment::UpperTorso | Segment::MiddleTorso) => "B3",
+        _ if segment == marks.pelvis => "B6",
+        _ if [marks.chest, marks.middle].contains(&segment) => "B3",
         _ => return None,
     };
     Some(Place {

@@ -9,7 +9,7 @@ use occupant_study::{Study, Tolerances};
 
 use super::bands::Bands;
 use super::judge::Tolerance;
-use super::members::{Left, Member, Members};
+use super::members::{Left, Members};
 use super::report::Report;
 use super::{band_table, plot};
 use crate::base::failure::Failure;

@@ -84,7 +84,7 @@ impl Case {
 
     /// The pairs (sphere, surface), by index, that have passed a surface's edge: those with NARRY = 0.
     pub(crate) fn passed(&self, pairs: &[PairHistory<f64>]) -> Vec<(usize, usize)> {
-        let contacts = &self.model.system().contacts;
+        let contacts = &self.model.system().forces.contacts;
         let mut passed = Vec::new();
         for group in contacts.groups() {
             for i in group.pairs.clone() {

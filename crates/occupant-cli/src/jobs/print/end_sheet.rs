@@ -1,9 +1,9 @@
 //! The last sheet: how the run ended, and what an extension needs (series 6 and 14 of the cards): the pairs with
 //! NARRY(J,K) = 0, the coordinates, the rest angles of the spine and the belts' lengths.
 
-use occupant_core::body::Segment;
-use occupant_core::forces::joint::BALLS;
+use occupant_core::body::tti12::{LOWER_BACK, UPPER_BACK};
 use occupant_core::motion::kinematics::Kinematics;
+use occupant_core::motion::layout::BALL_JOINTS;
 use occupant_core::motion::report_coordinates::ReportCoordinates;
 use occupant_core::results::checkpoint::Checkpoint;
 
@@ -63,14 +63,14 @@ fn extension(pages: &mut Pages, case: &Case, units: &Units, checkpoint: &Checkpo
         pages,
         case,
         &format!("PAIRS WITH NARRY(J,K) = 0: THE SPHERE HAS PASSED THE SURFACE'S EDGE ({numbers})"),
-        &case.passed(&checkpoint.pairs),
+        &case.passed(&checkpoint.memory.contacts),
     );
     let q = ReportCoordinates::from_state(&checkpoint.state);
     coordinates(pages, units, "GENERALIZED COORDINATES AT THE END", &q);
     pages.say("");
     let [upper, lower] = spine_rest_rad(case);
     pages.say(&format!("REST ANGLES OF THE BACK JOINTS: BETA4 {upper:.6} RAD, BETA7 {lower:.6} RAD"));
-    for (belt, law) in case.model.setup().belts.iter().zip(&case.model.system().belts) {
+    for (belt, law) in case.model.setup().belts.iter().zip(&case.model.system().forces.belts) {
         pages.say(&format!(
             "UNSTRETCHED LENGTH OF THE BELT {}: {} {}",
             belt.name,
@@ -84,10 +84,10 @@ fn extension(pages: &mut Pages, case: &Case, units: &Units, checkpoint: &Checkpo
 fn spine_rest_rad(case: &Case) -> [f64; 2] {
     let (system, joints) = (case.model.system(), &case.model.setup().joints);
     let start = Kinematics::new(&system.skeleton, &case.model.start().state);
-    [(joints.upper_back, Segment::UpperTorso), (joints.lower_back, Segment::LowerTorso)].map(|(data, distal)| {
-        let ball = BALLS.iter().position(|&(_, n)| n == distal.index());
-        let at_start = ball.map_or(f64::NAN, |i| system.joints.beta(i, &start));
-        data.spring.and_then(|s| s.rest_rad).unwrap_or(at_start)
+    [UPPER_BACK, LOWER_BACK].map(|joint| {
+        let ball = BALL_JOINTS.iter().position(|ball| *ball == joint);
+        let at_start = ball.map_or(f64::NAN, |i| system.forces.joints.beta(i, &start));
+        joints[joint].ball().and_then(|data| data.spring?.rest_rad).unwrap_or(at_start)
     })
 }
 

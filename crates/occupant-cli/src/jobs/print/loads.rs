@@ -1,7 +1,7 @@
 //! Items 5 to 7: forces on the contact spheres and the surfaces hit, points of application, belts; joint angles and the
 //! energy balance.
 
-use occupant_core::body::joint::Joint;
+use occupant_core::forces::{belt, contact, joint};
 use occupant_core::results::energy::EnergyLedger;
 use occupant_core::results::sample::Sample;
 
@@ -109,7 +109,7 @@ fn belts(pages: &mut Pages, units: &Units, s: &Sample<'_>) {
             "WRAP",
         ],
     );
-    for (belt, action) in s.model.setup().belts.iter().zip(s.belts) {
+    for (belt, action) in s.model.setup().belts.iter().zip(&s.actions.belts) {
         let round = s.model.body().spheres.get(belt.sphere);
         let force = action.force.to_vector();
         let first = [
@@ -134,17 +134,18 @@ fn belts(pages: &mut Pages, units: &Units, s: &Sample<'_>) {
 }
 
 fn joints(pages: &mut Pages, s: &Sample<'_>) {
-    let heads: Vec<String> = Joint::ALL.iter().map(|j| joint_head(*j)).collect();
+    let tree = s.model.body().tree;
+    let heads: Vec<String> = tree.joint_rows().iter().map(|row| joint_head(row.name)).collect();
     let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
     let title = "JOINT ANGLES (DEG): BETA OF BALL JOINTS, ALPHA OF ELBOWS AND KNEES";
     let mut table = Table::new(title, &heads);
-    table.row(Joint::ALL.map(|j| DEGREE.show(s.joint_angle_rad(j))));
+    table.row(tree.joints().map(|j| DEGREE.show(s.joint_angle_rad(j))));
     table.write(pages);
 }
 
 /// A joint's name in the room of a number: `R SHOULDER`.
-fn joint_head(joint: Joint) -> String {
-    let name = joint.name().to_uppercase().replace('_', " ");
+fn joint_head(name: &str) -> String {
+    let name = name.to_uppercase().replace('_', " ");
     name.replace("RIGHT ", "R ").replace("LEFT ", "L ")
 }
 
@@ -154,11 +155,11 @@ fn energy(pages: &mut Pages, units: &Units, s: &Sample<'_>) {
         ("KINETIC", |e| e.kinetic_j),
         ("KIN REL VEH", |e| e.kinetic_relative_j),
         ("GRAVITY", |e| e.gravity_j),
-        ("SPINE", |e| e.spine_j),
-        ("LOST CONT", |e| e.lost_contacts_j),
-        ("LOST FRICT", |e| e.lost_friction_j),
-        ("LOST JOINTS", |e| e.lost_joints_j),
-        ("LOST BELTS", |e| e.lost_belts_j),
+        ("SPINE", |e| e.stored_j[joint::STORED]),
+        ("LOST CONT", |e| e.lost_j[contact::PRESS]),
+        ("LOST FRICT", |e| e.lost_j[contact::FRICTION]),
+        ("LOST JOINTS", |e| e.lost_j[joint::DAMPING]),
+        ("LOST BELTS", |e| e.lost_j[belt::STRETCH]),
         ("VEH WORK", |e| e.vehicle_work_j),
         ("BALANCE", |e| e.balance_j),
     ];

@@ -34,12 +34,12 @@ pub(crate) fn printout(case: &Case, units: &Units, every_s: Option<f64>) -> Resu
     let times_s: Vec<f64> = case.file.checkpoints.iter().map(|c| c.time_s).collect();
     for output in chosen(&times_s, every_s, case.model.setup().time.output_s)? {
         pages.begin(&format!("TIME {:.6} SEC    OUTPUT {}", times_s[output], output));
-        let page = Watch(|sample: &Sample<'_>| {
+        let mut page = Watch(|sample: &Sample<'_>| {
             vehicle::write(&mut pages, units, sample);
             segments::write(&mut pages, units, sample);
             loads::write(&mut pages, case, units, sample);
         });
-        replay(&case.model, &case.file.checkpoints[output], page).map_err(|e| e.to_string())?;
+        replay(&case.model, &case.file.checkpoints[output], &mut page).map_err(|e| e.to_string())?;
     }
     end_sheet::write(&mut pages, case, units);
     Ok(pages.text())

@@ -1,6 +1,6 @@
 //! Items 1 to 4: end points, accelerations, angular accelerations and velocities of the twelve segments.
 
-use occupant_core::body::Segment;
+use occupant_core::body::{Body, Segment};
 use occupant_core::results::sample::Sample;
 
 use super::page::Pages;
@@ -15,8 +15,8 @@ pub(crate) fn write(pages: &mut Pages, units: &Units, sample: &Sample<'_>) {
 }
 
 /// The first cells of a segment's row.
-pub(crate) fn label(segment: Segment) -> [String; 2] {
-    [segment.number().to_string(), segment.name().to_owned()]
+pub(crate) fn label(body: &Body, segment: Segment) -> [String; 2] {
+    [segment.number().to_string(), body.tree[segment].name.to_owned()]
 }
 
 fn end_points(s: &Sample<'_>, units: &Units) -> Table {
@@ -27,10 +27,10 @@ fn end_points(s: &Sample<'_>, units: &Units) -> Table {
             "C.G. Z",
         ],
     );
-    for segment in Segment::ALL {
+    for segment in s.model.body().tree.segments() {
         let [upper, lower] = s.end_points_m(segment);
         let places = [upper, lower, s.cg_m(segment)].map(|place| units.length.vector(place.coords));
-        table.row(label(segment).into_iter().chain(places.into_iter().flatten()));
+        table.row(label(s.model.body(), segment).into_iter().chain(places.into_iter().flatten()));
     }
     table
 }
@@ -43,10 +43,10 @@ fn accelerations(s: &Sample<'_>, units: &Units) -> Table {
         ),
         &["NO", "<SEGMENT", "TOTAL X", "TOTAL Y", "TOTAL Z", "RESULTANT", "READS X", "READS Y", "READS Z", "RESULTANT"],
     );
-    for segment in Segment::ALL {
+    for segment in s.model.body().tree.segments() {
         let total = s.cg_acceleration_m_s2(segment);
         let reads = s.specific_force_m_s2(segment);
-        let cells = label(segment)
+        let cells = label(s.model.body(), segment)
             .into_iter()
             .chain(units.acceleration.vector(total))
             .chain([units.acceleration.show(total.norm())])
@@ -62,10 +62,10 @@ fn turning(s: &Sample<'_>) -> Table {
         "3, 4. ANGULAR ACCELERATION (RAD/S2) AND ANGULAR VELOCITY (RAD/S), SEGMENT COORDINATES",
         &["NO", "<SEGMENT", "ACC X", "ACC Y", "ACC Z", "VEL X", "VEL Y", "VEL Z"],
     );
-    for segment in Segment::ALL {
+    for segment in s.model.body().tree.segments() {
         let acceleration = RAD_S2.vector(s.angular_acceleration_rad_s2(segment));
         let velocity = RAD_S.vector(s.angular_velocity_rad_s(segment));
-        let cells = label(segment).into_iter();
+        let cells = label(s.model.body(), segment).into_iter();
         table.row(cells.chain(acceleration).chain(velocity));
     }
     table

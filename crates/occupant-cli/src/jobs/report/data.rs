@@ -1,6 +1,5 @@
 //! What the page is made from. The names of the fields are those that `assets/viewer/src` reads.
 
-use occupant_core::body::Segment;
 use occupant_core::forces::contact::surface::{Frame, Outline};
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
@@ -116,7 +115,7 @@ impl Run {
             title: model.setup().title.clone(),
             notes,
             times: Array::float64(series.time_s.iter().copied()),
-            segments: Segment::ALL.map(|s| s.name().replace('_', " ")).to_vec(),
+            segments: model.body().tree.segment_rows().iter().map(|row| row.name.replace('_', " ")).collect(),
             parts: parts(model.body()).iter().map(PartData::of).collect(),
             spheres: spheres(results),
             surfaces: surfaces(results),

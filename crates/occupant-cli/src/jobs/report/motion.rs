@@ -1,7 +1,6 @@
 //! The motion, output by output: poses, belts, contacts.
 
 use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
-use occupant_core::body::Segment;
 use occupant_core::model::Model;
 use occupant_core::results::sample::{Contact, Sample};
 use occupant_core::vehicle::FrameMotion;
@@ -58,13 +57,13 @@ impl Motion {
     }
 
     pub(crate) fn add(&mut self, sample: &Sample<'_>) {
-        for segment in Segment::ALL {
+        for segment in sample.model.body().tree.segments() {
             let turn = sample.orientation(segment);
             push_pose(&mut self.poses, sample.cg_m(segment).coords, &turn);
         }
         self.add_vehicle(sample.vehicle);
         let setup = sample.model.setup();
-        for (i, (belt, action)) in setup.belts.iter().zip(sample.belts).enumerate() {
+        for (i, (belt, action)) in setup.belts.iter().zip(&sample.actions.belts).enumerate() {
             let radius_m = setup.body.spheres[belt.sphere].radius_m;
             let centre = sample.sphere_centre_m(belt.sphere);
             let course = evenly(&course_m(belt, radius_m, centre, action));

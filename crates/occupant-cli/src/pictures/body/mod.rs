@@ -8,6 +8,7 @@
 mod snapshot;
 
 use nalgebra::Vector3;
+use occupant_core::body::tree::Landmarks;
 use occupant_core::body::{Body, Segment, SegmentProperties};
 
 pub(crate) use snapshot::{PATCH_M, Snapshot};
@@ -56,17 +57,18 @@ pub(crate) struct Part {
 /// All parts of a body, in the order of the segments.
 pub(crate) fn parts(body: &Body) -> Vec<Part> {
     let of_segment = |segment| {
+        let marks = body.tree.landmarks();
         let ends = match segment {
-            Segment::Head => head(body),
-            Segment::UpperTorso => upper_torso(body),
-            Segment::MiddleTorso => vec![trunk(body, segment)],
-            Segment::LowerTorso => lower_torso(body),
+            _ if segment == marks.head => head(body, segment),
+            _ if segment == marks.chest => upper_torso(body, segment),
+            _ if segment == marks.middle => vec![trunk(body, segment)],
+            _ if segment == marks.pelvis => lower_torso(body, segment),
             _ => limb(body, segment),
         };
-        let tone = tone(segment);
+        let tone = tone(marks, segment);
         ends.into_iter().map(move |ends| Part { segment, tone, ends })
     };
-    Segment::ALL.into_iter().flat_map(of_segment).collect()
+    body.tree.segments().flat_map(of_segment).collect()
 }
 
 /// Centre of a sphere from its segment's centre of gravity, segment axes, m.
@@ -77,9 +79,9 @@ pub(crate) fn sphere_centre_m(body: &Body, sphere: usize) -> Vector3<f64> {
 }
 
 /// Neck, head and a nose that tells where it looks. Without a sphere the head is as wide as its inertia says.
-fn head(body: &Body) -> Vec<[Lump; 2]> {
-    let p = body.segment(Segment::Head);
-    let own = (0..body.spheres.len()).filter(|&s| body.spheres[s].segment == Segment::Head);
+fn head(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
+    let p = body.segment(segment);
+    let own = (0..body.spheres.len()).filter(|&s| body.spheres[s].segment == segment);
     let largest = own.max_by(|&a, &b| {
         let radius = |s: usize| body.spheres[s].radius_m;
         radius(a).total_cmp(&radius(b))
@@ -104,26 +106,26 @@ fn head(body: &Body) -> Vec<[Lump; 2]> {
 }
 
 /// The chest and the bar that carries the shoulders.
-fn upper_torso(body: &Body) -> Vec<[Lump; 2]> {
-    let p = body.segment(Segment::UpperTorso);
+fn upper_torso(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
+    let p = body.segment(segment);
     let upper = p.length_m - p.cg_from_lower_end_m;
-    let shoulder = limb_radius(body, Segment::LeftUpperArm);
+    let shoulder = limb_radius(body, body.tree.landmarks().arms.left.upper);
     let bar = |side: f64| {
         let place = Vector3::new(0.0, side * body.shoulder_half_width_m, upper);
         ball(place, shoulder)
     };
-    vec![trunk(body, Segment::UpperTorso), [bar(1.0), bar(-1.0)]]
+    vec![trunk(body, segment), [bar(1.0), bar(-1.0)]]
 }
 
 /// The pelvis and the bar that carries the hips.
-fn lower_torso(body: &Body) -> Vec<[Lump; 2]> {
-    let p = body.segment(Segment::LowerTorso);
-    let hip = 0.9 * limb_radius(body, Segment::LeftThigh);
+fn lower_torso(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
+    let p = body.segment(segment);
+    let hip = 0.9 * limb_radius(body, body.tree.landmarks().legs.left.upper);
     let bar = |side: f64| {
         let place = Vector3::new(0.0, side * body.hip_half_width_m, -p.cg_from_lower_end_m);
         ball(place, hip)
     };
-    vec![trunk(body, Segment::LowerTorso), [bar(1.0), bar(-1.0)]]
+    vec![trunk(body, segment), [bar(1.0), bar(-1.0)]]
 }
 
 /// The elliptic column of a segment of the trunk, rounded at its ends.
@@ -181,11 +183,13 @@ fn ball(centre_m: Vector3<f64>, radius_m: f64) -> Lump {
     Lump { centre_m, half_m: Vector3::repeat(radius_m) }
 }
 
-fn tone(segment: Segment) -> Tone {
-    use Segment::*;
-    match segment {
-        MiddleTorso | UpperTorso | LeftUpperArm | RightUpperArm => Tone::Shirt,
-        LowerTorso | LeftThigh | RightThigh | LeftLowerLeg | RightLowerLeg => Tone::Trousers,
-        Head | LeftForearm | RightForearm => Tone::Skin,
+fn tone(marks: &Landmarks, segment: Segment) -> Tone {
+    let arms = &marks.arms;
+    if [marks.head, arms.left.lower, arms.right.lower].contains(&segment) {
+        Tone::Skin
+    } else if [marks.middle, marks.chest, arms.left.upper, arms.right.upper].contains(&segment) {
+        Tone::Shirt
+    } else {
+        Tone::Trousers
     }
 }

@@ -1,7 +1,6 @@
 //! What there is to draw at one output, in vehicle axes.
 
 use nalgebra::{Isometry3, Point3, Translation3, Vector3};
-use occupant_core::body::Segment;
 use occupant_core::forces::contact::flat_face::FlatFace;
 use occupant_core::forces::contact::surface::{Frame, Outline};
 use occupant_core::results::sample::{Contact, Sample};
@@ -44,7 +43,7 @@ impl Snapshot {
             Isometry3::from_parts(at, sample.orientation(segment))
         };
         let body = sample.model.body();
-        let belts = sample.model.setup().belts.iter().zip(sample.belts);
+        let belts = sample.model.setup().belts.iter().zip(&sample.actions.belts);
         let course = |(belt, action): (&occupant_core::forces::belt::Belt, _)| {
             let radius = body.spheres[belt.sphere].radius_m;
             let centre = sample.sphere_centre_m(belt.sphere);
@@ -52,7 +51,7 @@ impl Snapshot {
         };
         Snapshot {
             time_s: sample.time_s,
-            poses: Segment::ALL.map(pose).to_vec(),
+            poses: body.tree.segments().map(pose).collect(),
             spheres_m: (0..body.spheres.len()).map(|s| sample.sphere_centre_m(s)).collect(),
             belts: belts.map(|both| BeltCourse { points_m: course(both), force_n: both.1.loop_force }).collect(),
             contacts: sample.contacts().collect(),

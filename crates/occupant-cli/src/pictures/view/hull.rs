@@ -69,7 +69,7 @@ mod tests {
     use super::*;
     use crate::pictures::body::Tone;
     use nalgebra::{Translation3, UnitQuaternion, Vector3};
-    use occupant_core::body::Segment;
+    use occupant_core::body::tti12::HEAD;
 
     #[test]
     fn a_hull_drops_what_lies_inside() {
@@ -81,7 +81,7 @@ mod tests {
     #[test]
     fn ellipsoids_project_to_their_outlines() {
         let lump = |half_m| Lump { centre_m: Vector3::new(0.1, 0.0, 0.0), half_m };
-        let part = |half_m| Part { segment: Segment::Head, tone: Tone::Skin, ends: [lump(half_m); 2] };
+        let part = |half_m| Part { segment: HEAD, tone: Tone::Skin, ends: [lump(half_m); 2] };
         let turn = UnitQuaternion::from_euler_angles(0.3, -0.7, 1.1);
         let pose = Isometry3::from_parts(Translation3::new(1.0, 2.0, 3.0), turn);
         let centre = View::Side.place(&(pose * nalgebra::Point3::new(0.1, 0.0, 0.0)));

@@ -4,7 +4,6 @@
 //! hidden: belts, surfaces before the body (as dashed outlines), contacts.
 
 use nalgebra::Point3;
-use occupant_core::body::Segment;
 use occupant_core::forces::contact::flat_face::FlatFace;
 
 use super::Strip;
@@ -78,7 +77,7 @@ pub(crate) fn draw(svg: &mut Svg, pen: &Pen<'_>, moment: &Snapshot, view: View, 
 
 /// Surfaces before the pelvis and the others.
 fn surfaces<'a>(pen: &Pen<'a>, moment: &Snapshot, view: View) -> (Vec<&'a FlatFace>, Vec<&'a FlatFace>) {
-    let pelvis = moment.poses[Segment::LowerTorso.index()].translation.vector;
+    let pelvis = moment.poses[pen.strip.model.body().tree.landmarks().pelvis.index()].translation.vector;
     let own = view.depth(&pelvis.into());
     pen.strip.model.faces().iter().partition(|face| {
         let corners = moment.corners_m(face);

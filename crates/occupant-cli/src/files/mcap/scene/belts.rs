@@ -19,7 +19,7 @@ const SLACK: Color = Color(0.45, 0.45, 0.45, 1.0);
 /// A message with one entity for each belt, vehicle axes.
 pub(crate) fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>) {
     replace(wire, ns, |w| {
-        for (belt, action) in sample.model.setup().belts.iter().zip(sample.belts) {
+        for (belt, action) in sample.model.setup().belts.iter().zip(&sample.actions.belts) {
             let radius_m = sample.model.body().spheres[belt.sphere].radius_m;
             let centre = sample.sphere_centre_m(belt.sphere);
             let course = course_m(belt, radius_m, centre, action);

@@ -8,7 +8,8 @@
 use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{UnitQuaternion, Vector3};
-use occupant_core::body::{Body, Segment, SegmentProperties};
+use occupant_core::body::tree::Landmarks;
+use occupant_core::body::{Body, Segment};
 
 use super::primitive::{cylinder, ellipsoid};
 use super::{Color, entity};
@@ -28,8 +29,8 @@ const SPHERE: Color = Color(0.95, 0.80, 0.30, 0.35);
 
 /// Limbs and trunk, one entity for each segment.
 pub(crate) fn write(wire: &mut Wire, body: &Body, frames: &FrameNames) {
-    for segment in Segment::ALL {
-        entity(wire, 0, frames.of(segment), segment.name(), |w| {
+    for segment in body.tree.segments() {
+        entity(wire, 0, frames.of(segment), body.tree[segment].name, |w| {
             write_segment(w, body, segment);
         });
     }
@@ -48,35 +49,28 @@ pub(crate) fn write_spheres(wire: &mut Wire, body: &Body, frames: &FrameNames) {
 
 fn write_segment(wire: &mut Wire, body: &Body, segment: Segment) {
     let p = body.segment(segment);
-    let color = color(segment);
-    let length = match segment {
-        Segment::Head => NECK_LENGTH * p.length_m,
-        _ => p.length_m,
-    };
+    let marks = body.tree.landmarks();
+    let color = color(marks, segment);
+    let length = if segment == marks.head { NECK_LENGTH * p.length_m } else { p.length_m };
     let (lower, upper) = (-p.cg_from_lower_end_m, length - p.cg_from_lower_end_m);
-    let (a, b) = half_axes_m(p, segment);
+    let (a, b) = half_axes_m(body, segment);
     let middle = Vector3::z() * (0.5 * (lower + upper));
     let size = Vector3::new(2.0 * a, 2.0 * b, length);
     cylinder(wire, middle, UnitQuaternion::identity(), size, color);
     let cap = Vector3::new(2.0 * a, 2.0 * b, (a + b).min(0.5 * length));
     ellipsoid(wire, Vector3::z() * lower, cap, color);
     ellipsoid(wire, Vector3::z() * upper, cap, color);
-    match segment {
-        Segment::Head => {
-            for s in body.spheres.iter().filter(|s| s.segment == segment) {
-                let centre = sphere_centre_m(body, segment, s.centre_from_lower_end_m.coords);
-                ellipsoid(wire, centre, Vector3::repeat(2.0 * s.radius_m), SKIN);
-            }
+    if segment == marks.head {
+        for s in body.spheres.iter().filter(|s| s.segment == segment) {
+            let centre = sphere_centre_m(body, segment, s.centre_from_lower_end_m.coords);
+            ellipsoid(wire, centre, Vector3::repeat(2.0 * s.radius_m), SKIN);
         }
-        Segment::UpperTorso => {
-            let arm = half_axes_m(body.segment(Segment::LeftUpperArm), Segment::LeftUpperArm).0;
-            girdle(wire, upper, body.shoulder_half_width_m, arm, color);
-        }
-        Segment::LowerTorso => {
-            let thigh = half_axes_m(body.segment(Segment::LeftThigh), Segment::LeftThigh).0;
-            girdle(wire, lower, body.hip_half_width_m, thigh, color);
-        }
-        _ => {}
+    } else if segment == marks.chest {
+        let arm = half_axes_m(body, marks.arms.left.upper).0;
+        girdle(wire, upper, body.shoulder_half_width_m, arm, color);
+    } else if segment == marks.pelvis {
+        let thigh = half_axes_m(body, marks.legs.left.upper).0;
+        girdle(wire, lower, body.hip_half_width_m, thigh, color);
     }
 }
 
@@ -92,9 +86,10 @@ fn girdle(wire: &mut Wire, height_m: f64, half_width_m: f64, radius_m: f64, colo
 }
 
 /// a and b as drawn.
-fn half_axes_m(p: &SegmentProperties, segment: Segment) -> (f64, f64) {
+fn half_axes_m(body: &Body, segment: Segment) -> (f64, f64) {
+    let p = body.segment(segment);
     let i = p.inertia_kg_m2;
-    let width = if segment == Segment::Head { SLIM * NECK } else { SLIM };
+    let width = if segment == body.tree.landmarks().head { SLIM * NECK } else { SLIM };
     let axis = |moment: f64| width * (2.0 * moment.max(0.0) / p.mass_kg).sqrt();
     (axis(i.z - i.x + i.y), axis(i.z + i.x - i.y))
 }
@@ -103,11 +98,13 @@ fn sphere_centre_m(body: &Body, segment: Segment, from_lower_end_m: Vector3<f64>
     from_lower_end_m - Vector3::z() * body.segment(segment).cg_from_lower_end_m
 }
 
-fn color(segment: Segment) -> Color {
-    use Segment::*;
-    match segment {
-        MiddleTorso | UpperTorso | LeftUpperArm | RightUpperArm => SHIRT,
-        LowerTorso | LeftThigh | RightThigh | LeftLowerLeg | RightLowerLeg => TROUSERS,
-        Head | LeftForearm | RightForearm => SKIN,
+fn color(marks: &Landmarks, segment: Segment) -> Color {
+    let arms = &marks.arms;
+    if [marks.head, arms.left.lower, arms.right.lower].contains(&segment) {
+        SKIN
+    } else if [marks.middle, marks.chest, arms.left.upper, arms.right.upper].contains(&segment) {
+        SHIRT
+    } else {
+        TROUSERS
     }
 }

@@ -29,7 +29,7 @@ pub(crate) fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>, m_per_n: f64)
                 arrow(w, contact.point_m.coords, drawn, DIAMETER_M, CONTACT);
             });
         }
-        for (belt, action) in setup.belts.iter().zip(sample.belts) {
+        for (belt, action) in setup.belts.iter().zip(&sample.actions.belts) {
             let drawn = action.force.to_vector() * m_per_n;
             if drawn.norm() < SHORTEST_M {
                 continue;

@@ -32,7 +32,7 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units) {
     for belt in &case.model.setup().belts {
         let w = &belt.webbing;
         let round = case.model.body().spheres.get(belt.sphere);
-        let anchors = belt.anchors_m.map(|a| l.vector(a.coords.into()));
+        let anchors = belt.anchors_m.map(|a| l.vector(a.coords));
         let rest = match belt.rest {
             RestLength::Slack { slack_m } => format!("SLACK {}", l.show(slack_m)),
             RestLength::Given { length_m } => format!("GIVEN {}", l.show(length_m)),

@@ -1,7 +1,5 @@
 //! Segments and contact spheres.
 
-use occupant_core::body::Segment;
-
 use crate::jobs::print::case::Case;
 use crate::jobs::print::page::Pages;
 use crate::jobs::print::segments::label;
@@ -18,11 +16,11 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units) {
         format!("BODY {name}: SEGMENTS ({}, {}, {})", l.name, m.name, i.name),
         &["NO", "<SEGMENT", "LENGTH", "MASS", "C.G. FROM LOWER END", "IX", "IY", "IZ"],
     );
-    for segment in Segment::ALL {
+    for segment in body.tree.segments() {
         let p = body.segment(segment);
         let own = [l.show(p.length_m), m.show(p.mass_kg), l.show(p.cg_from_lower_end_m)];
-        let inertia = i.vector(p.inertia_kg_m2.into());
-        table.row(label(segment).into_iter().chain(own).chain(inertia));
+        let inertia = i.vector(p.inertia_kg_m2);
+        table.row(label(body, segment).into_iter().chain(own).chain(inertia));
     }
     table.write(pages);
     pages.say(&format!(
@@ -44,9 +42,13 @@ fn spheres(case: &Case, units: &Units) -> Table {
         &["NO", "<SPHERE", "<ON SEGMENT", "RADIUS", "X", "Y", "Z"],
     );
     for (i, sphere) in case.model.body().spheres.iter().enumerate() {
-        let first =
-            [(i + 1).to_string(), sphere.name.clone(), sphere.segment.name().to_owned(), l.show(sphere.radius_m)];
-        let centre = l.vector(sphere.centre_from_lower_end_m.coords.into());
+        let first = [
+            (i + 1).to_string(),
+            sphere.name.clone(),
+            case.model.body().tree[sphere.segment].name.to_owned(),
+            l.show(sphere.radius_m),
+        ];
+        let centre = l.vector(sphere.centre_from_lower_end_m.coords);
         table.row(first.into_iter().chain(centre));
     }
     table

@@ -65,7 +65,7 @@ fn surfaces(case: &Case) -> Table {
             Some(list) => list.iter().map(|s| (s + 1).to_string()).collect::<Vec<_>>().join(" "),
         };
         let first = [case.surface(i), frame.to_owned(), material.unwrap_or_default()];
-        let normal = RATIO.vector(face.normal.into());
+        let normal = RATIO.vector(face.normal);
         table.row(first.into_iter().chain(normal).chain([spheres]));
     }
     table
@@ -80,7 +80,7 @@ fn outlines(case: &Case, units: &Units) -> Table {
     for (i, face) in case.model.faces().iter().enumerate() {
         for (k, (what, point)) in points(face, units).into_iter().enumerate() {
             let name = if k == 0 { case.surface(i) } else { String::new() };
-            let place = units.length.vector(point.coords.into());
+            let place = units.length.vector(point.coords);
             table.row([name, what].into_iter().chain(place));
         }
     }

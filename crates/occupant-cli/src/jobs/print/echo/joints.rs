@@ -1,6 +1,6 @@
 //! Dampers, stops and springs of the joints.
 
-use occupant_core::body::joint::{BallJoint, HingeJoint, Joint, Joints, Stop};
+use occupant_core::body::joint::{Joint, Joints, Stop};
 
 use crate::jobs::print::case::Case;
 use crate::jobs::print::page::Pages;
@@ -20,8 +20,8 @@ fn balls(joints: &Joints, units: &Units) -> Table {
         format!("BALL JOINTS ({}, DEG, {}); EPSILON OF BETA {}", d.name, k.name, joints.epsilon),
         &["NO", "<JOINT", "DAMPING", "TWIST", "STOP FROM", "TO", "DAMPING", "SPRING", "<REST"],
     );
-    for joint in Joint::ALL {
-        let Some(ball) = ball(joints, joint) else {
+    for (joint, law) in joints.iter() {
+        let Some(ball) = law.ball() else {
             continue;
         };
         let rest = ball.spring.map(|s| match s.rest_rad {
@@ -31,7 +31,7 @@ fn balls(joints: &Joints, units: &Units) -> Table {
         let damping = [d.show(ball.damping_n_m_s), d.show(ball.twist_damping_n_m_s)];
         let spring = [k.perhaps(ball.spring.map(|s| s.stiffness_n_m)), rest.unwrap_or_else(|| "-".to_owned())];
         let stop = stop(ball.stop, units);
-        let cells = label(joint).into_iter().chain(damping);
+        let cells = label(joints, joint).into_iter().chain(damping);
         table.row(cells.chain(stop).chain(spring));
     }
     table
@@ -43,11 +43,11 @@ fn hinges(joints: &Joints, units: &Units) -> Table {
         format!("HINGES ({}, DEG)", d.name),
         &["NO", "<JOINT", "DAMPING", "LOWER STOP FROM", "TO", "DAMPING", "UPPER STOP FROM", "TO", "DAMPING"],
     );
-    for joint in Joint::ALL {
-        let Some(hinge) = hinge(joints, joint) else {
+    for (joint, law) in joints.iter() {
+        let Some(hinge) = law.hinge() else {
             continue;
         };
-        let cells = label(joint)
+        let cells = label(joints, joint)
             .into_iter()
             .chain([d.show(hinge.damping_n_m_s)])
             .chain(stop(hinge.lower_stop, units))
@@ -57,8 +57,8 @@ fn hinges(joints: &Joints, units: &Units) -> Table {
     table
 }
 
-fn label(joint: Joint) -> [String; 2] {
-    [joint.number().to_string(), joint.name().to_owned()]
+fn label(joints: &Joints, joint: Joint) -> [String; 2] {
+    [joint.number().to_string(), joints.tree()[joint].name.to_owned()]
 }
 
 fn stop(stop: Option<Stop>, units: &Units) -> [String; 3] {
@@ -67,27 +67,4 @@ fn stop(stop: Option<Stop>, units: &Units) -> [String; 3] {
         DEGREE.perhaps(stop.map(|s| s.full_rad)),
         units.joint_damping.perhaps(stop.map(|s| s.damping_n_m_s)),
     ]
-}
-
-fn ball(joints: &Joints, joint: Joint) -> Option<&BallJoint> {
-    match joint {
-        Joint::Neck => Some(&joints.neck),
-        Joint::RightShoulder => Some(&joints.right_shoulder),
-        Joint::LeftShoulder => Some(&joints.left_shoulder),
-        Joint::UpperBack => Some(&joints.upper_back),
-        Joint::LowerBack => Some(&joints.lower_back),
-        Joint::RightHip => Some(&joints.right_hip),
-        Joint::LeftHip => Some(&joints.left_hip),
-        Joint::LeftElbow | Joint::RightElbow | Joint::RightKnee | Joint::LeftKnee => None,
-    }
-}
-
-fn hinge(joints: &Joints, joint: Joint) -> Option<&HingeJoint> {
-    match joint {
-        Joint::LeftElbow => Some(&joints.left_elbow),
-        Joint::RightElbow => Some(&joints.right_elbow),
-        Joint::RightKnee => Some(&joints.right_knee),
-        Joint::LeftKnee => Some(&joints.left_knee),
-        _ => None,
-    }
 }

@@ -119,7 +119,7 @@ fn stations(pages: &mut Pages, path: &TablePath, units: &Units) {
     for station in path.stations() {
         let a = &station.pose.attitude;
         let time = [format!("{:.6}", station.time_s)];
-        let place = units.length.vector(station.pose.position_m.into());
+        let place = units.length.vector(station.pose.position_m);
         let angles = [a.roll_rad, a.pitch_rad, a.yaw_rad].map(|x| DEGREE.show(x));
         table.row(time.into_iter().chain(place).chain(angles));
     }

@@ -33,7 +33,7 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units) {
     if recorded.is_some_and(|c| c.state.to_numbers() != start.state.to_numbers()) {
         pages.say("*** THE RECORDED START DIFFERS FROM THE ONE COMPUTED HERE: ANOTHER VERSION OF THE PROGRAM ***");
     }
-    let laid = setup.belts.iter().zip(&case.model.system().belts);
+    let laid = setup.belts.iter().zip(&case.model.system().forces.belts);
     for (belt, law) in laid {
         pages.say(&format!(
             "BELT           {}: UNSTRETCHED LENGTH {} {}",
@@ -44,7 +44,7 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units) {
     }
     let q = ReportCoordinates::from_state(&start.state);
     coordinates(pages, units, "GENERALIZED COORDINATES AT THE START", &q);
-    let passed = case.passed(&start.history.pairs);
+    let passed = case.passed(&start.history.memory.contacts);
     pairs(pages, case, "PAIRS WITH NARRY(J,K) = 0 AT THE START", &passed);
 }
 
