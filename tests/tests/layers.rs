@@ -8,12 +8,13 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 /// Crates with their rooms from the lowest to the highest.
-const ROOMS: [(&str, &[&str]); 3] = [
+const ROOMS: [(&str, &[&str]); 4] = [
     ("crash-measures", &["trig", "unit", "signal", "correlation", "measure", "injury"]),
     (
         "occupant-core",
         &[
             "problem",
+            "quantity",
             "body",
             "vehicle",
             "motion",
@@ -24,6 +25,24 @@ const ROOMS: [(&str, &[&str]); 3] = [
             "run",
             "scenario",
             "diagnosis",
+        ],
+    ),
+    (
+        "cardio-legacy",
+        &[
+            "rule",
+            "punched",
+            "fortran",
+            "cards",
+            "deck",
+            "compartment",
+            "notes",
+            "diagnostics",
+            "check",
+            "read",
+            "write",
+            "convert",
+            "back",
         ],
     ),
     ("occupant-cli", &["base", "files", "pictures", "jobs", "commands"]),
