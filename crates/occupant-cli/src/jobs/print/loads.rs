@@ -162,7 +162,7 @@ fn energy(pages: &mut Pages, units: &Units, s: &Sample<'_>) {
         ("BALANCE", "energy.balance"),
     ];
     let energies = matching(s.model, "energy.*");
-    let energy_j = |name| energies.iter().find(|c| c.name == name).map_or(f64::NAN, |c| c.value(s));
+    let energy_j = |name: &str| energies.iter().find(|c| c.name == name).map_or(f64::NAN, |c| c.value(s));
     let title = format!(
         "ENERGY ({}); THE BALANCE IS 0 FOR AN EXACT INTEGRATION; {} STEPS SO FAR",
         units.energy.name, s.effort.steps
