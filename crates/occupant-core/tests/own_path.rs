@@ -32,7 +32,7 @@ struct Outputs {
 
 impl Recorder for Outputs {
     fn record(&mut self, s: &Sample<'_>) -> Result<Flow, RecorderError> {
-        let derived = (s.evaluation, s.touches, s.belts, s.energy, s.vehicle, s.vehicle_pose);
+        let derived = (s.evaluation, s.actions, s.energy, s.vehicle, s.vehicle_pose);
         self.texts.push(format!("{:?} {derived:?}", s.checkpoint()));
         self.checkpoints.push(s.checkpoint());
         Ok(Flow::Continue)
