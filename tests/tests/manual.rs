@@ -21,17 +21,6 @@ fn source_file(name: &str) -> Option<PathBuf> {
     source_folders().into_iter().map(|folder| folder.join(name)).find(|path| path.is_file())
 }
 
-/// Where a file that the manual names may stand.
-fn source_folders() -> [PathBuf; 3] {
-    ["occupant-core", "crash-measures", "occupant-study"]
-        .map(|name| Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates").join(name).join("src"))
-}
-
-/// The file of this name, in the first crate that has it.
-fn source_file(name: &str) -> Option<PathBuf> {
-    source_folders().into_iter().map(|folder| folder.join(name)).find(|path| path.is_file())
-}
-
 fn read(path: &Path) -> String {
     fs::read_to_string(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()))
 }
