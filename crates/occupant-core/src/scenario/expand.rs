@@ -5,9 +5,8 @@
 
 use std::sync::OnceLock;
 
-use super::document::{Entry, Node, Table, Value};
-use super::source::Sources;
-use super::toml_text;
+use super::check::schema;
+use super::text::{Document, Entry, Format, Node, Sources, Table, Value};
 use crate::body::joint::Joint;
 use crate::body::{SPHERE_NAMES, Segment};
 
@@ -55,24 +54,18 @@ pub fn rival_path(path: &str) -> Option<String> {
     found.map(|[_, rival]| format!("{above}.{rival}"))
 }
 
-/// A preset: a piece of scenario that comes with the program.
-struct Preset {
-    text: &'static str,
-    root: Node,
-}
-
-/// The preset with this name, read once.
-fn preset(name: &str) -> Option<&'static Preset> {
-    static MALE50: OnceLock<Option<Preset>> = OnceLock::new();
+/// The preset with this name, a piece of scenario that comes with the program: read and checked once.
+fn preset(name: &str) -> Option<&'static Document> {
+    static MALE50: OnceLock<Option<Document>> = OnceLock::new();
     let (cell, text) = match name {
         "male50" => (&MALE50, include_str!("presets/male50.toml")),
         _ => return None,
     };
     let read = || {
-        let mut sources = Sources::new();
-        let id = sources.add(name, text);
-        let root = toml_text::parse(&sources, id).ok()?;
-        Some(Preset { text, root })
+        let mut document = Document::read(text, Format::Toml, name).ok()?;
+        // it lacks what a whole scenario has; its quantities are read
+        document.check(schema(), "the preset");
+        Some(document)
     };
     cell.get_or_init(read).as_ref()
 }
@@ -98,13 +91,13 @@ fn section(sources: &mut Sources, root: &Node, key: &str, explicit: impl FnOnce(
     let preset = entry.node.get("preset").and_then(Node::as_str);
     let base = preset.and_then(|name| preset_section(sources, name, key));
     let layers: Vec<Node> = base.into_iter().chain([entry.node.clone()]).collect();
-    Some(Entry { node: Node { span: entry.node.span, value: Value::Table(explicit(layers)) }, ..entry })
+    Some(Entry { node: Node::new(entry.node.span, Value::Table(explicit(layers))), ..entry })
 }
 
 fn preset_section(sources: &mut Sources, name: &str, key: &str) -> Option<Node> {
     let preset = preset(name)?;
     let title = format!("preset {name}");
-    let id = sources.named(&title).unwrap_or_else(|| sources.add(title, preset.text));
+    let id = sources.named(&title).unwrap_or_else(|| sources.add(title, preset.text()));
     Some(preset.root.get(key)?.moved_to(id))
 }
 
@@ -153,9 +146,10 @@ fn joints(layers: &[Node], sets: Option<&Node>) -> Table {
 
 /// What is said of all joints, without what this kind of joint cannot have.
 fn fitting(mut entry: Entry, joint: Joint) -> Entry {
-    let foreign: &[&str] = match joint.is_hinge() {
-        true => &["twist_damping", "stop", "stiffness", "rest_angle"],
-        false => &["lower_stop", "upper_stop"],
+    let foreign: &[&str] = if joint.is_hinge() {
+        &["twist_damping", "stop", "stiffness", "rest_angle"]
+    } else {
+        &["lower_stop", "upper_stop"]
     };
     if let Some(table) = entry.node.as_table_mut() {
         for key in foreign {
@@ -232,7 +226,7 @@ fn put(explicit: &mut Table, key: &str, layers: &[Node], members: Vec<Entry>) {
     explicit.insert(Entry {
         key: key.to_owned(),
         key_span: last.span,
-        node: Node { span: last.span, value: Value::Table(table) },
+        node: Node::new(last.span, Value::Table(table)),
     });
 }
 

@@ -1,0 +1,202 @@
+//! `[joints]` and `[joint_sets]`: their keys, and the [`Joints`] they come to.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::builder::Builder;
+use super::quantity::{NOT_NEGATIVE, si_or};
+use super::{Angle, Ratio, RotationalDamping, RotationalStiffness};
+use crate::body::joint::{AngularSpring, BallJoint, HingeJoint, Joint, Joints, Stop};
+use crate::problem::Problem;
+use crate::scenario::text::with_key;
+
+/// The eleven joints. What is said of one joint replaces what is said of its pair, that replaces what is said of `all`,
+/// and that replaces the preset. Every joint needs a damping from somewhere.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct JointsSection {
+    /// Joints to start from: "male50".
+    #[schemars(extend("enum" = ["male50"]))]
+    pub(crate) preset: Option<String>,
+    /// ε that keeps joint angles smooth where two segments are in line; 0.001 if absent, 0 is the report's formula.
+    pub(crate) epsilon: Option<Ratio<NOT_NEGATIVE>>,
+    /// All eleven.
+    pub(crate) all: Option<JointSection>,
+    /// 1, between upper torso and head.
+    pub(crate) neck: Option<JointSection>,
+    /// 4, between middle and upper torso.
+    pub(crate) upper_back: Option<JointSection>,
+    /// 7, between middle and lower torso.
+    pub(crate) lower_back: Option<JointSection>,
+    /// Both shoulders.
+    pub(crate) shoulders: Option<JointSection>,
+    /// 3.
+    pub(crate) left_shoulder: Option<JointSection>,
+    /// 2.
+    pub(crate) right_shoulder: Option<JointSection>,
+    /// Both elbows.
+    pub(crate) elbows: Option<JointSection>,
+    /// 5, hinge.
+    pub(crate) left_elbow: Option<JointSection>,
+    /// 6, hinge.
+    pub(crate) right_elbow: Option<JointSection>,
+    /// Both hips.
+    pub(crate) hips: Option<JointSection>,
+    /// 9.
+    pub(crate) left_hip: Option<JointSection>,
+    /// 8.
+    pub(crate) right_hip: Option<JointSection>,
+    /// Both knees.
+    pub(crate) knees: Option<JointSection>,
+    /// 11, hinge.
+    pub(crate) left_knee: Option<JointSection>,
+    /// 10, hinge.
+    pub(crate) right_knee: Option<JointSection>,
+}
+
+impl JointsSection {
+    /// What is said of one joint by its own name.
+    pub(super) fn of(&self, joint: Joint) -> Option<&JointSection> {
+        match joint {
+            Joint::Neck => self.neck.as_ref(),
+            Joint::RightShoulder => self.right_shoulder.as_ref(),
+            Joint::LeftShoulder => self.left_shoulder.as_ref(),
+            Joint::UpperBack => self.upper_back.as_ref(),
+            Joint::LeftElbow => self.left_elbow.as_ref(),
+            Joint::RightElbow => self.right_elbow.as_ref(),
+            Joint::LowerBack => self.lower_back.as_ref(),
+            Joint::RightHip => self.right_hip.as_ref(),
+            Joint::LeftHip => self.left_hip.as_ref(),
+            Joint::RightKnee => self.right_knee.as_ref(),
+            Joint::LeftKnee => self.left_knee.as_ref(),
+        }
+    }
+}
+
+/// Properties of a joint.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct JointSection {
+    /// Name of a joint set in `joint_sets`; keys given here replace its values.
+    pub(crate) set: Option<String>,
+    /// J_N, viscous damping; a bare number is per radian.
+    pub(crate) damping: Option<RotationalDamping<NOT_NEGATIVE>>,
+    /// J_t, damping of turning about the outer segment's long axis; ball joints only, 0 if absent as in the report.
+    pub(crate) twist_damping: Option<RotationalDamping<NOT_NEGATIVE>>,
+    /// Limit of the angle between the two segments; ball joints only.
+    pub(crate) stop: Option<StopSection>,
+    /// Limit towards smaller angles; elbows and knees only.
+    pub(crate) lower_stop: Option<StopSection>,
+    /// Limit towards larger angles; elbows and knees only.
+    pub(crate) upper_stop: Option<StopSection>,
+    /// K, rotational stiffness; ball joints only (the report has it in the two back joints).
+    pub(crate) stiffness: Option<RotationalStiffness<NOT_NEGATIVE>>,
+    /// β₀, angle at which the stiffness gives no torque; the angle at the start if absent.
+    pub(crate) rest_angle: Option<Angle<NOT_NEGATIVE>>,
+}
+
+/// Damping that grows towards a limit of travel.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct StopSection {
+    /// Angle at which the damping starts to grow.
+    pub(crate) begin: Angle,
+    /// Angle at which it is full, and beyond which it stays so.
+    pub(crate) full: Angle,
+    /// J_S, the full damping.
+    pub(crate) damping: RotationalDamping<NOT_NEGATIVE>,
+}
+
+/// The eleven joints; `section` is explicit.
+pub(super) fn joints(b: &mut Builder, section: &JointsSection) -> Joints {
+    report_undamped(b, section);
+    Joints {
+        neck: ball(b, Joint::Neck, section),
+        right_shoulder: ball(b, Joint::RightShoulder, section),
+        left_shoulder: ball(b, Joint::LeftShoulder, section),
+        upper_back: ball(b, Joint::UpperBack, section),
+        left_elbow: hinge(b, Joint::LeftElbow, section),
+        right_elbow: hinge(b, Joint::RightElbow, section),
+        lower_back: ball(b, Joint::LowerBack, section),
+        right_hip: ball(b, Joint::RightHip, section),
+        left_hip: ball(b, Joint::LeftHip, section),
+        right_knee: hinge(b, Joint::RightKnee, section),
+        left_knee: hinge(b, Joint::LeftKnee, section),
+        epsilon: si_or(&section.epsilon, Joints::default().epsilon),
+    }
+}
+
+/// What is said of a joint; nothing where its damping is missing, which is reported for all joints at once.
+fn given(joint: Joint, joints: &JointsSection) -> Option<&JointSection> {
+    joints.of(joint).filter(|section| section.damping.is_some())
+}
+
+/// One message for all joints that nobody gave a damping.
+fn report_undamped(b: &mut Builder, section: &JointsSection) {
+    let undamped: Vec<&str> =
+        Joint::ALL.into_iter().filter(|joint| given(*joint, section).is_none()).map(Joint::name).collect();
+    let Some((first, others)) = undamped.split_first() else {
+        return;
+    };
+    let found = match others.len() {
+        0 => format!("joint `{first}` has no damping"),
+        n => format!("joint `{first}` and {n} more have no damping"),
+    };
+    let hint = "joints.all.damping is that of every joint, joints.preset = \"male50\" gives a starting set";
+    let expected = "a damping for each of the eleven joints";
+    b.report(Problem::error(format!("joints.{first}"), found, expected).with_hint(Some(hint)));
+}
+
+fn ball(b: &mut Builder, joint: Joint, joints: &JointsSection) -> BallJoint {
+    let Some(section) = given(joint, joints) else {
+        return BallJoint::default();
+    };
+    let path = format!("joints.{}", joint.name());
+    for (key, stop) in [("lower_stop", &section.lower_stop), ("upper_stop", &section.upper_stop)] {
+        if stop.is_some() {
+            let found = format!("`{key}` of a ball joint");
+            b.error(&with_key(&path, key), found, "`stop`, the limit of the angle between its segments");
+        }
+    }
+    let spring = section.stiffness.as_ref().map(|stiffness| AngularSpring {
+        stiffness_n_m: stiffness.si(),
+        rest_rad: section.rest_angle.as_ref().map(Angle::si),
+    });
+    if section.rest_angle.is_some() && spring.is_none() {
+        b.error(&with_key(&path, "rest_angle"), "`rest_angle` without `stiffness`", "both or neither");
+    }
+    BallJoint {
+        damping_n_m_s: si_or(&section.damping, f64::NAN),
+        twist_damping_n_m_s: si_or(&section.twist_damping, 0.0),
+        stop: section.stop.as_ref().map(stop),
+        spring,
+    }
+}
+
+fn hinge(b: &mut Builder, joint: Joint, joints: &JointsSection) -> HingeJoint {
+    let Some(section) = given(joint, joints) else {
+        return HingeJoint::default();
+    };
+    let path = format!("joints.{}", joint.name());
+    let foreign = [
+        ("stop", section.stop.is_some()),
+        ("twist_damping", section.twist_damping.is_some()),
+        ("stiffness", section.stiffness.is_some()),
+        ("rest_angle", section.rest_angle.is_some()),
+    ];
+    for (key, there) in foreign {
+        if there {
+            let expected = "`damping`, `lower_stop`, `upper_stop`: elbows and knees are hinges";
+            b.error(&with_key(&path, key), format!("`{key}` of a hinge"), expected);
+        }
+    }
+    HingeJoint {
+        damping_n_m_s: si_or(&section.damping, f64::NAN),
+        lower_stop: section.lower_stop.as_ref().map(stop),
+        upper_stop: section.upper_stop.as_ref().map(stop),
+    }
+}
+
+fn stop(section: &StopSection) -> Stop {
+    Stop { begin_rad: section.begin.si(), full_rad: section.full.si(), damping_n_m_s: section.damping.si() }
+}
