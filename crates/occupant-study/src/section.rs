@@ -11,8 +11,8 @@ use serde_json::Value as Json;
 
 use super::fit_section::FitSection;
 use super::keep::KeepSection;
-use occupant_core::scenario::check::schema_of;
 use occupant_core::scenario::kind::UnitSystem;
+use occupant_core::scenario::schema_of;
 use occupant_core::scenario::sections::{Angle, FRACTION, Length, NOT_NEGATIVE, POSITIVE, Ratio};
 use occupant_core::scenario::text::Value;
 

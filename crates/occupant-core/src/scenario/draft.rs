@@ -1,12 +1,14 @@
 //! A scenario text that has been read but not yet checked: the place to apply overrides.
 
-use super::check::{references, schema};
+use super::check::references;
 use super::expand::expand;
 use super::kind::{UnitSystem, scaled_text};
 use super::loaded::{Loaded, Resolver};
-use super::overrides::{needs_explicit, put, targets};
+use super::overrides::{needs_explicit, put};
+use super::sections::schema;
 use super::text::{
-    Diagnostics, Document, Format, Node, SourceId, Step, Value, follow, parse_path, parse_value, refuse, to_text,
+    Diagnostics, Document, Format, Node, SourceId, Step, Value, follow, parse_path, parse_value, refuse, targets,
+    to_text,
 };
 use crate::body::SPHERE_NAMES;
 
@@ -112,8 +114,10 @@ impl Draft {
         let mut problems = self.document.check(schema(), "the scenario");
         // where the words are right, names are looked up when the plain data are built
         if problems.has_errors() {
-            for problem in references(&self.explicit(), &SPHERE_NAMES) {
-                problems.push(self.document.place(problem));
+            let root = self.explicit();
+            let whole = Document { root, ..self.document.clone() };
+            for problem in references(&whole.root, &SPHERE_NAMES) {
+                problems.push(whole.place(problem));
             }
         }
         problems

@@ -5,7 +5,7 @@
 
 use std::sync::OnceLock;
 
-use super::check::schema;
+use super::sections::schema;
 use super::text::{Document, Entry, Format, Node, Sources, Table, Value};
 use crate::body::joint::Joint;
 use crate::body::{SPHERE_NAMES, Segment};
@@ -126,22 +126,27 @@ fn joints(layers: &[Node], sets: Option<&Node>) -> Table {
     }
     for joint in Joint::ALL {
         let pair = JOINT_PAIRS.iter().find(|p| p.contains(&joint.name())).map(|p| p[0]);
-        let mut merged: Option<Entry> = None;
-        for layer in layers {
-            for word in ["all"].into_iter().chain(pair).chain([joint.name()]) {
-                let entry = layer.as_table().and_then(|t| t.get(word));
-                if let Some(entry) = entry {
-                    let entry = with_set(entry, sets);
-                    let entry = if word == "all" { fitting(entry, joint) } else { entry };
-                    merged = Some(laid_over(merged, entry));
-                }
-            }
-        }
-        if let Some(entry) = merged {
+        let words = ["all"].into_iter().chain(pair).chain([joint.name()]);
+        let whole = |entry: &Entry| {
+            let whole = with_set(entry, sets);
+            if entry.key == "all" { fitting(whole, joint) } else { whole }
+        };
+        if let Some(entry) = merged(layers, words, whole) {
             explicit.insert(Entry { key: joint.name().to_owned(), ..entry });
         }
     }
     explicit
+}
+
+/// What the layers say under any of `words`, later words and layers laid over earlier ones.
+fn merged<'a>(
+    layers: &[Node],
+    words: impl Iterator<Item = &'a str> + Clone,
+    whole: impl Fn(&Entry) -> Entry,
+) -> Option<Entry> {
+    let tables = layers.iter().filter_map(Node::as_table);
+    let entries = tables.flat_map(|table| words.clone().filter_map(|word| table.get(word)));
+    entries.fold(None, |merged, entry| Some(laid_over(merged, whole(entry))))
 }
 
 /// What is said of all joints, without what this kind of joint cannot have.
@@ -204,15 +209,8 @@ fn members<'a>(layers: &[Node], names: impl Iterator<Item = &'a str>, pairs: &[[
     names
         .filter_map(|name| {
             let pair = pairs.iter().find(|p| p[1..].contains(&name)).map(|p| p[0]);
-            let mut merged: Option<Entry> = None;
-            for table in layers.iter().filter_map(Node::as_table) {
-                for word in pair.into_iter().chain([name]) {
-                    if let Some(entry) = table.get(word) {
-                        merged = Some(laid_over(merged, entry.clone()));
-                    }
-                }
-            }
-            merged.map(|entry| Entry { key: name.to_owned(), ..entry })
+            let entry = merged(layers, pair.into_iter().chain([name]), Entry::clone)?;
+            Some(Entry { key: name.to_owned(), ..entry })
         })
         .collect()
 }

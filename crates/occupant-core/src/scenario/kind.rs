@@ -128,6 +128,15 @@ impl Kind {
         finite(value * factor, &value.to_string())
     }
 
+    /// A number as a flag of a command gives it: bare in SI units, angles in degrees, or with its unit.
+    ///
+    /// # Errors
+    /// As [`Kind::si`].
+    pub fn read(&self, text: &str) -> Result<f64, UnitError> {
+        let written = text.trim().parse().map_or_else(|_| Value::String(text.to_owned()), Value::Float);
+        self.si(&written, UnitSystem::Si)
+    }
+
     /// Reads `"48 lbf/in"` and the like.
     fn text_si(&self, text: &str) -> Result<f64, UnitError> {
         let whole = |found: String, hint: Option<String>| UnitError { hint, ..whole(text, found, self.expected()) };

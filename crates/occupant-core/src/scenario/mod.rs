@@ -36,7 +36,7 @@
 //! # Ok::<(), occupant_core::scenario::Diagnostics>(())
 //! ```
 
-pub mod check;
+mod check;
 mod draft;
 mod expand;
 pub mod kind;
@@ -46,12 +46,12 @@ mod places;
 pub mod sections;
 pub mod text;
 
-pub use check::schema;
+pub use check::schema_of;
 pub use draft::Draft;
 pub use expand::rival_path;
 pub use loaded::{Loaded, Resolver};
 pub use places::{Place, Wanted};
-pub use sections::{RecordFile, Scenario, read_record};
+pub use sections::{RecordFile, Scenario, read_record, schema};
 pub use text::{Diagnostic, Diagnostics, Format};
 
 #[cfg(test)]

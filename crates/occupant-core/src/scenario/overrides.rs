@@ -10,37 +10,6 @@ pub(super) fn needs_explicit(root: &Node, steps: &[Step]) -> bool {
     steps.contains(&Step::Every) || (steps.iter().any(|s| matches!(s, Step::Index(_))) && !written())
 }
 
-/// The places a path with wildcards leads to in the explicit form of a scenario, as paths without wildcards.
-///
-/// A path without wildcards leads to itself, even where nothing stands yet.
-pub(super) fn targets(explicit: &Node, steps: &[Step]) -> Vec<Vec<Step>> {
-    if !steps.contains(&Step::Every) {
-        return vec![steps.to_vec()];
-    }
-    let mut found = Vec::new();
-    collect(explicit, steps, &mut Vec::new(), &mut found);
-    found
-}
-
-fn collect(node: &Node, rest: &[Step], path: &mut Vec<Step>, found: &mut Vec<Vec<Step>>) {
-    let Some((step, rest)) = rest.split_first() else {
-        found.push(path.clone());
-        return;
-    };
-    let next: Vec<Step> = match (step, &node.value) {
-        (Step::Every, Value::Table(table)) => table.iter().map(|e| Step::Key(e.key.clone())).collect(),
-        (Step::Every, Value::Array(items)) => (0..items.len()).map(Step::Index).collect(),
-        _ => vec![step.clone()],
-    };
-    for step in next {
-        if let Some(below) = child(node, &step) {
-            path.push(step);
-            collect(below, rest, path, found);
-            path.pop();
-        }
-    }
-}
-
 /// Puts `value` at a path without wildcards. Of two keys that say the same thing in two ways, such as the `peak` and the
 /// `delta_v` of a pulse, the one that is put replaces the other. Tables on the way are made where they are missing; a list on the way that
 /// only the explicit form has (a preset's inertia, say) is copied from there first.

@@ -5,12 +5,13 @@
 
 use serde_json::Value as Json;
 
-use super::check::{View, did_you_mean, schema};
+use super::check::View;
 use super::draft::Draft;
 use super::expand::expand;
 use super::kind::{Kind, split_number};
-use super::overrides::{put, targets};
-use super::text::{Node, Step, Value, child, follow, parse_path, to_text};
+use super::overrides::put;
+use super::sections::schema;
+use super::text::{Node, Step, Value, child, did_you_mean, follow, parse_path, targets, to_text};
 use crate::problem::Problem;
 use crash_measures::unit::parse;
 

@@ -4,9 +4,8 @@ use super::Binder;
 use crate::law::{Law, Value};
 use crate::section::{ApplyChoice, DistributionSection, GridSection, ParameterSection, ScaleChoice};
 use occupant_core::scenario::Wanted;
-use occupant_core::scenario::check::did_you_mean;
 use occupant_core::scenario::kind::{KINDS, Kind, RATIO, UnitSystem};
-use occupant_core::scenario::text::{Value as Written, one_of};
+use occupant_core::scenario::text::{Value as Written, did_you_mean, one_of};
 
 /// How the values of one parameter are to be read.
 pub(super) struct Quantities<'w> {

@@ -10,12 +10,14 @@ use crash_measures::unit::UnitError;
 use serde_json::Value as Json;
 
 pub(super) use references::references;
-pub use schema::{schema, schema_of};
+pub use schema::schema_of;
 pub(super) use view::View;
 
 use super::kind::{Kind, UnitSystem};
-use super::text::{Diagnostic, Diagnostics, Document, Entry, Node, Sources, Span, Value, one_of, with_key};
-use crate::problem::{Problem, nearest};
+use super::text::{
+    Diagnostic, Diagnostics, Document, Entry, Node, Sources, Span, Value, did_you_mean, one_of, with_key,
+};
+use crate::problem::Problem;
 
 impl Document {
     /// All that is wrong with its words; `what` is what messages call it.
@@ -248,9 +250,4 @@ impl Checker<'_> {
 fn last_key(path: &str) -> &str {
     let end = path.find('[').unwrap_or(path.len());
     path[..end].rsplit('.').next().unwrap_or(path)
-}
-
-/// The name that a misspelt one is most like, as a hint.
-pub fn did_you_mean(word: &str, names: &[&str], quote: char) -> Option<String> {
-    nearest(word, names.iter().copied()).map(|n| format!("did you mean {quote}{n}{quote}?"))
 }

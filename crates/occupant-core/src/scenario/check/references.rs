@@ -1,9 +1,7 @@
 //! Names that refer to other parts of a scenario.
 
-use super::did_you_mean;
 use crate::problem::Problem;
-use crate::scenario::overrides::targets;
-use crate::scenario::text::{Node, Value, follow, one_of, parse_path, to_text};
+use crate::scenario::text::{Node, Value, did_you_mean, follow, one_of, parse_path, targets, to_text};
 
 /// Where a name stands, what it names, and the table that has things of that kind.
 const REFERENCES: [(&str, &str, &str); 9] = [

@@ -3,20 +3,10 @@
 //! Beyond the standard it carries, for our own checker: `x-dimension`, `x-bare-unit`, `x-example` on every quantity, and
 //! `x-exactly-one`, `x-at-most-one`, `x-together` (lists of groups of keys) on tables.
 
-use std::sync::OnceLock;
-
 use schemars::JsonSchema;
 use schemars::generate::SchemaSettings;
 use schemars::transform::{Transform, transform_subschemas};
 use serde_json::{Map, Value, json};
-
-use crate::scenario::sections::Scenario;
-
-/// The schema.
-pub fn schema() -> &'static Value {
-    static SCHEMA: OnceLock<Value> = OnceLock::new();
-    SCHEMA.get_or_init(|| schema_of::<Scenario>("occupant scenario"))
-}
 
 /// The schema of a kind of document.
 pub fn schema_of<T: JsonSchema>(title: &str) -> Value {

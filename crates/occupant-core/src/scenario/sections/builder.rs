@@ -2,7 +2,7 @@
 
 use super::quantity::Quantity;
 use crate::problem::Problem;
-use crate::scenario::text::{Diagnostics, Document};
+use crate::scenario::text::{Diagnostics, Document, follow, parse_path, with_key};
 
 /// Collects problems while the plain data are put together.
 pub(super) struct Builder<'a> {
@@ -24,6 +24,15 @@ impl Builder<'_> {
             self.error(path, format!("`{path}` has no key `{key}`"), expected);
         }
         quantity.as_ref().map_or(f64::NAN, Quantity::si)
+    }
+
+    /// Adds an error at each of `keys` that is written in the section at `path`.
+    pub(super) fn refuse_keys(&mut self, path: &str, keys: &[&str], found: impl Fn(&str) -> String, expected: &str) {
+        let document = self.document;
+        let section = parse_path(path).ok().and_then(|steps| follow(&document.root, &steps));
+        for key in keys.iter().filter(|key| section.is_some_and(|s| s.get(key).is_some())) {
+            self.error(&with_key(path, key), found(key), expected);
+        }
     }
 
     /// Adds an error.

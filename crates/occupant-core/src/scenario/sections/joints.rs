@@ -152,12 +152,8 @@ fn ball(b: &mut Builder, joint: Joint, joints: &JointsSection) -> BallJoint {
         return BallJoint::default();
     };
     let path = format!("joints.{}", joint.name());
-    for (key, stop) in [("lower_stop", &section.lower_stop), ("upper_stop", &section.upper_stop)] {
-        if stop.is_some() {
-            let found = format!("`{key}` of a ball joint");
-            b.error(&with_key(&path, key), found, "`stop`, the limit of the angle between its segments");
-        }
-    }
+    let expected = "`stop`, the limit of the angle between its segments";
+    b.refuse_keys(&path, &["lower_stop", "upper_stop"], |key| format!("`{key}` of a ball joint"), expected);
     let spring = section.stiffness.as_ref().map(|stiffness| AngularSpring {
         stiffness_n_m: stiffness.si(),
         rest_rad: section.rest_angle.as_ref().map(Angle::si),
@@ -178,18 +174,9 @@ fn hinge(b: &mut Builder, joint: Joint, joints: &JointsSection) -> HingeJoint {
         return HingeJoint::default();
     };
     let path = format!("joints.{}", joint.name());
-    let foreign = [
-        ("stop", section.stop.is_some()),
-        ("twist_damping", section.twist_damping.is_some()),
-        ("stiffness", section.stiffness.is_some()),
-        ("rest_angle", section.rest_angle.is_some()),
-    ];
-    for (key, there) in foreign {
-        if there {
-            let expected = "`damping`, `lower_stop`, `upper_stop`: elbows and knees are hinges";
-            b.error(&with_key(&path, key), format!("`{key}` of a hinge"), expected);
-        }
-    }
+    let foreign = ["stop", "twist_damping", "stiffness", "rest_angle"];
+    let expected = "`damping`, `lower_stop`, `upper_stop`: elbows and knees are hinges";
+    b.refuse_keys(&path, &foreign, |key| format!("`{key}` of a hinge"), expected);
     HingeJoint {
         damping_n_m_s: si_or(&section.damping, f64::NAN),
         lower_stop: section.lower_stop.as_ref().map(stop),

@@ -20,6 +20,8 @@ mod sensors;
 mod setup;
 mod surfaces;
 
+use std::sync::OnceLock;
+
 use indexmap::IndexMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -37,7 +39,14 @@ use self::posture::{InitialStateSection, PostureSection, SeatSection};
 use self::quantity::ANY;
 use self::run::{IntegratorSection, OutputSection, TimeSection};
 use self::surfaces::{ContactSection, SurfaceSection};
+use super::check::schema_of;
 use super::kind::{self, UnitSystem};
+
+/// The JSON Schema of a scenario.
+pub fn schema() -> &'static serde_json::Value {
+    static SCHEMA: OnceLock<serde_json::Value> = OnceLock::new();
+    SCHEMA.get_or_init(|| schema_of::<Scenario>("occupant scenario"))
+}
 
 /// Length.
 pub type Length<const RANGE: usize = ANY> = Quantity<{ kind::LENGTH }, RANGE>;

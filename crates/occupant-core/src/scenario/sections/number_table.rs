@@ -4,10 +4,10 @@
 //! column. Blank lines and lines that start with `#` are skipped.
 
 use crate::problem::Problem;
-use crate::scenario::check::did_you_mean;
 use crate::scenario::kind::{KINDS, UnitSystem};
 use crate::scenario::text::{
-    Cell, Diagnostic, Diagnostics, Node, SourceId, Sources, Span, cells, lines, name_and_unit, number, one_of,
+    Cell, Diagnostic, Diagnostics, Node, SourceId, Sources, Span, cells, did_you_mean, lines, name_and_unit, number,
+    one_of,
 };
 
 /// A column that a table may have.

@@ -10,7 +10,7 @@ use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, si_or};
 use super::{Acceleration, Angle, Length, Ratio, Speed, Time};
 use crate::problem::Problem;
 use crate::scenario::kind;
-use crate::scenario::text::{SourceId, with_key};
+use crate::scenario::text::SourceId;
 use crate::vehicle::{DecelerationPoint, PulseDefinition, PulsePath, PulseShape as Shape, Strength};
 
 /// A deceleration pulse. The vehicle stays where its speed reaches zero, unless a rebound is given.
@@ -154,23 +154,9 @@ fn strength(b: &mut Builder, s: &PulseSection) -> Option<Strength> {
 }
 
 fn refuse_foreign_keys(b: &mut Builder, s: &PulseSection) {
-    let given = [
-        ("peak", s.peak.is_some()),
-        ("delta_v", s.delta_v.is_some()),
-        ("duration", s.duration.is_some()),
-        ("peak_fraction", s.peak_fraction.is_some()),
-        ("rise", s.rise.is_some()),
-        ("plateau", s.plateau.is_some()),
-        ("fall", s.fall.is_some()),
-        ("file", s.file.is_some()),
-        ("columns", s.columns.is_some()),
-        ("rows", s.rows.is_some()),
-    ];
     let known = keys_of(s.shape);
-    for (key, there) in given {
-        if there && !known.contains(&key) {
-            let found = format!("`{key}` has no meaning for this shape of pulse");
-            b.error(&with_key("path", key), found, format!("of such keys only {}", known.join(", ")));
-        }
-    }
+    let keys = ["peak", "delta_v", "duration", "peak_fraction", "rise", "plateau", "fall", "file", "columns", "rows"];
+    let foreign: Vec<&str> = keys.into_iter().filter(|key| !known.contains(key)).collect();
+    let expected = format!("of such keys only {}", known.join(", "));
+    b.refuse_keys("path", &foreign, |key| format!("`{key}` has no meaning for this shape of pulse"), &expected);
 }

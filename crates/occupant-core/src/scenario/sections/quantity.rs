@@ -110,6 +110,10 @@ impl<const KIND: usize, const RANGE: usize> JsonSchema for Quantity<KIND, RANGE>
             },
             "x-example": kind.example,
         });
+        if RANGE != ANY {
+            // keeps the place of the field's own description, before the bounds
+            schema.insert("description".to_owned(), json!(""));
+        }
         for (word, bound) in RANGES[RANGE] {
             schema.insert((*word).to_owned(), json!(bound));
         }

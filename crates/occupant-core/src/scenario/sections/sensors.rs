@@ -170,7 +170,7 @@ fn record(b: &mut Builder, s: &SensorsSection, table: &NumberTable) -> Option<Se
     };
     let accelerations = (1..=3).any(|i| table.present[i]);
     if (7..=8).any(|i| table.present[i]) {
-        let sound = check_delta_v(b, s, table);
+        let sound = check_delta_v(b, table);
         return sound.then(|| {
             SensorRecord::DeltaV(DeltaVRecord {
                 time_s,
@@ -196,7 +196,7 @@ fn record(b: &mut Builder, s: &SensorsSection, table: &NumberTable) -> Option<Se
 }
 
 /// Whether a record of velocity changes is free of what has no meaning there.
-fn check_delta_v(b: &mut Builder, s: &SensorsSection, table: &NumberTable) -> bool {
+fn check_delta_v(b: &mut Builder, table: &NumberTable) -> bool {
     let before = b.problems.len();
     for i in [1, 2, 3, 4, 5].into_iter().filter(|&i| table.present[i]) {
         let found = format!("`{}` beside velocity changes", COLUMNS[i].name);
@@ -204,16 +204,8 @@ fn check_delta_v(b: &mut Builder, s: &SensorsSection, table: &NumberTable) -> bo
         let problem = Problem::error("path", found, expected);
         b.problems.push(Diagnostic::at(&b.document.sources, table.header, problem));
     }
-    for (key, given) in
-        [("gravity", s.gravity.is_some()), ("filter", s.filter.is_some()), ("baseline", s.baseline.is_some())]
-    {
-        if given {
-            b.error(
-                &format!("path.{key}"),
-                format!("`{key}` with a record of velocity changes"),
-                "a record of accelerations, or no such key",
-            );
-        }
-    }
+    let expected = "a record of accelerations, or no such key";
+    let found = |key: &str| format!("`{key}` with a record of velocity changes");
+    b.refuse_keys("path", &["gravity", "filter", "baseline"], found, expected);
     b.problems.len() == before
 }

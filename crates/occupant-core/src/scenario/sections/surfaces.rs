@@ -151,15 +151,9 @@ fn surface(
 }
 
 fn outline(b: &mut Builder, path: &str, section: &SurfaceSection, frame: Frame) -> Outline {
-    let for_edges = [
-        ("half_width", section.half_width.is_some()),
-        ("end_half_width", section.end_half_width.is_some()),
-        ("y", section.y.is_some()),
-    ];
-    for (key, there) in for_edges {
-        if there && section.edge.is_none() {
-            b.error(&with_key(path, key), format!("`{key}` without `edge`"), "`edge`, which it belongs to");
-        }
+    if section.edge.is_none() {
+        let for_edges = ["half_width", "end_half_width", "y"];
+        b.refuse_keys(path, &for_edges, |key| format!("`{key}` without `edge`"), "`edge`, which it belongs to");
     }
     if let Some(plane) = &section.plane {
         let axis = Vector3::from(all_si(&plane.normal));

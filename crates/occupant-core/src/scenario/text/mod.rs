@@ -14,14 +14,14 @@ pub use diagnostic::{Diagnostic, Diagnostics};
 pub(crate) use node::{Entry, Node, Table};
 pub use node::{Format, Value};
 pub use path::{Step, parse as parse_path, with_key};
-pub(crate) use path::{child, follow, locate, to_text, with_step};
+pub(crate) use path::{child, follow, locate, targets, to_text, with_step};
 pub(crate) use source::SourceId;
 pub use source::{Sources, Span};
 pub(crate) use toml::parse_value;
 
 use serde::de::DeserializeOwned;
 
-use crate::problem::Problem;
+use crate::problem::{Problem, nearest};
 
 /// A text that has been read: its tree, and the texts that the places of the tree point into.
 #[derive(Clone, Debug)]
@@ -118,4 +118,9 @@ pub fn one_of(names: &[&str], quote: char) -> String {
 pub(crate) fn quoted(names: &[&str], quote: char) -> String {
     let each: Vec<String> = names.iter().map(|n| format!("{quote}{n}{quote}")).collect();
     each.join(", ")
+}
+
+/// The name that a misspelt one is most like, as a hint.
+pub fn did_you_mean(word: &str, names: &[&str], quote: char) -> Option<String> {
+    nearest(word, names.iter().copied()).map(|n| format!("did you mean {quote}{n}{quote}?"))
 }

@@ -132,12 +132,12 @@ impl JsonSchema for Value {
 
 impl Node {
     /// A value and where it stands.
-    pub fn new(span: Span, value: Value) -> Node {
+    pub(crate) fn new(span: Span, value: Value) -> Node {
         Node { span, value, si: None }
     }
 
     /// The table, if it is one.
-    pub fn as_table(&self) -> Option<&Table> {
+    pub(crate) fn as_table(&self) -> Option<&Table> {
         match &self.value {
             Value::Table(table) => Some(table),
             _ => None,
@@ -145,7 +145,7 @@ impl Node {
     }
 
     /// The table, if it is one.
-    pub fn as_table_mut(&mut self) -> Option<&mut Table> {
+    pub(crate) fn as_table_mut(&mut self) -> Option<&mut Table> {
         match &mut self.value {
             Value::Table(table) => Some(table),
             _ => None,
@@ -153,7 +153,7 @@ impl Node {
     }
 
     /// The text, if it is one.
-    pub fn as_str(&self) -> Option<&str> {
+    pub(crate) fn as_str(&self) -> Option<&str> {
         match &self.value {
             Value::String(text) => Some(text),
             _ => None,
@@ -161,12 +161,12 @@ impl Node {
     }
 
     /// The entry of a table with this key.
-    pub fn get(&self, key: &str) -> Option<&Node> {
+    pub(crate) fn get(&self, key: &str) -> Option<&Node> {
         self.as_table().and_then(|t| t.get(key)).map(|e| &e.node)
     }
 
     /// The items, if it is a list.
-    pub fn items(&self) -> &[Node] {
+    pub(crate) fn items(&self) -> &[Node] {
         match &self.value {
             Value::Array(items) => items,
             _ => &[],
@@ -174,7 +174,7 @@ impl Node {
     }
 
     /// The same tree as if it had been read from another text.
-    pub fn moved_to(&self, source: SourceId) -> Node {
+    pub(crate) fn moved_to(&self, source: SourceId) -> Node {
         let value = match &self.value {
             Value::Array(items) => Value::Array(items.iter().map(|item| item.moved_to(source)).collect()),
             Value::Table(table) => Value::Table(Table(
@@ -264,22 +264,22 @@ impl<'de> IntoDeserializer<'de> for Part<'de> {
 
 impl Table {
     /// An empty table.
-    pub fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Table::default()
     }
 
     /// The entry with this key.
-    pub fn get(&self, key: &str) -> Option<&Entry> {
+    pub(crate) fn get(&self, key: &str) -> Option<&Entry> {
         self.0.iter().find(|e| e.key == key)
     }
 
     /// The entry with this key.
-    pub fn get_mut(&mut self, key: &str) -> Option<&mut Entry> {
+    pub(crate) fn get_mut(&mut self, key: &str) -> Option<&mut Entry> {
         self.0.iter_mut().find(|e| e.key == key)
     }
 
     /// Adds an entry, or replaces the one with the same key in its place.
-    pub fn insert(&mut self, entry: Entry) {
+    pub(crate) fn insert(&mut self, entry: Entry) {
         match self.get_mut(&entry.key) {
             Some(old) => *old = entry,
             None => self.0.push(entry),
@@ -287,23 +287,23 @@ impl Table {
     }
 
     /// Takes an entry out.
-    pub fn remove(&mut self, key: &str) -> Option<Entry> {
+    pub(crate) fn remove(&mut self, key: &str) -> Option<Entry> {
         let at = self.0.iter().position(|e| e.key == key)?;
         Some(self.0.remove(at))
     }
 
     /// The entries in order.
-    pub fn iter(&self) -> std::slice::Iter<'_, Entry> {
+    pub(crate) fn iter(&self) -> std::slice::Iter<'_, Entry> {
         self.0.iter()
     }
 
     /// The entries in order.
-    pub fn iter_mut(&mut self) -> std::slice::IterMut<'_, Entry> {
+    pub(crate) fn iter_mut(&mut self) -> std::slice::IterMut<'_, Entry> {
         self.0.iter_mut()
     }
 
     /// Appends an entry whose key is known to be new; for the parsers.
-    pub fn push(&mut self, entry: Entry) {
+    pub(crate) fn push(&mut self, entry: Entry) {
         self.0.push(entry);
     }
 }

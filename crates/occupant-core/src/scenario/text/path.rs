@@ -81,7 +81,7 @@ pub fn with_key(path: &str, key: &str) -> String {
 }
 
 /// The path of step texts, for messages.
-pub fn to_text(steps: &[Step]) -> String {
+pub(crate) fn to_text(steps: &[Step]) -> String {
     steps.iter().fold(String::new(), |path, step| with_step(&path, step))
 }
 
@@ -96,12 +96,12 @@ pub(crate) fn with_step(path: &str, step: &Step) -> String {
 }
 
 /// Where the steps of a path lead in a tree.
-pub fn follow<'a>(root: &'a Node, steps: &[Step]) -> Option<&'a Node> {
+pub(crate) fn follow<'a>(root: &'a Node, steps: &[Step]) -> Option<&'a Node> {
     steps.iter().try_fold(root, child)
 }
 
 /// The item of a node that a key or an index leads to. Items of lists are found by their `name`, too.
-pub fn child<'a>(node: &'a Node, step: &Step) -> Option<&'a Node> {
+pub(crate) fn child<'a>(node: &'a Node, step: &Step) -> Option<&'a Node> {
     match (&node.value, step) {
         (Value::Table(table), Step::Key(key)) => table.get(key).map(|e| &e.node),
         (Value::Array(items), Step::Index(i)) => items.get(*i),
@@ -112,8 +112,39 @@ pub fn child<'a>(node: &'a Node, step: &Step) -> Option<&'a Node> {
     }
 }
 
+/// The places a path with wildcards leads to in the explicit form of a scenario, as paths without wildcards.
+///
+/// A path without wildcards leads to itself, even where nothing stands yet.
+pub(crate) fn targets(explicit: &Node, steps: &[Step]) -> Vec<Vec<Step>> {
+    if !steps.contains(&Step::Every) {
+        return vec![steps.to_vec()];
+    }
+    let mut found = Vec::new();
+    collect(explicit, steps, &mut Vec::new(), &mut found);
+    found
+}
+
+fn collect(node: &Node, rest: &[Step], path: &mut Vec<Step>, found: &mut Vec<Vec<Step>>) {
+    let Some((step, rest)) = rest.split_first() else {
+        found.push(path.clone());
+        return;
+    };
+    let next: Vec<Step> = match (step, &node.value) {
+        (Step::Every, Value::Table(table)) => table.iter().map(|e| Step::Key(e.key.clone())).collect(),
+        (Step::Every, Value::Array(items)) => (0..items.len()).map(Step::Index).collect(),
+        _ => vec![step.clone()],
+    };
+    for step in next {
+        if let Some(below) = child(node, &step) {
+            path.push(step);
+            collect(below, rest, path, found);
+            path.pop();
+        }
+    }
+}
+
 /// Where a path stands in a tree: its value, or the nearest part above it that exists.
-pub fn locate(root: &Node, path: &str) -> Option<Span> {
+pub(crate) fn locate(root: &Node, path: &str) -> Option<Span> {
     let steps = parse(path).ok()?;
     let mut node = root;
     let mut found = None;

@@ -20,7 +20,7 @@ pub struct Span {
 
 impl Span {
     /// A part of this span: bytes `from..to` counted from its start.
-    pub fn part(self, from: usize, to: usize) -> Span {
+    pub(crate) fn part(self, from: usize, to: usize) -> Span {
         Span { source: self.source, start: (self.start + from).min(self.end), end: (self.start + to).min(self.end) }
     }
 }
@@ -60,17 +60,17 @@ impl Sources {
     }
 
     /// The text with this name, if there is one already.
-    pub fn named(&self, name: &str) -> Option<SourceId> {
+    pub(crate) fn named(&self, name: &str) -> Option<SourceId> {
         self.0.iter().position(|s| s.name == name).map(SourceId)
     }
 
     /// The text, or an empty one for an id of another set.
-    pub fn text(&self, id: SourceId) -> &str {
+    pub(crate) fn text(&self, id: SourceId) -> &str {
         self.0.get(id.0).map_or("", |s| s.text.as_str())
     }
 
     /// The name of the text.
-    pub fn name(&self, id: SourceId) -> &str {
+    pub(crate) fn name(&self, id: SourceId) -> &str {
         self.0.get(id.0).map_or("", |s| s.name.as_str())
     }
 
@@ -80,12 +80,12 @@ impl Sources {
     }
 
     /// The words of a span; empty if it lies outside its text or splits a character.
-    pub fn slice(&self, span: Span) -> &str {
+    pub(crate) fn slice(&self, span: Span) -> &str {
         self.text(span.source).get(span.start..span.end).unwrap_or("")
     }
 
     /// Line and column where the span starts.
-    pub fn position(&self, span: Span) -> Position {
+    pub(crate) fn position(&self, span: Span) -> Position {
         let text = self.text(span.source);
         let before = &text[..floor_char_boundary(text, span.start)];
         let line_start = before.rfind('\n').map_or(0, |i| i + 1);
@@ -93,7 +93,7 @@ impl Sources {
     }
 
     /// The whole line where the span starts, without its line end.
-    pub fn line(&self, span: Span) -> &str {
+    pub(crate) fn line(&self, span: Span) -> &str {
         let text = self.text(span.source);
         let at = floor_char_boundary(text, span.start);
         let start = text[..at].rfind('\n').map_or(0, |i| i + 1);
