@@ -12,8 +12,11 @@ mod table;
 use indexmap::IndexMap;
 
 use super::Study;
+use super::copula::Copula;
 use super::design::Design;
+use super::ensemble::Ensemble;
 use super::keep::Keep;
+use super::parameter::Parameter;
 use super::sobol::Sobol;
 use super::text::StudyText;
 use occupant_core::problem::Problem;
@@ -42,18 +45,7 @@ impl StudyText {
         binder.prepare(&mut base, overrides)?;
         binder.base = Some(&base);
         let mut parameters = binder.parameters();
-        let (design, copula, ensemble) = match purpose {
-            Purpose::Sweep => {
-                let design = binder.design(&mut parameters, resolver);
-                let copula = binder.copula(&parameters, &design);
-                let ensemble = ensemble::bind(&mut binder, &base, &parameters);
-                (design, copula, ensemble)
-            }
-            Purpose::Fit { .. } => {
-                binder.have_ends(&parameters);
-                (Design::Single, None, None)
-            }
-        };
+        let (design, copula, ensemble) = binder.varied(&base, &mut parameters, resolver);
         let keep = binder.keep();
         binder.sizes(&parameters, &design, ensemble.as_ref());
         extremes::check(&mut binder, &base, &parameters, overrides);
@@ -128,6 +120,23 @@ impl<'a> Binder<'a> {
     /// Adds a problem at the words of the study that its path points at.
     pub(super) fn report(&mut self, problem: Problem) {
         self.text.report(&mut self.problems, problem);
+    }
+
+    /// Which samples there are, and what changes besides; nothing of that counts for a fit.
+    fn varied(
+        &mut self,
+        base: &Draft,
+        parameters: &mut Vec<Parameter>,
+        resolver: Resolver,
+    ) -> (Design, Option<Copula>, Option<Ensemble>) {
+        if let Purpose::Fit { .. } = self.purpose {
+            self.have_ends(parameters);
+            return (Design::Single, None, None);
+        }
+        let design = self.design(parameters, resolver);
+        let copula = self.copula(parameters, &design);
+        let ensemble = ensemble::bind(self, base, parameters);
+        (design, copula, ensemble)
     }
 
     /// Puts what is the same in all runs into the base.

@@ -22,10 +22,7 @@ pub(in crate::scenario) fn setup(
     let b = &mut Builder { document, problems: Diagnostics::new() };
     let body = body::body(b, written, &explicit.body);
     let joints = joints::joints(b, &explicit.joints);
-    for problem in references(&document.root, &[]) {
-        b.report(problem);
-    }
-    let materials = materials::materials(explicit);
+    references(&document.root, &[]).into_iter().for_each(|problem| b.report(problem));
     let surfaces = surfaces::surfaces(b, explicit, &body);
     let belts = belts::belts(explicit, &body);
     let (posture, velocity) = posture::posture(b, explicit, &body);
@@ -42,7 +39,7 @@ pub(in crate::scenario) fn setup(
         body,
         joints,
         gravity_m_s2,
-        materials,
+        materials: materials::materials(explicit),
         surfaces,
         edge_force: surfaces::edge_force(explicit),
         belts,

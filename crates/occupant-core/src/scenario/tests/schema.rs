@@ -87,8 +87,3 @@ fn what_the_schema_calls_exclusive_is_so() {
     assert_eq!(problems.len(), 1, "{problems}");
     assert_eq!(schema()["$defs"]["BeltSection"]["allOf"][0], json!({"not": {"required": ["slack", "length"]}}));
 }
-
-#[test]
-fn zz_dump() {
-    std::fs::write("/tmp/schema_new.json", serde_json::to_string_pretty(schema()).unwrap()).unwrap();
-}
