@@ -2,6 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 use occupant_core::body::joint::{AngularSpring, BallJoint, HingeJoint, Joints, Stop};
+use occupant_core::body::tti12::{self, TTI12};
 use occupant_core::forces::belt::{Belt, RestLength};
 use occupant_core::forces::contact::EdgeForce;
 use occupant_core::forces::contact::surface::{Facing, Frame, Outline, Surface};
@@ -138,20 +139,19 @@ pub fn joints() -> Joints {
     let hip = ball(6.0, stop(115.0, 120.0, 600.0), None);
     let elbow = hinge(stop(-125.0, -130.0, 200.0), stop(-15.0, -10.0, 200.0));
     let knee = hinge(stop(5.0, 0.0, 400.0), stop(135.0, 140.0, 400.0));
-    Joints {
-        neck: ball(20.0, stop(45.0, 60.0, 120.0), None),
-        right_shoulder: shoulder,
-        left_shoulder: shoulder,
-        upper_back: ball(6.0, stop(30.0, 35.0, 800.0), Some(1000.0)),
-        left_elbow: elbow,
-        right_elbow: elbow,
-        lower_back: ball(6.0, stop(35.0, 40.0, 800.0), Some(1000.0)),
-        right_hip: hip,
-        left_hip: hip,
-        right_knee: knee,
-        left_knee: knee,
-        epsilon: 1e-3,
-    }
+    Joints::free(&TTI12)
+        .with(tti12::NECK, ball(20.0, stop(45.0, 60.0, 120.0), None))
+        .with(tti12::RIGHT_SHOULDER, shoulder)
+        .with(tti12::LEFT_SHOULDER, shoulder)
+        .with(tti12::UPPER_BACK, ball(6.0, stop(30.0, 35.0, 800.0), Some(1000.0)))
+        .with(tti12::LEFT_ELBOW, elbow)
+        .with(tti12::RIGHT_ELBOW, elbow)
+        .with(tti12::LOWER_BACK, ball(6.0, stop(35.0, 40.0, 800.0), Some(1000.0)))
+        .with(tti12::RIGHT_HIP, hip)
+        .with(tti12::LEFT_HIP, hip)
+        .with(tti12::RIGHT_KNEE, knee)
+        .with(tti12::LEFT_KNEE, knee)
+        .with_epsilon(1e-3)
 }
 
 fn lap_belt() -> Belt {

@@ -2,7 +2,8 @@
 
 use nalgebra::{Point3, Vector3};
 use occupant_core::body::joint::Joints;
-use occupant_core::body::{Body, SEGMENTS, SegmentProperties, standard_spheres};
+use occupant_core::body::tti12::TTI12;
+use occupant_core::body::{Body, SEGMENTS, SegmentProperties};
 use occupant_core::forces::belt::{Belt, RestLength};
 use occupant_core::forces::contact::EdgeForce;
 use occupant_core::forces::contact::surface::{Facing, Frame, Outline, Surface};
@@ -42,14 +43,16 @@ pub fn male50() -> Body {
     });
     let radius_m =
         [3.9, 4.8, 4.7, 2.5, 2.5, 2.0, 2.0, 1.8, 1.8, 3.4, 3.4, 2.4, 2.4, 2.3, 2.3, 1.9, 1.9].map(|r| r * INCH_M);
-    let shoulder_half_width_m = 6.57 * INCH_M;
-    Body {
+    let mut body = Body {
         name: "male50".into(),
+        tree: &TTI12,
         segments,
-        shoulder_half_width_m,
+        shoulder_half_width_m: 6.57 * INCH_M,
         hip_half_width_m: 3.35 * INCH_M,
-        spheres: standard_spheres(&segments, shoulder_half_width_m, &radius_m),
-    }
+        spheres: Vec::new(),
+    };
+    body.spheres = body.standard_spheres(&radius_m);
+    body
 }
 
 /// `male50` without width: standing straight, all its joints and centres of gravity lie on one vertical line, so that
@@ -76,7 +79,14 @@ pub fn bead(inertia_kg_m2: f64) -> Body {
         cg_from_lower_end_m: BEAD_LENGTH_M,
         inertia_kg_m2: Vector3::repeat(inertia_kg_m2),
     };
-    Body { name: "bead".into(), segments, shoulder_half_width_m: 0.0, hip_half_width_m: 0.0, spheres: Vec::new() }
+    Body {
+        name: "bead".into(),
+        tree: &TTI12,
+        segments,
+        shoulder_half_width_m: 0.0,
+        hip_half_width_m: 0.0,
+        spheres: Vec::new(),
+    }
 }
 
 /// A vehicle at rest at the origin of space.
@@ -89,7 +99,7 @@ pub fn afloat(body: Body, end_s: f64, step_s: f64) -> Setup {
     Setup {
         title: "afloat".into(),
         body,
-        joints: Joints::default(),
+        joints: Joints::free(&TTI12),
         gravity_m_s2: 0.0,
         materials: Vec::new(),
         surfaces: Vec::new(),

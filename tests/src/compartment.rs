@@ -5,7 +5,7 @@ use crate::{
     reference::{DOF, Dual, PointForce, System, pose},
 };
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
-use occupant_core::forces::History;
+use occupant_core::forces::contact::ContactData;
 use occupant_core::forces::contact::ContactSystem;
 use occupant_core::forces::contact::EdgeForce;
 use occupant_core::forces::contact::OPEN;
@@ -16,9 +16,11 @@ use occupant_core::forces::contact::surface::Frame;
 use occupant_core::forces::contact::surface::Outline;
 use occupant_core::forces::contact::surface::Surface;
 use occupant_core::forces::joint::JointSystem;
+use occupant_core::forces::material;
 use occupant_core::forces::material::BilinearSpring;
 use occupant_core::forces::material::Material;
-use occupant_core::forces::material::Memory;
+use occupant_core::forces::sphere::Site;
+use occupant_core::forces::{Forces, History, Memory};
 use occupant_core::kernel;
 use occupant_core::motion::frame::Frames;
 use occupant_core::motion::frame::Moving;
@@ -98,11 +100,21 @@ impl Compartment {
         let face = |s| FlatFace::new(s, "", &mut problems);
         let faces: Vec<_> = self.surfaces.iter().filter_map(face).collect();
         assert!(problems.is_empty(), "{problems}");
-        let edge = EdgeForce::default();
-        let contacts = ContactSystem::new(&system.body, &self.surfaces, &faces, &self.materials, edge, 1e-3);
+        let data = ContactData {
+            surfaces: &self.surfaces,
+            faces: &faces,
+            materials: &self.materials,
+            edge_force: EdgeForce::default(),
+            longest_step_s: 1e-3,
+        };
+        let forces = Forces {
+            contacts: ContactSystem::new(&system.body, &data),
+            belts: Vec::new(),
+            joints: JointSystem::new(&system.joints, &[f64::NAN; 7]),
+        };
         let untouched = PairHistory { phase: OPEN, greatest: 0.0 };
-        let pairs = vec![untouched; contacts.pairs().len()];
-        let history = History::new(&contacts, pairs, Vec::new());
+        let contacts = vec![untouched; forces.contacts.pairs().len()];
+        let history = History::new(&forces, Memory { contacts, belts: Vec::new(), joints: Vec::new() });
         let vehicle = Moving {
             origin: V3::of(&self.vehicle.origin),
             axes: M3::of(&self.vehicle.axes),
@@ -111,9 +123,8 @@ impl Compartment {
         };
         let kernel = kernel::System {
             skeleton: Skeleton::new(&system.body, -system.gravity.z),
-            joints: JointSystem::new(&system.joints, &[f64::NAN; 7]),
-            contacts,
-            belts: Vec::new(),
+            spheres: Site::all(&system.body),
+            forces,
         };
         (kernel, [Moving::space(), vehicle], history)
     }
@@ -231,6 +242,6 @@ fn material(random: &mut Random) -> Material {
         },
         friction: random.between(0.1, 1.0),
         friction_speed_m_s: random.between(0.05, 1.0),
-        memory: Memory::Reset,
+        memory: material::Memory::Reset,
     }
 }

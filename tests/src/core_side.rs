@@ -11,8 +11,8 @@ use occupant_core::motion::dynamics;
 use occupant_core::motion::dynamics::Accelerations;
 use occupant_core::motion::dynamics::Wrench;
 use occupant_core::motion::kinematics::Kinematics;
+use occupant_core::motion::layout::FREE;
 use occupant_core::motion::skeleton::Skeleton;
-use occupant_core::motion::state::FREE;
 use occupant_core::motion::state::Quat;
 use occupant_core::motion::state::State;
 use occupant_core::motion::vector::V3;
@@ -58,11 +58,11 @@ impl CoreSide {
         let joints = JointSystem::new(&system.joints, &[f64::NAN; 7]);
         let kinematics = Kinematics::new(&skeleton, &state);
         let mut wrench = external(system, &kinematics);
-        let dissipated = joints.apply(&kinematics, &state, &mut wrench);
+        let dissipated = joints.apply(&kinematics, &state, &mut wrench, &mut |_| {});
         let found = dynamics::solve(&skeleton, &kinematics, &state.hinge_rate, &wrench);
         let accelerations = SpaceMotion {
             t1: found.joint[0].to_vector(),
-            angular: FREE.map(|n| found.alpha[n].to_vector()),
+            angular: std::array::from_fn(|i| found.alpha[FREE[i]].to_vector()),
             hinge: found.hinge,
         };
         CoreSide { skeleton, joints, kinematics, dissipated, accelerations, segments: found }
@@ -75,7 +75,7 @@ fn external(system: &System, kinematics: &Kinematics<f64>) -> [Wrench<f64>; SEGM
     for f in &system.forces {
         let n = f.segment.index();
         let upper_end = Vector3::z() * system.body.segment(f.segment).length_m;
-        let from_joint = if f.segment.hangs() { f.point - upper_end } else { f.point };
+        let from_joint = if system.body.tree[f.segment].hangs() { f.point - upper_end } else { f.point };
         let (arm, force) = (kinematics.axes[n].out(V3::of(&from_joint)), V3::of(&f.force));
         wrench[n].force += force;
         wrench[n].moment += arm.cross(force);

@@ -2,10 +2,11 @@
 
 use crate::reference::System;
 use nalgebra::Vector3;
-use occupant_core::forces::History;
-use occupant_core::forces::contact::ContactSystem;
 use occupant_core::forces::contact::EdgeForce;
-use occupant_core::forces::joint::JointSystem;
+use occupant_core::forces::contact::{ContactData, ContactSystem};
+use occupant_core::forces::joint::{DAMPING, JointSystem};
+use occupant_core::forces::sphere::Site;
+use occupant_core::forces::{Forces, History, Memory};
 use occupant_core::kernel;
 use occupant_core::motion::frame::Frames;
 use occupant_core::motion::frame::Moving;
@@ -38,13 +39,22 @@ impl FreeRun {
     /// `system` without its forces.
     pub fn new(system: &System) -> FreeRun {
         assert_eq!(system.gravity.xy().norm(), 0.0);
-        let system = kernel::System {
-            skeleton: Skeleton::new(&system.body, -system.gravity.z),
-            joints: JointSystem::new(&system.joints, &[f64::NAN; 7]),
-            contacts: ContactSystem::new(&system.body, &[], &[], &[], EdgeForce::default(), 1e-3),
-            belts: Vec::new(),
+        let nothing = ContactData {
+            surfaces: &[],
+            faces: &[],
+            materials: &[],
+            edge_force: EdgeForce::default(),
+            longest_step_s: 1e-3,
         };
-        let history = History::new(&system.contacts, Vec::new(), Vec::new());
+        let forces = Forces {
+            contacts: ContactSystem::new(&system.body, &nothing),
+            belts: Vec::new(),
+            joints: JointSystem::new(&system.joints, &[f64::NAN; 7]),
+        };
+        let memory = Memory { contacts: Vec::new(), belts: Vec::new(), joints: Vec::new() };
+        let history = History::new(&forces, memory);
+        let skeleton = Skeleton::new(&system.body, -system.gravity.z);
+        let system = kernel::System { skeleton, spheres: Site::all(&system.body), forces };
         FreeRun { system, history, frames: [Moving::space(), Moving::space()] }
     }
 
@@ -65,8 +75,8 @@ impl FreeRun {
         let (linear, angular) = energy::momentum(body, &k, V3::zero());
         let energy = energy::kinetic(body, &k, &Moving::space())
             + energy::gravity(body, &k)
-            + self.system.joints.stored(&k)
-            + state.work.joints;
+            + self.system.forces.joints.stored(&k)
+            + state.work.sums[DAMPING];
         Conserved { energy, linear: linear.to_vector(), angular: angular.to_vector() }
     }
 

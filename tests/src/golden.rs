@@ -4,12 +4,12 @@ use crate::reference::{DOF, PointForce, System};
 use nalgebra::{Point3, Vector3};
 use occupant_core::body::Body;
 use occupant_core::body::ContactSphere;
-use occupant_core::body::Segment;
 use occupant_core::body::SegmentProperties;
 use occupant_core::body::joint::AngularSpring;
 use occupant_core::body::joint::BallJoint;
 use occupant_core::body::joint::HingeJoint;
 use occupant_core::body::joint::Joints;
+use occupant_core::body::tti12::{self, TTI12};
 use serde::Deserialize;
 
 /// The whole file; index 0 is the report's number 1. Inches, pounds-force, seconds, radians.
@@ -101,12 +101,13 @@ impl Golden {
         };
         let sphere = |s: &GoldenSphere| ContactSphere {
             name: s.name.clone(),
-            segment: Segment::ALL[s.segment - 1],
+            segment: TTI12.segment(s.segment - 1),
             centre_from_lower_end_m: Point3::from(s.centre_from_lower_end),
             radius_m: s.radius,
         };
         Body {
             name: "appendix3".to_owned(),
+            tree: &TTI12,
             segments: std::array::from_fn(|i| segment(&self.segments[i])),
             shoulder_half_width_m: self.shoulder_half_width,
             hip_half_width_m: self.hip_half_width,
@@ -123,20 +124,19 @@ impl Golden {
         };
         let hinge =
             |number: usize| HingeJoint { damping_n_m_s: self.joint_damping[number - 1], ..HingeJoint::default() };
-        Joints {
-            neck: ball(1, None),
-            right_shoulder: ball(2, None),
-            left_shoulder: ball(3, None),
-            upper_back: ball(4, Some(&self.upper_back_spring)),
-            left_elbow: hinge(5),
-            right_elbow: hinge(6),
-            lower_back: ball(7, Some(&self.lower_back_spring)),
-            right_hip: ball(8, None),
-            left_hip: ball(9, None),
-            right_knee: hinge(10),
-            left_knee: hinge(11),
-            epsilon: 0.0,
-        }
+        Joints::free(&TTI12)
+            .with(tti12::NECK, ball(1, None))
+            .with(tti12::RIGHT_SHOULDER, ball(2, None))
+            .with(tti12::LEFT_SHOULDER, ball(3, None))
+            .with(tti12::UPPER_BACK, ball(4, Some(&self.upper_back_spring)))
+            .with(tti12::LEFT_ELBOW, hinge(5))
+            .with(tti12::RIGHT_ELBOW, hinge(6))
+            .with(tti12::LOWER_BACK, ball(7, Some(&self.lower_back_spring)))
+            .with(tti12::RIGHT_HIP, ball(8, None))
+            .with(tti12::LEFT_HIP, ball(9, None))
+            .with(tti12::RIGHT_KNEE, hinge(10))
+            .with(tti12::LEFT_KNEE, hinge(11))
+            .with_epsilon(0.0)
     }
 
     /// Body, joints, gravity and the forces of one state.

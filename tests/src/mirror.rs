@@ -5,19 +5,24 @@ use crate::{
     space_state::SpaceState,
 };
 use nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use occupant_core::body::tti12::{self, TTI12};
 use occupant_core::body::{Body, Segment};
 
 impl System {
     /// The mirror image; gravity must lie in the mirror's plane.
     pub fn mirrored(&self) -> System {
         assert_eq!(self.gravity.y, 0.0);
-        let mut joints = self.joints;
-        std::mem::swap(&mut joints.left_shoulder, &mut joints.right_shoulder);
-        std::mem::swap(&mut joints.left_elbow, &mut joints.right_elbow);
-        std::mem::swap(&mut joints.left_hip, &mut joints.right_hip);
-        std::mem::swap(&mut joints.left_knee, &mut joints.right_knee);
+        let mut joints = self.joints.clone();
+        for (left, right) in [
+            (tti12::LEFT_SHOULDER, tti12::RIGHT_SHOULDER),
+            (tti12::LEFT_ELBOW, tti12::RIGHT_ELBOW),
+            (tti12::LEFT_HIP, tti12::RIGHT_HIP),
+            (tti12::LEFT_KNEE, tti12::RIGHT_KNEE),
+        ] {
+            joints = joints.with(left, self.joints[right]).with(right, self.joints[left]);
+        }
         let force = |f: &PointForce| PointForce {
-            segment: Segment::ALL[other_side(f.segment.index())],
+            segment: other_segment(f.segment),
             point: mirrored_vector(&f.point),
             force: mirrored_vector(&f.force),
         };
@@ -63,10 +68,14 @@ const HINGE_OTHER_SIDE: [usize; 4] = [1, 0, 3, 2];
 fn mirrored_body(body: &Body) -> Body {
     let mut spheres = body.spheres.clone();
     for sphere in &mut spheres {
-        sphere.segment = Segment::ALL[other_side(sphere.segment.index())];
+        sphere.segment = other_segment(sphere.segment);
         sphere.centre_from_lower_end_m.y = -sphere.centre_from_lower_end_m.y;
     }
     Body { segments: std::array::from_fn(|i| body.segments[other_side(i)]), spheres, ..body.clone() }
+}
+
+fn other_segment(segment: Segment) -> Segment {
+    TTI12.segment(other_side(segment.index()))
 }
 
 const fn other_side(segment: usize) -> usize {

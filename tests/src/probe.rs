@@ -1,7 +1,8 @@
 //! A sphere led by hand through the kernel: prescribed places and velocities, and the load that the surfaces answer with.
 
 use nalgebra::{Point3, Vector3};
-use occupant_core::body::{ContactSphere, Segment};
+use occupant_core::body::ContactSphere;
+use occupant_core::body::tti12;
 use occupant_core::forces::contact::EdgeForce;
 use occupant_core::forces::contact::Touch;
 use occupant_core::forces::contact::surface::Surface;
@@ -52,7 +53,7 @@ pub fn bead_among(materials: Vec<Material>, surfaces: Vec<Surface>, edge_force: 
 pub fn sphere_round_t1() -> ContactSphere {
     ContactSphere {
         name: "probe".into(),
-        segment: Segment::MiddleTorso,
+        segment: tti12::MIDDLE_TORSO,
         centre_from_lower_end_m: Point3::new(0.0, 0.0, BEAD_LENGTH_M),
         radius_m: RADIUS_M,
     }
@@ -96,17 +97,17 @@ impl Probe {
 
     /// State of pair `i`: open, touching or passed.
     pub fn phase(&self, i: usize) -> f64 {
-        self.history.pairs[i].phase
+        self.history.memory.contacts[i].phase
     }
 
     /// Δ_m of pair `i`, m.
     pub fn greatest_m(&self, i: usize) -> f64 {
-        self.history.pairs[i].greatest
+        self.history.memory.contacts[i].greatest
     }
 
     /// Number of pairs.
     pub fn pairs(&self) -> usize {
-        self.history.pairs.len()
+        self.history.memory.contacts.len()
     }
 
     fn place(&mut self, centre_m: Vector3<f64>, velocity_m_s: Vector3<f64>, omega: Vector3<f64>) {
@@ -119,7 +120,7 @@ impl Probe {
         let mut touches = Touches(Vec::new());
         let evaluation =
             self.model.system().evaluate::<COMMIT>(&self.state, &self.frames, &mut self.history, &mut touches);
-        let wrench = &evaluation.wrench[Segment::MiddleTorso.index()];
+        let wrench = &evaluation.wrench[tti12::MIDDLE_TORSO.index()];
         Load { force_n: wrench.force.to_vector(), moment_n_m: wrench.moment.to_vector(), touches: touches.0 }
     }
 }
@@ -127,7 +128,7 @@ impl Probe {
 struct Touches(Vec<Touch<f64>>);
 
 impl Observer<f64> for Touches {
-    fn touch(&mut self, touch: &Touch<f64>) {
+    fn contacts(&mut self, touch: &Touch<f64>) {
         self.0.push(*touch);
     }
 }

@@ -15,7 +15,7 @@ use occupant_core::body::joint::BallJoint;
 use occupant_core::body::joint::HingeJoint;
 use occupant_core::body::joint::Joints;
 use occupant_core::body::joint::Stop;
-use occupant_core::body::standard_spheres;
+use occupant_core::body::tti12::{self, TTI12};
 use std::f64::consts::PI;
 
 /// SplitMix64 (Steele, Lea, Flood 2014).
@@ -60,15 +60,17 @@ impl Random {
     /// A body with positive masses and possible inertias, every segment different.
     pub fn body(&mut self) -> Body {
         let segments = std::array::from_fn(|_| self.segment());
-        let radius = std::array::from_fn(|_| self.between(0.03, 0.12));
-        let shoulder_half_width_m = self.between(0.1, 0.25);
-        Body {
+        let radius: [f64; 17] = std::array::from_fn(|_| self.between(0.03, 0.12));
+        let mut body = Body {
             name: "random".to_owned(),
+            tree: &TTI12,
             segments,
-            shoulder_half_width_m,
+            shoulder_half_width_m: self.between(0.1, 0.25),
             hip_half_width_m: self.between(0.05, 0.15),
-            spheres: standard_spheres(&segments, shoulder_half_width_m, &radius),
-        }
+            spheres: Vec::new(),
+        };
+        body.spheres = body.standard_spheres(&radius);
+        body
     }
 
     fn segment(&mut self) -> SegmentProperties {
@@ -86,20 +88,19 @@ impl Random {
 
     /// Joints with all of damping, twist, stops and springs here and there.
     pub fn joints(&mut self) -> Joints {
-        Joints {
-            neck: self.ball(),
-            right_shoulder: self.ball(),
-            left_shoulder: self.ball(),
-            upper_back: self.spring_ball(),
-            left_elbow: self.hinge(),
-            right_elbow: self.hinge(),
-            lower_back: self.spring_ball(),
-            right_hip: self.ball(),
-            left_hip: self.ball(),
-            right_knee: self.hinge(),
-            left_knee: self.hinge(),
-            epsilon: self.between(1e-3, 0.05),
-        }
+        Joints::free(&TTI12)
+            .with(tti12::NECK, self.ball())
+            .with(tti12::RIGHT_SHOULDER, self.ball())
+            .with(tti12::LEFT_SHOULDER, self.ball())
+            .with(tti12::UPPER_BACK, self.spring_ball())
+            .with(tti12::LEFT_ELBOW, self.hinge())
+            .with(tti12::RIGHT_ELBOW, self.hinge())
+            .with(tti12::LOWER_BACK, self.spring_ball())
+            .with(tti12::RIGHT_HIP, self.ball())
+            .with(tti12::LEFT_HIP, self.ball())
+            .with(tti12::RIGHT_KNEE, self.hinge())
+            .with(tti12::LEFT_KNEE, self.hinge())
+            .with_epsilon(self.between(1e-3, 0.05))
     }
 
     fn ball(&mut self) -> BallJoint {

@@ -3,7 +3,8 @@
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use nalgebra::{Point3, Vector3};
-use occupant_core::body::{ContactSphere, Segment};
+use occupant_core::body::ContactSphere;
+use occupant_core::body::tti12;
 use occupant_core::forces::belt::law::{BeltAction, BeltLaw};
 use occupant_core::forces::belt::{Belt, RestLength};
 use occupant_core::model::Model;
@@ -271,7 +272,7 @@ fn the_belt_force_acts_at_the_spheres_centre() {
     let mut setup = afloat(male50(), 0.1, 1e-3);
     setup.body.spheres = vec![ContactSphere {
         name: "probe".into(),
-        segment: Segment::UpperTorso,
+        segment: tti12::UPPER_TORSO,
         centre_from_lower_end_m: Point3::new(0.04, -0.03, 0.2),
         radius_m: R,
     }];
@@ -281,7 +282,7 @@ fn the_belt_force_acts_at_the_spheres_centre() {
     let frames = model.frames(0.0, 0.0, &mut Default::default());
     let mut history = model.start().history.clone();
     let e = model.system().evaluate::<false>(&model.start().state, &frames, &mut history, &mut ());
-    let wrench = &e.wrench[Segment::UpperTorso.index()];
+    let wrench = &e.wrench[tti12::UPPER_TORSO.index()];
     let (force, moment) = (wrench.force.to_vector(), wrench.moment.to_vector());
     assert!(force.norm() > 100.0);
     let arm = Vector3::new(0.04, -0.03, 0.2);

@@ -2,12 +2,11 @@
 //! the plain formulas fed into the reference.
 
 use nalgebra::{Rotation3, Vector3};
-use occupant_core::forces::History;
-use occupant_core::forces::Observer;
-use occupant_core::forces::contact::Touch;
 use occupant_core::forces::contact::surface::Frame;
+use occupant_core::forces::contact::{FRICTION, PRESS, Touch};
+use occupant_core::forces::{History, Observer};
 use occupant_core::kernel::Evaluation;
-use occupant_core::motion::state::FREE;
+use occupant_core::motion::layout::FREE;
 use occupant_tests::{
     compartment::{Compartment, ContactForce},
     random::Random,
@@ -33,7 +32,7 @@ fn accelerations(evaluation: &Evaluation<f64>) -> SpaceMotion {
     let found = &evaluation.accelerations;
     SpaceMotion {
         t1: found.joint[0].to_vector(),
-        angular: FREE.map(|n| found.alpha[n].to_vector()),
+        angular: std::array::from_fn(|i| found.alpha[FREE[i]].to_vector()),
         hinge: found.hinge,
     }
 }
@@ -58,9 +57,9 @@ fn contact_forces_act_at_the_touching_point() {
         let sum = |f: fn(&ContactForce) -> f64| -> f64 { contacts.iter().map(f).sum() };
         let size = sum(|c| c.power.abs());
         let power = &found.power;
-        let total = power.vehicle - power.contact - power.friction;
+        let total = power.vehicle - power.sums[PRESS] - power.sums[FRICTION];
         worst = worst.max((total - sum(|c| c.power)).abs() / size);
-        worst = worst.max((power.friction - sum(|c| c.friction_loss)).abs() / size);
+        worst = worst.max((power.sums[FRICTION] - sum(|c| c.friction_loss)).abs() / size);
         worst = worst.max((power.vehicle - sum(|c| c.carried_power)).abs() / size);
     }
     assert!(touches > 500, "{touches}"); // Measured: 1027.
@@ -80,8 +79,8 @@ fn faces_that_are_far_at_a_commit_are_not_missed_before_the_next() {
         let (state, moved) = (state.to_core(), moved.to_core());
 
         let mut before = Seen::default();
-        kernel.commit(&state, &frames, &mut culled, &mut before);
-        let mut all = History::new(&kernel.contacts, culled.pairs.clone(), Vec::new());
+        kernel.rate_observed::<true>(&state, &frames, &mut culled, &mut before);
+        let mut all = History::new(&kernel.forces, culled.memory.clone());
         let (mut some, mut every) = (Seen::default(), Seen::default());
         let found = kernel.rate_observed::<false>(&moved, &frames, &mut culled, &mut some);
         let expected = kernel.rate_observed::<false>(&moved, &frames, &mut all, &mut every);
@@ -97,7 +96,7 @@ fn faces_that_are_far_at_a_commit_are_not_missed_before_the_next() {
 struct Seen(Vec<usize>);
 
 impl Observer<f64> for Seen {
-    fn touch(&mut self, touch: &Touch<f64>) {
+    fn contacts(&mut self, touch: &Touch<f64>) {
         self.0.push(touch.pair);
     }
 }

@@ -150,7 +150,7 @@ fn gain(setup: Setup) -> (f64, f64) {
         &model,
         Watch(|s: &Sample<'_>| {
             kinetic.push(s.energy.kinetic_j);
-            assert!(s.touches.is_empty());
+            assert!(s.actions.contacts.is_empty());
         }),
     )
     .unwrap();

@@ -1,7 +1,7 @@
 //! Regularised friction: creep below the friction angle, sliding above it, work, and frames that move.
 
 use nalgebra::{Point3, Vector3};
-use occupant_core::forces::contact::EdgeForce;
+use occupant_core::forces::contact::{EdgeForce, FRICTION};
 use occupant_core::model::Model;
 use occupant_core::model::setup::{Integrator, Setup};
 use occupant_core::results::recorder::Watch;
@@ -122,7 +122,7 @@ fn what_friction_takes_from_a_sliding_body_stands_in_the_ledger() {
     let energy = last.unwrap();
     // 80 J at 4 m/s less ½ m v² after a second at nearly −0.3 g
     // Measured: 74.35.
-    assert_within("lost to friction, J", energy.lost_friction_j, [70.0, 80.0]);
+    assert_within("lost to friction, J", energy.lost_j[FRICTION], [70.0, 80.0]);
     // Measured: 7.3e-15.
     assert_below("energy imbalance", outcome.balance_error, 1e-9);
 }

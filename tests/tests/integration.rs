@@ -2,6 +2,8 @@
 
 use nalgebra::{Point3, Vector3};
 use occupant_core::body::joint::{AngularSpring, BallJoint, HingeJoint, Joints};
+use occupant_core::body::tti12::TTI12;
+use occupant_core::forces::{belt, joint};
 use occupant_core::model::Model;
 use occupant_core::model::seating::InitialPosture;
 use occupant_core::model::setup::{Integrator, Setup};
@@ -25,20 +27,7 @@ fn supple() -> Joints {
         spring: Some(AngularSpring { stiffness_n_m: 120.0, rest_rad: None }),
     };
     let hinge = HingeJoint { damping_n_m_s: 1.0, ..HingeJoint::default() };
-    Joints {
-        neck: ball,
-        right_shoulder: ball,
-        left_shoulder: ball,
-        upper_back: ball,
-        left_elbow: hinge,
-        right_elbow: hinge,
-        lower_back: ball,
-        right_hip: ball,
-        left_hip: ball,
-        right_knee: hinge,
-        left_knee: hinge,
-        epsilon: 0.1,
-    }
+    Joints::alike(&TTI12, ball, hinge).with_epsilon(0.1)
 }
 
 /// A bent posture that turns and moves: every angle and rate different.
@@ -79,7 +68,7 @@ fn end(setup: Setup) -> (State<f64>, Outcome) {
         &model,
         Watch(|s: &Sample<'_>| {
             last = Some(*s.state);
-            assert!(s.belts.iter().all(|b| b.loop_force > 0.0));
+            assert!(s.actions.belts.iter().all(|b| b.loop_force > 0.0));
         }),
     )
     .unwrap();
@@ -102,7 +91,7 @@ fn distances(a: &State<f64>, b: &State<f64>) -> [f64; 4] {
         speeds += (a.hinge_rate[i] - b.hinge_rate[i]).powi(2);
     }
     let (w, u) = (&a.work, &b.work);
-    let work = [w.joints - u.joints, w.belts - u.belts];
+    let work = [w.sums[joint::DAMPING] - u.sums[joint::DAMPING], w.sums[belt::STRETCH] - u.sums[belt::STRETCH]];
     let work: f64 = work.iter().map(|d| d * d).sum();
     [v(a.t1, b.t1), angles, speeds, work].map(f64::sqrt)
 }

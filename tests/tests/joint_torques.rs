@@ -2,9 +2,10 @@
 
 use nalgebra::Vector3;
 use occupant_core::body::joint::{BallJoint, HingeJoint, Joints, Stop};
+use occupant_core::body::tti12::{self, TTI12};
 use occupant_tests::{
     random::Random,
-    reference::{DOF, damping_forces, joint_angle, space_velocities, spine_energy},
+    reference::{DOF, ball, damping_forces, hinge, joint_angle, space_velocities, spine_energy},
     reference::{Dual, SpaceMotion},
     space_state::SpaceState,
 };
@@ -12,13 +13,13 @@ use occupant_tests::{
 /// Ball joints as (joint, k, l) with k and l counted among the free segments 1–6, 9, 10.
 fn balls(joints: &Joints) -> [(BallJoint, usize, usize); 7] {
     [
-        (joints.neck, 1, 2),
-        (joints.right_shoulder, 1, 5),
-        (joints.left_shoulder, 1, 4),
-        (joints.upper_back, 0, 1),
-        (joints.lower_back, 0, 3),
-        (joints.right_hip, 3, 7),
-        (joints.left_hip, 3, 6),
+        (ball(joints, tti12::NECK), 1, 2),
+        (ball(joints, tti12::RIGHT_SHOULDER), 1, 5),
+        (ball(joints, tti12::LEFT_SHOULDER), 1, 4),
+        (ball(joints, tti12::UPPER_BACK), 0, 1),
+        (ball(joints, tti12::LOWER_BACK), 0, 3),
+        (ball(joints, tti12::RIGHT_HIP), 3, 7),
+        (ball(joints, tti12::LEFT_HIP), 3, 6),
     ]
 }
 
@@ -71,10 +72,10 @@ fn work(torque: &Vector3<f64>, column: &SpaceMotion, k: usize, l: usize) -> f64 
 /// R of an elbow or knee: −J α̇ in its own coordinate.
 fn hinge_part(joints: &Joints, q: &[f64; DOF], rates: &[f64; DOF], j: usize) -> f64 {
     let hinge = match j + 1 {
-        22 => joints.left_elbow,
-        23 => joints.right_elbow,
-        30 => joints.left_knee,
-        31 => joints.right_knee,
+        22 => hinge(joints, tti12::LEFT_ELBOW),
+        23 => hinge(joints, tti12::RIGHT_ELBOW),
+        30 => hinge(joints, tti12::LEFT_KNEE),
+        31 => hinge(joints, tti12::RIGHT_KNEE),
         _ => return 0.0,
     };
     let stop = [hinge.lower_stop, hinge.upper_stop][usize::from(rates[j] > 0.0)];
@@ -89,7 +90,7 @@ fn hinge_part(joints: &Joints, q: &[f64; DOF], rates: &[f64; DOF], j: usize) -> 
 fn a_stop_works_only_while_the_joint_moves_into_it() {
     let stop = |begin_rad, full_rad| Some(Stop { begin_rad, full_rad, damping_n_m_s: 9.0 });
     let elbow = HingeJoint { damping_n_m_s: 1.0, lower_stop: stop(-1.0, -2.0), upper_stop: stop(1.0, 2.0) };
-    let joints = Joints { left_elbow: elbow, ..Joints::default() };
+    let joints = Joints::free(&TTI12).with(tti12::LEFT_ELBOW, elbow);
     let resistance = |alpha: f64, rate: f64| {
         let (mut q, mut rates) = ([1.0; DOF], [0.0; DOF]);
         (q[21], rates[21]) = (alpha, rate);

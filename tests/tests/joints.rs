@@ -2,10 +2,12 @@
 
 use nalgebra::{Unit, UnitQuaternion, Vector3};
 use occupant_core::body::joint::{AngularSpring, BallJoint, HingeJoint, Joints, Stop};
-use occupant_core::forces::joint::{BALLS, BallAction, JointSystem};
+use occupant_core::body::tti12::{self, TTI12};
+use occupant_core::forces::joint::{BallAction, JointSystem};
 use occupant_core::motion::kinematics::Kinematics;
+use occupant_core::motion::layout::{BALLS, FREE, free_slot};
 use occupant_core::motion::skeleton::Skeleton;
-use occupant_core::motion::state::{FREE, Quat, State, free_slot};
+use occupant_core::motion::state::{Quat, State};
 use occupant_core::motion::vector::{V3, v3};
 use occupant_tests::cases::male50;
 use occupant_tests::measure::assert_below;
@@ -14,7 +16,7 @@ use occupant_tests::measure::assert_below;
 const NECK: usize = 0;
 
 fn system(neck: BallJoint, epsilon: f64) -> JointSystem<f64> {
-    let joints = Joints { neck, epsilon, ..Joints::default() };
+    let joints = Joints::free(&TTI12).with(tti12::NECK, neck).with_epsilon(epsilon);
     JointSystem::new(&joints, &[0.0; 7])
 }
 
@@ -100,7 +102,8 @@ fn the_rate_of_beta_is_n_omega_over_the_root_of_s_squared_and_epsilon_squared() 
 fn the_springs_torque_derives_from_its_energy() {
     let spring = AngularSpring { stiffness_n_m: 113.0, rest_rad: Some(0.4) };
     let data = BallJoint { spring: Some(spring), ..BallJoint::default() };
-    let joints = Joints { upper_back: data, lower_back: data, neck: data, ..Joints::default() };
+    let joints =
+        Joints::free(&TTI12).with(tti12::UPPER_BACK, data).with(tti12::LOWER_BACK, data).with(tti12::NECK, data);
     let system = JointSystem::new(&joints, &[0.0; 7]);
     let mut worst = 0.0_f64;
     for case in 0..20 {
@@ -125,7 +128,7 @@ fn the_springs_torque_derives_from_its_energy() {
 fn the_spring_without_an_angle_of_its_own_rests_at_the_initial_one() {
     let data =
         BallJoint { spring: Some(AngularSpring { stiffness_n_m: 100.0, rest_rad: None }), ..BallJoint::default() };
-    let joints = Joints { neck: data, ..Joints::default() };
+    let joints = Joints::free(&TTI12).with(tti12::NECK, data);
     let system = JointSystem::new(&joints, &[0.5, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0]);
     let stored = system.ball(NECK, &bent(0.8, 0.3, Vector3::zeros())).stored;
     // ε = 1e−3 moves β by less than 1e−6.
@@ -252,13 +255,13 @@ fn both_segments_of_a_joint_get_opposite_moments() {
     state.hinge_rate = [-3.0, 2.0, -4.0, 1.0];
     let k = kinematics(&state);
     let mut wrench = [occupant_core::motion::dynamics::Wrench::zero(); 12];
-    let dissipated = system.apply(&k, &state, &mut wrench);
+    let dissipated = system.apply(&k, &state, &mut wrench, &mut |_| {});
     let sum: Vector3<f64> = wrench.iter().map(|w| w.moment.to_vector()).sum();
     // Measured: 8.6e-15.
     assert_below("sum of moments, N·m", sum.norm(), 1e-10);
     assert!(dissipated > 0.0);
     // slots of segments 9 and 10 follow 6
-    assert_eq!((free_slot(8), free_slot(9)), (6, 7));
+    assert_eq!((free_slot(8), free_slot(9)), (Some(6), Some(7)));
 }
 
 #[test]
@@ -268,7 +271,7 @@ fn the_stops_of_a_hinge_resist_only_while_moving_into_them() {
         lower_stop: Some(Stop { begin_rad: 0.1, full_rad: -0.1, damping_n_m_s: 41.0 }),
         upper_stop: Some(Stop { begin_rad: 2.0, full_rad: 2.5, damping_n_m_s: 61.0 }),
     };
-    let joints = Joints { left_knee: hinge, ..Joints::default() };
+    let joints = Joints::free(&TTI12).with(tti12::LEFT_KNEE, hinge);
     let system = JointSystem::<f64>::new(&joints, &[0.0; 7]);
     // left elbow, right elbow, left knee, right knee
     let knee = &system.hinges[2];

@@ -3,8 +3,8 @@
 //! Differences are relative to the largest component of the kind (acceleration of T1; angular accelerations).
 
 use nalgebra::{UnitQuaternion, Vector3};
-use occupant_core::forces::joint::BALLS;
 use occupant_core::motion::frame::Moving;
+use occupant_core::motion::layout::BALLS;
 use occupant_core::motion::vector::V3;
 use occupant_core::results::energy;
 use occupant_tests::{

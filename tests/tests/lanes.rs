@@ -2,8 +2,11 @@
 
 use std::ops::ControlFlow;
 
+use occupant_core::body::tti12;
+use occupant_core::forces::belt::OTHER_BELTS;
+use occupant_core::forces::contact::OTHER_PAIRS;
+use occupant_core::forces::joint::OTHER_SPRINGS;
 use occupant_core::forces::material::Memory;
-use occupant_core::kernel::Unlike;
 use occupant_core::model::Model;
 use occupant_core::model::setup::{Integrator, Setup};
 use occupant_core::results::outcome::{Outcome, Status};
@@ -29,7 +32,7 @@ impl Recorder for Texts {
         if self.break_at == Some(s.index) {
             return Err("the disk is full".into());
         }
-        let derived = (s.evaluation, s.touches, s.belts, s.energy, s.vehicle);
+        let derived = (s.evaluation, s.actions, s.energy, s.vehicle);
         let text = format!("{:?} {derived:?} {:?}", s.checkpoint(), s.frames);
         self.outputs.push(text);
         Ok(match self.stop_at == Some(s.index) {
@@ -99,8 +102,8 @@ fn cart(i: usize) -> Case {
         belt.webbing.k1_n_per_m /= scale;
         belt.anchors_m[0].x += 0.004 * i as f64;
     }
-    setup.joints.neck.damping_n_m_s *= scale;
-    setup.joints.left_elbow.damping_n_m_s *= scale;
+    setup.joints.ball_mut(tti12::NECK).unwrap().damping_n_m_s *= scale;
+    setup.joints.hinge_mut(tti12::LEFT_ELBOW).unwrap().damping_n_m_s *= scale;
     setup.integrator = Integrator::Rk4 { step_s: 3e-4 + 2e-5 * (i % 3) as f64 };
     setup.time.end_s = 0.09 + 0.011 * (i % 4) as f64;
     setup.time.output_s = 1e-3 * (1 + i % 3) as f64;
@@ -143,8 +146,8 @@ fn a_run_that_fails_stops_or_breaks_leaves_its_neighbours_alone() {
     for kernel in kernels() {
         let mut cases = carts(9);
         // too stiff for the step: after 24 ms, and at once
-        cases[1].setup.joints.right_shoulder.damping_n_m_s = 1e3;
-        cases[4].setup.joints.neck.damping_n_m_s = 1e4;
+        cases[1].setup.joints.ball_mut(tti12::RIGHT_SHOULDER).unwrap().damping_n_m_s = 1e3;
+        cases[4].setup.joints.ball_mut(tti12::NECK).unwrap().damping_n_m_s = 1e4;
         cases[2].texts.stop_at = Some(31);
         cases[3].texts.stop_at = Some(0);
         cases[5].texts.break_at = Some(17);
@@ -223,8 +226,8 @@ fn what_keeps_models_apart_has_a_name() {
     let unlike = |change: &dyn Fn(&mut Setup)| base.zip(&system(change), |a, _| a).err();
     assert_eq!(unlike(&|s| s.gravity_m_s2 = 9.0), None);
     let belts = unlike(&|s| s.belts.truncate(1));
-    assert_eq!(belts, Some(Unlike::Belts));
-    assert_eq!(unlike(&|s| s.joints.upper_back.spring = None), Some(Unlike::Springs));
+    assert_eq!(belts, Some(OTHER_BELTS));
+    assert_eq!(unlike(&|s| s.joints.ball_mut(tti12::UPPER_BACK).unwrap().spring = None), Some(OTHER_SPRINGS));
     let fewer = unlike(&|s| s.surfaces.truncate(s.surfaces.len() - 1));
-    assert_eq!(fewer, Some(Unlike::Pairs));
+    assert_eq!(fewer, Some(OTHER_PAIRS));
 }

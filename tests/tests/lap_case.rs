@@ -2,7 +2,7 @@
 //! separate reading of the model; it has the edge force at the contact point).
 
 use nalgebra::{Point3, Vector3};
-use occupant_core::body::Segment;
+use occupant_core::body::tti12;
 use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
 use occupant_core::results::recorder::Watch;
@@ -55,12 +55,12 @@ fn compare(sample: &Sample<'_>, row: &Row, peak: &Peaks, worst: &mut Difference)
         let expected = row.sphere_forces[i] * LBF_N;
         worst.force = worst.force.max((force - expected).abs() / peak.force_n);
     }
-    let belt = sample.belts[0].loop_force - row.lap_belt * LBF_N;
+    let belt = sample.actions.belts[0].loop_force - row.lap_belt * LBF_N;
     worst.belt = worst.belt.max(belt.abs() / peak.belt_n);
     for (segment, expected) in [
-        (Segment::Head, row.head_cg_acc),
-        (Segment::UpperTorso, row.chest_cg_acc),
-        (Segment::LowerTorso, row.pelvis_cg_acc),
+        (tti12::HEAD, row.head_cg_acc),
+        (tti12::UPPER_TORSO, row.chest_cg_acc),
+        (tti12::LOWER_TORSO, row.pelvis_cg_acc),
     ] {
         let expected = Vector3::from(expected) * INCH_M;
         let off = (sample.cg_acceleration_m_s2(segment) - expected).norm();

@@ -2,14 +2,13 @@
 
 use approx::assert_relative_eq;
 use nalgebra::Vector3;
-use occupant_core::body::Segment;
-use occupant_core::body::joint::Joint;
-use occupant_core::forces::joint::BALLS;
+use occupant_core::body::tti12::{self, TTI12};
 use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
 use occupant_core::motion::dynamics::Wrench;
+use occupant_core::motion::layout::{BALL_JOINTS, BALLS, HINGE_JOINTS};
 use occupant_core::results::channel::{channels, find, matching};
-use occupant_core::results::reaction::{femur_axial_n, reaction, reactions, segments};
+use occupant_core::results::reaction::{femur_axial_n, reaction, reactions};
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::simulate;
@@ -37,8 +36,8 @@ fn a_ball_joint_carries_no_moment_but_that_of_its_damper_stop_and_spring() {
     watch(&cart(), |s| {
         let k = &s.evaluation.kinematics;
         for (i, &(_, outer)) in BALLS.iter().enumerate() {
-            let joint = Joint::ALL.into_iter().find(|j| !j.is_hinge() && segments(*j).1.index() == outer).unwrap();
-            let moment = s.model.system().joints.ball(i, k).moment;
+            let joint = BALL_JOINTS[i];
+            let moment = s.model.system().forces.joints.ball(i, k).moment;
             let passive = k.axes[outer].into_frame(moment).to_vector();
             let carried = reaction(s, joint).moment_n_m;
             worst = worst.max((carried - passive).norm());
@@ -56,10 +55,10 @@ fn a_hinge_carries_its_torque_about_its_axis_and_more_across() {
     watch(&cart(), |s| {
         let mut passive = [Wrench::zero(); 12];
         let k = &s.evaluation.kinematics;
-        let joints = &s.model.system().joints;
-        joints.apply(k, s.state, &mut passive);
-        for joint in Joint::ALL.into_iter().filter(|j| j.is_hinge()) {
-            let n = segments(joint).1.index();
+        let joints = &s.model.system().forces.joints;
+        joints.apply(k, s.state, &mut passive, &mut |_| {});
+        for &joint in HINGE_JOINTS {
+            let n = TTI12[joint].distal.index();
             let torque = k.axes[n].y.dot(passive[n].moment);
             let carried = reaction(s, joint).moment_n_m;
             worst = worst.max((carried.y - torque).abs());
@@ -82,7 +81,7 @@ fn the_halves_at_t1_pull_with_the_same_force_and_the_whole_body_obeys_newton() {
             inertial.z += skeleton.gravity;
             needed += inertial * skeleton.links[n].mass - s.evaluation.wrench[n].force.to_vector();
         }
-        let at_t1 = reaction(s, Joint::UpperBack).force_n;
+        let at_t1 = reaction(s, tti12::UPPER_BACK).force_n;
         let at_t1 = k.axes[1].to_matrix() * at_t1;
         worst = worst.max((at_t1 + needed).norm());
     });
@@ -95,14 +94,14 @@ fn all_joints_at_once_and_one_by_one_agree_and_the_channels_say_the_same() {
     let neck = ["x", "y", "z"].map(|c| find(&model, &format!("neck.force.{c}")).unwrap());
     let femur = find(&model, "left_femur.axial").unwrap();
     watch(&model, |s| {
-        for (joint, all) in Joint::ALL.into_iter().zip(reactions(s)) {
+        for (joint, all) in TTI12.joints().zip(reactions(s)) {
             assert_eq!(reaction(s, joint), all);
         }
         // J211 axes: right and down instead of left and up
-        let force = reaction(s, Joint::Neck).force_n;
+        let force = reaction(s, tti12::NECK).force_n;
         let told = Vector3::from(neck.each_ref().map(|c| c.value(s)));
         assert_eq!(told, Vector3::new(force.x, -force.y, -force.z));
-        assert_eq!(femur.value(s), femur_axial_n(s, Segment::LeftThigh));
+        assert_eq!(femur.value(s), femur_axial_n(s, tti12::LEFT_THIGH));
     });
 }
 
@@ -113,13 +112,13 @@ fn a_hanging_head_pulls_at_the_neck_and_a_standing_one_presses() {
     let mut first = None;
     watch(&model, |s| {
         first.get_or_insert_with(|| {
-            let r = reaction(s, Joint::Neck);
-            let a = s.specific_force_m_s2(Segment::Head);
+            let r = reaction(s, tti12::NECK);
+            let a = s.specific_force_m_s2(tti12::HEAD);
             (r, a)
         });
     });
     let (neck, head_reading) = first.unwrap();
-    let mass_kg = model.body().segment(Segment::Head).mass_kg;
+    let mass_kg = model.body().segment(tti12::HEAD).mass_kg;
     // nothing but the neck touches the head: its reading times its mass is the neck's force
     assert_relative_eq!(neck.force_n, head_reading * mass_kg, epsilon = 1e-9);
     // the head stands on the neck: pushed up, which is compression

@@ -1,5 +1,6 @@
 //! A run that goes on from a checkpoint is, to the bit, the run that was never interrupted.
 
+use occupant_core::forces::Misfit;
 use occupant_core::forces::contact::{OPEN, PASSED, TOUCHING};
 use occupant_core::forces::material::Memory;
 use occupant_core::model::Model;
@@ -30,7 +31,7 @@ struct Outputs {
 impl Recorder for Outputs {
     fn record(&mut self, s: &Sample<'_>) -> Result<Flow, RecorderError> {
         let checkpoint = s.checkpoint();
-        let derived = (s.evaluation, s.touches, s.belts, s.energy, s.vehicle);
+        let derived = (s.evaluation, s.actions, s.energy, s.vehicle);
         self.texts.push(format!("{checkpoint:?} {derived:?}"));
         self.checkpoints.push(checkpoint);
         Ok(match self.stop_at == Some(s.index) {
@@ -147,18 +148,22 @@ fn a_checkpoint_of_another_scenario_is_refused() {
             other => panic!("{other:?}"),
         }
     };
-    let pairs = sound.pairs.len();
+    let pairs = sound.memory.contacts.len();
+    let (many, belts) = ("pairs of spheres and surfaces", "belts");
+    let count = |of, found, expected| CheckpointError::Memory(Misfit::Count { of, found, expected });
+    let pair = |number| CheckpointError::Memory(Misfit::Impossible { of: "pair", number });
+    let not_finite = CheckpointError::Memory(Misfit::NotFinite);
     let cases: [(CheckpointError, Change<'_>); 8] = [
-        (CheckpointError::Pairs { found: pairs - 1, expected: pairs }, &|c| c.pairs.truncate(pairs - 1)),
-        (CheckpointError::Belts { found: 0, expected: 1 }, &|c| c.belts.clear()),
+        (count(many, pairs - 1, pairs), &|c| c.memory.contacts.truncate(pairs - 1)),
+        (count(belts, 0, 1), &|c| c.memory.belts.clear()),
         (CheckpointError::Time { index: 300, found_s: sound.time_s, expected_s: None }, &|c| c.index = 300),
-        (CheckpointError::Pair { pair: 3 }, &|c| c.pairs[3].phase = 7.0),
-        (CheckpointError::Pair { pair: 4 }, &|c| c.pairs[4].greatest = -1.0),
+        (pair(3), &|c| c.memory.contacts[3].phase = 7.0),
+        (pair(4), &|c| c.memory.contacts[4].greatest = -1.0),
         (CheckpointError::Touch { sphere: 17, surface: sound.first_touches[0].surface }, &|c| {
             c.first_touches[0].sphere = 17
         }),
-        (CheckpointError::NotFinite, &|c| c.state.velocity.y = f64::NAN),
-        (CheckpointError::NotFinite, &|c| c.progress.energy_start.mechanical_j = f64::INFINITY),
+        (not_finite, &|c| c.state.velocity.y = f64::NAN),
+        (not_finite, &|c| c.progress.energy_start.mechanical_j = f64::INFINITY),
     ];
     for (expected, change) in cases {
         assert_eq!(refused(change), expected);
@@ -183,10 +188,10 @@ fn a_checkpoint_with_an_impossible_step_is_refused() {
     let early = CheckpointError::Step { start_s, end_s: start_s, time_s };
     let ends_early: Change<'_> = &|c| c.under_way.as_mut().unwrap().end_s = start_s;
     assert_eq!(refused(ends_early), Err(early));
-    let short: Change<'_> = &|c| c.under_way.as_mut().unwrap().pairs.truncate(1);
-    assert!(matches!(refused(short), Err(CheckpointError::Pairs { found: 1, .. })));
+    let short: Change<'_> = &|c| c.under_way.as_mut().unwrap().memory.contacts.truncate(1);
+    assert!(matches!(refused(short), Err(CheckpointError::Memory(Misfit::Count { found: 1, .. }))));
     let broken: Change<'_> = &|c| c.under_way.as_mut().unwrap().state.t1.x = f64::NAN;
-    assert_eq!(refused(broken), Err(CheckpointError::NotFinite));
+    assert_eq!(refused(broken), Err(CheckpointError::Memory(Misfit::NotFinite)));
 }
 
 /// The proofs above mean something only if there is history to lose.
@@ -195,8 +200,8 @@ fn without_its_history_a_run_goes_on_differently() {
     let (model, whole, _) = run(&lap(RK4));
     let mut from = whole.checkpoints[110].clone();
     let greatest = |p: &occupant_core::forces::contact::PairHistory<f64>| p.greatest;
-    assert!(from.pairs.iter().map(greatest).fold(0.0, f64::max) > 0.01);
-    for pair in from.pairs.iter_mut().filter(|p| p.phase == TOUCHING) {
+    assert!(from.memory.contacts.iter().map(greatest).fold(0.0, f64::max) > 0.01);
+    for pair in from.memory.contacts.iter_mut().filter(|p| p.phase == TOUCHING) {
         pair.greatest = 0.0;
     }
     let mut rest = Outputs::default();
@@ -208,23 +213,23 @@ fn without_its_history_a_run_goes_on_differently() {
 #[test]
 fn where_cards_tell_the_pairs_these_have_passed_and_all_others_touch() {
     let (model, outputs, _) = run(&lap(RK4));
-    let overlapping = |c: &Checkpoint| c.pairs.iter().filter(|p| p.phase != OPEN).count();
+    let overlapping = |c: &Checkpoint| c.memory.contacts.iter().filter(|p| p.phase != OPEN).count();
     let from = outputs.checkpoints.iter().max_by_key(|c| overlapping(c));
     let from = from.unwrap();
-    let groups = model.system().contacts.groups();
+    let groups = model.system().forces.contacts.groups();
     let named = groups.iter().flat_map(|group| {
         let pairs = group.pairs.clone();
         pairs.map(|i| (i, (group.sphere, surface_of(&model, i))))
     });
     let (one, other): (Vec<_>, Vec<_>) =
-        named.filter(|(i, _)| from.pairs[*i].phase != OPEN).partition(|(i, _)| i % 2 == 0);
+        named.filter(|(i, _)| from.memory.contacts[*i].phase != OPEN).partition(|(i, _)| i % 2 == 0);
     assert!(one.len() > 5 && other.len() > 5);
     let mut setup = model.setup().clone();
     setup.time.start_s = from.time_s;
     let coordinates = Box::new(ReportCoordinates::from_state(&from.state));
     setup.posture = InitialPosture::Continued { coordinates, passed: one.iter().map(|(_, names)| *names).collect() };
     let continued = Model::new(setup).unwrap();
-    let pairs = &continued.start().history.pairs;
+    let pairs = &continued.start().history.memory.contacts;
     for (i, _) in &one {
         assert_eq!((pairs[*i].phase, pairs[*i].greatest), (PASSED, 0.0));
     }
@@ -238,5 +243,5 @@ fn where_cards_tell_the_pairs_these_have_passed_and_all_others_touch() {
 
 /// The first of a pair's surfaces.
 fn surface_of(model: &Model, pair: usize) -> usize {
-    model.system().contacts.pairs()[pair].parts[0].surface
+    model.system().forces.contacts.pairs()[pair].parts[0].surface
 }

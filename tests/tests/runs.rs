@@ -2,6 +2,7 @@
 
 use std::thread;
 
+use occupant_core::body::tti12;
 use occupant_core::model::Model;
 use occupant_core::model::setup::{Integrator, Setup};
 use occupant_core::results::outcome::{Outcome, Status, StepError};
@@ -18,8 +19,8 @@ fn fingerprint(model: &Model) -> Vec<u64> {
         Watch(|s: &Sample<'_>| {
             let q = s.report_coordinates();
             bits.extend(q.q.iter().chain(&q.rates).map(|x| x.to_bits()));
-            bits.extend(s.touches.iter().map(|t| t.normal_force.to_bits()));
-            bits.extend(s.belts.iter().map(|b| b.loop_force.to_bits()));
+            bits.extend(s.actions.contacts.iter().map(|t| t.normal_force.to_bits()));
+            bits.extend(s.actions.belts.iter().map(|b| b.loop_force.to_bits()));
             bits.push(s.energy.balance_j.to_bits());
         }),
     )
@@ -67,7 +68,7 @@ fn far_too_stiff() -> Setup {
         material.spring.k1_n_per_m *= 1e6;
         material.spring.k2_n_per_m *= 1e6;
     }
-    setup.joints.neck.damping_n_m_s = 1e4;
+    setup.joints.ball_mut(tti12::NECK).unwrap().damping_n_m_s = 1e4;
     setup
 }
 

@@ -2,6 +2,7 @@
 
 use nalgebra::{Matrix3, Vector3};
 use occupant_core::body::joint::{BallJoint, HingeJoint, Joints};
+use occupant_core::body::tti12::{self, TTI12};
 use occupant_core::body::{Body, Segment};
 use occupant_core::forces::contact::surface::Outline;
 use occupant_core::model::Model;
@@ -44,8 +45,8 @@ fn start(mut setup: Setup) -> Start {
         &model,
         Watch(|s: &Sample<'_>| {
             seen.get_or_insert_with(|| {
-                let ends = Segment::ALL.map(|n| s.end_points_m(n).map(|p| p.coords));
-                (s.contacts().collect(), s.sphere_centre_m(PELVIS).coords, ends.to_vec())
+                let ends = TTI12.segments().map(|n| s.end_points_m(n).map(|p| p.coords));
+                (s.contacts().collect(), s.sphere_centre_m(PELVIS).coords, ends.collect())
             });
         }),
     )
@@ -117,7 +118,7 @@ fn without_gravity_the_pelvis_is_tangent_to_cushion_and_back() {
 fn the_heels_stand_where_they_should_with_the_knees_above_and_the_posture_as_given() {
     let start = start(seated(|_| {}));
     let ends = |n: Segment| start.joints_m[n.index()];
-    for (thigh, shank) in [(Segment::LeftThigh, Segment::LeftLowerLeg), (Segment::RightThigh, Segment::RightLowerLeg)] {
+    for (thigh, shank) in [(tti12::LEFT_THIGH, tti12::LEFT_LOWER_LEG), (tti12::RIGHT_THIGH, tti12::RIGHT_LOWER_LEG)] {
         let ([hip, knee], [_, heel]) = (ends(thigh), ends(shank));
         // Measured: 1.1e-16.
         assert_below("heel x, m", heel.x - 27.0 * INCH_M, 1e-14);
@@ -134,12 +135,12 @@ fn the_heels_stand_where_they_should_with_the_knees_above_and_the_posture_as_giv
         (-(upper - lower).x).atan2(-(upper - lower).z)
     };
     for (segment, degrees) in [
-        (Segment::MiddleTorso, 15.0_f64),
-        (Segment::UpperTorso, 18.0),
-        (Segment::Head, 5.0),
-        (Segment::LowerTorso, 20.0),
-        (Segment::LeftUpperArm, 35.0),
-        (Segment::RightUpperArm, 35.0),
+        (tti12::MIDDLE_TORSO, 15.0_f64),
+        (tti12::UPPER_TORSO, 18.0),
+        (tti12::HEAD, 5.0),
+        (tti12::LOWER_TORSO, 20.0),
+        (tti12::LEFT_UPPER_ARM, 35.0),
+        (tti12::RIGHT_UPPER_ARM, 35.0),
     ] {
         // Measured: 1.7e-16.
         assert_below("lean, rad", gamma(segment) - degrees.to_radians(), 1e-14);
@@ -153,8 +154,7 @@ fn the_occupants_left_is_the_vehicles_left_and_the_body_is_symmetric() {
     let start = start(seated(|_| {}));
     let ends = |n: Segment| start.joints_m[n.index()][1];
     let middle = -14.0 * INCH_M;
-    for (left, right) in
-        [(Segment::LeftForearm, Segment::RightForearm), (Segment::LeftLowerLeg, Segment::RightLowerLeg)]
+    for (left, right) in [(tti12::LEFT_FOREARM, tti12::RIGHT_FOREARM), (tti12::LEFT_LOWER_LEG, tti12::RIGHT_LOWER_LEG)]
     {
         let (l, r) = (ends(left), ends(right));
         // Y_v points to the right
@@ -260,20 +260,7 @@ fn the_body_starts_as_part_of_the_vehicle_or_with_a_velocity_of_its_own() {
 fn stiff(damping: f64) -> Joints {
     let ball = BallJoint { damping_n_m_s: damping, twist_damping_n_m_s: damping, ..BallJoint::default() };
     let hinge = HingeJoint { damping_n_m_s: damping, ..HingeJoint::default() };
-    Joints {
-        neck: ball,
-        right_shoulder: ball,
-        left_shoulder: ball,
-        upper_back: ball,
-        left_elbow: hinge,
-        right_elbow: hinge,
-        lower_back: ball,
-        right_hip: ball,
-        left_hip: ball,
-        right_knee: hinge,
-        left_knee: hinge,
-        epsilon: 0.1,
-    }
+    Joints::alike(&TTI12, ball, hinge).with_epsilon(0.1)
 }
 
 /// How far the pelvis goes in 0.1 s with stiff joints, m.

@@ -256,16 +256,7 @@ impl Scaled {
             belt.webbing.k1_n_per_m *= lambda;
             belt.webbing.k2_n_per_m *= lambda;
         }
-        let j = &mut setup.joints;
-        for ball in [
-            &mut j.neck,
-            &mut j.right_shoulder,
-            &mut j.left_shoulder,
-            &mut j.upper_back,
-            &mut j.lower_back,
-            &mut j.right_hip,
-            &mut j.left_hip,
-        ] {
+        for ball in setup.joints.balls_mut() {
             ball.damping_n_m_s *= lambda;
             ball.twist_damping_n_m_s *= lambda;
             if let Some(stop) = &mut ball.stop {
@@ -275,7 +266,7 @@ impl Scaled {
                 spring.stiffness_n_m *= lambda;
             }
         }
-        for hinge in [&mut j.left_elbow, &mut j.right_elbow, &mut j.left_knee, &mut j.right_knee] {
+        for hinge in setup.joints.hinges_mut() {
             hinge.damping_n_m_s *= lambda;
             for stop in [&mut hinge.lower_stop, &mut hinge.upper_stop].into_iter().flatten() {
                 stop.damping_n_m_s *= lambda;

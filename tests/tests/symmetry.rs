@@ -1,6 +1,7 @@
 //! What must not matter to the simulator: which side is left, which way is forward, how fast the whole scene moves.
 
 use nalgebra::{UnitQuaternion, Vector3};
+use occupant_core::body::tti12;
 use occupant_tests::{
     core_side::CoreSide,
     free_run::{FreeRun, distance},
@@ -57,9 +58,14 @@ fn make_symmetric(system: &mut System, state: &mut SpaceState) {
     for (left, right) in [(4, 5), (6, 7), (8, 9), (10, 11)] {
         system.body.segments[right] = system.body.segments[left];
     }
-    let joints = &mut system.joints;
-    (joints.right_shoulder, joints.right_elbow) = (joints.left_shoulder, joints.left_elbow);
-    (joints.right_hip, joints.right_knee) = (joints.left_hip, joints.left_knee);
+    for (left, right) in [
+        (tti12::LEFT_SHOULDER, tti12::RIGHT_SHOULDER),
+        (tti12::LEFT_ELBOW, tti12::RIGHT_ELBOW),
+        (tti12::LEFT_HIP, tti12::RIGHT_HIP),
+        (tti12::LEFT_KNEE, tti12::RIGHT_KNEE),
+    ] {
+        system.joints = system.joints.clone().with(right, system.joints[left]);
+    }
     for slot in 0..4 {
         let about_y = state.turn[slot].angle();
         state.turn[slot] = UnitQuaternion::from_scaled_axis(Vector3::y() * about_y);

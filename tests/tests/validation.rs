@@ -2,6 +2,7 @@
 
 use nalgebra::{Point3, Vector3};
 use occupant_core::body::joint::Stop;
+use occupant_core::body::tti12;
 use occupant_core::forces::contact::surface::{Facing, Frame, Outline};
 use occupant_core::model::Model;
 use occupant_core::model::seating::InitialPosture;
@@ -40,17 +41,19 @@ const FAULTS: &[Fault] = &[
     (|s| s.body.spheres[0].centre_from_lower_end_m.z = 1.0, "body.spheres.head", "on its segment"),
     (|s| s.body.spheres[1].name = "head".into(), "body.spheres.head", "a second sphere"),
     (|s| s.body.spheres[2].name = "bottom".into(), "body.spheres", "`pelvis`"),
-    (|s| s.joints.neck.damping_n_m_s = -2.0, "joints.neck.damping", "-2 N·m·s"),
+    (|s| s.joints.ball_mut(tti12::NECK).unwrap().damping_n_m_s = -2.0, "joints.neck.damping", "-2 N·m·s"),
     (
         |s| {
-            s.joints.neck.stop = Some(Stop { begin_rad: 1.0, full_rad: 0.5, damping_n_m_s: 100.0 });
+            s.joints.ball_mut(tti12::NECK).unwrap().stop =
+                Some(Stop { begin_rad: 1.0, full_rad: 0.5, damping_n_m_s: 100.0 });
         },
         "joints.neck.stop",
         "interchange",
     ),
     (
         |s| {
-            s.joints.left_knee.lower_stop = Some(Stop { begin_rad: 0.0, full_rad: 0.1, damping_n_m_s: 100.0 });
+            s.joints.hinge_mut(tti12::LEFT_KNEE).unwrap().lower_stop =
+                Some(Stop { begin_rad: 0.0, full_rad: 0.1, damping_n_m_s: 100.0 });
         },
         "joints.left_knee.lower_stop",
         "lower stop",
@@ -223,7 +226,7 @@ fn the_case_without_faults_is_accepted_without_a_warning() {
 fn what_is_odd_but_usable_is_a_warning() {
     let mut setup = sound();
     setup.materials[0].spring.returned_2 = 0.0;
-    setup.joints.neck.stop = Some(Stop { begin_rad: 0.5, full_rad: 1.0, damping_n_m_s: 0.1 });
+    setup.joints.ball_mut(tti12::NECK).unwrap().stop = Some(Stop { begin_rad: 0.5, full_rad: 1.0, damping_n_m_s: 0.1 });
     let model = Model::new(setup).unwrap();
     let paths: Vec<_> = model.warnings().iter().map(|p| p.path.as_str()).collect();
     assert_eq!(paths, ["joints.neck.stop", "materials.seat.mu2"]);

@@ -1,5 +1,7 @@
 //! Which points of series 8 bound which surface of series 9: read from `compartment.toml`, not from code.
 
+use std::collections::BTreeSet;
+
 use serde::Deserialize;
 
 use crate::deck::Deck;
@@ -16,8 +18,7 @@ pub struct CompartmentLayout {
     roof_points: Vec<u32>,
     #[serde(rename = "surface")]
     surfaces: Vec<SurfaceLayout>,
-    /// Where the steering wheel stands.
-    pub wheel: WheelLayout,
+    pub(crate) wheel: WheelLayout,
 }
 
 /// One planar surface; either `edge` or `corners`.
@@ -27,16 +28,9 @@ struct SurfaceLayout {
     number: u32,
     name: String,
     edge: Option<[u32; 2]>,
-    corners: Option<Vec<CornerLayout>>,
+    #[serde(default)]
+    corners: Vec<Corner>,
     faces: [f64; 3],
-}
-
-#[derive(Debug, Clone, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields)]
-struct CornerLayout {
-    x: u32,
-    z: u32,
-    wall: Wall,
 }
 
 /// A side of the compartment: half width and sign.
@@ -71,7 +65,7 @@ impl Wall {
 /// The steering wheel.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct WheelLayout {
+pub(crate) struct WheelLayout {
     /// Number of the surface.
     pub number: u32,
     /// Name of the surface.
@@ -85,11 +79,14 @@ pub struct WheelLayout {
 }
 
 /// A corner of a surface, by the cards' variables.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
 pub struct Corner {
     /// Point whose XV is the corner's X.
+    #[serde(rename = "x")]
     pub x_of: u32,
     /// Point whose ZV is the corner's Z.
+    #[serde(rename = "z")]
     pub z_of: u32,
     /// Its Y.
     pub wall: Wall,
@@ -106,6 +103,17 @@ pub struct Face {
     pub corners: Vec<Corner>,
 }
 
+/// A surface of a deck that a conversion leaves out.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) struct LeftOut {
+    /// Number in series 9.
+    pub number: u32,
+    /// Name in scenarios.
+    pub name: String,
+    /// Why, as the predicate of a sentence about it.
+    pub why: &'static str,
+}
+
 impl CompartmentLayout {
     /// The reconstruction that travels with the crate.
     ///
@@ -120,62 +128,61 @@ impl CompartmentLayout {
     /// # Errors
     /// The TOML reader's message, or which surface or point is wrong.
     pub fn from_toml(text: &str) -> Result<Self, String> {
-        let layout: Self = toml::from_str(text).map_err(|error| error.to_string())?;
+        let mut layout: Self = toml::from_str(text).map_err(|error| error.to_string())?;
+        for surface in &mut layout.surfaces {
+            if surface.edge.is_some() != surface.corners.is_empty() || matches!(surface.corners.len(), 1 | 2) {
+                return Err(format!("surface {} needs either an edge or at least three corners", surface.number));
+            }
+            if let Some(edge) = surface.edge {
+                surface.corners = corners_of_edge(edge, &layout.roof_points);
+            }
+        }
         layout.check()?;
         Ok(layout)
     }
 
+    /// This layout, or the reconstruction where there is none.
+    pub(crate) fn or_reconstruction(layout: Option<&Self>) -> Result<Self, String> {
+        layout.cloned().map_or_else(Self::reconstruction, Ok)
+    }
+
     /// The name of a surface by its number.
-    pub fn name_of(&self, number: u32) -> Option<&str> {
-        let surface = self.surfaces.iter().find(|s| s.number == number);
-        let wheel = (self.wheel.number == number).then_some(&self.wheel.name);
-        surface.map(|s| &s.name).or(wheel).map(String::as_str)
+    pub(crate) fn name_of(&self, number: u32) -> Option<&str> {
+        self.numbered().find(|(n, _)| *n == number).map(|(_, name)| name)
     }
 
     /// The number of a surface by its name.
     pub fn number_of(&self, name: &str) -> Option<u32> {
-        let surface = self.surfaces.iter().find(|s| s.name == name).map(|s| s.number);
-        surface.or_else(|| (self.wheel.name == name).then_some(self.wheel.number))
+        self.numbered().find(|(_, n)| *n == name).map(|(number, _)| number)
     }
 
-    /// The names of all surfaces, by number.
-    pub fn names(&self) -> Vec<&str> {
-        (1..=SURFACES).filter_map(|number| self.name_of(number)).collect()
+    /// Number and name of all surfaces.
+    pub(crate) fn numbered(&self) -> impl Iterator<Item = (u32, &str)> {
+        let planar = self.surfaces.iter().map(|s| (s.number, s.name.as_str()));
+        planar.chain([(self.wheel.number, self.wheel.name.as_str())])
     }
 
     /// The corners of a surface in the order of the data file, whatever its open side; none for the wheel.
-    pub(crate) fn corners_of(&self, number: u32) -> Vec<Corner> {
-        let surface = self.surfaces.iter().find(|s| s.number == number);
-        surface.map(|s| self.corners(s)).unwrap_or_default()
+    pub(crate) fn corners_of(&self, number: u32) -> &[Corner] {
+        self.surfaces.iter().find(|s| s.number == number).map_or(&[], |s| &s.corners)
     }
 
     /// The points by which a surface is bounded; that of the wheel's place for the wheel.
-    pub fn points_of(&self, number: u32) -> Vec<u32> {
-        let Some(surface) = self.surfaces.iter().find(|s| s.number == number) else {
-            return vec![self.wheel.point];
-        };
-        let corners = surface.corners.iter().flatten().flat_map(|c| [c.x, c.z]);
-        let mut points: Vec<u32> = surface.edge.iter().flatten().copied().chain(corners).collect();
-        points.sort_unstable();
-        points.dedup();
-        points
+    pub(crate) fn points_of(&self, number: u32) -> BTreeSet<u32> {
+        if number == self.wheel.number {
+            return BTreeSet::from([self.wheel.point]);
+        }
+        self.corners_of(number).iter().flat_map(|corner| [corner.x_of, corner.z_of]).collect()
     }
 
     fn check(&self) -> Result<(), String> {
-        let mut numbers: Vec<u32> = self.surfaces.iter().map(|s| s.number).chain([self.wheel.number]).collect();
+        let mut numbers: Vec<u32> = self.numbered().map(|(number, _)| number).collect();
         numbers.sort_unstable();
         if !numbers.iter().copied().eq(1..=SURFACES) {
             return Err(format!("the surfaces must be numbered 1 to {SURFACES}, each once; found {numbers:?}"));
         }
         for surface in &self.surfaces {
-            let points = match (&surface.edge, &surface.corners) {
-                (Some(edge), None) => edge.to_vec(),
-                (None, Some(corners)) if corners.len() >= 3 => corners.iter().flat_map(|c| [c.x, c.z]).collect(),
-                _ => {
-                    return Err(format!("surface {} needs either an edge or at least three corners", surface.number));
-                }
-            };
-            if let Some(point) = points.iter().find(|p| !(1..=POINTS).contains(*p)) {
+            if let Some(point) = self.points_of(surface.number).iter().find(|p| !(1..=POINTS).contains(*p)) {
                 return Err(format!("surface {} names point {point}; there are {POINTS}", surface.number));
             }
         }
@@ -187,42 +194,52 @@ impl CompartmentLayout {
 
     /// The planar surfaces of a deck, by number; the wheel is not among them.
     pub fn faces(&self, deck: &Deck) -> Vec<Face> {
-        let mut faces: Vec<_> = self.surfaces.iter().map(|surface| self.face(surface, deck)).collect();
+        let mut faces: Vec<_> = self.surfaces.iter().map(|surface| face(surface, deck)).collect();
         faces.sort_by_key(|face| face.number);
         faces
     }
 
-    fn face(&self, surface: &SurfaceLayout, deck: &Deck) -> Face {
-        let mut corners = self.corners(surface);
-        let normal = area_vector(&corners.iter().map(|c| position(c, deck)).collect::<Vec<_>>());
-        let towards: f64 = normal.iter().zip(surface.faces).map(|(n, f)| n * f).sum();
-        if towards < 0.0 {
-            corners.reverse();
-        }
-        if normal.iter().map(|n| n * n).sum::<f64>() < SMALLEST_AREA_IN2 * SMALLEST_AREA_IN2 {
-            corners.clear();
-        }
-        Face { number: surface.number, name: surface.name.clone(), corners }
+    /// All surfaces of a deck that no scenario gets, by number: those without area and those that resist nothing. A number that
+    /// could not be read leaves none out.
+    pub(crate) fn left_out(&self, deck: &Deck) -> Vec<LeftOut> {
+        let faces = self.faces(deck).into_iter();
+        let no_extent = |face: Face| (face.corners.is_empty().then_some("has no area"), face.number, face.name);
+        let wheel = deck.value("DSW").is_some_and(|diameter| diameter <= 0.0).then_some("has no diameter");
+        let all = faces.map(no_extent).chain([(wheel, self.wheel.number, self.wheel.name.clone())]);
+        let resists_nothing = |number| deck.value(&format!("STIF1({number})")) == Some(0.0);
+        all.filter_map(|(why, number, name)| {
+            let why = why.or(resists_nothing(number).then_some("resists nothing (STIF1 = 0)"))?;
+            Some(LeftOut { number, name, why })
+        })
+        .collect()
     }
+}
 
-    fn corners(&self, surface: &SurfaceLayout) -> Vec<Corner> {
-        if let Some([one, two]) = surface.edge {
-            return [(one, false), (two, false), (two, true), (one, true)]
-                .map(|(point, right)| Corner { x_of: point, z_of: point, wall: self.wall_at(point, right) })
-                .to_vec();
-        }
-        let corners = surface.corners.iter().flatten();
-        corners.map(|c| Corner { x_of: c.x, z_of: c.z, wall: c.wall }).collect()
-    }
-
-    fn wall_at(&self, point: u32, right: bool) -> Wall {
-        match (self.roof_points.contains(&point), right) {
+/// The corners of a surface that reaches from left to right at two points.
+fn corners_of_edge([one, two]: [u32; 2], roof_points: &[u32]) -> Vec<Corner> {
+    let corner = |point: u32, right: bool| {
+        let wall = match (roof_points.contains(&point), right) {
             (true, false) => Wall::LeftRoof,
             (true, true) => Wall::RightRoof,
             (false, false) => Wall::LeftBody,
             (false, true) => Wall::RightBody,
-        }
+        };
+        Corner { x_of: point, z_of: point, wall }
+    };
+    vec![corner(one, false), corner(two, false), corner(two, true), corner(one, true)]
+}
+
+fn face(surface: &SurfaceLayout, deck: &Deck) -> Face {
+    let mut corners = surface.corners.clone();
+    let normal = area_vector(&corners.iter().map(|c| position(c, deck)).collect::<Vec<_>>());
+    let towards: f64 = normal.iter().zip(surface.faces).map(|(n, f)| n * f).sum();
+    if towards < 0.0 {
+        corners.reverse();
     }
+    if normal.iter().map(|n| n * n).sum::<f64>() < SMALLEST_AREA_IN2 * SMALLEST_AREA_IN2 {
+        corners.clear();
+    }
+    Face { number: surface.number, name: surface.name.clone(), corners }
 }
 
 /// A surface smaller than this is none.

@@ -1,26 +1,8 @@
 //! One deck: the numbers of one run, by the report's names.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use crate::diagnostic::{Diagnostics, Sink};
-use crate::layout::{CardId, CardLayout, Field, Repeat, SERIES, TERMINATOR, series};
-use crate::reader::read_file;
-use crate::rule::Strictness;
-
-/// How a file of decks is read.
-#[derive(Debug, Clone, PartialEq)]
-pub struct ParseOptions {
-    /// Name of the file, for the diagnostics.
-    pub file: String,
-    /// How strictly it is judged.
-    pub strictness: Strictness,
-}
-
-impl Default for ParseOptions {
-    fn default() -> Self {
-        Self { file: "deck".into(), strictness: Strictness::Default }
-    }
-}
+use crate::cards::{CardId, CardLayout, END_OF_NUMBERS, Field, Need, Repeat, need, series};
 
 /// A number of a card.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,6 +51,33 @@ pub struct DeckCard {
     pub numbers: Vec<Number>,
 }
 
+impl DeckCard {
+    /// A card with nothing but its own numbers: the card number, the segment or the surface.
+    fn blank(id: CardId, layout: &CardLayout) -> Self {
+        let mut numbers = vec![Number::blank(); layout.fields.len()];
+        if let (Repeat::Each { .. }, Some(index)) = (layout.repeat, id.number) {
+            numbers[0] = Number::whole(index);
+        }
+        let ncard = series(id.series).and_then(|series| series.ncard);
+        if let (Some(last), Some(ncard)) = (layout.fields.iter().position(|f| f.variable == "NCARD"), ncard) {
+            numbers[last] = Number::whole(ncard);
+        }
+        Self { id, line: None, raw: None, numbers }
+    }
+
+    /// The table's fields of this card.
+    pub(crate) fn fields(&self) -> &'static [Field] {
+        self.id.layout().map(|layout| layout.fields.as_slice()).unwrap_or_default()
+    }
+
+    /// Its fields and numbers, with their names.
+    pub(crate) fn named(&self) -> impl Iterator<Item = (String, &'static Field, &Number)> {
+        let layout = self.id.layout();
+        let name = move |field: &Field| layout.map(|layout| layout.name_of(field, self.id.number)).unwrap_or_default();
+        self.fields().iter().zip(&self.numbers).map(move |(field, number)| (name(field), field, number))
+    }
+}
+
 /// The plot option of series 16.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Plot {
@@ -76,6 +85,22 @@ pub enum Plot {
     Standard,
     /// NONE: no plots.
     None,
+}
+
+impl Plot {
+    /// The option of a word in columns 1–4.
+    pub(crate) fn of_word(word: &str) -> Option<Self> {
+        match word {
+            "STAN" => Some(Self::Standard),
+            "NONE" => Some(Self::None),
+            _ => None,
+        }
+    }
+
+    /// The word of the card.
+    pub(crate) fn word(self) -> &'static str {
+        if self == Self::Standard { "STAN" } else { "NONE" }
+    }
 }
 
 /// The cards of one run, checked.
@@ -99,31 +124,66 @@ pub struct Difference {
 }
 
 impl Deck {
-    /// Reads a file of decks. Every problem of the file is in the diagnostics; a deck with an error is not handed out.
-    ///
-    /// The bytes are Latin-1; nothing that they hold makes this panic.
-    pub fn parse(bytes: impl AsRef<[u8]>, options: &ParseOptions) -> (Vec<Self>, Diagnostics) {
-        let mut sink = Sink::new(&options.file, options.strictness);
-        let decks = read_file(bytes.as_ref(), &mut sink);
-        (decks, sink.into_diagnostics())
+    /// Puts a deck together; the cards come in the report's order afterwards.
+    pub(crate) fn assemble(titles: [String; 2], cards: Vec<DeckCard>, plot: Plot) -> Self {
+        let mut deck = Self { titles, cards, plot, places: HashMap::new() };
+        if !deck.has_series(END_OF_NUMBERS) {
+            // In lenient reading the card may have been missing.
+            deck.add_series(END_OF_NUMBERS, 0);
+        }
+        deck.sort();
+        deck
     }
 
-    /// Puts a deck together; the cards come in the report's order afterwards.
-    pub(crate) fn assemble(titles: [String; 2], mut cards: Vec<DeckCard>, plot: Plot) -> Self {
-        let terminator = SERIES.iter().find(|s| s.ncard == Some(TERMINATOR));
-        if let Some(series) = terminator.filter(|s| cards.iter().all(|c| c.id.series != s.number)) {
-            // In lenient reading the card may have been missing.
-            let numbers = vec![Number::whole(TERMINATOR)];
-            cards.push(DeckCard { id: CardId::first_of(series), line: None, raw: None, numbers });
-        }
-        cards.sort_by_key(|card| card.id);
-        let mut places = HashMap::new();
-        for (at, card) in cards.iter().enumerate() {
-            for (place, field) in fields_of(card).enumerate() {
-                places.entry(name_of(card, field)).or_insert((at, place));
+    fn sort(&mut self) {
+        self.cards.sort_by_key(|card| card.id);
+        self.places.clear();
+        for (at, card) in self.cards.iter().enumerate() {
+            for (place, (name, ..)) in card.named().enumerate() {
+                self.places.entry(name).or_insert((at, place));
             }
         }
-        Self { titles, cards, plot, places }
+    }
+
+    /// Adds the blank cards of a series; `count` of those that its first card counts.
+    pub(crate) fn add_series(&mut self, number: u8, count: u32) {
+        for layout in series(number).into_iter().flat_map(|series| &series.cards) {
+            let numbers = match layout.repeat {
+                Repeat::Once => vec![None],
+                Repeat::Each { count } => (1..=count).map(Some).collect(),
+                Repeat::Counted => (1..=count).map(Some).collect(),
+            };
+            let id = |n| CardId { series: number, letter: layout.letter, number: n };
+            self.cards.extend(numbers.into_iter().map(|n| DeckCard::blank(id(n), layout)));
+        }
+        self.sort();
+    }
+
+    /// Takes the cards of a series out.
+    pub(crate) fn remove_series(&mut self, number: u8) {
+        self.cards.retain(|card| card.id.series != number);
+        self.sort();
+    }
+
+    /// Sets a number by the report's name, if its card is there; digits that are no number leave it blank.
+    pub(crate) fn set(&mut self, name: &str, digits: &str) {
+        if let Some((card, place)) = self.places.get(name) {
+            self.cards[*card].numbers[*place] = Number::from_digits(digits).unwrap_or_else(Number::blank);
+        }
+    }
+
+    /// Sets the pairs (sphere, surface) of series 14; without pairs there is no such series.
+    pub(crate) fn set_pairs(&mut self, pairs: &[(String, String)]) {
+        self.remove_series(14);
+        if pairs.is_empty() {
+            return;
+        }
+        self.add_series(14, u32::try_from(pairs.len()).unwrap_or(u32::MAX));
+        self.set("NOCRD", &pairs.len().to_string());
+        for (n, (sphere, surface)) in (1..).zip(pairs) {
+            self.set(&format!("J({n})"), sphere);
+            self.set(&format!("K({n})"), surface);
+        }
     }
 
     /// The two title cards, without trailing blanks.
@@ -166,57 +226,61 @@ impl Deck {
     pub fn place_of(&self, name: &str) -> Option<(&DeckCard, &'static Field)> {
         let (card, place) = self.places.get(name)?;
         let card = self.cards.get(*card)?;
-        Some((card, layout_of(card)?.fields.get(*place)?))
+        Some((card, card.fields().get(*place)?))
     }
 
     /// The fields that are blank and were read as zero, by name. Fields that the report allows to be blank because
     /// they have no effect (the other belt, NARRY) are left out.
     pub fn blank_fields(&self) -> Vec<String> {
-        let mut names = Vec::new();
-        for card in self.cards.iter().filter(|c| c.id.series != 14) {
-            for (field, number) in fields_of(card).zip(&card.numbers) {
-                let name = name_of(card, field);
-                if number.blank && !self.has_no_effect(&name) {
-                    names.push(name);
-                }
-            }
-        }
-        names
+        let numbers = self.cards.iter().filter(|c| c.id.series != 14).flat_map(DeckCard::named);
+        let blank = numbers.filter(|(name, _, number)| number.blank && !self.has_no_effect(name));
+        blank.map(|(name, ..)| name).collect()
+    }
+
+    /// Whether the lap belt (1) or the torso belt (2) is in use.
+    pub(crate) fn uses_belt(&self, belt: u32) -> bool {
+        self.value("NOPBLT").is_some_and(|used| used == f64::from(belt) || used == 3.0)
+    }
+
+    /// Whether a field belongs to a belt that is not in use.
+    pub(crate) fn is_of_unused_belt(&self, name: &str) -> bool {
+        let Some((variable, index)) = name.split_once('(') else {
+            return false;
+        };
+        let belt = if index.starts_with('1') { 1 } else { 2 };
+        ["P1", "P2", "SK1", "SK2", "DELC", "SLACK", "BLTLEO"].contains(&variable) && !self.uses_belt(belt)
     }
 
     /// Whether a field belongs to a belt that is not in use, or gives way to another one.
     pub(crate) fn has_no_effect(&self, name: &str) -> bool {
-        let belts = self.value("NOPBLT").unwrap_or(0.0);
-        let lap = belts == 1.0 || belts == 3.0;
-        let torso = belts == 2.0 || belts == 3.0;
-        let exact = self.value("NPOS") == Some(1.0);
-        let of_lap = ["P1(1,", "P2(1,", "SK1(1)", "SK2(1)", "DELC(1)", "SLACK(1)", "BLTLEO(1)"];
-        let of_torso = ["P1(2,", "P2(2,", "SK1(2)", "SK2(2)", "DELC(2)", "SLACK(2)", "BLTLEO(2)"];
-        (!lap && of_lap.iter().any(|p| name.starts_with(p)))
-            || (!torso && of_torso.iter().any(|p| name.starts_with(p)))
-            || (exact && name.starts_with("SLACK("))
+        self.is_of_unused_belt(name) || (name.starts_with("SLACK(") && self.value("NPOS") == Some(1.0))
+    }
+
+    /// Whether the switches make a series superfluous; the pairs of series 14 are kept in any case.
+    pub(crate) fn is_superfluous(&self, series: u8) -> bool {
+        series != 14 && need(series, self.value("MREAD"), self.value("NPOS")) == Need::Unused
     }
 
     /// The fields in which two decks differ: by value, a blank counting as the zero that it means.
     /// Titles are compared without trailing blanks; lines and digits do not count.
     pub fn differences(&self, other: &Self) -> Vec<Difference> {
-        let mut differences = Vec::new();
-        let mut compare = |field: String, left: Option<String>, right: Option<String>| {
-            if left != right {
-                differences.push(Difference { field, left, right });
-            }
-        };
-        for (at, (left, right)) in self.titles.iter().zip(&other.titles).enumerate() {
-            compare(format!("title card {}", at + 1), Some(left.clone()), Some(right.clone()));
-        }
-        compare("plot option".into(), Some(format!("{:?}", self.plot)), Some(format!("{:?}", other.plot)));
-        for name in self.names_with(other) {
-            let shown = |deck: &Self| deck.number(&name).map(|n| format!("{:?}", n.value + 0.0));
-            compare(name.clone(), shown(self), shown(other));
-        }
-        let pairs = |deck: &Self| format!("{:?}", deck.passed_pairs());
-        compare("passed pairs".into(), Some(pairs(self)), Some(pairs(other)));
-        differences
+        let (mut left, mut right) = (self.shown(), other.shown());
+        let fields: BTreeSet<String> = left.keys().chain(right.keys()).cloned().collect();
+        let of_both = |field: String| Difference { left: left.remove(&field), right: right.remove(&field), field };
+        fields.into_iter().map(of_both).filter(|difference| difference.left != difference.right).collect()
+    }
+
+    /// What the deck says, by field. The pairs are one entry, because their order is free.
+    fn shown(&self) -> BTreeMap<String, String> {
+        let is_pair = |card: &&DeckCard| card.id.series == 14 && card.id.letter == Some('b');
+        let named = self.cards.iter().filter(|card| !is_pair(card)).flat_map(DeckCard::named);
+        let fields = named.filter(|(name, ..)| name != "NCARD");
+        let mut shown: BTreeMap<_, _> = fields.map(|(name, _, n)| (name, format!("{:?}", n.value + 0.0))).collect();
+        shown.insert("title card 1".into(), self.titles[0].clone());
+        shown.insert("title card 2".into(), self.titles[1].clone());
+        shown.insert("plot option".into(), self.plot.word().into());
+        shown.insert("passed pairs".into(), format!("{:?}", self.passed_pairs()));
+        shown
     }
 
     /// The pairs (sphere, surface) of series 14 that have passed the surface's edge.
@@ -226,31 +290,4 @@ impl Deck {
         pairs.sort_unstable();
         pairs
     }
-
-    /// The names of all fields of both decks, those of the pairs left out: their order is free.
-    fn names_with(&self, other: &Self) -> Vec<String> {
-        let mut names: Vec<String> = Vec::new();
-        for card in self.cards.iter().chain(&other.cards).filter(|c| !(c.id.series == 14 && c.id.letter == Some('b'))) {
-            names.extend(fields_of(card).map(|field| name_of(card, field)).filter(|n| n != "NCARD"));
-        }
-        names.sort_unstable();
-        names.dedup();
-        names
-    }
-}
-
-/// The layout of a deck's card.
-pub(crate) fn layout_of(card: &DeckCard) -> Option<&'static CardLayout> {
-    series(card.id.series)?.cards.iter().find(|c| c.letter == card.id.letter)
-}
-
-/// The fields of a deck's card.
-pub(crate) fn fields_of(card: &DeckCard) -> impl Iterator<Item = &'static Field> + use<> {
-    layout_of(card).map(|layout| layout.fields).unwrap_or_default().iter()
-}
-
-/// The full name of a field on a deck's card.
-pub(crate) fn name_of(card: &DeckCard, field: &Field) -> String {
-    let number = card.id.number.filter(|_| layout_of(card).is_some_and(|l| l.repeat != Repeat::Once));
-    layout_of(card).map_or_else(|| field.variable.to_owned(), |layout| layout.name_of(field, number))
 }

@@ -32,9 +32,13 @@
 //! | [`Diagnostics`], [`Rule`], [`Strictness`] | what is wrong, under which rule, how gravely |
 //! | [`Conversion`], [`Report`] | a scenario made from a deck; what was assumed, not used, blank |
 //! | [`FromScenario`], [`NoDeck`] | a deck made from a scenario; what does not fit on cards |
-//! | [`layout`] | every field of every card as data |
-//! | [`field`] | the field rules of FORTRAN IV |
+//! | [`cards`] | every field of every card as data: columns, unit, meaning |
+//! | [`fortran`] | the field rules of FORTRAN IV |
 //! | [`CompartmentLayout`] | which points bound which surface, from `compartment.toml` |
+//!
+//! The sources by room, each using only those before it (`tests/rooms.rs`): `rule`, `punched` (80 columns), `fortran`
+//! (fields), `cards` (the table, a file for each series: what card 7 means stands in `cards/card_07_spheres.rs`), `deck`,
+//! `compartment`, `notes`, `diagnostics`, `check`, `read`, `write`, `convert` (deck → scenario), `back` (scenario → deck).
 //!
 //! # Rules that hold for any bytes
 //!
@@ -53,32 +57,25 @@
 //! decisions where the report is silent, and what becomes of each card in a scenario.
 
 mod back;
-mod builder;
-mod card;
-mod card_number;
+pub mod cards;
 mod check;
-mod columns;
 mod compartment;
-mod completeness;
 mod convert;
 mod deck;
-mod diagnostic;
-pub mod field;
-mod field_reader;
-mod kept;
-pub mod layout;
-mod left_out;
-mod plot_card;
-mod reader;
+mod diagnostics;
+pub mod fortran;
+mod notes;
+mod punched;
+mod read;
 mod rule;
-mod series_reader;
 mod write;
 
 pub use back::{FromScenario, NoDeck, RunEnd, spine_rest};
-pub use columns::Columns;
-pub use compartment::{CompartmentLayout, Corner, Face, Wall, WheelLayout};
+pub use compartment::{CompartmentLayout, Corner, Face, Wall};
 pub use convert::{Conversion, ConversionError, ConvertOptions, PathSource, Report};
-pub use deck::{Deck, DeckCard, Difference, Number, ParseOptions, Plot};
-pub use diagnostic::{Diagnostic, Diagnostics};
+pub use deck::{Deck, DeckCard, Difference, Number, Plot};
+pub use diagnostics::{Diagnostic, Diagnostics};
+pub use punched::Columns;
+pub use read::ParseOptions;
 pub use rule::{Grade, Rule, Severity, Strictness};
 pub use write::write_file;

@@ -62,191 +62,130 @@ impl Grade {
     }
 }
 
-/// A rule of the cards; [`Rule::name`] is the stable name printed with every diagnostic.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Rule {
-    // The file and its lines.
-    /// No card at all.
-    EmptyFile,
-    /// A tab, which has no column.
-    Tab,
-    /// Characters behind column 80.
-    LineTooLong,
-    /// A control character.
-    ControlCharacter,
-    /// Bytes that look like UTF-8; they are read as Latin-1, one byte a column.
-    LooksLikeUtf8,
-    /// Something behind the final card.
-    AfterFinalCard,
-    // The fields.
-    /// Characters that are no number.
-    NotANumber,
-    /// A number beyond the range of the 360.
-    OutOfRange,
-    /// Blanks between digits, read as zeros.
-    EmbeddedBlanks,
-    /// Blanks behind the last digit that became zeros of a number without a point.
-    LeftJustified,
-    /// An exponent without its letter.
-    BareExponent,
-    /// A small exponent letter.
-    SmallLetter,
-    /// A number too near to zero for the 360.
-    Underflow,
-    /// Blank fields read as zero, counted once a deck.
-    BlankIsZero,
-    /// Something in columns that the report leaves blank.
-    NotBlank,
-    /// A number that has to be whole and is not, or counts nothing sensible.
-    NotAWholeNumber,
-    /// A word other than those the report knows (STAN, NONE, FINI).
-    UnknownWord,
-    // The order of the cards.
-    /// The file ends inside a deck.
-    Truncated,
-    /// A title card is missing.
-    MissingTitle,
-    /// A card that starts no series where one must start.
-    UnexpectedCard,
-    /// The card number of a series' first card is blank, misplaced or wrong.
-    CardNumber,
-    /// The card number stands where the report's format I8 reads it.
-    CardNumberByFormat,
-    /// A series has fewer cards than it needs.
-    SeriesTooShort,
-    /// The number of cards differs from the count on the series' first card.
-    CountDiffers,
-    /// A series comes twice.
-    SeriesTwice,
-    /// A series stands elsewhere than in the report's order.
-    OutOfOrder,
-    /// A series that the deck needs is not there.
-    SeriesMissing,
-    /// A series that the deck does not need is there.
-    SeriesUnused,
-    /// A segment, surface or pair number outside its range.
-    BadIndex,
-    /// The same segment, surface or pair twice.
-    IndexTwice,
-    /// A segment or surface without its card.
-    IndexMissing,
-    /// The card 1000 that ends the numbers is missing.
-    NoTerminator,
-    /// The plot card STAN or NONE is missing.
-    NoPlotCard,
-    /// The final card FINI is missing.
-    NoFinalCard,
-    // What the numbers mean.
-    /// A number outside what the quantity can be.
-    Impossible,
-    /// A number that is possible and unlikely.
-    Unlikely,
-    /// A number that looks as if punched in another unit.
-    LooksLikeOtherUnit,
-    /// Numbers that contradict one another.
-    Inconsistent,
-    /// An equality of the compartment's points that does not hold.
-    CompartmentEquality,
-    /// The path of the vehicle does not cover the run.
-    PathTooShort,
-    /// A pair of series 14 whose surface a scenario leaves out, so that the pair has no effect.
-    PassedPairUnused,
-    /// A field that has no effect in this deck.
-    Ignored,
-}
+/// The rules: what each says, its [`Grade`], its stable name, and how to mend what breaks it where that is always the same.
+macro_rules! rules {
+    ($($(#[$meaning:meta])* $rule:ident: $grade:ident, $name:literal $(, $remedy:literal)?;)*) => {
+        /// A rule of the cards; [`Rule::name`] is the stable name printed with every diagnostic.
+        #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
+        pub enum Rule {
+            $($(#[$meaning])* $rule,)*
+        }
 
-impl Rule {
-    /// The grade of the rule.
-    pub fn grade(self) -> Grade {
-        match self {
-            Self::EmptyFile
-            | Self::NotANumber
-            | Self::OutOfRange
-            | Self::NotAWholeNumber
-            | Self::Truncated
-            | Self::MissingTitle
-            | Self::UnexpectedCard
-            | Self::SeriesTooShort
-            | Self::SeriesMissing
-            | Self::BadIndex
-            | Self::IndexTwice
-            | Self::IndexMissing
-            | Self::Impossible
-            | Self::PathTooShort => Grade::Fatal,
-            Self::Tab
-            | Self::UnknownWord
-            | Self::CardNumber
-            | Self::CountDiffers
-            | Self::SeriesTwice
-            | Self::NoTerminator
-            | Self::NoPlotCard => Grade::Repairable,
-            Self::LineTooLong
-            | Self::ControlCharacter
-            | Self::LooksLikeUtf8
-            | Self::AfterFinalCard
-            | Self::EmbeddedBlanks
-            | Self::LeftJustified
-            | Self::SmallLetter
-            | Self::Underflow
-            | Self::NotBlank
-            | Self::OutOfOrder
-            | Self::NoFinalCard
-            | Self::Unlikely
-            | Self::LooksLikeOtherUnit
-            | Self::Inconsistent
-            | Self::CompartmentEquality
-            | Self::PassedPairUnused => Grade::Doubtful,
-            Self::BareExponent | Self::CardNumberByFormat | Self::BlankIsZero | Self::SeriesUnused | Self::Ignored => {
-                Grade::Remark
+        impl Rule {
+            /// The grade of the rule.
+            pub fn grade(self) -> Grade {
+                match self {
+                    $(Self::$rule => Grade::$grade,)*
+                }
+            }
+
+            /// The stable name of the rule.
+            pub fn name(self) -> &'static str {
+                match self {
+                    $(Self::$rule => $name,)*
+                }
+            }
+
+            /// How to mend what breaks the rule; empty where that depends on the case.
+            pub(crate) fn remedy(self) -> &'static str {
+                match self {
+                    $(Self::$rule => concat!($($remedy)?),)*
+                }
             }
         }
-    }
+    };
+}
 
-    /// The stable name of the rule.
-    pub fn name(self) -> &'static str {
-        match self {
-            Self::EmptyFile => "empty-file",
-            Self::Tab => "tab",
-            Self::LineTooLong => "line-too-long",
-            Self::ControlCharacter => "control-character",
-            Self::LooksLikeUtf8 => "looks-like-utf-8",
-            Self::AfterFinalCard => "after-final-card",
-            Self::NotANumber => "not-a-number",
-            Self::OutOfRange => "out-of-range",
-            Self::EmbeddedBlanks => "embedded-blanks",
-            Self::LeftJustified => "left-justified",
-            Self::BareExponent => "bare-exponent",
-            Self::SmallLetter => "small-letter",
-            Self::Underflow => "underflow",
-            Self::BlankIsZero => "blank-is-zero",
-            Self::NotBlank => "not-blank",
-            Self::NotAWholeNumber => "not-a-whole-number",
-            Self::UnknownWord => "unknown-word",
-            Self::Truncated => "truncated",
-            Self::MissingTitle => "missing-title",
-            Self::UnexpectedCard => "unexpected-card",
-            Self::CardNumber => "card-number",
-            Self::CardNumberByFormat => "card-number-by-format",
-            Self::SeriesTooShort => "series-too-short",
-            Self::CountDiffers => "count-differs",
-            Self::SeriesTwice => "series-twice",
-            Self::OutOfOrder => "out-of-order",
-            Self::SeriesMissing => "series-missing",
-            Self::SeriesUnused => "series-unused",
-            Self::BadIndex => "bad-index",
-            Self::IndexTwice => "index-twice",
-            Self::IndexMissing => "index-missing",
-            Self::NoTerminator => "no-terminator",
-            Self::NoPlotCard => "no-plot-card",
-            Self::NoFinalCard => "no-final-card",
-            Self::Impossible => "impossible",
-            Self::Unlikely => "unlikely",
-            Self::LooksLikeOtherUnit => "looks-like-other-unit",
-            Self::Inconsistent => "inconsistent",
-            Self::CompartmentEquality => "compartment-equality",
-            Self::PathTooShort => "path-too-short",
-            Self::PassedPairUnused => "passed-pair-unused",
-            Self::Ignored => "ignored",
-        }
-    }
+rules! {
+    // The file and its lines.
+    /// No card at all.
+    EmptyFile: Fatal, "empty-file";
+    /// A tab, which has no column.
+    Tab: Repairable, "tab", "replace tabs by blanks; it was read as if tab stops stood every 8 columns";
+    /// Characters behind column 80.
+    LineTooLong: Doubtful, "line-too-long", "check that no field has slipped to the right, and cut the line";
+    /// A control character.
+    ControlCharacter: Doubtful, "control-character";
+    /// Bytes that look like UTF-8; they are read as Latin-1, one byte a column.
+    LooksLikeUtf8: Doubtful, "looks-like-utf-8", "save the deck as Latin-1 (ISO 8859-1) or use plain ASCII";
+    /// Something behind the final card.
+    AfterFinalCard: Doubtful, "after-final-card", "remove an earlier FINI if a deck follows; remove the rest otherwise";
+    // The fields.
+    /// Characters that are no number.
+    NotANumber: Fatal, "not-a-number";
+    /// A number beyond the range of the 360.
+    OutOfRange: Fatal, "out-of-range",
+        "an exponent must end in the last column of the field, because blanks behind it are zeros";
+    /// Blanks between digits, read as zeros.
+    EmbeddedBlanks: Doubtful, "embedded-blanks", "close the gap, or punch the zeros";
+    /// Blanks behind the last digit that became zeros of a number without a point.
+    LeftJustified: Doubtful, "left-justified";
+    /// An exponent without its letter.
+    BareExponent: Remark, "bare-exponent", "punch the E";
+    /// A small exponent letter.
+    SmallLetter: Doubtful, "small-letter", "punch E or D";
+    /// A number too near to zero for the 360.
+    Underflow: Doubtful, "underflow", "punch 0.";
+    /// Blank fields read as zero, counted once a deck.
+    BlankIsZero: Remark, "blank-is-zero";
+    /// Something in columns that the report leaves blank.
+    NotBlank: Doubtful, "not-blank", "look whether a number has slipped out of its columns, or remove it";
+    /// A number that has to be whole and is not, or counts nothing sensible.
+    NotAWholeNumber: Fatal, "not-a-whole-number";
+    /// A word other than those the report knows (STAN, NONE, FINI).
+    UnknownWord: Repairable, "unknown-word",
+        "punch the word in capitals from column 1; in lenient reading capitals do not matter, anything else is NONE";
+    // The order of the cards.
+    /// The file ends inside a deck.
+    Truncated: Fatal, "truncated", "look for the missing end of the file";
+    /// A title card is missing.
+    MissingTitle: Fatal, "missing-title";
+    /// A card that starts no series where one must start.
+    UnexpectedCard: Fatal, "unexpected-card";
+    /// The card number of a series' first card is blank, misplaced or wrong.
+    CardNumber: Repairable, "card-number";
+    /// The card number stands where the report's format I8 reads it.
+    CardNumberByFormat: Remark, "card-number-by-format";
+    /// A series has fewer cards than it needs.
+    SeriesTooShort: Fatal, "series-too-short", "add the missing cards";
+    /// The number of cards differs from the count on the series' first card.
+    CountDiffers: Repairable, "count-differs", "correct the count, or add or remove cards";
+    /// A series comes twice.
+    SeriesTwice: Repairable, "series-twice",
+        "remove one of the two; in lenient reading the later one counts, as it did in the program";
+    /// A series stands elsewhere than in the report's order.
+    OutOfOrder: Doubtful, "out-of-order", "sort the deck; the card number says which series it is, and so it was read";
+    /// A series that the deck needs is not there.
+    SeriesMissing: Fatal, "series-missing", "add the cards, or punch the card number if they are there";
+    /// A series that the deck does not need is there.
+    SeriesUnused: Remark, "series-unused";
+    /// A segment, surface or pair number outside its range.
+    BadIndex: Fatal, "bad-index";
+    /// The same segment, surface or pair twice.
+    IndexTwice: Fatal, "index-twice";
+    /// A segment or surface without its card.
+    IndexMissing: Fatal, "index-missing", "add the cards, or correct their numbers";
+    /// The card 1000 that ends the numbers is missing.
+    NoTerminator: Repairable, "no-terminator", "add the card";
+    /// The plot card STAN or NONE is missing.
+    NoPlotCard: Repairable, "no-plot-card", "add the card; in lenient reading it is NONE";
+    /// The final card FINI is missing.
+    NoFinalCard: Doubtful, "no-final-card", "add a card FINI; look whether the file is complete";
+    // What the numbers mean.
+    /// A number outside what the quantity can be.
+    Impossible: Fatal, "impossible";
+    /// A number that is possible and unlikely.
+    Unlikely: Doubtful, "unlikely";
+    /// A number that looks as if punched in another unit.
+    LooksLikeOtherUnit: Doubtful, "looks-like-other-unit";
+    /// Numbers that contradict one another.
+    Inconsistent: Doubtful, "inconsistent";
+    /// An equality of the compartment's points that does not hold.
+    CompartmentEquality: Doubtful, "compartment-equality";
+    /// The path of the vehicle does not cover the run.
+    PathTooShort: Fatal, "path-too-short";
+    /// A pair of series 14 whose surface a scenario leaves out, so that the pair has no effect.
+    PassedPairUnused: Doubtful, "passed-pair-unused";
+    /// A field that has no effect in this deck.
+    Ignored: Remark, "ignored";
 }

@@ -5,10 +5,8 @@
 //! fields without effect (the belt that is not in use, SLACK if NPOS = 1) left as blank as they were; the card number
 //! where the report's table has it; nothing in free columns; no trailing blanks; LF behind each card.
 
-use crate::card::CARD_WIDTH;
-use crate::columns::Columns;
-use crate::deck::{Deck, DeckCard, Number, Plot, fields_of, name_of};
-use crate::layout::{Field, Format};
+use crate::cards::Format;
+use crate::deck::{Deck, DeckCard, Number};
 
 impl Deck {
     /// The deck as cards, from the titles to the plot card. The final card FINI belongs to the file: [`write_file`].
@@ -20,49 +18,38 @@ impl Deck {
         for card in self.cards() {
             push_line(&mut text, &self.punch_card(card));
         }
-        push_line(
-            &mut text,
-            match self.plot() {
-                Plot::Standard => "STAN",
-                Plot::None => "NONE",
-            },
-        );
+        push_line(&mut text, self.plot().word());
         text
     }
 
     /// The deck without what has no effect: series that its switches make superfluous, numbers of the belt that is not in use,
     /// SLACK if NPOS = 1. It is what a way through a scenario keeps.
     pub fn normalised(&self) -> Deck {
-        let unused = |series: u8| match series {
-            4 | 10 => self.value("NPOS") == Some(1.0),
-            6 => self.value("NPOS") == Some(0.0),
-            12 => self.value("MREAD") != Some(0.0),
-            _ => false,
-        };
-        let mut cards: Vec<DeckCard> = self.cards().iter().filter(|c| !unused(c.id.series)).cloned().collect();
-        for card in &mut cards {
-            let names: Vec<String> = fields_of(card).map(|field| name_of(card, field)).collect();
-            for (number, name) in card.numbers.iter_mut().zip(names) {
-                if self.has_no_effect(&name) {
-                    *number = Number::blank();
-                }
-            }
-        }
-        Deck::assemble(self.titles().clone(), cards, self.plot())
+        let used = self.cards().iter().filter(|card| !self.is_superfluous(card.id.series));
+        let blanked = used.map(|card| {
+            let kept = |(name, _, number): (String, _, &Number)| {
+                if self.has_no_effect(&name) { Number::blank() } else { number.clone() }
+            };
+            DeckCard { numbers: card.named().map(kept).collect(), ..card.clone() }
+        });
+        Deck::assemble(self.titles().clone(), blanked.collect(), self.plot())
     }
 
     fn punch_card(&self, card: &DeckCard) -> String {
-        let mut columns = [b' '; CARD_WIDTH];
-        for (field, number) in fields_of(card).zip(&card.numbers) {
+        let mut line = String::new();
+        for (name, field, number) in card.named() {
             let text = match field.format {
-                Format::Integer => punch_integer(number),
-                Format::Real if number.blank && self.has_no_effect(&name_of(card, field)) => String::new(),
+                Format::Integer => format!("{:.0}", number.value),
+                Format::Real if number.blank && self.has_no_effect(&name) => String::new(),
                 Format::Real => punch_real(number, field.columns.width()),
                 Format::Text => String::new(),
             };
-            place(&mut columns, field, &text);
+            // at the right end of the field; what is too long, which `punch_real` prevents, is cut on the left
+            let width = usize::from(field.columns.last) - line.len();
+            let text = format!("{text:>width$}");
+            line.push_str(&text[text.len() - width..]);
         }
-        columns.iter().map(|b| char::from(*b)).collect()
+        line
     }
 }
 
@@ -76,20 +63,6 @@ pub fn write_file(decks: &[Deck]) -> Vec<u8> {
 fn push_line(text: &mut String, line: &str) {
     text.push_str(line.trim_end_matches(' '));
     text.push('\n');
-}
-
-/// Puts text at the right end of a field; what is too long is cut on the left, which [`punch_real`] prevents.
-fn place(columns: &mut [u8; CARD_WIDTH], field: &Field, text: &str) {
-    let Columns { first, last } = field.columns;
-    let bytes = text.bytes().rev();
-    let cells = columns.iter_mut().take(usize::from(last)).skip(usize::from(first) - 1).rev();
-    for (cell, byte) in cells.zip(bytes) {
-        *cell = byte;
-    }
-}
-
-fn punch_integer(number: &Number) -> String {
-    format!("{:.0}", number.value)
 }
 
 /// A number for an F field: with its point where there is room, with all its digits.
@@ -163,7 +136,7 @@ mod tests {
             (1.234e-6, "1.234E-6"),
         ] {
             assert_eq!(punched(value), text);
-            let read = crate::field::read_real(format!("{text:>10}").as_bytes());
+            let read = crate::fortran::read_real(format!("{text:>10}").as_bytes());
             assert_eq!(read.map(|r| r.value), Ok(value));
         }
     }

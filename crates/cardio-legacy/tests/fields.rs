@@ -1,6 +1,6 @@
 //! The field rules of FORTRAN IV, one sentence a test.
 
-use cardio_legacy::field::{FieldError, Surprise, read_integer, read_real};
+use cardio_legacy::fortran::{FieldError, Surprise, read_integer, read_real};
 
 fn real(text: &str) -> (f64, String, Vec<Surprise>) {
     let reading = read_real(format!("{text:10}").as_bytes()).unwrap_or_else(|error| panic!("`{text}`: {error:?}"));

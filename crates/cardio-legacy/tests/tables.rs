@@ -3,14 +3,14 @@
 use std::collections::HashSet;
 
 use cardio_legacy::CompartmentLayout;
-use cardio_legacy::layout::{Format, SERIES, tables_as_markdown};
+use cardio_legacy::cards::{Format, SERIES, tables_as_markdown};
 
 #[test]
 fn fields_follow_one_another_without_overlap() {
-    for series in &SERIES {
-        for card in series.cards {
+    for series in SERIES.iter() {
+        for card in &series.cards {
             let mut next = 1;
-            for field in card.fields {
+            for field in &card.fields {
                 assert!(field.columns.first >= next, "series {} {:?}: {}", series.number, card.letter, field.variable);
                 assert!(field.columns.last <= 80 && field.columns.last >= field.columns.first);
                 next = field.columns.last + 1;
@@ -23,10 +23,14 @@ fn fields_follow_one_another_without_overlap() {
 fn every_number_has_a_name_of_its_own() {
     let mut names = HashSet::new();
     let mut numbers = 0;
-    for series in &SERIES {
-        for card in series.cards {
+    for series in SERIES.iter() {
+        for card in &series.cards {
             for field in card.fields.iter().filter(|f| f.variable != "NCARD" && f.format != Format::Text) {
-                assert!(names.insert((field.variable, format!("{:?}", card.repeat))), "{} comes twice", field.variable);
+                assert!(
+                    names.insert((&field.variable, format!("{:?}", card.repeat))),
+                    "{} comes twice",
+                    field.variable
+                );
                 numbers += 1;
             }
         }

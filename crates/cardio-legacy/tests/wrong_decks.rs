@@ -53,14 +53,14 @@ fn every_numeric_field_of_every_card_reports_what_is_no_number() {
     for name in support::DECKS {
         let deck = &cardio_legacy::Deck::parse(support::bytes(name), &Default::default()).0[0];
         for card in deck.cards() {
-            let series = cardio_legacy::layout::series(card.id.series).expect("a series");
+            let series = cardio_legacy::cards::series(card.id.series).expect("a series");
             let layout = series.cards.iter().find(|c| c.letter == card.id.letter).expect("a card");
             for field in layout.fields.iter().filter(|f| f.variable != "NCARD") {
                 let line = card.line.expect("read from a file");
                 let mut lines = lines(name);
                 punch(&mut lines[line - 1], usize::from(field.columns.last), "?");
                 let variable =
-                    layout.name_of(field, card.id.number.filter(|_| !matches!(field.variable, "J" | "NSEG")));
+                    layout.name_of(field, card.id.number.filter(|_| !matches!(&*field.variable, "J" | "NSEG")));
                 let found = errors(&lines.join("\n"));
                 let named = found.iter().any(|(rule, at, v)| {
                     *rule == Rule::NotANumber && *at == line && (*v == variable || field.columns.first == 1)

@@ -1,22 +1,14 @@
 //! The command `occupant`, as a library: its recorders for other programs, and the command line itself.
+//!
+//! Five rooms, one above the other: `commands` may use all that follow, `jobs`, `pictures`, `files`, `base` only what stands
+//! behind them in this list. Nothing points back.
 
-pub mod cli;
-mod compare;
-mod ensemble;
-mod export;
-pub mod figure;
-mod fit;
-mod history;
-pub mod mcap;
-mod measured;
-mod mme;
-pub mod picture;
-mod plot;
-mod print;
-pub mod report;
-pub mod results;
-mod risk;
-mod sensitivity;
-pub mod study;
-mod sweep;
-pub mod view;
+mod base;
+mod commands;
+mod files;
+mod jobs;
+mod pictures;
+
+pub use commands::main;
+pub use files::{mcap, results};
+pub use jobs::study;

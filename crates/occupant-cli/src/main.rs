@@ -3,5 +3,5 @@
 use std::process::ExitCode;
 
 fn main() -> ExitCode {
-    occupant_cli::cli::main()
+    occupant_cli::main()
 }

@@ -10,16 +10,20 @@
 //!
 //! # A run
 //!
-//! A [`scenario::Scenario`] is a TOML or JSON text; it becomes a [`setup::Setup`] (plain SI data) and that a
-//! [`model::Model`] (checked, immutable). [`simulate::simulate`] runs it and hands every output time to a
-//! [`recorder::Recorder`], which takes what it wants of the [`sample::Sample`].
+//! A run is made of a [`model::setup::Setup`], plain SI data. It comes from a text, a TOML or JSON
+//! [`scenario::Scenario`], or from code; both ways have the same defaults and presets. [`model::Model::new`] checks it and
+//! computes the start; a model is immutable. [`run::simulate::simulate`] runs it and hands every output time to a
+//! [`results::recorder::Recorder`], which takes what it wants of the [`results::sample::Sample`].
+//!
+//! From a text:
 //!
 //! ```
-//! use occupant_core::body::Segment;
+//! use occupant_core::body::tti12::HEAD;
+//! use occupant_core::results::outcome::Status;
 //! use occupant_core::results::recorder::Watch;
 //! use occupant_core::results::sample::Sample;
+//! use occupant_core::run::simulate::simulate;
 //! use occupant_core::scenario::{Format, Scenario};
-//! use occupant_core::run::simulate::{Status, simulate};
 //!
 //! // a standing body, let go two metres above the origin
 //! let text = r#"
@@ -40,7 +44,7 @@
 //! let (mut drop_m, mut reading_m_s2) = (0.0, f64::NAN);
 //! let outcome = simulate(&model, Watch(|sample: &Sample<'_>| {
 //!     drop_m = 2.0 - sample.state.t1.z;
-//!     reading_m_s2 = sample.specific_force_m_s2(Segment::Head).norm();
+//!     reading_m_s2 = sample.specific_force_m_s2(HEAD).norm();
 //! }))?;
 //!
 //! assert_eq!(outcome.status, Status::Completed);
@@ -48,6 +52,52 @@
 //! assert!(reading_m_s2 < 1e-9); // an accelerometer reads nothing in free fall
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
+//!
+//! In code, the same occupant dropped onto the ground from a parked vehicle:
+//!
+//! ```
+//! use nalgebra::{Point3, Vector3};
+//! use occupant_core::body::{Body, joint::Joints};
+//! use occupant_core::forces::contact::surface::{Facing, Frame, Outline, Surface};
+//! use occupant_core::forces::material::{BilinearSpring, Material};
+//! use occupant_core::model::{Model, builder::SetupBuilder, seating::InitialPosture};
+//! use occupant_core::motion::report_coordinates::{DOF, ReportCoordinates};
+//! use occupant_core::results::summary::Summarizer;
+//! use occupant_core::run::simulate::simulate;
+//! use occupant_core::vehicle::VehiclePath;
+//!
+//! let mut case = SetupBuilder::new("Drop", Body::male50(), Joints::male50());
+//! let soil = case.material(Material::new("soil", BilinearSpring::linear(1e5, 0.3), 0.6)); // N/m, returned, friction
+//! case.surface(Surface {
+//!     name: "ground".into(),
+//!     frame: Frame::Space,
+//!     outline: Outline::Unbounded { point_m: Point3::origin(), axis: Vector3::z() },
+//!     facing: Facing::Order,
+//!     material: soil,
+//!     spheres: None,
+//! });
+//!
+//! let (mut q, rates) = ([0.0; DOF], [0.0; DOF]);
+//! q[2] = 1.4; // height of T1, m: the feet hang 0.3 m above the ground
+//! let standing = InitialPosture::Coordinates(Box::new(ReportCoordinates { q, rates }));
+//! let model = Model::new(case.build(VehiclePath::parked(), standing, 0.4))?;
+//!
+//! let mut summarizer = Summarizer::new();
+//! simulate(&model, &mut summarizer)?;
+//! let summary = summarizer.summary(None).expect("the run has ended");
+//! assert_eq!(summary.contacts[0].surface, "ground");
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+//!
+//! `examples/` beside this crate's sources are programs to start from:
+//!
+//! | example | shows |
+//! |---|---|
+//! | `scenario_from_text` | a scenario file, all that is wrong with it, the peaks of its run |
+//! | `case_in_code` | a driver, a compartment, belts and a crash pulse without a text |
+//! | `own_vehicle_path` | a program's own vehicle model as the path, a [`vehicle::VehicleMotion`] |
+//! | `own_recorder` | a recorder of one's own, and a run that ends early |
+//! | `sweep_with_rayon` | many runs on all cores |
 //!
 //! # Notation
 //!
@@ -64,14 +114,22 @@
 //!
 //! # Where things are
 //!
-//! - what a run is made of, as plain data: [`body`], [`joint`], [`material`], [`surface`], [`belt`], [`path`], [`seating`],
-//!   [`setup`]; as text: [`scenario`];
-//! - before the first step: [`model`], [`compartment`], [`seat`], [`settle`];
-//! - every step: [`kernel`] (the rate of change of the state), [`integrate`], [`simulate`];
-//! - results: [`sample`], [`energy`], [`reaction`], [`report_coordinates`], [`channel`], [`recorder`], [`summary`];
-//! - to go on with a run: [`checkpoint`];
-//! - many runs: [`study`]; what a run changes by when a number changes: [`sensitivity`];
-//! - of any time history: [`signal`], [`measure`], [`correlation`].
+//! | room | holds |
+//! |---|---|
+//! | [`body`] | segments, joints, contact spheres: the occupant as data |
+//! | [`vehicle`] | the vehicle's path: table, pulse, sensors, at rest, a program's own; [`vehicle::risk`] of a path alone |
+//! | [`forces`] | surfaces and contact, belts, joints: their data, laws and memory |
+//! | [`motion`] | frames, state, kinematics, equations of motion, integrators; numbers as scalars, dual numbers and lanes |
+//! | [`kernel`] | the rate of change of the state: motion and forces put together |
+//! | [`model`] | [`model::setup`] and its [`model::builder`]; checks, seating, settling: everything before the first step |
+//! | [`run`] | steps, output times, many runs side by side ([`run::batch`]) |
+//! | [`results`] | samples, channels, reactions, energies, recorders, summaries, checkpoints to resume from |
+//! | [`diagnosis`] | what will be simulated and whether the step suits it, before a run |
+//! | [`scenario`] | scenarios as text: units, presets, overrides, messages with line and column |
+//! | [`problem`] | what is wrong with an input |
+//!
+//! Above this crate `occupant-study` has designs, searches and sensitivities of many runs; below it `crash-measures` has
+//! filters and injury measures of any time history.
 
 pub mod body;
 pub mod diagnosis;
@@ -80,6 +138,7 @@ pub mod kernel;
 pub mod model;
 pub mod motion;
 pub mod problem;
+pub mod quantity;
 pub mod results;
 pub mod run;
 pub mod scenario;

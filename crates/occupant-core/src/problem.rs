@@ -71,8 +71,8 @@ pub struct Problems(Vec<Problem>);
 
 impl Problems {
     /// No problem yet.
-    pub fn new() -> Self {
-        Problems::default()
+    pub const fn new() -> Self {
+        Problems(Vec::new())
     }
 
     /// Adds an error.
@@ -94,6 +94,22 @@ impl Problems {
     /// Adds a warning.
     pub fn warning(&mut self, path: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) {
         self.0.push(Problem::warning(path, found, expected));
+    }
+
+    /// Adds an error unless `value` is positive; returns whether it is.
+    pub(crate) fn check_positive(&mut self, path: &str, value: f64, unit: &str) -> bool {
+        let is_good = value > 0.0 && value.is_finite();
+        if !is_good {
+            self.error(path, format!("{value} {unit}").trim_end(), "a positive number");
+        }
+        is_good
+    }
+
+    /// Adds an error unless `value` is zero or positive.
+    pub(crate) fn check_at_least_zero(&mut self, path: &str, value: f64, unit: &str) {
+        if !(value >= 0.0 && value.is_finite()) {
+            self.error(path, format!("{value} {unit}").trim_end(), "zero or a positive number");
+        }
     }
 
     /// Appends all of `other`.

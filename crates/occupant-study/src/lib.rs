@@ -52,6 +52,8 @@ mod bind;
 mod copula;
 mod design;
 mod direction_numbers;
+pub mod ending;
+pub mod engine;
 mod ensemble;
 mod fit;
 mod fit_section;

@@ -1,7 +1,8 @@
 //! Place and turn of the twelve segments: Eqs 1–26.
 
 use super::{DOF, dual::Number, vector::Vector};
-use occupant_core::body::{Body, Segment, SegmentProperties};
+use occupant_core::body::tti12::TTI12;
+use occupant_core::body::{Body, SegmentProperties};
 
 /// Columns of the matrix that takes segment axes to space axes: the segment's X, Y and Z in space.
 #[derive(Clone, Copy, Debug)]
@@ -98,7 +99,7 @@ fn hinge<T: Number>(t: Axes<T>, alpha: T) -> Axes<T> {
 /// Values by the report's segment number, 1 to 12.
 fn numbered(body: &Body, of: impl Fn(&SegmentProperties) -> f64) -> [f64; 13] {
     let mut values = [f64::NAN; 13];
-    for segment in Segment::ALL {
+    for segment in TTI12.segments() {
         values[segment.number()] = of(body.segment(segment));
     }
     values

@@ -9,24 +9,46 @@ use super::{
     vector::Vector,
 };
 use nalgebra::Vector3;
-use occupant_core::body::joint::{BallJoint, HingeJoint, Joints, Stop};
+use occupant_core::body::joint::{BallJoint, HingeJoint, Joint, Joints, Stop};
+use occupant_core::body::tti12;
+
+/// The law of a ball joint.
+///
+/// # Panics
+/// If the joint is a hinge.
+pub fn ball(joints: &Joints, joint: Joint) -> BallJoint {
+    *joints[joint].ball().expect("a ball joint")
+}
+
+/// The law of a hinge.
+///
+/// # Panics
+/// If the joint is a ball joint.
+pub fn hinge(joints: &Joints, joint: Joint) -> HingeJoint {
+    *joints[joint].hinge().expect("a hinge")
+}
 
 /// The seven ball joints with their segments k and l (Fig. 8).
 pub(super) fn balls(joints: &Joints) -> [(BallJoint, usize, usize); 7] {
     [
-        (joints.neck, 2, 3),
-        (joints.right_shoulder, 2, 6),
-        (joints.left_shoulder, 2, 5),
-        (joints.upper_back, 1, 2),
-        (joints.lower_back, 1, 4),
-        (joints.right_hip, 4, 10),
-        (joints.left_hip, 4, 9),
+        (ball(joints, tti12::NECK), 2, 3),
+        (ball(joints, tti12::RIGHT_SHOULDER), 2, 6),
+        (ball(joints, tti12::LEFT_SHOULDER), 2, 5),
+        (ball(joints, tti12::UPPER_BACK), 1, 2),
+        (ball(joints, tti12::LOWER_BACK), 1, 4),
+        (ball(joints, tti12::RIGHT_HIP), 4, 10),
+        (ball(joints, tti12::LEFT_HIP), 4, 9),
     ]
 }
 
 /// The four hinges with the number of their coordinate α (Eq. 72).
 fn hinges(joints: &Joints) -> [(HingeJoint, usize); 4] {
-    [(joints.left_elbow, 22), (joints.right_elbow, 23), (joints.right_knee, 31), (joints.left_knee, 30)]
+    [
+        (hinge(joints, tti12::LEFT_ELBOW), 22),
+        (hinge(joints, tti12::RIGHT_ELBOW), 23),
+        (hinge(joints, tti12::RIGHT_KNEE), 31),
+        (hinge(joints, tti12::LEFT_KNEE), 30),
+    ]
 }
 
 /// β between the Z axes of segments k and l: Eq. 71 for ε = 0, else atan2(√(s² + ε²), Z_k·Z_l).

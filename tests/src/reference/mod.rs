@@ -22,7 +22,7 @@ pub use energy::{gravity_energy, kinetic_energy, spine_energy};
 pub use equations::{Equations, equations_of_motion};
 pub use forces::{PointForce, contact_forces};
 pub use geometry::{Pose, pose};
-pub use joints::{damping_forces, joint_angle};
+pub use joints::{ball, damping_forces, hinge, joint_angle};
 pub use motion::{FREE, HINGED, SpaceMotion, space_accelerations, space_velocities};
 pub use vector::Vector;
 

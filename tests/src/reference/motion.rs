@@ -7,23 +7,24 @@ use super::{
     vector::Vector,
 };
 use nalgebra::Vector3;
+use occupant_core::body::tti12;
 use occupant_core::body::{Body, Segment};
 
 /// The eight segments with Euler angles of their own.
 pub const FREE: [Segment; 8] = [
-    Segment::MiddleTorso,
-    Segment::UpperTorso,
-    Segment::Head,
-    Segment::LowerTorso,
-    Segment::LeftUpperArm,
-    Segment::RightUpperArm,
-    Segment::LeftThigh,
-    Segment::RightThigh,
+    tti12::MIDDLE_TORSO,
+    tti12::UPPER_TORSO,
+    tti12::HEAD,
+    tti12::LOWER_TORSO,
+    tti12::LEFT_UPPER_ARM,
+    tti12::RIGHT_UPPER_ARM,
+    tti12::LEFT_THIGH,
+    tti12::RIGHT_THIGH,
 ];
 
 /// The four segments on hinges.
 pub const HINGED: [Segment; 4] =
-    [Segment::LeftForearm, Segment::RightForearm, Segment::LeftLowerLeg, Segment::RightLowerLeg];
+    [tti12::LEFT_FOREARM, tti12::RIGHT_FOREARM, tti12::LEFT_LOWER_LEG, tti12::RIGHT_LOWER_LEG];
 
 /// 31 speeds, or their rates, without Euler angles.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -1,24 +1,22 @@
 //! Body → series 5 and 7.
 
-use occupant_core::body::{SPHERE_NAMES, Segment, standard_spheres};
+use occupant_core::body::tti12::TTI12;
 
 use super::Back;
-use crate::layout::Unit;
 
 /// Centres may differ from the report's by this much, m: rounding of their computation.
 const SAME_PLACE_M: f64 = 1e-12;
 
 pub(super) fn read(back: &mut Back<'_>) {
     let body = &back.setup.body;
-    back.set("XLS", body.shoulder_half_width_m, Unit::Inch);
-    back.set("XLH", body.hip_half_width_m, Unit::Inch);
-    for segment in Segment::ALL {
+    back.set_all([("XLS", body.shoulder_half_width_m), ("XLH", body.hip_half_width_m)]);
+    for segment in TTI12.segments() {
         let (n, p) = (segment.number(), body.segment(segment));
-        back.set(&format!("XLE({n})"), p.length_m, Unit::Inch);
-        back.set(&format!("RHO({n})"), p.cg_from_lower_end_m, Unit::Inch);
-        back.set(&format!("XM({n})"), p.mass_kg, Unit::Mass);
+        back.set(format!("XLE({n})"), p.length_m);
+        back.set(format!("RHO({n})"), p.cg_from_lower_end_m);
+        back.set(format!("XM({n})"), p.mass_kg);
         for (axis, inertia) in ["XIN", "YIN", "ZIN"].into_iter().zip(p.inertia_kg_m2.iter()) {
-            back.set(&format!("{axis}({n})"), *inertia, Unit::Inertia);
+            back.set(format!("{axis}({n})"), *inertia);
         }
     }
     spheres(back);
@@ -27,14 +25,15 @@ pub(super) fn read(back: &mut Back<'_>) {
 /// Cards know the 17 spheres of the report, at their places.
 fn spheres(back: &mut Back<'_>) {
     let body = &back.setup.body;
-    let mut radii_m = [0.0; SPHERE_NAMES.len()];
-    for (radius_m, name) in radii_m.iter_mut().zip(SPHERE_NAMES) {
+    let rows = TTI12.spheres();
+    let mut radii_m = vec![0.0; rows.len()];
+    for (radius_m, name) in radii_m.iter_mut().zip(rows.iter().map(|row| row.name)) {
         match body.sphere(name) {
             Some(at) => *radius_m = body.spheres[at].radius_m,
             None => back.misfit(format!("body.spheres.{name} is removed: cards need all 17 spheres")),
         }
     }
-    let standard = standard_spheres(&body.segments, body.shoulder_half_width_m, &radii_m);
+    let standard = body.standard_spheres(&radii_m);
     for sphere in &body.spheres {
         match standard.iter().position(|s| s.name == sphere.name) {
             None => back.misfit(format!("body.spheres.{}: cards know the report's 17 spheres only", sphere.name)),
@@ -47,7 +46,7 @@ fn spheres(back: &mut Back<'_>) {
                         sphere.name
                     ));
                 }
-                back.set(&format!("RS({})", at + 1), sphere.radius_m, Unit::Inch);
+                back.set(format!("RS({})", at + 1), sphere.radius_m);
             }
         }
     }

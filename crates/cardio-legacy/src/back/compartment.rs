@@ -3,12 +3,11 @@
 use nalgebra::{Point3, Vector3};
 use occupant_core::forces::contact::surface::{Frame, Outline, Surface};
 use occupant_core::forces::material::{DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
-use occupant_core::model::setup::Setup;
 
-use super::Back;
+use super::digits::{digits, factor};
 use super::points::{Polygon, place_points};
+use super::{Back, unit_of};
 use crate::compartment::{CompartmentLayout, Corner};
-use crate::layout::Unit;
 
 /// Places may differ by this much of 1 m and of themselves, and be the same: rounding of the wheel's place.
 const SAME_PLACE: f64 = 1e-9;
@@ -26,14 +25,13 @@ pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
         }
     }
     place_points(back, polygons);
-    if let Some((surface, centre, axis)) = wheel(back.setup, layout) {
-        check_wheel(back, layout, &surface, centre, axis);
+    for surface in back.setup.surfaces.iter().filter(|surface| surface.name == layout.wheel.name) {
+        check_wheel(back, layout, surface);
     }
     let there = |name: &str| back.setup.surfaces.iter().any(|s| s.name == name);
     let kept = |number: u32| back.kept.contains_key(&format!("STIF1({number})"));
-    let numbered = (1..=25).zip(layout.names());
-    let missing: Vec<&str> =
-        numbered.filter(|(number, name)| !there(name) && !kept(*number)).map(|(_, name)| name).collect();
+    let missing = (1..=25).filter(|n| !kept(*n)).filter_map(|n| layout.name_of(n)).filter(|name| !there(name));
+    let missing: Vec<&str> = missing.collect();
     if !missing.is_empty() {
         back.misfit(format!("surfaces {} are missing: cards need all 25 surfaces", missing.join(", ")));
     }
@@ -43,31 +41,21 @@ fn read_surface(back: &mut Back<'_>, layout: &CompartmentLayout, surface: &Surfa
     let name = &surface.name;
     back.misfit_if(
         surface.frame != Frame::Vehicle,
-        &format!("surfaces.{name}.frame: the cards' surfaces belong to the vehicle"),
+        format!("surfaces.{name}.frame: the cards' surfaces belong to the vehicle"),
     );
     back.misfit_if(
         surface.spheres.is_some(),
-        &format!("surfaces.{name}.spheres: on cards all spheres touch all surfaces"),
+        format!("surfaces.{name}.spheres: on cards all spheres touch all surfaces"),
     );
     if let Some(material) = back.setup.materials.get(surface.material) {
         read_material(back, material, number);
     }
     match (&surface.outline, number == layout.wheel.number) {
         (Outline::Disc { centre_m, radius_m, .. }, true) => {
-            back.set("DSW", 2.0 * radius_m, Unit::Inch);
-            back.set("SWP", -centre_m.y, Unit::Inch);
+            back.set_all([("DSW", 2.0 * radius_m), ("SWP", -centre_m.y)]);
         }
         (Outline::Polygon(_), false) => {}
         _ => back.misfit(format!("surfaces.{name}: cards have a disc for the wheel and polygons for the others")),
-    }
-}
-
-/// The wheel's name, centre and axis.
-fn wheel(setup: &Setup, layout: &CompartmentLayout) -> Option<(String, Point3<f64>, Vector3<f64>)> {
-    let surface = setup.surfaces.iter().find(|s| s.name == layout.wheel.name)?;
-    match &surface.outline {
-        Outline::Disc { centre_m, axis, .. } => Some((surface.name.clone(), *centre_m, *axis)),
-        _ => None,
     }
 }
 
@@ -75,16 +63,20 @@ fn read_material(back: &mut Back<'_>, material: &Material, number: u32) {
     let spring = &material.spring;
     back.misfit_if(
         material.memory != Memory::Reset,
-        &format!("materials.{}.memory = \"retain\": cards forget", material.name),
+        format!("materials.{}.memory = \"retain\": cards forget", material.name),
     );
     let usual = material.friction_speed_m_s == DEFAULT_FRICTION_SPEED_M_S;
-    back.misfit_if(!usual, &format!("materials.{}.friction_speed: cards cannot choose it", material.name));
-    back.set(&format!("STIF1({number})"), spring.k1_n_per_m, Unit::Stiffness);
-    back.set(&format!("STIF2({number})"), spring.k2_n_per_m, Unit::Stiffness);
-    back.set(&format!("DELB({number})"), spring.break_m, Unit::Inch);
-    back.set(&format!("AMU1({number})"), spring.returned_1, Unit::One);
-    back.set(&format!("AMU2({number})"), spring.returned_2, Unit::One);
-    back.set(&format!("COFR({number})"), material.friction, Unit::One);
+    back.misfit_if(!usual, format!("materials.{}.friction_speed: cards cannot choose it", material.name));
+    for (field, si) in [
+        ("STIF1", spring.k1_n_per_m),
+        ("STIF2", spring.k2_n_per_m),
+        ("DELB", spring.break_m),
+        ("AMU1", spring.returned_1),
+        ("AMU2", spring.returned_2),
+        ("COFR", material.friction),
+    ] {
+        back.set(format!("{field}({number})"), si);
+    }
 }
 
 fn polygon(back: &mut Back<'_>, layout: &CompartmentLayout, surface: &Surface, number: u32) -> Option<Polygon> {
@@ -99,9 +91,9 @@ fn polygon(back: &mut Back<'_>, layout: &CompartmentLayout, surface: &Surface, n
     let count = corners.len();
     let orders = (0..count).flat_map(|start| [false, true].map(|turned| order(count, start, turned)));
     let on_their_sides =
-        orders.filter(|order| order.iter().zip(&wanted).all(|(at, corner)| on_its_side(corner, &corners[*at])));
+        orders.filter(|order| order.iter().zip(wanted).all(|(at, corner)| on_its_side(corner, &corners[*at])));
     let reading = |order: Vec<usize>| {
-        order.iter().zip(&wanted).flat_map(|(at, corner)| fields_at(corner, &corners[*at])).collect()
+        order.iter().zip(wanted).flat_map(|(at, corner)| fields_at(corner, &corners[*at])).collect()
     };
     let readings: Vec<_> = on_their_sides.map(reading).collect();
     if readings.is_empty() {
@@ -122,7 +114,7 @@ fn on_its_side(corner: &Corner, place: &Point3<f64>) -> bool {
 
 /// A corner's place as the fields of series 8.
 fn fields_at(corner: &Corner, place: &Point3<f64>) -> [(String, String); 3] {
-    let inches = |si: f64| super::digits::digits(si, Unit::Inch).0;
+    let inches = |si: f64| digits(si, unit_of("VCW")).0;
     [
         (format!("XV({})", corner.x_of), inches(place.x)),
         (format!("ZV({})", corner.z_of), inches(place.z)),
@@ -131,21 +123,23 @@ fn fields_at(corner: &Corner, place: &Point3<f64>) -> [(String, String); 3] {
 }
 
 /// Cards have no place for the wheel's; where it is not where a conversion puts it, that is lost.
-fn check_wheel(back: &mut Back<'_>, layout: &CompartmentLayout, name: &str, centre: Point3<f64>, axis: Vector3<f64>) {
+fn check_wheel(back: &mut Back<'_>, layout: &CompartmentLayout, surface: &Surface) {
+    let Outline::Disc { centre_m, axis, .. } = &surface.outline else {
+        return;
+    };
     let wheel = &layout.wheel;
-    let inch = super::digits::factor(Unit::Inch);
-    let known =
-        |name: String| back.builder.digits(&name).and_then(|d| d.parse::<f64>().ok()).unwrap_or(f64::NAN) * inch;
-    let (x, z) = (known(format!("XV({})", wheel.point)), known(format!("ZV({})", wheel.point)));
+    let inch = factor(unit_of("VCW"));
+    let known = |name: &str| back.digits(&format!("{name}({})", wheel.point)).and_then(|d| d.parse::<f64>().ok());
+    let [x, z] = ["XV", "ZV"].map(|name| known(name).unwrap_or(f64::NAN) * inch);
     let (sin, cos) = wheel.tilt_deg.to_radians().sin_cos();
-    let axis = axis / axis.norm();
-    let tilted = (axis - Vector3::new(-cos, 0.0, -sin)).norm() > SAME_PLACE;
+    let tilted = (axis / axis.norm() - Vector3::new(-cos, 0.0, -sin)).norm() > SAME_PLACE;
     let differ = |one: f64, two: f64| (one - two).abs() > SAME_PLACE * (1.0 + one.abs());
-    let moved = differ(x - wheel.behind_in * inch, centre.x) || differ(z, centre.z);
-    if moved || tilted {
-        back.misfit(format!(
+    let moved = differ(x - wheel.behind_in * inch, centre_m.x) || differ(z, centre_m.z);
+    back.misfit_if(
+        moved || tilted,
+        format!(
             "surfaces.{}: no card places the wheel; a deck has it {} in behind point {}, level with it, tilted {} degrees",
-            name, wheel.behind_in, wheel.point, wheel.tilt_deg
-        ));
-    }
+            wheel.name, wheel.behind_in, wheel.point, wheel.tilt_deg
+        ),
+    );
 }

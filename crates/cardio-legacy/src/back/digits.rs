@@ -3,10 +3,10 @@
 //! A quantity of a scenario is its number times its unit's factor. The shortest decimal number that gives the same product
 //! is the number that was written, so a deck's digits come back however its scenario was read.
 
-use occupant_core::scenario::unit_expression;
+use crash_measures::unit::parse;
 
+use crate::cards::Unit;
 use crate::deck::Number;
-use crate::layout::Unit;
 use crate::write::punch_real;
 
 /// Columns of a number on most cards.
@@ -14,22 +14,7 @@ const WIDTH: usize = 10;
 
 /// SI units in one unit of a card.
 pub(super) fn factor(unit: Unit) -> f64 {
-    let text = match unit {
-        Unit::One => return 1.0,
-        Unit::Second => "s",
-        Unit::Inch => "in",
-        Unit::InchPerSecond => "in/s",
-        Unit::InchPerSecondSquared => "in/s^2",
-        Unit::Radian => "rad",
-        Unit::RadianPerSecond => "rad/s",
-        Unit::Degree => "deg",
-        Unit::Mass => "lbf s^2/in",
-        Unit::Inertia => "lbf in s^2",
-        Unit::Stiffness => "lbf/in",
-        Unit::RotaryDamping => "in lbf s/rad",
-        Unit::RotaryStiffness => "in lbf/rad",
-    };
-    unit_expression::parse(text, 0).map_or(1.0, |scale| scale.factor)
+    parse(unit.in_scenarios, 0).map_or(1.0, |scale| scale.factor)
 }
 
 /// The digits of `si` in a card's unit, and the number as it fits into ten columns where that is not the same.
@@ -39,7 +24,7 @@ pub(super) fn digits(si: f64, unit: Unit) -> (String, Option<String>) {
         return ("0".to_owned(), None);
     };
     let punched = punch_real(&number, WIDTH);
-    match crate::field::read_real(format!("{punched:>WIDTH$}").as_bytes()) {
+    match crate::fortran::read_real(format!("{punched:>WIDTH$}").as_bytes()) {
         Ok(read) if read.value == number.value => (exact, None),
         Ok(read) => (read.digits.clone(), Some(exact)),
         Err(_) => (exact, None),

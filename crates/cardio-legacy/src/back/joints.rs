@@ -1,72 +1,76 @@
 //! Joints → series 11.
 
 use occupant_core::body::joint::{BallJoint, HingeJoint, Joints, Stop};
+use occupant_core::body::tti12::*;
 
 use super::Back;
-use crate::layout::Unit;
+use crate::cards::{JOINTS, Joint};
 
 pub(super) fn read(back: &mut Back<'_>) {
-    let joints = back.setup.joints;
-    let smooth = joints.epsilon == Joints::default().epsilon;
+    let joints = back.setup.joints.clone();
+    let smooth = joints.epsilon == Joints::free(&TTI12).epsilon;
     back.misfit_if(!smooth, "joints.epsilon: cards cannot choose it");
-    let same = joints.left_shoulder == joints.right_shoulder && joints.left_hip == joints.right_hip;
+    let same = joints[LEFT_SHOULDER] == joints[RIGHT_SHOULDER] && joints[LEFT_HIP] == joints[RIGHT_HIP];
     back.misfit_if(!same, "shoulders or hips that differ between left and right: cards have one of each");
-    let same = joints.left_elbow == joints.right_elbow && joints.left_knee == joints.right_knee;
+    let same = joints[LEFT_ELBOW] == joints[RIGHT_ELBOW] && joints[LEFT_KNEE] == joints[RIGHT_KNEE];
     back.misfit_if(!same, "elbows or knees that differ between left and right: cards have one of each");
-    ball(back, "neck", &joints.neck, ["XJNN", "XJSN", "AGNN", "AGSN"], None);
-    ball(back, "shoulders", &joints.left_shoulder, ["XJNS", "XJSS", "AGNS", "AGSS"], None);
-    ball(back, "upper_back", &joints.upper_back, ["XJNUB", "XJSUB", "AGNUB", "AGSUB"], Some(("SPJNT4", "BETA4")));
-    ball(back, "lower_back", &joints.lower_back, ["XJNLB", "XJSLB", "AGNLB", "AGSLB"], Some(("SPJNT7", "BETA7")));
-    ball(back, "hips", &joints.left_hip, ["XJNH", "XJSH", "AGNH", "AGSH"], None);
-    hinge(back, "elbows", &joints.left_elbow, ["XJNE", "XJSE", "AGNE", "AGSE"]);
-    hinge(back, "knees", &joints.left_knee, ["XJNK", "XJSK", "AGNK", "AGSK"]);
+    let balls = [NECK, LEFT_SHOULDER, UPPER_BACK, LOWER_BACK, LEFT_HIP].map(|joint| ball_of(&joints, joint));
+    for (card, joint) in JOINTS.iter().filter(|joint| !joint.is_hinge).zip(balls) {
+        ball(back, card, &joint);
+    }
+    for (card, joint) in JOINTS.iter().filter(|joint| joint.is_hinge).zip([LEFT_ELBOW, LEFT_KNEE]) {
+        let joint = joints[joint].hinge().copied().unwrap_or_default();
+        hinge(back, card, &joint);
+    }
 }
 
-fn ball(back: &mut Back<'_>, name: &str, joint: &BallJoint, fields: [&str; 4], spring: Option<(&str, &str)>) {
-    let [normal, full, begin, end] = fields;
-    back.misfit_if(joint.twist_damping_n_m_s != 0.0, &format!("joints.{name}.twist_damping: cards have none"));
-    back.set(normal, joint.damping_n_m_s, Unit::RotaryDamping);
-    stop(back, joint.stop, [begin, end, full]);
-    match (joint.spring, spring) {
+/// The law of a ball joint of the report's body.
+pub(super) fn ball_of(joints: &Joints, joint: occupant_core::body::tree::Joint) -> BallJoint {
+    joints[joint].ball().copied().unwrap_or_default()
+}
+
+fn ball(back: &mut Back<'_>, card: &Joint, joint: &BallJoint) {
+    let name = card.key;
+    back.misfit_if(joint.twist_damping_n_m_s != 0.0, format!("joints.{name}.twist_damping: cards have none"));
+    back.set(card.damping(), joint.damping_n_m_s);
+    stops(back, card, &[joint.stop]);
+    match (joint.spring, card.spring) {
         (Some(_), None) => {
             back.misfit(format!("joints.{name}.stiffness: cards have springs in the two back joints only"))
         }
-        (Some(data), Some((stiffness, rest))) => {
-            back.set(stiffness, data.stiffness_n_m, Unit::RotaryStiffness);
+        (Some(data), Some([stiffness, rest])) => {
+            back.set(stiffness, data.stiffness_n_m);
             if let Some(rest_rad) = data.rest_rad {
-                back.set(rest, rest_rad, Unit::Radian);
+                back.set(rest, rest_rad);
             }
         }
-        (None, Some((stiffness, _))) => back.builder.set(stiffness, "0"),
+        (None, Some([stiffness, _])) => back.deck.set(stiffness, "0"),
         (None, None) => {}
     }
 }
 
-fn hinge(back: &mut Back<'_>, name: &str, joint: &HingeJoint, [normal, full, begin, end]: [&str; 4]) {
-    back.set(normal, joint.damping_n_m_s, Unit::RotaryDamping);
-    for (side, data) in [(1, joint.lower_stop), (2, joint.upper_stop)] {
-        stop(back, data, [&format!("{begin}({side})"), &format!("{end}({side})"), full]);
-    }
+fn hinge(back: &mut Back<'_>, card: &Joint, joint: &HingeJoint) {
+    back.set(card.damping(), joint.damping_n_m_s);
+    stops(back, card, &[joint.lower_stop, joint.upper_stop]);
     if let (Some(lower), Some(upper)) = (joint.lower_stop, joint.upper_stop) {
-        let differ = lower.damping_n_m_s != upper.damping_n_m_s;
+        let (name, full) = (card.key, card.full_damping());
         back.misfit_if(
-            differ,
-            &format!("joints.{name}: the two stops have different dampings; cards have one, {full}"),
+            lower.damping_n_m_s != upper.damping_n_m_s,
+            format!("joints.{name}: the two stops have different dampings; cards have one, {full}"),
         );
     }
 }
 
 /// No stop is two angles of zero.
-fn stop(back: &mut Back<'_>, stop: Option<Stop>, [begin, end, full]: [&str; 3]) {
-    match stop {
-        Some(stop) => {
-            back.set(begin, stop.begin_rad, Unit::Radian);
-            back.set(end, stop.full_rad, Unit::Radian);
-            back.set(full, stop.damping_n_m_s, Unit::RotaryDamping);
-        }
-        None => {
-            back.builder.set(begin, "0");
-            back.builder.set(end, "0");
+fn stops(back: &mut Back<'_>, card: &Joint, stops: &[Option<Stop>]) {
+    for ([begin, end], stop) in card.stops().into_iter().zip(stops) {
+        if let Some(stop) = stop {
+            back.set(begin, stop.begin_rad);
+            back.set(end, stop.full_rad);
+            back.set(card.full_damping(), stop.damping_n_m_s);
+        } else {
+            back.deck.set(&begin, "0");
+            back.deck.set(&end, "0");
         }
     }
 }

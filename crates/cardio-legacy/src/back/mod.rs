@@ -1,4 +1,4 @@
-//! Scenario → deck, where the scenario fits one; otherwise a list of what does not.
+//! Scenario → deck, where the scenario fits one; otherwise a list of what does not. Nothing is left out in silence.
 
 mod body;
 mod compartment;
@@ -9,20 +9,19 @@ mod motion;
 mod path;
 mod points;
 
-use std::fmt;
-
 use occupant_core::forces::contact::EdgeForce;
+use occupant_core::model::seating::InitialPosture;
 use occupant_core::model::setup::{Integrator, Setup};
 use occupant_core::scenario::{Diagnostics as ScenarioDiagnostics, Loaded};
+use thiserror::Error;
 
 pub use extension::{RunEnd, spine_rest};
 
-use crate::builder::DeckBuilder;
-use crate::card::CARD_WIDTH;
+use crate::cards::{Unit, field_named};
 use crate::compartment::CompartmentLayout;
 use crate::deck::{Deck, Plot};
-use crate::kept::{self, Kept};
-use crate::layout::Unit;
+use crate::notes::{self, Kept};
+use crate::punched::CARD_WIDTH;
 
 /// A deck made from a scenario.
 #[derive(Debug, Clone, PartialEq)]
@@ -34,32 +33,18 @@ pub struct FromScenario {
 }
 
 /// Why a scenario has no deck.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Error)]
 pub enum NoDeck {
     /// The scenario itself is refused.
+    #[error("the scenario is refused:\n{0}")]
     Refused(Box<ScenarioDiagnostics>),
     /// The compartment's data file cannot be used.
+    #[error("the compartment's data file cannot be used: {0}")]
     Compartment(String),
     /// Features that cards have no place for, each with the key and what the cards can say instead.
+    #[error("the scenario does not fit on cards:{}", .0.iter().map(|misfit| format!("\n  - {misfit}")).collect::<String>())]
     Misfits(Vec<String>),
 }
-
-impl fmt::Display for NoDeck {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Refused(diagnostics) => write!(f, "the scenario is refused:\n{diagnostics}"),
-            Self::Compartment(reason) => {
-                write!(f, "the compartment's data file cannot be used: {reason}")
-            }
-            Self::Misfits(misfits) => {
-                write!(f, "the scenario does not fit on cards:")?;
-                misfits.iter().try_for_each(|misfit| write!(f, "\n  - {misfit}"))
-            }
-        }
-    }
-}
-
-impl std::error::Error for NoDeck {}
 
 impl Deck {
     /// The deck of a scenario.
@@ -68,12 +53,9 @@ impl Deck {
     /// A scenario that is refused, or every feature of it that cards cannot hold.
     pub fn from_scenario(scenario: &Loaded, layout: Option<&CompartmentLayout>) -> Result<FromScenario, NoDeck> {
         let (setup, _) = scenario.build().map_err(|d| NoDeck::Refused(Box::new(d)))?;
-        let layout = match layout {
-            Some(layout) => layout.clone(),
-            None => CompartmentLayout::reconstruction().map_err(NoDeck::Compartment)?,
-        };
-        let notes = scenario.scenario.notes.as_deref().unwrap_or_default();
-        let mut back = Back::new(&setup, kept::from_notes(notes));
+        let layout = CompartmentLayout::or_reconstruction(layout).map_err(NoDeck::Compartment)?;
+        let kept = notes::from_notes(scenario.scenario.notes.as_deref().unwrap_or_default());
+        let mut back = Back::new(&setup, kept);
         times(&mut back);
         body::read(&mut back);
         joints::read(&mut back);
@@ -88,7 +70,7 @@ impl Deck {
 struct Back<'a> {
     setup: &'a Setup,
     kept: Kept,
-    builder: DeckBuilder,
+    deck: Deck,
     /// Passed pairs (sphere, surface), by the report's numbers.
     passed: Vec<(String, String)>,
     remarks: Vec<String>,
@@ -97,26 +79,42 @@ struct Back<'a> {
 
 impl<'a> Back<'a> {
     fn new(setup: &'a Setup, kept: Kept) -> Self {
-        Self { setup, kept, builder: DeckBuilder::new(), passed: Vec::new(), remarks: Vec::new(), misfits: Vec::new() }
+        let mut deck = Deck::assemble(Default::default(), Vec::new(), Plot::None);
+        let is_seated = matches!(setup.posture, InitialPosture::Seated(_));
+        let of_start: &[u8] = if is_seated { &[4, 10] } else { &[6] };
+        for series in [3, 5, 7, 8, 9, 11].iter().chain(of_start) {
+            deck.add_series(*series, 0);
+        }
+        Self { setup, kept, deck, passed: Vec::new(), remarks: Vec::new(), misfits: Vec::new() }
     }
 
     /// Sets a field from an SI number.
-    fn set(&mut self, name: &str, si: f64, unit: Unit) {
+    fn set(&mut self, name: impl Into<String>, si: f64) {
+        let name = name.into();
+        let unit = unit_of(&name);
         let (digits, exact) = digits::digits(si, unit);
         if let Some(exact) = exact {
-            self.remarks.push(format!(
-                "{name}: {exact} {} does not fit into ten columns and was rounded to {digits}",
-                unit.symbol()
-            ));
+            let exact = format!("{exact} {}", unit.symbol);
+            self.remarks.push(format!("{name}: {exact} does not fit into ten columns and was rounded to {digits}"));
         }
-        self.builder.set(name, &digits);
+        self.deck.set(&name, &digits);
+    }
+
+    /// The digits of a field, if it has been set.
+    fn digits(&self, name: &str) -> Option<&str> {
+        self.deck.number(name).filter(|number| !number.blank).map(|number| number.digits.as_str())
+    }
+
+    /// Sets fields from SI numbers.
+    fn set_all<const N: usize>(&mut self, numbers: [(&str, f64); N]) {
+        numbers.into_iter().for_each(|(name, si)| self.set(name, si));
     }
 
     /// Sets a field that has to be the same wherever the scenario says it.
-    fn agree(&mut self, name: &str, si: f64, unit: Unit, where_said: &str) {
-        let (digits, _) = digits::digits(si, unit);
-        match self.builder.digits(name).map(str::to_owned) {
-            None => self.set(name, si, unit),
+    fn agree(&mut self, name: &str, si: f64, where_said: &str) {
+        let (digits, _) = digits::digits(si, unit_of(name));
+        match self.digits(name).map(str::to_owned) {
+            None => self.set(name, si),
             Some(before) if before == digits || before.parse::<f64>() == digits.parse::<f64>() => {}
             Some(before) => self.misfit(format!(
                 "{where_said} has {digits} where another place has {before}: on cards both are {name}"
@@ -128,9 +126,9 @@ impl<'a> Back<'a> {
         self.misfits.push(text.into());
     }
 
-    fn misfit_if(&mut self, wrong: bool, text: &str) {
+    fn misfit_if(&mut self, wrong: bool, text: impl Into<String>) {
         if wrong {
-            self.misfits.push(text.to_owned());
+            self.misfit(text);
         }
     }
 
@@ -139,68 +137,69 @@ impl<'a> Back<'a> {
             return Err(NoDeck::Misfits(self.misfits));
         }
         let titles = self.titles();
-        let plot =
-            if self.kept.get(kept::PLOT).map(String::as_str) == Some("STAN") { Plot::Standard } else { Plot::None };
+        let plot = self.kept.get(notes::PLOT).and_then(|word| Plot::of_word(word)).unwrap_or(Plot::None);
         self.keep();
-        Ok(FromScenario { deck: self.builder.build(titles, plot), remarks: self.remarks })
+        let cards = self.deck.cards().to_vec();
+        Ok(FromScenario { deck: Deck::assemble(titles, cards, plot), remarks: self.remarks })
     }
 
     fn titles(&mut self) -> [String; 2] {
-        let first = match self.kept.get("TITLE 1") {
-            Some(title) => title.clone(),
-            None => self.setup.title.clone(),
-        };
-        let second = self.kept.get(kept::TITLE_2).cloned().unwrap_or_default();
-        let one_line = first.lines().next().unwrap_or_default();
-        if one_line.chars().count() > CARD_WIDTH {
+        let first = self.kept.get(notes::TITLE_1).unwrap_or(&self.setup.title).lines().next().unwrap_or_default();
+        let second = self.kept.get(notes::TITLE_2).map_or("", String::as_str);
+        if first.chars().count() > CARD_WIDTH {
             self.remarks.push(format!("the title is cut to {CARD_WIDTH} columns"));
         }
-        [one_line, &second]
-            .map(|title| title.chars().take(CARD_WIDTH).collect::<String>().trim_end_matches(' ').to_owned())
+        let cut = |title: &str| title.chars().take(CARD_WIDTH).collect::<String>().trim_end_matches(' ').to_owned();
+        [first, second].map(cut)
     }
 
     /// Fields that the scenario could not say and its notes kept.
     fn keep(&mut self) {
-        let kept: Vec<(String, String)> = self.kept.iter().map(|(n, v)| (n.clone(), v.clone())).collect();
         let mut pairs = std::mem::take(&mut self.passed);
-        for (name, value) in kept {
-            if let Some(place) = name.strip_prefix(kept::PAIR) {
+        for (name, value) in &self.kept {
+            if let Some(place) = name.strip_prefix(notes::PAIR) {
                 // back to its place in the series
                 let place = place.trim().parse().unwrap_or(usize::MAX);
-                if let Some((j, k)) = value.split_once(' ') {
+                if let Some((sphere, surface)) = value.split_once(' ') {
                     let at = place.saturating_sub(1).min(pairs.len());
-                    pairs.insert(at, (j.to_owned(), k.to_owned()));
+                    pairs.insert(at, (sphere.to_owned(), surface.to_owned()));
                 }
-            } else if kept::is_kept_field(&name) && !self.builder.has(&name) {
-                self.builder.set(&name, &value);
+            } else if notes::is_kept_field(name) && self.digits(name).is_none() {
+                self.deck.set(name, value);
             }
         }
-        if !pairs.is_empty() {
-            extension::set_pairs(&mut self.builder, &pairs);
-        }
+        self.deck.set_pairs(&pairs);
         for (name, value, why) in
-            [("NDISK", "1", "no plot data on disk"), ("XV(14)", "0", "point 14 bounds no surface"), ("ZV(14)", "", "")]
+            [("NDISK", "1", "no plot data on disk"), ("XV(14)", "0", "point 14 bounds no surface")]
         {
-            if !self.builder.has(name) {
-                let floor = self.builder.digits("ZV(8)").unwrap_or("0").to_owned();
-                self.builder.set(name, if value.is_empty() { &floor } else { value });
-                if !why.is_empty() {
-                    self.remarks.push(format!("{name} = {value}: {why}"));
-                }
+            if self.digits(name).is_none() {
+                self.deck.set(name, value);
+                self.remarks.push(format!("{name} = {value}: {why}"));
             }
+        }
+        if self.digits("ZV(14)").is_none() {
+            let floor = self.digits("ZV(8)").unwrap_or("0").to_owned();
+            self.deck.set("ZV(14)", &floor);
         }
     }
+}
+
+/// The unit of a field.
+fn unit_of(name: &str) -> Unit {
+    field_named(name).map_or(Unit::ONE, |field| field.unit)
 }
 
 /// Times, integrator, output, gravity (cards 3 and 11e).
 fn times(back: &mut Back<'_>) {
     let setup = back.setup;
-    back.set("T1", setup.time.start_s, Unit::Second);
-    back.set("TF", setup.time.end_s, Unit::Second);
-    back.set("DTPRNT", setup.time.output_s, Unit::Second);
-    back.set("GR", setup.gravity_m_s2, Unit::InchPerSecondSquared);
+    back.set_all([
+        ("T1", setup.time.start_s),
+        ("TF", setup.time.end_s),
+        ("DTPRNT", setup.time.output_s),
+        ("GR", setup.gravity_m_s2),
+    ]);
     match setup.integrator {
-        Integrator::Rk4 { step_s } => back.set("DT", step_s, Unit::Second),
+        Integrator::Rk4 { step_s } => back.set("DT", step_s),
         Integrator::Adaptive { .. } => {
             back.misfit("integrator.kind = \"adaptive\": cards know the fixed step of rk4 only")
         }

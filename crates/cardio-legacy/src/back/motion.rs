@@ -1,39 +1,41 @@
 //! Start of the occupant and belts → series 4 and 10, or 6, and 13.
 
+use occupant_core::body::tti12::{LOWER_BACK, UPPER_BACK};
 use occupant_core::forces::belt::{Belt, RestLength};
 use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating};
-use occupant_core::motion::report_coordinates::ReportCoordinates;
 
 use super::Back;
+use super::extension::coordinate_fields;
+use super::joints::ball_of;
+use crate::cards::{BELTS, POSTURE, SEATS};
 use crate::compartment::CompartmentLayout;
-use crate::convert::{BELTS, POSTURE, SEATS};
-use crate::layout::Unit;
 
 pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
+    let joints = &back.setup.joints;
+    let springs = [("upper_back", UPPER_BACK), ("lower_back", LOWER_BACK)]
+        .map(|(name, joint)| (name, ball_of(joints, joint).spring));
     match &back.setup.posture {
         InitialPosture::Seated(seating) => {
-            back.builder.set("NPOS", "0");
-            back.builder.with_series(4);
-            back.builder.with_series(10);
+            back.deck.set("NPOS", "0");
             seated(back, layout, seating);
-            velocity(back);
-            let rest = [back.setup.joints.upper_back, back.setup.joints.lower_back]
-                .iter()
-                .any(|j| j.spring.is_some_and(|s| s.rest_rad.is_some()));
-            back.misfit_if(rest, "joints.*.rest_angle beside a posture: cards take β₀ from the posture if NPOS = 0");
+            match back.setup.velocity {
+                InitialVelocity::Given(v) => back.set_all([("VXVC", v.x), ("VYVC", v.y), ("VZVC", v.z)]),
+                _ => back.misfit(
+                    "posture.velocity is not given: cards need the occupant's velocity in vehicle axes (series 4)",
+                ),
+            }
+            back.misfit_if(
+                springs.iter().any(|(_, spring)| spring.is_some_and(|s| s.rest_rad.is_some())),
+                "joints.*.rest_angle beside a posture: cards take β₀ from the posture if NPOS = 0",
+            );
         }
         InitialPosture::Coordinates(coordinates) | InitialPosture::Continued { coordinates, .. } => {
-            back.builder.set("NPOS", "1");
-            back.builder.with_series(6);
-            coordinates_on(back, coordinates);
-            for (joint, spring) in [
-                ("upper_back", back.setup.joints.upper_back.spring),
-                ("lower_back", back.setup.joints.lower_back.spring),
-            ] {
-                let open = spring.is_some_and(|s| s.rest_rad.is_none());
+            back.deck.set("NPOS", "1");
+            coordinate_fields(coordinates).for_each(|(name, si)| back.set(name, si));
+            for (joint, spring) in springs {
                 back.misfit_if(
-                    open,
-                    &format!("joints.{joint} without rest_angle: a deck with NPOS = 1 needs β₀ (BETA4, BETA7)"),
+                    spring.is_some_and(|s| s.rest_rad.is_none()),
+                    format!("joints.{joint} without rest_angle: a deck with NPOS = 1 needs β₀ (BETA4, BETA7)"),
                 );
             }
         }
@@ -47,54 +49,37 @@ pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
 /// Passed pairs by the report's numbers.
 fn passed_on(back: &mut Back<'_>, layout: &CompartmentLayout, passed: &[(usize, usize)]) {
     for &(sphere, surface) in passed {
-        let name = back.setup.surfaces.get(surface).map(|s| s.name.clone());
-        let name = name.unwrap_or_default();
-        match layout.number_of(&name) {
+        let name = back.setup.surfaces.get(surface).map_or("", |s| &s.name);
+        match layout.number_of(name) {
             Some(number) => back.passed.push(((sphere + 1).to_string(), number.to_string())),
             None => back.misfit(format!("initial_state.passed names {name}, which is none of the 25 surfaces")),
         }
     }
 }
 
-/// q and their rates, in inches and radians.
-fn coordinates_on(back: &mut Back<'_>, coordinates: &ReportCoordinates) {
-    for (at, (q, rate)) in coordinates.q.iter().zip(&coordinates.rates).enumerate() {
-        let (unit, rate_unit) =
-            if at < 3 { (Unit::Inch, Unit::InchPerSecond) } else { (Unit::Radian, Unit::RadianPerSecond) };
-        back.set(&format!("Q0({})", at + 1), *q, unit);
-        back.set(&format!("QDO({})", at + 1), *rate, rate_unit);
-    }
-}
-
 fn seated(back: &mut Back<'_>, layout: &CompartmentLayout, seating: &Seating) {
     back.misfit_if(seating.settle, "posture.settle: cards have no settling");
-    let name = |at: usize| back.setup.surfaces.get(at).and_then(|s| layout.number_of(&s.name));
-    let (cushion, rest) = (name(seating.cushion), name(seating.back));
-    let right_hand_drive = back.builder.digits("SWP").is_some_and(|d| d.starts_with('-'));
-    let left = (seating.lateral_m < 0.0) != right_hand_drive;
-    let is_seat = |at: &usize| Some(SEATS[*at].1) == cushion && Some(SEATS[*at].2) == rest;
+    let number = |at: usize| back.setup.surfaces.get(at).and_then(|s| layout.number_of(&s.name));
+    let (cushion, rest) = (number(seating.cushion), number(seating.back));
+    let right_hand_drive = back.digits("SWP").is_some_and(|d| d.starts_with('-'));
+    let is_left = (seating.lateral_m < 0.0) != right_hand_drive;
+    let is_seat = |at: &usize| Some(SEATS[*at].cushion) == cushion && Some(SEATS[*at].back) == rest;
     let mut seats = (0..SEATS.len()).filter(is_seat);
-    let seat = kept_seat(back).filter(is_seat).or_else(|| seats.find(|at| SEATS[*at].3 == left));
-    let left = seat.map_or(left, |at| SEATS[at].3);
+    let seat = kept_seat(back).filter(is_seat).or_else(|| seats.find(|at| SEATS[*at].is_left == is_left));
+    let is_left = seat.map_or(is_left, |at| SEATS[at].is_left);
     match seat {
-        Some(at) => back.builder.set("NOPTSP", &(at + 1).to_string()),
+        Some(at) => back.deck.set("NOPTSP", &(at + 1).to_string()),
         None => back.misfit(
             "posture.seat: cards have driver, right front, left rear and right rear on the front and rear seats",
         ),
     }
-    back.agree(
-        "SWP",
-        if left { -seating.lateral_m } else { seating.lateral_m },
-        Unit::Inch,
-        "the seat's place sideways",
-    );
+    let lateral_m = if is_left { -seating.lateral_m } else { seating.lateral_m };
+    back.agree("SWP", lateral_m, "the seat's place sideways");
     let angles = seating.lean_rad.into_iter().chain([seating.upper_arms_rad, seating.elbows_rad]);
-    for ((_, field), angle) in POSTURE.into_iter().zip(angles) {
-        back.set(field, angle, Unit::Degree);
+    for (field, angle) in POSTURE.into_iter().zip(angles) {
+        back.set(field, angle);
     }
-    for (field, place) in ["XHPV", "ZHPV"].into_iter().zip(seating.heels_m) {
-        back.set(field, place, Unit::Inch);
-    }
+    back.set_all([("XHPV", seating.heels_m[0]), ("ZHPV", seating.heels_m[1])]);
 }
 
 /// The seat by the notes, where the place sideways does not tell it.
@@ -103,23 +88,11 @@ fn kept_seat(back: &Back<'_>) -> Option<usize> {
     (0..SEATS.len()).find(|at| digits.parse() == Ok((at + 1) as f64))
 }
 
-fn velocity(back: &mut Back<'_>) {
-    match back.setup.velocity {
-        InitialVelocity::Given(v) => {
-            for (field, component) in ["VXVC", "VYVC", "VZVC"].into_iter().zip(v.iter()) {
-                back.set(field, *component, Unit::InchPerSecond);
-            }
-        }
-        InitialVelocity::WithVehicle | InitialVelocity::VehicleOrigin => {
-            back.misfit("posture.velocity is not given: cards need the occupant's velocity in vehicle axes (series 4)");
-        }
-    }
-}
-
 fn belts(back: &mut Back<'_>) {
     let setup = back.setup;
     let exact = !matches!(setup.posture, InitialPosture::Seated(_));
     let mut used = 0;
+    back.deck.add_series(13, 0);
     for belt in &setup.belts {
         let sphere = setup.body.spheres.get(belt.sphere).map_or("", |s| s.name.as_str());
         match BELTS.iter().find(|b| b.2 == sphere) {
@@ -131,30 +104,27 @@ fn belts(back: &mut Back<'_>) {
             None => back.misfit(format!("belts.{}: the cards' belts loop round pelvis and chest", belt.name)),
         }
     }
-    if used > 0 {
-        back.builder.with_series(13);
-        back.builder.set("NOPBLT", &used.to_string());
+    back.deck.set("NOPBLT", &used.to_string());
+    if used == 0 {
+        back.deck.remove_series(13);
     }
 }
 
 fn read_belt(back: &mut Back<'_>, belt: &Belt, number: u32, exact: bool) {
     for (end, anchor) in [1, 2].into_iter().zip(&belt.anchors_m) {
         for (axis, place) in [1, 2, 3].into_iter().zip(anchor.iter()) {
-            back.set(&format!("P{end}({number},{axis})"), *place, Unit::Inch);
+            back.set(format!("P{end}({number},{axis})"), *place);
         }
     }
     let w = &belt.webbing;
-    back.set(&format!("SK1({number})"), w.k1_n_per_m, Unit::Stiffness);
-    back.set(&format!("SK2({number})"), w.k2_n_per_m, Unit::Stiffness);
-    back.set(&format!("DELC({number})"), w.break_m, Unit::Inch);
+    for (field, si) in [("SK1", w.k1_n_per_m), ("SK2", w.k2_n_per_m), ("DELC", w.break_m)] {
+        back.set(format!("{field}({number})"), si);
+    }
     let returns_all = w.returned_1 == 1.0 && w.returned_2 == 1.0;
-    back.misfit_if(
-        !returns_all,
-        &format!("belts.{}.mu1, mu2: the cards' webbing gives all its energy back", belt.name),
-    );
+    back.misfit_if(!returns_all, format!("belts.{}.mu1, mu2: the cards' webbing gives all its energy back", belt.name));
     match (belt.rest, exact) {
-        (RestLength::Slack { slack_m }, false) => back.set(&format!("SLACK({number})"), slack_m, Unit::Inch),
-        (RestLength::Given { length_m }, true) => back.set(&format!("BLTLEO({number})"), length_m, Unit::Inch),
+        (RestLength::Slack { slack_m }, false) => back.set(format!("SLACK({number})"), slack_m),
+        (RestLength::Given { length_m }, true) => back.set(format!("BLTLEO({number})"), length_m),
         (RestLength::Given { .. }, false) => {
             back.misfit(format!("belts.{}.length: with a posture cards take slack", belt.name))
         }

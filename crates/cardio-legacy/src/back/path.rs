@@ -3,19 +3,17 @@
 use occupant_core::vehicle::{AfterEnd, Interpolation, Station, TablePath, VehiclePath};
 
 use super::Back;
-use crate::layout::Unit;
 
 pub(super) fn read(back: &mut Back<'_>) {
     let setup = back.setup;
     if let Some(stations) = back.kept.get("MREAD").filter(|d| d.parse::<f64>().is_ok_and(|v| v > 0.0)).cloned() {
-        back.builder.set("MREAD", &stations);
+        back.deck.set("MREAD", &stations);
         back.remarks.push(format!(
             "MREAD = {stations} as in the deck that the scenario came from: the path stays outside the cards"
         ));
         return;
     }
-    back.builder.set("MREAD", "0");
-    back.builder.with_series(12);
+    back.deck.set("MREAD", "0");
     match &setup.path {
         VehiclePath::Table(table) => read_table(back, table),
         VehiclePath::Fixed(path) => {
@@ -44,16 +42,20 @@ fn read_table(back: &mut Back<'_>, table: &TablePath) {
 }
 
 fn stations(back: &mut Back<'_>, stations: &[Station]) {
-    back.builder.set("NVPOS", &stations.len().to_string());
-    for (at, station) in stations.iter().enumerate() {
-        let n = at + 1;
-        back.set(&format!("CALT({n})"), station.time_s, Unit::Second);
-        for (axis, place) in ["CALX", "CALY", "CALZ"].into_iter().zip(station.pose.position_m.iter()) {
-            back.set(&format!("{axis}({n})"), *place, Unit::Inch);
-        }
-        let attitude = station.pose.attitude;
-        for (angle, rad) in [("CALPH", attitude.roll_rad), ("CALTH", attitude.pitch_rad), ("CALPS", attitude.yaw_rad)] {
-            back.set(&format!("{angle}({n})"), rad, Unit::Degree);
+    back.deck.add_series(12, u32::try_from(stations.len()).unwrap_or(u32::MAX));
+    back.deck.set("NVPOS", &stations.len().to_string());
+    for (n, station) in (1..).zip(stations) {
+        let (place, attitude) = (station.pose.position_m, station.pose.attitude);
+        for (name, si) in [
+            ("CALT", station.time_s),
+            ("CALX", place.x),
+            ("CALY", place.y),
+            ("CALZ", place.z),
+            ("CALPH", attitude.roll_rad),
+            ("CALTH", attitude.pitch_rad),
+            ("CALPS", attitude.yaw_rad),
+        ] {
+            back.set(format!("{name}({n})"), si);
         }
     }
 }

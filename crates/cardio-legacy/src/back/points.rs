@@ -23,7 +23,7 @@ pub(super) fn place_points(back: &mut Back<'_>, mut polygons: Vec<Polygon>) {
     }
     if found {
         for (name, digits) in search.known {
-            back.builder.set(&name, &digits);
+            back.deck.set(&name, &digits);
         }
     } else {
         let name = polygons.get(search.deepest).map_or("", |p| p.name.as_str());

@@ -1,6 +1,6 @@
-//! The compartment (series 8): its seven equalities, its widths, its units.
+//! The compartment and its surfaces (series 8 and 9): widths, units, the seven equalities, areas.
 
-use super::{Check, Complaint};
+use super::Check;
 use crate::compartment::CompartmentLayout;
 use crate::rule::Rule;
 
@@ -16,91 +16,56 @@ const EQUALITIES: [&[&str]; 7] = [
 ];
 const TOLERANCE_IN: f64 = 1e-6;
 
-pub(super) fn check(check: &mut Check<'_>) {
-    for name in ["VCW", "VRW"] {
-        check.positive(name, "half of a width");
-    }
-    let (width, roof) = (check.value("VCW"), check.value("VRW"));
-    check.complain_if(
-        roof > width,
-        Rule::Unlikely,
-        "VRW",
-        "the roof is wider than the compartment",
-        "at most VCW",
-        "look whether VCW and VRW have changed places",
-    );
-    check.complain_if(
-        check.value("SWP").abs() > width,
-        Rule::Unlikely,
-        "SWP",
-        "the wheel's centre lies outside the compartment",
-        "at most VCW",
-        "SWP counts from the centre line",
-    );
-    let no_wheel = check.value("DSW") <= 0.0;
-    check.complain_if(
-        no_wheel,
-        Rule::Unlikely,
-        "DSW",
-        "without a diameter there is no steering wheel",
-        "a diameter in inches",
-        "punch the diameter; surface 25 is left out otherwise",
-    );
+pub(super) fn check(c: &mut Check<'_>) {
+    let (width, roof, wheel) = (c.value("VCW"), c.value("VRW"), c.value("SWP"));
+    c.wrong_if(roof > width, Rule::Unlikely, "VRW", "the roof is wider than the compartment")
+        .expected("at most VCW", "look whether VCW and VRW have changed places");
+    c.wrong_if(wheel.abs() > width, Rule::Unlikely, "SWP", "the wheel's centre lies outside the compartment")
+        .expected("at most VCW", "SWP counts from the centre line");
     for equal in EQUALITIES {
-        check_equality(check, equal);
+        check_equality(c, equal);
     }
     let points = (1..=22).flat_map(|n| [format!("XV({n})"), format!("ZV({n})")]);
-    let largest = points.map(|name| check.value(&name).abs()).fold(0.0, f64::max);
+    let largest = points.map(|name| c.value(name).abs()).fold(0.0, f64::max);
     if largest > 0.0 && largest < 12.0 {
         let message = format!("no coordinate is larger than {largest}; the points look like feet");
-        check.complain(
-            "XV(1)",
-            Complaint {
-                rule: Rule::LooksLikeOtherUnit,
-                message,
-                expected: "coordinates in inches",
-                remedy: "multiply feet by 12",
-            },
-        );
+        c.problem(Rule::LooksLikeOtherUnit, "XV(1)", message).expected("coordinates in inches", "multiply feet by 12");
     }
-    check_extents(check);
-    check.complain_if(
-        width > 0.0 && width < 8.0,
-        Rule::LooksLikeOtherUnit,
-        "VCW",
-        "a compartment narrower than a person",
-        "half of the width in inches",
-        "multiply feet by 12",
-    );
+    check_extents(c);
+    let narrow = width > 0.0 && width < 8.0;
+    c.wrong_if(narrow, Rule::LooksLikeOtherUnit, "VCW", "a compartment narrower than a person")
+        .expected("half of the width in inches", "multiply feet by 12");
+    for surface in 1..=25 {
+        check_stiffness(c, surface);
+    }
+}
+
+fn check_equality(c: &mut Check<'_>, names: &[&str]) {
+    let equal = names.join(" = ");
+    for name in &names[1..] {
+        let violated = (c.value(name) - c.value(names[0])).abs() > TOLERANCE_IN;
+        let message = format!("{} is {}, and Figs 13 and 14 have {equal} equal", names[0], c.digits(names[0]));
+        let remedy = "correct one of them; surfaces between the points will lie differently than the report means";
+        c.wrong_if(violated, Rule::CompartmentEquality, name, message).expected(&equal, remedy);
+    }
 }
 
 /// Surfaces without area, by the layout that conversion uses.
-fn check_extents(check: &mut Check<'_>) {
+fn check_extents(c: &mut Check<'_>) {
     let Ok(layout) = CompartmentLayout::reconstruction() else {
         return;
     };
-    for face in layout.faces(check.deck).iter().filter(|face| face.corners.is_empty()) {
-        let name = format!("STIF1({})", face.number);
+    for face in layout.faces(c.deck).iter().filter(|face| face.corners.is_empty()) {
         let message = format!("surface {}, {}, has no area: its points in series 8 coincide", face.number, face.name);
-        let complaint = Complaint {
-            rule: Rule::Unlikely,
-            message,
-            expected: "points apart from one another",
-            remedy: "correct the points in series 8; the surface is left out otherwise",
-        };
-        check.complain(&name, complaint);
+        let remedy = "correct the points in series 8; the surface is left out otherwise";
+        c.problem(Rule::Unlikely, format!("STIF1({})", face.number), message)
+            .expected("points apart from one another", remedy);
     }
 }
 
-fn check_equality(check: &mut Check<'_>, names: &[&str]) {
-    let Some((first, others)) = names.split_first() else {
-        return;
-    };
-    for name in others {
-        let violated = (check.value(name) - check.value(first)).abs() > TOLERANCE_IN;
-        let message =
-            format!("{first} is {}, and Figs 13 and 14 have {} equal", check.digits(first), names.join(" = "));
-        let remedy = "correct one of them; surfaces between the points will lie differently than the report means";
-        check.complain_if(violated, Rule::CompartmentEquality, name, &message, &names.join(" = "), remedy);
-    }
+fn check_stiffness(c: &mut Check<'_>, n: u32) {
+    let (soft, stiff) = (c.value(format!("STIF1({n})")), c.value(format!("STIF2({n})")));
+    let message = format!("softer than STIF1({n}) = {}", c.digits(format!("STIF1({n})")));
+    c.wrong_if(soft > stiff && stiff > 0.0, Rule::Unlikely, format!("STIF2({n})"), message)
+        .expected("the larger of the two", "look whether the two have changed places");
 }

@@ -1,20 +1,18 @@
-//! Whether the numbers of a deck can be a body in a car: ranges, sums, contradictions, units.
+//! Whether the numbers of a deck can be a body in a car: the table's bounds, then sums, contradictions, units.
 //!
-//! A field that could not be read is NaN here, and every check asks for the violation (`value <= 0.0`), so that an
-//! unreadable number is reported once and not again.
+//! A field that could not be read is NaN here, and every check asks for the violation (`a > b`), so that an unreadable number
+//! is reported once and not again. A check changes no number.
 
-mod belts;
 mod body;
 mod compartment;
-mod joints;
 mod path;
-mod seating;
-mod state;
-mod surfaces;
+mod start;
 mod times;
 
+use std::fmt::Display;
+
 use crate::deck::Deck;
-use crate::diagnostic::{Finding, Sink};
+use crate::diagnostics::{Diagnostic, Sink};
 use crate::rule::Rule;
 
 /// How many names a message lists.
@@ -22,103 +20,81 @@ const LISTED: usize = 24;
 
 /// Checks all numbers of a deck, and counts its blanks.
 pub(crate) fn check_deck(deck: &Deck, first_line: usize, sink: &mut Sink) {
-    let mut check = Check { deck, sink, first_line };
+    let mut check = Check { deck, sink };
+    check.bounds();
     times::check(&mut check);
     body::check(&mut check);
     compartment::check(&mut check);
-    surfaces::check(&mut check);
-    joints::check(&mut check);
-    belts::check(&mut check);
-    if check.value("NPOS") == 1.0 {
-        state::check(&mut check);
-    } else {
-        seating::check(&mut check);
-    }
+    start::check(&mut check);
     path::check(&mut check);
-    state::check_pairs(&mut check);
-    check.count_blanks();
+    check.count_blanks(first_line);
 }
 
 /// A deck under examination.
 struct Check<'a> {
     deck: &'a Deck,
     sink: &'a mut Sink,
-    first_line: usize,
 }
 
-/// What is said about a number.
-struct Complaint<'a> {
-    rule: Rule,
-    message: String,
-    expected: &'a str,
-    remedy: &'a str,
+/// A problem, if there is one, of which remains to be said what was expected and how to mend it.
+#[must_use = "without `expected` nothing is reported"]
+struct Pending<'a> {
+    sink: &'a mut Sink,
+    problem: Option<Diagnostic>,
+}
+
+impl Pending<'_> {
+    fn expected(self, expected: &str, remedy: &str) {
+        if let Some(problem) = self.problem {
+            problem.expected(expected).remedy(remedy).report(self.sink);
+        }
+    }
 }
 
 impl Check<'_> {
     /// A value by the report's name; NaN where it is absent or unreadable.
-    fn value(&self, name: &str) -> f64 {
-        self.deck.value(name).unwrap_or(f64::NAN)
+    fn value(&self, name: impl AsRef<str>) -> f64 {
+        self.deck.value(name.as_ref()).unwrap_or(f64::NAN)
     }
 
     /// The digits of a number, for messages.
-    fn digits(&self, name: &str) -> &str {
-        self.deck.number(name).map_or("", |n| n.digits.as_str())
+    fn digits(&self, name: impl AsRef<str>) -> &str {
+        self.deck.number(name.as_ref()).map_or("", |n| n.digits.as_str())
     }
 
-    /// Complains about one number.
-    fn complain(&mut self, name: &str, complaint: Complaint<'_>) {
-        let mut finding = Finding::new(complaint.rule, complaint.message)
-            .variable(name)
-            .expected(complaint.expected)
-            .remedy(complaint.remedy);
-        if let Some((card, field)) = self.deck.place_of(name) {
-            finding = finding.in_card(card.id).at(field.columns);
-            if let Some(line) = card.line {
-                finding = finding.at_line(line);
+    /// A problem of one number.
+    fn problem(&mut self, rule: Rule, name: impl AsRef<str>, message: impl Into<String>) -> Pending<'_> {
+        let problem = Diagnostic::new(rule, message).variable(name.as_ref());
+        let problem = match self.deck.place_of(name.as_ref()) {
+            Some((card, field)) => problem.on_card_of_deck(card).at(field.columns),
+            None => problem,
+        };
+        Pending { sink: self.sink, problem: Some(problem) }
+    }
+
+    /// A problem of one number if `violated`; the message says the number first.
+    fn wrong_if(&mut self, violated: bool, rule: Rule, name: impl AsRef<str>, message: impl Display) -> Pending<'_> {
+        if !violated {
+            return Pending { sink: self.sink, problem: None };
+        }
+        let message = format!("{} = {}: {message}", name.as_ref(), self.digits(&name));
+        self.problem(rule, name, message)
+    }
+
+    /// The bounds of the table, for all numbers that have an effect.
+    fn bounds(&mut self) {
+        let cards = self.deck.cards().iter().filter(|card| !self.deck.is_superfluous(card.id.series));
+        for (name, field, number) in cards.flat_map(|card| card.named()) {
+            if !field.bounds.is_empty() && !self.deck.is_of_unused_belt(&name) {
+                for bound in field.bounds.iter().filter(|bound| (bound.violated)(number.value)) {
+                    self.wrong_if(!number.value.is_nan(), bound.rule, &name, &bound.message)
+                        .expected(&bound.expected, bound.remedy);
+                }
             }
-            if let Some(raw) = &card.raw {
-                finding = finding.raw(raw.clone());
-            }
-        }
-        self.sink.report(finding);
-    }
-
-    fn complain_if(&mut self, violated: bool, rule: Rule, name: &str, message: &str, expected: &str, remedy: &str) {
-        if violated {
-            let message = format!("{name} = {}: {message}", self.digits(name));
-            self.complain(name, Complaint { rule, message, expected, remedy });
         }
     }
 
-    /// The number must be above zero.
-    fn positive(&mut self, name: &str, what: &str) {
-        let violated = self.value(name) <= 0.0;
-        self.complain_if(violated, Rule::Impossible, name, what, "a number above 0", "punch the number");
-    }
-
-    /// The number must not be below zero.
-    fn not_negative(&mut self, name: &str, what: &str) {
-        let violated = self.value(name) < 0.0;
-        self.complain_if(violated, Rule::Impossible, name, what, "0 or more", "look for a wrong sign");
-    }
-
-    /// Angles due in radians that look like degrees.
-    fn radians(&mut self, names: &[&str]) {
-        for name in names {
-            let violated = self.value(name).abs() > std::f64::consts::TAU;
-            let remedy = "divide by 57.2958 if it is in degrees";
-            self.complain_if(
-                violated,
-                Rule::LooksLikeOtherUnit,
-                name,
-                "more than a full turn",
-                "an angle in radians",
-                remedy,
-            );
-        }
-    }
-
-    fn count_blanks(&mut self) {
+    fn count_blanks(&mut self, first_line: usize) {
         let blanks = self.deck.blank_fields();
         if blanks.is_empty() {
             return;
@@ -126,6 +102,6 @@ impl Check<'_> {
         let more = if blanks.len() > LISTED { format!(" and {} more", blanks.len() - LISTED) } else { String::new() };
         let listed: Vec<_> = blanks.iter().take(LISTED).map(String::as_str).collect();
         let message = format!("{} blank fields were read as zero: {}{more}", blanks.len(), listed.join(", "));
-        self.sink.report(Finding::new(Rule::BlankIsZero, message).at_line(self.first_line));
+        Diagnostic::new(Rule::BlankIsZero, message).at_line(first_line).report(self.sink);
     }
 }

@@ -1,6 +1,6 @@
 //! The vehicle's path (series 12): order, cover of the run, unwrapped angles, speed of the occupant.
 
-use super::{Check, Complaint};
+use super::Check;
 use crate::deck::DeckCard;
 use crate::rule::Rule;
 
@@ -8,106 +8,84 @@ use crate::rule::Rule;
 const SPEED_TOLERANCE: f64 = 0.1;
 const FASTEST_IN_PER_S: f64 = 3000.0;
 
-pub(super) fn check(check: &mut Check<'_>) {
-    if check.value("MREAD") != 0.0 {
+pub(super) fn check(c: &mut Check<'_>) {
+    if c.value("MREAD") != 0.0 {
         return;
     }
     let numbers = |card: &DeckCard| card.numbers.iter().map(|n| n.value).collect::<Vec<_>>();
-    let stations: Vec<Vec<f64>> = check.deck.cards_of(12, 'b').map(numbers).filter(|n| n.len() >= 7).collect();
+    let stations: Vec<Vec<f64>> = c.deck.cards_of(12, 'b').map(numbers).filter(|n| n.len() >= 7).collect();
     for (index, pair) in stations.windows(2).enumerate() {
-        check_step(check, index + 2, &pair[0], &pair[1]);
+        check_step(c, index + 2, &pair[0], &pair[1]);
     }
-    check_cover(check, &stations);
-    if let (Some(first), Some(second)) = (stations.first(), stations.get(1)) {
-        check_speed(check, first, second);
+    check_cover(c, &stations);
+    if let [first, second, ..] = stations.as_slice() {
+        check_speed(c, first, second);
     }
 }
 
-fn check_step(check: &mut Check<'_>, station: usize, before: &[f64], after: &[f64]) {
-    let time = format!("CALT({station})");
+fn check_step(c: &mut Check<'_>, station: usize, before: &[f64], after: &[f64]) {
     let message = format!("not after the station before it, {}", before[0]);
-    check.complain_if(
-        after[0] <= before[0],
-        Rule::Impossible,
-        &time,
-        &message,
-        "times that grow from card to card",
-        "sort the stations, or remove the doubled one",
-    );
+    c.wrong_if(after[0] <= before[0], Rule::Impossible, format!("CALT({station})"), message)
+        .expected("times that grow from card to card", "sort the stations, or remove the doubled one");
     for (place, name) in [(4, "CALPH"), (5, "CALTH"), (6, "CALPS")] {
         let jump = (after[place] - before[place]).abs();
         let message = format!("it jumps by {jump} degrees from the station before");
         let remedy = "let the angle run on beyond 180 degrees instead of starting again at −180";
-        check.complain_if(
-            jump > 180.0,
-            Rule::Impossible,
-            &format!("{name}({station})"),
-            &message,
-            "unwrapped angles",
-            remedy,
-        );
+        c.wrong_if(jump > 180.0, Rule::Impossible, format!("{name}({station})"), message)
+            .expected("unwrapped angles", remedy);
     }
-    let way = (1..=3).map(|axis| (after[axis] - before[axis]).powi(2)).sum::<f64>().sqrt();
+    let way = way(before, after);
     let fast = after[0] > before[0] && way / (after[0] - before[0]) > FASTEST_IN_PER_S;
     let message = format!("the vehicle moves {way:.3} in from the station before, faster than 170 mph");
-    check.complain_if(
-        fast,
-        Rule::Unlikely,
-        &format!("CALX({station})"),
-        &message,
-        "positions in inches, times in seconds",
-        "look for the decimal point",
-    );
+    c.wrong_if(fast, Rule::Unlikely, format!("CALX({station})"), message)
+        .expected("positions in inches, times in seconds", "look for the decimal point");
 }
 
-fn check_cover(check: &mut Check<'_>, stations: &[Vec<f64>]) {
+/// How far the vehicle moves between two stations, in.
+fn way(before: &[f64], after: &[f64]) -> f64 {
+    (1..=3).map(|axis| (after[axis] - before[axis]).powi(2)).sum::<f64>().sqrt()
+}
+
+fn check_cover(c: &mut Check<'_>, stations: &[Vec<f64>]) {
     let (Some(first), Some(last)) = (stations.first(), stations.last()) else {
         return;
     };
-    let (start, end) = (check.value("T1"), check.value("TF"));
-    let complaint = |message| Complaint {
-        rule: Rule::PathTooShort,
-        message,
-        expected: "stations from T1 or earlier to TF or later",
-        remedy: "add stations, or change T1 and TF on card 3",
+    let (start, end) = (c.value("T1"), c.value("TF"));
+    let mut report = |name: &str, message: String| {
+        c.problem(Rule::PathTooShort, name, message)
+            .expected("stations from T1 or earlier to TF or later", "add stations, or change T1 and TF on card 3");
     };
     if first[0] > start {
-        check
-            .complain("CALT(1)", complaint(format!("the path begins at {} s and the run at T1 = {start} s", first[0])));
+        report("CALT(1)", format!("the path begins at {} s and the run at T1 = {start} s", first[0]));
     }
     if last[0] < end {
         let name = format!("CALT({})", stations.len());
-        check.complain(&name, complaint(format!("the path ends at {} s and the run at TF = {end} s", last[0])));
+        report(&name, format!("the path ends at {} s and the run at TF = {end} s", last[0]));
     }
     if stations.len() == 1 {
-        check.complain("NVPOS", complaint("one station makes no path".to_owned()));
+        report("NVPOS", "one station makes no path".to_owned());
     }
 }
 
 /// The occupant usually begins with the vehicle's speed; a factor of 12 or 17.6 between them is a unit.
-fn check_speed(check: &mut Check<'_>, first: &[f64], second: &[f64]) {
+fn check_speed(c: &mut Check<'_>, first: &[f64], second: &[f64]) {
     let duration = second[0] - first[0];
-    if check.value("NPOS") != 0.0 || duration <= 0.0 {
+    if c.value("NPOS") != 0.0 || duration <= 0.0 {
         return;
     }
     let vehicle = (1..=3).map(|axis| ((second[axis] - first[axis]) / duration).powi(2)).sum::<f64>().sqrt();
-    let occupant = ["VXVC", "VYVC", "VZVC"].map(|name| check.value(name).powi(2)).iter().sum::<f64>().sqrt();
+    let occupant = ["VXVC", "VYVC", "VZVC"].map(|name| c.value(name).powi(2)).iter().sum::<f64>().sqrt();
     let near = |factor: f64| (vehicle / occupant / factor - 1.0).abs() < 0.05;
-    let (rule, message) = match () {
-        () if near(12.0) => (Rule::LooksLikeOtherUnit, "this looks like ft/s"),
-        () if near(17.6) => (Rule::LooksLikeOtherUnit, "this looks like miles per hour"),
-        () if (vehicle - occupant).abs() > SPEED_TOLERANCE * vehicle.max(occupant) => {
-            (Rule::Inconsistent, "occupant and vehicle begin at different speeds")
-        }
-        () => return,
+    let (rule, message) = if near(12.0) {
+        (Rule::LooksLikeOtherUnit, "this looks like ft/s")
+    } else if near(17.6) {
+        (Rule::LooksLikeOtherUnit, "this looks like miles per hour")
+    } else if (vehicle - occupant).abs() > SPEED_TOLERANCE * vehicle.max(occupant) {
+        (Rule::Inconsistent, "occupant and vehicle begin at different speeds")
+    } else {
+        return;
     };
     let message = format!("{message}: the vehicle's first interval has {vehicle:.2} in/s, the occupant {occupant:.2}");
-    check.complain_if(
-        true,
-        rule,
-        "VXVC",
-        &message,
-        "the initial velocity in vehicle axes, in in/s",
-        "give the occupant the vehicle's velocity unless the difference is meant",
-    );
+    let remedy = "give the occupant the vehicle's velocity unless the difference is meant";
+    c.wrong_if(true, rule, "VXVC", message).expected("the initial velocity in vehicle axes, in in/s", remedy);
 }

@@ -1,6 +1,6 @@
 //! Segments and spheres (series 5 and 7).
 
-use occupant_core::body::SPHERE_NAMES;
+use occupant_core::body::tti12::TTI12;
 
 use super::writer::Writer;
 
@@ -19,10 +19,8 @@ const SEGMENT_FIELDS: [&str; 6] = ["XLE", "RHO", "XM", "XIN", "YIN", "ZIN"];
 
 pub(super) fn write(w: &mut Writer<'_>) {
     w.table("body", "Series 5, card a");
-    for (key, name) in [("shoulder_half_width", "XLS"), ("hip_half_width", "XLH")] {
-        let value = w.quantity(name);
-        w.set_with(key, &value, name);
-    }
+    w.field("XLS");
+    w.field("XLH");
     w.table("body.segments", "Series 5, cards b: XLE, RHO, XM, XIN YIN ZIN of each NSEG");
     for (number, name) in TRUNK {
         segment(w, number, name, &format!("NSEG {number}"));
@@ -37,15 +35,15 @@ pub(super) fn write(w: &mut Writer<'_>) {
     }
     w.table("body.spheres", "Series 7, cards b–d: RS");
     for number in 1..=3 {
-        sphere(w, number, SPHERE_NAMES[number - 1], &format!("RS({number})"));
+        sphere(w, number, TTI12.spheres()[number - 1].name, &format!("RS({number})"));
     }
     for (right, both) in SPHERE_PAIRS {
         let (one, two) = (format!("RS({right})"), format!("RS({})", right + 1));
         if w.value(&one) == w.value(&two) {
             sphere(w, right, both, &format!("{one}, {two}"));
         } else {
-            sphere(w, right, SPHERE_NAMES[right - 1], &one);
-            sphere(w, right + 1, SPHERE_NAMES[right], &two);
+            sphere(w, right, TTI12.spheres()[right - 1].name, &one);
+            sphere(w, right + 1, TTI12.spheres()[right].name, &two);
         }
     }
 }

@@ -1,12 +1,11 @@
 //! Materials and surfaces (series 8 and 9).
 
-use occupant_core::body::SPHERE_NAMES;
+use occupant_core::body::tti12::TTI12;
 
 use super::ConversionError;
 use super::writer::{Writer, negated};
-use crate::compartment::{CompartmentLayout, Corner, Face};
-use crate::kept::{Kept, PAIR};
-use crate::left_out::{LeftOut, left_out};
+use crate::compartment::{CompartmentLayout, Corner, Face, LeftOut};
+use crate::notes::{Kept, PAIR};
 
 const FIELDS: [&str; 6] = ["STIF1", "STIF2", "DELB", "AMU1", "AMU2", "COFR"];
 
@@ -28,12 +27,8 @@ pub(super) fn write(w: &mut Writer<'_>, layout: &CompartmentLayout) -> Result<()
         let [k1, k2, delta_b, mu1, mu2, friction] = FIELDS.map(|field| w.quantity(&format!("{field}({})", members[0])));
         let numbers: Vec<String> = members.iter().map(u32::to_string).collect();
         w.comment(&format!("Cards 9b, J = {}", numbers.join(", ")));
-        w.set(
-            name,
-            &format!(
-                "{{ k1 = {k1}, delta_b = {delta_b}, k2 = {k2}, mu1 = {mu1}, mu2 = {mu2}, friction = {friction} }}"
-            ),
-        );
+        let spring = format!("k1 = {k1}, delta_b = {delta_b}, k2 = {k2}, mu1 = {mu1}, mu2 = {mu2}");
+        w.set(name, &format!("{{ {spring}, friction = {friction} }}"));
     }
     w.table("surfaces", "Series 8: points in vehicle axes, in; the open side is told by the order of the points");
     for surface in &surfaces {
@@ -55,22 +50,18 @@ pub(super) fn write(w: &mut Writer<'_>, layout: &CompartmentLayout) -> Result<()
 
 /// The surfaces that a scenario can have, by number.
 fn surfaces(w: &mut Writer<'_>, layout: &CompartmentLayout) -> Vec<Written> {
-    let left_out = left_out(w.deck, layout);
-    let is_there = |number: u32| left_out.iter().all(|l| l.number != number);
+    let left_out = layout.left_out(w.deck);
     let mut written = Vec::new();
-    for face in layout.faces(w.deck) {
-        if is_there(face.number) {
-            let body = match strip(&face) {
-                Some(ends) => edge(w, ends),
-                None => points(w, &face),
-            };
-            written.push(Written { number: face.number, name: face.name, body });
-        }
+    for face in layout.faces(w.deck).into_iter().filter(|face| !face.corners.is_empty()) {
+        let body = match strip(&face) {
+            Some(ends) => edge(w, ends),
+            None => points(w, &face),
+        };
+        written.push(Written { number: face.number, name: face.name, body });
     }
-    if is_there(layout.wheel.number) {
-        let body = disc(w, layout);
-        written.push(Written { number: layout.wheel.number, name: layout.wheel.name.clone(), body });
-    }
+    let body = disc(w, layout);
+    written.push(Written { number: layout.wheel.number, name: layout.wheel.name.clone(), body });
+    written.retain(|surface| left_out.iter().all(|l| l.number != surface.number));
     written
 }
 
@@ -82,10 +73,10 @@ pub(super) fn passed_pair(
     (sphere, surface): (u8, u8),
 ) -> Option<(&'static str, String)> {
     let surface = u32::from(surface);
-    let left_out = left_out(w.deck, layout).iter().any(|l| l.number == surface);
+    let left_out = layout.left_out(w.deck).iter().any(|l| l.number == surface);
     let name = layout.name_of(surface)?.to_owned();
-    let sphere = SPHERE_NAMES.get(usize::from(sphere).checked_sub(1)?)?;
-    (w.value("NPOS") == 1.0 && !left_out).then_some((*sphere, name))
+    let sphere = TTI12.spheres().get(usize::from(sphere).checked_sub(1)?)?.name;
+    (w.value("NPOS") == 1.0 && !left_out).then_some((sphere, name))
 }
 
 /// The numbers of surfaces that the scenario leaves out, and their passed pairs, are kept for the way back.
@@ -94,12 +85,7 @@ pub(super) fn keep_left_out(
     layout: &CompartmentLayout,
     kept: &mut Kept,
 ) -> Result<(), ConversionError> {
-    let left_out = left_out(w.deck, layout);
-    if left_out.iter().any(|l| l.number == layout.wheel.number) {
-        for name in ["SWP", "DSW"] {
-            kept.insert(name.into(), w.bare(name));
-        }
-    }
+    let left_out = layout.left_out(w.deck);
     keep_pairs(w, layout, &left_out, kept);
     for LeftOut { number, name, why } in left_out {
         let (soft, stiff) = (w.value(&format!("STIF1({number})")), w.value(&format!("STIF2({number})")));
@@ -107,18 +93,14 @@ pub(super) fn keep_left_out(
             let reason = "a surface that resists only beyond DELB; give STIF1 a small stiffness".to_owned();
             return Err(ConversionError::NoCounterpart { variable: format!("STIF1({number}) = 0"), reason });
         }
-        for field in FIELDS.map(|field| format!("{field}({number})")) {
+        let material = FIELDS.map(|field| format!("{field}({number})"));
+        let points = layout.points_of(number).into_iter().flat_map(|n| [format!("XV({n})"), format!("ZV({n})")]);
+        let widths: &[&str] =
+            if number == layout.wheel.number { &["VCW", "VRW", "SWP", "DSW"] } else { &["VCW", "VRW"] };
+        let widths = widths.iter().map(|name| (*name).to_owned());
+        for field in material.into_iter().chain(points).chain(widths) {
             let digits = w.bare(&field);
             kept.insert(field, digits);
-        }
-        for point in layout.points_of(number) {
-            for field in [format!("XV({point})"), format!("ZV({point})")] {
-                let digits = w.bare(&field);
-                kept.insert(field, digits);
-            }
-        }
-        for field in ["VCW", "VRW"] {
-            kept.insert(field.into(), w.bare(field));
         }
         w.report.ignored.push(format!("surface {number} ({name}): it {why} and is left out"));
     }

@@ -4,7 +4,7 @@ use super::writer::{Writer, escaped, quoted};
 use super::{ConversionError, ConvertOptions};
 use crate::compartment::CompartmentLayout;
 use crate::deck::Plot;
-use crate::kept::{kept_of, to_notes};
+use crate::notes::{self, kept_of, to_notes};
 
 pub(super) fn write(
     w: &mut Writer<'_>,
@@ -21,11 +21,10 @@ pub(super) fn write(
     w.blank_line();
     w.set_with("title", &quoted(if title.is_empty() { "untitled" } else { &title }), "card 1");
     w.set_with("units", "\"in-lbf-s\"", "bare numbers: in, lbf, s; angles in degrees");
-    let gravity = w.quantity("GR");
-    w.set_with("gravity", &gravity, "card 11e, GR");
+    w.field_with("GR", "card 11e, GR");
     let mut kept = kept_of(w.deck);
     if title.is_empty() {
-        kept.insert("TITLE 1".into(), String::new());
+        kept.insert(notes::TITLE_1.into(), String::new());
     }
     super::compartment::keep_left_out(w, layout, &mut kept)?;
     w.blank_line();
@@ -37,17 +36,13 @@ pub(super) fn write(
 
 fn times(w: &mut Writer<'_>) {
     w.table("time", "Card 3");
-    for (key, name) in [("start", "T1"), ("end", "TF")] {
-        let value = w.quantity(name);
-        w.set_with(key, &value, name);
-    }
+    w.field("T1");
+    w.field("TF");
     w.table("integrator", "Card 3; the report's method with its fixed step");
     w.set("kind", "\"rk4\"");
-    let step = w.quantity("DT");
-    w.set_with("step", &step, "DT");
+    w.field("DT");
     w.table("output", "Card 3");
-    let interval = w.quantity("DTPRNT");
-    w.set_with("interval", &interval, "DTPRNT");
+    w.field("DTPRNT");
     if w.value("NDISK") == 0.0 {
         w.set_with("report_coordinates", "true", "NDISK = 0: data for plots go to disk");
     }
@@ -68,20 +63,18 @@ fn switches(w: &mut Writer<'_>) {
     };
     w.report.assumptions.extend([plots.to_owned(), disk.to_owned()]);
     w.report.assumptions.push("friction grows with sliding speed below 5 in/s and joint angles are smoothed by ε = 0.001, as everywhere in this program".into());
-    let unused = [
-        (6, 0.0, "series 6 (coordinates): NPOS = 0 seats the occupant"),
-        (4, 1.0, "series 4 (velocity): NPOS = 1 takes the state from series 6"),
-        (10, 1.0, "series 10 (seating): NPOS = 1 takes the state from series 6"),
-    ];
-    let npos = w.value("NPOS");
-    let ignored: Vec<_> =
-        unused.into_iter().filter(|(series, when, _)| npos == *when && w.deck.has_series(*series)).collect();
-    w.report.ignored.extend(ignored.into_iter().map(|(_, _, text)| text.to_owned()));
-    if w.value("MREAD") != 0.0 && w.deck.has_series(12) {
-        w.report.ignored.push("series 12 (path): MREAD ≠ 0 takes it from the path file".into());
+    for (series, text) in [
+        (6, "series 6 (coordinates): NPOS = 0 seats the occupant"),
+        (4, "series 4 (velocity): NPOS = 1 takes the state from series 6"),
+        (10, "series 10 (seating): NPOS = 1 takes the state from series 6"),
+        (12, "series 12 (path): MREAD ≠ 0 takes it from the path file"),
+    ] {
+        if w.deck.has_series(series) && w.deck.is_superfluous(series) {
+            w.report.ignored.push(text.to_owned());
+        }
     }
     let pairs = w.deck.passed_pairs().len();
-    if w.deck.has_series(14) && npos == 1.0 {
+    if w.deck.has_series(14) && w.value("NPOS") == 1.0 {
         w.report.assumptions.push(format!(
             "series 14: its {pairs} pairs have passed each other, all others that overlap touch. Cards carry no greatest \
              deformation, so an extension by cards is approximate; `occupant run --resume` of the recorded run is exact"

@@ -2,7 +2,7 @@
 //!
 //! Numbers keep the card's digits; comments say which card each block came from. What the cards leave open and this
 //! crate decides stands in the [`Report`], and so does what a scenario has no place for; the latter is also written into
-//! the scenario's notes (see [`crate::kept`]), so that the way back gives the same deck.
+//! the scenario's notes (see [`crate::notes`]), so that the way back gives the same deck.
 
 mod body;
 mod compartment;
@@ -13,12 +13,10 @@ mod path;
 mod report;
 mod writer;
 
-use std::fmt;
-
-use occupant_core::scenario::document::Format;
+use occupant_core::scenario::Format;
 use occupant_core::scenario::{Diagnostics as ScenarioDiagnostics, Scenario};
+use thiserror::Error;
 
-pub(crate) use motion::{BELTS, POSTURE, SEATS};
 pub use path::PathSource;
 pub use report::Report;
 
@@ -53,18 +51,25 @@ pub struct Conversion {
 }
 
 /// Why a deck has no scenario.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, Error)]
 pub enum ConversionError {
     /// MREAD ≠ 0, and no path was given.
+    #[error(
+        "the deck takes {stations} stations of the vehicle's path from disk (MREAD on card 3), expected that path; give it \
+         with --path file, as CSV or as cards of series 12"
+    )]
     PathNeeded {
         /// Stations that MREAD asks for.
         stations: f64,
     },
     /// The path file cannot be used.
+    #[error("the path of the vehicle cannot be read: {0}")]
     Path(String),
     /// The compartment's data file cannot be used.
+    #[error("the compartment's data file cannot be used: {0}")]
     Compartment(String),
     /// A number that has no counterpart in a scenario.
+    #[error("{variable} has no counterpart in a scenario: {reason}")]
     NoCounterpart {
         /// The card's variable.
         variable: String,
@@ -72,34 +77,13 @@ pub enum ConversionError {
         reason: String,
     },
     /// A field that the conversion needs is not in the deck.
+    #[error("the deck has no field {0}, which the conversion needs")]
     MissingField(String),
     /// The scenario that came out is refused by the scenario format: the deck's numbers contradict one another in a way that
     /// only shows there.
+    #[error("the scenario made from the deck is refused:\n{0}")]
     Refused(Box<ScenarioDiagnostics>),
 }
-
-impl fmt::Display for ConversionError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::PathNeeded { stations } => write!(
-                f,
-                "the deck takes {stations} stations of the vehicle's path from disk (MREAD on card 3), expected that path; \
-                 give it with --path file, as CSV or as cards of series 12"
-            ),
-            Self::Path(reason) => write!(f, "the path of the vehicle cannot be read: {reason}"),
-            Self::Compartment(reason) => {
-                write!(f, "the compartment's data file cannot be used: {reason}")
-            }
-            Self::NoCounterpart { variable, reason } => {
-                write!(f, "{variable} has no counterpart in a scenario: {reason}")
-            }
-            Self::MissingField(name) => write!(f, "the deck has no field {name}, which the conversion needs"),
-            Self::Refused(diagnostics) => write!(f, "the scenario made from the deck is refused:\n{diagnostics}"),
-        }
-    }
-}
-
-impl std::error::Error for ConversionError {}
 
 impl Deck {
     /// The scenario of this deck.
@@ -107,10 +91,8 @@ impl Deck {
     /// # Errors
     /// A path that is missing or unreadable, numbers without counterpart, a scenario that the format refuses.
     pub fn to_scenario(&self, options: &ConvertOptions) -> Result<Conversion, ConversionError> {
-        let layout = match &options.compartment {
-            Some(layout) => layout.clone(),
-            None => CompartmentLayout::reconstruction().map_err(ConversionError::Compartment)?,
-        };
+        let layout = CompartmentLayout::or_reconstruction(options.compartment.as_ref());
+        let layout = layout.map_err(ConversionError::Compartment)?;
         let path = path::read(self, options.path.as_ref())?;
         let mut writer = Writer::new(self);
         head::write(&mut writer, options, &layout)?;

@@ -2,13 +2,10 @@
 
 use super::ConversionError;
 use super::writer::{Writer, quoted};
-use crate::card::Card;
-use crate::columns::Columns;
-use crate::deck::Deck;
-use crate::field::read_real;
-
-/// The columns of a station on cards of series 12, with their units.
-const CARD_COLUMNS: [&str; 7] = ["t[s]", "x[in]", "y[in]", "z[in]", "roll[deg]", "pitch[deg]", "yaw[deg]"];
+use crate::cards::{Field, series};
+use crate::deck::{Deck, DeckCard};
+use crate::fortran::read_real;
+use crate::punched::PunchedCard;
 
 /// Where the path of a deck with MREAD ≠ 0 comes from. The vehicle program's own layout on disk is not documented.
 #[derive(Debug, Clone, PartialEq)]
@@ -47,43 +44,44 @@ pub(super) enum Path {
 pub(super) fn read(deck: &Deck, source: Option<&PathSource>) -> Result<Path, ConversionError> {
     let stations = deck.value("MREAD").unwrap_or(0.0);
     if stations == 0.0 {
-        let digits = |card: &crate::deck::DeckCard| card.numbers.iter().map(|n| n.digits.clone()).collect();
+        let digits = |card: &DeckCard| card.numbers.iter().map(|n| n.digits.clone()).collect();
         let rows = deck.cards_of(12, 'b').map(digits).collect();
-        return Ok(Path::Rows {
-            columns: card_columns(),
-            rows,
-            from: "Series 12, cards b: CALT, CALX, CALY, CALZ, CALPH, CALTH, CALPS",
-        });
+        let from = "Series 12, cards b: CALT, CALX, CALY, CALZ, CALPH, CALTH, CALPS";
+        return Ok(Path::Rows { columns: card_columns(), rows, from });
     }
     let wanted = stations as usize;
-    match source.ok_or(ConversionError::PathNeeded { stations })? {
-        PathSource::Csv { name, text } => beside(name, text, wanted),
+    let (columns, rows, from) = match source.ok_or(ConversionError::PathNeeded { stations })? {
+        PathSource::Csv { name, text } => {
+            let (columns, rows) = csv(text)?;
+            if rows.len() == wanted {
+                return Ok(Path::Beside { name: name.clone(), text: text.clone() });
+            }
+            (columns, rows, "The path file: the first stations, as many as MREAD says")
+        }
         PathSource::Columns { columns, text } => {
-            let rows = plain_rows(text, columns.len())?;
-            Ok(Path::Rows {
-                columns: columns.clone(),
-                rows: first(rows, wanted)?,
-                from: "The path file, columns as declared",
-            })
+            (columns.clone(), plain_rows(text, columns.len())?, "The path file, columns as declared")
         }
         PathSource::Cards { text } => {
-            let rows = card_rows(text)?;
-            Ok(Path::Rows {
-                columns: card_columns(),
-                rows: first(rows, wanted)?,
-                from: "The path file, in the card format of series 12",
-            })
+            (card_columns(), card_rows(text)?, "The path file, in the card format of series 12")
         }
-    }
+    };
+    Ok(Path::Rows { columns, rows: first(rows, wanted)?, from })
 }
 
+/// The fields of a station on cards of series 12.
+fn station_fields() -> impl Iterator<Item = &'static Field> {
+    series(12).and_then(|series| series.cards.get(1)).into_iter().flat_map(|card| &card.fields)
+}
+
+/// Name and unit of a column for each field of a station.
 fn card_columns() -> Vec<String> {
-    CARD_COLUMNS.map(str::to_owned).to_vec()
+    let name = |field: &'static Field| field.key.as_deref().and_then(|key| key.rsplit('.').next()).unwrap_or_default();
+    station_fields().map(|field| format!("{}[{}]", name(field), field.unit.in_scenarios)).collect()
 }
 
-/// A CSV file that holds just the stations that MREAD counts stays a file; otherwise its first ones are written out.
-fn beside(name: &str, text: &str, wanted: usize) -> Result<Path, ConversionError> {
-    let mut lines = text.lines().filter(|line| !line.trim().is_empty() && !line.trim_start().starts_with('#'));
+/// Columns and rows of a CSV file whose first line names the columns.
+fn csv(text: &str) -> Result<(Vec<String>, Vec<Vec<String>>), ConversionError> {
+    let mut lines = text.lines().filter(|line| !is_void(line));
     let header = lines.next().unwrap_or_default().trim_start_matches('\u{feff}');
     if !header.contains('[') {
         return Err(ConversionError::Path(format!(
@@ -91,15 +89,13 @@ fn beside(name: &str, text: &str, wanted: usize) -> Result<Path, ConversionError
         )));
     }
     let columns: Vec<String> = header.split(',').map(|c| c.trim().to_owned()).collect();
-    let rows = plain_rows(&lines.clone().collect::<Vec<_>>().join("\n"), columns.len())?;
-    if rows.len() == wanted {
-        return Ok(Path::Beside { name: name.to_owned(), text: text.to_owned() });
-    }
-    Ok(Path::Rows {
-        columns,
-        rows: first(rows, wanted)?,
-        from: "The path file: the first stations, as many as MREAD says",
-    })
+    let rows = plain_rows(&lines.collect::<Vec<_>>().join("\n"), columns.len())?;
+    Ok((columns, rows))
+}
+
+/// Whether a line is blank or a comment.
+fn is_void(line: &str) -> bool {
+    line.trim().is_empty() || line.trim_start().starts_with('#')
 }
 
 /// The first `wanted` stations.
@@ -113,13 +109,11 @@ fn first(mut rows: Vec<Vec<String>>, wanted: usize) -> Result<Vec<Vec<String>>, 
 }
 
 fn plain_rows(text: &str, columns: usize) -> Result<Vec<Vec<String>>, ConversionError> {
-    let lines =
-        text.lines().enumerate().filter(|(_, line)| !line.trim().is_empty() && !line.trim_start().starts_with('#'));
-    lines
-        .map(|(at, line)| {
-            plain_row(line, columns).map_err(|reason| ConversionError::Path(format!("line {}: {reason}", at + 1)))
-        })
-        .collect()
+    let lines = text.lines().enumerate().filter(|(_, line)| !is_void(line));
+    let numbered = |(at, line)| {
+        plain_row(line, columns).map_err(|reason| ConversionError::Path(format!("line {}: {reason}", at + 1)))
+    };
+    lines.map(numbered).collect()
 }
 
 fn plain_row(line: &str, columns: usize) -> Result<Vec<String>, String> {
@@ -136,25 +130,19 @@ fn plain_row(line: &str, columns: usize) -> Result<Vec<String>, String> {
 }
 
 fn card_rows(text: &str) -> Result<Vec<Vec<String>>, ConversionError> {
-    let cards = text.lines().enumerate().map(|(at, line)| Card::new(at + 1, line.as_bytes())).filter(|c| !c.is_blank());
-    cards.map(|card| card_row(&card)).collect()
+    let cards = text.lines().enumerate().map(|(at, line)| PunchedCard::new(at + 1, line.as_bytes()));
+    cards.filter(|card| !card.is_blank()).map(|card| card_row(&card)).collect()
 }
 
-fn card_row(card: &Card) -> Result<Vec<String>, ConversionError> {
-    (0..7)
-        .map(|place| {
-            let columns = Columns::new(place * 10 + 1, place * 10 + 10);
-            let reading = read_real(card.field(columns));
-            let refused = |_| {
-                ConversionError::Path(format!(
-                    "line {}, {columns}: `{}` is no number in F10.0",
-                    card.line,
-                    card.text_of(columns)
-                ))
-            };
-            reading.map(|r| r.digits).map_err(refused)
-        })
-        .collect()
+fn card_row(card: &PunchedCard) -> Result<Vec<String>, ConversionError> {
+    let digits = |columns| match read_real(card.field(columns)) {
+        Ok(reading) => Ok(reading.digits),
+        Err(_) => {
+            let (line, text) = (card.line, card.text_of(columns));
+            Err(ConversionError::Path(format!("line {line}, {columns}: `{text}` is no number in F10.0")))
+        }
+    };
+    station_fields().map(|field| digits(field.columns)).collect()
 }
 
 impl Path {

@@ -3,8 +3,8 @@
 use std::fmt::Write as _;
 
 use super::{Conversion, ConversionError, Report};
+use crate::cards::field_named;
 use crate::deck::{Deck, Number};
-use crate::layout::Unit;
 
 /// Column of the comments behind short lines.
 const COMMENT_COLUMN: usize = 40;
@@ -14,13 +14,15 @@ pub(super) struct Writer<'a> {
     pub deck: &'a Deck,
     pub report: Report,
     text: String,
+    /// The table under which lines are written.
+    table: String,
     missing: Option<String>,
 }
 
 impl<'a> Writer<'a> {
     pub fn new(deck: &'a Deck) -> Self {
         let report = Report { blanks: deck.blank_fields(), ..Report::default() };
-        Self { deck, report, text: String::new(), missing: None }
+        Self { deck, report, text: String::new(), table: String::new(), missing: None }
     }
 
     /// The text and the report; an error if the deck lacked a field that was asked for.
@@ -51,12 +53,24 @@ impl<'a> Writer<'a> {
 
     /// A field as a quantity with its unit, quoted: `"13.71 in"`.
     pub fn quantity(&mut self, name: &str) -> String {
-        let unit = self.deck.place_of(name).map_or(Unit::One, |(_, field)| field.unit);
         let digits = self.bare(name);
-        match unit_in_toml(unit) {
+        match field_named(name).map_or("", |field| field.unit.in_scenarios) {
             "" => digits,
             unit => format!("\"{digits} {unit}\""),
         }
+    }
+
+    /// The line of a field that has a key of its own: `end = "0.2 s"  # TF`.
+    pub fn field(&mut self, name: &str) {
+        self.field_with(name, name);
+    }
+
+    /// The line of a field that has a key of its own, with another comment.
+    pub fn field_with(&mut self, name: &str, comment: &str) {
+        let key = field_named(name).and_then(|field| field.key.as_deref()).unwrap_or_default();
+        let in_table = key.strip_prefix(&self.table).and_then(|key| key.strip_prefix('.')).unwrap_or(key);
+        let value = self.quantity(name);
+        self.set_with(in_table, &value, comment);
     }
 
     pub fn blank_line(&mut self) {
@@ -74,6 +88,7 @@ impl<'a> Writer<'a> {
         self.blank_line();
         self.comment(comment);
         let _ = writeln!(self.text, "[{name}]");
+        name.clone_into(&mut self.table);
     }
 
     /// A line `key = value`.
@@ -90,25 +105,6 @@ impl<'a> Writer<'a> {
     /// Text as it is.
     pub fn raw(&mut self, text: &str) {
         self.text.push_str(text);
-    }
-}
-
-/// The unit as scenarios write it.
-fn unit_in_toml(unit: Unit) -> &'static str {
-    match unit {
-        Unit::One => "",
-        Unit::Second => "s",
-        Unit::Inch => "in",
-        Unit::InchPerSecond => "in/s",
-        Unit::InchPerSecondSquared => "in/s^2",
-        Unit::Radian => "rad",
-        Unit::RadianPerSecond => "rad/s",
-        Unit::Degree => "deg",
-        Unit::Mass => "lbf s^2/in",
-        Unit::Inertia => "lbf in s^2",
-        Unit::Stiffness => "lbf/in",
-        Unit::RotaryDamping => "in lbf s/rad",
-        Unit::RotaryStiffness => "in lbf/rad",
     }
 }
 

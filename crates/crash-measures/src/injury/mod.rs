@@ -1,12 +1,13 @@
 //! Injury measures of a run: what a dummy's instruments would report, against limits and risk curves.
 //!
-//! [`Signals`] is a recorder that keeps the channels of the head, neck, chest, pelvis and femurs at the outputs; [`assess`]
-//! makes [`Measure`]s of them with the formulas of [`crate::measure`]. A simulated signal has no noise, so by default nothing
+//! [`Signals`] are the channels of the head, neck, chest, pelvis and femurs; [`Readings`] filters them; [`assess`] makes
+//! [`Measure`]s of them with the formulas of [`crate::measure`]. A simulated signal has no noise, so by default nothing
 //! is filtered; the classes of SAE J211 can be asked for where outputs are close enough for them.
 //!
 //! The body is rigid: it has no chest deflection and no viscous criterion, and its measures say so instead of guessing.
 
-mod assess;
+mod measures;
+mod readings;
 mod signals;
 
 use serde::{Serialize, Serializer};
@@ -15,7 +16,7 @@ use crate::measure::{Basis, Dummy, Grade, Rule};
 use crate::signal::CfcFamily;
 use crate::unit::Unit;
 
-pub use assess::assess;
+pub use readings::{Acceleration, Readings};
 pub use signals::{Components, Signals};
 
 /// How signals are filtered before a measure is made of them.
@@ -52,6 +53,12 @@ pub struct Measure {
     pub name: &'static str,
     /// What tables call it.
     pub label: &'static str,
+    /// Its name among the figures of a run; none for one that no run has.
+    #[serde(skip)]
+    pub figure: Option<&'static str>,
+    /// Whether it stands in short tables.
+    #[serde(skip)]
+    pub brief: bool,
     /// Unit of the value and of its limits.
     #[serde(serialize_with = "symbol")]
     pub unit: Unit,
@@ -97,15 +104,17 @@ pub struct Risk {
     pub probability: f64,
 }
 
+/// All measures, in the order of a dummy from head to femur. The list has the same names for every run.
+pub fn assess(signals: &Signals, options: &Options) -> Vec<Measure> {
+    Readings::new(signals, options).measures()
+}
+
 /// Rules whose limits apply to an occupant.
 pub const RULES: [Rule; 4] = [Rule::Fmvss208, Rule::UnR94, Rule::UnR137, Rule::SeverityIndex];
 
 impl Measure {
     /// Compares the value with the limits of all [`RULES`] for a quantity.
-    fn judge(&mut self, quantity: crate::measure::Quantity, dummy: Dummy) {
-        let Some(value) = self.value else {
-            return;
-        };
+    fn judge(&mut self, value: f64, quantity: crate::measure::Quantity, dummy: Dummy) {
         let known = RULES.into_iter().flat_map(|rule| crate::measure::limits(rule, dummy));
         let judged = known.filter(|l| l.quantity == quantity && l.grade == Grade::Maximum);
         self.limits = judged

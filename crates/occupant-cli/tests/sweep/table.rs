@@ -25,7 +25,7 @@ fn a_sweep_writes_a_row_for_each_sample_the_same_for_any_number_of_threads() {
     different.dedup();
     assert_eq!(different.len(), 24, "the samples do differ");
     let units = fs::read_to_string(at.join("one/columns.csv")).unwrap();
-    assert!(units.contains("head.peak,m/s^2,figure"), "{units}");
+    assert!(units.contains("head.peak,m/s²,figure"), "{units}");
     assert!(units.contains("input.speed,m/s,input"), "{units}");
 }
 

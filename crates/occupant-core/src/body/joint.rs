@@ -1,78 +1,12 @@
-//! The eleven joints: viscous dampers, stops and elastic springs, as data.
+//! Joints: viscous dampers, stops and elastic springs, as data.
 //!
 //! Report: "The Viscous Damper" (Eqs 69–77), "Joint Stops" (Figs 9–11), "Potential Energy due to Spinal Elasticity"
-//! (Eqs 57–62). The force laws themselves stand in `kernel`.
+//! (Eqs 57–62). The force laws themselves stand in `forces::joint`.
 
-/// A joint, in the report's numbering (Fig. 8).
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
-pub enum Joint {
-    /// 1, segments 2 and 3.
-    Neck,
-    /// 2, segments 2 and 6.
-    RightShoulder,
-    /// 3, segments 2 and 5.
-    LeftShoulder,
-    /// 4, segments 1 and 2.
-    UpperBack,
-    /// 5, hinge, segments 5 and 7.
-    LeftElbow,
-    /// 6, hinge, segments 6 and 8.
-    RightElbow,
-    /// 7, segments 1 and 4.
-    LowerBack,
-    /// 8, segments 4 and 10.
-    RightHip,
-    /// 9, segments 4 and 9.
-    LeftHip,
-    /// 10, hinge, segments 10 and 12.
-    RightKnee,
-    /// 11, hinge, segments 9 and 11.
-    LeftKnee,
-}
+use std::ops::Index;
 
-impl Joint {
-    /// All joints in the report's order.
-    pub const ALL: [Joint; 11] = [
-        Joint::Neck,
-        Joint::RightShoulder,
-        Joint::LeftShoulder,
-        Joint::UpperBack,
-        Joint::LeftElbow,
-        Joint::RightElbow,
-        Joint::LowerBack,
-        Joint::RightHip,
-        Joint::LeftHip,
-        Joint::RightKnee,
-        Joint::LeftKnee,
-    ];
-
-    /// The report's number, 1 to 11.
-    pub const fn number(self) -> usize {
-        self as usize + 1
-    }
-
-    /// Name used in scenarios and result channels.
-    pub const fn name(self) -> &'static str {
-        [
-            "neck",
-            "right_shoulder",
-            "left_shoulder",
-            "upper_back",
-            "left_elbow",
-            "right_elbow",
-            "lower_back",
-            "right_hip",
-            "left_hip",
-            "right_knee",
-            "left_knee",
-        ][self as usize]
-    }
-
-    /// Elbows and knees turn about Y only.
-    pub const fn is_hinge(self) -> bool {
-        matches!(self, Joint::LeftElbow | Joint::RightElbow | Joint::RightKnee | Joint::LeftKnee)
-    }
-}
+use super::tree::Tree;
+pub use super::tree::{Joint, JointKind};
 
 /// Damping that rises towards a limit of travel (Figs 9–11): from the joint's normal damping at `begin_rad` linearly to
 /// `damping_n_m_s` at `full_rad`, constant beyond, and only while the joint moves towards the limit.
@@ -119,52 +53,132 @@ pub struct HingeJoint {
     pub upper_stop: Option<Stop>,
 }
 
-/// All joints of a body.
+/// What acts in a joint.
 #[derive(Clone, Copy, Debug, PartialEq)]
+pub enum JointLaw {
+    /// In a ball joint.
+    Ball(BallJoint),
+    /// In a hinge.
+    Hinge(HingeJoint),
+}
+
+impl From<BallJoint> for JointLaw {
+    fn from(ball: BallJoint) -> Self {
+        JointLaw::Ball(ball)
+    }
+}
+
+impl From<HingeJoint> for JointLaw {
+    fn from(hinge: HingeJoint) -> Self {
+        JointLaw::Hinge(hinge)
+    }
+}
+
+impl JointLaw {
+    /// That of a ball joint.
+    pub fn ball(&self) -> Option<&BallJoint> {
+        match self {
+            JointLaw::Ball(ball) => Some(ball),
+            JointLaw::Hinge(_) => None,
+        }
+    }
+
+    /// That of a hinge.
+    pub fn hinge(&self) -> Option<&HingeJoint> {
+        match self {
+            JointLaw::Hinge(hinge) => Some(hinge),
+            JointLaw::Ball(_) => None,
+        }
+    }
+}
+
+/// What acts in the joints of a body; every law is of the kind that the tree says.
+#[derive(Clone, Debug, PartialEq)]
 pub struct Joints {
-    /// 1.
-    pub neck: BallJoint,
-    /// 2.
-    pub right_shoulder: BallJoint,
-    /// 3.
-    pub left_shoulder: BallJoint,
-    /// 4.
-    pub upper_back: BallJoint,
-    /// 5.
-    pub left_elbow: HingeJoint,
-    /// 6.
-    pub right_elbow: HingeJoint,
-    /// 7.
-    pub lower_back: BallJoint,
-    /// 8.
-    pub right_hip: BallJoint,
-    /// 9.
-    pub left_hip: BallJoint,
-    /// 10.
-    pub right_knee: HingeJoint,
-    /// 11.
-    pub left_knee: HingeJoint,
-    /// ε that keeps β smooth where the two Z axes are parallel; 0 is the report's formula. Default 1e−3.
+    tree: &'static Tree,
+    laws: Vec<JointLaw>,
+    /// ε that keeps β smooth where the two Z axes are parallel; 0 is the report's formula.
     pub epsilon: f64,
 }
 
-impl Default for Joints {
+impl Joints {
+    /// ε unless a scenario says otherwise.
+    pub const EPSILON: f64 = 1e-3;
+
     /// Free joints: no damping, no stop, no spring.
-    fn default() -> Self {
-        let (ball, hinge) = (BallJoint::default(), HingeJoint::default());
-        Joints {
-            neck: ball,
-            right_shoulder: ball,
-            left_shoulder: ball,
-            upper_back: ball,
-            left_elbow: hinge,
-            right_elbow: hinge,
-            lower_back: ball,
-            right_hip: ball,
-            left_hip: ball,
-            right_knee: hinge,
-            left_knee: hinge,
-            epsilon: 1e-3,
+    pub fn free(tree: &'static Tree) -> Self {
+        Joints::alike(tree, BallJoint::default(), HingeJoint::default())
+    }
+
+    /// All ball joints alike, and all hinges.
+    pub fn alike(tree: &'static Tree, ball: BallJoint, hinge: HingeJoint) -> Self {
+        let law = |joint: Joint| if tree[joint].is_hinge() { hinge.into() } else { ball.into() };
+        Joints { tree, laws: tree.joints().map(law).collect(), epsilon: Joints::EPSILON }
+    }
+
+    /// With another law in one joint; one of the other kind changes nothing.
+    #[must_use]
+    pub fn with(mut self, joint: Joint, law: impl Into<JointLaw>) -> Self {
+        let law = law.into();
+        if self.tree[joint].is_hinge() == law.hinge().is_some() {
+            self.laws[joint.index()] = law;
         }
+        self
+    }
+
+    /// With another ε.
+    #[must_use]
+    pub fn with_epsilon(self, epsilon: f64) -> Self {
+        Joints { epsilon, ..self }
+    }
+
+    /// The joints' tree.
+    pub fn tree(&self) -> &'static Tree {
+        self.tree
+    }
+
+    /// All joints with what acts in them, in the tree's order.
+    pub fn iter(&self) -> impl Iterator<Item = (Joint, &JointLaw)> {
+        self.tree.joints().zip(&self.laws)
+    }
+
+    /// The laws of all ball joints, to change their numbers.
+    pub fn balls_mut(&mut self) -> impl Iterator<Item = &mut BallJoint> {
+        self.laws.iter_mut().filter_map(|law| match law {
+            JointLaw::Ball(ball) => Some(ball),
+            JointLaw::Hinge(_) => None,
+        })
+    }
+
+    /// The laws of all hinges, to change their numbers.
+    pub fn hinges_mut(&mut self) -> impl Iterator<Item = &mut HingeJoint> {
+        self.laws.iter_mut().filter_map(|law| match law {
+            JointLaw::Hinge(hinge) => Some(hinge),
+            JointLaw::Ball(_) => None,
+        })
+    }
+
+    /// The law of a ball joint, to change its numbers.
+    pub fn ball_mut(&mut self, joint: Joint) -> Option<&mut BallJoint> {
+        match &mut self.laws[joint.index()] {
+            JointLaw::Ball(ball) => Some(ball),
+            JointLaw::Hinge(_) => None,
+        }
+    }
+
+    /// The law of a hinge, to change its numbers.
+    pub fn hinge_mut(&mut self, joint: Joint) -> Option<&mut HingeJoint> {
+        match &mut self.laws[joint.index()] {
+            JointLaw::Hinge(hinge) => Some(hinge),
+            JointLaw::Ball(_) => None,
+        }
+    }
+}
+
+impl Index<Joint> for Joints {
+    type Output = JointLaw;
+
+    fn index(&self, joint: Joint) -> &JointLaw {
+        &self.laws[joint.index()]
     }
 }

@@ -5,9 +5,11 @@
 
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
+use crate::body::SEGMENTS;
 use crate::model::Model;
 use crate::motion::dynamics::{Accelerations, Wrench, solve};
-use crate::motion::kinematics::{Kinematics, LIMBS};
+use crate::motion::kinematics::Kinematics;
+use crate::motion::layout::{HINGED, LIMBS};
 use crate::motion::skeleton::Skeleton;
 use crate::motion::state::State;
 use crate::motion::vector::V3;
@@ -28,7 +30,7 @@ impl<'a> Mobility<'a> {
         let zero = State::zero();
         let still = State { velocity: zero.velocity, omega: zero.omega, hinge_rate: zero.hinge_rate, ..*start };
         let kinematics = Kinematics::new(skeleton, &still);
-        let unloaded = solve(skeleton, &kinematics, &[0.0; 4], &[Wrench::zero(); 12]);
+        let unloaded = solve(skeleton, &kinematics, &[0.0; HINGED.len()], &[Wrench::zero(); SEGMENTS]);
         Mobility { skeleton, kinematics, unloaded }
     }
 
@@ -41,7 +43,7 @@ impl<'a> Mobility<'a> {
     pub fn of_point(&self, segment: usize, point: V3<f64>) -> Matrix3<f64> {
         let arm = point - self.kinematics.joint[segment];
         let column = |force: V3<f64>| {
-            let mut loads = [Wrench::zero(); 12];
+            let mut loads = [Wrench::zero(); SEGMENTS];
             loads[segment] = Wrench { force, moment: arm.cross(force) };
             let loaded = self.loaded(&loads);
             let joint = loaded.joint[segment] - self.unloaded.joint[segment];
@@ -55,7 +57,7 @@ impl<'a> Mobility<'a> {
     pub fn of_joint(&self, inner: usize, outer: usize) -> Matrix3<f64> {
         let relative = |a: &Accelerations<f64>| a.alpha[outer] - a.alpha[inner];
         let column = |moment: V3<f64>| {
-            let mut loads = [Wrench::zero(); 12];
+            let mut loads = [Wrench::zero(); SEGMENTS];
             loads[outer].moment = moment;
             loads[inner].moment = -moment;
             (relative(&self.loaded(&loads)) - relative(&self.unloaded)).to_vector()
@@ -67,14 +69,14 @@ impl<'a> Mobility<'a> {
     pub fn of_hinge(&self, limb: usize) -> f64 {
         let (upper, lower) = LIMBS[limb];
         let axis = self.kinematics.axes[upper].y;
-        let mut loads = [Wrench::zero(); 12];
+        let mut loads = [Wrench::zero(); SEGMENTS];
         loads[lower].moment = axis;
         loads[upper].moment = -axis;
         self.loaded(&loads).hinge[limb] - self.unloaded.hinge[limb]
     }
 
-    fn loaded(&self, loads: &[Wrench<f64>; 12]) -> Accelerations<f64> {
-        solve(self.skeleton, &self.kinematics, &[0.0; 4], loads)
+    fn loaded(&self, loads: &[Wrench<f64>; SEGMENTS]) -> Accelerations<f64> {
+        solve(self.skeleton, &self.kinematics, &[0.0; HINGED.len()], loads)
     }
 }
 
@@ -99,7 +101,7 @@ pub(super) fn across(mobility: &Matrix3<f64>, normal: &Vector3<f64>) -> Matrix3<
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::body::Segment;
+    use crate::body::tti12::TTI12;
     use crate::diagnosis::tests::free_body;
 
     #[test]
@@ -107,7 +109,7 @@ mod tests {
         // reciprocity and positive work: the mobility is symmetric and positive for any point of any segment
         let model = free_body();
         let mobility = Mobility::new(&model);
-        for segment in Segment::ALL {
+        for segment in TTI12.segments() {
             let n = segment.index();
             let point = mobility.kinematics().joint[n] + V3 { x: 0.03, y: -0.05, z: 0.1 };
             let raw = mobility.of_point(n, point);
@@ -126,13 +128,13 @@ mod tests {
         let mobility = Mobility::new(&model);
         let k = mobility.kinematics();
         let skeleton = &model.system().skeleton;
-        let mut loads = [Wrench::zero(); 12];
+        let mut loads = [Wrench::zero(); SEGMENTS];
         for (n, link) in skeleton.links.iter().enumerate() {
             let force = V3 { x: link.mass, y: 0.0, z: 0.0 };
             loads[n] = Wrench { force, moment: (k.cg(skeleton, n) - k.joint[n]).cross(force) };
         }
         let a = mobility.loaded(&loads);
-        for segment in Segment::ALL {
+        for segment in TTI12.segments() {
             let n = segment.index();
             let change = a.joint[n] - mobility.unloaded.joint[n];
             // measured: 6.7e-16, and 5.2e-15 for the angular part

@@ -167,14 +167,14 @@ pub fn diagnose(model: &Model) -> Diagnosis {
 fn body(model: &Model) -> BodyFigures {
     let body = model.body();
     let segment = |s: Segment| SegmentFigures {
-        segment: s.name(),
+        segment: body.tree[s].name,
         mass_kg: body.segment(s).mass_kg,
         length_m: body.segment(s).length_m,
     };
     BodyFigures {
         name: body.name.clone(),
         mass_kg: body.mass_kg(),
-        segments: Segment::ALL.map(segment).to_vec(),
+        segments: body.tree.segments().map(segment).collect(),
         degrees_of_freedom: DEGREES_OF_FREEDOM,
         spheres: body.spheres.len(),
     }
@@ -191,6 +191,7 @@ fn vehicle(model: &Model) -> VehicleFigures {
             VehiclePath::Pulse(_) => "pulse",
             VehiclePath::Sensors(_) => "sensors",
             VehiclePath::Fixed(_) => "fixed",
+            VehiclePath::Own(_) => "own",
         },
         start_speed_m_s: first.norm(),
         end_speed_m_s: last.norm(),

@@ -9,15 +9,15 @@ use nalgebra::{Matrix3, Vector3};
 use serde::Serialize;
 
 use super::mobility::{Mobility, across, greatest};
-use crate::body::joint::{BallJoint, HingeJoint};
+use crate::body::joint::{BallJoint, Joint};
 use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::contact::surface::Frame;
-use crate::forces::joint::BALLS;
 use crate::forces::material::{BilinearSpring, Material};
 use crate::forces::spring::Spring;
 use crate::model::Model;
 use crate::model::setup::Setup;
 use crate::motion::frame::Moving;
+use crate::motion::layout::{BALL_JOINTS, BALLS, HINGE_JOINTS};
 use crate::results::sample::Sample;
 use crate::vehicle::{FrameMotion, PathCursor};
 
@@ -86,7 +86,7 @@ impl FrictionMasses {
 
 /// Pairs of sphere and surface that can touch.
 fn pairs(model: &Model) -> impl Iterator<Item = (usize, usize)> + '_ {
-    let contacts = &model.system().contacts;
+    let contacts = &model.system().forces.contacts;
     contacts.groups().iter().flat_map(move |group| {
         let parts = contacts.pairs()[group.pairs.clone()].iter().flat_map(|p| &p.parts);
         parts.map(move |part| (group.sphere, part.surface))
@@ -96,7 +96,7 @@ fn pairs(model: &Model) -> impl Iterator<Item = (usize, usize)> + '_ {
 /// Smallest effective mass along the surface at the point of contact A = centre − r N̂, kg.
 fn tangential(model: &Model, mobility: &Mobility<'_>, sphere: usize, surface: usize) -> f64 {
     let system = model.system();
-    let site = &system.contacts.sites[sphere];
+    let site = &system.spheres[sphere];
     let normal = normal_in_space(model, &model.faces()[surface]);
     let (_, centre, _) = system.sphere(mobility.kinematics(), sphere);
     let point = centre - crate::motion::vector::V3::of(&normal) * site.radius;
@@ -129,7 +129,7 @@ pub(super) fn of_spheres(
         let own = || pairs(model).filter(move |&(s, _)| s == sphere).map(|(_, f)| f);
         let slope = |&surface: &usize| steepest(&material_of(setup, surface).spring);
         let stiffest = own().max_by(|a, b| slope(a).total_cmp(&slope(b)))?;
-        let site = &model.system().contacts.sites[sphere];
+        let site = &model.system().spheres[sphere];
         let (_, centre, _) = model.system().sphere(mobility.kinematics(), sphere);
         let mass_kg = 1.0 / greatest(mobility.of_point(site.segment, centre));
         let friction = step_s.and_then(|step_s| {
@@ -161,42 +161,30 @@ pub(super) fn of_belts(sample: &Sample<'_>, mobility: &Mobility<'_>) -> Vec<Rate
     let one = |(belt, action): (&crate::forces::belt::Belt, &crate::forces::belt::law::BeltAction<f64>)| {
         // −gradient of the length with respect to the centre
         let gradient = vehicle.axes.out(action.free[0] + action.free[1]).to_vector();
-        let site = &model.system().contacts.sites[belt.sphere];
+        let site = &model.system().spheres[belt.sphere];
         let (_, centre, _) = model.system().sphere(mobility.kinematics(), belt.sphere);
         let give = gradient.dot(&(mobility.of_point(site.segment, centre) * gradient));
         let sphere = &setup.body.spheres[belt.sphere].name;
         spring_rate(belt.name.clone(), format!("on {sphere}"), 1.0 / give, steepest(&belt.webbing))
     };
-    setup.belts.iter().zip(sample.belts).map(one).collect()
+    setup.belts.iter().zip(&sample.actions.belts).map(one).collect()
 }
 
 /// Joints: the damper at its strongest, and the spring.
 pub(super) fn of_joints(model: &Model, mobility: &Mobility<'_>) -> Vec<Rate> {
     let j = &model.setup().joints;
-    let balls: [(&str, &BallJoint); 7] = [
-        ("neck", &j.neck),
-        ("right_shoulder", &j.right_shoulder),
-        ("left_shoulder", &j.left_shoulder),
-        ("upper_back", &j.upper_back),
-        ("lower_back", &j.lower_back),
-        ("right_hip", &j.right_hip),
-        ("left_hip", &j.left_hip),
-    ];
-    let hinges: [(&str, &HingeJoint); 4] = [
-        ("left_elbow", &j.left_elbow),
-        ("right_elbow", &j.right_elbow),
-        ("left_knee", &j.left_knee),
-        ("right_knee", &j.right_knee),
-    ];
+    let name = |joint: Joint| j.tree()[joint].name;
     let mut rates = Vec::new();
-    for ((name, joint), &(inner, outer)) in balls.into_iter().zip(&BALLS) {
+    for (joint, &(inner, outer)) in BALL_JOINTS.iter().zip(BALLS) {
+        let Some(law) = j[*joint].ball() else { continue };
         let relative = mobility.of_joint(inner, outer);
-        rates.extend(ball_rates(name, joint, &relative, mobility, inner, outer, j.epsilon));
+        rates.extend(ball_rates(name(*joint), law, &relative, mobility, inner, outer, j.epsilon));
     }
-    for (limb, (name, joint)) in hinges.into_iter().enumerate() {
-        let stops = [joint.lower_stop, joint.upper_stop];
-        let strongest = stops.iter().flatten().fold(joint.damping_n_m_s, |most, stop| most.max(stop.damping_n_m_s));
-        rates.extend(damper_rate(name, 1.0 / mobility.of_hinge(limb), strongest));
+    for (limb, joint) in HINGE_JOINTS.iter().enumerate() {
+        let Some(law) = j[*joint].hinge() else { continue };
+        let stops = [law.lower_stop, law.upper_stop];
+        let strongest = stops.iter().flatten().fold(law.damping_n_m_s, |most, stop| most.max(stop.damping_n_m_s));
+        rates.extend(damper_rate(name(*joint), 1.0 / mobility.of_hinge(limb), strongest));
     }
     rates
 }

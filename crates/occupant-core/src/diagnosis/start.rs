@@ -137,8 +137,8 @@ fn contact(sample: &Sample<'_>, contact: &Contact) -> ContactStart {
 fn belts(sample: &Sample<'_>) -> Vec<BeltStart> {
     let model = sample.model;
     let setup = model.setup();
-    let laws = setup.belts.iter().zip(&model.system().belts);
-    let belts = laws.zip(sample.belts);
+    let laws = setup.belts.iter().zip(&model.system().forces.belts);
+    let belts = laws.zip(&sample.actions.belts);
     belts
         .map(|((belt, law), action)| BeltStart {
             belt: belt.name.clone(),
@@ -178,13 +178,13 @@ pub(super) fn seat(model: &Model) -> Option<SeatStart> {
 
 /// Passed pairs whose sphere overlaps the face itself, not only its plane.
 pub(super) fn behind(model: &Model, mobility: &Mobility<'_>) -> Vec<SphereBehind> {
-    let (setup, contacts) = (model.setup(), &model.system().contacts);
+    let (setup, contacts) = (model.setup(), &model.system().forces.contacts);
     let vehicle = vehicle_at_start(model);
     let mut found = Vec::new();
     for group in contacts.groups() {
         let (_, centre, _) = model.system().sphere(mobility.kinematics(), group.sphere);
         let radius_m = setup.body.spheres[group.sphere].radius_m;
-        let passed = group.pairs.clone().filter(|&i| model.start().history.pairs[i].phase == PASSED);
+        let passed = group.pairs.clone().filter(|&i| model.start().history.memory.contacts[i].phase == PASSED);
         for part in passed.flat_map(|i| &contacts.pairs()[i].parts) {
             let plane = &model.faces()[part.surface];
             let place = match plane.frame {

@@ -1,10 +1,12 @@
 use nalgebra::Vector3;
 
 use super::*;
+use crate::body::tti12::TTI12;
 use crate::motion::dynamics::{Wrench, solve};
 use crate::motion::frame::Moving;
 use crate::motion::kinematics::Kinematics;
-use crate::motion::state::{FREE, State};
+use crate::motion::layout::FREE;
+use crate::motion::state::State;
 use crate::motion::vector::V3;
 use crate::results::energy::kinetic;
 use crate::run::simulate::simulate;
@@ -64,7 +66,7 @@ fn an_impulse_at_a_point_gives_the_kinetic_energy_that_its_mobility_says() {
     let k = mobility.kinematics();
     let skeleton = &model.system().skeleton;
     let force = Vector3::new(0.7, -1.1, 0.4);
-    for segment in Segment::ALL {
+    for segment in TTI12.segments() {
         let n = segment.index();
         let arm = V3 { x: 0.05, y: -0.02, z: 0.11 };
         let mut loads = [Wrench::zero(); 12];

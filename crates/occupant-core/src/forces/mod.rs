@@ -1,24 +1,20 @@
-//! What acts on the body: contact, belts, joints, each in a room of its own.
+//! What acts on the body: contact, belts, joints, each kind of force element in a room of its own.
+//!
+//! A kind is an [`Element`]. The list of kinds in `list.rs` gives the force laws of everything ([`Forces`]), what they
+//! remember ([`History`]), what they do at one instant ([`Actions`]), their energies ([`STORED`], [`SUMS`]). The kernel, runs
+//! side by side, dual numbers, the energy ledger and checkpoints know the list alone. To add a kind takes a folder with its
+//! [`Element`], its line in the list, its places in the ledger and its data in a setup.
+//!
+//! Nothing here knows a model, a run or a result.
 
 pub mod belt;
 pub mod contact;
+mod element;
 pub mod joint;
+mod list;
 pub mod material;
+pub mod sphere;
 pub mod spring;
 
-pub use contact::history::History;
-
-use belt::law::BeltAction;
-use contact::Touch;
-
-/// Receives what happens in an evaluation.
-pub trait Observer<S> {
-    /// A pair exerts a force.
-    #[inline(always)]
-    fn touch(&mut self, _touch: &Touch<S>) {}
-    /// Shape and force of belt `_index`.
-    #[inline(always)]
-    fn belt(&mut self, _index: usize, _action: &BeltAction<S>) {}
-}
-
-impl<S> Observer<S> for () {}
+pub use element::*;
+pub use list::*;

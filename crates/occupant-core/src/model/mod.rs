@@ -1,29 +1,26 @@
 //! The model: a checked [`Setup`] with all that can be computed before the first step. Immutable, shared by all threads.
 
+pub mod builder;
 pub mod seat;
 pub mod seating;
 pub mod settle;
 pub mod setup;
 mod validate;
 
-use nalgebra::Vector3;
-
 use crate::body::Body;
-use crate::forces::History;
-use crate::forces::belt::law::BeltLaw;
 use crate::forces::contact::flat_face::FlatFace;
-use crate::forces::contact::{ContactSystem, PairHistory};
-use crate::forces::joint::{BALLS, JointSystem};
+use crate::forces::sphere::Site;
+use crate::forces::{Forces, History, Instant};
 use crate::kernel::System;
 use crate::model::seat::{Seat, Seated, seat};
 use crate::model::seating::{InitialPosture, InitialVelocity, Seating};
 use crate::model::settle::{Settled, settle};
 use crate::model::setup::Setup;
-use crate::motion::frame::Frames;
-use crate::motion::frame::{Moving, VEHICLE};
+use crate::motion::frame::{Frames, Moving};
 use crate::motion::kinematics::Kinematics;
+use crate::motion::layout::FREE;
 use crate::motion::skeleton::Skeleton;
-use crate::motion::state::{FREE, State};
+use crate::motion::state::State;
 use crate::motion::vector::V3;
 use crate::problem::Problems;
 use crate::vehicle::{FrameMotion, PathCursor};
@@ -43,7 +40,7 @@ pub struct Model {
 pub struct Start {
     /// State.
     pub state: State<f64>,
-    /// Pair states and belt histories.
+    /// History of the force elements.
     pub history: History<f64>,
     /// Figures of the seating, if the body was seated.
     pub seated: Option<Seated>,
@@ -133,28 +130,21 @@ pub fn frames(vehicle: &FrameMotion) -> Frames<f64> {
     [Moving::space(), Moving::of(vehicle)]
 }
 
-/// Places the body, then everything that depends on where it is: β₀, L₀, pair states, velocities.
+/// Places the body, then everything that depends on where it is: velocities, constants and history of force elements.
 fn begin(setup: &Setup, faces: &[FlatFace], problems: &mut Problems) -> Option<(System<f64>, Start)> {
     let start_s = setup.time.start_s;
     let vehicle = setup.path.motion(start_s, start_s, &mut PathCursor::default());
     let skeleton = Skeleton::new(&setup.body, setup.gravity_m_s2);
-    let contacts = ContactSystem::new(
-        &setup.body,
-        &setup.surfaces,
-        faces,
-        &setup.materials,
-        setup.edge_force,
-        setup.integrator.longest_step_s(),
-    );
-    let mut system =
-        System { skeleton, joints: JointSystem::new(&setup.joints, &[0.0; 7]), contacts, belts: Vec::new() };
+    let data = setup.forces(faces);
+    let forces = Forces::new(&data, &setup.body);
+    let mut system = System { skeleton, spheres: Site::all(&setup.body), forces };
     let (mut state, seated, settled) = match &setup.posture {
         InitialPosture::Coordinates(q) | InitialPosture::Continued { coordinates: q, .. } => (q.to_state(), None, None),
         InitialPosture::Seated(seating) => {
             let place = seat_of(setup, faces, seating, problems)?;
             let (state, seated) = seat(&setup.body, seating, &place, &vehicle, setup.gravity_m_s2, problems)?;
             if seating.settle {
-                let (state, settled) = settle(setup, &system, &vehicle, state);
+                let (state, settled) = settle(setup, &data, &system, &vehicle, state);
                 settled.warn(problems);
                 (state, Some(seated), Some(settled))
             } else {
@@ -170,14 +160,13 @@ fn begin(setup: &Setup, faces: &[FlatFace], problems: &mut Problems) -> Option<(
         set_velocity(&mut state, &setup.velocity, &vehicle);
     }
     let k = Kinematics::new(&system.skeleton, &state);
-    let rest: [f64; 7] = std::array::from_fn(|i| system.joints.beta(i, &k));
-    debug_assert_eq!(rest.len(), BALLS.len());
-    system.joints = JointSystem::new(&setup.joints, &rest);
-    system.belts = belts(setup, &system, &k, &vehicle, problems);
-    let mut history = initial_history(&system, &k, &frames(&vehicle));
+    let at = Instant { k: &k, state: &state, frames: &frames(&vehicle), spheres: &system.spheres };
+    let forces = &mut system.forces;
+    forces.lay(&data, &setup.body, &at);
+    forces.begin(&data, &setup.body, &at, problems);
+    let mut history = forces.start(&at);
     if let InitialPosture::Continued { passed, .. } = &setup.posture {
-        let pairs = |at: usize| continued_history(&system, &k, &frames(&vehicle), passed, at);
-        history.pairs = (0..system.contacts.groups().len()).flat_map(pairs).collect();
+        history.memory.contacts = forces.contacts.continued(&at, passed);
     }
     Some((system, Start { state, history, seated, settled }))
 }
@@ -212,81 +201,4 @@ fn set_velocity(state: &mut State<f64>, velocity: &InitialVelocity, vehicle: &Fr
             state.velocity = V3::of(&vehicle.vector_to_space(*v));
         }
     }
-}
-
-fn belts(
-    setup: &Setup,
-    system: &System<f64>,
-    k: &Kinematics<f64>,
-    vehicle: &FrameMotion,
-    problems: &mut Problems,
-) -> Vec<BeltLaw<f64>> {
-    let law = |belt: &crate::forces::belt::Belt| {
-        let path = format!("belts.{}", belt.name);
-        let radius = setup.body.spheres[belt.sphere].radius_m;
-        let centre = centre_in(system, k, belt.sphere, vehicle);
-        for (i, anchor) in belt.anchors_m.iter().enumerate() {
-            let distance = (anchor.coords - centre).norm();
-            if distance <= radius {
-                problems.error_with_hint(
-                    format!("{path}.anchors"),
-                    format!(
-                        "anchor {} lies {:.4} m from the centre of the sphere {} of radius {radius:.4} m",
-                        i + 1,
-                        distance,
-                        setup.body.spheres[belt.sphere].name
-                    ),
-                    "an anchor outside the sphere that the belt goes round",
-                    "move the anchor, or check the seat's lateral place and the anchor's sign of y",
-                );
-            }
-        }
-        let law = BeltLaw::laid(belt, radius, V3::of(&centre));
-        let rest_length_m = law.rest_length;
-        if !(rest_length_m.is_finite() && rest_length_m > 0.0) {
-            problems.error(path, format!("an unstretched length of {rest_length_m} m"), "a positive length");
-        }
-        law
-    };
-    setup.belts.iter().map(law).collect()
-}
-
-fn centre_in(system: &System<f64>, k: &Kinematics<f64>, sphere: usize, vehicle: &FrameMotion) -> Vector3<f64> {
-    vehicle.point_to_frame(system.sphere(k, sphere).1.to_vector())
-}
-
-/// Pair states of group `at` where an earlier run ended: the listed pairs have passed, all others that overlap touch.
-fn continued_history(
-    system: &System<f64>,
-    k: &Kinematics<f64>,
-    frames: &Frames<f64>,
-    passed: &[(usize, usize)],
-    at: usize,
-) -> Vec<PairHistory<f64>> {
-    let group = &system.contacts.groups()[at];
-    let frame = &frames[group.frame];
-    let centre = frame.axes.into_frame(system.sphere(k, group.sphere).1 - frame.origin);
-    let history = |i: usize| {
-        let parts = &system.contacts.pairs()[i].parts;
-        let is_passed = parts.iter().any(|part| passed.contains(&(group.sphere, part.surface)));
-        system.contacts.continued_history(i, centre, is_passed)
-    };
-    group.pairs.clone().map(history).collect()
-}
-
-/// Pair states and belt histories of a body that stands where it is.
-pub(crate) fn initial_history(system: &System<f64>, k: &Kinematics<f64>, frames: &Frames<f64>) -> History<f64> {
-    let in_frame = |sphere: usize, frame: usize| {
-        let f: &Moving<f64> = &frames[frame];
-        f.axes.into_frame(system.sphere(k, sphere).1 - f.origin)
-    };
-    let mut pairs = Vec::with_capacity(system.contacts.pairs().len());
-    for group in system.contacts.groups() {
-        let radius = system.contacts.sites[group.sphere].radius;
-        let centre = in_frame(group.sphere, group.frame);
-        let history = |i| system.contacts.initial_history(i, radius, centre);
-        pairs.extend(group.pairs.clone().map(history));
-    }
-    let belts = system.belts.iter().map(|b| b.initial_history(in_frame(b.sphere, VEHICLE))).collect();
-    History::new(&system.contacts, pairs, belts)
 }

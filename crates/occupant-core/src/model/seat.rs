@@ -7,11 +7,13 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::body::tree::Limb;
 use crate::body::{Body, Segment};
 use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::material::BilinearSpring;
 use crate::forces::spring::Spring;
 use crate::model::seating::Seating;
+use crate::motion::layout::{free_slot, hinge_slot};
 use crate::motion::report_coordinates::quaternion;
 use crate::motion::state::State;
 use crate::motion::vector::V3;
@@ -59,7 +61,8 @@ pub fn seat(
         );
         return None;
     };
-    if pelvis.segment != Segment::LowerTorso {
+    let marks = body.tree.landmarks();
+    if pelvis.segment != marks.pelvis {
         problems.error("body.spheres.pelvis", "not on the lower torso", "the lower torso");
         return None;
     }
@@ -70,27 +73,40 @@ pub fn seat(
     let lean = leaned(seating.lean_rad[3]);
     let lower_end = pelvis_m - lean * pelvis.centre_from_lower_end_m.coords;
     let hip = Vector3::new(lower_end.x, 0.0, lower_end.z);
-    let legs = [
-        leg(body, Segment::LeftThigh, Segment::LeftLowerLeg, hip, seating, problems),
-        leg(body, Segment::RightThigh, Segment::RightLowerLeg, hip, seating, problems),
-    ];
+    let legs = [&marks.legs.left, &marks.legs.right].map(|limb| leg(body, limb, hip, seating, problems));
     let [Some(left), Some(right)] = legs else {
         return None;
     };
 
     let t1 = lower_end
-        - along(seating.lean_rad[3]) * -length(Segment::LowerTorso)
-        - along(seating.lean_rad[0]) * -length(Segment::MiddleTorso);
-    let [g1, g2, g3, g4] = seating.lean_rad;
-    let arms = seating.upper_arms_rad;
-    let leans = [g1, g2, g3, g4, arms, arms, left.thigh, right.thigh];
+        - along(seating.lean_rad[3]) * -length(marks.pelvis)
+        - along(seating.lean_rad[0]) * -length(marks.middle);
     let mut state = State::zero();
     state.t1 = V3::of(&vehicle.point_to_space(t1));
-    for (orientation, lean) in state.orientation.iter_mut().zip(leans) {
-        *orientation = quaternion(&(vehicle.rotation * leaned(lean)));
+    let mut lean = |segment: Segment, gamma: f64| {
+        if let Some(slot) = free_slot(segment.index()) {
+            state.orientation[slot] = quaternion(&(vehicle.rotation * leaned(gamma)));
+        }
+    };
+    let trunk = [marks.middle, marks.chest, marks.head, marks.pelvis];
+    for (segment, gamma) in trunk.into_iter().zip(seating.lean_rad) {
+        lean(segment, gamma);
     }
-    state.hinge = [seating.elbows_rad, seating.elbows_rad, left.thigh - left.shank, right.thigh - right.shank];
-    let knee_m = lower_end - Vector3::y() * body.hip_half_width_m - along(left.thigh) * length(Segment::LeftThigh);
+    let limbs = [
+        (&marks.arms.left, seating.upper_arms_rad, seating.elbows_rad),
+        (&marks.arms.right, seating.upper_arms_rad, seating.elbows_rad),
+        (&marks.legs.left, left.thigh, left.thigh - left.shank),
+        (&marks.legs.right, right.thigh, right.thigh - right.shank),
+    ];
+    for (limb, gamma, _) in limbs {
+        lean(limb.upper, gamma);
+    }
+    for (limb, _, alpha) in limbs {
+        if let Some(slot) = hinge_slot(limb.lower.index()) {
+            state.hinge[slot] = alpha;
+        }
+    }
+    let knee_m = lower_end - Vector3::y() * body.hip_half_width_m - along(left.thigh) * length(marks.legs.left.upper);
     let seated = Seated { sink_m, pelvis_m, knee_m, legs_rad: [left.thigh, left.shank] };
     Some((state, seated))
 }
@@ -120,8 +136,10 @@ fn sink(
         return Some(0.0);
     }
     let mass = |s: Segment| body.segment(s).mass_kg;
-    let carried = Segment::ALL[..8].iter().map(|&s| mass(s)).sum::<f64>()
-        + 0.5 * (mass(Segment::LeftThigh) + mass(Segment::RightThigh));
+    let legs = &body.tree.landmarks().legs;
+    let in_legs = |s: &Segment| [legs.left, legs.right].iter().any(|leg| *s == leg.upper || *s == leg.lower);
+    let carried = body.tree.segments().filter(|s| !in_legs(s)).map(mass).sum::<f64>()
+        + 0.5 * (mass(legs.left.upper) + mass(legs.right.upper));
     let up = vehicle.rotation.tr_mul(&Vector3::z());
     let support = seat.cushion.normal.dot(&up);
     if support < 0.1 {
@@ -178,15 +196,8 @@ struct Leg {
 }
 
 /// Two links from `hip` to the heel in the X_v–Z_v plane, the knee above the line.
-fn leg(
-    body: &Body,
-    thigh: Segment,
-    shank: Segment,
-    hip: Vector3<f64>,
-    seating: &Seating,
-    problems: &mut Problems,
-) -> Option<Leg> {
-    let (a, b) = (body.segment(thigh).length_m, body.segment(shank).length_m);
+fn leg(body: &Body, limb: &Limb, hip: Vector3<f64>, seating: &Seating, problems: &mut Problems) -> Option<Leg> {
+    let (a, b) = (body.segment(limb.upper).length_m, body.segment(limb.lower).length_m);
     let [x, z] = seating.heels_m;
     let to_heel = Vector3::new(x, 0.0, z) - hip;
     let distance = to_heel.norm();

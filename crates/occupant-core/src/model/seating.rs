@@ -44,9 +44,10 @@ pub enum InitialPosture {
 }
 
 /// Velocity of a seated body at the start.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum InitialVelocity {
     /// Every point moves as if fixed to the vehicle.
+    #[default]
     WithVehicle,
     /// Every point has the velocity of the vehicle's origin; angular velocities are zero.
     VehicleOrigin,

@@ -6,10 +6,10 @@
 
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
-use crate::forces::belt::law::BeltLaw;
+use crate::forces::{Data, Instant};
 use crate::kernel::System;
+use crate::model::frames;
 use crate::model::setup::Setup;
-use crate::model::{frames, initial_history};
 use crate::motion::kinematics::Kinematics;
 use crate::motion::report_coordinates::quaternion;
 use crate::motion::state::State;
@@ -57,12 +57,13 @@ impl Settled {
 /// Moves `state` as one piece to where contacts and belts balance its weight.
 pub(crate) fn settle(
     setup: &Setup,
+    data: &Data<'_>,
     system: &System<f64>,
     vehicle: &FrameMotion,
     state: State<f64>,
 ) -> (State<f64>, Settled) {
     let weight_n = setup.body.mass_kg() * setup.gravity_m_s2;
-    let residual = |x: &Vector6<f64>| load(setup, system, vehicle, &moved(&state, x));
+    let residual = |x: &Vector6<f64>| load(setup, data, system, vehicle, &moved(&state, x));
     let mut x = Vector6::zeros();
     let mut r = residual(&x);
     let mut damping = 1e-3;
@@ -126,7 +127,13 @@ fn turned_by(vector: &Vector3<f64>) -> Matrix3<f64> {
 }
 
 /// Resultant force (N) and moment about T1 over the lever (N) of contacts, belts and weight on the resting body.
-fn load(setup: &Setup, system: &System<f64>, vehicle: &FrameMotion, state: &State<f64>) -> Vector6<f64> {
+fn load(
+    setup: &Setup,
+    data: &Data<'_>,
+    system: &System<f64>,
+    vehicle: &FrameMotion,
+    state: &State<f64>,
+) -> Vector6<f64> {
     let mut system = system.clone();
     let frames = frames(vehicle);
     // at rest: no friction, no damping
@@ -135,16 +142,9 @@ fn load(setup: &Setup, system: &System<f64>, vehicle: &FrameMotion, state: &Stat
         f
     });
     let k = Kinematics::new(&system.skeleton, state);
-    system.belts = setup
-        .belts
-        .iter()
-        .map(|belt| {
-            let centre = vehicle.point_to_frame(system.sphere(&k, belt.sphere).1.to_vector());
-            let radius = setup.body.spheres[belt.sphere].radius_m;
-            BeltLaw::laid(belt, radius, V3::of(&centre))
-        })
-        .collect();
-    let mut history = initial_history(&system, &k, &still);
+    let at = Instant { k: &k, state, frames: &still, spheres: &system.spheres };
+    system.forces.lay(data, &setup.body, &at);
+    let mut history = system.forces.start(&at);
     let e = system.evaluate::<false>(state, &still, &mut history, &mut ());
     let (mut force, mut moment) = (V3::zero(), V3::zero());
     for (n, wrench) in e.wrench.iter().enumerate() {

@@ -1,18 +1,23 @@
 //! Everything a run needs, as plain SI data: what a scenario says once its words are numbers.
 //!
-//! A `Setup` may still be wrong; [`crate::model::Model::new`] checks it and reports every problem at once.
+//! [`SetupBuilder`](crate::model::builder::SetupBuilder) puts one together in code. A `Setup` may still be wrong; [`crate::model::Model::new`] checks it and reports every problem at once.
 
 use crate::body::Body;
 use crate::body::joint::Joints;
+use crate::forces::Data;
 use crate::forces::belt::Belt;
-use crate::forces::contact::EdgeForce;
+use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::contact::surface::Surface;
+use crate::forces::contact::{ContactData, EdgeForce};
 use crate::forces::material::Material;
 use crate::model::seating::{InitialPosture, InitialVelocity};
 use crate::vehicle::VehiclePath;
 
 /// Standard gravity, 9.80665 m/s².
 pub const STANDARD_GRAVITY_M_S2: f64 = 9.80665;
+
+/// Time between two outputs where nobody says otherwise.
+pub const DEFAULT_OUTPUT_S: f64 = 1e-3;
 
 /// Start, end and output times.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,6 +58,19 @@ pub enum Integrator {
         /// The largest step allowed.
         max_step_s: f64,
     },
+}
+
+impl Default for Integrator {
+    /// Error control as `docs/accuracy.md` chooses it.
+    fn default() -> Self {
+        Integrator::Adaptive {
+            relative: 3e-6,
+            absolute_m: 3e-7,
+            absolute_m_s: 3e-5,
+            min_step_s: 1e-8,
+            max_step_s: 2e-3,
+        }
+    }
 }
 
 impl Integrator {
@@ -103,4 +121,18 @@ pub struct Setup {
     pub integrator: Integrator,
     /// Extra outputs.
     pub output: OutputOptions,
+}
+
+impl Setup {
+    /// What it says of force elements; `faces` are the planes of its surfaces.
+    pub(crate) fn forces<'a>(&'a self, faces: &'a [FlatFace]) -> Data<'a> {
+        let contacts = ContactData {
+            surfaces: &self.surfaces,
+            faces,
+            materials: &self.materials,
+            edge_force: self.edge_force,
+            longest_step_s: self.integrator.longest_step_s(),
+        };
+        Data { contacts, belts: &self.belts, joints: &self.joints }
+    }
 }

@@ -9,16 +9,17 @@
 //! moment   τ = J α − Bᵀ a + β_τ
 //! ```
 //!
-//! so α = J⁻¹(τ − β_τ) + (BJ⁻¹)ᵀ a, M̃ = A − BJ⁻¹Bᵀ, b̃ = β_f − BJ⁻¹(τ − β_τ). The root T1 carries two subtrees and no mass.
+//! so α = J⁻¹(τ − β_τ) + (BJ⁻¹)ᵀ a, M̃ = A − BJ⁻¹Bᵀ, b̃ = β_f − BJ⁻¹(τ − β_τ). The root T1 carries subtrees and no mass.
 //! Gravity is uniform: it only shifts every acceleration, and is added at the root.
 //!
-//! The result is the report's; no matrix larger than 3 × 3 is ever formed. `limb` treats an arm or a leg.
+//! The result is the report's; no matrix larger than 3 × 3 is ever formed. `limb` treats limbs and leaves.
 
 use crate::body::SEGMENTS;
-use crate::motion::kinematics::{Kinematics, LIMBS};
-use crate::motion::limb::{self, Limb};
+use crate::motion::kinematics::Kinematics;
+use crate::motion::layout::{HINGED, LEAVES, LIMBS, ROOTS, TRUNKS, hung_from};
+use crate::motion::limb::{self, Leaf, Limb};
 use crate::motion::scalar::Scalar;
-use crate::motion::skeleton::{Link, Skeleton};
+use crate::motion::skeleton::Skeleton;
 use crate::motion::vector::{M3, Sym3, V3, v3};
 
 /// Force and moment on a segment, space axes; the moment is about the segment's proximal joint.
@@ -54,6 +55,12 @@ pub struct Demand<S> {
 }
 
 impl<S: Scalar> Demand<S> {
+    /// Nothing.
+    #[inline(always)]
+    fn zero() -> Self {
+        Demand { mass: Sym3::scaled_identity(S::zero()), bias: V3::zero() }
+    }
+
     /// The force at the joint for an acceleration `a` of the joint, gravity excluded.
     #[inline(always)]
     pub fn force(&self, a: V3<S>) -> V3<S> {
@@ -69,7 +76,7 @@ pub struct Accelerations<S> {
     /// Angular acceleration of each segment, rad/s².
     pub alpha: [V3<S>; SEGMENTS],
     /// α̈ of the limbs' hinges, rad/s².
-    pub hinge: [S; 4],
+    pub hinge: [S; HINGED.len()],
 }
 
 /// A trunk segment after the inward sweep.
@@ -79,10 +86,16 @@ struct Trunk<S> {
     moment: V3<S>,
     /// Columns of (B J⁻¹)ᵀ, i.e. rows of B J⁻¹.
     gain: M3<S>,
-    demand: Demand<S>,
 }
 
 impl<S: Scalar> Trunk<S> {
+    /// Not yet reduced.
+    #[inline(always)]
+    fn zero() -> Self {
+        let o = V3::zero();
+        Trunk { inverse_inertia: Sym3::scaled_identity(S::zero()), moment: o, gain: M3 { x: o, y: o, z: o } }
+    }
+
     /// α = J⁻¹(τ − β_τ) + (BJ⁻¹)ᵀ a.
     #[inline(always)]
     fn alpha(&self, a: V3<S>) -> V3<S> {
@@ -95,46 +108,48 @@ impl<S: Scalar> Trunk<S> {
 pub fn solve<S: Scalar>(
     body: &Skeleton<S>,
     k: &Kinematics<S>,
-    hinge_rate: &[S; 4],
+    hinge_rate: &[S; HINGED.len()],
     wrench: &[Wrench<S>; SEGMENTS],
 ) -> Accelerations<S> {
-    // inward
-    let limbs: [Limb<S>; 4] = [
-        limb::reduce(body, k, 0, hinge_rate[0], wrench),
-        limb::reduce(body, k, 1, hinge_rate[1], wrench),
-        limb::reduce(body, k, 2, hinge_rate[2], wrench),
-        limb::reduce(body, k, 3, hinge_rate[3], wrench),
-    ];
-    let head = limb::reduce_head(&body.links[2], k, &wrench[2]);
-    let hang = |n: usize, parent: usize| k.joint[n] - k.joint[parent];
-    let pelvis =
-        reduce(&body.links[3], k, 3, &wrench[3], &[(hang(8, 3), limbs[2].demand), (hang(9, 3), limbs[3].demand)]);
-    let chest = reduce(
-        &body.links[1],
-        k,
-        1,
-        &wrench[1],
-        &[(hang(2, 1), head.demand), (hang(4, 1), limbs[0].demand), (hang(5, 1), limbs[1].demand)],
-    );
-    let middle = reduce(&body.links[0], k, 0, &wrench[0], &[(hang(3, 0), pelvis.demand)]);
+    // inward: what carries nothing but itself, then the trunk from its ends
+    let mut demand = [Demand::zero(); SEGMENTS];
+    let mut limbs = [Limb::zero(); LIMBS.len()];
+    for (i, &(upper, _)) in LIMBS.iter().enumerate() {
+        (demand[upper], limbs[i]) = limb::reduce(body, k, i, hinge_rate[i], wrench);
+    }
+    let mut leaves = [Leaf::zero(); LEAVES.len()];
+    for (i, &n) in LEAVES.iter().enumerate() {
+        (demand[n], leaves[i]) = limb::reduce_leaf(body, k, n, wrench);
+    }
+    let mut trunks = [Trunk::zero(); TRUNKS.len()];
+    for (i, &n) in TRUNKS.iter().enumerate().rev() {
+        (demand[n], trunks[i]) = reduce(body, k, n, wrench, &demand);
+    }
 
-    // root: the forces that both halves ask of T1 vanish together
-    let root = (middle.demand.mass + chest.demand.mass).inverse();
-    let a_root = -root.mul(middle.demand.bias + chest.demand.bias);
+    // root: the forces that all halves ask of T1 vanish together
+    let (mut mass, mut bias) = (demand[ROOTS[0]].mass, demand[ROOTS[0]].bias);
+    for &n in &ROOTS[1..] {
+        mass = mass + demand[n].mass;
+        bias += demand[n].bias;
+    }
+    let a_root = -mass.inverse().mul(bias);
 
     // outward
-    let mut out = Accelerations { joint: [a_root; SEGMENTS], alpha: [V3::zero(); SEGMENTS], hinge: [S::zero(); 4] };
-    out.alpha[0] = middle.alpha(a_root);
-    out.alpha[1] = chest.alpha(a_root);
-    out.carry(k, 3, 0);
-    out.alpha[3] = pelvis.alpha(out.joint[3]);
-    out.carry(k, 2, 1);
-    out.alpha[2] = head.alpha(k, out.joint[2]);
-    for (i, &(upper, lower)) in LIMBS.iter().enumerate() {
-        out.carry(k, upper, if i < 2 { 1 } else { 3 });
-        out.alpha[upper] = limbs[i].alpha(k, upper, out.joint[upper]);
+    let mut out =
+        Accelerations { joint: [a_root; SEGMENTS], alpha: [V3::zero(); SEGMENTS], hinge: [S::zero(); HINGED.len()] };
+    for (&n, trunk) in TRUNKS.iter().zip(&trunks) {
+        out.alpha[n] = trunk.alpha(out.joint[n]);
+        for &(child, _) in hung_from(n) {
+            out.carry(k, child, n);
+        }
+    }
+    for (&n, leaf) in LEAVES.iter().zip(&leaves) {
+        out.alpha[n] = leaf.alpha(k, n, out.joint[n]);
+    }
+    for (i, (&(upper, lower), limb)) in LIMBS.iter().zip(&limbs).enumerate() {
+        out.alpha[upper] = limb.alpha(k, upper, out.joint[upper]);
         out.carry(k, lower, upper);
-        out.hinge[i] = limbs[i].hinge_acceleration(k, upper, out.alpha[upper], out.joint[lower]);
+        out.hinge[i] = limb.hinge_acceleration(k, upper, out.alpha[upper], out.joint[lower]);
         out.alpha[lower] =
             out.alpha[upper] + k.axes[upper].y * out.hinge[i] + k.omega[upper].cross(k.axes[upper].y) * hinge_rate[i];
     }
@@ -163,15 +178,16 @@ impl<S: Scalar> Accelerations<S> {
     }
 }
 
-/// Reduces a trunk segment with subtrees hung at `children` (offset from its joint, demand).
+/// Reduces a trunk segment to what it asks of its joint, the first result; `demands` of the segments it carries are known.
 #[inline(always)]
 fn reduce<S: Scalar>(
-    link: &Link<S>,
+    body: &Skeleton<S>,
     k: &Kinematics<S>,
     n: usize,
-    wrench: &Wrench<S>,
-    children: &[(V3<S>, Demand<S>)],
-) -> Trunk<S> {
+    wrench: &[Wrench<S>; SEGMENTS],
+    demands: &[Demand<S>; SEGMENTS],
+) -> (Demand<S>, Trunk<S>) {
+    let (link, wrench) = (&body.links[n], &wrench[n]);
     let (axes, w) = (&k.axes[n], k.omega[n]);
     let mut inertia = Sym3::scaled_identity(link.iz);
     inertia.add_outer(link.ix - link.iz, axes.x);
@@ -187,10 +203,11 @@ fn reduce<S: Scalar>(
     let mut b_z = v3(-r.y, r.x, S::zero());
     let mut bias_force = w.cross(w.cross(moment_of_mass)) - wrench.force;
     let mut moment = wrench.moment - gyroscopic;
-    for (c, demand) in children {
+    for &(child, _) in hung_from(n) {
+        let (c, demand) = (k.joint[child] - k.joint[n], &demands[child]);
         mass = mass + demand.mass;
         let m = &demand.mass;
-        let (gx, gy, gz) = (m.row_x().cross(*c), m.row_y().cross(*c), m.row_z().cross(*c));
+        let (gx, gy, gz) = (m.row_x().cross(c), m.row_y().cross(c), m.row_z().cross(c));
         b_x += gx;
         b_y += gy;
         b_z += gz;
@@ -201,7 +218,7 @@ fn reduce<S: Scalar>(
         inertia.xy += c.z * gy.y - c.y * gz.y;
         inertia.xz += c.z * gy.z - c.y * gz.z;
         inertia.yz += c.x * gz.z - c.z * gx.z;
-        let u = demand.force(w.cross(w.cross(*c)));
+        let u = demand.force(w.cross(w.cross(c)));
         bias_force += u;
         moment -= c.cross(u);
     }
@@ -215,5 +232,5 @@ fn reduce<S: Scalar>(
     mass.yz -= k_y.dot(b_z);
     let gain = M3 { x: k_x, y: k_y, z: k_z };
     let bias = bias_force - gain.into_frame(moment);
-    Trunk { inverse_inertia: inverse, moment, gain, demand: Demand { mass, bias } }
+    (Demand { mass, bias }, Trunk { inverse_inertia: inverse, moment, gain })
 }

@@ -1,16 +1,14 @@
 //! Where every segment is and how it moves: derived from the state, overwritten at every evaluation.
 //!
-//! Report: Eqs 8, 13–26 (places), 44–46 (angular velocities). Every joint is T1 plus constant multiples of Z of the
-//! segments and Y of segments 2 and 4; all vectors are in space axes.
+//! Report: Eqs 8, 13–26 (places), 44–46 (angular velocities). Every joint is T1 plus constant multiples of Y and Z of the
+//! segments; all vectors are in space axes.
 
 use crate::body::SEGMENTS;
+use crate::motion::layout::{FREE, HUNG, LIMBS};
 use crate::motion::scalar::Scalar;
 use crate::motion::skeleton::Skeleton;
-use crate::motion::state::{FREE, Quat, State};
+use crate::motion::state::{Quat, State};
 use crate::motion::vector::{M3, V3, v3};
-
-/// Upper and lower segment (indices) of the four limbs.
-pub const LIMBS: [(usize, usize); 4] = [(4, 6), (5, 7), (8, 10), (9, 11)];
 
 /// Derived motion of all segments.
 #[derive(Clone, Copy, Debug)]
@@ -24,7 +22,7 @@ pub struct Kinematics<S> {
     /// Its velocity.
     pub joint_velocity: [V3<S>; SEGMENTS],
     /// sin α and cos α of the lower segment of each limb.
-    pub hinge_sin_cos: [(S, S); 4],
+    pub hinge_sin_cos: [(S, S); LIMBS.len()],
 }
 
 impl<S: Scalar> Kinematics<S> {
@@ -36,7 +34,7 @@ impl<S: Scalar> Kinematics<S> {
             omega: [V3::zero(); SEGMENTS],
             joint: [state.t1; SEGMENTS],
             joint_velocity: [state.velocity; SEGMENTS],
-            hinge_sin_cos: [(S::zero(), S::one()); 4],
+            hinge_sin_cos: [(S::zero(), S::one()); LIMBS.len()],
         };
         for (slot, &n) in FREE.iter().enumerate() {
             k.axes[n] = axes(&state.orientation[slot]);
@@ -59,28 +57,15 @@ impl<S: Scalar> Kinematics<S> {
         self.omega[lower] = self.omega[upper] + y * state.hinge_rate[limb];
     }
 
-    /// Joints from the root outwards (Eqs 13–14, 16–26).
+    /// Joints from the root outwards (Eqs 13–14, 16–26), each at (0, y, z) of the segment that carries it.
     #[inline(always)]
     fn place_joints(&mut self, body: &Skeleton<S>) {
-        let far = |n: usize| body.links[n].far;
-        self.hang(2, 1, S::zero(), far(1));
-        self.hang(3, 0, S::zero(), far(0));
-        self.hang(4, 1, body.shoulder, far(1));
-        self.hang(5, 1, -body.shoulder, far(1));
-        self.hang(8, 3, body.hip, far(3));
-        self.hang(9, 3, -body.hip, far(3));
-        for (upper, lower) in LIMBS {
-            self.hang(lower, upper, S::zero(), far(upper));
+        for &(child, parent) in HUNG {
+            let (axes, link) = (&self.axes[parent], &body.links[child]);
+            let offset = axes.y * link.joint_y + axes.z * link.joint_z;
+            self.joint[child] = self.joint[parent] + offset;
+            self.joint_velocity[child] = self.joint_velocity[parent] + self.omega[parent].cross(offset);
         }
-    }
-
-    /// Puts the joint of `child` at (0, y, z) of `parent`, seen from the parent's joint.
-    #[inline(always)]
-    fn hang(&mut self, child: usize, parent: usize, y: S, z: S) {
-        let axes = &self.axes[parent];
-        let offset = axes.y * y + axes.z * z;
-        self.joint[child] = self.joint[parent] + offset;
-        self.joint_velocity[child] = self.joint_velocity[parent] + self.omega[parent].cross(offset);
     }
 
     /// Centre of gravity of segment `n`.

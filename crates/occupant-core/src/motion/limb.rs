@@ -1,4 +1,4 @@
-//! Arms, legs and the head in the inward sweep, in closed form.
+//! Limbs and leaves of the tree (arms and legs; the head) in the inward sweep, in closed form.
 //!
 //! The lower segment l of a limb turns about Y of the upper segment m, and everything in the limb lies in its X–Z plane, so
 //! in axes of m the matrices of [`crate::motion::dynamics`] have few elements: J and M̃ couple X with Z only, B couples Y with X
@@ -7,16 +7,15 @@
 
 use crate::body::SEGMENTS;
 use crate::motion::dynamics::{Demand, Wrench};
-use crate::motion::kinematics::{Kinematics, LIMBS};
+use crate::motion::kinematics::Kinematics;
+use crate::motion::layout::LIMBS;
 use crate::motion::scalar::Scalar;
-use crate::motion::skeleton::{Link, Skeleton};
+use crate::motion::skeleton::Skeleton;
 use crate::motion::vector::{M3, Sym3, V3, v3};
 
-/// A limb after the inward sweep; all but the demand in axes of its upper segment.
+/// A limb after the inward sweep, in axes of its upper segment.
 #[derive(Clone, Copy)]
 pub struct Limb<S> {
-    /// What it asks of the shoulder or hip.
-    pub demand: Demand<S>,
     /// J⁻¹(τ − β_τ).
     alpha_free: V3<S>,
     /// Elements of B J⁻¹.
@@ -37,7 +36,22 @@ struct Gain<S> {
     yz: S,
 }
 
+impl<S: Scalar> Gain<S> {
+    #[inline(always)]
+    fn zero() -> Self {
+        let o = S::zero();
+        Gain { xy: o, zy: o, yx: o, yz: o }
+    }
+}
+
 impl<S: Scalar> Limb<S> {
+    /// Not yet reduced.
+    #[inline(always)]
+    pub fn zero() -> Self {
+        let o = S::zero();
+        Limb { alpha_free: V3::zero(), gain: Gain::zero(), hinge_bias: o, sigma: o, inverse_iy: o, sin_cos: (o, o) }
+    }
+
     /// Angular acceleration of the upper segment, space axes, for an acceleration `a` of its joint.
     #[inline(always)]
     pub fn alpha(&self, k: &Kinematics<S>, upper: usize, a: V3<S>) -> V3<S> {
@@ -58,7 +72,7 @@ impl<S: Scalar> Limb<S> {
     }
 }
 
-/// Reduces limb `i` of [`LIMBS`] to what it asks of its shoulder or hip.
+/// Reduces limb `i` of [`LIMBS`] to what it asks of its shoulder or hip, the first result.
 #[inline(always)]
 pub fn reduce<S: Scalar>(
     body: &Skeleton<S>,
@@ -66,7 +80,7 @@ pub fn reduce<S: Scalar>(
     i: usize,
     hinge_rate: S,
     wrench: &[Wrench<S>; SEGMENTS],
-) -> Limb<S> {
+) -> (Demand<S>, Limb<S>) {
     let (upper, lower) = LIMBS[i];
     let (m, l) = (&body.links[upper], &body.links[lower]);
     let axes = &k.axes[upper];
@@ -133,15 +147,8 @@ pub fn reduce<S: Scalar>(
         yy: total - gain.yx * b.yx - gain.yz * b.yz,
     };
     let bias = bias_force - v3(gain.xy * moment.y, gain.yx * moment.x + gain.yz * moment.z, gain.zy * moment.y);
-    Limb {
-        demand: Demand { mass: mass.out(axes), bias: axes.out(bias) },
-        alpha_free,
-        gain,
-        hinge_bias,
-        sigma: l.sigma,
-        inverse_iy: l.inverse_iy,
-        sin_cos: (s, c),
-    }
+    let demand = Demand { mass: mass.out(axes), bias: axes.out(bias) };
+    (demand, Limb { alpha_free, gain, hinge_bias, sigma: l.sigma, inverse_iy: l.inverse_iy, sin_cos: (s, c) })
 }
 
 /// A symmetric matrix that couples X with Z only.
@@ -164,30 +171,39 @@ impl<S: Scalar> PlaneMass<S> {
     }
 }
 
-/// The head after the inward sweep: a ball joint with nothing hung from it, so that J and M̃ are diagonal in its own axes.
+/// A leaf after the inward sweep: a ball joint with nothing beyond, so that J and M̃ are diagonal in its own axes.
 #[derive(Clone, Copy)]
-pub struct Head<S> {
-    /// What it asks of the neck.
-    pub demand: Demand<S>,
+pub struct Leaf<S> {
     alpha_free: V3<S>,
     gain: Gain<S>,
 }
 
-impl<S: Scalar> Head<S> {
-    /// Angular acceleration, space axes, for an acceleration `a` of the neck.
+impl<S: Scalar> Leaf<S> {
+    /// Not yet reduced.
     #[inline(always)]
-    pub fn alpha(&self, k: &Kinematics<S>, a: V3<S>) -> V3<S> {
-        let axes = &k.axes[2];
+    pub fn zero() -> Self {
+        Leaf { alpha_free: V3::zero(), gain: Gain::zero() }
+    }
+
+    /// Angular acceleration of segment `n`, space axes, for an acceleration `a` of its joint.
+    #[inline(always)]
+    pub fn alpha(&self, k: &Kinematics<S>, n: usize, a: V3<S>) -> V3<S> {
+        let axes = &k.axes[n];
         let a = axes.into_frame(a);
         axes.out(self.alpha_free + v3(self.gain.yx * a.y, self.gain.xy * a.x, S::zero()))
     }
 }
 
-/// Reduces the head to what it asks of the neck.
+/// Reduces the leaf `n` to what it asks of its joint, the first result.
 #[inline(always)]
-pub fn reduce_head<S: Scalar>(h: &Link<S>, k: &Kinematics<S>, wrench: &Wrench<S>) -> Head<S> {
-    let axes = &k.axes[2];
-    let w = axes.into_frame(k.omega[2]);
+pub fn reduce_leaf<S: Scalar>(
+    body: &Skeleton<S>,
+    k: &Kinematics<S>,
+    n: usize,
+    wrench: &[Wrench<S>; SEGMENTS],
+) -> (Demand<S>, Leaf<S>) {
+    let (h, axes, wrench) = (&body.links[n], &k.axes[n], &wrench[n]);
+    let w = axes.into_frame(k.omega[n]);
     let force = axes.into_frame(wrench.force);
     let moment = axes.into_frame(wrench.moment)
         - v3((h.iz - h.iy) * w.y * w.z, (h.ix - h.iz) * w.z * w.x, (h.iy - h.ix) * w.x * w.y);
@@ -198,5 +214,5 @@ pub fn reduce_head<S: Scalar>(h: &Link<S>, k: &Kinematics<S>, wrench: &Wrench<S>
     let mass = PlaneMass { xx: h.mass + gain.xy * h.sigma, xz: S::zero(), zz: h.mass, yy: h.mass - gain.yx * h.sigma };
     let swing = v3(w.x * w.z, w.y * w.z, -(w.x * w.x + w.y * w.y)) * h.sigma;
     let bias = swing - force - v3(gain.xy * moment.y, gain.yx * moment.x, S::zero());
-    Head { demand: Demand { mass: mass.out(axes), bias: axes.out(bias) }, alpha_free, gain }
+    (Demand { mass: mass.out(axes), bias: axes.out(bias) }, Leaf { alpha_free, gain })
 }

@@ -7,6 +7,7 @@ pub mod integrate;
 pub mod kinematics;
 #[cfg(any(target_arch = "x86_64", test))]
 pub(crate) mod lanes;
+pub mod layout;
 pub mod limb;
 pub mod report_coordinates;
 pub mod scalar;

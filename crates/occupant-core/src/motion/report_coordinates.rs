@@ -10,18 +10,37 @@
 use nalgebra::{Matrix3, Quaternion, Rotation3, UnitQuaternion, Vector3};
 
 use crate::motion::kinematics::axes;
+use crate::motion::layout::{FREE, HINGED};
 use crate::motion::state::{Quat, State};
 use crate::motion::vector::{V3, v3};
 use crash_measures::trig::{atan2, sin_cos};
 
 /// Number of degrees of freedom.
-pub const DOF: usize = 31;
+pub const DOF: usize = 3 + 3 * FREE.len() + HINGED.len();
 
 /// Where φ, θ, ψ of each free segment begin in q, in the order of the state's orientations.
-pub const EULER_START: [usize; 8] = [3, 6, 9, 12, 15, 18, 23, 26];
+pub const EULER_START: [usize; FREE.len()] = places(FREE);
 
-/// Where α₇, α₈, α₁₁, α₁₂ stand in q, in the order of the state's hinges.
-pub const HINGE_PLACE: [usize; 4] = [21, 22, 29, 30];
+/// Where α of each hinged segment stands in q, in the order of the state's hinges.
+pub const HINGE_PLACE: [usize; HINGED.len()] = places(HINGED);
+
+/// Where the coordinates of these segments begin in q: those of T1 come first, then all segments in the tree's order.
+const fn places<const N: usize>(segments: &[usize]) -> [usize; N] {
+    let mut places = [3; N];
+    let mut i = 0;
+    while i < N {
+        let (mut free, mut hinged) = (0, 0);
+        while free < FREE.len() && FREE[free] < segments[i] {
+            free += 1;
+        }
+        while hinged < HINGED.len() && HINGED[hinged] < segments[i] {
+            hinged += 1;
+        }
+        places[i] += 3 * free + hinged;
+        i += 1;
+    }
+    places
+}
 
 /// Below this sin θ the Euler angles count as singular.
 const SINGULAR: f64 = 1e-8;

@@ -17,6 +17,10 @@ pub struct Link<S> {
     pub cg: S,
     /// Z of the far end seen from the proximal joint, m.
     pub far: S,
+    /// Y of the proximal joint seen from that of the segment that carries this one, in that one's axes, m.
+    pub joint_y: S,
+    /// Z of it.
+    pub joint_z: S,
     /// First moment of mass M·cg, kg·m.
     pub sigma: S,
     /// I_x + M·cg²: about the proximal joint, kg·m².
@@ -34,12 +38,8 @@ pub struct Link<S> {
 /// Constants of the whole body.
 #[derive(Clone, Debug)]
 pub struct Skeleton<S> {
-    /// Segments in the report's order.
+    /// Segments in the tree's order.
     pub links: [Link<S>; SEGMENTS],
-    /// L_s, m.
-    pub shoulder: S,
-    /// L_H, m.
-    pub hip: S,
     /// g along −Z′, m/s².
     pub gravity: S,
 }
@@ -51,6 +51,8 @@ impl<S: Copy> Link<S> {
             mass: f(self.mass, other.mass),
             cg: f(self.cg, other.cg),
             far: f(self.far, other.far),
+            joint_y: f(self.joint_y, other.joint_y),
+            joint_z: f(self.joint_z, other.joint_z),
             sigma: f(self.sigma, other.sigma),
             ix: f(self.ix, other.ix),
             iy: f(self.iy, other.iy),
@@ -64,40 +66,30 @@ impl<S: Copy> Link<S> {
 impl<S: Copy> Skeleton<S> {
     /// f applied to every number and the one in the same place of `other`.
     pub fn zip<A: Copy, T>(&self, other: &Skeleton<A>, f: &impl Fn(S, A) -> T) -> Skeleton<T> {
-        Skeleton {
-            links: from_fn(|n| self.links[n].zip(&other.links[n], f)),
-            shoulder: f(self.shoulder, other.shoulder),
-            hip: f(self.hip, other.hip),
-            gravity: f(self.gravity, other.gravity),
-        }
+        Skeleton { links: from_fn(|n| self.links[n].zip(&other.links[n], f)), gravity: f(self.gravity, other.gravity) }
     }
 }
 
 impl<S: Scalar> Skeleton<S> {
     /// Constants of `body` under gravity `gravity_m_s2`.
     pub fn new(body: &Body, gravity_m_s2: f64) -> Self {
-        Skeleton {
-            links: from_fn(|n| link(body, Segment::ALL[n])),
-            shoulder: S::of(body.shoulder_half_width_m),
-            hip: S::of(body.hip_half_width_m),
-            gravity: S::of(gravity_m_s2),
-        }
+        Skeleton { links: from_fn(|n| link(body, body.tree.segment(n))), gravity: S::of(gravity_m_s2) }
     }
 }
 
 fn link<S: Scalar>(body: &Body, segment: Segment) -> Link<S> {
     let p = body.segment(segment);
-    let (cg, far) = if segment.hangs() {
-        (p.cg_from_lower_end_m - p.length_m, -p.length_m)
-    } else {
-        (p.cg_from_lower_end_m, p.length_m)
-    };
+    let lower_end = if body.tree[segment].hangs() { -p.length_m } else { 0.0 };
+    let cg = p.cg_from_lower_end_m + lower_end;
+    let [joint_y, joint_z] = body.joint_m(segment);
     let [ix, iy, iz] = p.inertia_kg_m2.into();
     let about_joint = p.mass_kg * cg * cg;
     Link {
         mass: S::of(p.mass_kg),
         cg: S::of(cg),
-        far: S::of(far),
+        far: S::of(body.far_m(segment)),
+        joint_y: S::of(joint_y),
+        joint_z: S::of(joint_z),
         sigma: S::of(p.mass_kg * cg),
         ix: S::of(ix + about_joint),
         iy: S::of(iy + about_joint),

@@ -5,22 +5,12 @@
 
 use std::array::from_fn;
 
+use crate::motion::layout::{FREE, HINGED};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{V3, v3};
 
-/// Segments (indices) whose orientation is free, in the order of [`State::orientation`].
-pub const FREE: [usize; 8] = [0, 1, 2, 3, 4, 5, 8, 9];
-
-/// Hinged segments (indices), in the order of [`State::hinge`].
-pub const HINGED: [usize; 4] = [6, 7, 10, 11];
-
 /// Numbers in a [`State`].
-pub const NUMBERS: usize = 75;
-
-/// Place of a free segment in [`FREE`]; hinged segments are not in it.
-pub const fn free_slot(segment: usize) -> usize {
-    if segment < 6 { segment } else { segment - 2 }
-}
+pub const NUMBERS: usize = 7 + 7 * FREE.len() + 2 * HINGED.len() + WORK_SUMS;
 
 /// A quaternion w + xi + yj + zk; a unit quaternion turns segment axes into space axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -54,18 +44,15 @@ impl<S: Scalar> Quat<S> {
     }
 }
 
+/// Work sums of the force elements.
+pub const WORK_SUMS: usize = 4;
+
 /// Work done since the start, for the energy ledger, J.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Work<S> {
-    /// Put into contacts along their normals and edge bands (stored and dissipated).
-    pub contact: S,
-    /// Dissipated by friction.
-    pub friction: S,
-    /// Dissipated by joint dampers and stops.
-    pub joints: S,
-    /// Put into belts (stored and dissipated).
-    pub belts: S,
-    /// Done on the occupant by the motion of the vehicle through contacts and belts.
+    /// Done on force elements, as each of them says (`forces::SUMS`).
+    pub sums: [S; WORK_SUMS],
+    /// Done on the occupant by the motion of the vehicle through force elements.
     pub vehicle: S,
 }
 
@@ -75,15 +62,15 @@ pub struct State<S> {
     /// T1, space axes, m.
     pub t1: V3<S>,
     /// Orientations of the free segments.
-    pub orientation: [Quat<S>; 8],
+    pub orientation: [Quat<S>; FREE.len()],
     /// α of the hinged segments, rad.
-    pub hinge: [S; 4],
+    pub hinge: [S; HINGED.len()],
     /// Velocity of T1, space axes, m/s.
     pub velocity: V3<S>,
     /// Absolute angular velocities of the free segments, space axes, rad/s.
-    pub omega: [V3<S>; 8],
+    pub omega: [V3<S>; FREE.len()],
     /// α̇, rad/s.
-    pub hinge_rate: [S; 4],
+    pub hinge_rate: [S; HINGED.len()],
     /// Work sums.
     pub work: Work<S>,
 }
@@ -98,7 +85,7 @@ impl<S: Scalar> Work<S> {
     #[inline(always)]
     pub fn zero() -> Self {
         let o = S::zero();
-        Work { contact: o, friction: o, joints: o, belts: o, vehicle: o }
+        Work { sums: [o; WORK_SUMS], vehicle: o }
     }
 }
 
@@ -135,13 +122,7 @@ impl<S: Copy> State<S> {
                 u[7].zip(&v[7], &f),
             ],
             hinge_rate: zip_4(&self.hinge_rate, &other.hinge_rate, &f),
-            work: Work {
-                contact: f(a.contact, b.contact),
-                friction: f(a.friction, b.friction),
-                joints: f(a.joints, b.joints),
-                belts: f(a.belts, b.belts),
-                vehicle: f(a.vehicle, b.vehicle),
-            },
+            work: Work { sums: zip_4(&a.sums, &b.sums, &f), vehicle: f(a.vehicle, b.vehicle) },
         }
     }
 }
@@ -152,11 +133,11 @@ impl<S: Scalar> State<S> {
         let o = S::zero();
         State {
             t1: V3::zero(),
-            orientation: [Quat { w: o, v: V3::zero() }; 8],
-            hinge: [o; 4],
+            orientation: [Quat { w: o, v: V3::zero() }; FREE.len()],
+            hinge: [o; HINGED.len()],
             velocity: V3::zero(),
-            omega: [V3::zero(); 8],
-            hinge_rate: [o; 4],
+            omega: [V3::zero(); FREE.len()],
+            hinge_rate: [o; HINGED.len()],
             work: Work::zero(),
         }
     }
@@ -199,6 +180,11 @@ fn finite<S: Scalar>(v: V3<S>) -> S::Mask {
     v.x.abs().lt(limit) & v.y.abs().lt(limit) & v.z.abs().lt(limit)
 }
 
+/// The next three numbers.
+fn vector(next: &mut impl FnMut() -> f64) -> V3<f64> {
+    v3(next(), next(), next())
+}
+
 impl State<f64> {
     /// All components in a row: T1, orientations (w, x, y, z), hinges, velocity, angular velocities, hinge rates, work sums.
     pub fn to_numbers(&self) -> [f64; NUMBERS] {
@@ -213,16 +199,17 @@ impl State<f64> {
 
     /// The state whose [`State::to_numbers`] these are.
     pub fn from_numbers(numbers: &[f64; NUMBERS]) -> Self {
-        let n = |i: usize| numbers[i];
-        let vector = |i: usize| v3(n(i), n(i + 1), n(i + 2));
+        let mut rest = numbers.iter().copied();
+        let mut n = || rest.next().unwrap_or(f64::NAN);
+        // in the order in which the fields are written
         State {
-            t1: vector(0),
-            orientation: from_fn(|k| Quat { w: n(3 + 4 * k), v: vector(4 + 4 * k) }),
-            hinge: from_fn(|k| n(35 + k)),
-            velocity: vector(39),
-            omega: from_fn(|k| vector(42 + 3 * k)),
-            hinge_rate: from_fn(|k| n(66 + k)),
-            work: Work { contact: n(70), friction: n(71), joints: n(72), belts: n(73), vehicle: n(74) },
+            t1: vector(&mut n),
+            orientation: from_fn(|_| Quat { w: n(), v: vector(&mut n) }),
+            hinge: from_fn(|_| n()),
+            velocity: vector(&mut n),
+            omega: from_fn(|_| vector(&mut n)),
+            hinge_rate: from_fn(|_| n()),
+            work: Work { sums: from_fn(|_| n()), vehicle: n() },
         }
     }
 
@@ -242,7 +229,8 @@ impl State<f64> {
         }
         see_all(&self.hinge_rate);
         let w = &self.work;
-        see_all(&[w.contact, w.friction, w.joints, w.belts, w.vehicle]);
+        see_all(&w.sums);
+        see_all(&[w.vehicle]);
     }
 
     /// True if every component but the work sums is a finite number.
@@ -261,6 +249,6 @@ mod tests {
         let state = State::from_numbers(&numbers);
         assert_eq!(state.to_numbers(), numbers);
         assert_eq!(state.orientation[7].v.z, 34.5);
-        assert_eq!(state.work.contact, 70.5);
+        assert_eq!(state.work.sums[0], 70.5);
     }
 }

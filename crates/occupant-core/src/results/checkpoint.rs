@@ -3,11 +3,7 @@
 //!
 //! What follows from the scenario alone (β₀, L₀, the body at the start) is not in it: the model has it.
 
-use std::fmt;
-
-use crate::forces::History;
-use crate::forces::belt::law::BeltHistory;
-use crate::forces::contact::{OPEN, PASSED, PairHistory, TOUCHING};
+use crate::forces::{History, Memory, Misfit};
 use crate::model::Model;
 use crate::motion::state::State;
 use crate::results::energy::EnergyStart;
@@ -23,10 +19,8 @@ pub struct Checkpoint {
     pub time_s: f64,
     /// Integrated state with its work sums.
     pub state: State<f64>,
-    /// Pair states, in the model's order.
-    pub pairs: Vec<PairHistory<f64>>,
-    /// Belt histories, in the model's order.
-    pub belts: Vec<BeltHistory<f64>>,
+    /// What force elements remember, in the model's order.
+    pub memory: Memory<f64>,
     /// First touches so far, in the order in which they happened.
     pub first_touches: Vec<FirstTouch>,
     /// Sums and extremes.
@@ -44,10 +38,8 @@ pub struct StepStart {
     pub end_s: f64,
     /// State at its start.
     pub state: State<f64>,
-    /// Pair states there, in the model's order.
-    pub pairs: Vec<PairHistory<f64>>,
-    /// Belt histories there, in the model's order.
-    pub belts: Vec<BeltHistory<f64>>,
+    /// What force elements remember there, in the model's order.
+    pub memory: Memory<f64>,
 }
 
 /// A [`StepStart`] that the run lends.
@@ -59,20 +51,14 @@ pub struct StepUnderWay<'a> {
     pub end_s: f64,
     /// State at its start.
     pub state: &'a State<f64>,
-    /// Pair states and belt histories there.
+    /// History of the force elements there.
     pub history: &'a History<f64>,
 }
 
 impl StepUnderWay<'_> {
     /// All of it as plain data.
     pub fn to_start(&self) -> StepStart {
-        StepStart {
-            start_s: self.start_s,
-            end_s: self.end_s,
-            state: *self.state,
-            pairs: self.history.pairs.clone(),
-            belts: self.history.belts.clone(),
-        }
+        StepStart { start_s: self.start_s, end_s: self.end_s, state: *self.state, memory: self.history.memory.clone() }
     }
 }
 
@@ -94,23 +80,13 @@ pub struct Progress {
 }
 
 /// A checkpoint that is none of a model's.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum CheckpointError {
-    /// Another number of sphere–surface pairs.
-    Pairs {
-        /// In the checkpoint.
-        found: usize,
-        /// In the model.
-        expected: usize,
-    },
-    /// Another number of belts.
-    Belts {
-        /// In the checkpoint.
-        found: usize,
-        /// In the model.
-        expected: usize,
-    },
+    /// Memory that is not that of the model's force elements.
+    #[error(transparent)]
+    Memory(#[from] Misfit),
     /// A time that is not that of its output, s.
+    #[error("{}", other_time(*index, *found_s, *expected_s))]
     Time {
         /// Number of the output.
         index: usize,
@@ -119,12 +95,8 @@ pub enum CheckpointError {
         /// In the model; none if the run has no such output.
         expected_s: Option<f64>,
     },
-    /// A pair whose state is none of the three, or whose greatest deformation is negative or not a number.
-    Pair {
-        /// Its number.
-        pair: usize,
-    },
     /// A step under way that does not go from before the output to after it.
+    #[error("the checkpoint of t = {time_s} s has a step under way from {start_s} s to {end_s} s")]
     Step {
         /// Its start, s.
         start_s: f64,
@@ -134,48 +106,23 @@ pub enum CheckpointError {
         time_s: f64,
     },
     /// A first touch of a sphere or surface that the model does not have.
+    #[error("the checkpoint knows a touch of sphere {sphere} and surface {surface}, which the scenario does not have")]
     Touch {
         /// Index of the sphere.
         sphere: usize,
         /// Index of the surface.
         surface: usize,
     },
-    /// A number that is not finite.
-    NotFinite,
 }
 
-impl fmt::Display for CheckpointError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match *self {
-            CheckpointError::Pairs { found, expected } => {
-                write!(f, "the checkpoint has {found} pairs of spheres and surfaces, the scenario {expected}")
-            }
-            CheckpointError::Belts { found, expected } => {
-                write!(f, "the checkpoint has {found} belts, the scenario {expected}")
-            }
-            CheckpointError::Time { index, found_s, expected_s: Some(expected_s) } => write!(
-                f,
-                "the checkpoint of output {index} is of t = {found_s} s, the scenario's output {index} of t = {expected_s} s"
-            ),
-            CheckpointError::Time { index, found_s, .. } => {
-                write!(f, "the checkpoint is output {index} at t = {found_s} s, and the scenario ends before it")
-            }
-            CheckpointError::Pair { pair } => {
-                write!(f, "the checkpoint's pair {pair} is in no possible state")
-            }
-            CheckpointError::Step { start_s, end_s, time_s } => {
-                write!(f, "the checkpoint of t = {time_s} s has a step under way from {start_s} s to {end_s} s")
-            }
-            CheckpointError::Touch { sphere, surface } => write!(
-                f,
-                "the checkpoint knows a touch of sphere {sphere} and surface {surface}, which the scenario does not have"
-            ),
-            CheckpointError::NotFinite => f.write_str("the checkpoint holds numbers that are not finite"),
-        }
+fn other_time(index: usize, found_s: f64, expected_s: Option<f64>) -> String {
+    match expected_s {
+        Some(expected_s) => format!(
+            "the checkpoint of output {index} is of t = {found_s} s, the scenario's output {index} of t = {expected_s} s"
+        ),
+        None => format!("the checkpoint is output {index} at t = {found_s} s, and the scenario ends before it"),
     }
 }
-
-impl std::error::Error for CheckpointError {}
 
 impl Checkpoint {
     /// Whether a run of `model` can go on from here.
@@ -183,7 +130,8 @@ impl Checkpoint {
     /// # Errors
     /// The first thing that does not fit the model.
     pub fn check(&self, model: &Model) -> Result<(), CheckpointError> {
-        check_lengths(model, &self.pairs, &self.belts)?;
+        let forces = &model.system().forces;
+        self.memory.check_count(forces)?;
         let expected_s = model.output_time_s(self.index);
         // to the bit: a step from another time is another step
         if expected_s.map(f64::to_bits) != Some(self.time_s.to_bits()) {
@@ -191,7 +139,7 @@ impl Checkpoint {
         }
         self.check_touches(model)?;
         if let Some(step) = &self.under_way {
-            check_lengths(model, &step.pairs, &step.belts)?;
+            step.memory.check_count(forces)?;
             self.check_step(step)?;
         }
         self.check_numbers()
@@ -200,9 +148,10 @@ impl Checkpoint {
     fn check_step(&self, step: &StepStart) -> Result<(), CheckpointError> {
         let &StepStart { start_s, end_s, .. } = step;
         let time_s = self.time_s;
-        match start_s <= time_s && time_s < end_s && end_s.is_finite() {
-            true => check_histories(&step.pairs, &step.belts, &step.state),
-            false => Err(CheckpointError::Step { start_s, end_s, time_s }),
+        if start_s <= time_s && time_s < end_s && end_s.is_finite() {
+            check_histories(&step.memory, &step.state)
+        } else {
+            Err(CheckpointError::Step { start_s, end_s, time_s })
         }
     }
 
@@ -216,52 +165,20 @@ impl Checkpoint {
     }
 
     fn check_numbers(&self) -> Result<(), CheckpointError> {
+        check_histories(&self.memory, &self.state)?;
         let p = &self.progress;
-        let start = &p.energy_start;
-        let numbers = [
-            p.wanted_s,
-            p.step_error,
-            p.greatest_kinetic_j,
-            p.greatest_imbalance_j,
-            start.contacts_j,
-            start.belts_j,
-            start.mechanical_j,
-        ];
-        check_histories(&self.pairs, &self.belts, &self.state)?;
-        match numbers.iter().all(|x| x.is_finite()) {
-            true => Ok(()),
-            false => Err(CheckpointError::NotFinite),
-        }
+        let numbers =
+            [p.wanted_s, p.step_error, p.greatest_kinetic_j, p.greatest_imbalance_j, p.energy_start.mechanical_j];
+        check_finite(numbers.into_iter().chain(p.energy_start.stored_j))
     }
 }
 
-fn check_lengths(model: &Model, pairs: &[PairHistory<f64>], belts: &[BeltHistory<f64>]) -> Result<(), CheckpointError> {
-    let system = model.system();
-    let (found, expected) = (pairs.len(), system.contacts.pairs().len());
-    if found != expected {
-        return Err(CheckpointError::Pairs { found, expected });
-    }
-    let (found, expected) = (belts.len(), system.belts.len());
-    match found == expected {
-        true => Ok(()),
-        false => Err(CheckpointError::Belts { found, expected }),
-    }
+fn check_histories(memory: &Memory<f64>, state: &State<f64>) -> Result<(), CheckpointError> {
+    memory.check()?;
+    check_finite(state.to_numbers())
 }
 
-fn check_histories(
-    pairs: &[PairHistory<f64>],
-    belts: &[BeltHistory<f64>],
-    state: &State<f64>,
-) -> Result<(), CheckpointError> {
-    let possible = |p: &PairHistory<f64>| {
-        [OPEN, TOUCHING, PASSED].contains(&p.phase) && p.greatest.is_finite() && p.greatest >= 0.0
-    };
-    if let Some(pair) = pairs.iter().position(|p| !possible(p)) {
-        return Err(CheckpointError::Pair { pair });
-    }
-    let belts = belts.iter().flat_map(|b| [b.normal.x, b.normal.y, b.normal.z, b.greatest]);
-    match belts.chain(state.to_numbers()).all(f64::is_finite) {
-        true => Ok(()),
-        false => Err(CheckpointError::NotFinite),
-    }
+fn check_finite(numbers: impl IntoIterator<Item = f64>) -> Result<(), CheckpointError> {
+    let are_finite = numbers.into_iter().all(f64::is_finite);
+    are_finite.then_some(()).ok_or(CheckpointError::Memory(Misfit::NotFinite))
 }

@@ -1,13 +1,14 @@
 //! The energy ledger: every joule of the occupant accounted for at each output.
 //!
-//! Kinetic, gravity, spring, contact and belt energies are functions of the state; work sums are integrated with the
-//! integrator's own weights. With W_v the work of the moving vehicle on the occupant,
-//! kinetic + gravity + springs + ∫contact + ∫friction + ∫joints + ∫belts − W_v stays what it was at the start.
+//! Kinetic, gravity and stored energies are functions of the state; work sums are integrated with the integrator's own
+//! weights. With W_v the work of the moving vehicle on the occupant, kinetic + gravity + what is stored without a work
+//! sum + Σ work sums − W_v stays what it was at the start.
 
+use crate::forces::{KINDS, STORED, StoredEnergy};
 use crate::motion::frame::Moving;
 use crate::motion::kinematics::Kinematics;
 use crate::motion::skeleton::Skeleton;
-use crate::motion::state::Work;
+use crate::motion::state::{WORK_SUMS, Work};
 use crate::motion::vector::V3;
 
 /// Energies of one instant, J.
@@ -19,20 +20,10 @@ pub struct EnergyLedger {
     pub kinetic_relative_j: f64,
     /// M g Z′, zero at Z′ = 0.
     pub gravity_j: f64,
-    /// Stored in the joints' springs.
-    pub spine_j: f64,
-    /// Stored (recoverable) in contacts.
-    pub contacts_j: f64,
-    /// Stored (recoverable) in belts.
-    pub belts_j: f64,
-    /// Dissipated by contacts since the start: work put in less what is stored.
-    pub lost_contacts_j: f64,
-    /// Dissipated by friction since the start.
-    pub lost_friction_j: f64,
-    /// Dissipated by joint dampers and stops since the start.
-    pub lost_joints_j: f64,
-    /// Dissipated by belts since the start.
-    pub lost_belts_j: f64,
+    /// Stored (recoverable) in force elements, in the order of [`STORED`].
+    pub stored_j: [f64; KINDS],
+    /// Dissipated since the start, in the order of [`crate::forces::SUMS`]: work put in less what is stored.
+    pub lost_j: [f64; WORK_SUMS],
     /// Work done on the occupant by the moving vehicle since the start.
     pub vehicle_work_j: f64,
     /// Present sum less the sum at the start; 0 for an exact integration.
@@ -42,62 +33,51 @@ pub struct EnergyLedger {
 /// Stored energies at the start, from which the balance counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyStart {
-    /// Stored in contacts, J.
-    pub contacts_j: f64,
-    /// Stored in belts, J.
-    pub belts_j: f64,
-    /// Sum of kinetic, gravity and spring energy, J.
+    /// Stored in force elements, in the order of [`STORED`], J; 0 where no work sum holds it.
+    pub stored_j: [f64; KINDS],
+    /// Sum of kinetic and gravity energy and of what is stored without a work sum, J.
     pub mechanical_j: f64,
 }
 
-/// Stored energies of one instant, J.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Stored {
-    /// In the joints' springs.
-    pub spine_j: f64,
-    /// In contacts.
-    pub contacts_j: f64,
-    /// In belts.
-    pub belts_j: f64,
-}
-
 impl EnergyLedger {
-    /// The ledger of one instant; `vehicle` is the vehicle's motion.
+    /// The ledger of one instant; `vehicle` is the vehicle's motion, `stored_j` what force elements store.
     pub fn new(
         body: &Skeleton<f64>,
         k: &Kinematics<f64>,
         vehicle: &Moving<f64>,
-        stored: Stored,
+        stored_j: [f64; KINDS],
         work: &Work<f64>,
         start: &EnergyStart,
     ) -> Self {
-        let kinetic_j = kinetic(body, k, &Moving::space());
-        let gravity_j = gravity(body, k);
-        let mechanical = kinetic_j + gravity_j + stored.spine_j;
-        let spent = work.contact + work.friction + work.joints + work.belts;
-        EnergyLedger {
-            kinetic_j,
+        let mut ledger = EnergyLedger {
+            kinetic_j: kinetic(body, k, &Moving::space()),
             kinetic_relative_j: kinetic(body, k, vehicle),
-            gravity_j,
-            spine_j: stored.spine_j,
-            contacts_j: stored.contacts_j,
-            belts_j: stored.belts_j,
-            lost_contacts_j: work.contact + start.contacts_j - stored.contacts_j,
-            lost_friction_j: work.friction,
-            lost_joints_j: work.joints,
-            lost_belts_j: work.belts + start.belts_j - stored.belts_j,
+            gravity_j: gravity(body, k),
+            stored_j,
+            lost_j: work.sums,
             vehicle_work_j: work.vehicle,
-            balance_j: mechanical + spent - work.vehicle - start.mechanical_j,
+            balance_j: 0.0,
+        };
+        for energy in STORED {
+            if let Some(sum) = energy.held_by {
+                ledger.lost_j[sum] = work.sums[sum] + start.stored_j[energy.at] - stored_j[energy.at];
+            }
         }
+        let spent: f64 = work.sums.iter().sum();
+        ledger.balance_j = ledger.mechanical_j() + spent - work.vehicle - start.mechanical_j;
+        ledger
     }
 
     /// What this instant contributes to the start of a balance.
     pub fn as_start(&self) -> EnergyStart {
-        EnergyStart {
-            contacts_j: self.contacts_j,
-            belts_j: self.belts_j,
-            mechanical_j: self.kinetic_j + self.gravity_j + self.spine_j,
-        }
+        let held = |energy: StoredEnergy| energy.held_by.map_or(0.0, |_| self.stored_j[energy.at]);
+        EnergyStart { stored_j: STORED.map(held), mechanical_j: self.mechanical_j() }
+    }
+
+    /// Kinetic and gravity energy and what is stored without a work sum.
+    fn mechanical_j(&self) -> f64 {
+        let without = STORED.iter().filter(|energy| energy.held_by.is_none());
+        without.fold(self.kinetic_j + self.gravity_j, |sum, energy| sum + self.stored_j[energy.at])
     }
 }
 

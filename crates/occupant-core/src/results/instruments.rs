@@ -3,18 +3,17 @@
 use crash_measures::injury::{Components, Signals};
 use nalgebra::Vector3;
 
-use crate::body::Segment;
-use crate::body::joint::Joint;
 use crate::model::Model;
+use crate::quantity::to_j211;
 use crate::results::reaction::{femur_axial_n, reaction};
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
 
-/// Segment axes (left, up) to J211 axes (right, down).
+/// Adds a vector of segment axes in J211 axes.
 fn push(into: &mut Components, v: Vector3<f64>) {
-    into[0].push(v.x);
-    into[1].push(-v.y);
-    into[2].push(-v.z);
+    for (values, component) in into.iter_mut().zip(&to_j211(v)) {
+        values.push(*component);
+    }
 }
 
 impl Recorder for Signals {
@@ -37,15 +36,16 @@ impl Recorder for Signals {
         if self.is_empty() {
             self.start_s = s.time_s;
         }
-        push(&mut self.head_m_s2, s.specific_force_m_s2(Segment::Head));
-        push(&mut self.chest_m_s2, s.specific_force_m_s2(Segment::UpperTorso));
-        push(&mut self.pelvis_m_s2, s.specific_force_m_s2(Segment::LowerTorso));
-        push(&mut self.head_rad_s, s.angular_velocity_rad_s(Segment::Head));
-        push(&mut self.head_rad_s2, s.angular_acceleration_rad_s2(Segment::Head));
-        let neck = reaction(s, Joint::Neck);
+        let marks = s.model.body().tree.landmarks();
+        push(&mut self.head_m_s2, s.specific_force_m_s2(marks.head));
+        push(&mut self.chest_m_s2, s.specific_force_m_s2(marks.chest));
+        push(&mut self.pelvis_m_s2, s.specific_force_m_s2(marks.pelvis));
+        push(&mut self.head_rad_s, s.angular_velocity_rad_s(marks.head));
+        push(&mut self.head_rad_s2, s.angular_acceleration_rad_s2(marks.head));
+        let neck = reaction(s, marks.neck);
         push(&mut self.neck_n, neck.force_n);
         push(&mut self.neck_n_m, neck.moment_n_m);
-        let thighs = [Segment::RightThigh, Segment::LeftThigh];
+        let thighs = [marks.legs.right.upper, marks.legs.left.upper];
         for (values, thigh) in self.femur_n.iter_mut().zip(thighs) {
             values.push(femur_axial_n(s, thigh));
         }

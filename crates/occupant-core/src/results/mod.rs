@@ -1,5 +1,6 @@
 //! What a run gives: samples, energies, reactions, channels, summaries, checkpoints.
 
+pub mod catalogue;
 pub mod channel;
 pub mod checkpoint;
 pub mod energy;

@@ -17,7 +17,7 @@ use nalgebra::Vector3;
 use crate::body::joint::Joint;
 use crate::body::{SEGMENTS, Segment};
 use crate::motion::dynamics::Wrench;
-use crate::motion::kinematics::LIMBS;
+use crate::motion::layout::hung_from;
 use crate::motion::vector::{V3, v3};
 use crate::results::sample::Sample;
 
@@ -30,52 +30,18 @@ pub struct Reaction {
     pub moment_n_m: Vector3<f64>,
 }
 
-/// Proximal and distal segment (indices) of a joint; T1 joins the upper torso to the middle torso.
-pub const fn segments(joint: Joint) -> (Segment, Segment) {
-    use Segment::*;
-    match joint {
-        Joint::Neck => (UpperTorso, Head),
-        Joint::RightShoulder => (UpperTorso, RightUpperArm),
-        Joint::LeftShoulder => (UpperTorso, LeftUpperArm),
-        Joint::UpperBack => (MiddleTorso, UpperTorso),
-        Joint::LeftElbow => (LeftUpperArm, LeftForearm),
-        Joint::RightElbow => (RightUpperArm, RightForearm),
-        Joint::LowerBack => (MiddleTorso, LowerTorso),
-        Joint::RightHip => (LowerTorso, RightThigh),
-        Joint::LeftHip => (LowerTorso, LeftThigh),
-        Joint::RightKnee => (RightThigh, RightLowerLeg),
-        Joint::LeftKnee => (LeftThigh, LeftLowerLeg),
-    }
-}
-
-/// Segments beyond each segment's proximal joint: the tree, without the two halves at T1.
-const fn beyond(segment: usize) -> &'static [usize] {
-    match segment {
-        0 => &[3],
-        1 => &[2, 4, 5],
-        3 => &[8, 9],
-        4 => &[LIMBS[0].1],
-        5 => &[LIMBS[1].1],
-        8 => &[LIMBS[2].1],
-        9 => &[LIMBS[3].1],
-        _ => &[],
-    }
-}
-
 /// What `joint` carries in `sample`.
 pub fn reaction(sample: &Sample<'_>, joint: Joint) -> Reaction {
-    let (_, distal) = segments(joint);
+    let distal = sample.model.body().tree[joint].distal;
     let load = Loads::new(sample).at(distal.index());
     in_axes(sample, distal, load)
 }
 
-/// What all joints carry, in the order of [`Joint::ALL`].
-pub fn reactions(sample: &Sample<'_>) -> [Reaction; 11] {
+/// What all joints carry, in the tree's order.
+pub fn reactions(sample: &Sample<'_>) -> [Reaction; SEGMENTS - 1] {
     let loads = Loads::new(sample);
-    Joint::ALL.map(|joint| {
-        let (_, distal) = segments(joint);
-        in_axes(sample, distal, loads.at(distal.index()))
-    })
+    let rows = sample.model.body().tree.joint_rows();
+    std::array::from_fn(|j| in_axes(sample, rows[j].distal, loads.at(rows[j].distal.index())))
 }
 
 fn in_axes(sample: &Sample<'_>, distal: Segment, load: Wrench<f64>) -> Reaction {
@@ -94,7 +60,7 @@ impl<'s, 'a> Loads<'s, 'a> {
     fn new(sample: &'s Sample<'a>) -> Self {
         let mut passive = [Wrench::zero(); SEGMENTS];
         let k = &sample.evaluation.kinematics;
-        sample.model.system().joints.apply(k, sample.state, &mut passive);
+        sample.model.system().forces.joints.apply(k, sample.state, &mut passive, &mut |_| {});
         Loads { sample, passive }
     }
 
@@ -109,7 +75,7 @@ impl<'s, 'a> Loads<'s, 'a> {
         let arm = k.axes[n].z * link.cg;
         let applied = e.wrench[n].moment - self.passive[n].moment;
         let mut moment = self.spin(n) + arm.cross(inertial) - applied;
-        for &next in beyond(n) {
+        for &(next, _) in hung_from(n) {
             let load = self.at(next);
             force += load.force;
             moment += load.moment + (k.joint[next] - k.joint[n]).cross(load.force);
@@ -137,13 +103,10 @@ impl<'s, 'a> Loads<'s, 'a> {
 ///
 /// Spheres in the distal half of the thigh count as at the knee.
 pub fn femur_axial_n(sample: &Sample<'_>, thigh: Segment) -> f64 {
-    let knee = match thigh {
-        Segment::RightThigh => Joint::RightKnee,
-        _ => Joint::LeftKnee,
-    };
     let k = &sample.evaluation.kinematics;
-    let (_, shank) = segments(knee);
-    let carried = Loads::new(sample).at(shank.index()).force;
+    let loads = Loads::new(sample);
+    let shanks = hung_from(thigh.index()).iter().map(|&(shank, _)| loads.at(shank).force);
+    let carried = shanks.reduce(|a, b| a + b).unwrap_or(V3::zero());
     let body = sample.model.body();
     let half_m = 0.5 * body.segment(thigh).length_m;
     let at_knee = |s: &usize| {

@@ -4,15 +4,13 @@ use nalgebra::{Point3, UnitQuaternion, Vector3};
 
 use crate::body::Segment;
 use crate::body::joint::Joint;
-use crate::forces::History;
-use crate::forces::belt::law::BeltAction;
 use crate::forces::contact::Touch;
-use crate::forces::joint::BALLS;
+use crate::forces::{Actions, History};
 use crate::kernel::Evaluation;
 use crate::model::Model;
 use crate::motion::frame::Frames;
 use crate::motion::frame::VEHICLE;
-use crate::motion::kinematics::LIMBS;
+use crate::motion::layout::{BALL_JOINTS, HINGE_JOINTS};
 use crate::motion::report_coordinates::ReportCoordinates;
 use crate::motion::state::State;
 use crate::motion::vector::V3;
@@ -45,7 +43,7 @@ pub struct Sample<'a> {
     pub model: &'a Model,
     /// Integrated state.
     pub state: &'a State<f64>,
-    /// Pair states and belt histories.
+    /// History of the force elements.
     pub history: &'a History<f64>,
     /// Frames.
     pub frames: &'a Frames<f64>,
@@ -55,10 +53,8 @@ pub struct Sample<'a> {
     pub vehicle_pose: VehiclePose,
     /// Derived motion, loads and accelerations.
     pub evaluation: &'a Evaluation<f64>,
-    /// Pairs that exert a force.
-    pub touches: &'a [Touch<f64>],
-    /// Belts, in the setup's order.
-    pub belts: &'a [BeltAction<f64>],
+    /// What force elements do: pairs that exert a force, belts and ball joints in the model's order.
+    pub actions: &'a Actions<f64>,
     /// Energies.
     pub energy: EnergyLedger,
     /// Work of the integrator so far.
@@ -99,8 +95,7 @@ impl<'a> Sample<'a> {
             index: self.index,
             time_s: self.time_s,
             state: *self.state,
-            pairs: self.history.pairs.clone(),
-            belts: self.history.belts.clone(),
+            memory: self.history.memory.clone(),
             first_touches: self.first_touches.to_vec(),
             progress: self.progress,
             under_way: self.under_way.map(|step| step.to_start()),
@@ -113,7 +108,7 @@ impl<'a> Sample<'a> {
         let n = segment.index();
         let near = k.joint[n];
         let far = near + k.axes[n].z * self.model.system().skeleton.links[n].far;
-        let (upper, lower) = if segment.hangs() { (near, far) } else { (far, near) };
+        let (upper, lower) = if self.model.body().tree[segment].hangs() { (near, far) } else { (far, near) };
         [self.place_m(upper), self.place_m(lower)]
     }
 
@@ -161,19 +156,25 @@ impl<'a> Sample<'a> {
     /// Touching pairs, one by one (item 5).
     pub fn contacts(&self) -> impl Iterator<Item = Contact> + 'a {
         let sample = *self;
-        self.touches.iter().map(move |t| sample.contact(t))
+        self.actions.contacts.iter().map(move |t| sample.contact(t))
     }
 
     /// Sum of contact and friction forces on a sphere, vehicle axes, N; belts apart (item 5).
     pub fn sphere_force_n(&self, sphere: usize) -> Vector3<f64> {
-        let own = self.touches.iter().filter(|t| t.sphere == sphere);
+        let own = self.actions.contacts.iter().filter(|t| t.sphere == sphere);
         own.map(|t| self.contact(t).force_n).sum()
+    }
+
+    /// Greatest Δ of a sphere, m; 0 without contact.
+    pub fn penetration_m(&self, sphere: usize) -> f64 {
+        let own = self.actions.contacts.iter().filter(|t| t.sphere == sphere);
+        own.map(|t| t.depth).fold(0.0, f64::max)
     }
 
     /// Force of belts on a sphere, vehicle axes, N.
     pub fn sphere_belt_force_n(&self, sphere: usize) -> Vector3<f64> {
-        let laws = &self.model.system().belts;
-        let own = laws.iter().zip(self.belts).filter(|(law, _)| law.sphere == sphere);
+        let laws = &self.model.system().forces.belts;
+        let own = laws.iter().zip(&self.actions.belts).filter(|(law, _)| law.sphere == sphere);
         own.map(|(_, action)| action.force.to_vector()).sum()
     }
 
@@ -185,8 +186,8 @@ impl<'a> Sample<'a> {
     /// Point of application of a sphere's contact force relative to its centre, segment axes, m: the mean over the faces
     /// touched, weighted by wF (item 6). `None` without contact.
     pub fn application_point_m(&self, sphere: usize) -> Option<Vector3<f64>> {
-        let site = &self.model.system().contacts.sites[sphere];
-        let own = self.touches.iter().filter(|t| t.sphere == sphere);
+        let site = &self.model.system().spheres[sphere];
+        let own = self.actions.contacts.iter().filter(|t| t.sphere == sphere);
         let (mut sum, mut total) = (Vector3::zeros(), 0.0);
         for t in own {
             let normal = self.frames[t.frame].axes.out(t.normal);
@@ -199,9 +200,12 @@ impl<'a> Sample<'a> {
 
     /// β of a ball joint or α of a hinge, rad.
     pub fn joint_angle_rad(&self, joint: Joint) -> f64 {
-        match place(joint) {
-            Place::Ball(i) => self.model.system().joints.beta(i, &self.evaluation.kinematics),
-            Place::Hinge(i) => self.state.hinge[i],
+        let ball = BALL_JOINTS.iter().position(|j| *j == joint);
+        let hinge = HINGE_JOINTS.iter().position(|j| *j == joint);
+        match (ball, hinge) {
+            (Some(i), _) => self.model.system().forces.joints.beta(i, &self.evaluation.kinematics),
+            (None, Some(i)) => self.state.hinge[i],
+            (None, None) => f64::NAN,
         }
     }
 
@@ -217,7 +221,7 @@ impl<'a> Sample<'a> {
 
     fn contact(&self, t: &Touch<f64>) -> Contact {
         let system = self.model.system();
-        let site = &system.contacts.sites[t.sphere];
+        let site = &system.spheres[t.sphere];
         let to_vehicle = |v: V3<f64>| {
             if t.frame == VEHICLE {
                 v.to_vector()
@@ -226,7 +230,7 @@ impl<'a> Sample<'a> {
                 self.frames[VEHICLE].axes.into_frame(space).to_vector()
             }
         };
-        let part = &system.contacts.pairs()[t.pair].parts[t.part as usize];
+        let part = &system.forces.contacts.pairs()[t.pair].parts[t.part as usize];
         let normal = to_vehicle(t.normal);
         Contact {
             sphere: t.sphere,
@@ -251,30 +255,5 @@ impl<'a> Sample<'a> {
 
     fn place_m(&self, space: V3<f64>) -> Point3<f64> {
         self.vehicle.point_to_frame(space.to_vector()).into()
-    }
-}
-
-/// Where the kernel keeps a joint.
-enum Place {
-    Ball(usize),
-    Hinge(usize),
-}
-
-fn place(joint: Joint) -> Place {
-    // index of the distal segment
-    let ball = |lower| BALLS.iter().position(|&(_, l)| l == lower).map_or(Place::Ball(0), Place::Ball);
-    let hinge = |lower| LIMBS.iter().position(|&(_, l)| l == lower).map_or(Place::Hinge(0), Place::Hinge);
-    match joint {
-        Joint::Neck => ball(2),
-        Joint::RightShoulder => ball(5),
-        Joint::LeftShoulder => ball(4),
-        Joint::UpperBack => ball(1),
-        Joint::LowerBack => ball(3),
-        Joint::RightHip => ball(9),
-        Joint::LeftHip => ball(8),
-        Joint::LeftElbow => hinge(6),
-        Joint::RightElbow => hinge(7),
-        Joint::LeftKnee => hinge(10),
-        Joint::RightKnee => hinge(11),
     }
 }

@@ -97,7 +97,7 @@ impl Crossing<'_> {
         }
         let s = falling;
         let deepest_m = d0 + s * (h * v0 + s * (square + cube * s));
-        let greatest_m = self.history.pairs[end.meeting.pair].greatest;
+        let greatest_m = self.history.memory.contacts[end.meeting.pair].greatest;
         let missed_m = deepest_m - end.depth_m.max(greatest_m);
         let stiffness = end.force_n / end.depth_m.max(1e-6);
         let impulse = stiffness * missed_m * (1.0 - s) * h / 3.0;
@@ -107,7 +107,7 @@ impl Crossing<'_> {
     /// The corner at `share` of the step, if an error of `impulse` (N·s) there matters.
     fn if_it_matters(&self, share: f64, impulse: f64, touching: &Touching) -> Option<f64> {
         let system = self.model.system();
-        let segment = system.contacts.sites[touching.meeting.sphere].segment;
+        let segment = system.spheres[touching.meeting.sphere].segment;
         let error_m_s = impulse / system.skeleton.links[segment].mass;
         let speed_m_s = touching.meeting.closing_m_s.abs();
         let tolerance = self.tolerance.absolute_m_s + self.tolerance.relative * speed_m_s;

@@ -53,15 +53,14 @@ impl Front {
             before: history.clone(),
             after: history.clone(),
             trial: history.clone(),
-            met: Vec::with_capacity(history.pairs.len()),
-            met_in_trial: Vec::with_capacity(history.pairs.len()),
+            met: Vec::with_capacity(history.memory.contacts.len()),
+            met_in_trial: Vec::with_capacity(history.memory.contacts.len()),
         }
     }
 
     /// Within the step that a checkpoint tells the start of.
     pub fn within(model: &Model, start: &StepStart) -> Self {
-        let (pairs, belts) = (start.pairs.clone(), start.belts.clone());
-        let history = History::new(&model.system().contacts, pairs, belts);
+        let history = History::new(&model.system().forces, start.memory.clone());
         let mut front = Front::new(start.start_s, &start.state, &history);
         front.step.end_s = start.end_s;
         front.is_half_known = true;
@@ -168,7 +167,7 @@ struct Met<'a>(&'a mut Vec<Touching>);
 
 impl Observer<f64> for Met<'_> {
     #[inline(always)]
-    fn touch(&mut self, touch: &Touch<f64>) {
+    fn contacts(&mut self, touch: &Touch<f64>) {
         self.0.push(touch.into());
     }
 }

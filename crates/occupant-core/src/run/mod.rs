@@ -15,19 +15,19 @@ pub use fixed::{Step, Stretch};
 use adaptive::{Control, Memory};
 use front::Front;
 
-use crate::body::Segment;
-use crate::forces::History;
+use crate::forces::{Actions, History};
 use crate::model::setup::Integrator;
 use crate::model::{Model, frames};
 use crate::motion::frame::VEHICLE;
 use crate::motion::integrate::bogacki_shampine::Tolerance;
-use crate::motion::state::{FREE, HINGED, State};
+use crate::motion::layout::{FREE, HINGED, TREE};
+use crate::motion::state::State;
 use crate::results::checkpoint::{Checkpoint, CheckpointError, Progress};
-use crate::results::energy::{EnergyLedger, EnergyStart, Stored};
+use crate::results::energy::{EnergyLedger, EnergyStart};
 use crate::results::outcome::{Outcome, RecordingFailed, Status, StepError};
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::{Effort, Sample};
-use crate::run::observers::{Seen, Touches};
+use crate::run::observers::Seen;
 use crate::vehicle::PathCursor;
 
 /// A run in progress.
@@ -49,7 +49,7 @@ pub struct Run {
     energy_start: Option<EnergyStart>,
     greatest_kinetic_j: f64,
     greatest_imbalance_j: f64,
-    touches: Touches,
+    actions: Actions<f64>,
     /// Times at which the motion of the vehicle jumps, s.
     pub breaks_s: Vec<f64>,
     /// The accepted steps since it was last emptied, where somebody wants to follow them.
@@ -60,7 +60,6 @@ impl Run {
     /// A run of `model` at its start.
     pub fn new(model: &Model) -> Self {
         let start = model.start();
-        let pairs = model.system().contacts.pairs();
         let (integrator, time_s) = (&model.setup().integrator, model.setup().time.start_s);
         Run {
             index: 0,
@@ -80,10 +79,7 @@ impl Run {
             energy_start: None,
             greatest_kinetic_j: 0.0,
             greatest_imbalance_j: 0.0,
-            touches: Touches {
-                pairs: Vec::with_capacity(pairs.len()),
-                belts: Vec::with_capacity(model.system().belts.len()),
-            },
+            actions: Actions::with_room(&model.system().forces),
             seen: Seen::new(model),
             breaks_s: model.setup().path.breaks_s(),
             taken: None,
@@ -94,12 +90,11 @@ impl Run {
     pub fn from_checkpoint(model: &Model, from: &Checkpoint) -> Result<Self, CheckpointError> {
         from.check(model)?;
         let mut run = Run::new(model);
-        let (pairs, belts) = (from.pairs.clone(), from.belts.clone());
         let progress = from.progress;
         run.index = from.index;
         run.time_s = from.time_s;
         run.state = from.state;
-        run.history = History::new(&model.system().contacts, pairs, belts);
+        run.history = History::new(&model.system().forces, from.memory.clone());
         run.effort = progress.effort;
         run.control = Memory { wanted_s: progress.wanted_s, error: progress.step_error };
         run.front = run.front.map(|_| {
@@ -117,34 +112,30 @@ impl Run {
     }
 
     /// Tells `recorder` that the run begins.
-    pub fn begin(&self, model: &Model, recorder: &mut impl Recorder) -> Result<(), RecordingFailed> {
+    pub fn begin(&self, model: &Model, recorder: &mut dyn Recorder) -> Result<(), RecordingFailed> {
         recorder.begin(model).map_err(|e| self.unrecorded(e))
     }
 
     /// Evaluates the present state with all details and hands it to the recorder as the next output.
-    pub fn record(&mut self, model: &Model, recorder: &mut impl Recorder) -> Result<Flow, RecordingFailed> {
+    pub fn record(&mut self, model: &Model, recorder: &mut dyn Recorder) -> Result<Flow, RecordingFailed> {
         let t = self.time_s;
         let path = &model.setup().path;
         let vehicle = path.motion(t, t, &mut self.cursor);
         let vehicle_pose = path.attitude(t, &mut self.cursor);
         let frames = frames(&vehicle);
         let system = model.system();
-        self.touches.clear();
-        let evaluation = system.evaluate::<true>(&self.state, &frames, &mut self.history, &mut self.touches);
-        for touch in &self.touches.pairs {
+        self.actions.clear();
+        let evaluation = system.evaluate::<true>(&self.state, &frames, &mut self.history, &mut self.actions);
+        for touch in &self.actions.contacts {
             self.seen.note(model, t, touch.into());
         }
-        let stored = Stored {
-            spine_j: system.joints.stored(&evaluation.kinematics),
-            contacts_j: self.touches.pairs.iter().map(|t| t.stored).sum(),
-            belts_j: self.touches.belts.iter().map(|b| b.stored).sum(),
-        };
+        let stored_j = self.actions.stored_j();
         let ledger = |start: &EnergyStart| {
             EnergyLedger::new(
                 &system.skeleton,
                 &evaluation.kinematics,
                 &frames[VEHICLE],
-                stored,
+                stored_j,
                 &self.state.work,
                 start,
             )
@@ -165,8 +156,7 @@ impl Run {
             vehicle: &vehicle,
             vehicle_pose,
             evaluation: &evaluation,
-            touches: &self.touches.pairs,
-            belts: &self.touches.belts,
+            actions: &self.actions,
             energy,
             effort: self.effort,
             progress: Progress {
@@ -233,7 +223,7 @@ impl Run {
     }
 
     /// Ends the run and tells `recorder` how.
-    pub fn end(self, status: Status, recorder: &mut impl Recorder) -> Result<Outcome, RecordingFailed> {
+    pub fn end(self, status: Status, recorder: &mut dyn Recorder) -> Result<Outcome, RecordingFailed> {
         let time_s = self.time_s;
         let outcome = self.outcome(status);
         match recorder.end(&outcome) {
@@ -269,16 +259,17 @@ fn first_step(integrator: &Integrator) -> f64 {
 
 /// Name of the first component that is not finite.
 fn broken_component(state: &State<f64>) -> String {
+    let name = |n: usize| TREE.segment_rows()[n].name;
     let bad = |x: f64, y: f64, z: f64| !(x.is_finite() && y.is_finite() && z.is_finite());
     for (slot, &n) in FREE.iter().enumerate() {
         let (q, w) = (&state.orientation[slot], &state.omega[slot]);
         if bad(q.v.x, q.v.y, q.v.z) || bad(w.x, w.y, w.z) || !q.w.is_finite() {
-            return format!("orientation or angular velocity of the {}", Segment::ALL[n].name());
+            return format!("orientation or angular velocity of the {}", name(n));
         }
     }
     for (slot, &n) in HINGED.iter().enumerate() {
         if !(state.hinge[slot].is_finite() && state.hinge_rate[slot].is_finite()) {
-            return format!("joint angle of the {}", Segment::ALL[n].name());
+            return format!("joint angle of the {}", name(n));
         }
     }
     "place or velocity of the reference point T1".to_owned()

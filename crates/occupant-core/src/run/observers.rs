@@ -1,32 +1,9 @@
-//! What a run watches in evaluations: the details of an output, and which sphere has touched which surface.
+//! What a run watches in evaluations: which sphere has touched which surface.
 
 use crate::forces::Observer;
-use crate::forces::belt::law::BeltAction;
 use crate::forces::contact::Touch;
 use crate::model::Model;
 use crate::results::outcome::FirstTouch;
-
-/// Collects the details of one evaluation.
-pub struct Touches {
-    pub pairs: Vec<Touch<f64>>,
-    pub belts: Vec<BeltAction<f64>>,
-}
-
-impl Touches {
-    pub fn clear(&mut self) {
-        self.pairs.clear();
-        self.belts.clear();
-    }
-}
-
-impl Observer<f64> for Touches {
-    fn touch(&mut self, touch: &Touch<f64>) {
-        self.pairs.push(*touch);
-    }
-    fn belt(&mut self, _index: usize, action: &BeltAction<f64>) {
-        self.belts.push(*action);
-    }
-}
 
 /// A sphere against a part of a face, as first touches tell it.
 #[derive(Clone, Copy)]
@@ -71,7 +48,7 @@ impl Seen {
     /// Notes a touch of `model`, the one that this was made for.
     #[inline]
     pub fn note(&mut self, model: &Model, time_s: f64, meeting: Meeting) {
-        let pair = &model.system().contacts.pairs()[meeting.pair];
+        let pair = &model.system().forces.contacts.pairs()[meeting.pair];
         let (sphere, surface) = (meeting.sphere, pair.parts[meeting.part].surface);
         let known = &mut self.known[sphere * self.surfaces + surface];
         if !*known {
@@ -90,7 +67,7 @@ pub struct SeenAt<'s> {
 
 impl Observer<f64> for SeenAt<'_> {
     #[inline(always)]
-    fn touch(&mut self, touch: &Touch<f64>) {
+    fn contacts(&mut self, touch: &Touch<f64>) {
         self.seen.note(self.model, self.time_s, touch.into());
     }
 }

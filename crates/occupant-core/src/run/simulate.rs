@@ -37,14 +37,14 @@ pub fn replay(model: &Model, checkpoint: &Checkpoint, recorder: &mut impl Record
 }
 
 /// A whole run, from the present output of `run` on.
-fn go(model: &Model, mut run: Run, recorder: &mut impl Recorder) -> Result<Outcome, RecordingFailed> {
+fn go(model: &Model, mut run: Run, recorder: &mut dyn Recorder) -> Result<Outcome, RecordingFailed> {
     run.begin(model, recorder)?;
     let status = go_on(model, &mut run, recorder)?;
     run.end(status, recorder)
 }
 
 /// From the present output of `run`, the next to be recorded, to the end.
-pub(crate) fn go_on(model: &Model, run: &mut Run, recorder: &mut impl Recorder) -> Result<Status, RecordingFailed> {
+pub(crate) fn go_on(model: &Model, run: &mut Run, recorder: &mut dyn Recorder) -> Result<Status, RecordingFailed> {
     loop {
         if run.record(model, recorder)? == Flow::Stop {
             return Ok(Status::Stopped);

@@ -10,7 +10,7 @@ use super::text::{
     Diagnostics, Document, Format, Node, SourceId, Step, Value, follow, parse_path, parse_value, refuse, targets,
     to_text,
 };
-use crate::body::SPHERE_NAMES;
+use crate::body::tti12::TTI12;
 
 /// A scenario text that has been read but not yet checked.
 #[derive(Clone, Debug)]
@@ -116,7 +116,7 @@ impl Draft {
         if problems.has_errors() {
             let root = self.explicit();
             let whole = Document { root, ..self.document.clone() };
-            for problem in references(&whole.root, &SPHERE_NAMES) {
+            for problem in references(&whole.root, &TTI12.sphere_names()) {
                 problems.push(whole.place(problem));
             }
         }

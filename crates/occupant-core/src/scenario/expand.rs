@@ -7,8 +7,8 @@ use std::sync::OnceLock;
 
 use super::sections::schema;
 use super::text::{Document, Entry, Format, Node, Sources, Table, Value};
-use crate::body::joint::Joint;
-use crate::body::{SPHERE_NAMES, Segment};
+use crate::body::tree::JointRow;
+use crate::body::tti12::TTI12;
 
 /// Pairs of segments: the word for both, left, right.
 const SEGMENT_PAIRS: [[&str; 3]; 4] = [
@@ -108,11 +108,12 @@ fn body(layers: &[Node]) -> Table {
         found.collect()
     };
     let segments = parts("segments");
-    let names = Segment::ALL.iter().map(|s| s.name());
+    let names = TTI12.segment_rows().iter().map(|row| row.name);
     put(&mut explicit, "segments", &segments, members(&segments, names, &SEGMENT_PAIRS));
     let spheres = parts("spheres");
-    let others = other_names(&spheres, &SPHERE_PAIRS, &SPHERE_NAMES);
-    let names = SPHERE_NAMES.iter().copied().chain(others.iter().map(String::as_str));
+    let standard = TTI12.sphere_names();
+    let others = other_names(&spheres, &SPHERE_PAIRS, &standard);
+    let names = standard.iter().copied().chain(others.iter().map(String::as_str));
     put(&mut explicit, "spheres", &spheres, members(&spheres, names, &SPHERE_PAIRS));
     explicit
 }
@@ -120,19 +121,19 @@ fn body(layers: &[Node]) -> Table {
 fn joints(layers: &[Node], sets: Option<&Node>) -> Table {
     let mut explicit = plain_keys(layers, &[]);
     let words = JOINT_PAIRS.iter().flatten().copied().chain(["all"]);
-    let named: Vec<&str> = words.chain(Joint::ALL.iter().map(|j| j.name())).collect();
+    let named: Vec<&str> = words.chain(TTI12.joint_rows().iter().map(|row| row.name)).collect();
     for word in &named {
         explicit.remove(word);
     }
-    for joint in Joint::ALL {
-        let pair = JOINT_PAIRS.iter().find(|p| p.contains(&joint.name())).map(|p| p[0]);
-        let words = ["all"].into_iter().chain(pair).chain([joint.name()]);
+    for joint in TTI12.joint_rows() {
+        let pair = JOINT_PAIRS.iter().find(|p| p.contains(&joint.name)).map(|p| p[0]);
+        let words = ["all"].into_iter().chain(pair).chain([joint.name]);
         let whole = |entry: &Entry| {
             let whole = with_set(entry, sets);
             if entry.key == "all" { fitting(whole, joint) } else { whole }
         };
         if let Some(entry) = merged(layers, words, whole) {
-            explicit.insert(Entry { key: joint.name().to_owned(), ..entry });
+            explicit.insert(Entry { key: joint.name.to_owned(), ..entry });
         }
     }
     explicit
@@ -150,7 +151,7 @@ fn merged<'a>(
 }
 
 /// What is said of all joints, without what this kind of joint cannot have.
-fn fitting(mut entry: Entry, joint: Joint) -> Entry {
+fn fitting(mut entry: Entry, joint: &JointRow) -> Entry {
     let foreign: &[&str] = if joint.is_hinge() {
         &["twist_damping", "stop", "stiffness", "rest_angle"]
     } else {

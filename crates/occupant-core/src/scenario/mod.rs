@@ -43,6 +43,7 @@ pub mod kind;
 mod loaded;
 mod overrides;
 mod places;
+mod presets;
 pub mod sections;
 pub mod text;
 

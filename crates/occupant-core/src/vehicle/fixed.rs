@@ -11,6 +11,13 @@ pub struct FixedPath {
     motion: FrameMotion,
 }
 
+impl Default for FixedPath {
+    /// At the origin, level, heading forward.
+    fn default() -> Self {
+        FixedPath::at(VehiclePose::default())
+    }
+}
+
 impl FixedPath {
     /// A frame that stands at `pose` for ever.
     ///
@@ -22,9 +29,13 @@ impl FixedPath {
         if !problems.is_empty() {
             return Err(problems);
         }
+        Ok(FixedPath::at(pose))
+    }
+
+    fn at(pose: VehiclePose) -> Self {
         let origin_m = to_space(pose.position_m);
         let rotation = rotation_to_space(pose.attitude.matrix());
-        Ok(FixedPath { pose, motion: FrameMotion { origin_m, rotation, ..FrameMotion::space() } })
+        FixedPath { pose, motion: FrameMotion { origin_m, rotation, ..FrameMotion::space() } }
     }
 
     /// Where it stands.

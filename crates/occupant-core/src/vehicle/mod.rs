@@ -9,7 +9,8 @@
 //! - [`PulsePath`]: straight travel with fixed attitude, slowed by a deceleration pulse that is integrated in closed form
 //!   (ours);
 //! - [`SensorPath`]: recorded accelerations and turning rates, or velocity changes, integrated (ours);
-//! - [`FixedPath`]: a frame at rest, such as a vehicle in a free fall test (ours).
+//! - [`FixedPath`]: a frame at rest, such as a vehicle in a free fall test (ours);
+//! - [`OwnPath`]: a program's own vehicle model, any [`VehicleMotion`] (ours).
 //!
 //! Input is in the report's vehicle-space axes X′_v forward, Y′_v right, Z′_v down, with roll, pitch and yaw; output is in
 //! space axes X′ forward, Y′ left, Z′ up. F = diag(1, −1, −1) leads from one to the other (Eq. 81).
@@ -22,6 +23,7 @@ mod attitude;
 mod cursor;
 mod fixed;
 mod frame;
+mod own;
 mod problem;
 mod pulse;
 pub mod risk;
@@ -36,6 +38,7 @@ pub use attitude::Attitude;
 pub use cursor::PathCursor;
 pub use fixed::FixedPath;
 pub use frame::FrameMotion;
+pub use own::{OwnPath, VehicleMotion, VehicleState};
 pub use problem::PathProblem;
 pub use pulse::{DecelerationPoint, PulseDefinition, PulsePath, PulseShape, Stop, Strength, TravelDirection};
 pub use sensors::{AccelerationRecord, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord};
@@ -70,6 +73,8 @@ pub enum VehiclePath {
     Sensors(Box<SensorPath>),
     /// At rest.
     Fixed(FixedPath),
+    /// What a program computes itself.
+    Own(OwnPath),
 }
 
 /// A run may miss the ends of a table by this fraction of its length, so that times that were added up step by step
@@ -77,6 +82,16 @@ pub enum VehiclePath {
 const TIME_SLACK: f64 = 1e-9;
 
 impl VehiclePath {
+    /// A vehicle at rest, level, heading forward, its c.g. at the origin.
+    pub fn parked() -> Self {
+        VehiclePath::Fixed(FixedPath::default())
+    }
+
+    /// The path that a program's own vehicle model computes.
+    pub fn own(motion: impl VehicleMotion + 'static) -> Self {
+        VehiclePath::Own(OwnPath::new(motion))
+    }
+
     /// Pose and motion at `t_s`, in space axes.
     ///
     /// `step_middle_s` is the middle of the present integration step; it decides which interval of a linear table gives the
@@ -89,6 +104,7 @@ impl VehiclePath {
             VehiclePath::Pulse(pulse) => pulse.motion(t_s, cursor),
             VehiclePath::Sensors(sensors) => sensors.motion(t_s, step_middle_s, cursor),
             VehiclePath::Fixed(fixed) => fixed.motion(),
+            VehiclePath::Own(own) => own.motion(t_s),
         }
     }
 
@@ -99,6 +115,7 @@ impl VehiclePath {
             VehiclePath::Pulse(pulse) => pulse.pose(t_s, cursor),
             VehiclePath::Sensors(sensors) => sensors.pose(t_s, cursor),
             VehiclePath::Fixed(fixed) => fixed.pose(),
+            VehiclePath::Own(own) => own.pose(t_s),
         }
     }
 
@@ -106,7 +123,7 @@ impl VehiclePath {
     ///
     /// # Errors
     /// Times that are not finite; a start before the first station of a table or sample of a record; an end past its
-    /// last one unless the path says what comes after.
+    /// last one unless the path says what comes after; a run outside the span of a program's own path.
     pub fn check_span(&self, start_s: f64, end_s: f64) -> Result<(), PathProblem> {
         for (quantity, value) in [("start of the run", start_s), ("end of the run", end_s)] {
             if !value.is_finite() {
@@ -116,6 +133,7 @@ impl VehiclePath {
         match self {
             VehiclePath::Table(table) => table.check_span(start_s, end_s),
             VehiclePath::Sensors(sensors) => sensors.check_span(start_s, end_s),
+            VehiclePath::Own(own) => own.check_span(start_s, end_s),
             VehiclePath::Pulse(_) | VehiclePath::Fixed(_) => Ok(()),
         }
     }
@@ -125,6 +143,7 @@ impl VehiclePath {
         match self {
             VehiclePath::Table(table) => table.span_s(),
             VehiclePath::Sensors(sensors) => sensors.span_s(),
+            VehiclePath::Own(own) => own.span_s(),
             VehiclePath::Pulse(_) | VehiclePath::Fixed(_) => (f64::NEG_INFINITY, f64::INFINITY),
         }
     }
@@ -136,6 +155,7 @@ impl VehiclePath {
             VehiclePath::Table(table) => table.breaks_s(),
             VehiclePath::Pulse(pulse) => pulse.breaks_s(),
             VehiclePath::Sensors(sensors) => sensors.breaks_s(),
+            VehiclePath::Own(own) => own.breaks_s(),
             VehiclePath::Fixed(_) => Vec::new(),
         }
     }

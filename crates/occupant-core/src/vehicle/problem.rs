@@ -154,6 +154,22 @@ pub enum PathProblem {
         /// Last station, s.
         last_s: f64,
     },
+    /// The run leaves the times for which a program's own path has an answer.
+    OutsideOwnPath {
+        /// Start of the run, s.
+        start_s: f64,
+        /// End of the run, s.
+        end_s: f64,
+        /// First time of the path, s.
+        first_s: f64,
+        /// Last time of the path, s.
+        last_s: f64,
+    },
+    /// A program's own path answers with numbers that are not finite.
+    OwnPathNotFinite {
+        /// When, s.
+        time_s: f64,
+    },
 }
 
 impl fmt::Display for PathProblem {
@@ -247,6 +263,17 @@ impl fmt::Display for PathProblem {
                 "the run ends at {end_s} s, expected at or before the last station at {last_s} s; shorten the run, or say \
                  what the vehicle does after the last station: after = \"coast\" or \"hold\""
             ),
+            P::OutsideOwnPath { start_s, end_s, first_s, last_s } => write!(
+                f,
+                "the run lasts from {start_s} s to {end_s} s, expected times from {first_s} s to {last_s} s, for which the \
+                 program's own path has an answer"
+            ),
+            P::OwnPathNotFinite { time_s } => {
+                write!(
+                    f,
+                    "the program's own path has numbers that are not finite at {time_s} s, expected finite numbers"
+                )
+            }
         }
     }
 }

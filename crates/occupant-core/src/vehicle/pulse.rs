@@ -47,6 +47,20 @@ pub struct PulseDefinition {
     pub rebound_m_s: Option<f64>,
 }
 
+impl PulseDefinition {
+    /// A vehicle that travels nose first from the origin, meets the pulse at once and stays where it stops.
+    pub fn new(initial_speed_m_s: f64, shape: PulseShape) -> Self {
+        PulseDefinition {
+            initial: VehiclePose::default(),
+            initial_speed_m_s,
+            direction: TravelDirection::default(),
+            starts_at_s: 0.0,
+            shape,
+            rebound_m_s: None,
+        }
+    }
+}
+
 /// When and where the vehicle comes to rest, for a moment or for good.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Stop {

@@ -2,27 +2,29 @@
 
 use nalgebra::{Vector3, Vector6};
 
-use super::attitude::{Attitude, turning};
+use super::attitude::Attitude;
 use super::cursor::PathCursor;
 use super::frame::{FrameMotion, rotation_to_space, to_space};
 use super::problem::PathProblem;
 use super::spline::{Piece, linear_pieces, spline_pieces};
 use super::station::{Station, problems_of};
-use super::{TIME_SLACK, VehiclePose};
+use super::{TIME_SLACK, VehiclePose, VehicleState};
 
 /// How a table is read between its stations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Interpolation {
     /// Straight lines in all six quantities, as in the report; the velocity jumps at every station.
     Linear,
     /// Natural cubic splines through all six quantities: velocity and acceleration are continuous. Ours.
+    #[default]
     Spline,
 }
 
 /// What the vehicle does after the last station.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum AfterEnd {
     /// A run that goes on past it is refused.
+    #[default]
     Error,
     /// It goes on with its last velocity and angular velocity (constant in space).
     Coast,
@@ -170,17 +172,16 @@ impl TablePath {
 /// Motion at `t_s`: pose from the piece `place`, derivatives from the piece `pace`.
 fn motion_of(place: &Piece, pace: &Piece, t_s: f64) -> FrameMotion {
     let (values, rates, seconds) = (place.value(t_s), pace.rate(t_s), pace.second_rate(t_s));
-    let linear = |channels: &Vector6<f64>| to_space(channels.fixed_rows::<3>(0).into_owned());
+    let linear = |channels: &Vector6<f64>| channels.fixed_rows::<3>(0).into_owned();
     let angular = |channels: &Vector6<f64>| channels.fixed_rows::<3>(3).into_owned();
-    let turning = turning(angular(&values), angular(&rates), angular(&seconds));
-    FrameMotion {
-        origin_m: linear(&values),
-        rotation: rotation_to_space(turning.matrix),
+    let state = VehicleState {
+        pose: VehiclePose { position_m: linear(&values), attitude: Attitude::from_vector(angular(&values)) },
         velocity_m_s: linear(&rates),
-        angular_velocity_rad_s: to_space(turning.velocity_rad_s),
         acceleration_m_s2: linear(&seconds),
-        angular_acceleration_rad_s2: to_space(turning.acceleration_rad_s2),
-    }
+        angle_rates_rad_s: angular(&rates),
+        angle_accelerations_rad_s2: angular(&seconds),
+    };
+    state.motion()
 }
 
 #[cfg(test)]

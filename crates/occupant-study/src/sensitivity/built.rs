@@ -10,7 +10,7 @@ use std::cell::{Cell, RefCell};
 use super::ladder::{Ladder, POINTS, Slope};
 use super::parameter::{Family, Parameter};
 use super::trouble::Trouble;
-use occupant_core::forces::History;
+use occupant_core::forces::{History, Memory};
 use occupant_core::kernel::System;
 use occupant_core::model::{Model, frames};
 use occupant_core::motion::dual::Dual;
@@ -71,13 +71,13 @@ impl Built {
         };
         let system = slopes(&|m| system_numbers(m.system()));
         let state = slopes(&|m| m.start().state.to_numbers().to_vec());
-        let history = slopes(&|m| remembered(&m.start().history));
+        let history = slopes(&|m| remembered(&m.start().history.memory));
         let mut notes = Vec::new();
         if let Some(reason) = &family.one_sided {
             let reason = reason.lines().next().unwrap_or_default();
             notes.push(format!("{}: a derivative to one side only, as the other is refused: {reason}", parameter.name));
         }
-        let phases = |m: &Model| m.start().history.pairs.iter().map(|p| p.phase.to_bits()).collect();
+        let phases = |m: &Model| m.start().history.memory.contacts.iter().map(|p| p.phase.to_bits()).collect();
         let at_base: Vec<u64> = phases(base);
         if family.models.iter().any(|m| phases(m) != at_base) {
             notes.push(format!(
@@ -152,14 +152,14 @@ fn system_numbers(system: &System<f64>) -> Vec<f64> {
     list.into_inner()
 }
 
-/// The numbers that a history remembers, in the order of [`History::each`], the phases of pairs as 0.
-fn remembered(history: &History<f64>) -> Vec<f64> {
-    let mut history = history.clone();
-    for pair in &mut history.pairs {
+/// The numbers that force elements remember, in the order of [`Memory::each`], the phases of pairs as 0.
+fn remembered(memory: &Memory<f64>) -> Vec<f64> {
+    let mut memory = memory.clone();
+    for pair in &mut memory.contacts {
         pair.phase = 0.0;
     }
     let mut list = Vec::new();
-    history.clone().each(&mut history, &mut |x: &mut f64, _| list.push(*x));
+    memory.map(&mut |x| list.push(x));
     list
 }
 
@@ -216,15 +216,9 @@ pub(super) fn dual_history<const N: usize>(
     system: &System<Dual<N>>,
     built: &[Built],
 ) -> History<Dual<N>> {
-    let mut start = model.start().history.clone();
-    let zero = Dual::new(0.0, [0.0; N]);
-    let mut dual = History::like(&system.contacts, &start, zero);
     let at = Cell::new(0);
     let slope = |k: usize, i: usize| built.get(k).map_or(0.0, |b| b.history[i]);
-    dual.each(&mut start, &mut |x: &mut Dual<N>, value| {
-        *x = next(*value, &at, slope);
-    });
-    dual
+    History::new(&system.forces, model.start().history.memory.map(&mut |value| next(value, &at, slope)))
 }
 
 /// The frames at `t_s` in duals.

@@ -7,14 +7,14 @@
 //! instant.
 
 use super::trouble::Trouble;
-use occupant_core::body::joint::{Joint, Joints};
-use occupant_core::forces::History;
-use occupant_core::forces::Observer;
+use occupant_core::body::joint::{Joint, JointLaw};
 use occupant_core::forces::belt::law::BeltAction;
 use occupant_core::forces::contact::Touch;
+use occupant_core::forces::{Actions, History};
 use occupant_core::model::Model;
 use occupant_core::motion::dual::Dual;
 use occupant_core::motion::kinematics::Kinematics;
+use occupant_core::motion::layout::{BALL_JOINTS, HINGE_JOINTS};
 use occupant_core::motion::state::State;
 use occupant_core::motion::vector::V3;
 
@@ -22,21 +22,6 @@ use occupant_core::motion::vector::V3;
 const MOST: usize = 4096;
 /// Number of the look before the first; a pair that was never seen has 0.
 const NONE_YET: u64 = 1;
-/// Ball joints in the kernel's order, then hinges.
-const JOINTS: [Joint; 11] = [
-    Joint::Neck,
-    Joint::RightShoulder,
-    Joint::LeftShoulder,
-    Joint::UpperBack,
-    Joint::LowerBack,
-    Joint::RightHip,
-    Joint::LeftHip,
-    Joint::LeftElbow,
-    Joint::RightElbow,
-    Joint::LeftKnee,
-    Joint::RightKnee,
-];
-
 /// What happens to a sphere on a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Touching {
@@ -158,7 +143,7 @@ impl Happening {
             }
             Happening::Stop { joint, enters } => {
                 let verb = if enters { "enters" } else { "leaves" };
-                format!("{} {verb} the range of its stop", joint.name())
+                format!("{} {verb} the range of its stop", model.body().tree[joint].name)
             }
         }
     }
@@ -168,39 +153,22 @@ impl Happening {
 pub(super) struct Scene<const N: usize> {
     time_s: f64,
     state: State<f64>,
-    touches: Vec<Touch<Dual<N>>>,
-    belts: Vec<BeltAction<Dual<N>>>,
+    /// What force elements do.
+    pub actions: Actions<Dual<N>>,
 }
 
 impl<const N: usize> Scene<N> {
     /// Room for all that `model` can show.
     pub fn new(model: &Model) -> Self {
-        let system = model.system();
-        Scene {
-            time_s: f64::NAN,
-            state: model.start().state,
-            touches: Vec::with_capacity(system.contacts.pairs().len()),
-            belts: Vec::with_capacity(system.belts.len()),
-        }
+        let actions = Actions::with_room(&model.system().forces);
+        Scene { time_s: f64::NAN, state: model.start().state, actions }
     }
 
     /// Another one.
     pub fn begin(&mut self, time_s: f64, state: &State<Dual<N>>) {
         self.time_s = time_s;
         self.state = state.zip(state, |x, _| x.value);
-        self.touches.clear();
-        self.belts.clear();
-    }
-}
-
-impl<const N: usize> Observer<Dual<N>> for Scene<N> {
-    #[inline(always)]
-    fn touch(&mut self, touch: &Touch<Dual<N>>) {
-        self.touches.push(*touch);
-    }
-    #[inline(always)]
-    fn belt(&mut self, _index: usize, action: &BeltAction<Dual<N>>) {
-        self.belts.push(*action);
+        self.actions.clear();
     }
 }
 
@@ -233,7 +201,7 @@ pub(super) struct Lookout<const N: usize> {
     pairs: Vec<PairNow>,
     touching: Vec<usize>,
     belts: Vec<BeltNow>,
-    stops: [Option<bool>; 11],
+    stops: [Option<bool>; BALL_JOINTS.len() + HINGE_JOINTS.len()],
     list: Vec<(Event0, [f64; N])>,
     /// How many were not kept.
     pub dropped: u64,
@@ -246,13 +214,13 @@ impl<const N: usize> Lookout<N> {
     /// Nothing seen yet of `model`.
     pub fn new(model: &Model) -> Self {
         let system = model.system();
-        let pairs = system.contacts.pairs().len();
+        let pairs = system.forces.contacts.pairs().len();
         Lookout {
             looks: NONE_YET,
             pairs: vec![PairNow::default(); pairs],
             touching: Vec::with_capacity(pairs),
-            belts: vec![BeltNow::default(); system.belts.len()],
-            stops: [None; 11],
+            belts: vec![BeltNow::default(); system.forces.belts.len()],
+            stops: [None; BALL_JOINTS.len() + HINGE_JOINTS.len()],
             list: Vec::with_capacity(MOST),
             dropped: 0,
         }
@@ -273,11 +241,11 @@ impl<const N: usize> Lookout<N> {
     /// Compares what `scene` shows with what was seen before.
     pub fn look(&mut self, model: &Model, scene: &Scene<N>, history: &History<Dual<N>>) {
         self.looks += 1;
-        for touch in &scene.touches {
+        for touch in &scene.actions.contacts {
             self.look_at_pair(model, scene.time_s, touch, history);
         }
         self.look_for_ends(scene.time_s, history);
-        for (i, belt) in scene.belts.iter().enumerate() {
+        for (i, belt) in scene.actions.belts.iter().enumerate() {
             self.look_at_belt(i, scene.time_s, belt);
         }
         self.look_at_stops(model, scene);
@@ -285,7 +253,7 @@ impl<const N: usize> Lookout<N> {
 
     fn look_at_pair(&mut self, model: &Model, t: f64, touch: &Touch<Dual<N>>, history: &History<Dual<N>>) {
         let setup = model.setup();
-        let part = &model.system().contacts.pairs()[touch.pair].parts[touch.part.value as usize];
+        let part = &model.system().forces.contacts.pairs()[touch.pair].parts[touch.part.value as usize];
         let (sphere, surface) = (touch.sphere, part.surface);
         let material = &setup.materials[setup.surfaces[surface].material];
         let before = self.pairs[touch.pair];
@@ -299,7 +267,7 @@ impl<const N: usize> Lookout<N> {
             surface,
             on_edge: touch.weight.value < 1.0,
             stiff: depth > material.spring.break_m,
-            unloading: depth < history.pairs[touch.pair].greatest.value,
+            unloading: depth < history.memory.contacts[touch.pair].greatest.value,
             slip: Some(slip),
             edge_n,
         };
@@ -356,7 +324,7 @@ impl<const N: usize> Lookout<N> {
                 continue;
             }
             self.touching.swap_remove(at);
-            let passed = history.pairs[i].phase.value > occupant_core::forces::contact::TOUCHING;
+            let passed = history.memory.contacts[i].phase.value > occupant_core::forces::contact::TOUCHING;
             let (what, jump_n) = match passed {
                 true => (Touching::Passes, Some(pair.edge_n)),
                 false => (Touching::Ends, None),
@@ -391,12 +359,12 @@ impl<const N: usize> Lookout<N> {
     fn look_at_stops(&mut self, model: &Model, scene: &Scene<N>) {
         let system = model.system();
         let k = Kinematics::new(&system.skeleton, &scene.state);
-        for (i, joint) in JOINTS.into_iter().enumerate() {
-            let angle_rad = match i.checked_sub(7) {
-                None => system.joints.beta(i, &k),
+        for (i, joint) in BALL_JOINTS.iter().chain(HINGE_JOINTS).copied().enumerate() {
+            let angle_rad = match i.checked_sub(BALL_JOINTS.len()) {
+                None => system.forces.joints.beta(i, &k),
                 Some(hinge) => scene.state.hinge[hinge],
             };
-            let inside = in_stop(&model.setup().joints, joint, angle_rad);
+            let inside = in_stop(&model.setup().joints[joint], angle_rad);
             let before = self.stops[i].replace(inside);
             if before.is_some_and(|b| b != inside) {
                 let enters = inside;
@@ -436,25 +404,12 @@ fn length<const N: usize>(v: &V3<Dual<N>>) -> f64 {
 }
 
 /// Whether a joint is in the range of one of its stops.
-fn in_stop(joints: &Joints, joint: Joint, angle_rad: f64) -> bool {
-    let ball = match joint {
-        Joint::Neck => &joints.neck,
-        Joint::RightShoulder => &joints.right_shoulder,
-        Joint::LeftShoulder => &joints.left_shoulder,
-        Joint::UpperBack => &joints.upper_back,
-        Joint::LowerBack => &joints.lower_back,
-        Joint::RightHip => &joints.right_hip,
-        Joint::LeftHip => &joints.left_hip,
-        Joint::LeftElbow | Joint::RightElbow | Joint::LeftKnee | Joint::RightKnee => {
-            let hinge = match joint {
-                Joint::LeftElbow => &joints.left_elbow,
-                Joint::RightElbow => &joints.right_elbow,
-                Joint::LeftKnee => &joints.left_knee,
-                _ => &joints.right_knee,
-            };
-            let lower = hinge.lower_stop.is_some_and(|s| angle_rad < s.begin_rad);
-            return lower || hinge.upper_stop.is_some_and(|s| angle_rad > s.begin_rad);
+fn in_stop(law: &JointLaw, angle_rad: f64) -> bool {
+    match law {
+        JointLaw::Ball(ball) => ball.stop.is_some_and(|s| angle_rad > s.begin_rad),
+        JointLaw::Hinge(hinge) => {
+            hinge.lower_stop.is_some_and(|s| angle_rad < s.begin_rad)
+                || hinge.upper_stop.is_some_and(|s| angle_rad > s.begin_rad)
         }
-    };
-    ball.stop.is_some_and(|s| angle_rad > s.begin_rad)
+    }
 }

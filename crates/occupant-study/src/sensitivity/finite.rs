@@ -5,7 +5,7 @@ use std::ops::ControlFlow;
 use super::ladder::Slope;
 use super::measures::pick;
 use super::parameter::Parameter;
-use occupant_core::results::outcome::Status;
+use crate::ending::Ending;
 use occupant_core::results::summary::Summarizer;
 use occupant_core::run::batch::{Ended, Job, simulate_many};
 
@@ -80,7 +80,7 @@ pub fn finite_changes(parameter: &Parameter<'_>, parts: &[f64], figures: &[Strin
         Some(Job { tag: (i, side), model, recorder: Summarizer::new() })
     });
     simulate_many(jobs, |ended: Ended<(usize, usize), Summarizer>| {
-        let completed = matches!(&ended.outcome, Ok(o) if o.status == Status::Completed);
+        let completed = ended.outcome.is_ok_and(|o| Ending::of(&o) == Some(Ending::Completed));
         if let (true, Some(summary)) = (completed, ended.recorder.summary(None)) {
             let (i, side) = ended.tag;
             all[i].figures[side] = pick(&summary.figures(&ended.model), figures);

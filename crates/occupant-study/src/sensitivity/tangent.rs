@@ -3,7 +3,7 @@
 use super::built::{Built, dual_frames, dual_history, dual_state, dual_system};
 use super::events::Scene;
 use super::trouble::Trouble;
-use occupant_core::forces::History;
+use occupant_core::forces::{Actions, History};
 use occupant_core::kernel::System;
 use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
@@ -76,7 +76,7 @@ impl<'a, const N: usize> Tangent<'a, N> {
         }
         let frames = self.frames(time_s, time_s);
         scene.begin(time_s, &self.state);
-        rate_at_start(&self.system, &self.state, &frames, &mut self.history, scene);
+        rate_at_start(&self.system, &self.state, &frames, &mut self.history, &mut scene.actions);
     }
 
     /// A step that the plain run has taken; `stop_s` is the next break of the path, `scene` sees where it began.
@@ -94,7 +94,7 @@ impl<'a, const N: usize> Tangent<'a, N> {
         let h = Dual::new(step.length_s(), [0.0; N]);
         scene.begin(step.start_s, &self.state);
         self.state = rk4::step(&self.state, h, |stage, state| match stage {
-            rk4::Stage::Start => rate_at_start(system, state, &start, history, scene),
+            rk4::Stage::Start => rate_at_start(system, state, &start, history, &mut scene.actions),
             rk4::Stage::Middle => rate_within(system, state, &middle, history),
             rk4::Stage::End => rate_within(system, state, &end, history),
         });
@@ -109,7 +109,7 @@ impl<'a, const N: usize> Tangent<'a, N> {
         let (system, front) = (&self.system, &mut self.front);
         if !front.rate_is_known {
             scene.begin(t, &front.to);
-            front.rates[1] = rate_at_start(system, &front.to, &start, &mut front.after, scene);
+            front.rates[1] = rate_at_start(system, &front.to, &start, &mut front.after, &mut scene.actions);
         }
         front.spare.take_over(&front.after);
         let (k1, history) = (front.rates[1], &mut front.spare);
@@ -118,7 +118,7 @@ impl<'a, const N: usize> Tangent<'a, N> {
             Stage::Within(_) => rate_within(system, state, &late, history),
             Stage::End => {
                 scene.begin(step.end_s, state);
-                rate_at_start(system, state, &end, history, scene)
+                rate_at_start(system, state, &end, history, &mut scene.actions)
             }
         });
         front.step = step;
@@ -155,16 +155,16 @@ impl<const N: usize> Front<N> {
 
 // The kernel in duals is large: these two are the only copies of it for each number of directions.
 
-/// The rate at an accepted step, which the history takes over and `scene` sees.
+/// The rate at an accepted step, which the history takes over and `actions` shows.
 #[inline(never)]
 fn rate_at_start<const N: usize>(
     system: &System<Dual<N>>,
     state: &State<Dual<N>>,
     frames: &Frames<Dual<N>>,
     history: &mut History<Dual<N>>,
-    scene: &mut Scene<N>,
+    actions: &mut Actions<Dual<N>>,
 ) -> State<Dual<N>> {
-    system.rate_observed::<true>(state, frames, history, scene)
+    system.rate_observed::<true>(state, frames, history, actions)
 }
 
 /// The rate within a step.

@@ -4,11 +4,12 @@ use super::built::Built;
 use super::events::{Event, Lookout, Scene, join};
 use super::tangent::Tangent;
 use super::trouble::Trouble;
+#[cfg(doc)]
+use occupant_core::forces::Memory;
 use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
 use occupant_core::motion::dual::Dual;
 use occupant_core::motion::state::{NUMBERS, State};
-use occupant_core::motion::vector::v3;
 use occupant_core::results::checkpoint::Checkpoint;
 use occupant_core::results::outcome::{Outcome, Status};
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
@@ -17,8 +18,6 @@ use occupant_core::run::{Run, Step};
 
 /// Directions carried side by side.
 const SIDE_BY_SIDE: usize = 4;
-/// A displaced deformation is not below nothing, m.
-const LEAST_M: f64 = 0.0;
 
 /// A run with the derivatives of all that is integrated and remembered, at every output.
 #[derive(Clone, Debug)]
@@ -39,10 +38,8 @@ pub struct Trajectory {
 #[derive(Clone, Debug)]
 struct Displacement {
     state: [f64; NUMBERS],
-    /// Greatest deformations that change, by pair.
-    pairs: Vec<(u32, f64)>,
-    /// Normal and greatest elongation of each belt.
-    belts: Vec<[f64; 4]>,
+    /// Remembered numbers that change, by their place in the order of [`Memory::each`].
+    memory: Vec<(u32, f64)>,
 }
 
 /// Runs `model` with derivatives by the parameters that `built` is of. What `built` knows of the path is asked on the way.
@@ -129,24 +126,13 @@ fn steps_to_an_output(model: &Model) -> usize {
 
 /// Whether the values of the run in duals are, to the bit, those of the plain run.
 fn compare<const N: usize>(tangent: &Tangent<'_, N>, run: &Run) -> Result<(), Trouble> {
-    let same = |dual: &Dual<N>, plain: f64| dual.value.to_bits() == plain.to_bits();
     let values = values(&tangent.state).to_numbers();
     let plain = run.state.to_numbers();
     let state = values.iter().zip(&plain).all(|(a, b)| a.to_bits() == b.to_bits());
-    let history = &tangent.history;
-    let pairs = history.pairs.iter().zip(&run.history.pairs);
-    let pairs = pairs.into_iter().all(|(a, b)| same(&a.phase, b.phase) && same(&a.greatest, b.greatest));
-    let belts = history.belts.iter().zip(&run.history.belts);
-    let belts = belts.into_iter().all(|(a, b)| {
-        same(&a.greatest, b.greatest)
-            && same(&a.normal.x, b.normal.x)
-            && same(&a.normal.y, b.normal.y)
-            && same(&a.normal.z, b.normal.z)
-    });
-    match state && pairs && belts {
-        true => Ok(()),
-        false => Err(Trouble::Apart { time_s: run.time_s }),
-    }
+    let mut memory = true;
+    let mut plain = run.history.memory.clone();
+    tangent.history.memory.clone().each(&mut plain, &mut |a, b| memory &= a.value.to_bits() == b.to_bits());
+    if state && memory { Ok(()) } else { Err(Trouble::Apart { time_s: run.time_s }) }
 }
 
 fn values<const N: usize>(state: &State<Dual<N>>) -> State<f64> {
@@ -157,17 +143,10 @@ impl Displacement {
     /// Direction `k` of a run in duals at an output.
     fn of<const N: usize>(tangent: &Tangent<'_, N>, k: usize) -> Self {
         let state = tangent.state.zip(&tangent.state, |x, _| x.slopes[k]);
-        let pairs = tangent.history.pairs.iter().enumerate();
-        Displacement {
-            state: state.to_numbers(),
-            pairs: pairs.map(|(i, p)| (i as u32, p.greatest.slopes[k])).filter(|(_, slope)| *slope != 0.0).collect(),
-            belts: tangent
-                .history
-                .belts
-                .iter()
-                .map(|b| [b.normal.x, b.normal.y, b.normal.z, b.greatest].map(|x| x.slopes[k]))
-                .collect(),
-        }
+        let mut slopes = Vec::new();
+        tangent.history.memory.map(&mut |x| slopes.push(x.slopes[k]));
+        let memory = (0..).zip(slopes).filter(|(_, slope)| *slope != 0.0);
+        Displacement { state: state.to_numbers(), memory: memory.collect() }
     }
 }
 
@@ -203,15 +182,14 @@ impl Trajectory {
             *x += by * slope;
         }
         checkpoint.state = State::from_numbers(&numbers);
-        for (i, slope) in &slopes.pairs {
-            let pair = &mut checkpoint.pairs[*i as usize];
-            pair.greatest = (pair.greatest + by * slope).max(LEAST_M);
-        }
-        for (belt, [x, y, z, greatest]) in checkpoint.belts.iter_mut().zip(&slopes.belts) {
-            let n = belt.normal;
-            belt.normal = v3(n.x + by * x, n.y + by * y, n.z + by * z);
-            belt.greatest += by * greatest;
-        }
+        let mut changing = slopes.memory.iter().peekable();
+        let mut place = 0;
+        checkpoint.memory = checkpoint.memory.map(&mut |x| {
+            let slope = changing.next_if(|(at, _)| *at == place).map(|(_, slope)| slope);
+            place += 1;
+            slope.map_or(x, |slope| x + by * slope)
+        });
+        checkpoint.memory.confine();
         checkpoint
     }
 }

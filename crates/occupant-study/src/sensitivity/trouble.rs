@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use occupant_core::kernel::Unlike;
+use occupant_core::forces::Unlike;
 use occupant_core::results::checkpoint::CheckpointError;
 use occupant_core::results::recorder::RecorderError;
 

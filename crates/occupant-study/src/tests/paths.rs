@@ -2,6 +2,9 @@
 
 use super::super::{StudyText, Value};
 use super::{base, bind, no_files, study};
+use occupant_core::body::joint::{JointLaw, Joints};
+use occupant_core::body::tree::Joint;
+use occupant_core::body::tti12;
 use occupant_core::model::setup::Setup;
 use occupant_core::scenario::Format;
 
@@ -9,6 +12,13 @@ fn setup(study: &super::Study, index: u64) -> Setup {
     let draft = study.draft(index).unwrap();
     let loaded = draft.load(&no_files).unwrap_or_else(|e| panic!("{e}"));
     loaded.build().unwrap_or_else(|e| panic!("{e}")).0
+}
+
+fn damping(joints: &Joints, joint: Joint) -> f64 {
+    match joints[joint] {
+        JointLaw::Ball(ball) => ball.damping_n_m_s,
+        JointLaw::Hinge(hinge) => hinge.damping_n_m_s,
+    }
 }
 
 /// A study of one parameter with the two values 1/3 and 3.
@@ -57,9 +67,9 @@ fn a_factor_multiplies_what_presets_say_each_in_its_own_place() {
     assert_eq!(study.parameters()[0].unit, "");
     assert_eq!(study.parameters()[0].targets.len(), 11);
     let (plain, half) = (setup(&study, 0).joints, setup(&study, 1).joints);
-    assert_eq!(half.neck.damping_n_m_s, 0.5 * plain.neck.damping_n_m_s);
-    assert_eq!(half.left_knee.damping_n_m_s, 0.5 * plain.left_knee.damping_n_m_s);
-    assert_ne!(plain.neck.damping_n_m_s, plain.left_knee.damping_n_m_s);
+    assert_eq!(damping(&half, tti12::NECK), 0.5 * damping(&plain, tti12::NECK));
+    assert_eq!(damping(&half, tti12::LEFT_KNEE), 0.5 * damping(&plain, tti12::LEFT_KNEE));
+    assert_ne!(damping(&plain, tti12::NECK), damping(&plain, tti12::LEFT_KNEE));
 }
 
 #[test]

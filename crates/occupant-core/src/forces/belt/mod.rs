@@ -1,12 +1,29 @@
-//! Belts, as data: one loop round one sphere, two anchors in the vehicle.
+//! Belts: one loop round one sphere, two anchors in the vehicle.
 //!
 //! Report: "Lap and Torso Restraint Belts", Eqs 95–108, Figs 17 and 18.
 
+mod check;
 pub mod law;
+pub mod results;
 
 use nalgebra::Point3;
 
+use crate::body::Body;
+use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkSum};
 use crate::forces::material::BilinearSpring;
+use crate::motion::frame::VEHICLE;
+use crate::motion::scalar::Scalar;
+use crate::motion::vector::v3;
+use crate::problem::Problems;
+use law::{BeltAction, BeltHistory, BeltLaw};
+
+/// Place of the recoverable energy in the energy ledger.
+pub const STORED: usize = 2;
+/// Place of the work put into belts, stored and dissipated.
+pub const STRETCH: usize = 3;
+
+/// Other belts, or belts round other spheres.
+pub const OTHER_BELTS: Unlike = Unlike("the belts are others or go round other spheres");
 
 /// How the unstretched length L₀ is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -23,6 +40,13 @@ pub enum RestLength {
     },
 }
 
+impl Default for RestLength {
+    /// Neither slack nor preload.
+    fn default() -> Self {
+        RestLength::Slack { slack_m: 0.0 }
+    }
+}
+
 /// A belt.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Belt {
@@ -36,4 +60,116 @@ pub struct Belt {
     pub webbing: BilinearSpring,
     /// Unstretched length.
     pub rest: RestLength,
+}
+
+impl Belt {
+    /// A belt without slack round the sphere `sphere` (index), from anchor to anchor (vehicle axes).
+    pub fn new(name: impl Into<String>, sphere: usize, anchors_m: [Point3<f64>; 2], webbing: BilinearSpring) -> Self {
+        Belt { name: name.into(), sphere, anchors_m, webbing, rest: RestLength::default() }
+    }
+}
+
+/// The kind of force element: belts.
+#[derive(Clone, Copy, Debug)]
+pub struct Belts;
+
+impl Element for Belts {
+    const STORED: StoredEnergy =
+        StoredEnergy { at: STORED, name: "belts", meaning: "stored in belts", held_by: Some(STRETCH) };
+    const SUMS: &'static [WorkSum] = &[WorkSum { at: STRETCH, name: "lost_belts", meaning: "dissipated by belts" }];
+    const NAMES: [&'static str; 2] = ["belt", "belts"];
+
+    type Data<'a> = &'a [Belt];
+    type Law<S> = Vec<BeltLaw<S>>;
+    type Past<S> = BeltHistory<S>;
+    type Hints<S: Scalar> = ();
+    type Action<S> = BeltAction<S>;
+
+    fn check(data: &[Belt], body: &Body, problems: &mut Problems) {
+        check::data(data, body, problems);
+    }
+
+    fn new(data: &[Belt], body: &Body) -> Vec<BeltLaw<f64>> {
+        data.iter().map(|belt| BeltLaw::new(belt, body.spheres[belt.sphere].radius_m, 0.0)).collect()
+    }
+
+    fn lay(law: &mut Vec<BeltLaw<f64>>, data: &[Belt], body: &Body, at: &Instant<'_, f64>) {
+        for (law, belt) in law.iter_mut().zip(data) {
+            *law = BeltLaw::laid(belt, body.spheres[belt.sphere].radius_m, at.centre_in(belt.sphere, VEHICLE));
+        }
+    }
+
+    fn begin(law: &mut Vec<BeltLaw<f64>>, data: &[Belt], body: &Body, at: &Instant<'_, f64>, problems: &mut Problems) {
+        for (law, belt) in law.iter().zip(data) {
+            check::laid(law, belt, body, at.centre_in(belt.sphere, VEHICLE), problems);
+        }
+    }
+
+    fn start(law: &Vec<BeltLaw<f64>>, at: &Instant<'_, f64>) -> Vec<BeltHistory<f64>> {
+        law.iter().map(|belt| belt.initial_history(at.centre_in(belt.sphere, VEHICLE))).collect()
+    }
+
+    fn hints<S: Scalar>(_law: &Vec<BeltLaw<S>>) {}
+
+    fn count<S>(law: &Vec<BeltLaw<S>>) -> usize {
+        law.len()
+    }
+
+    fn zip<S: Copy, A: Copy, T>(
+        one: &Vec<BeltLaw<S>>,
+        other: &Vec<BeltLaw<A>>,
+        f: &impl Fn(S, A) -> T,
+    ) -> Result<Vec<BeltLaw<T>>, Unlike> {
+        if one.len() != other.len() || one.iter().zip(other).any(|(a, b)| a.sphere != b.sphere) {
+            return Err(OTHER_BELTS);
+        }
+        Ok(one.iter().zip(other).map(|(a, b)| a.zip(b, f)).collect())
+    }
+
+    fn each<S, A>(one: &mut BeltHistory<S>, other: &mut BeltHistory<A>, f: &mut impl FnMut(&mut S, &mut A)) {
+        f(&mut one.normal.x, &mut other.normal.x);
+        f(&mut one.normal.y, &mut other.normal.y);
+        f(&mut one.normal.z, &mut other.normal.z);
+        f(&mut one.greatest, &mut other.greatest);
+    }
+
+    fn map<A: Copy, S>(past: &BeltHistory<A>, f: &mut impl FnMut(A) -> S) -> BeltHistory<S> {
+        let n = past.normal;
+        BeltHistory { normal: v3(f(n.x), f(n.y), f(n.z)), greatest: f(past.greatest) }
+    }
+
+    /// The forces act at the spheres' centres.
+    #[inline(always)]
+    fn apply<S: Scalar, const COMMIT: bool>(
+        law: &Vec<BeltLaw<S>>,
+        at: &Instant<'_, S>,
+        past: &mut [BeltHistory<S>],
+        _hints: &mut (),
+        load: &mut Load<S>,
+        show: &mut impl FnMut(&BeltAction<S>),
+    ) {
+        let frame = &at.frames[VEHICLE];
+        for (belt, past) in law.iter().zip(past) {
+            let site = &at.spheres[belt.sphere];
+            let (arm, centre, velocity) = site.place(at.k);
+            let centre_v = frame.axes.into_frame(centre - frame.origin);
+            let action = belt.act(centre_v, past);
+            if COMMIT {
+                belt.commit(&action, past);
+            }
+            let force = frame.axes.out(action.force);
+            let carried = frame.velocity_at(centre);
+            let wrench = &mut load.wrench[site.segment];
+            wrench.force += force;
+            wrench.moment += arm.cross(force);
+            let power = &mut load.power;
+            power.sums[STRETCH] -= force.dot(velocity - carried);
+            power.vehicle += force.dot(carried);
+            show(&action);
+        }
+    }
+
+    fn stored_j(actions: &[BeltAction<f64>]) -> f64 {
+        actions.iter().map(|belt| belt.stored).sum()
+    }
 }

@@ -2,12 +2,12 @@
 
 use nalgebra::Point3;
 
-use super::EdgeForce;
-use crate::body::{Body, ContactSphere};
+use super::{ContactData, EdgeForce};
+use crate::body::Body;
 use crate::forces::contact::face::{Outline, V2};
 use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::contact::surface::{Frame, Outline as FaceOutline, Surface};
-use crate::forces::contact::{ContactSystem, Group, Pair, Part, Plane, Site};
+use crate::forces::contact::{ContactSystem, Group, Pair, Part, Plane};
 use crate::forces::material::{Material, Memory};
 use crate::forces::spring::Spring;
 use crate::motion::frame::{SPACE, VEHICLE};
@@ -18,18 +18,10 @@ use crate::motion::vector::V3;
 const FASTEST_M_S: f64 = 100.0;
 
 impl<S: Scalar> ContactSystem<S> {
-    /// All pairs of `body` with `surfaces`, whose resolved planes are `faces`.
-    pub fn new(
-        body: &Body,
-        surfaces: &[Surface],
-        faces: &[FlatFace],
-        materials: &[Material],
-        edge_force: EdgeForce,
-        longest_step_s: f64,
-    ) -> Self {
-        let sites = body.spheres.iter().map(|s| site(body, s)).collect();
+    /// All pairs of `body` with surfaces whose planes are known.
+    pub fn new(body: &Body, data: &ContactData<'_>) -> Self {
+        let &ContactData { surfaces, faces, materials, edge_force, longest_step_s } = data;
         let mut system = ContactSystem {
-            sites,
             groups: Vec::new(),
             planes: Vec::new(),
             pairs: Vec::new(),
@@ -54,14 +46,6 @@ impl<S: Scalar> ContactSystem<S> {
         }
         system
     }
-}
-
-fn site<S: Scalar>(body: &Body, sphere: &ContactSphere) -> Site<S> {
-    // the proximal joint of a hanging segment is its upper end
-    let joint = if sphere.segment.hangs() { body.segment(sphere.segment).length_m } else { 0.0 };
-    let mut offset = sphere.centre_from_lower_end_m.coords;
-    offset.z -= joint;
-    Site { segment: sphere.segment.index(), offset: V3::of(&offset), radius: S::of(sphere.radius_m) }
 }
 
 /// Faces of `frame` that `sphere` can touch, in groups that act as one; in order of their first surface.

@@ -1,10 +1,8 @@
 //! One sphere against the faces of one frame, within one evaluation.
 
-use crate::body::SEGMENTS;
-use crate::forces::History;
-use crate::forces::Observer;
-use crate::forces::contact::{ContactSystem, Group, PASSED, PairHistory, Site};
-use crate::motion::dynamics::Wrench;
+use crate::forces::contact::{ContactSystem, FRICTION, Group, PASSED, PRESS, PairHistory, Touch};
+use crate::forces::element::{Instant, Load as AllLoads};
+use crate::forces::sphere::Site;
 use crate::motion::frame::Moving;
 use crate::motion::kinematics::Kinematics;
 use crate::motion::scalar::Scalar;
@@ -17,6 +15,8 @@ pub(crate) struct Approach<S> {
     pub centre: V3<S>,
     pub velocity: V3<S>,
     pub omega: V3<S>,
+    /// r, m.
+    pub radius: S,
 }
 
 /// A sphere among the faces of a frame, and the load that it gathers.
@@ -47,8 +47,8 @@ struct Load<S: Scalar> {
 impl<'a, S: Scalar> Sphere<'a, S> {
     /// The sphere of `group`, with no load yet.
     #[inline(always)]
-    pub fn new(contacts: &'a ContactSystem<S>, group: &'a Group, k: &'a Kinematics<S>, frame: &'a Moving<S>) -> Self {
-        let site = &contacts.sites[group.sphere];
+    pub fn new(contacts: &'a ContactSystem<S>, group: &'a Group, at: &Instant<'a, S>) -> Self {
+        let (site, frame, k) = (&at.spheres[group.sphere], &at.frames[group.frame], at.k);
         let arm = k.axes[site.segment].out(site.offset);
         let centre = k.joint[site.segment] + arm;
         let centre_f = frame.axes.into_frame(centre - frame.origin);
@@ -61,15 +61,14 @@ impl<'a, S: Scalar> Sphere<'a, S> {
     pub fn commit(
         &mut self,
         i: usize,
-        history: &mut History<S>,
+        pair: &mut PairHistory<S>,
         power: &mut Work<S>,
-        observer: &mut impl Observer<S>,
+        show: &mut impl FnMut(&Touch<S>),
     ) -> S {
-        let pair = &mut history.pairs[i];
         let depth = self.contacts.planes[i].depth(self.centre_f);
         self.contacts.open(i, depth, pair);
         let contact = depth.gt(S::zero());
-        self.meet::<true>(i, depth, contact, pair, power, observer);
+        self.meet::<true>(i, depth, contact, pair, power, show);
         depth
     }
 
@@ -83,7 +82,7 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         contact: S::Mask,
         history: &mut PairHistory<S>,
         power: &mut Work<S>,
-        observer: &mut impl Observer<S>,
+        show: &mut impl FnMut(&Touch<S>),
     ) {
         if !S::any(contact) {
             return;
@@ -108,24 +107,26 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         load.lanes = load.lanes | on;
         let pressing = press.dot(approach.velocity) + edge_twist.dot(approach.omega);
         let rubbing = t.friction.dot(t.slip);
-        power.contact = S::select(on, power.contact - pressing, power.contact);
-        power.friction = S::select(on, power.friction - rubbing, power.friction);
-        observer.touch(&t);
+        let sums = &mut power.sums;
+        sums[PRESS] = S::select(on, sums[PRESS] - pressing, sums[PRESS]);
+        sums[FRICTION] = S::select(on, sums[FRICTION] - rubbing, sums[FRICTION]);
+        show(&t);
     }
 
     /// Puts the gathered load on the sphere's segment (Eqs 94, 63–68).
     #[inline(always)]
-    pub fn load(self, wrench: &mut [Wrench<S>; SEGMENTS], power: &mut Work<S>) {
+    pub fn load(self, all: &mut AllLoads<S>) {
         let Some(load) = self.load else { return };
         let frame = self.frame;
         let (force, twist) = (frame.axes.out(load.force), frame.axes.out(load.twist));
         let moment = self.arm.cross(force) + twist;
         // F·v of the frame at the centre, and the lever about it
         let carrying = force.dot(frame.velocity_at(self.centre)) + twist.dot(frame.omega);
-        let on = &mut wrench[self.site.segment];
+        let on = &mut all.wrench[self.site.segment];
         on.force = V3::select(load.lanes, on.force + force, on.force);
         on.moment = V3::select(load.lanes, on.moment + moment, on.moment);
-        power.vehicle = S::select(load.lanes, power.vehicle + carrying, power.vehicle);
+        let vehicle = &mut all.power.vehicle;
+        *vehicle = S::select(load.lanes, *vehicle + carrying, *vehicle);
     }
 
     /// How the sphere moves relative to the frame.
@@ -141,6 +142,7 @@ impl<'a, S: Scalar> Sphere<'a, S> {
             centre: centre_f,
             velocity: frame.axes.into_frame(velocity - frame.velocity_at(centre)),
             omega: frame.axes.into_frame(k.omega[n] - frame.omega),
+            radius: self.site.radius,
         };
         self.load = Some(Load { approach, force: V3::zero(), twist: V3::zero(), lanes: S::truth(false) });
         approach

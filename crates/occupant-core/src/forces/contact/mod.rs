@@ -1,11 +1,187 @@
 //! Contact of spheres with bounded plane surfaces.
 
 mod assembly;
-pub mod encounter;
+mod check;
+mod encounter;
 pub mod face;
 pub mod flat_face;
-pub mod history;
+mod hints;
 pub mod surface;
 mod system;
+mod zip;
 
+pub use hints::ContactHints;
 pub use system::*;
+pub use zip::{OTHER_OUTLINES, OTHER_PAIRS};
+
+use crate::body::Body;
+use crate::forces::contact::flat_face::FlatFace;
+use crate::forces::contact::surface::Surface;
+use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkSum};
+use crate::forces::material::Material;
+use crate::motion::scalar::Scalar;
+use crate::problem::Problems;
+use encounter::Sphere;
+use hints::{Looking, Near, Nearing};
+
+/// Place of the recoverable energy in the energy ledger.
+pub const STORED: usize = 1;
+/// Place of the work put into contacts along their normals and edge bands, stored and dissipated.
+pub const PRESS: usize = 0;
+/// Place of the work that friction dissipates.
+pub const FRICTION: usize = 1;
+
+/// What a setup says of contacts.
+#[derive(Clone, Copy, Debug)]
+pub struct ContactData<'a> {
+    /// Surfaces of vehicle and space.
+    pub surfaces: &'a [Surface],
+    /// Their planes, known once the surfaces are found sound.
+    pub faces: &'a [FlatFace],
+    /// Materials.
+    pub materials: &'a [Material],
+    /// Where the edge force acts.
+    pub edge_force: EdgeForce,
+    /// The longest step that the integrator can take, s.
+    pub longest_step_s: f64,
+}
+
+/// The kind of force element: spheres that press and rub on faces (Eqs 84–94).
+#[derive(Clone, Copy, Debug)]
+pub struct Contacts;
+
+impl Element for Contacts {
+    const STORED: StoredEnergy =
+        StoredEnergy { at: STORED, name: "contacts", meaning: "stored in contacts", held_by: Some(PRESS) };
+    const SUMS: &'static [WorkSum] = &[
+        WorkSum { at: PRESS, name: "lost_contacts", meaning: "dissipated by contacts" },
+        WorkSum { at: FRICTION, name: "lost_friction", meaning: "dissipated by friction" },
+    ];
+    const NAMES: [&'static str; 2] = ["pair", "pairs of spheres and surfaces"];
+
+    type Data<'a> = ContactData<'a>;
+    type Law<S> = ContactSystem<S>;
+    type Past<S> = PairHistory<S>;
+    type Hints<S: Scalar> = ContactHints<S>;
+    type Action<S> = Touch<S>;
+
+    fn check(data: ContactData<'_>, body: &Body, problems: &mut Problems) {
+        check::check(data.materials, data.surfaces, body, problems);
+    }
+
+    fn new(data: ContactData<'_>, body: &Body) -> ContactSystem<f64> {
+        ContactSystem::new(body, &data)
+    }
+
+    fn start(law: &ContactSystem<f64>, at: &Instant<'_, f64>) -> Vec<PairHistory<f64>> {
+        law.pasts(at, |group, i, centre| law.initial_history(i, at.spheres[group.sphere].radius, centre))
+    }
+
+    fn hints<S: Scalar>(law: &ContactSystem<S>) -> ContactHints<S> {
+        ContactHints::new(law)
+    }
+
+    fn count<S>(law: &ContactSystem<S>) -> usize {
+        law.pairs.len()
+    }
+
+    fn zip<S: Copy, A: Copy, T>(
+        one: &ContactSystem<S>,
+        other: &ContactSystem<A>,
+        f: &impl Fn(S, A) -> T,
+    ) -> Result<ContactSystem<T>, Unlike> {
+        one.zip(other, f)
+    }
+
+    fn each<S, A>(one: &mut PairHistory<S>, other: &mut PairHistory<A>, f: &mut impl FnMut(&mut S, &mut A)) {
+        f(&mut one.phase, &mut other.phase);
+        f(&mut one.greatest, &mut other.greatest);
+    }
+
+    fn map<A: Copy, S>(past: &PairHistory<A>, f: &mut impl FnMut(A) -> S) -> PairHistory<S> {
+        PairHistory { phase: f(past.phase), greatest: f(past.greatest) }
+    }
+
+    fn is_possible(past: &PairHistory<f64>) -> bool {
+        [OPEN, TOUCHING, PASSED].contains(&past.phase) && past.greatest.is_finite() && past.greatest >= 0.0
+    }
+
+    fn confine(past: &mut PairHistory<f64>) {
+        past.greatest = past.greatest.max(0.0);
+    }
+
+    #[inline(always)]
+    fn apply<S: Scalar, const COMMIT: bool>(
+        law: &ContactSystem<S>,
+        at: &Instant<'_, S>,
+        past: &mut [PairHistory<S>],
+        hints: &mut ContactHints<S>,
+        load: &mut Load<S>,
+        show: &mut impl FnMut(&Touch<S>),
+    ) {
+        for (g, group) in law.groups.iter().enumerate() {
+            let near = hints.near_of(g, group);
+            if !COMMIT && near.is_empty() {
+                continue;
+            }
+            let mut sphere = Sphere::new(law, group, at);
+            if !COMMIT {
+                for place in near {
+                    let Near { pair, lanes } = hints.near[place];
+                    let i = pair as usize;
+                    let depth = law.planes[i].depth(sphere.centre_f);
+                    let contact = depth.gt(S::zero()) & lanes;
+                    sphere.meet::<false>(i, depth, contact, &mut past[i], &mut load.power, show);
+                }
+            } else {
+                let mut near = Nearing::new(group);
+                if hints.must_look(g, sphere.centre_f) {
+                    let mut look = Looking::new(group);
+                    for i in group.pairs.clone() {
+                        let depth = sphere.commit(i, &mut past[i], &mut load.power, show);
+                        look.at(i, depth, law, &past[i], hints);
+                        near.at(i, depth, law, &past[i], hints);
+                    }
+                    look.end(g, &sphere, law, hints);
+                } else {
+                    for place in hints.watched_of(g, group) {
+                        let i = hints.watched[place] as usize;
+                        let depth = sphere.commit(i, &mut past[i], &mut load.power, show);
+                        near.at(i, depth, law, &past[i], hints);
+                    }
+                }
+                near.end(g, hints);
+            }
+            sphere.load(load);
+        }
+    }
+
+    fn stored_j(actions: &[Touch<f64>]) -> f64 {
+        actions.iter().map(|touch| touch.stored).sum()
+    }
+}
+
+impl ContactSystem<f64> {
+    /// Pair states where an earlier run ended: the listed pairs of sphere and surface have passed, all others that overlap
+    /// touch.
+    pub(crate) fn continued(&self, at: &Instant<'_, f64>, passed: &[(usize, usize)]) -> Vec<PairHistory<f64>> {
+        self.pasts(at, |group, i, centre| {
+            let is_passed = self.pairs[i].parts.iter().any(|part| passed.contains(&(group.sphere, part.surface)));
+            self.continued_history(i, centre, is_passed)
+        })
+    }
+
+    /// What each pair remembers, from its group, its number and the centre in its frame.
+    fn pasts(
+        &self,
+        at: &Instant<'_, f64>,
+        of: impl Fn(&Group, usize, crate::motion::vector::V3<f64>) -> PairHistory<f64>,
+    ) -> Vec<PairHistory<f64>> {
+        let mut list = Vec::with_capacity(self.pairs.len());
+        for group in &self.groups {
+            let centre = at.centre_in(group.sphere, group.frame);
+            list.extend(group.pairs.clone().map(|i| of(group, i, centre)));
+        }
+        list
+    }
+}

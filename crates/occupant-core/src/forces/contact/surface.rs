@@ -3,6 +3,7 @@
 //! Report: "The Idealized Passenger Compartment", Eqs 84–92. The report's planes have no edges in print; bounded faces
 //! are our decision (see the theory manual).
 
+use crash_measures::trig;
 use nalgebra::{Point3, Vector3};
 
 /// The frame a surface or an anchor is fixed to.
@@ -38,6 +39,32 @@ pub enum Outline {
     },
 }
 
+impl Outline {
+    /// A rectangle, trapezoid or triangle that looks like the line from `edge[0]` to `edge[1]` (x, z) from the side; it
+    /// reaches `half_width_m` to either side of `y_m` at the first point and `end_half_width_m` at the second.
+    pub fn strip(edge: [[f64; 2]; 2], y_m: f64, half_width_m: f64, end_half_width_m: f64) -> Self {
+        let ([[x1, z1], [x2, z2]], y, near, far) = (edge, y_m, half_width_m, end_half_width_m);
+        let mut corners = vec![Point3::new(x1, y - near, z1), Point3::new(x1, y + near, z1)];
+        if far == 0.0 {
+            corners.push(Point3::new(x2, y, z2));
+        } else {
+            corners.extend([Point3::new(x2, y + far, z2), Point3::new(x2, y - far, z2)]);
+        }
+        Outline::Polygon(corners)
+    }
+
+    /// A steering wheel: a disc that stands upright across the vehicle, its top tilted forward by `tilt_rad`.
+    pub fn wheel(frame: Frame, centre_m: Point3<f64>, diameter_m: f64, tilt_rad: f64) -> Self {
+        // Rearward and up: N̂ = (−cos τ, 0, −sin τ) in vehicle axes, z down; z is up in space.
+        let (sin, cos) = trig::sin_cos(tilt_rad);
+        let axis = match frame {
+            Frame::Vehicle => Vector3::new(-cos, 0.0, -sin),
+            Frame::Space => Vector3::new(-cos, 0.0, sin),
+        };
+        Outline::Disc { centre_m, radius_m: 0.5 * diameter_m, axis }
+    }
+}
+
 /// Which side of a surface is open, i.e. where N̂ points.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Facing {
@@ -62,4 +89,18 @@ pub struct Surface {
     pub material: usize,
     /// Spheres that can touch it (indices); `None` is all.
     pub spheres: Option<Vec<usize>>,
+}
+
+impl Surface {
+    /// A surface of the vehicle whose open side is that of the point `inside_m`, and that every sphere can touch.
+    pub fn new(name: impl Into<String>, material: usize, outline: Outline, inside_m: Point3<f64>) -> Self {
+        Surface {
+            name: name.into(),
+            frame: Frame::default(),
+            outline,
+            facing: Facing::Towards(inside_m),
+            material,
+            spheres: None,
+        }
+    }
 }

@@ -32,17 +32,6 @@ pub const TOUCHING: f64 = 1.0;
 /// The sphere went round the edge: no force until Δ ≤ 0.
 pub const PASSED: f64 = 2.0;
 
-/// A sphere of the body.
-#[derive(Clone, Copy, Debug)]
-pub struct Site<S> {
-    /// Index of its segment.
-    pub segment: usize,
-    /// Centre seen from the segment's proximal joint, segment axes, m.
-    pub offset: V3<S>,
-    /// r, m.
-    pub radius: S,
-}
-
 /// One bounded part of a face with its material.
 #[derive(Clone, Debug)]
 pub struct Part<S> {
@@ -134,11 +123,9 @@ pub struct Touch<S> {
     pub slip: V3<S>,
 }
 
-/// All spheres and pairs.
+/// All pairs of spheres and faces.
 #[derive(Clone, Debug)]
 pub struct ContactSystem<S> {
-    /// Spheres, in the body's order.
-    pub sites: Vec<Site<S>>,
     pub(crate) groups: Vec<Group>,
     pub(crate) planes: Vec<Plane<S>>,
     pub(crate) pairs: Vec<Pair<S>>,
@@ -178,10 +165,7 @@ impl<S: Scalar> ContactSystem<S> {
         let o = S::zero();
         let depth = self.planes[i].depth(centre);
         let contact = depth.gt(o);
-        let (phase, greatest) = match passed {
-            true => (PASSED, o),
-            false => (TOUCHING, depth),
-        };
+        let (phase, greatest) = if passed { (PASSED, o) } else { (TOUCHING, depth) };
         PairHistory { phase: S::select(contact, S::of(phase), S::of(OPEN)), greatest: S::select(contact, greatest, o) }
     }
 
@@ -206,7 +190,7 @@ impl<S: Scalar> ContactSystem<S> {
     ) -> Option<Touch<S>> {
         let (o, touching) = (S::zero(), S::of(TOUCHING));
         let pair = &self.pairs[i];
-        let radius = self.sites[group.sphere].radius;
+        let radius = approach.radius;
         let (offset, nearest) = pair.nearest(approach.centre);
         let w = S::select(live, weight(offset.distance, radius), o);
         if COMMIT {
@@ -218,7 +202,7 @@ impl<S: Scalar> ContactSystem<S> {
         if !S::any(w.gt(o)) {
             return None;
         }
-        Some(pair.press(group, i, nearest, approach, radius, depth, w, &offset, history.greatest))
+        Some(pair.press(group, i, nearest, approach, depth, w, &offset, history.greatest))
     }
 
     /// Opens a pair that is apart, and forgets its crush unless its material keeps it.
@@ -266,12 +250,12 @@ impl<S: Scalar> Pair<S> {
         index: usize,
         part: S,
         approach: &Approach<S>,
-        radius: S,
         depth: S,
         w: S,
         offset: &Offset<S>,
         greatest: S,
     ) -> Touch<S> {
+        let radius = approach.radius;
         let law = self.law(part, depth, greatest);
         let normal_force = w * law.force;
         let stored = w * law.energy;

@@ -1,24 +1,23 @@
 //! Segments and spheres of the body.
 
-use super::{at_least_zero, positive};
-use crate::body::{Body, Segment, SegmentProperties};
+use crate::body::{Body, SegmentProperties};
 use crate::problem::Problems;
 
 /// A sphere may lie this far beside even a short segment, m.
 const WIDEST_M: f64 = 0.3;
 
 pub(super) fn check_body(body: &Body, problems: &mut Problems) {
-    for segment in Segment::ALL {
-        let path = format!("body.segments.{}", segment.name());
+    for segment in body.tree.segments() {
+        let path = format!("body.segments.{}", body.tree[segment].name);
         check_segment(body.segment(segment), &path, problems);
     }
     for (key, value) in [("shoulder_half_width", body.shoulder_half_width_m), ("hip_half_width", body.hip_half_width_m)]
     {
-        at_least_zero(problems, &format!("body.{key}"), value, "m");
+        problems.check_at_least_zero(&format!("body.{key}"), value, "m");
     }
     for (i, sphere) in body.spheres.iter().enumerate() {
         let path = format!("body.spheres.{}", sphere.name);
-        positive(problems, &format!("{path}.radius"), sphere.radius_m, "m");
+        problems.check_positive(&format!("{path}.radius"), sphere.radius_m, "m");
         let twin = body.spheres[..i].iter().any(|s| s.name == sphere.name);
         if twin {
             problems.error(&path, format!("a second sphere named {}", sphere.name), "unique names");
@@ -36,10 +35,7 @@ pub(super) fn check_body(body: &Body, problems: &mut Problems) {
                 &path,
                 format!(
                     "a centre {:.4} m along and {:.4} m beside the {:.4} m long {}",
-                    z,
-                    beside,
-                    length,
-                    sphere.segment.name()
+                    z, beside, length, body.tree[sphere.segment].name
                 ),
                 "a sphere on its segment",
                 "the centre is measured from the segment's lower end, upwards",
@@ -49,8 +45,8 @@ pub(super) fn check_body(body: &Body, problems: &mut Problems) {
 }
 
 fn check_segment(p: &SegmentProperties, path: &str, problems: &mut Problems) {
-    positive(problems, &format!("{path}.length"), p.length_m, "m");
-    positive(problems, &format!("{path}.mass"), p.mass_kg, "kg");
+    problems.check_positive(&format!("{path}.length"), p.length_m, "m");
+    problems.check_positive(&format!("{path}.mass"), p.mass_kg, "kg");
     let rho = p.cg_from_lower_end_m;
     if !(rho >= 0.0 && rho <= p.length_m) {
         problems.error(
@@ -62,7 +58,7 @@ fn check_segment(p: &SegmentProperties, path: &str, problems: &mut Problems) {
     let inertia = p.inertia_kg_m2;
     let mut sound = true;
     for (axis, value) in ["x", "y", "z"].iter().zip(inertia.iter()) {
-        sound &= positive(problems, &format!("{path}.inertia"), *value, &format!("kg·m² about {axis}"));
+        sound &= problems.check_positive(&format!("{path}.inertia"), *value, &format!("kg·m² about {axis}"));
     }
     let sum: f64 = inertia.sum();
     for (axis, value) in ["I_x", "I_y", "I_z"].iter().zip(inertia.iter()) {

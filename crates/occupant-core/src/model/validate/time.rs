@@ -1,6 +1,5 @@
 //! Times and the integrator.
 
-use super::positive;
 use crate::model::setup::{Integrator, TimeSpan};
 use crate::problem::Problems;
 
@@ -19,7 +18,7 @@ pub(super) fn check_time(time: &TimeSpan, integrator: &Integrator, problems: &mu
         );
     }
     let mut at_most = |path: &str, interval_s: f64, most: f64, what: &str| {
-        if positive(problems, path, interval_s, "s") && span_s / interval_s > most {
+        if problems.check_positive(path, interval_s, "s") && span_s / interval_s > most {
             problems.error(
                 path,
                 format!("{interval_s} s, which makes {:.1e} {what}", span_s / interval_s),
@@ -32,10 +31,10 @@ pub(super) fn check_time(time: &TimeSpan, integrator: &Integrator, problems: &mu
         Integrator::Rk4 { step_s } => at_most("integrator.step", step_s, MOST_STEPS, "steps"),
         Integrator::Adaptive { relative, absolute_m, absolute_m_s, min_step_s, max_step_s } => {
             at_most("integrator.max_step", max_step_s, MOST_STEPS, "steps");
-            positive(problems, "integrator.relative", relative, "");
-            positive(problems, "integrator.absolute_length", absolute_m, "m");
-            positive(problems, "integrator.absolute_speed", absolute_m_s, "m/s");
-            positive(problems, "integrator.min_step", min_step_s, "s");
+            problems.check_positive("integrator.relative", relative, "");
+            problems.check_positive("integrator.absolute_length", absolute_m, "m");
+            problems.check_positive("integrator.absolute_speed", absolute_m_s, "m/s");
+            problems.check_positive("integrator.min_step", min_step_s, "s");
             if max_step_s < min_step_s {
                 problems.error(
                     "integrator.max_step",

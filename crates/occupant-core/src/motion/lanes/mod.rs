@@ -2,7 +2,7 @@
 //!
 //! Sums, products, quotients and square roots are rounded by the processor's vector unit as one by one, nothing is contracted,
 //! and arcs and sines follow the very operations of the scalar library ([`trig`]). All of them may only be made where the
-//! processor has their instructions, see [`dispatch`]; tests compare them with an array.
+//! processor has their instructions; tests compare them with an array.
 
 #[cfg(target_arch = "x86_64")]
 mod avx2;

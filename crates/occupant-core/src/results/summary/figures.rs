@@ -1,5 +1,7 @@
 //! All measures of a run as one flat list: for tables of many runs, for studies, for fits.
 
+use crash_measures::unit::Unit::{self, Joule, Metre, MetrePerSecond, MetrePerSecondSquared, Newton, One, Second};
+
 use super::{Acceleration, Excursion, FirstContact, Level, Summary};
 use crate::model::Model;
 
@@ -15,19 +17,6 @@ pub struct Figure {
     pub value: Option<f64>,
 }
 
-/// Measures that no run has, or that other figures give.
-const ELSEWHERE: [&str; 9] = [
-    "chest_deflection",
-    "head_peak",
-    "head_3ms_contiguous",
-    "head_3ms_cumulative",
-    "chest_peak",
-    "chest_3ms_contiguous",
-    "chest_3ms_cumulative",
-    "pelvis_peak",
-    "pelvis_3ms_cumulative",
-];
-
 impl Summary {
     /// Every measure of this summary of a run of `model`. The names and their order depend only on which belts and spheres
     /// the model has, so that they are the same for all runs of a study.
@@ -42,26 +31,30 @@ impl Summary {
         if model.body().sphere("head").is_some() {
             list.excursion(self.head_excursion.as_ref());
         }
-        for measure in self.measures.iter().filter(|m| !ELSEWHERE.contains(&m.name)) {
-            list.add(measure.name, measure.unit.symbol(), measure.value);
+        for measure in &self.measures {
+            // those of the accelerations stand above
+            let new = measure.figure.filter(|name| !list.has(name));
+            if let Some(name) = new {
+                list.add(name, measure.unit, measure.value);
+            }
         }
-        list.add("run.reached", "s", self.reached_s);
-        list.add("energy.balance_error", "1", self.energy.balance_error);
-        list.add("energy.greatest_kinetic", "J", self.energy.greatest_kinetic_j);
-        list.add("solver.steps", "1", self.solver.steps as f64);
-        list.add("solver.rejected", "1", self.solver.rejected as f64);
-        list.add("solver.evaluations", "1", self.solver.evaluations as f64);
-        list.add("solver.outputs", "1", self.solver.outputs as f64);
+        list.add("run.reached", Second, self.reached_s);
+        list.add("energy.balance_error", One, self.energy.balance_error);
+        list.add("energy.greatest_kinetic", Joule, self.energy.greatest_kinetic_j);
+        list.add("solver.steps", One, self.solver.steps as f64);
+        list.add("solver.rejected", One, self.solver.rejected as f64);
+        list.add("solver.evaluations", One, self.solver.evaluations as f64);
+        list.add("solver.outputs", One, self.solver.outputs as f64);
         list.figures
     }
 
     fn list_belts(&self, list: &mut List) {
         for belt in &self.belts {
             let name = format!("belts.{}", word(&belt.belt));
-            list.add(format!("{name}.peak"), "N", belt.loop_force_n);
-            list.add(format!("{name}.peak_time"), "s", belt.time_s);
-            list.add(format!("{name}.stretch"), "m", belt.elongation_m);
-            list.add(format!("{name}.body_peak"), "N", belt.body_force_n);
+            list.add(format!("{name}.peak"), Newton, belt.loop_force_n);
+            list.add(format!("{name}.peak_time"), Second, belt.time_s);
+            list.add(format!("{name}.stretch"), Metre, belt.elongation_m);
+            list.add(format!("{name}.body_peak"), Newton, belt.body_force_n);
         }
     }
 
@@ -70,16 +63,16 @@ impl Summary {
         for sphere in &model.body().spheres {
             let name = format!("contacts.{}", word(&sphere.name));
             let peak = self.sphere_forces.iter().find(|p| p.sphere == sphere.name);
-            list.add(format!("{name}.peak"), "N", peak.map_or(0.0, |p| p.force_n));
-            list.add(format!("{name}.peak_time"), "s", peak.map(|p| p.time_s));
+            list.add(format!("{name}.peak"), Newton, peak.map_or(0.0, |p| p.force_n));
+            list.add(format!("{name}.peak_time"), Second, peak.map(|p| p.time_s));
             let depth_m = peak.map_or(0.0, |p| p.penetration_m);
-            list.add(format!("{name}.penetration"), "m", depth_m);
+            list.add(format!("{name}.penetration"), Metre, depth_m);
             let first = self.first_contacts.iter().find(|f| f.sphere == sphere.name);
             if let Some(FirstContact { contact, .. }) = first {
                 let contact = contact.as_ref();
-                list.add(format!("{name}.first_time"), "s", contact.map(|c| c.time_s));
+                list.add(format!("{name}.first_time"), Second, contact.map(|c| c.time_s));
                 let speed_m_s = contact.map(|c| c.closing_m_s);
-                list.add(format!("{name}.first_speed"), "m/s", speed_m_s);
+                list.add(format!("{name}.first_speed"), MetrePerSecond, speed_m_s);
             }
         }
     }
@@ -92,24 +85,28 @@ struct List {
 }
 
 impl List {
-    fn add(&mut self, name: impl Into<String>, unit: &'static str, value: impl Into<Option<f64>>) {
+    fn has(&self, name: &str) -> bool {
+        self.figures.iter().any(|f| f.name == name)
+    }
+
+    fn add(&mut self, name: impl Into<String>, unit: Unit, value: impl Into<Option<f64>>) {
         let mut name = name.into();
         // two names that differ only in characters that stand as `_`
-        while self.figures.iter().any(|f| f.name == name) {
+        while self.has(&name) {
             name.push('_');
         }
         let value = value.into().filter(|x| x.is_finite());
-        self.figures.push(Figure { name, unit, value });
+        self.figures.push(Figure { name, unit: unit.symbol(), value });
     }
 
     fn acceleration(&mut self, part: &str, readings: &Acceleration) {
         let level = |level: Option<Level>| level.map(|l| l.level_m_s2);
-        self.add(format!("{part}.peak"), "m/s^2", readings.peak_m_s2);
-        self.add(format!("{part}.peak_time"), "s", readings.peak_time_s);
+        self.add(format!("{part}.peak"), MetrePerSecondSquared, readings.peak_m_s2);
+        self.add(format!("{part}.peak_time"), Second, readings.peak_time_s);
         let held = level(readings.three_ms_contiguous);
-        self.add(format!("{part}.three_ms_contiguous"), "m/s^2", held);
+        self.add(format!("{part}.three_ms_contiguous"), MetrePerSecondSquared, held);
         let total = level(readings.three_ms_cumulative);
-        self.add(format!("{part}.three_ms_cumulative"), "m/s^2", total);
+        self.add(format!("{part}.three_ms_cumulative"), MetrePerSecondSquared, total);
     }
 
     fn excursion(&mut self, found: Option<&Excursion>) {
@@ -124,17 +121,14 @@ impl List {
         ];
         for (way, of) in ways {
             let (distance_m, time_s) = found.map(of).unzip();
-            self.add(format!("head_excursion.{way}"), "m", distance_m);
-            self.add(format!("head_excursion.{way}_time"), "s", time_s);
+            self.add(format!("head_excursion.{way}"), Metre, distance_m);
+            self.add(format!("head_excursion.{way}_time"), Second, time_s);
         }
     }
 }
 
 /// A name of a belt or sphere as one word of a dotted name.
 pub fn word(name: &str) -> String {
-    let plain = |c: char| match c.is_alphanumeric() || c == '_' || c == '-' {
-        true => c,
-        false => '_',
-    };
+    let plain = |c: char| if c.is_alphanumeric() || c == '_' || c == '-' { c } else { '_' };
     name.chars().map(plain).collect()
 }

@@ -6,17 +6,14 @@ use super::{
     Acceleration, Accelerations, BeltPeak, ContactBegin, EnergyCheck, Excursion, FirstContact, Level, Peak, RunStatus,
     Solver, SpherePeak, Summary,
 };
-use crate::body::Segment;
 use crate::model::Model;
 use crate::model::setup::{Integrator, STANDARD_GRAVITY_M_S2, TimeSpan};
 use crate::results::outcome::{FirstTouch, Outcome, Status};
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
-use crash_measures::injury::{self, Signals, assess};
-use crash_measures::measure::{ThreeMs, three_ms_contiguous, three_ms_cumulative};
+use crash_measures::injury::{self, Readings, Signals};
+use crash_measures::measure::ThreeMs;
 
-/// Segments whose accelerations are summarised: head, chest, pelvis.
-const MEASURED: [Segment; 3] = [Segment::Head, Segment::UpperTorso, Segment::LowerTorso];
 /// Spheres whose first contacts are summarised.
 const STRUCK: [&str; 4] = ["head", "chest", "left_knee", "right_knee"];
 
@@ -28,10 +25,7 @@ pub struct Summarizer {
     time: Option<TimeSpan>,
     head: Option<usize>,
     outputs: usize,
-    /// Time of the first output seen: the start, unless the run was resumed and its beginning is not at hand.
-    first_s: Option<f64>,
-    /// Resultants at the regular output times, by [`MEASURED`], m/s².
-    resultants_m_s2: [Vec<f64>; 3],
+    /// Of head, chest and pelvis.
     accelerations: [Option<Peak>; 3],
     belts: Vec<BeltTrack>,
     spheres: Vec<SphereTrack>,
@@ -73,7 +67,9 @@ impl Summarizer {
     /// The summary of the run that has ended; `None` before its end. `wall_time_s` is what the caller's clock says.
     pub fn summary(&self, wall_time_s: Option<f64>) -> Option<Summary> {
         let (outcome, time) = (self.outcome.as_ref()?, self.time?);
-        let [head, chest, pelvis] = std::array::from_fn(|i| self.acceleration(i, &time));
+        let readings = Readings::new(&self.signals, &injury::Options::default());
+        let parts = [&readings.head, &readings.chest, &readings.pelvis];
+        let [head, chest, pelvis] = std::array::from_fn(|i| self.acceleration(i, parts[i], &time));
         let contacts = self.contacts(outcome, time.start_s);
         let (status, reason) = ending(&outcome.status);
         Some(Summary {
@@ -89,7 +85,7 @@ impl Summarizer {
             contacts,
             sphere_forces: self.sphere_forces(),
             head_excursion: self.excursion(),
-            measures: assess(&self.signals, &injury::Options::default()),
+            measures: readings.measures(),
             energy: EnergyCheck {
                 balance_error: outcome.balance_error,
                 greatest_kinetic_j: outcome.greatest_kinetic_j,
@@ -107,28 +103,24 @@ impl Summarizer {
 
     /// Room for outputs.
     #[cfg(test)]
-    pub(super) fn room(&self) -> [usize; 3] {
-        std::array::from_fn(|i| self.resultants_m_s2[i].capacity())
+    pub(super) fn room(&mut self) -> Vec<usize> {
+        self.signals.all_mut().map(|values| values.capacity()).collect()
     }
 
-    fn acceleration(&self, i: usize, time: &TimeSpan) -> Acceleration {
+    fn acceleration(&self, i: usize, levels: &injury::Acceleration, time: &TimeSpan) -> Acceleration {
         let peak = self.accelerations[i].unwrap_or(Peak { value: 0.0, time_s: time.start_s });
-        let first_s = self.first_s.unwrap_or(time.start_s);
-        let level = |found: ThreeMs| Level {
+        let level = |found: &ThreeMs| Level {
             level_m_s2: found.level_mps2,
             level_g: in_g(found.level_mps2),
-            from_s: first_s + found.start_s,
-            to_s: first_s + found.end_s,
+            from_s: self.signals.start_s + found.start_s,
+            to_s: self.signals.start_s + found.end_s,
         };
-        let values = &self.resultants_m_s2[i];
-        let contiguous = three_ms_contiguous(values, time.output_s);
-        let cumulative = three_ms_cumulative(values, time.output_s);
         Acceleration {
             peak_m_s2: peak.value,
             peak_g: in_g(peak.value),
             peak_time_s: peak.time_s,
-            three_ms_contiguous: contiguous.ok().map(level),
-            three_ms_cumulative: cumulative.ok().map(level),
+            three_ms_contiguous: levels.three_ms_contiguous.as_ref().ok().map(level),
+            three_ms_cumulative: levels.three_ms_cumulative.as_ref().ok().map(level),
         }
     }
 
@@ -201,25 +193,16 @@ impl Summarizer {
     }
 
     fn see_accelerations(&mut self, sample: &Sample<'_>) {
-        let t = sample.time_s;
-        // the last output may come before its regular time; the 3 ms levels need equal intervals
-        let regular = self.time.is_some_and(|time| {
-            let due_s = time.start_s + sample.index as f64 * time.output_s;
-            (t - due_s).abs() <= 1e-6 * time.output_s
-        });
-        for (i, segment) in MEASURED.into_iter().enumerate() {
-            let resultant_m_s2 = sample.specific_force_m_s2(segment).norm();
-            self.accelerations[i].get_or_insert(Peak::NONE).see(resultant_m_s2, t);
-            if regular {
-                self.resultants_m_s2[i].push(resultant_m_s2);
-            }
+        let marks = sample.model.body().tree.landmarks();
+        for (peak, segment) in self.accelerations.iter_mut().zip([marks.head, marks.chest, marks.pelvis]) {
+            peak.get_or_insert(Peak::NONE).see(sample.specific_force_m_s2(segment).norm(), sample.time_s);
         }
     }
 
     fn see_contacts(&mut self, sample: &Sample<'_>) {
         // touches come sphere by sphere or frame by frame: add up first, then compare
         for (sphere, track) in self.spheres.iter_mut().enumerate() {
-            if !sample.touches.iter().any(|t| t.sphere == sphere) {
+            if !sample.actions.contacts.iter().any(|t| t.sphere == sphere) {
                 continue;
             }
             let mut sum_n = Vector3::zeros();
@@ -239,7 +222,7 @@ impl Summarizer {
     }
 
     fn see_belts(&mut self, sample: &Sample<'_>) {
-        for (track, action) in self.belts.iter_mut().zip(sample.belts) {
+        for (track, action) in self.belts.iter_mut().zip(&sample.actions.belts) {
             let t = sample.time_s;
             track.loop_force.see(action.loop_force, t);
             track.elongation.see(action.elongation, t);
@@ -263,7 +246,6 @@ impl Summarizer {
 impl Recorder for Summarizer {
     fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
         let setup = model.setup();
-        let outputs = model.output_count();
         let names = Names {
             title: setup.title.clone(),
             belts: setup.belts.iter().map(|b| b.name.clone()).collect(),
@@ -280,7 +262,6 @@ impl Recorder for Summarizer {
             },
             time: Some(setup.time),
             head: setup.body.sphere("head"),
-            resultants_m_s2: std::array::from_fn(|_| Vec::with_capacity(outputs)),
             belts: vec![belt; names.belts.len()],
             spheres: vec![sphere; names.spheres.len()],
             names,
@@ -291,7 +272,6 @@ impl Recorder for Summarizer {
 
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
         self.outputs += 1;
-        self.first_s.get_or_insert(sample.time_s);
         self.see_accelerations(sample);
         self.see_contacts(sample);
         self.see_belts(sample);

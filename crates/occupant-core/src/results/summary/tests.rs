@@ -1,5 +1,5 @@
 use super::*;
-use crate::body::Segment;
+use crate::body::tti12::HEAD;
 use crate::diagnosis::tests::{lowest_m, model_of};
 use crate::model::Model;
 use crate::results::recorder::{Flow, Recorder, RecorderError};
@@ -64,7 +64,7 @@ struct Everything {
 
 impl Recorder for Everything {
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
-        let reading = sample.specific_force_m_s2(Segment::Head);
+        let reading = sample.specific_force_m_s2(HEAD);
         self.head.push((sample.time_s, reading.norm()));
         for sphere in 0..sample.model.body().spheres.len() {
             let force = sample.sphere_force_n(sphere).norm();

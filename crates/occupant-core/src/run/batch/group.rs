@@ -5,10 +5,10 @@
 
 use std::ops::ControlFlow;
 
-use super::place::{Next, Place, Witness};
+use super::machine::{Bench, Machine};
+use super::place::{Next, Place, Rider, Witness};
 use super::{Ended, Job, Kernel, run_alone};
 use crate::forces::History;
-use crate::kernel::{Bench, Machine};
 use crate::model::Model;
 use crate::model::setup::Integrator;
 use crate::motion::frame::VEHICLE;
@@ -24,13 +24,15 @@ pub(super) struct Group<L: Machine, T, R> {
     bench: Option<Bench<L>>,
     state: State<L>,
     /// Boxed, as they change hands at every step.
-    places: Vec<Option<Box<Place<T, R>>>>,
+    places: Vec<Option<Box<Place>>>,
+    /// Beside the places, so that the step knows nothing of tags and recorders and is compiled once.
+    riders: Vec<Option<Rider<T, R>>>,
 }
 
 impl<L: Machine, T, R: Recorder> Group<L, T, R> {
     /// No runs yet.
     pub fn new(kernel: Kernel) -> Self {
-        Group { kernel, bench: None, state: State::zero(), places: (0..L::COUNT).map(|_| None).collect() }
+        Group { kernel, bench: None, state: State::zero(), places: none::<L, _>(), riders: none::<L, _>() }
     }
 
     /// Runs all `jobs`; `on_end` gets each when it has ended.
@@ -71,9 +73,10 @@ impl<L: Machine, T, R: Recorder> Group<L, T, R> {
         if !self.make_room(i, &job.model) {
             return on_end(run_alone(job));
         }
-        let mut place = Box::new(Place::new(job, step_s));
-        let next = place.begin();
-        self.go_on_or_end(i, place, next, on_end)
+        let mut place = Box::new(Place::new(job.model, step_s));
+        let mut rider = Rider { tag: job.tag, recorder: job.recorder };
+        let next = place.begin(&mut rider.recorder);
+        self.go_on_or_end(i, place, rider, next, on_end)
     }
 
     /// Puts the constants of `model` into lane `i`; false if its structure is another than that of the runs here.
@@ -120,8 +123,8 @@ impl<L: Machine, T, R: Recorder> Group<L, T, R> {
         let finite;
         (self.state, finite) = L::step(bench, &self.state, h, &mut witness);
         for i in 0..L::COUNT {
-            if let Some(place) = self.places[i].take() {
-                self.settle(i, place, finite.lane(i) > 0.0, on_end)?;
+            if let (Some(place), Some(rider)) = (self.places[i].take(), self.riders[i].take()) {
+                self.settle(i, place, rider, finite.lane(i) > 0.0, on_end)?;
             }
         }
         ControlFlow::Continue(())
@@ -131,14 +134,15 @@ impl<L: Machine, T, R: Recorder> Group<L, T, R> {
     fn settle(
         &mut self,
         i: usize,
-        mut place: Box<Place<T, R>>,
+        mut place: Box<Place>,
+        mut rider: Rider<T, R>,
         finite: bool,
         on_end: &mut impl FnMut(Ended<T, R>) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         place.run.effort.evaluations += 4;
         if finite && !place.stretch.is_over() {
             place.run.accept_time(place.step);
-            self.places[i] = Some(place);
+            self.put(i, place, rider);
             return ControlFlow::Continue(());
         }
         let state = self.lane_state(i);
@@ -146,33 +150,39 @@ impl<L: Machine, T, R: Recorder> Group<L, T, R> {
             Err(error) => Next::ended(Status::Failed(error)),
             Ok(()) => {
                 self.fetch_history(i, &mut place.run);
-                place.output()
+                place.output(&mut rider.recorder)
             }
         };
-        self.go_on_or_end(i, place, next, on_end)
+        self.go_on_or_end(i, place, rider, next, on_end)
+    }
+
+    fn put(&mut self, i: usize, place: Box<Place>, rider: Rider<T, R>) {
+        self.places[i] = Some(place);
+        self.riders[i] = Some(rider);
     }
 
     /// Puts a run back into its place, or hands it out.
     fn go_on_or_end(
         &mut self,
         i: usize,
-        mut place: Box<Place<T, R>>,
+        mut place: Box<Place>,
+        rider: Rider<T, R>,
         next: Next,
         on_end: &mut impl FnMut(Ended<T, R>) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         // the output touched the history; and a lane that failed gets numbers again
         if let Some(bench) = &mut self.bench {
             let put = &mut |lanes: &mut L, x: &mut f64| lanes.set_lane(i, *x);
-            bench.history.each(&mut place.run.history, put);
+            bench.history.memory.each(&mut place.run.history.memory, put);
         }
         let state = &place.run.state;
         self.state = self.state.zip(state, |lanes, x| lanes.with_lane(i, x));
         match next {
             Next::GoesOn => {
-                self.places[i] = Some(place);
+                self.put(i, place, rider);
                 ControlFlow::Continue(())
             }
-            Next::Ends(status) => on_end(place.end(self.kernel, status)),
+            Next::Ends(status) => on_end(place.end(rider, self.kernel, status)),
         }
     }
 
@@ -185,7 +195,7 @@ impl<L: Machine, T, R: Recorder> Group<L, T, R> {
     fn fetch_history(&mut self, i: usize, run: &mut Run) {
         if let Some(bench) = &mut self.bench {
             let fetch = &mut |lanes: &mut L, x: &mut f64| *x = lanes.lane(i);
-            bench.history.each(&mut run.history, fetch);
+            bench.history.memory.each(&mut run.history.memory, fetch);
         }
         run.history.look_again();
     }
@@ -193,25 +203,28 @@ impl<L: Machine, T, R: Recorder> Group<L, T, R> {
     /// Finishes the only run left with the scalar kernel.
     fn finish_the_last(&mut self, on_end: &mut impl FnMut(Ended<T, R>) -> ControlFlow<()>) -> ControlFlow<()> {
         for i in 0..L::COUNT {
-            let Some(mut place) = self.places[i].take() else {
+            let (Some(mut place), Some(mut rider)) = (self.places[i].take(), self.riders[i].take()) else {
                 continue;
             };
             place.run.state = self.lane_state(i);
             self.fetch_history(i, &mut place.run);
-            let status = place.finish();
-            on_end(place.end(self.kernel, status))?;
+            let status = place.finish(&mut rider.recorder);
+            on_end(place.end(rider, self.kernel, status))?;
         }
         ControlFlow::Continue(())
     }
+}
+
+/// As many empty places as there are lanes.
+fn none<L: Machine, P>() -> Vec<Option<P>> {
+    (0..L::COUNT).map(|_| None).collect()
 }
 
 /// A bench on which every lane is that of `model`.
 fn new_bench<L: Machine>(model: &Model) -> Option<Bench<L>> {
     let system = model.system();
     let system = system.zip(system, |x, _| L::of(x)).ok()?;
-    let mut start = model.start().history.clone();
-    let mut history = History::like(&system.contacts, &start, L::zero());
-    history.each(&mut start, &mut |lanes, x| *lanes = L::of(*x));
+    let history = History::new(&system.forces, model.start().history.memory.map(&mut L::of));
     let mut cursor = Default::default();
     let start_s = model.setup().time.start_s;
     let frames = model.frames(start_s, start_s, &mut cursor);

@@ -13,6 +13,8 @@
 #[cfg(any(target_arch = "x86_64", test))]
 mod group;
 #[cfg(any(target_arch = "x86_64", test))]
+mod machine;
+#[cfg(any(target_arch = "x86_64", test))]
 mod place;
 
 use std::fmt;
@@ -22,7 +24,7 @@ use std::ops::ControlFlow;
 use group::Group;
 
 #[cfg(doc)]
-use crate::kernel::Unlike;
+use crate::forces::Unlike;
 use crate::model::Model;
 use crate::results::outcome::{Outcome, RecordingFailed};
 use crate::results::recorder::Recorder;

@@ -1,6 +1,6 @@
 //! A run in its place beside others.
 
-use super::{Ended, Job, Kernel};
+use super::{Ended, Kernel};
 use crate::forces::Observer;
 use crate::forces::contact::Touch;
 use crate::model::Model;
@@ -11,11 +11,9 @@ use crate::run::observers::Meeting;
 use crate::run::simulate::go_on;
 use crate::run::{Run, Step, Stretch};
 
-/// A run in its place.
-pub(super) struct Place<T, R> {
-    tag: T,
+/// A run in its place; what its job brought besides the model stays with the [`Rider`].
+pub(super) struct Place {
     pub model: Model,
-    recorder: R,
     pub run: Run,
     /// Steps to the next output.
     pub stretch: Stretch,
@@ -36,32 +34,31 @@ impl Next {
     }
 }
 
-impl<T, R: Recorder> Place<T, R> {
-    /// The run of `job` at its start.
-    pub fn new(job: Job<T, R>, step_s: f64) -> Self {
-        let run = Run::new(&job.model);
-        Place {
-            tag: job.tag,
-            model: job.model,
-            recorder: job.recorder,
-            stretch: Stretch::new(run.time_s, run.time_s, step_s),
-            run,
-            step_s,
-            step: Step::default(),
-        }
+/// The tag and the recorder of a run in its place.
+pub(super) struct Rider<T, R> {
+    pub tag: T,
+    pub recorder: R,
+}
+
+impl Place {
+    /// A run of `model` at its start.
+    pub fn new(model: Model, step_s: f64) -> Self {
+        let run = Run::new(&model);
+        let stretch = Stretch::new(run.time_s, run.time_s, step_s);
+        Place { model, stretch, run, step_s, step: Step::default() }
     }
 
     /// The first output.
-    pub fn begin(&mut self) -> Next {
-        match self.run.begin(&self.model, &mut self.recorder) {
-            Ok(()) => self.output(),
+    pub fn begin(&mut self, recorder: &mut dyn Recorder) -> Next {
+        match self.run.begin(&self.model, recorder) {
+            Ok(()) => self.output(recorder),
             Err(error) => Next::Ends(Err(error)),
         }
     }
 
     /// Records an output and turns to the next.
-    pub fn output(&mut self) -> Next {
-        match self.run.record(&self.model, &mut self.recorder) {
+    pub fn output(&mut self, recorder: &mut dyn Recorder) -> Next {
+        match self.run.record(&self.model, recorder) {
             Err(error) => return Next::Ends(Err(error)),
             Ok(Flow::Stop) => return Next::ended(Status::Stopped),
             Ok(Flow::Continue) => {}
@@ -74,24 +71,29 @@ impl<T, R: Recorder> Place<T, R> {
     }
 
     /// The rest of the run, alone.
-    pub fn finish(&mut self) -> Result<Status, RecordingFailed> {
+    pub fn finish(&mut self, recorder: &mut dyn Recorder) -> Result<Status, RecordingFailed> {
         match self.run.advance_rk4(&self.model, self.stretch) {
             Err(error) => Ok(Status::Failed(error)),
-            Ok(()) => go_on(&self.model, &mut self.run, &mut self.recorder),
+            Ok(()) => go_on(&self.model, &mut self.run, recorder),
         }
     }
 
-    pub fn end(mut self, kernel: Kernel, status: Result<Status, RecordingFailed>) -> Ended<T, R> {
-        let outcome = status.and_then(|status| self.run.end(status, &mut self.recorder));
-        Ended { tag: self.tag, model: self.model, recorder: self.recorder, outcome, kernel }
+    pub fn end<T, R: Recorder>(
+        self,
+        mut rider: Rider<T, R>,
+        kernel: Kernel,
+        status: Result<Status, RecordingFailed>,
+    ) -> Ended<T, R> {
+        let outcome = status.and_then(|status| self.run.end(status, &mut rider.recorder));
+        Ended { tag: rider.tag, model: self.model, recorder: rider.recorder, outcome, kernel }
     }
 }
 
 /// Notes the first touches of every run.
-pub(super) struct Witness<'a, T, R>(pub &'a mut [Option<Box<Place<T, R>>>]);
+pub(crate) struct Witness<'a>(pub(super) &'a mut [Option<Box<Place>>]);
 
-impl<L: Lanes, T, R> Observer<L> for Witness<'_, T, R> {
-    fn touch(&mut self, touch: &Touch<L>) {
+impl<L: Lanes> Observer<L> for Witness<'_> {
+    fn contacts(&mut self, touch: &Touch<L>) {
         for (i, place) in self.0.iter_mut().enumerate() {
             let Some(place) = place else { continue };
             if touch.weight.lane(i) > 0.0 {

@@ -41,14 +41,13 @@ pub(super) fn belts(scenario: &Scenario, body: &Body) -> Vec<Belt> {
 }
 
 fn belt(body: &Body, name: &str, s: &BeltSection) -> Belt {
-    Belt {
-        name: name.to_owned(),
-        sphere: index_of(&s.sphere, body.spheres.iter().map(|s| s.name.as_str())),
-        anchors_m: s.anchors.each_ref().map(point),
-        webbing: spring(&s.k1, &s.k2, &s.delta_b, si_or(&s.mu1, 1.0), &s.mu2),
-        rest: match &s.length {
-            Some(length) => RestLength::Given { length_m: length.si() },
-            None => RestLength::Slack { slack_m: si_or(&s.slack, 0.0) },
-        },
-    }
+    let sphere = index_of(&s.sphere, body.spheres.iter().map(|s| s.name.as_str()));
+    let webbing = spring(&s.k1, &s.k2, &s.delta_b, si_or(&s.mu1, 1.0), &s.mu2);
+    let plain = Belt::new(name, sphere, s.anchors.each_ref().map(point), webbing);
+    let rest = match (&s.length, &s.slack) {
+        (Some(length), _) => RestLength::Given { length_m: length.si() },
+        (None, Some(slack)) => RestLength::Slack { slack_m: slack.si() },
+        (None, None) => plain.rest,
+    };
+    Belt { rest, ..plain }
 }

@@ -7,8 +7,10 @@ use serde::{Deserialize, Serialize};
 
 use super::builder::Builder;
 use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, point, si_or};
-use super::{Acceleration, Force, Inertia, Length, Mass, Scenario};
-use crate::body::{Body, ContactSphere, SEGMENTS, SPHERE_NAMES, Segment, SegmentProperties, standard_spheres};
+use super::{Acceleration, Force, Inertia, Length, Mass};
+use crate::body::tree::SphereRow;
+use crate::body::tti12::TTI12;
+use crate::body::{Body, ContactSphere, SegmentProperties, Tree};
 use crate::model::setup::STANDARD_GRAVITY_M_S2;
 use crate::problem::Problem;
 use crate::scenario::text::with_key;
@@ -107,50 +109,54 @@ pub(crate) struct SphereSection {
     pub(crate) remove: Option<bool>,
 }
 
-/// The body; `body` is explicit, `written` says which preset it came from.
-pub(super) fn body(b: &mut Builder, written: &Scenario, body: &BodySection) -> Body {
-    let weighed_at_m_s2 = si_or(&body.weighed_at, STANDARD_GRAVITY_M_S2);
+/// The body; `section` is explicit, `preset` is the one it came from.
+pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection) -> Body {
+    let weighed_at_m_s2 = si_or(&section.weighed_at, STANDARD_GRAVITY_M_S2);
     let none = Segments::default();
-    let sections = body.segments.as_ref().unwrap_or(&none);
-    let segments = Segment::ALL.map(|s| segment(b, s, section(sections, s), weighed_at_m_s2));
-    let shoulder_half_width_m = b.needed("body", "shoulder_half_width", &body.shoulder_half_width);
-    let hip_half_width_m = b.needed("body", "hip_half_width", &body.hip_half_width);
-    let spheres = spheres(b, &body.spheres, &segments, shoulder_half_width_m);
-    Body {
-        name: written.body.preset.clone().unwrap_or_else(|| "own".into()),
-        segments,
-        shoulder_half_width_m,
-        hip_half_width_m,
-        spheres,
+    let sections = section.segments.as_ref().unwrap_or(&none);
+    let tree = &TTI12;
+    let segment = |i: usize| {
+        let name = tree.segment_rows()[i].name;
+        segment(b, name, sections.of(name), weighed_at_m_s2)
+    };
+    let mut body = Body {
+        name: preset.unwrap_or("own").to_owned(),
+        tree,
+        segments: std::array::from_fn(segment),
+        shoulder_half_width_m: b.needed("body", "shoulder_half_width", &section.shoulder_half_width),
+        hip_half_width_m: b.needed("body", "hip_half_width", &section.hip_half_width),
+        spheres: Vec::new(),
+    };
+    body.spheres = spheres(b, &section.spheres, &body);
+    body
+}
+
+impl Segments {
+    /// What is said of one segment by its own name.
+    fn of(&self, name: &str) -> Option<&SegmentSection> {
+        let segment = match name {
+            "middle_torso" => &self.middle_torso,
+            "upper_torso" => &self.upper_torso,
+            "head" => &self.head,
+            "lower_torso" => &self.lower_torso,
+            "left_upper_arm" => &self.left_upper_arm,
+            "right_upper_arm" => &self.right_upper_arm,
+            "left_forearm" => &self.left_forearm,
+            "right_forearm" => &self.right_forearm,
+            "left_thigh" => &self.left_thigh,
+            "right_thigh" => &self.right_thigh,
+            "left_lower_leg" => &self.left_lower_leg,
+            "right_lower_leg" => &self.right_lower_leg,
+            _ => return None,
+        };
+        segment.as_ref()
     }
 }
 
-fn section(s: &Segments, segment: Segment) -> Option<&SegmentSection> {
-    match segment {
-        Segment::MiddleTorso => s.middle_torso.as_ref(),
-        Segment::UpperTorso => s.upper_torso.as_ref(),
-        Segment::Head => s.head.as_ref(),
-        Segment::LowerTorso => s.lower_torso.as_ref(),
-        Segment::LeftUpperArm => s.left_upper_arm.as_ref(),
-        Segment::RightUpperArm => s.right_upper_arm.as_ref(),
-        Segment::LeftForearm => s.left_forearm.as_ref(),
-        Segment::RightForearm => s.right_forearm.as_ref(),
-        Segment::LeftThigh => s.left_thigh.as_ref(),
-        Segment::RightThigh => s.right_thigh.as_ref(),
-        Segment::LeftLowerLeg => s.left_lower_leg.as_ref(),
-        Segment::RightLowerLeg => s.right_lower_leg.as_ref(),
-    }
-}
-
-fn segment(
-    b: &mut Builder,
-    segment: Segment,
-    section: Option<&SegmentSection>,
-    weighed_at_m_s2: f64,
-) -> SegmentProperties {
-    let path = format!("body.segments.{}", segment.name());
+fn segment(b: &mut Builder, name: &str, section: Option<&SegmentSection>, weighed_at_m_s2: f64) -> SegmentProperties {
+    let path = format!("body.segments.{name}");
     let Some(section) = section else {
-        let found = format!("the body has no segment `{}`", segment.name());
+        let found = format!("the body has no segment `{name}`");
         let hint = "body.preset = \"male50\" gives a whole body to change";
         b.report(Problem::error(path, found, "all twelve segments").with_hint(Some(hint)));
         return SegmentProperties {
@@ -180,40 +186,34 @@ fn segment(
 }
 
 /// The spheres: the report's in its order, then others as written.
-fn spheres(
-    b: &mut Builder,
-    sections: &IndexMap<String, SphereSection>,
-    segments: &[SegmentProperties; SEGMENTS],
-    shoulder_half_width_m: f64,
-) -> Vec<ContactSphere> {
+fn spheres(b: &mut Builder, sections: &IndexMap<String, SphereSection>, body: &Body) -> Vec<ContactSphere> {
     let kept = |name: &str| {
         let section = sections.get(name)?;
         (section.remove != Some(true)).then_some(section)
     };
-    let mut radii_m = [0.0; 17];
-    for (radius_m, name) in radii_m.iter_mut().zip(SPHERE_NAMES) {
-        if let Some(section) = kept(name) {
-            *radius_m = b.needed(&format!("body.spheres.{name}"), "radius", &section.radius);
-        }
-    }
+    let radius_m = |row: &SphereRow| {
+        kept(row.name).map_or(0.0, |s| b.needed(&format!("body.spheres.{}", row.name), "radius", &s.radius))
+    };
+    let standard = body.tree.spheres();
+    let radii_m: Vec<f64> = standard.iter().map(radius_m).collect();
     let mut spheres = Vec::new();
-    for standard in standard_spheres(segments, shoulder_half_width_m, &radii_m) {
-        if let Some(section) = kept(&standard.name) {
-            spheres.push(moved(b, standard, section));
+    for sphere in body.standard_spheres(&radii_m) {
+        if let Some(section) = kept(&sphere.name) {
+            spheres.push(moved(b, body.tree, sphere, section));
         }
     }
     for (name, section) in sections {
-        if !SPHERE_NAMES.contains(&name.as_str()) && section.remove != Some(true) {
-            spheres.extend(own_sphere(b, name, section));
+        if standard.iter().all(|row| row.name != name) && section.remove != Some(true) {
+            spheres.extend(own_sphere(b, body.tree, name, section));
         }
     }
     spheres
 }
 
 /// A standard sphere with a place of its own.
-fn moved(b: &mut Builder, mut sphere: ContactSphere, section: &SphereSection) -> ContactSphere {
+fn moved(b: &mut Builder, tree: &Tree, mut sphere: ContactSphere, section: &SphereSection) -> ContactSphere {
     let path = with_key("body.spheres", &sphere.name);
-    let segment = section.segment.as_deref().and_then(segment_named);
+    let segment = section.segment.as_deref().and_then(|name| tree.segment_named(name));
     if let Some(centre) = &section.centre {
         sphere.centre_from_lower_end_m = point(centre);
         sphere.segment = segment.unwrap_or(sphere.segment);
@@ -227,13 +227,13 @@ fn moved(b: &mut Builder, mut sphere: ContactSphere, section: &SphereSection) ->
     sphere
 }
 
-fn own_sphere(b: &mut Builder, name: &str, section: &SphereSection) -> Option<ContactSphere> {
+fn own_sphere(b: &mut Builder, tree: &Tree, name: &str, section: &SphereSection) -> Option<ContactSphere> {
     let path = with_key("body.spheres", name);
     let radius_m = b.needed(&path, "radius", &section.radius);
-    let segment = section.segment.as_deref().and_then(segment_named);
+    let segment = section.segment.as_deref().and_then(|name| tree.segment_named(name));
     if segment.is_none() {
         let found = format!("sphere `{name}` without a segment");
-        let hint = format!("only the report's 17 spheres know theirs: {}", SPHERE_NAMES.join(", "));
+        let hint = format!("only the report's 17 spheres know theirs: {}", tree.sphere_names().join(", "));
         b.report(Problem::error(&path, found, "segment = the segment that carries it").with_hint(Some(hint)));
     }
     if section.centre.is_none() {
@@ -246,8 +246,4 @@ fn own_sphere(b: &mut Builder, name: &str, section: &SphereSection) -> Option<Co
         centre_from_lower_end_m: section.centre.as_ref().map_or_else(Point3::origin, point),
         radius_m,
     })
-}
-
-fn segment_named(name: &str) -> Option<Segment> {
-    Segment::ALL.into_iter().find(|s| s.name() == name)
 }

@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::builder::Builder;
 use super::quantity::{NOT_NEGATIVE, si_or};
 use super::{Angle, Ratio, RotationalDamping, RotationalStiffness};
-use crate::body::joint::{AngularSpring, BallJoint, HingeJoint, Joint, Joints, Stop};
+use crate::body::joint::{AngularSpring, BallJoint, HingeJoint, JointLaw, Joints, Stop};
+use crate::body::tti12::TTI12;
 use crate::problem::Problem;
 use crate::scenario::text::with_key;
 
@@ -56,20 +57,22 @@ pub(crate) struct JointsSection {
 
 impl JointsSection {
     /// What is said of one joint by its own name.
-    pub(super) fn of(&self, joint: Joint) -> Option<&JointSection> {
-        match joint {
-            Joint::Neck => self.neck.as_ref(),
-            Joint::RightShoulder => self.right_shoulder.as_ref(),
-            Joint::LeftShoulder => self.left_shoulder.as_ref(),
-            Joint::UpperBack => self.upper_back.as_ref(),
-            Joint::LeftElbow => self.left_elbow.as_ref(),
-            Joint::RightElbow => self.right_elbow.as_ref(),
-            Joint::LowerBack => self.lower_back.as_ref(),
-            Joint::RightHip => self.right_hip.as_ref(),
-            Joint::LeftHip => self.left_hip.as_ref(),
-            Joint::RightKnee => self.right_knee.as_ref(),
-            Joint::LeftKnee => self.left_knee.as_ref(),
-        }
+    pub(super) fn of(&self, name: &str) -> Option<&JointSection> {
+        let joint = match name {
+            "neck" => &self.neck,
+            "right_shoulder" => &self.right_shoulder,
+            "left_shoulder" => &self.left_shoulder,
+            "upper_back" => &self.upper_back,
+            "left_elbow" => &self.left_elbow,
+            "right_elbow" => &self.right_elbow,
+            "lower_back" => &self.lower_back,
+            "right_hip" => &self.right_hip,
+            "left_hip" => &self.left_hip,
+            "right_knee" => &self.right_knee,
+            "left_knee" => &self.left_knee,
+            _ => return None,
+        };
+        joint.as_ref()
     }
 }
 
@@ -110,31 +113,28 @@ pub(crate) struct StopSection {
 /// The eleven joints; `section` is explicit.
 pub(super) fn joints(b: &mut Builder, section: &JointsSection) -> Joints {
     report_undamped(b, section);
-    Joints {
-        neck: ball(b, Joint::Neck, section),
-        right_shoulder: ball(b, Joint::RightShoulder, section),
-        left_shoulder: ball(b, Joint::LeftShoulder, section),
-        upper_back: ball(b, Joint::UpperBack, section),
-        left_elbow: hinge(b, Joint::LeftElbow, section),
-        right_elbow: hinge(b, Joint::RightElbow, section),
-        lower_back: ball(b, Joint::LowerBack, section),
-        right_hip: ball(b, Joint::RightHip, section),
-        left_hip: ball(b, Joint::LeftHip, section),
-        right_knee: hinge(b, Joint::RightKnee, section),
-        left_knee: hinge(b, Joint::LeftKnee, section),
-        epsilon: si_or(&section.epsilon, Joints::default().epsilon),
+    let mut joints = Joints::free(&TTI12);
+    for joint in TTI12.joints() {
+        let row = &TTI12[joint];
+        let law = if row.is_hinge() {
+            JointLaw::from(hinge(b, row.name, section))
+        } else {
+            JointLaw::from(ball(b, row.name, section))
+        };
+        joints = joints.with(joint, law);
     }
+    joints.with_epsilon(si_or(&section.epsilon, Joints::EPSILON))
 }
 
 /// What is said of a joint; nothing where its damping is missing, which is reported for all joints at once.
-fn given(joint: Joint, joints: &JointsSection) -> Option<&JointSection> {
-    joints.of(joint).filter(|section| section.damping.is_some())
+fn given<'s>(name: &str, joints: &'s JointsSection) -> Option<&'s JointSection> {
+    joints.of(name).filter(|section| section.damping.is_some())
 }
 
 /// One message for all joints that nobody gave a damping.
 fn report_undamped(b: &mut Builder, section: &JointsSection) {
-    let undamped: Vec<&str> =
-        Joint::ALL.into_iter().filter(|joint| given(*joint, section).is_none()).map(Joint::name).collect();
+    let names = TTI12.joint_rows().iter().map(|row| row.name);
+    let undamped: Vec<&str> = names.filter(|name| given(name, section).is_none()).collect();
     let Some((first, others)) = undamped.split_first() else {
         return;
     };
@@ -147,11 +147,11 @@ fn report_undamped(b: &mut Builder, section: &JointsSection) {
     b.report(Problem::error(format!("joints.{first}"), found, expected).with_hint(Some(hint)));
 }
 
-fn ball(b: &mut Builder, joint: Joint, joints: &JointsSection) -> BallJoint {
-    let Some(section) = given(joint, joints) else {
+fn ball(b: &mut Builder, name: &str, joints: &JointsSection) -> BallJoint {
+    let Some(section) = given(name, joints) else {
         return BallJoint::default();
     };
-    let path = format!("joints.{}", joint.name());
+    let path = format!("joints.{name}");
     let expected = "`stop`, the limit of the angle between its segments";
     b.refuse_keys(&path, &["lower_stop", "upper_stop"], |key| format!("`{key}` of a ball joint"), expected);
     let spring = section.stiffness.as_ref().map(|stiffness| AngularSpring {
@@ -169,11 +169,11 @@ fn ball(b: &mut Builder, joint: Joint, joints: &JointsSection) -> BallJoint {
     }
 }
 
-fn hinge(b: &mut Builder, joint: Joint, joints: &JointsSection) -> HingeJoint {
-    let Some(section) = given(joint, joints) else {
+fn hinge(b: &mut Builder, name: &str, joints: &JointsSection) -> HingeJoint {
+    let Some(section) = given(name, joints) else {
         return HingeJoint::default();
     };
-    let path = format!("joints.{}", joint.name());
+    let path = format!("joints.{name}");
     let foreign = ["stop", "twist_damping", "stiffness", "rest_angle"];
     let expected = "`damping`, `lower_stop`, `upper_stop`: elbows and knees are hinges";
     b.refuse_keys(&path, &foreign, |key| format!("`{key}` of a hinge"), expected);

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, si_or};
 use super::{Length, Ratio, Scenario, Speed, Stiffness};
-use crate::forces::material::{BilinearSpring, DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
+use crate::forces::material::{BilinearSpring, Material, Memory};
 
 /// A contact material: a bilinear spring that gives back part of its energy, and friction.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -46,15 +46,16 @@ pub(super) fn materials(scenario: &Scenario) -> Vec<Material> {
 }
 
 fn material(name: &str, s: &MaterialSection) -> Material {
+    let spring = spring(&s.k1, &s.k2, &s.delta_b, s.mu1.si(), &s.mu2);
+    let plain = Material::new(name, spring, s.friction.si());
     Material {
-        name: name.to_owned(),
-        spring: spring(&s.k1, &s.k2, &s.delta_b, s.mu1.si(), &s.mu2),
-        friction: s.friction.si(),
-        friction_speed_m_s: si_or(&s.friction_speed, DEFAULT_FRICTION_SPEED_M_S),
+        friction_speed_m_s: si_or(&s.friction_speed, plain.friction_speed_m_s),
         memory: match s.memory {
             Some(MemoryChoice::Retain) => Memory::Retain,
-            Some(MemoryChoice::Reset) | None => Memory::Reset,
+            Some(MemoryChoice::Reset) => Memory::Reset,
+            None => plain.memory,
         },
+        ..plain
     }
 }
 
@@ -66,11 +67,11 @@ pub(super) fn spring(
     returned_1: f64,
     mu2: &Option<Ratio<FRACTION>>,
 ) -> BilinearSpring {
+    let line = BilinearSpring::linear(k1.si(), returned_1);
     BilinearSpring {
-        k1_n_per_m: k1.si(),
-        k2_n_per_m: si_or(k2, k1.si()),
-        break_m: si_or(delta_b, 0.0),
-        returned_1,
-        returned_2: si_or(mu2, returned_1),
+        k2_n_per_m: si_or(k2, line.k2_n_per_m),
+        break_m: si_or(delta_b, line.break_m),
+        returned_2: si_or(mu2, line.returned_2),
+        ..line
     }
 }

@@ -28,7 +28,7 @@ use serde::{Deserialize, Serialize};
 
 pub use quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, Quantity};
 pub use record_file::{RecordFile, read_record};
-pub(super) use setup::setup;
+pub(super) use setup::{occupant, setup};
 
 use self::belts::BeltSection;
 use self::body::BodySection;

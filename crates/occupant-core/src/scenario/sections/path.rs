@@ -142,7 +142,8 @@ fn table_path(b: &mut Builder, s: &TableSection, file: Option<SourceId>) -> Opti
     let stations = table.rows.iter().map(|r| Station::new(r[0], [r[1], r[2], r[3]], [r[4], r[5], r[6]])).collect();
     let interpolation = match s.interpolation {
         Some(Interpolate::Linear) => Interpolation::Linear,
-        Some(Interpolate::Spline) | None => Interpolation::Spline,
+        Some(Interpolate::Spline) => Interpolation::Spline,
+        None => Interpolation::default(),
     };
     let path = TablePath::new(stations, interpolation, after(s.after));
     path.map_err(|p| refuse(b, &p, Some(&table))).ok()
@@ -152,7 +153,8 @@ pub(super) fn after(word: Option<After>) -> AfterEnd {
     match word {
         Some(After::Coast) => AfterEnd::Coast,
         Some(After::Hold) => AfterEnd::Hold,
-        Some(After::Error) | None => AfterEnd::Error,
+        Some(After::Error) => AfterEnd::Error,
+        None => AfterEnd::default(),
     }
 }
 
@@ -168,7 +170,7 @@ pub(super) fn numbers(b: &mut Builder, file: Option<SourceId>, columns: &[Column
 pub(super) fn direction(words: &Option<[Ratio; 3]>) -> TravelDirection {
     match words {
         Some(words) => TravelDirection::Along(Vector3::from(all_si(words))),
-        None => TravelDirection::Heading,
+        None => TravelDirection::default(),
     }
 }
 

@@ -4,7 +4,7 @@
 use super::builder::Builder;
 use super::posture::PostureSection;
 use super::{Angle, Scenario};
-use crate::body::joint::Joint;
+use crate::body::tti12::TTI12;
 use crate::forces::material::BilinearSpring;
 use crate::model::seating::InitialPosture;
 use crate::model::setup::Setup;
@@ -154,8 +154,8 @@ fn check_posture_angles(b: &mut Builder, p: &PostureSection) {
 }
 
 fn check_stop_angles(b: &mut Builder, scenario: &Scenario) {
-    for joint in Joint::ALL {
-        let Some(section) = scenario.joints.of(joint) else {
+    for joint in TTI12.joint_rows() {
+        let Some(section) = scenario.joints.of(joint.name) else {
             continue;
         };
         let stops = [("stop", &section.stop), ("lower_stop", &section.lower_stop), ("upper_stop", &section.upper_stop)];
@@ -163,7 +163,7 @@ fn check_stop_angles(b: &mut Builder, scenario: &Scenario) {
             if stop.as_ref().is_some_and(|s| look_like_radians(&[&s.begin, &s.full])) {
                 let found = "angles of a stop that are both below 3.2°, as if they were radians";
                 let hint = "bare angles are degrees; write \"0.79 rad\" for radians";
-                let path = format!("joints.{}.{key}", joint.name());
+                let path = format!("joints.{}.{key}", joint.name);
                 b.report(Problem::warning(path, found, "degrees").with_hint(Some(hint)));
             }
         }

@@ -77,8 +77,8 @@ pub(crate) struct InitialStateSection {
 pub(super) fn posture(b: &mut Builder, s: &Scenario, body: &Body) -> (Option<InitialPosture>, InitialVelocity) {
     match (&s.posture, &s.initial_state) {
         (Some(posture), _) => (seating(s, posture).map(InitialPosture::Seated), velocity(posture)),
-        (None, Some(state)) => (state_of(b, s, state, body), InitialVelocity::WithVehicle),
-        (None, None) => (None, InitialVelocity::WithVehicle),
+        (None, Some(state)) => (state_of(b, s, state, body), InitialVelocity::default()),
+        (None, None) => (None, InitialVelocity::default()),
     }
 }
 
@@ -100,7 +100,8 @@ fn velocity(p: &PostureSection) -> InitialVelocity {
     match (&p.velocity, p.moves_with_vehicle) {
         (Some(v), _) => InitialVelocity::Given(Vector3::from(all_si(v))),
         (None, Some(false)) => InitialVelocity::VehicleOrigin,
-        (None, _) => InitialVelocity::WithVehicle,
+        (None, Some(true)) => InitialVelocity::WithVehicle,
+        (None, None) => InitialVelocity::default(),
     }
 }
 

@@ -90,13 +90,13 @@ pub(super) fn path(b: &mut Builder, s: &PulseSection, file: Option<SourceId>) ->
         let each = t.rows.iter();
         each.map(|row| DecelerationPoint { time_s: row[0], deceleration_m_s2: row[1] }).collect()
     });
+    let plain = PulseDefinition::new(s.speed.si(), shape(b, s, points)?);
     let definition = PulseDefinition {
-        shape: shape(b, s, points)?,
         initial: pose(&s.position, [&s.roll, &s.pitch, &s.yaw]),
-        initial_speed_m_s: s.speed.si(),
         direction: direction(&s.direction),
-        starts_at_s: si_or(&s.start, 0.0),
+        starts_at_s: si_or(&s.start, plain.starts_at_s),
         rebound_m_s: s.rebound.as_ref().map(Speed::si),
+        ..plain
     };
     PulsePath::new(definition).map_err(|p| refuse(b, &p, table.as_ref())).ok()
 }

@@ -7,10 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::builder::Builder;
 use super::quantity::{NOT_NEGATIVE, POSITIVE, si_or};
 use super::{Length, Ratio, Scenario, Speed, Time};
-use crate::model::setup::{Integrator, OutputOptions, TimeSpan};
-
-/// Time between records unless given: 1 ms.
-const DEFAULT_OUTPUT_S: f64 = 1e-3;
+use crate::model::setup::{DEFAULT_OUTPUT_S, Integrator, OutputOptions, TimeSpan};
 
 /// When the run starts and ends.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -80,7 +77,7 @@ pub(super) fn time(b: &mut Builder, s: &Scenario) -> TimeSpan {
     span
 }
 
-/// The integrator; the defaults are chosen in `docs/accuracy.md`.
+/// The integrator.
 pub(super) fn integrator(b: &mut Builder, s: &Scenario) -> Integrator {
     match &s.integrator {
         None => adaptive(b, &AdaptiveSection::default()),
@@ -90,18 +87,19 @@ pub(super) fn integrator(b: &mut Builder, s: &Scenario) -> Integrator {
 }
 
 fn adaptive(b: &mut Builder, a: &AdaptiveSection) -> Integrator {
-    let (min_step_s, max_step_s) = (si_or(&a.min_step, 1e-8), si_or(&a.max_step, 2e-3));
-    if max_step_s < min_step_s {
-        let found = format!("a largest step of {max_step_s} s below the smallest, {min_step_s} s");
-        b.error("integrator.max_step", found, "min_step ≤ max_step");
+    let mut integrator = Integrator::default();
+    if let Integrator::Adaptive { relative, absolute_m, absolute_m_s, min_step_s, max_step_s } = &mut integrator {
+        *min_step_s = si_or(&a.min_step, *min_step_s);
+        *max_step_s = si_or(&a.max_step, *max_step_s);
+        if max_step_s < min_step_s {
+            let found = format!("a largest step of {max_step_s} s below the smallest, {min_step_s} s");
+            b.error("integrator.max_step", found, "min_step ≤ max_step");
+        }
+        *relative = si_or(&a.relative, *relative);
+        *absolute_m = si_or(&a.absolute_length, *absolute_m);
+        *absolute_m_s = si_or(&a.absolute_speed, *absolute_m_s);
     }
-    Integrator::Adaptive {
-        relative: si_or(&a.relative, 3e-6),
-        absolute_m: si_or(&a.absolute_length, 3e-7),
-        absolute_m_s: si_or(&a.absolute_speed, 3e-5),
-        min_step_s,
-        max_step_s,
-    }
+    integrator
 }
 
 /// Extra outputs.

@@ -3,9 +3,15 @@
 //! Words, numbers and names have passed the check; here keys that only make sense together are put together. Numbers that
 //! contradict the physics are left to the model, which checks plain data whoever made it.
 
+use serde::Deserialize;
+
 use super::builder::Builder;
 use super::quantity::si_or;
-use super::{Scenario, belts, body, joints, materials, path, plausible, posture, run, surfaces};
+use super::{
+    BodySection, JointsSection, Scenario, belts, body, joints, materials, path, plausible, posture, run, surfaces,
+};
+use crate::body::Body;
+use crate::body::joint::Joints;
 use crate::model::setup::{STANDARD_GRAVITY_M_S2, Setup};
 use crate::problem::Problem;
 use crate::scenario::check::references;
@@ -20,7 +26,7 @@ pub(in crate::scenario) fn setup(
     path_table: Option<SourceId>,
 ) -> Result<(Setup, Diagnostics), Diagnostics> {
     let b = &mut Builder { document, problems: Diagnostics::new() };
-    let body = body::body(b, written, &explicit.body);
+    let body = body::body(b, written.body.preset.as_deref(), &explicit.body);
     let joints = joints::joints(b, &explicit.joints);
     references(&document.root, &[]).into_iter().for_each(|problem| b.report(problem));
     let surfaces = surfaces::surfaces(b, explicit, &body);
@@ -52,6 +58,15 @@ pub(in crate::scenario) fn setup(
     };
     plausible::check(b, &setup, explicit);
     Ok((setup, std::mem::take(&mut b.problems)))
+}
+
+/// Builds the occupant alone; `document` is the tree of an explicit scenario that came from `preset`.
+pub(in crate::scenario) fn occupant(preset: &str, document: &Document) -> Option<(Body, Joints)> {
+    let body = BodySection::deserialize(document.root.get("body")?).ok()?;
+    let joints = JointsSection::deserialize(document.root.get("joints")?).ok()?;
+    let b = &mut Builder { document, problems: Diagnostics::new() };
+    let occupant = (body::body(b, Some(preset), &body), joints::joints(b, &joints));
+    (!b.problems.has_errors()).then_some(occupant)
 }
 
 /// Warns of provenance notes that speak of nothing in the scenario.

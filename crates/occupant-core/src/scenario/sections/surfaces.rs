@@ -1,6 +1,6 @@
 //! `[surfaces]` and `[contact]`: the keys of a surface, and the [`Surface`] they come to.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::Vector3;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +12,6 @@ use crate::forces::contact::EdgeForce;
 use crate::forces::contact::surface::{Facing, Frame, Outline, Surface};
 use crate::problem::Problem;
 use crate::scenario::text::with_key;
-use crash_measures::trig;
 
 /// A plane surface: `points`, `edge` with `half_width`, `disc`, or `plane`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -114,7 +113,8 @@ pub(crate) enum EdgeForceChoice {
 pub(super) fn edge_force(s: &Scenario) -> EdgeForce {
     match s.contact.as_ref().and_then(|c| c.edge_force) {
         Some(EdgeForceChoice::Centre) => EdgeForce::AtCentre,
-        Some(EdgeForceChoice::ContactPoint) | None => EdgeForce::AtContactPoint,
+        Some(EdgeForceChoice::ContactPoint) => EdgeForce::AtContactPoint,
+        None => EdgeForce::default(),
     }
 }
 
@@ -137,7 +137,8 @@ fn surface(
     let path = with_key("surfaces", name);
     let frame = match section.frame {
         Some(FrameChoice::Space) => Frame::Space,
-        Some(FrameChoice::Vehicle) | None => Frame::Vehicle,
+        Some(FrameChoice::Vehicle) => Frame::Vehicle,
+        None => Frame::default(),
     };
     let known = body.spheres.iter().map(|s| s.name.as_str());
     Surface {
@@ -163,39 +164,22 @@ fn outline(b: &mut Builder, path: &str, section: &SurfaceSection, frame: Frame) 
         return disc(section, frame);
     }
     if let Some(edge) = &section.edge {
-        return Outline::Polygon(strip(section, edge.each_ref().map(all_si)));
+        let near = si_or(&section.half_width, f64::NAN);
+        let far = si_or(&section.end_half_width, near);
+        return Outline::strip(edge.each_ref().map(all_si), si_or(&section.y, 0.0), near, far);
     }
     Outline::Polygon(section.points.iter().flatten().map(point).collect())
 }
 
-/// The corners of a rectangle, trapezoid or triangle that looks like an edge from the side.
-fn strip(section: &SurfaceSection, [[x1, z1], [x2, z2]]: [[f64; 2]; 2]) -> Vec<Point3<f64>> {
-    let y = si_or(&section.y, 0.0);
-    let near = si_or(&section.half_width, f64::NAN);
-    let far = si_or(&section.end_half_width, near);
-    let mut corners = vec![Point3::new(x1, y - near, z1), Point3::new(x1, y + near, z1)];
-    if far == 0.0 {
-        corners.push(Point3::new(x2, y, z2));
-    } else {
-        corners.extend([Point3::new(x2, y + far, z2), Point3::new(x2, y - far, z2)]);
-    }
-    corners
-}
-
 fn disc(section: &DiscSection, frame: Frame) -> Outline {
-    let axis = match (&section.tilt, &section.normal) {
-        (_, Some(normal)) => Vector3::from(all_si(normal)),
-        (Some(tilt), None) => {
-            // Rearward and up: N̂ = (−cos τ, 0, −sin τ) in vehicle axes, z down; z is up in space.
-            let (sin, cos) = trig::sin_cos(tilt.si());
-            match frame {
-                Frame::Vehicle => Vector3::new(-cos, 0.0, -sin),
-                Frame::Space => Vector3::new(-cos, 0.0, sin),
-            }
+    let (centre_m, diameter_m) = (point(&section.centre), section.diameter.si());
+    match (&section.tilt, &section.normal) {
+        (Some(tilt), None) => Outline::wheel(frame, centre_m, diameter_m, tilt.si()),
+        (_, normal) => {
+            let axis = normal.as_ref().map_or(Vector3::zeros(), |normal| Vector3::from(all_si(normal)));
+            Outline::Disc { centre_m, radius_m: 0.5 * diameter_m, axis }
         }
-        (None, None) => Vector3::zeros(),
-    };
-    Outline::Disc { centre_m: point(&section.centre), radius_m: 0.5 * section.diameter.si(), axis }
+    }
 }
 
 /// The open side: the surface's own word, else the scenario's `inside`, else a given normal.

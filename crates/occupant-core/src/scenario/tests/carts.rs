@@ -4,6 +4,7 @@ use approx::assert_relative_eq;
 
 use super::super::{Draft, Loaded};
 use super::no_files;
+use crate::body::tti12;
 use crate::model::setup::Integrator;
 
 fn cart(name: &str) -> Loaded {
@@ -35,9 +36,17 @@ fn numbers_arrive_in_si() {
     assert_eq!(setup.body.spheres.len(), 17);
     assert_relative_eq!(setup.gravity_m_s2, 386.04 * 0.0254, max_relative = 1e-15);
     assert_relative_eq!(setup.materials[0].spring.k1_n_per_m, 48.0 * lbf_s2_per_in, max_relative = 1e-15);
-    assert_relative_eq!(setup.joints.neck.damping_n_m_s, 20.0 * 4.4482216152605 * 0.0254, max_relative = 1e-15);
-    assert_relative_eq!(setup.joints.left_hip.damping_n_m_s, 6.0 * 4.4482216152605 * 0.0254, max_relative = 1e-15);
-    let knee = setup.joints.right_knee.lower_stop.unwrap();
+    assert_relative_eq!(
+        setup.joints[tti12::NECK].ball().unwrap().damping_n_m_s,
+        20.0 * 4.4482216152605 * 0.0254,
+        max_relative = 1e-15
+    );
+    assert_relative_eq!(
+        setup.joints[tti12::LEFT_HIP].ball().unwrap().damping_n_m_s,
+        6.0 * 4.4482216152605 * 0.0254,
+        max_relative = 1e-15
+    );
+    let knee = setup.joints[tti12::RIGHT_KNEE].hinge().unwrap().lower_stop.unwrap();
     assert_relative_eq!(knee.begin_rad, 5f64.to_radians(), max_relative = 1e-15);
     assert_eq!(knee.full_rad, 0.0);
     assert_eq!(setup.integrator, Integrator::Rk4 { step_s: 1e-4 });

@@ -4,6 +4,7 @@ use approx::assert_relative_eq;
 use nalgebra::{Point3, Vector3};
 
 use super::{build, complaint, load, short_with};
+use crate::body::tti12;
 use crate::forces::contact::surface::{Facing, Frame, Outline};
 use crate::forces::material::{DEFAULT_FRICTION_SPEED_M_S, Memory};
 use crate::model::seating::{InitialPosture, InitialVelocity};
@@ -26,15 +27,23 @@ knees = { set = \"stiff\", damping = 5 }
 damping = 4",
     ));
     let j = &setup.joints;
-    assert_eq!(j.left_hip.damping_n_m_s, 1.0);
-    assert_eq!(j.right_shoulder.damping_n_m_s, 2.0);
-    assert_eq!(j.left_shoulder.damping_n_m_s, 3.0);
-    assert_eq!(j.left_shoulder.twist_damping_n_m_s, 0.1);
-    assert_eq!(j.neck.damping_n_m_s, 4.0);
-    assert_eq!(j.left_knee.damping_n_m_s, 5.0);
+    assert_eq!(j[tti12::LEFT_HIP].ball().unwrap().damping_n_m_s, 1.0);
+    assert_eq!(j[tti12::RIGHT_SHOULDER].ball().unwrap().damping_n_m_s, 2.0);
+    assert_eq!(j[tti12::LEFT_SHOULDER].ball().unwrap().damping_n_m_s, 3.0);
+    assert_eq!(j[tti12::LEFT_SHOULDER].ball().unwrap().twist_damping_n_m_s, 0.1);
+    assert_eq!(j[tti12::NECK].ball().unwrap().damping_n_m_s, 4.0);
+    assert_eq!(j[tti12::LEFT_KNEE].hinge().unwrap().damping_n_m_s, 5.0);
     // What nobody spoke of comes from the preset.
-    assert_relative_eq!(j.neck.stop.unwrap().begin_rad, 45f64.to_radians(), max_relative = 1e-15);
-    assert_relative_eq!(j.upper_back.spring.unwrap().stiffness_n_m, 112.9848290276167, max_relative = 1e-14);
+    assert_relative_eq!(
+        j[tti12::NECK].ball().unwrap().stop.unwrap().begin_rad,
+        45f64.to_radians(),
+        max_relative = 1e-15
+    );
+    assert_relative_eq!(
+        j[tti12::UPPER_BACK].ball().unwrap().spring.unwrap().stiffness_n_m,
+        112.9848290276167,
+        max_relative = 1e-14
+    );
 }
 
 #[test]
@@ -46,10 +55,10 @@ epsilon = 0
 all = { damping = 1, twist_damping = 0.2, stop = { begin = 50, full = 60, damping = 9 } }",
     ));
     assert_eq!(setup.joints.epsilon, 0.0);
-    assert_eq!(setup.joints.left_hip.twist_damping_n_m_s, 0.2);
-    assert_relative_eq!(setup.joints.left_hip.stop.unwrap().full_rad, 60f64.to_radians());
-    assert_eq!(setup.joints.left_knee.damping_n_m_s, 1.0);
-    assert!(setup.joints.left_knee.upper_stop.is_none());
+    assert_eq!(setup.joints[tti12::LEFT_HIP].ball().unwrap().twist_damping_n_m_s, 0.2);
+    assert_relative_eq!(setup.joints[tti12::LEFT_HIP].ball().unwrap().stop.unwrap().full_rad, 60f64.to_radians());
+    assert_eq!(setup.joints[tti12::LEFT_KNEE].hinge().unwrap().damping_n_m_s, 1.0);
+    assert!(setup.joints[tti12::LEFT_KNEE].hinge().unwrap().upper_stop.is_none());
 }
 
 #[test]

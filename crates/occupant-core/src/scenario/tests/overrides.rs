@@ -4,6 +4,7 @@ use approx::assert_relative_eq;
 
 use super::super::{Draft, Format};
 use super::{SHORT, no_files};
+use crate::body::tti12;
 use crate::model::setup::Setup;
 
 fn changed(assignments: &[&str]) -> Result<Setup, String> {
@@ -37,12 +38,12 @@ fn values_are_toml_or_plain_text() {
 #[test]
 fn wildcards_reach_what_a_preset_says() {
     let setup = changed(&["joints.*.damping=0.5", "surfaces.*.half_width=0.3"]).unwrap();
-    assert_eq!(setup.joints.neck.damping_n_m_s, 0.5);
-    assert_eq!(setup.joints.left_knee.damping_n_m_s, 0.5);
+    assert_eq!(setup.joints[tti12::NECK].ball().unwrap().damping_n_m_s, 0.5);
+    assert_eq!(setup.joints[tti12::LEFT_KNEE].hinge().unwrap().damping_n_m_s, 0.5);
     // The stops of the preset stay.
-    assert!(setup.joints.neck.stop.is_some());
+    assert!(setup.joints[tti12::NECK].ball().unwrap().stop.is_some());
     // A stop's own damping is another key.
-    assert!(setup.joints.neck.stop.unwrap().damping_n_m_s > 1.0);
+    assert!(setup.joints[tti12::NECK].ball().unwrap().stop.unwrap().damping_n_m_s > 1.0);
 }
 
 #[test]
@@ -129,8 +130,14 @@ fn whole_groups_are_scaled_in_their_own_units() {
     let loaded = draft.load(&no_files).unwrap();
     let setup = loaded.build().unwrap().0;
     for (scaled, before) in [
-        (setup.joints.neck.damping_n_m_s, plain.joints.neck.damping_n_m_s),
-        (setup.joints.left_knee.damping_n_m_s, plain.joints.left_knee.damping_n_m_s),
+        (
+            setup.joints[tti12::NECK].ball().unwrap().damping_n_m_s,
+            plain.joints[tti12::NECK].ball().unwrap().damping_n_m_s,
+        ),
+        (
+            setup.joints[tti12::LEFT_KNEE].hinge().unwrap().damping_n_m_s,
+            plain.joints[tti12::LEFT_KNEE].hinge().unwrap().damping_n_m_s,
+        ),
     ] {
         assert_relative_eq!(scaled, 1.5 * before, max_relative = 1e-15);
     }

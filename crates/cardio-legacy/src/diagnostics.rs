@@ -1,0 +1,199 @@
+//! What is wrong with a deck: collected, never the first only.
+
+use std::fmt;
+
+use crate::cards::{CardId, Field};
+use crate::deck::DeckCard;
+use crate::punched::{Columns, PunchedCard};
+use crate::rule::{Rule, Severity, Strictness};
+
+/// One problem, with everything a person needs to find and mend it.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Diagnostic {
+    /// What it means for the deck.
+    pub severity: Severity,
+    /// The rule that is broken.
+    pub rule: Rule,
+    /// Name of the file.
+    pub file: String,
+    /// Line in the file, from 1; `None` for what concerns the file as a whole.
+    pub line: Option<usize>,
+    /// Series and letter of the card, where known.
+    pub card: Option<CardId>,
+    /// Columns concerned.
+    pub columns: Option<Columns>,
+    /// The report's name of the variable.
+    pub variable: Option<String>,
+    /// The card as it stands in the file, without trailing blanks.
+    pub raw: Option<String>,
+    /// What is wrong.
+    pub message: String,
+    /// What was expected.
+    pub expected: Option<String>,
+    /// How to mend it.
+    pub remedy: Option<String>,
+}
+
+/// How a problem is put together; reporting it adds the file and the severity.
+impl Diagnostic {
+    pub(crate) fn new(rule: Rule, message: impl Into<String>) -> Self {
+        Self {
+            severity: Severity::Error,
+            rule,
+            file: String::new(),
+            line: None,
+            card: None,
+            columns: None,
+            variable: None,
+            raw: None,
+            message: message.into(),
+            expected: None,
+            remedy: Some(rule.remedy()).filter(|remedy| !remedy.is_empty()).map(str::to_owned),
+        }
+    }
+
+    pub(crate) fn on(self, card: &PunchedCard) -> Self {
+        Self { raw: Some(card.text()), ..self.at_line(card.line) }
+    }
+
+    /// On a card of a deck; its line and text are known if it was read from a file.
+    pub(crate) fn on_card_of_deck(self, card: &DeckCard) -> Self {
+        Self { card: Some(card.id), line: card.line.or(self.line), raw: card.raw.clone().or(self.raw), ..self }
+    }
+
+    pub(crate) fn at_line(self, line: usize) -> Self {
+        Self { line: Some(line), ..self }
+    }
+
+    pub(crate) fn in_card(self, card: CardId) -> Self {
+        Self { card: Some(card), ..self }
+    }
+
+    pub(crate) fn at(self, columns: Columns) -> Self {
+        Self { columns: Some(columns), ..self }
+    }
+
+    pub(crate) fn in_field(self, field: &Field) -> Self {
+        self.at(field.columns).variable(&field.variable)
+    }
+
+    pub(crate) fn variable(self, name: impl Into<String>) -> Self {
+        Self { variable: Some(name.into()), ..self }
+    }
+
+    pub(crate) fn expected(self, text: impl Into<String>) -> Self {
+        Self { expected: Some(text.into()), ..self }
+    }
+
+    pub(crate) fn remedy(self, text: impl Into<String>) -> Self {
+        Self { remedy: Some(text.into()), ..self }
+    }
+
+    pub(crate) fn report(self, sink: &mut Sink) {
+        let severity = self.rule.grade().severity(sink.strictness);
+        sink.found.items.push(Self { severity, file: sink.file.clone(), ..self });
+    }
+}
+
+impl fmt::Display for Diagnostic {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        writeln!(f, "{}[{}]: {}", self.severity, self.rule.name(), self.message)?;
+        let line = self.line.map(|line| format!(":{line}"));
+        let card = self.card.map(|card| format!(", card {card}"));
+        let columns = self.columns.map(|columns| format!(", {columns}"));
+        let variable = self.variable.as_ref().map(|variable| format!(", {variable}"));
+        let place: String = [line, card, columns, variable].into_iter().flatten().collect();
+        writeln!(f, "  --> {}{place}", self.file)?;
+        if let Some(raw) = &self.raw {
+            writeln!(f, "   | {raw}")?;
+            if let Some(columns) = self.columns {
+                let indent = " ".repeat(usize::from(columns.first.max(1)) - 1);
+                writeln!(f, "   | {indent}{}", "^".repeat(columns.width()))?;
+            }
+        }
+        if let Some(expected) = &self.expected {
+            writeln!(f, "   = expected: {expected}")?;
+        }
+        if let Some(remedy) = &self.remedy {
+            writeln!(f, "   = remedy: {remedy}")?;
+        }
+        Ok(())
+    }
+}
+
+/// All problems of a file, in the order in which they were found.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Diagnostics {
+    items: Vec<Diagnostic>,
+}
+
+impl Diagnostics {
+    /// The problems one by one.
+    pub fn iter(&self) -> impl Iterator<Item = &Diagnostic> {
+        self.items.iter()
+    }
+
+    /// Number of problems of one severity.
+    pub fn count(&self, severity: Severity) -> usize {
+        self.items.iter().filter(|d| d.severity == severity).count()
+    }
+
+    /// Whether a deck of the file cannot be used.
+    pub fn has_errors(&self) -> bool {
+        self.count(Severity::Error) > 0
+    }
+
+    /// Whether nothing was found, not even a note.
+    pub fn is_empty(&self) -> bool {
+        self.items.is_empty()
+    }
+}
+
+impl fmt::Display for Diagnostics {
+    /// Every problem, then one line that counts them.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        for item in &self.items {
+            writeln!(f, "{item}")?;
+        }
+        let counted = |severity, name: &str| {
+            let n = self.count(severity);
+            format!("{n} {name}{}", if n == 1 { "" } else { "s" })
+        };
+        write!(
+            f,
+            "{}, {}, {}",
+            counted(Severity::Error, "error"),
+            counted(Severity::Warning, "warning"),
+            counted(Severity::Note, "note")
+        )
+    }
+}
+
+/// Where problems are collected; it knows the file and the strictness.
+#[derive(Debug)]
+pub(crate) struct Sink {
+    file: String,
+    strictness: Strictness,
+    found: Diagnostics,
+}
+
+impl Sink {
+    pub(crate) fn new(file: &str, strictness: Strictness) -> Self {
+        Self { file: file.into(), strictness, found: Diagnostics::default() }
+    }
+
+    pub(crate) fn errors(&self) -> usize {
+        self.found.count(Severity::Error)
+    }
+
+    /// Whether an error has been found on one of these lines, as the reading of lines does before decks are read.
+    pub(crate) fn has_error_in(&self, first: usize, last: usize) -> bool {
+        let errors = self.found.items.iter().filter(|d| d.severity == Severity::Error);
+        errors.filter_map(|d| d.line).any(|line| (first..=last).contains(&line))
+    }
+
+    pub(crate) fn into_diagnostics(mut self) -> Diagnostics {
+        self.found.items.sort_by_key(|d| d.line.unwrap_or(usize::MAX));
+        self.found
+    }
+}

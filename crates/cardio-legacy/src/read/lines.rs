@@ -1,0 +1,89 @@
+//! Lines of a file as cards of 80 columns.
+
+use crate::diagnostics::{Diagnostic, Sink};
+use crate::punched::{CARD_WIDTH, PunchedCard, is_control, latin1};
+use crate::rule::Rule;
+
+const TAB_WIDTH: usize = 8;
+const END_MARK: u8 = 0x1a;
+
+/// Cuts a file into cards. Lines end with LF, CR LF or CR; a DOS end-of-file mark and what follows it are left away.
+pub(super) fn read_cards(bytes: &[u8], sink: &mut Sink) -> Vec<PunchedCard> {
+    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    let bytes = until_end_mark(bytes, sink);
+    lines(bytes).into_iter().enumerate().map(|(index, line)| read_card(index + 1, line, sink)).collect()
+}
+
+fn until_end_mark<'a>(bytes: &'a [u8], sink: &mut Sink) -> &'a [u8] {
+    let Some(end) = bytes.iter().position(|b| *b == END_MARK) else {
+        return bytes;
+    };
+    if bytes[end..].iter().any(|b| !matches!(*b, END_MARK | b' ' | b'\r' | b'\n')) {
+        let line = lines(&bytes[..end]).len().max(1);
+        let message = "a DOS end-of-file mark (0x1a) stands in the file; what follows it is not read";
+        Diagnostic::new(Rule::ControlCharacter, message)
+            .at_line(line)
+            .expected("the mark at the very end, or none")
+            .remedy("remove the character if the deck goes on behind it")
+            .report(sink);
+    }
+    &bytes[..end]
+}
+
+fn lines(bytes: &[u8]) -> Vec<&[u8]> {
+    let mut lines = Vec::new();
+    let mut rest = bytes;
+    while !rest.is_empty() {
+        let end = rest.iter().position(|b| matches!(b, b'\r' | b'\n')).unwrap_or(rest.len());
+        let (line, behind) = rest.split_at(end);
+        lines.push(line);
+        rest = behind.strip_prefix(b"\r\n").or(behind.get(1..)).unwrap_or_default();
+    }
+    lines
+}
+
+fn read_card(line: usize, bytes: &[u8], sink: &mut Sink) -> PunchedCard {
+    let expanded = expand_tabs(bytes);
+    let card = PunchedCard::new(line, &expanded);
+    if bytes.contains(&b'\t') {
+        Diagnostic::new(Rule::Tab, "the line contains a tab, which has no columns")
+            .on(&card)
+            .expected("blanks only, so that every character has its column")
+            .report(sink);
+    }
+    let behind = expanded.get(CARD_WIDTH..).unwrap_or_default();
+    if let Some(last) = behind.iter().rposition(|b| *b != b' ') {
+        let (column, text) = (CARD_WIDTH + last + 1, latin1(&behind[..=last]));
+        let message = format!("columns 81–{column} are not part of a card: {text:?} is not read");
+        Diagnostic::new(Rule::LineTooLong, message).on(&card).expected("80 columns").report(sink);
+    }
+    report_strange_bytes(bytes, &card, sink);
+    card
+}
+
+fn report_strange_bytes(bytes: &[u8], card: &PunchedCard, sink: &mut Sink) {
+    if let Some(offset) = bytes.iter().position(|b| is_control(*b) && *b != b'\t') {
+        let message = format!("control character 0x{:02x} at column {}", bytes[offset], offset + 1);
+        Diagnostic::new(Rule::ControlCharacter, message)
+            .on(card)
+            .expected("printable characters")
+            .remedy("remove it; in a numeric field it is an error of its own")
+            .report(sink);
+    }
+    if !bytes.is_ascii() && std::str::from_utf8(bytes).is_ok() {
+        let message = "the line holds UTF-8 characters of several bytes; each byte was given a column";
+        Diagnostic::new(Rule::LooksLikeUtf8, message).on(card).expected("Latin-1, one byte a column").report(sink);
+    }
+}
+
+fn expand_tabs(bytes: &[u8]) -> Vec<u8> {
+    let mut expanded = Vec::with_capacity(bytes.len());
+    for byte in bytes {
+        if *byte == b'\t' {
+            expanded.resize((expanded.len() / TAB_WIDTH + 1) * TAB_WIDTH, b' ');
+        } else {
+            expanded.push(*byte);
+        }
+    }
+    expanded
+}

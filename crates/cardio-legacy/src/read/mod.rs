@@ -1,0 +1,130 @@
+//! Cards of a file → decks: deck after deck, and the final card. What numbers mean is no matter here but of [`crate::check`].
+
+mod card_number;
+mod complete;
+mod deck;
+mod fields;
+mod lines;
+mod series;
+
+use std::collections::BTreeMap;
+
+use crate::cards::{CardId, FINAL_CARD, series};
+use crate::deck::{Deck, DeckCard};
+use crate::diagnostics::{Diagnostic, Diagnostics, Sink};
+use crate::punched::{Columns, PunchedCard};
+use crate::rule::{Rule, Strictness};
+use fields::read_fields;
+use lines::read_cards;
+
+/// The series read so far of a deck, by number.
+type SeriesRead = BTreeMap<u8, Vec<DeckCard>>;
+
+/// Columns of the words STAN, NONE and FINI.
+const WORD: Columns = Columns::new(1, 4);
+const PLOT_SERIES: u8 = 16;
+
+/// How a file of decks is read.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ParseOptions {
+    /// Name of the file, for the diagnostics.
+    pub file: String,
+    /// How strictly it is judged.
+    pub strictness: Strictness,
+}
+
+impl Default for ParseOptions {
+    fn default() -> Self {
+        Self { file: "deck".into(), strictness: Strictness::Default }
+    }
+}
+
+impl Deck {
+    /// Reads a file of decks. Every problem of the file is in the diagnostics; a deck with an error is not handed out.
+    ///
+    /// The bytes are Latin-1; nothing that they hold makes this panic.
+    pub fn parse(bytes: impl AsRef<[u8]>, options: &ParseOptions) -> (Vec<Self>, Diagnostics) {
+        let mut sink = Sink::new(&options.file, options.strictness);
+        let decks = read_file(bytes.as_ref(), &mut sink);
+        (decks, sink.into_diagnostics())
+    }
+}
+
+/// Reads all decks of a file; those with an error are left out.
+fn read_file(bytes: &[u8], sink: &mut Sink) -> Vec<Deck> {
+    let mut cards = read_cards(bytes, sink);
+    while cards.last().is_some_and(PunchedCard::is_blank) {
+        cards.pop();
+    }
+    if cards.is_empty() {
+        Diagnostic::new(Rule::EmptyFile, "the file holds no card")
+            .expected("two title cards, series 3 to 16 and FINI")
+            .remedy("give the name of a deck")
+            .report(sink);
+    }
+    let mut reader = Reader { cards: &cards, at: 0, sink };
+    let mut decks = Vec::new();
+    while let Some(card) = reader.card() {
+        if starts_with_fini(card) {
+            reader.end_file(card);
+            return decks;
+        }
+        let before = reader.sink.errors();
+        let first_line = card.line;
+        let deck = reader.read_deck();
+        let last_line = reader.cards[..reader.at].last().map_or(first_line, |c| c.line);
+        let sound = reader.sink.errors() == before && !reader.sink.has_error_in(first_line, last_line);
+        decks.extend(deck.filter(|_| sound));
+    }
+    if let Some(last) = cards.last() {
+        Diagnostic::new(Rule::NoFinalCard, "the file ends without the final card")
+            .on(last)
+            .expected("FINI in columns 1–4 behind the last deck")
+            .report(sink);
+    }
+    decks
+}
+
+fn starts_with_fini(card: &PunchedCard) -> bool {
+    card.field(WORD) == b"FINI"
+}
+
+/// A file under reading: its cards, where it stands, what was found.
+struct Reader<'a> {
+    cards: &'a [PunchedCard],
+    at: usize,
+    sink: &'a mut Sink,
+}
+
+impl<'a> Reader<'a> {
+    fn card(&self) -> Option<&'a PunchedCard> {
+        self.cards.get(self.at)
+    }
+
+    /// The final card, and what stands behind it.
+    fn end_file(&mut self, card: &PunchedCard) {
+        if self.at == 0 {
+            Diagnostic::new(Rule::EmptyFile, "the first card is the final one: the file holds no deck")
+                .on(card)
+                .expected("two title cards, series 3 to 16 and FINI")
+                .remedy("change the first word of the title if the card is meant to be one")
+                .report(self.sink);
+        }
+        self.check_rest_of_word_card(card, CardId { series: FINAL_CARD, letter: None, number: None });
+        let behind = self.cards.get(self.at + 1..).unwrap_or_default();
+        if let Some(card) = behind.iter().find(|c| !c.is_blank()) {
+            Diagnostic::new(Rule::AfterFinalCard, "something stands behind the final card; it is not read")
+                .on(card)
+                .at(Columns::new(1, 80))
+                .expected("FINI behind the last deck, and nothing more")
+                .report(self.sink);
+        }
+    }
+
+    /// Reports what stands behind the word on a card that holds nothing else.
+    fn check_rest_of_word_card(&mut self, card: &PunchedCard, id: CardId) {
+        if let Some(layout) = series(PLOT_SERIES).and_then(|s| s.cards.first()) {
+            read_fields(card, layout, id, self.sink);
+        }
+    }
+}

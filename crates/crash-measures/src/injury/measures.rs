@@ -1,0 +1,313 @@
+//! The list of measures: each once, with what it is called, how it is made and what it is judged by. Everything that shows
+//! measures takes them from here.
+
+use super::readings::Readings;
+use super::{Filtering, Measure, Risk};
+use crate::measure::femur::{DurationLimit, duration_use};
+use crate::measure::risk::Severity::{self, Ais2, Ais3, Ais4};
+use crate::measure::risk::{bric_risk, chest_three_ms_risk, femur_risk, hic_risk, neck_axial_risk, nij_risk};
+use crate::measure::{
+    BricBasis, Dummy, HicWindow, NeckIntercepts, NeckMode, Peak, Quantity, ThreeMs, bric, damage, hic, maximum,
+    minimum, neck_axial_peaks, nij, severity_index,
+};
+use crate::signal::ChannelClass::{self, Cfc60, Cfc180, Cfc600, Cfc1000};
+use crate::signal::{SignalError, resultant};
+use crate::unit::Unit::{self, Metre, MetrePerSecondSquared, Newton, NewtonMetre, One};
+
+/// All measures, in the order of a dummy from head to femur.
+pub(super) const MEASURES: &[Definition] = &[
+    measure("hic15", "HIC15", One, Cfc1000, |r| r.hic(HicWindow::Ms15))
+        .brief()
+        .limited(Quantity::Hic15)
+        .risks(&[("head AIS2+", Ais2), ("head AIS3+", Ais3), ("head AIS4+", Ais4)], |hic, severity, _| {
+            hic_risk(hic, severity)
+        }),
+    measure("hic36", "HIC36", One, Cfc1000, |r| r.hic(HicWindow::Ms36)).brief().limited(Quantity::Hic36),
+    measure("head_peak", "head, peak", MetrePerSecondSquared, Cfc1000, |r| peak(&r.head.peak)).figure("head.peak"),
+    measure("head_3ms_contiguous", "head, 3 ms held", MetrePerSecondSquared, Cfc1000, |r| {
+        level(&r.head.three_ms_contiguous)
+    })
+    .figure("head.three_ms_contiguous"),
+    measure("head_3ms_cumulative", "head, 3 ms in total", MetrePerSecondSquared, Cfc1000, |r| {
+        level(&r.head.three_ms_cumulative)
+    })
+    .figure("head.three_ms_cumulative")
+    .limited(Quantity::HeadThreeMsCumulative),
+    measure("gsi", "Gadd severity index", One, Cfc1000, |r| r.severity(&r.head.resultant_m_s2))
+        .limited(Quantity::SeverityIndex),
+    measure("bric", "BrIC", One, Cfc60, Readings::bric)
+        .risks(&[("brain AIS3+", Ais3), ("brain AIS4+", Ais4)], |bric, severity, _| bric_risk(bric, severity)),
+    measure("damage", "DAMAGE", One, Cfc60, Readings::damage),
+    measure("nij", "Nij", One, Cfc1000, Readings::nij)
+        .brief()
+        .limited(Quantity::Nij)
+        .risks(&[("neck AIS2+", Ais2), ("neck AIS3+", Ais3), ("neck AIS4+", Ais4)], |nij, severity, _| {
+            nij_risk(nij, severity)
+        }),
+    measure("neck_tension", "neck tension", Newton, Cfc1000, |r| Ok(r.neck_axial()?.0))
+        .brief()
+        .limited(Quantity::NeckTension)
+        .risks(&[("neck AIS3+", Ais3)], |force_n, _, dummy| neck_axial_risk(force_n, dummy)),
+    measure("neck_compression", "neck compression", Newton, Cfc1000, |r| Ok(r.neck_axial()?.1))
+        .brief()
+        .limited(Quantity::NeckCompression)
+        .risks(&[("neck AIS3+", Ais3)], |force_n, _, dummy| neck_axial_risk(force_n, dummy)),
+    measure("neck_shear", "neck shear", Newton, Cfc1000, Readings::neck_shear),
+    measure("neck_flexion", "neck flexion moment", NewtonMetre, Cfc600, Readings::neck_flexion),
+    measure("neck_extension", "neck extension moment", NewtonMetre, Cfc600, Readings::neck_extension),
+    measure("chest_peak", "chest, peak", MetrePerSecondSquared, Cfc180, |r| peak(&r.chest.peak)).figure("chest.peak"),
+    measure("chest_3ms_contiguous", "chest, 3 ms held", MetrePerSecondSquared, Cfc180, |r| {
+        level(&r.chest.three_ms_contiguous)
+    })
+    .figure("chest.three_ms_contiguous"),
+    measure("chest_3ms_cumulative", "chest, 3 ms in total", MetrePerSecondSquared, Cfc180, |r| {
+        level(&r.chest.three_ms_cumulative)
+    })
+    .figure("chest.three_ms_cumulative")
+    .brief()
+    .limited(Quantity::ChestThreeMsCumulative)
+    .risks(&[("chest AIS3+", Ais3)], |level, _, _| Some(chest_three_ms_risk(level))),
+    measure("csi", "chest severity index", One, Cfc180, |r| r.severity(&r.chest.resultant_m_s2))
+        .limited(Quantity::SeverityIndex),
+    lacking(
+        "chest_deflection",
+        "chest deflection",
+        Metre,
+        "the thorax is rigid: it has no deflection and no viscous criterion",
+    ),
+    measure("pelvis_peak", "pelvis, peak", MetrePerSecondSquared, Cfc1000, |r| peak(&r.pelvis.peak))
+        .figure("pelvis.peak"),
+    measure("pelvis_3ms_cumulative", "pelvis, 3 ms in total", MetrePerSecondSquared, Cfc1000, |r| {
+        level(&r.pelvis.three_ms_cumulative)
+    })
+    .figure("pelvis.three_ms_cumulative"),
+    femur("right_femur", "right femur compression", |r| r.femur_peak(0)),
+    femur_use("right_femur_duration_use", "right femur over R94 curve", |r| r.femur_use(0)),
+    femur("left_femur", "left femur compression", |r| r.femur_peak(1)),
+    femur_use("left_femur_duration_use", "left femur over R94 curve", |r| r.femur_use(1)),
+];
+
+/// A measure: what it is called, how it is made, what it is judged by.
+pub(super) struct Definition {
+    name: &'static str,
+    label: &'static str,
+    unit: Unit,
+    figure: Option<&'static str>,
+    brief: bool,
+    made: Made,
+    limited: Option<Quantity>,
+    risks: &'static [(&'static str, Severity)],
+    curve: fn(f64, Severity, Dummy) -> Option<f64>,
+}
+
+/// How a measure is made.
+#[derive(Clone, Copy)]
+enum Made {
+    /// Of signals of this filter class.
+    Of(ChannelClass, fn(&Readings) -> Result<Found, SignalError>),
+    /// Not at all, for this reason.
+    Never(&'static str),
+}
+
+/// A value and the window where it stands, counted from the first sample.
+struct Found {
+    value: f64,
+    from_s: Option<f64>,
+    to_s: Option<f64>,
+    remark: Option<String>,
+}
+
+const fn measure(
+    name: &'static str,
+    label: &'static str,
+    unit: Unit,
+    class: ChannelClass,
+    of: fn(&Readings) -> Result<Found, SignalError>,
+) -> Definition {
+    let figure = Some(name);
+    let (made, limited, risks) = (Made::Of(class, of), None, &[]);
+    Definition { name, label, unit, figure, brief: false, made, limited, risks, curve: |_, _, _| None }
+}
+
+const fn lacking(name: &'static str, label: &'static str, unit: Unit, reason: &'static str) -> Definition {
+    let (made, limited, risks) = (Made::Never(reason), None, &[]);
+    Definition { name, label, unit, figure: None, brief: false, made, limited, risks, curve: |_, _, _| None }
+}
+
+type Make = fn(&Readings) -> Result<Found, SignalError>;
+
+const fn femur(name: &'static str, label: &'static str, of: Make) -> Definition {
+    measure(name, label, Newton, Cfc600, of)
+        .brief()
+        .limited(Quantity::FemurAxial)
+        .risks(&[("femur AIS2+", Ais2)], |force_n, _, dummy| femur_risk(force_n, dummy))
+}
+
+const fn femur_use(name: &'static str, label: &'static str, of: Make) -> Definition {
+    measure(name, label, One, Cfc600, of).limited(Quantity::FemurDurationUse)
+}
+
+impl Definition {
+    /// In tables of many runs it bears this name.
+    const fn figure(mut self, name: &'static str) -> Self {
+        self.figure = Some(name);
+        self
+    }
+
+    /// It stands in short tables too.
+    const fn brief(mut self) -> Self {
+        self.brief = true;
+        self
+    }
+
+    /// It is judged by the limits of a quantity.
+    const fn limited(mut self, quantity: Quantity) -> Self {
+        self.limited = Some(quantity);
+        self
+    }
+
+    /// Probabilities of injuries follow from its value.
+    const fn risks(
+        mut self,
+        injuries: &'static [(&'static str, Severity)],
+        curve: fn(f64, Severity, Dummy) -> Option<f64>,
+    ) -> Self {
+        self.risks = injuries;
+        self.curve = curve;
+        self
+    }
+
+    /// The measure of a run.
+    pub(super) fn of(&self, readings: &Readings) -> Measure {
+        let (filter_class, found) = match self.made {
+            Made::Never(reason) => (0, Err(reason.to_owned())),
+            Made::Of(class, of) => {
+                let class = if readings.options.filtering == Filtering::None { 0 } else { class.hertz() as u32 };
+                (class, of(readings).map_err(|e| e.to_string()))
+            }
+        };
+        let time_s = |of: fn(&Found) -> Option<f64>| Some(readings.start_s + of(found.as_ref().ok()?)?);
+        let mut measure = Measure {
+            name: self.name,
+            label: self.label,
+            figure: self.figure,
+            brief: self.brief,
+            unit: self.unit,
+            value: found.as_ref().ok().map(|f| f.value),
+            from_s: time_s(|f| f.from_s),
+            to_s: time_s(|f| f.to_s),
+            filter_class,
+            limits: Vec::new(),
+            risks: Vec::new(),
+            remark: found.map_or_else(Some, |f| f.remark),
+        };
+        let Some(value) = measure.value else {
+            return measure;
+        };
+        let dummy = readings.options.dummy;
+        if let Some(quantity) = self.limited {
+            measure.judge(value, quantity, dummy);
+        }
+        for &(injury, severity) in self.risks {
+            let probability = (self.curve)(value, severity, dummy);
+            measure.risks.extend(probability.map(|probability| Risk { injury, probability }));
+        }
+        measure
+    }
+}
+
+impl Readings {
+    fn hic(&self, window: HicWindow) -> Result<Found, SignalError> {
+        let hic = hic(own(&self.head.resultant_m_s2)?, self.interval_s, window)?;
+        Ok(Found { value: hic.value, from_s: Some(hic.start_s), to_s: Some(hic.end_s), remark: None })
+    }
+
+    fn severity(&self, resultant_m_s2: &Result<Vec<f64>, SignalError>) -> Result<Found, SignalError> {
+        severity_index(own(resultant_m_s2)?, self.interval_s).map(whole)
+    }
+
+    fn bric(&self) -> Result<Found, SignalError> {
+        let [x, y, z] = own(&self.head_rad_s)?;
+        let bric = bric(x, y, z, self.interval_s, BricBasis::Average)?;
+        let [x, y, z] = bric.peaks_rps.map(|p| p.value);
+        let remark = Some(format!("peaks {x:.1}, {y:.1}, {z:.1} rad/s about x, y, z"));
+        Ok(Found { remark, ..whole(bric.value) })
+    }
+
+    fn damage(&self) -> Result<Found, SignalError> {
+        let [x, y, z] = own(&self.head_rad_s2)?;
+        damage(x, y, z, self.interval_s).map(at)
+    }
+
+    fn nij(&self) -> Result<Found, SignalError> {
+        let ([_, _, fz], [_, my, _]) = (own(&self.neck_n)?, own(&self.neck_n_m)?);
+        let n = nij(fz, my, self.interval_s, &NeckIntercepts::of(self.options.dummy))?;
+        Ok(Found { value: n.value, from_s: Some(n.time_s), to_s: None, remark: Some(format!("in {}", mode(n.mode))) })
+    }
+
+    /// Tension and compression.
+    fn neck_axial(&self) -> Result<(Found, Found), SignalError> {
+        let (tension, compression) = neck_axial_peaks(&own(&self.neck_n)?[2], self.interval_s)?;
+        Ok((at(not_negative(tension)), at(not_negative(compression))))
+    }
+
+    fn neck_shear(&self) -> Result<Found, SignalError> {
+        let [x, y, _] = own(&self.neck_n)?;
+        maximum(&resultant(x, y, &vec![0.0; x.len()])?, self.interval_s).map(at)
+    }
+
+    fn neck_flexion(&self) -> Result<Found, SignalError> {
+        maximum(&own(&self.neck_n_m)?[1], self.interval_s).map(|p| at(not_negative(p)))
+    }
+
+    fn neck_extension(&self) -> Result<Found, SignalError> {
+        let p = minimum(&own(&self.neck_n_m)?[1], self.interval_s)?;
+        Ok(at(not_negative(Peak { value: -p.value, ..p })))
+    }
+
+    fn femur_peak(&self, side: usize) -> Result<Found, SignalError> {
+        maximum(own(&self.femur_n[side])?, self.interval_s).map(|p| at(not_negative(p)))
+    }
+
+    fn femur_use(&self, side: usize) -> Result<Found, SignalError> {
+        let used = duration_use(own(&self.femur_n[side])?, self.interval_s, &DurationLimit::FEMUR_R94_N)?;
+        let remark = Some(format!("{:.0} N for {:.1} ms", used.level.max(0.0), used.duration_s * 1e3));
+        Ok(Found { remark, ..whole(used.ratio.max(0.0)) })
+    }
+}
+
+fn own<T>(signal: &Result<T, SignalError>) -> Result<&T, SignalError> {
+    signal.as_ref().map_err(Clone::clone)
+}
+
+/// A measure of the whole record.
+fn whole(value: f64) -> Found {
+    Found { value, from_s: None, to_s: None, remark: None }
+}
+
+fn at(peak: Peak) -> Found {
+    Found { from_s: Some(peak.time_s), ..whole(peak.value) }
+}
+
+fn peak(of: &Result<Peak, SignalError>) -> Result<Found, SignalError> {
+    of.clone().map(at)
+}
+
+fn level(of: &Result<ThreeMs, SignalError>) -> Result<Found, SignalError> {
+    let level = of.clone()?;
+    Ok(Found { from_s: Some(level.start_s), to_s: Some(level.end_s), ..whole(level.level_mps2) })
+}
+
+/// A peak in the other direction counts as none.
+fn not_negative(peak: Peak) -> Peak {
+    Peak { value: peak.value.max(0.0), ..peak }
+}
+
+fn mode(mode: NeckMode) -> &'static str {
+    match mode {
+        NeckMode::TensionFlexion => "tension and flexion",
+        NeckMode::TensionExtension => "tension and extension",
+        NeckMode::CompressionFlexion => "compression and flexion",
+        NeckMode::CompressionExtension => "compression and extension",
+    }
+}

@@ -1,0 +1,91 @@
+//! What the instruments read, filtered as asked: the signals that measures are made of, and the levels of the resultant
+//! accelerations.
+
+use super::signals::{Components, Signals};
+use super::{Filtering, Measure, Options, measures};
+use crate::measure::{Peak, ThreeMs, maximum, three_ms_contiguous, three_ms_cumulative};
+use crate::signal::ChannelClass::{self, Cfc60, Cfc180, Cfc600, Cfc1000};
+use crate::signal::{SignalError, filter_cfc, resultant};
+
+/// The readings of one run.
+#[derive(Clone, Debug)]
+pub struct Readings {
+    pub(super) options: Options,
+    pub(super) start_s: f64,
+    pub(super) interval_s: f64,
+    /// Head, CFC 1000.
+    pub head: Acceleration,
+    /// Chest, CFC 180.
+    pub chest: Acceleration,
+    /// Pelvis, CFC 1000.
+    pub pelvis: Acceleration,
+    pub(super) head_rad_s: Result<Components, SignalError>,
+    pub(super) head_rad_s2: Result<Components, SignalError>,
+    pub(super) neck_n: Result<Components, SignalError>,
+    pub(super) neck_n_m: Result<Components, SignalError>,
+    /// Compression of the right and the left femur.
+    pub(super) femur_n: [Result<Vec<f64>, SignalError>; 2],
+}
+
+/// A resultant acceleration and its levels.
+#[derive(Clone, Debug)]
+pub struct Acceleration {
+    pub(super) resultant_m_s2: Result<Vec<f64>, SignalError>,
+    /// Greatest value; times count from the first sample.
+    pub peak: Result<Peak, SignalError>,
+    /// Level held for 3 ms without interruption.
+    pub three_ms_contiguous: Result<ThreeMs, SignalError>,
+    /// Level exceeded for 3 ms in total.
+    pub three_ms_cumulative: Result<ThreeMs, SignalError>,
+}
+
+impl Readings {
+    /// Filters the signals and finds the levels.
+    pub fn new(signals: &Signals, options: &Options) -> Self {
+        let dt_s = signals.interval_s;
+        let one = |values: &[f64], class| filtered(values, dt_s, class, options.filtering);
+        let all = |[x, y, z]: &Components, class| Ok([one(x, class)?, one(y, class)?, one(z, class)?]);
+        let acceleration = |components, class| {
+            let resultant = all(components, class).and_then(|[x, y, z]| resultant(&x, &y, &z));
+            Acceleration::new(resultant, dt_s)
+        };
+        let compression = |tension: &Vec<f64>| one(&tension.iter().map(|f| -f).collect::<Vec<_>>(), Cfc600);
+        Readings {
+            options: *options,
+            start_s: signals.start_s,
+            interval_s: dt_s,
+            head: acceleration(&signals.head_m_s2, Cfc1000),
+            chest: acceleration(&signals.chest_m_s2, Cfc180),
+            pelvis: acceleration(&signals.pelvis_m_s2, Cfc1000),
+            head_rad_s: all(&signals.head_rad_s, Cfc60),
+            head_rad_s2: all(&signals.head_rad_s2, Cfc60),
+            neck_n: all(&signals.neck_n, Cfc1000),
+            neck_n_m: all(&signals.neck_n_m, Cfc600),
+            femur_n: signals.femur_n.each_ref().map(compression),
+        }
+    }
+
+    /// All measures, in the order of a dummy from head to femur. The list has the same names for every run.
+    pub fn measures(&self) -> Vec<Measure> {
+        measures::MEASURES.iter().map(|definition| definition.of(self)).collect()
+    }
+}
+
+impl Acceleration {
+    fn new(resultant_m_s2: Result<Vec<f64>, SignalError>, dt_s: f64) -> Self {
+        let signal = resultant_m_s2.as_ref().map_err(Clone::clone);
+        Acceleration {
+            peak: signal.clone().and_then(|a| maximum(a, dt_s)),
+            three_ms_contiguous: signal.clone().and_then(|a| three_ms_contiguous(a, dt_s)),
+            three_ms_cumulative: signal.and_then(|a| three_ms_cumulative(a, dt_s)),
+            resultant_m_s2,
+        }
+    }
+}
+
+fn filtered(values: &[f64], dt_s: f64, class: ChannelClass, filtering: Filtering) -> Result<Vec<f64>, SignalError> {
+    match filtering {
+        Filtering::None => Ok(values.to_vec()),
+        Filtering::Classes(family) => filter_cfc(values, dt_s, class, family),
+    }
+}

@@ -1,0 +1,173 @@
+//! What the benchmarks and the helper programs time: one car, one occupant, one instant with a realistic handful of touches.
+//!
+//! Three sizes of the same problem: *bare* (the skeleton under given loads), *held* (joint moments and belts as well), *full*
+//! (all 17 × 25 contact pairs as well).
+
+use occupant_core::body::SEGMENTS;
+use occupant_core::forces::contact::{ContactData, ContactSystem, Touch};
+use occupant_core::forces::{History, Memory, Observer};
+use occupant_core::kernel::System;
+use occupant_core::model::Model;
+use occupant_core::motion::dynamics::{self, Accelerations, Wrench};
+use occupant_core::motion::frame::Frames;
+use occupant_core::motion::integrate::rk4::{self, Stage};
+use occupant_core::motion::kinematics::Kinematics;
+use occupant_core::motion::layout::FREE;
+use occupant_core::motion::state::State;
+use occupant_core::scenario::{Format, Loaded, Scenario};
+use occupant_core::vehicle::PathCursor;
+
+/// The scenario's text.
+pub const TEXT: &str = include_str!("../car.toml");
+
+/// Step of the integrator, s.
+pub const STEP_S: f64 = 1e-4;
+
+/// Instant of the crash that is timed, s: belts taut, seat, floor and wheel touched by seven pairs.
+pub const TOUCHING_S: f64 = 0.09;
+
+/// The scenario, read and checked.
+pub fn load() -> Loaded {
+    let no_file = |name: &str| Err(format!("{name}: the scene has no file beside it"));
+    Scenario::from_text(TEXT, Format::Toml, "car.toml", &no_file).expect("the scene is valid")
+}
+
+/// The model.
+pub fn model() -> Model {
+    load().model().expect("the scene is valid").0
+}
+
+/// Models for a sweep: all different, all of one structure.
+pub fn models(count: usize) -> Vec<Model> {
+    let (setup, _) = load().build().expect("the scene is valid");
+    let model = |i: usize| {
+        let mut setup = setup.clone();
+        let scale = 1.0 + 0.02 * i as f64;
+        for material in &mut setup.materials {
+            material.spring.k1_n_per_m *= scale;
+        }
+        for belt in &mut setup.belts {
+            belt.webbing.k1_n_per_m /= scale;
+        }
+        Model::new(setup).expect("the scene is valid")
+    };
+    (0..count).map(model).collect()
+}
+
+/// A system with its occupant at one instant of the crash.
+#[derive(Clone)]
+pub struct Instant {
+    /// Skeleton, contacts, joints, belts.
+    pub system: System<f64>,
+    /// The body's motion.
+    pub state: State<f64>,
+    /// Motion of space and of the vehicle.
+    pub frames: Frames<f64>,
+    /// What contacts and belts remember.
+    pub history: History<f64>,
+}
+
+impl Instant {
+    /// The scene at `time_s` of the crash, with every contact and belt.
+    pub fn full(model: &Model, time_s: f64) -> Instant {
+        let (mut cursor, start) = (PathCursor::default(), model.start());
+        let mut now = Instant {
+            system: model.system().clone(),
+            state: start.state,
+            frames: model.frames(0.0, 0.0, &mut cursor),
+            history: start.history.clone(),
+        };
+        for i in 0..(time_s / STEP_S).round() as usize {
+            let t = i as f64 * STEP_S;
+            now.frames = model.frames(t, t + 0.5 * STEP_S, &mut cursor);
+            now.state = now.step();
+        }
+        now.frames = model.frames(time_s, time_s + 0.5 * STEP_S, &mut cursor);
+        now.commit();
+        now
+    }
+
+    /// The same instant without surfaces.
+    pub fn held(&self, model: &Model) -> Instant {
+        let setup = model.setup();
+        let mut now = self.clone();
+        let nothing = ContactData {
+            surfaces: &[],
+            faces: &[],
+            materials: &[],
+            edge_force: setup.edge_force,
+            longest_step_s: STEP_S,
+        };
+        now.system.forces.contacts = ContactSystem::new(&setup.body, &nothing);
+        let memory = Memory { contacts: Vec::new(), ..self.history.memory.clone() };
+        now.history = History::new(&now.system.forces, memory);
+        now
+    }
+
+    /// The rate of change, the history committed.
+    pub fn commit(&mut self) -> State<f64> {
+        self.system.rate_alone::<true>(&self.state, &self.frames, &mut self.history, &mut ())
+    }
+
+    /// The rate of change within a step.
+    pub fn rate(&mut self) -> State<f64> {
+        self.system.rate_alone::<false>(&self.state, &self.frames, &mut self.history, &mut ())
+    }
+
+    /// The skeleton alone: accelerations under given loads, which is what an articulated-body algorithm answers.
+    pub fn bare(&self, loads: &[Wrench<f64>; SEGMENTS]) -> Accelerations<f64> {
+        let skeleton = &self.system.skeleton;
+        let kinematics = Kinematics::new(skeleton, &self.state);
+        dynamics::solve(skeleton, &kinematics, &self.state.hinge_rate, loads)
+    }
+
+    /// One step in a vehicle whose motion stands still: four evaluations and the sums of the integrator.
+    pub fn step(&mut self) -> State<f64> {
+        let (system, frames, history) = (&self.system, &self.frames, &mut self.history);
+        rk4::step(&self.state, STEP_S, |stage, state| match stage {
+            Stage::Start => system.rate_alone::<true>(state, frames, history, &mut ()),
+            Stage::Middle | Stage::End => system.rate_alone::<false>(state, frames, history, &mut ()),
+        })
+    }
+
+    /// A step of the skeleton alone under given loads.
+    pub fn bare_step(&self, loads: &[Wrench<f64>; SEGMENTS]) -> State<f64> {
+        let skeleton = &self.system.skeleton;
+        rk4::step(&self.state, STEP_S, |_, state| {
+            let kinematics = Kinematics::new(skeleton, state);
+            let motion = dynamics::solve(skeleton, &kinematics, &state.hinge_rate, loads);
+            let mut rate = State {
+                t1: state.velocity,
+                velocity: motion.joint[0],
+                hinge: state.hinge_rate,
+                hinge_rate: motion.hinge,
+                ..*state
+            };
+            for (slot, &n) in FREE.iter().enumerate() {
+                rate.orientation[slot] = state.orientation[slot].rate(state.omega[slot]);
+                rate.omega[slot] = motion.alpha[n];
+            }
+            rate
+        })
+    }
+
+    /// Number of pairs that exert a force.
+    pub fn touches(&mut self) -> usize {
+        let mut count = Count(0);
+        self.system.rate_observed::<false>(&self.state, &self.frames, &mut self.history, &mut count);
+        count.0
+    }
+}
+
+/// No load on any segment.
+pub fn no_loads() -> [Wrench<f64>; SEGMENTS] {
+    [Wrench::zero(); SEGMENTS]
+}
+
+struct Count(usize);
+
+impl Observer<f64> for Count {
+    fn contacts(&mut self, _touch: &Touch<f64>) {
+        self.0 += 1;
+    }
+}

@@ -1,0 +1,55 @@
+//! How a command ends: what it came to, or why it could not do its work. Each end has its exit code.
+
+use occupant_study::engine::Unrecorded;
+
+/// A command that ran to its end.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Done {
+    /// All is well: exit code 0.
+    Well,
+    /// It ran, and what it found is not well: exit code 1. What it is has been said.
+    Unwell,
+}
+
+/// Why a command could not do its work.
+#[derive(Debug)]
+pub enum Failure {
+    /// It could not run: exit code 2.
+    CouldNotRun(String),
+    /// It ran and broke off: exit code 1.
+    BrokeOff(String),
+}
+
+impl Failure {
+    /// Could not run, in the words of every message: what is wrong, and how to mend it.
+    pub(crate) fn with_help(found: impl Into<String>, help: &str) -> Self {
+        Failure::CouldNotRun(format!("error: {}\n = help: {help}", found.into()))
+    }
+
+    /// The same, and what was done before.
+    pub(crate) fn with_done(self, done: &str) -> Self {
+        let longer = |message| format!("{message}\n = done: {done}");
+        match self {
+            Failure::CouldNotRun(message) => Failure::CouldNotRun(longer(message)),
+            Failure::BrokeOff(message) => Failure::BrokeOff(longer(message)),
+        }
+    }
+
+    /// Its words.
+    pub(crate) fn words(self) -> String {
+        match self {
+            Failure::CouldNotRun(words) | Failure::BrokeOff(words) => words,
+        }
+    }
+
+    /// Could not run.
+    pub(crate) fn plain(found: impl Into<String>) -> Self {
+        Failure::CouldNotRun(format!("error: {}", found.into()))
+    }
+}
+
+impl From<Unrecorded> for Failure {
+    fn from(error: Unrecorded) -> Self {
+        Failure::BrokeOff(format!("error: {error}"))
+    }
+}

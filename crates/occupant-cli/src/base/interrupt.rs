@@ -1,0 +1,58 @@
+//! Ctrl-C and the polite signals end a run at its next output; a second one ends it at once.
+
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::results::sample::Sample;
+
+use super::talk::say;
+
+/// A recorder that stops the run once a signal has come.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Interrupt {
+    asked: Arc<AtomicBool>,
+}
+
+impl Interrupt {
+    /// Listens from now on. Where that is impossible a signal ends the process at once; what was written stays readable.
+    pub(crate) fn listen() -> Self {
+        Interrupt::listen_for("stopping at the next output; once more to stop at once")
+    }
+
+    /// Listens from now on, and answers a signal with these words.
+    pub(crate) fn listen_for(words: &'static str) -> Self {
+        let interrupt = Interrupt::default();
+        let asked = Arc::clone(&interrupt.asked);
+        let handler = move || {
+            if asked.swap(true, Ordering::Relaxed) {
+                // the next output is too far away; what was written stays readable under the partial name
+                std::process::exit(1);
+            }
+            say(words);
+        };
+        if let Err(error) = ctrlc::set_handler(handler) {
+            say(&format!("warning: Ctrl-C will end the run at once: {error}"));
+        }
+        interrupt
+    }
+
+    /// Whether a signal has come.
+    pub(crate) fn is_asked(&self) -> bool {
+        self.asked.load(Ordering::Relaxed)
+    }
+
+    /// What a signal sets.
+    pub(crate) fn flag(&self) -> &AtomicBool {
+        &self.asked
+    }
+}
+
+impl Recorder for Interrupt {
+    fn record(&mut self, _sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        Ok(match self.asked.load(Ordering::Relaxed) {
+            true => Flow::Stop,
+            false => Flow::Continue,
+        })
+    }
+}

@@ -1,0 +1,14 @@
+//! The names that files and messages carry: of this program, and of files without their folders.
+
+use std::path::Path;
+
+/// Name and version of this program.
+pub(crate) fn program() -> String {
+    format!("occupant {}", env!("CARGO_PKG_VERSION"))
+}
+
+/// The name of a file without its folder.
+pub(crate) fn file_name(path: &Path) -> String {
+    let name = path.file_name().unwrap_or_default();
+    name.to_string_lossy().into_owned()
+}

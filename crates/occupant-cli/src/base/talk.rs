@@ -1,0 +1,30 @@
+//! The two voices: results on standard output, talk on standard error.
+
+use std::io::{ErrorKind, Write, stderr, stdout};
+
+use super::failure::Failure;
+
+/// Writes a result. A reader that has gone away is no failure.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    let mut out = stdout().lock();
+    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    match written {
+        Err(error) if error.kind() != ErrorKind::BrokenPipe => {
+            Err(Failure::BrokeOff(format!("error: the result could not be written to standard output: {error}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Says something to the person at the terminal. Whether anybody listens does not matter.
+pub(crate) fn say(text: &str) {
+    let _nobody_listens = writeln!(stderr().lock(), "{text}");
+}
+
+/// A value as JSON text for people and programs, with a line end.
+pub(crate) fn json(value: &impl serde::Serialize) -> Result<String, Failure> {
+    let mut text = serde_json::to_string_pretty(value)
+        .map_err(|e| Failure::BrokeOff(format!("error: the result is not JSON: {e}")))?;
+    text.push('\n');
+    Ok(text)
+}

@@ -1,0 +1,107 @@
+//! Text tables: columns as wide as their widest cell, numbers to the right.
+
+/// How a column is set.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Align {
+    /// Words.
+    Left,
+    /// Numbers.
+    Right,
+}
+
+/// A table: a head and rows of cells.
+#[derive(Clone, Debug)]
+pub(crate) struct Table {
+    columns: Vec<Align>,
+    rows: Vec<Vec<String>>,
+}
+
+/// Blanks between columns.
+const GAP: &str = "   ";
+/// Stands where there is no figure.
+pub(crate) const NONE: &str = "–";
+
+impl Table {
+    /// A table with this head.
+    pub(crate) fn new(head: &[(&str, Align)]) -> Self {
+        Table {
+            columns: head.iter().map(|&(_, align)| align).collect(),
+            rows: vec![head.iter().map(|(name, _)| (*name).to_owned()).collect()],
+        }
+    }
+
+    /// Adds a row; cells that are missing at its end are blank.
+    pub(crate) fn row(&mut self, cells: impl IntoIterator<Item = String>) {
+        self.rows.push(cells.into_iter().collect());
+    }
+
+    /// The text, each line ended, no blanks at line ends.
+    pub(crate) fn text(&self) -> String {
+        let width = |column: usize| {
+            let cells = self.rows.iter().filter_map(|row| row.get(column));
+            cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+        };
+        let widths: Vec<usize> = (0..self.columns.len()).map(width).collect();
+        let mut text = String::new();
+        for row in &self.rows {
+            let cells = row.iter().zip(&widths).zip(&self.columns);
+            let set = cells.map(|((cell, &width), align)| match align {
+                Align::Left => format!("{cell:<width$}"),
+                Align::Right => format!("{cell:>width$}"),
+            });
+            let line = set.collect::<Vec<String>>().join(GAP);
+            text.push_str(line.trim_end());
+            text.push('\n');
+        }
+        text
+    }
+}
+
+/// A number with so many decimals; one that no column holds, with an exponent.
+pub(crate) fn number(value: f64, decimals: usize) -> String {
+    match value.abs() < 1e6 {
+        true => format!("{value:.decimals$}"),
+        false => format!("{value:.2e}"),
+    }
+}
+
+/// Two columns of words without a head: a name and what there is to say of it.
+pub(crate) fn facts(facts: &[(&str, String)]) -> String {
+    let width = facts.iter().map(|(name, _)| name.chars().count()).max();
+    let width = width.unwrap_or(0);
+    let lines = facts.iter().map(|(name, words)| format!("{name:<width$}{GAP}{words}\n"));
+    lines.collect()
+}
+
+/// A name without characters that would speak to the terminal instead of the reader.
+pub(crate) fn plain(name: &str) -> String {
+    name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn columns_line_up_whatever_the_script() {
+        let mut table = Table::new(&[("joint", Align::Left), ("β, °", Align::Right)]);
+        table.row(["neck".to_owned(), "3.5".to_owned()]);
+        table.row(["left_shoulder".to_owned(), "127.0".to_owned()]);
+        table.row(["blank".to_owned()]);
+        let expected = "joint            β, °\nneck              3.5\nleft_shoulder   127.0\nblank\n";
+        assert_eq!(table.text(), expected);
+    }
+
+    #[test]
+    fn numbers_that_fit_no_column_get_an_exponent() {
+        assert_eq!(number(-12.345, 1), "-12.3");
+        assert_eq!(number(4.6e34, 1), "4.60e34");
+        assert_eq!(number(f64::INFINITY, 0), "inf");
+    }
+
+    #[test]
+    fn facts_line_up() {
+        let text = facts(&[("a", "one".to_owned()), ("longer", "two".to_owned())]);
+        assert_eq!(text, "a        one\nlonger   two\n");
+    }
+}

@@ -1,0 +1,69 @@
+//! `occupant check`.
+
+use occupant_core::diagnosis::{Diagnosis, RK4_STABILITY_LIMIT, diagnose};
+
+use super::tables::check::check_text;
+use crate::base::failure::{Done, Failure};
+use crate::base::talk::{self, say};
+use crate::files::scenario::{self, ScenarioArgs};
+
+/// Check a scenario and show what will be simulated, without running it
+///
+/// Exit code 1 if the step is too long for the fastest time scale of the model.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    #[command(flatten)]
+    scenario: ScenarioArgs,
+
+    /// Print the figures as JSON instead of tables
+    #[arg(long)]
+    json: bool,
+
+    /// Print nothing but warnings and errors
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
+    let opened = scenario::open(&args.scenario)?;
+    if !opened.warnings.is_empty() {
+        say(&format!("{}\n", opened.warnings));
+    }
+    let diagnosis = diagnose(&opened.model);
+    if args.json {
+        talk::print(&talk::json(&diagnosis)?)?;
+    } else if !args.quiet {
+        talk::print(&check_text(&diagnosis))?;
+    }
+    for behind in &diagnosis.behind {
+        say(&format!(
+            "warning: the centre of {} starts {:.1} mm behind {}: the sphere feels that surface only after it has come out",
+            behind.sphere,
+            behind.behind_m * 1e3,
+            behind.surface
+        ));
+    }
+    match too_long(&diagnosis) {
+        Some(message) => {
+            say(&message);
+            Ok(Done::Unwell)
+        }
+        None => Ok(Done::Well),
+    }
+}
+
+/// What to say of a step that is too long for the fastest rate.
+fn too_long(diagnosis: &Diagnosis) -> Option<String> {
+    let (step_s, fastest) = (diagnosis.run.step_s?, diagnosis.fastest.as_ref()?);
+    if diagnosis.step_is_stable() {
+        return None;
+    }
+    Some(format!(
+        "error: the step of {:.4} ms is too long for {} ({}), whose time scale is {:.4} ms\n = expected: a step below {:.4} ms\n = help: set `integrator.step`, use the adaptive integrator, or soften what makes it so fast",
+        step_s * 1e3,
+        fastest.of,
+        fastest.by,
+        fastest.time_scale_s * 1e3,
+        fastest.time_scale_s * 1e3 * RK4_STABILITY_LIMIT,
+    ))
+}

@@ -1,0 +1,26 @@
+//! `occupant completions`.
+
+use clap::CommandFactory;
+use clap_complete::{Shell, generate};
+
+use super::Cli;
+use crate::base::failure::{Done, Failure};
+use crate::base::talk;
+
+/// Print a script that completes the command's words in a shell
+///
+/// For bash: occupant completions bash > ~/.local/share/bash-completion/completions/occupant
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// The shell
+    #[arg(value_enum)]
+    shell: Shell,
+}
+
+/// Prints the script.
+pub(crate) fn print(args: &Args) -> Result<Done, Failure> {
+    let mut script = Vec::new();
+    generate(args.shell, &mut Cli::command(), "occupant", &mut script);
+    talk::print(&String::from_utf8_lossy(&script))?;
+    Ok(Done::Well)
+}

@@ -1,0 +1,268 @@
+//! `occupant convert`: card deck → scenario, scenario → card deck.
+
+use std::fs::{self, OpenOptions};
+use std::io::{ErrorKind, Write};
+use std::path::{Path, PathBuf};
+
+use cardio_legacy::{
+    CompartmentLayout, ConvertOptions, Deck, FromScenario, ParseOptions, PathSource, Strictness, write_file,
+};
+use clap::ArgGroup;
+use occupant_core::scenario::{Draft, Format, Loaded};
+
+use crate::base::failure::{Done, Failure};
+use crate::base::talk::{print, say};
+use crate::jobs::extend::{extend, extend_run};
+
+/// Convert a card deck of 1970 to a scenario, or a scenario to a card deck
+///
+/// A file named .toml or .json is a scenario and becomes a deck; .mcap is a run, of which --extend makes the deck that goes
+/// on from its end; any other is a deck and becomes a scenario. Diagnostics and
+/// the conversion's report go to standard error, the result to -o or to standard output.
+#[derive(Debug, clap::Args)]
+#[command(group = ArgGroup::new("strictness").args(["strict", "lenient"]))]
+pub(crate) struct Args {
+    /// The deck or the scenario
+    #[arg(value_name = "FILE")]
+    input: PathBuf,
+
+    /// The file to write; several decks of one file become NAME-1.toml, NAME-2.toml, …
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+
+    /// Also write the conversion's report into a file
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+
+    /// Refuse a deck for whatever is doubtful in it
+    #[arg(long)]
+    strict: bool,
+
+    /// Repair a deck where there is one obvious way, with a warning
+    #[arg(long)]
+    lenient: bool,
+
+    /// The vehicle's path of a deck with MREAD ≠ 0: CSV whose first line names columns and units, such as t[s],x[in],yaw[deg]
+    #[arg(long, value_name = "FILE")]
+    path: Option<PathBuf>,
+
+    /// Names and units of the columns of --path, where its first line does not name them
+    #[arg(long, value_name = "t[s],x[in],…", requires = "path", conflicts_with = "path_cards")]
+    path_columns: Option<String>,
+
+    /// --path holds cards of series 12, one a station
+    #[arg(long, requires = "path")]
+    path_cards: bool,
+
+    /// Which points bound which surface, instead of the built-in reconstruction
+    #[arg(long, value_name = "FILE.toml")]
+    compartment: Option<PathBuf>,
+
+    /// Run the deck to its end, or take the end of a run's .mcap, and write the deck that extends it to this time, s (series 6
+    /// and 14)
+    #[arg(long, value_name = "TIME")]
+    extend: Option<f64>,
+
+    /// Replace files that exist
+    #[arg(short, long)]
+    force: bool,
+
+    /// Say nothing but errors
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+/// Converts in the direction that the input's name tells.
+pub(crate) fn convert(args: &Args) -> Result<Done, Failure> {
+    let bytes = read(&args.input)?;
+    let layout = args.compartment.as_deref().map(compartment).transpose()?;
+    if args.input.extension().is_some_and(|e| e.eq_ignore_ascii_case("mcap")) {
+        return run_to_deck(args, &bytes, layout.as_ref());
+    }
+    match format_of(&args.input) {
+        Some(format) => scenario_to_deck(args, &bytes, format, layout.as_ref()),
+        None => decks_to_scenarios(args, &bytes, layout),
+    }
+}
+
+fn format_of(path: &Path) -> Option<Format> {
+    match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+        "toml" => Some(Format::Toml),
+        "json" => Some(Format::Json),
+        _ => None,
+    }
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, Failure> {
+    fs::read(path).map_err(|error| Failure::plain(format!("{} cannot be read: {error}", path.display())))
+}
+
+fn read_text(path: &Path) -> Result<String, Failure> {
+    String::from_utf8(read(path)?).map_err(|_| Failure::plain(format!("{} is not UTF-8 text", path.display())))
+}
+
+fn compartment(path: &Path) -> Result<CompartmentLayout, Failure> {
+    CompartmentLayout::from_toml(&read_text(path)?)
+        .map_err(|reason| Failure::plain(format!("{}: {reason}", path.display())))
+}
+
+fn decks_to_scenarios(args: &Args, bytes: &[u8], layout: Option<CompartmentLayout>) -> Result<Done, Failure> {
+    let decks = decks(args, bytes)?;
+    if decks.len() > 1 && args.output.is_none() {
+        let found = format!("{} holds {} decks, and standard output takes one", args.input.display(), decks.len());
+        return Err(Failure::with_help(found, "name a file with -o; its name is numbered"));
+    }
+    let mut reports = String::new();
+    for (at, deck) in decks.iter().enumerate() {
+        let output =
+            args.output.as_deref().map(|file| if decks.len() > 1 { numbered(file, at + 1) } else { file.to_owned() });
+        let options = ConvertOptions {
+            deck_name: name_of(&args.input),
+            path: path_source(args, output.as_deref())?,
+            compartment: layout.clone(),
+        };
+        let conversion =
+            deck.to_scenario(&options).map_err(|error| Failure::plain(format!("{}: {error}", args.input.display())))?;
+        let text = match args.extend {
+            Some(final_s) => extend(deck, &conversion.toml, &options, final_s, args.quiet)?,
+            None => conversion.toml.into_bytes(),
+        };
+        deliver(args, output.as_deref(), &text)?;
+        reports.push_str(&format!("{}: {}\n{}\n", args.input.display(), deck.titles()[0], conversion.report));
+    }
+    tell(args, &reports)
+}
+
+/// The decks of a file; what is wrong with them is said.
+fn decks(args: &Args, bytes: &[u8]) -> Result<Vec<Deck>, Failure> {
+    let strictness = match (args.strict, args.lenient) {
+        (true, _) => Strictness::Strict,
+        (_, true) => Strictness::Lenient,
+        _ => Strictness::Default,
+    };
+    let (decks, diagnostics) = Deck::parse(bytes, &ParseOptions { file: args.input.display().to_string(), strictness });
+    if diagnostics.has_errors() {
+        return Err(Failure::CouldNotRun(format!("{diagnostics}\n{}: nothing was converted", args.input.display())));
+    }
+    if !diagnostics.is_empty() && !args.quiet {
+        say(&diagnostics.to_string());
+    }
+    Ok(decks)
+}
+
+/// The path of a deck with MREAD ≠ 0. A CSV file in the folder of the scenario is referred to, any other is written out.
+fn path_source(args: &Args, output: Option<&Path>) -> Result<Option<PathSource>, Failure> {
+    let Some(file) = &args.path else {
+        return Ok(None);
+    };
+    let text = read_text(file)?;
+    if args.path_cards {
+        return Ok(Some(PathSource::Cards { text }));
+    }
+    let split = |columns: &str| columns.split(',').map(|c| c.trim().to_owned()).collect();
+    if let Some(columns) = &args.path_columns {
+        return Ok(Some(PathSource::Columns { columns: split(columns), text }));
+    }
+    let folder = |path: &Path| path.parent().map(Path::to_owned).unwrap_or_default();
+    if output.is_some_and(|output| folder(output) == folder(file)) {
+        return Ok(Some(PathSource::Csv { name: name_of(file), text }));
+    }
+    let mut lines = text.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
+    let header = lines.next().unwrap_or_default().trim_start_matches('\u{feff}').to_owned();
+    if !header.contains('[') {
+        let found = format!("the first line of {} names no columns with units: {header}", file.display());
+        return Err(Failure::with_help(found, "declare them with --path-columns t[s],x[in],…"));
+    }
+    let rows: String = lines.map(|line| format!("{line}\n")).collect();
+    Ok(Some(PathSource::Columns { columns: split(&header), text: rows }))
+}
+
+fn name_of(path: &Path) -> String {
+    path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
+}
+
+/// `case.toml` → `case-2.toml`.
+fn numbered(file: &Path, number: usize) -> PathBuf {
+    let stem = file.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
+    let extension = file.extension().map(|e| format!(".{}", e.to_string_lossy())).unwrap_or_default();
+    file.with_file_name(format!("{stem}-{number}{extension}"))
+}
+
+/// The deck that goes on from a results file.
+fn run_to_deck(args: &Args, bytes: &[u8], layout: Option<&CompartmentLayout>) -> Result<Done, Failure> {
+    let Some(final_s) = args.extend else {
+        return Err(Failure::with_help(
+            format!("{} is a run, and a deck of its scenario would not go on from it", args.input.display()),
+            "give the time to which the deck extends the run: --extend TIME",
+        ));
+    };
+    let cards = extend_run(&args.input, bytes, layout, final_s)?;
+    deliver_deck(args, cards)
+}
+
+fn scenario_to_deck(
+    args: &Args,
+    bytes: &[u8],
+    format: Format,
+    layout: Option<&CompartmentLayout>,
+) -> Result<Done, Failure> {
+    if args.extend.is_some() {
+        return Err(Failure::plain("--extend takes a deck"));
+    }
+    let loaded = load(&args.input, bytes, format)?;
+    let cards = Deck::from_scenario(&loaded, layout)
+        .map_err(|error| Failure::CouldNotRun(format!("error: {}: {error}", args.input.display())))?;
+    deliver_deck(args, cards)
+}
+
+/// Writes a deck, and says what there is to say of it.
+fn deliver_deck(args: &Args, cards: FromScenario) -> Result<Done, Failure> {
+    let FromScenario { deck, remarks } = cards;
+    deliver(args, args.output.as_deref(), &write_file(&[deck]))?;
+    let remarks: String = remarks.iter().map(|remark| format!("  - {remark}\n")).collect();
+    tell(args, &format!("{}: on cards\n{remarks}", args.input.display()))
+}
+
+fn load(path: &Path, bytes: &[u8], format: Format) -> Result<Loaded, Failure> {
+    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
+    let resolver = move |file: &str| fs::read(folder.join(file)).map_err(|error| error.to_string());
+    let name = path.display().to_string();
+    let loaded = Draft::read_bytes(bytes, Some(format), &name).and_then(|draft| draft.load(&resolver));
+    loaded.map_err(|problems| Failure::CouldNotRun(format!("{problems}\n\n{name}: nothing was converted")))
+}
+
+fn deliver(args: &Args, output: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
+    match output {
+        Some(file) => write(file, bytes, args.force),
+        None => print(&String::from_utf8_lossy(bytes)),
+    }
+}
+
+/// Writes a file; one that exists is left alone unless it may be replaced.
+fn write(file: &Path, bytes: &[u8], force: bool) -> Result<(), Failure> {
+    let mut options = OpenOptions::new();
+    options.write(true);
+    match force {
+        true => options.create(true).truncate(true),
+        false => options.create_new(true),
+    };
+    let name = file.display();
+    options.open(file).and_then(|mut target| target.write_all(bytes)).map_err(|error| match error.kind() {
+        ErrorKind::AlreadyExists => Failure::with_help(
+            format!("{name} exists, and it was left alone"),
+            "choose another name, or replace it with --force",
+        ),
+        _ => Failure::plain(format!("{name} cannot be written: {error}")),
+    })
+}
+
+/// Says the report, and writes it where it was asked for.
+fn tell(args: &Args, report: &str) -> Result<Done, Failure> {
+    if !args.quiet {
+        say(report.trim_end());
+    }
+    if let Some(file) = &args.report {
+        write(file, report.as_bytes(), args.force)?;
+    }
+    Ok(Done::Well)
+}

@@ -1,0 +1,109 @@
+//! `occupant fit`.
+
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+
+use super::flags::sweep::{engine, kernel};
+use crate::base::failure::{Done, Failure};
+use crate::base::interrupt::Interrupt;
+use crate::base::names::program;
+use crate::base::talk::{json, print, say};
+use crate::files::measured::MapArgument;
+use crate::files::study_folder::folder::Folder;
+use crate::files::study_folder::shard::Shard;
+use crate::jobs::fit::evaluator::Evaluator;
+use crate::jobs::fit::fitting::{Fitting, Given};
+use crate::jobs::fit::identified::search;
+use crate::jobs::fit::output::Output;
+use crate::jobs::fit::progress::Progress;
+use crate::jobs::fit::report;
+
+/// Find the parameters of a study with which runs follow a test best
+///
+/// Looks for the values of the study's parameters, each between the ends of its range, with which measured channels of one
+/// test or of several are reproduced best; the study's [fit] says what counts. A global search (CMA-ES with growing
+/// populations) is followed by a refinement and by intervals: how far each parameter can go while the others make up for it.
+/// Writes FOLDER/fit.json, fitted.toml (the scenario with the fitted numbers and where they come from), plots/*.svg
+/// (measured against computed, before and after) and history.parquet and .csv (every candidate). A fit that was interrupted
+/// or killed goes on with the same command and ends at the same answer.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// The study, TOML or JSON
+    #[arg(value_name = "STUDY")]
+    study: PathBuf,
+
+    /// A test: a text table (CSV) or an ISO-MME test; may be repeated. Not needed where the study names its tests
+    #[arg(long, value_name = "TEST")]
+    to: Vec<PathBuf>,
+
+    /// The folder of the results; made if absent
+    #[arg(short, long, value_name = "FOLDER")]
+    output: PathBuf,
+
+    /// Which column of the tests is which channel: 'column=channel', 'column[unit]=channel', 'column=-channel' for opposite
+    /// signs; columns named as channels are found without
+    #[arg(long, value_name = "MAP")]
+    map: Vec<MapArgument>,
+
+    /// Change a value in all scenarios, such as --set time.end='120 ms'; may be repeated
+    #[arg(long = "set", value_name = "PATH.TO.KEY=VALUE")]
+    overrides: Vec<String>,
+
+    /// Number of threads; one for each core if absent
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+
+    /// How runs are computed: scalar, lanes4 or lanes8, the fastest of this processor if absent; all give the same bits
+    #[arg(long, value_name = "KERNEL")]
+    kernel: Option<String>,
+
+    /// Remove the results that the folder holds and begin anew
+    #[arg(long)]
+    restart: bool,
+
+    /// Print what fit.json holds instead of tables
+    #[arg(long)]
+    json: bool,
+
+    /// No progress, no warnings, no tables
+    #[arg(short, long)]
+    quiet: bool,
+}
+
+pub(crate) fn fit(args: &Args) -> Result<Done, Failure> {
+    let engine = engine(args.threads, kernel(args.kernel.as_deref())?)?;
+    let given = Given { files: &args.to, maps: &args.map, overrides: &args.overrides };
+    let fitting = Fitting::open(&args.study, &given, program()).map_err(Failure::CouldNotRun)?;
+    if !args.quiet {
+        fitting.warnings.iter().for_each(|w| say(&format!("{w}\n")));
+    }
+    let folder = Folder::of_fit(&args.output);
+    let sha256 = fitting.manifest.sha256();
+    let sha256 = sha256.map_err(|e| Failure::plain(format!("the manifest cannot be written: {e}")))?;
+    let claimed = folder.claim(&fitting.manifest, &fitting.texts, Shard::WHOLE, args.restart);
+    let held = claimed?;
+    if let (Some(reason), false) = (&held.unlocked, args.quiet) {
+        say(&format!(
+            "warning: this file system has no locks ({reason}): nothing but you keeps two processes from fitting into one folder"
+        ));
+    }
+    let interrupt = Interrupt::listen_for("stopping; once more to stop at once");
+    let progress = Progress::new(fitting.fit.budget, args.quiet);
+    let evaluator = Evaluator::new(&fitting, &folder, &sha256, &engine, &interrupt, progress);
+    let mut evaluator = evaluator?;
+    if evaluator.known() > 0 && !args.quiet {
+        say(&format!("going on: {} runs are there", evaluator.known()));
+    }
+    let answer = search(&fitting, &mut evaluator)?;
+    let records = evaluator.close()?;
+    let found = Output { fitting: &fitting, folder: &folder }.write(&answer, &records)?;
+    match (args.json, args.quiet) {
+        (true, _) => print(&json(&found)?)?,
+        (false, true) => {}
+        (false, false) => {
+            let written = format!("\nwritten to {}\n", folder.path().display());
+            print(&(report::text(&fitting, &found) + &written))?;
+        }
+    }
+    Ok(Done::Well)
+}

@@ -1,0 +1,157 @@
+//! `occupant run --ensemble`: the flags, and the ensemble that they ask for.
+
+use std::num::NonZeroUsize;
+use std::path::{Path, PathBuf};
+
+use crash_measures::unit::UnitError;
+use occupant_core::run::batch::Kernel;
+use occupant_core::scenario::Draft;
+use occupant_core::scenario::kind::{self, KINDS, UnitSystem};
+use occupant_core::scenario::text::Value;
+use occupant_study::{Study, Tolerances};
+
+use super::sweep::engine;
+use crate::base::failure::Failure;
+use crate::base::output_file::{Existing, refuse_input};
+use crate::files::scenario::Opened;
+use crate::files::table::Form;
+use crate::jobs::ensemble::bands::{choose, refuse_too_much};
+use crate::jobs::ensemble::beside_run::{BandFile, Wanted};
+use crate::jobs::ensemble::judge::Tolerance;
+use crate::pictures::Format;
+
+/// Flags of an ensemble.
+#[derive(Clone, Debug, clap::Args)]
+#[command(next_help_heading = "Ensemble")]
+pub(crate) struct EnsembleArgs {
+    /// Run the scenario N times, all but the first with small changes of posture, place, pulse and stiffness, and say which
+    /// figures are stable
+    #[arg(long, value_name = "N", conflicts_with = "resume", value_parser = clap::value_parser!(u32).range(2..))]
+    ensemble: Option<u32>,
+
+    /// Names the random numbers of the changes
+    #[arg(long, value_name = "N", default_value = "0", requires = "ensemble")]
+    seed: u64,
+
+    /// Number of threads; one for each core if absent
+    #[arg(long, value_name = "N", requires = "ensemble")]
+    threads: Option<NonZeroUsize>,
+
+    /// How far the members are changed: posture='1 deg', place='5 mm', path='1 %', stiffness='2 %' if absent; may be
+    /// repeated
+    #[arg(long, value_name = "WHAT=AMOUNT", requires = "ensemble")]
+    change: Vec<String>,
+
+    /// A figure is stable if the middle 90 % of the members lie within this part of the median
+    #[arg(long, value_name = "PART", default_value = "10 %", requires = "ensemble")]
+    stable_within: String,
+
+    /// Write the bands over time: NAME.csv or NAME.parquet for numbers, NAME.svg or NAME.png for a picture; may be repeated
+    #[arg(long, value_name = "FILE", requires = "ensemble")]
+    bands: Vec<PathBuf>,
+
+    /// Channels of the bands, by name or pattern with commas between, such as 'head.*,belt.*.force'; if absent, the main
+    /// accelerations, forces and places
+    #[arg(long, value_name = "NAMES", requires = "ensemble")]
+    channels: Vec<String>,
+}
+
+impl EnsembleArgs {
+    /// The ensemble that the flags ask for, if they do.
+    ///
+    /// # Errors
+    /// Amounts, channels and files that cannot be.
+    pub(crate) fn wanted(
+        &self,
+        draft: &Draft,
+        opened: &Opened,
+        scenario: &Path,
+        existing: Existing,
+    ) -> Result<Option<Wanted>, Failure> {
+        let Some(members) = self.ensemble.map(u64::from) else {
+            return Ok(None);
+        };
+        let changes = changes(&self.change)?;
+        let within = part("--stable-within", &self.stable_within)?;
+        let channels = choose(&opened.model, &self.channels)?;
+        refuse_too_much(members, channels.len(), opened.model.output_count())?;
+        let files = self.bands.iter().map(|path| {
+            refuse_input(path, scenario).map_err(|e| Failure::plain(e.to_string()))?;
+            if existing == Existing::Keep && path.exists() {
+                let found = format!("{} exists", path.display());
+                return Err(Failure::with_help(found, "--force replaces it"));
+            }
+            band_file(path).map(|kind| (path.clone(), kind))
+        });
+        let name = scenario.display().to_string();
+        Ok(Some(Wanted {
+            files: files.collect::<Result<_, _>>()?,
+            study: Study::of_ensemble(draft.clone(), name, members, self.seed, &changes),
+            seed: self.seed,
+            changes,
+            tolerance: Tolerance { relative: within },
+            engine: engine(self.threads, Kernel::best())?,
+            channels,
+            existing,
+        }))
+    }
+}
+
+fn band_file(path: &Path) -> Result<BandFile, Failure> {
+    match (Form::of(path), Format::of(path)) {
+        (Some(form), _) => Ok(BandFile::Table(form)),
+        (None, Some(format)) => Ok(BandFile::Picture(format)),
+        (None, None) => Err(Failure::with_help(
+            format!("--bands {}: its ending says no kind of file", path.display()),
+            "give NAME.csv, NAME.parquet, NAME.svg or NAME.png",
+        )),
+    }
+}
+
+/// The standard changes, with what the flags say instead.
+fn changes(given: &[String]) -> Result<Tolerances, Failure> {
+    let mut changes = Tolerances::default();
+    for text in given {
+        let refused = |found: &str| {
+            Failure::with_help(
+                format!("--change {text}: {found}"),
+                "give posture='1 deg', place='5 mm', path='1 %' or stiffness='2 %'",
+            )
+        };
+        let (what, amount) = text.split_once('=').ok_or_else(|| refused("it has no ="))?;
+        let amount = amount.trim();
+        let si = |value: Result<f64, UnitError>| {
+            value.map_err(|e| refused(&format!("{}; expected {}", e.found, e.expected)))
+        };
+        let (to, value, most) = match what.trim() {
+            "posture" => (&mut changes.posture_rad, si(measured(kind::ANGLE, amount))?, f64::INFINITY),
+            "place" => (&mut changes.place_m, si(measured(kind::LENGTH, amount))?, f64::INFINITY),
+            "path" => (&mut changes.path, si(ratio(amount))?, 1.0),
+            "stiffness" => (&mut changes.stiffness, si(ratio(amount))?, 1.0),
+            other => return Err(refused(&format!("nothing is called `{other}`"))),
+        };
+        if !(0.0..=most).contains(&value) {
+            return Err(refused("the amount is not from 0 to all of it"));
+        }
+        *to = value;
+    }
+    Ok(changes)
+}
+
+/// A part such as `10 %` or 0.1, above 0.
+fn part(flag: &str, text: &str) -> Result<f64, Failure> {
+    let refused = |found: String| Failure::with_help(format!("{flag} {text}: {found}"), "give a part such as '10 %'");
+    let value = ratio(text);
+    let value = value.map_err(|e| refused(format!("{}; expected {}", e.found, e.expected)))?;
+    if value > 0.0 && value.is_finite() { Ok(value) } else { Err(refused("it is not above 0".to_owned())) }
+}
+
+/// A number with its unit, SI.
+fn measured(kind: usize, text: &str) -> Result<f64, UnitError> {
+    KINDS[kind].si(&Value::String(text.to_owned()), UnitSystem::Si)
+}
+
+/// `10 %` or a bare 0.1.
+fn ratio(text: &str) -> Result<f64, UnitError> {
+    KINDS[kind::RATIO].read(text.trim())
+}

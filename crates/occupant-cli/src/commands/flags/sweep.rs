@@ -1,0 +1,86 @@
+//! What flags and environment choose for a sweep.
+
+use std::num::NonZeroUsize;
+use std::thread::available_parallelism;
+
+use occupant_core::run::batch::Kernel;
+use occupant_study::Keep;
+use occupant_study::engine::Engine;
+
+use crate::base::failure::Failure;
+use crate::files::study_folder::manifest::Role;
+use crate::files::study_folder::shard::Shard;
+use crate::jobs::sweep::kept;
+use crate::jobs::sweep::plan::Plan;
+
+/// The part to compute, and the variable that says so.
+pub(crate) fn shard(given: Option<&str>) -> Result<(Shard, Option<&'static str>), Failure> {
+    let refused =
+        |found: String| Failure::with_help(found, "--shard 1/1 computes everything, whatever the environment says");
+    if let Some(text) = given {
+        let shard = Shard::parse(text).map_err(|e| refused(format!("--shard: {e}")))?;
+        return Ok((shard, None));
+    }
+    let told = Shard::from_environment(|name| std::env::var(name).ok()).map_err(refused)?;
+    Ok(match told {
+        Some((shard, variable)) => (shard, Some(variable)),
+        None => (Shard::WHOLE, None),
+    })
+}
+
+/// Which runs to write: as the command line says, or else the study.
+pub(crate) fn keep(given: Option<&str>, plan: &Plan) -> Result<Keep, Failure> {
+    let keep = match given {
+        Some(text) => kept::parse(text).ok_or_else(|| {
+            Failure::with_help(
+                format!("--keep {text}: it does not say which runs to write"),
+                "give all, none, numbers of samples such as '3, 17', or 'worst 5 by head.peak'",
+            )
+        })?,
+        None => plan.study().keep().clone(),
+    };
+    let manifest = &plan.manifest;
+    match &keep {
+        Keep::Indices(numbers) => {
+            if let Some(number) = numbers.iter().find(|n| **n >= manifest.samples) {
+                return Err(Failure::plain(format!(
+                    "keep: there is no sample {number}; the study has {}, counted from 0",
+                    manifest.samples
+                )));
+            }
+        }
+        Keep::Worst { measure, .. } => {
+            let figures = manifest.columns.iter().filter(|c| c.role == Role::Figure);
+            let names: Vec<&str> = figures.map(|c| c.name.as_str()).collect();
+            if !names.contains(&measure.as_str()) {
+                return Err(Failure::with_help(
+                    format!("keep: no measure is named `{measure}`"),
+                    &format!("the measures are {}", names.join(", ")),
+                ));
+            }
+        }
+        Keep::All | Keep::None => {}
+    }
+    Ok(keep)
+}
+
+/// As many threads as the command line says, or one for each core.
+pub(crate) fn engine(threads: Option<NonZeroUsize>, kernel: Kernel) -> Result<Engine, Failure> {
+    let cores = || available_parallelism().unwrap_or(NonZeroUsize::MIN);
+    Engine::new(threads.unwrap_or_else(cores).get(), kernel)
+        .map_err(|e| Failure::plain(format!("no thread can be started: {e}")))
+}
+
+/// The form of the kernel: as the command line says, or the fastest of this processor.
+pub(crate) fn kernel(given: Option<&str>) -> Result<Kernel, Failure> {
+    let Some(name) = given else {
+        return Ok(Kernel::best());
+    };
+    let found = Kernel::named(name).filter(|kernel| kernel.is_available());
+    found.ok_or_else(|| {
+        Failure::with_help(
+            format!("--kernel {name}: this processor has no such kernel"),
+            "give scalar, or leave it out for the fastest",
+        )
+    })
+}

@@ -1,0 +1,142 @@
+//! `occupant measures`.
+
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+use crash_measures::injury::{Filtering, Measure, Options, Signals, assess};
+use crash_measures::measure::Dummy;
+use crash_measures::signal::CfcFamily;
+use serde::Serialize;
+
+use super::tables::measures::{long, remarks, risks};
+use crate::base::failure::{Done, Failure};
+use crate::base::talk::{self, print, say};
+use crate::base::text_table::plain;
+use crate::files::results::Results;
+
+/// Injury measures of a run against limits and risk curves
+///
+/// HIC, 3 ms levels, severity indices, BrIC, DAMAGE, neck and femur loads, Nij. A simulated signal has no noise, so nothing
+/// is filtered unless --filter asks for it. Exit code 1 if a limit is exceeded and --strict is given.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// The results of `occupant run`
+    #[arg(value_name = "RUN.mcap")]
+    run: PathBuf,
+
+    /// Filter each channel by its class (head 1000, neck 1000/600, chest 180, femur 600, head rotation 60)
+    #[arg(long, value_name = "FAMILY", default_value = "none")]
+    filter: Filter,
+
+    /// The dummy whose limits and risk curves hold
+    #[arg(long, value_name = "DUMMY", default_value = "hybrid-iii-50m")]
+    dummy: DummyChoice,
+
+    /// Exit with code 1 if a limit is exceeded
+    #[arg(long)]
+    strict: bool,
+
+    /// Print JSON instead of tables; SI units
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum Filter {
+    /// The signals as they are
+    None,
+    /// Coefficients of SAE J211
+    SaeJ211,
+    /// Coefficients of ISO 6487
+    Iso6487,
+}
+
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum DummyChoice {
+    /// Hybrid III, 50th percentile male
+    #[value(name = "hybrid-iii-50m")]
+    HybridIii50M,
+    /// Hybrid III, 5th percentile female
+    #[value(name = "hybrid-iii-5f")]
+    HybridIii5F,
+    /// THOR, 50th percentile male
+    #[value(name = "thor-50m")]
+    Thor50M,
+}
+
+#[derive(Serialize)]
+struct Answer<'a> {
+    file: String,
+    title: &'a str,
+    complete: bool,
+    dummy: &'static str,
+    measures: &'a [Measure],
+    notes: Vec<String>,
+}
+
+/// Prints the measures of a run.
+pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
+    let results = Results::open(&args.run)?;
+    let options = options(args);
+    let mut signals = Signals::new();
+    results.replay(&mut signals)?;
+    let measures = assess(&signals, &options);
+    let notes = results.notes();
+    if args.json {
+        print(&talk::json(&Answer {
+            file: args.run.display().to_string(),
+            title: &results.model.setup().title,
+            complete: results.is_complete(),
+            dummy: options.dummy.name(),
+            measures: &measures,
+            notes,
+        })?)?;
+    } else {
+        for note in notes {
+            say(&format!("note: {note}"));
+        }
+        print(&text(&results, &options, &measures))?;
+    }
+    let exceeded = measures.iter().any(|m| m.limits.iter().any(|l| !l.passed));
+    Ok(match exceeded && args.strict {
+        true => Done::Unwell,
+        false => Done::Well,
+    })
+}
+
+fn options(args: &Args) -> Options {
+    Options {
+        dummy: match args.dummy {
+            DummyChoice::HybridIii50M => Dummy::HybridIii50M,
+            DummyChoice::HybridIii5F => Dummy::HybridIii5F,
+            DummyChoice::Thor50M => Dummy::Thor50M,
+        },
+        filtering: match args.filter {
+            Filter::None => Filtering::None,
+            Filter::SaeJ211 => Filtering::Classes(CfcFamily::SaeJ211),
+            Filter::Iso6487 => Filtering::Classes(CfcFamily::Iso6487),
+        },
+    }
+}
+
+fn text(results: &Results, options: &Options, measures: &[Measure]) -> String {
+    let interval_ms = results.model.setup().time.output_s * 1e3;
+    let filter = match options.filtering {
+        Filtering::None => "unfiltered",
+        Filtering::Classes(CfcFamily::SaeJ211) => "filtered by SAE J211 classes",
+        Filtering::Classes(CfcFamily::Iso6487) => "filtered by ISO 6487 classes",
+    };
+    let title = plain(&results.model.setup().title);
+    let dummy = options.dummy.name();
+    [
+        format!(
+            "{title}\noutputs every {interval_ms} ms, {filter}; limits and risks of a {dummy}\n"
+        ),
+        long(measures),
+        risks(measures),
+        remarks(measures),
+        "Limits and curves were read where others quote them, not in the rules: check the rule before a legal statement.\n"
+            .to_owned(),
+    ]
+    .join("\n")
+}

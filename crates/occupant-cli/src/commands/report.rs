@@ -1,0 +1,51 @@
+//! `occupant report`.
+
+use std::path::PathBuf;
+
+use crate::base::failure::{Done, Failure};
+use crate::base::output_file::{publish, refuse_input};
+use crate::base::talk::say;
+use crate::files::results::Results;
+use crate::jobs::report::page;
+
+/// Make a page of a run: motion in 3-D, time histories, measures, contacts and where it comes from, in one HTML file
+///
+/// It opens in any browser and loads nothing from the network. Keys: space plays, arrows step, 1 to 4 choose the view.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// The results of `occupant run`
+    #[arg(value_name = "RUN.mcap")]
+    run: PathBuf,
+
+    /// The page
+    #[arg(short, long, value_name = "FILE.html")]
+    output: PathBuf,
+
+    /// Replace a file that exists
+    #[arg(short, long)]
+    force: bool,
+
+    /// Another run, drawn as a ghost or beside, with its curves and numbers beside those of the first
+    #[arg(long, value_name = "OTHER.mcap")]
+    against: Option<PathBuf>,
+}
+
+pub(crate) fn report(args: &Args) -> Result<Done, Failure> {
+    let ending = args.output.extension().and_then(|e| e.to_str());
+    if !ending.is_some_and(|e| e.eq_ignore_ascii_case("html") || e.eq_ignore_ascii_case("htm")) {
+        return Err(Failure::with_help(
+            format!("{} has not the ending of a page", args.output.display()),
+            "give a name that ends with .html",
+        ));
+    }
+    for input in [Some(&args.run), args.against.as_ref()].into_iter().flatten() {
+        refuse_input(&args.output, input).map_err(|e| Failure::plain(e.to_string()))?;
+    }
+    let run = Results::open(&args.run)?;
+    let against = args.against.as_deref().map(Results::open).transpose()?;
+    for note in [Some(&run), against.as_ref()].into_iter().flatten().flat_map(Results::notes) {
+        say(&note);
+    }
+    publish(&args.output, args.force, page(&run, against.as_ref())?.as_bytes())?;
+    Ok(Done::Well)
+}

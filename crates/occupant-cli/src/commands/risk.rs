@@ -1,0 +1,172 @@
+//! `occupant risk`.
+
+mod input;
+mod options;
+
+use std::path::PathBuf;
+
+use clap::ValueEnum;
+use crash_measures::measure::limits::Rule;
+use occupant_core::vehicle::risk::{Preparation, VehicleSignals};
+
+use crate::base::failure::{Done, Failure};
+use crate::base::talk::{self, print, say};
+use crate::jobs::risk::{Report, json, text};
+use input::measured;
+use options::{flight, preparation};
+
+/// Measure the risk to occupants from the vehicle's motion alone
+///
+/// OIV, ORA, THIV, PHD, ASI, 50 ms averages, angles, velocity changes, OLC, and what rules say of them. FILE is recorded data
+/// (a CSV with `t` and any of `ax`, `ay`, `az`, `wx`, `wy`, `wz` with their units, such as t[s],ax[g],wz[deg/s]; x forward,
+/// y right, z down), a scenario, or a run.mcap. Exit code 1 if a rule named by --rule is broken.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// Recorded data (.csv), a scenario (.toml, .json) or the results of a run (.mcap)
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+
+    /// Judge by this rule; may be repeated; all are shown if absent
+    #[arg(long, value_name = "RULE")]
+    rule: Vec<RuleChoice>,
+
+    /// Channel frequency class of the filter; "none" for data that are filtered already
+    #[arg(long, value_name = "CLASS", default_value = "180")]
+    cfc: ClassChoice,
+
+    /// Filter coefficients
+    #[arg(long, value_name = "FAMILY", default_value = "iso6487")]
+    coefficients: FamilyChoice,
+
+    /// Sample interval: recorded data are resampled by straight lines, paths are sampled (0.1 ms if absent)
+    #[arg(long, value_name = "TIME")]
+    interval: Option<String>,
+
+    /// Time of first contact; the first sample if absent
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    start: Option<String>,
+
+    /// Time up to which the record is looked at; its end if absent
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
+    end: Option<String>,
+
+    /// Where the sensors stand, from the centre of gravity: forward, right, down, such as "-0.3 m,0,10 cm"
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true)]
+    offset: Option<String>,
+
+    /// Gravity is in az: a level vehicle at rest reads −1 g
+    #[arg(long)]
+    gravity_included: bool,
+
+    /// The recorded axes are x forward, y left, z up
+    #[arg(long)]
+    z_up: bool,
+
+    /// Head of THIV ahead of the centre of gravity (X0); 0 if absent
+    #[arg(long, value_name = "LENGTH", allow_hyphen_values = true)]
+    head_start: Option<String>,
+
+    /// Free distance forward and back; 0.6 m if absent
+    #[arg(long, value_name = "LENGTH")]
+    flail_x: Option<String>,
+
+    /// Free distance to either side; 0.3 m if absent
+    #[arg(long, value_name = "LENGTH")]
+    flail_y: Option<String>,
+
+    /// Change a value of the scenario, such as --set path.speed='30 mph'; may be repeated
+    #[arg(long = "set", value_name = "PATH.TO.KEY=VALUE")]
+    overrides: Vec<String>,
+
+    /// Print the report as JSON, in SI
+    #[arg(long)]
+    json: bool,
+}
+
+/// Rules that judge a vehicle's motion.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum RuleChoice {
+    /// MASH 2016
+    Mash,
+    /// MASH 2016, breakaway supports
+    MashSupports,
+    /// NCHRP Report 350
+    Nchrp350,
+    /// EN 1317-1:1998
+    #[value(name = "en1317-1998")]
+    En1317Edition1998,
+    /// EN 1317-1:2010
+    #[value(name = "en1317-2010")]
+    En1317Edition2010,
+}
+
+impl RuleChoice {
+    fn rule(self) -> Rule {
+        match self {
+            RuleChoice::Mash => Rule::Mash2016,
+            RuleChoice::MashSupports => Rule::Mash2016Supports,
+            RuleChoice::Nchrp350 => Rule::Nchrp350,
+            RuleChoice::En1317Edition1998 => Rule::En1317Edition1998,
+            RuleChoice::En1317Edition2010 => Rule::En1317Edition2010,
+        }
+    }
+}
+
+/// Filter classes.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum ClassChoice {
+    #[value(name = "60")]
+    Cfc60,
+    #[value(name = "180")]
+    Cfc180,
+    #[value(name = "600")]
+    Cfc600,
+    #[value(name = "1000")]
+    Cfc1000,
+    None,
+}
+
+/// Filter coefficients.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+enum FamilyChoice {
+    /// ISO 6487
+    Iso6487,
+    /// SAE J211
+    J211,
+}
+
+/// Measures and judges.
+pub(crate) fn risk(args: &Args) -> Result<Done, Failure> {
+    let preparation = preparation(args)?;
+    let flight = flight(args)?;
+    let rules: Vec<Rule> = args.rule.iter().map(|rule| rule.rule()).collect();
+    let (subject, signals) = measured(args, &preparation)?;
+    warn_of_coarse_samples(&signals, &preparation);
+    let report = Report::new(subject, preparation, signals, flight, &rules);
+    match args.json {
+        true => print(&talk::json(&json(&report))?)?,
+        false => print(&text(&report))?,
+    }
+    let broken = report.judgements.iter().filter(|j| j.breaks_the_rule());
+    let broken: Vec<String> = broken.map(|j| format!("{} {}", j.limit.rule.name(), j.measure)).collect();
+    match rules.is_empty() || broken.is_empty() {
+        true => Ok(Done::Well),
+        false => {
+            say(&format!("error: beyond the limit: {}", broken.join(", ")));
+            Ok(Done::Unwell)
+        }
+    }
+}
+
+/// SAE J211 asks for at least ten samples in a period of the class.
+fn warn_of_coarse_samples(signals: &VehicleSignals, preparation: &Preparation) {
+    if let Some((class, _)) = preparation.filter
+        && signals.dt_s * class.hertz() > 0.1 * (1.0 + 1e-6)
+    {
+        say(&format!(
+            "warning: {:.0} samples a second are less than ten times the class, CFC {:.0}: peaks may be missed",
+            1.0 / signals.dt_s,
+            class.hertz()
+        ));
+    }
+}

@@ -1,0 +1,134 @@
+//! What `occupant risk` measures: recorded data, or the path of a scenario or run.
+
+use crash_measures::signal::SignalError;
+use occupant_core::scenario::{Diagnostics, RecordFile, read_record};
+use occupant_core::vehicle::risk::{Preparation, Unprepared, VehicleSignals, prepare};
+
+use super::Args;
+use crate::base::failure::Failure;
+use crate::base::talk::say;
+use crate::files::mcap::StoredRun;
+use crate::files::scenario::{self, ScenarioArgs};
+use crate::jobs::risk::Subject;
+
+/// Sample interval of paths, s, where none is asked for.
+const PATH_INTERVAL_S: f64 = 1e-4;
+
+/// What the file holds, and the signals that it gives.
+pub(crate) fn measured(args: &Args, wanted: &Preparation) -> Result<(Subject, VehicleSignals), Failure> {
+    let name = args.file.display().to_string();
+    let extension = args.file.extension().unwrap_or_default();
+    let extension = extension.to_string_lossy().to_ascii_lowercase();
+    if matches!(extension.as_str(), "toml" | "json" | "mcap") {
+        let subject = path_of(args, &name, &extension, wanted)?;
+        // the path was sampled as asked, and it knows neither sensors nor gravity
+        let of_path = Preparation { interval_s: None, ..wanted.clone() };
+        let mut signals = prepare(&subject.record, &of_path).map_err(|error| unprepared(&name, None, &error))?;
+        signals.initial = subject.initial;
+        return Ok((subject, signals));
+    }
+    if !args.overrides.is_empty() {
+        return Err(Failure::with_help(
+            format!("--set with {name}, which is not a scenario"),
+            "leave --set out, or give a scenario (.toml, .json)",
+        ));
+    }
+    let file = recorded(args, &name)?;
+    let subject = Subject::recorded(&name, &file);
+    let signals = prepare(&subject.record, wanted).map_err(|error| unprepared(&name, Some(&file), &error))?;
+    Ok((subject, signals))
+}
+
+/// The path of the scenario or run in the file.
+fn path_of(args: &Args, name: &str, extension: &str, wanted: &Preparation) -> Result<Subject, Failure> {
+    let foreign = [
+        ("--offset", args.offset.is_some()),
+        ("--gravity-included", args.gravity_included),
+        ("--z-up", args.z_up),
+        ("--set", extension == "mcap" && !args.overrides.is_empty()),
+    ];
+    if let Some((flag, _)) = foreign.iter().find(|(_, given)| *given) {
+        return Err(Failure::with_help(
+            format!("{flag} does not go with {name}"),
+            "a path has the motion of the centre of gravity itself; leave the flag out",
+        ));
+    }
+    let model = match extension {
+        "mcap" => {
+            let bytes = read(args, name)?;
+            let run =
+                StoredRun::read(&bytes).map_err(|reason| Failure::plain(format!("{name} cannot be read: {reason}")))?;
+            let loaded = scenario::stored(&args.file, &run)?;
+            let (model, _) = loaded
+                .model()
+                .map_err(|problems| Failure::plain(format!("the scenario in {name} is refused:\n{problems}")))?;
+            model
+        }
+        _ => {
+            let opened =
+                scenario::open(&ScenarioArgs { scenario: args.file.clone(), overrides: args.overrides.clone() })?;
+            if !opened.warnings.is_empty() {
+                say(&format!("{}\n", opened.warnings));
+            }
+            opened.model
+        }
+    };
+    let interval_s = wanted.interval_s.unwrap_or(PATH_INTERVAL_S);
+    Subject::path(name, model.setup(), interval_s).ok_or_else(|| {
+        Failure::with_help(
+            format!("the path of {name} cannot be sampled every {interval_s} s"),
+            "give an interval that the run has at least one and at most ten million of",
+        )
+    })
+}
+
+fn read(args: &Args, name: &str) -> Result<Vec<u8>, Failure> {
+    std::fs::read(&args.file).map_err(|error| Failure::plain(format!("{name} cannot be read: {error}")))
+}
+
+/// The record in a CSV file, with its axes forward, right, down.
+fn recorded(args: &Args, name: &str) -> Result<RecordFile, Failure> {
+    let bytes = read(args, name)?;
+    let mut file = read_record(&bytes, name).map_err(|problems| {
+        let count = problems.iter().count();
+        let errors = if count == 1 { "error" } else { "errors" };
+        Failure::CouldNotRun(format!("{problems}\n\n{name}: {count} {errors}, nothing was measured"))
+    })?;
+    if args.z_up {
+        let record = &mut file.record;
+        for channels in [&mut record.acceleration_m_s2, &mut record.rate_rad_s] {
+            for channel in channels[1..].iter_mut().flatten() {
+                channel.iter_mut().for_each(|value| *value = -*value);
+            }
+        }
+    }
+    Ok(file)
+}
+
+/// Why a record cannot be measured, with the remedy.
+fn unprepared(name: &str, file: Option<&RecordFile>, error: &Unprepared) -> Failure {
+    if let (Some(file), Unprepared::Channel { name: "t", error }) = (file, error)
+        && let SignalError::NotUniform { index, found_s, expected_s } = error
+    {
+        let mut problems = Diagnostics::new();
+        problems.push(file.at(
+            *index,
+            format!("samples that are not evenly spaced: t = {found_s} s"),
+            &format!("{expected_s} s"),
+            Some("resample by straight lines with --interval, such as --interval '0.1 ms'"),
+        ));
+        return Failure::CouldNotRun(problems.to_string());
+    }
+    let help = match error {
+        Unprepared::Channel { error: SignalError::CornerAboveNyquist { .. }, .. } => {
+            "use a lower class, such as --cfc 60, or --cfc none for data that are filtered already"
+        }
+        Unprepared::Channel { .. } => "mend the record, or choose another interval or window",
+        Unprepared::NoChannel => "name columns ax, ay, az, wx, wy, wz with their units",
+        Unprepared::OffsetNeedsRates { .. } => {
+            "add the columns (zeros, if the vehicle did not turn), or leave --offset out"
+        }
+        Unprepared::Window { .. } => "give --start and --end inside the record",
+    };
+    Failure::with_help(format!("{name} cannot be measured: {error}"), help)
+}

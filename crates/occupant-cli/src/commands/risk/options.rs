@@ -1,0 +1,94 @@
+//! The flags of `occupant risk` in SI.
+
+use crash_measures::signal::{CfcFamily, ChannelClass};
+use occupant_core::scenario::kind;
+use occupant_core::vehicle::risk::{Flight, Preparation, VerticalGravity};
+
+use super::{Args, ClassChoice, FamilyChoice};
+use crate::base::failure::Failure;
+
+const LENGTH: usize = kind::LENGTH;
+const TIME: usize = kind::TIME;
+
+/// What is done with the record.
+pub(crate) fn preparation(args: &Args) -> Result<Preparation, Failure> {
+    let class = match args.cfc {
+        ClassChoice::Cfc60 => Some(ChannelClass::Cfc60),
+        ClassChoice::Cfc180 => Some(ChannelClass::Cfc180),
+        ClassChoice::Cfc600 => Some(ChannelClass::Cfc600),
+        ClassChoice::Cfc1000 => Some(ChannelClass::Cfc1000),
+        ClassChoice::None => None,
+    };
+    let family = match args.coefficients {
+        FamilyChoice::Iso6487 => CfcFamily::Iso6487,
+        FamilyChoice::J211 => CfcFamily::SaeJ211,
+    };
+    let interval_s = quantity::<TIME>("--interval", &args.interval)?;
+    if let Some(interval_s) = interval_s {
+        positive("--interval", interval_s)?;
+    }
+    Ok(Preparation {
+        filter: class.map(|class| (class, family)),
+        interval_s,
+        offset_m: offset(args.offset.as_deref())?,
+        gravity: match args.gravity_included {
+            true => VerticalGravity::Included,
+            false => VerticalGravity::Removed,
+        },
+        start_s: quantity::<TIME>("--start", &args.start)?,
+        end_s: quantity::<TIME>("--end", &args.end)?,
+    })
+}
+
+/// Where the occupant starts and how far it may fly.
+pub(crate) fn flight(args: &Args) -> Result<Flight, Failure> {
+    let mut flight = Flight::default();
+    if let Some(x_m) = quantity::<LENGTH>("--flail-x", &args.flail_x)? {
+        flight.distances.longitudinal_m = positive("--flail-x", x_m)?;
+        flight.head.forward_m = x_m;
+    }
+    if let Some(y_m) = quantity::<LENGTH>("--flail-y", &args.flail_y)? {
+        flight.distances.lateral_m = positive("--flail-y", y_m)?;
+        flight.head.sideways_m = y_m;
+    }
+    if let Some(x_m) = quantity::<LENGTH>("--head-start", &args.head_start)? {
+        flight.head.start_x_m = x_m;
+    }
+    Ok(flight)
+}
+
+/// A flag's quantity in SI; a bare number is in SI.
+fn quantity<const KIND: usize>(flag: &str, words: &Option<String>) -> Result<Option<f64>, Failure> {
+    words.as_deref().map(|text| si::<KIND>(flag, text)).transpose()
+}
+
+fn si<const KIND: usize>(flag: &str, text: &str) -> Result<f64, Failure> {
+    let text = text.trim();
+    match kind::KINDS[KIND].read(text) {
+        Ok(value) if value.is_finite() => Ok(value),
+        Ok(value) => Err(Failure::plain(format!("{flag} {text}: found {value}, expected a finite number"))),
+        Err(error) => Err(Failure::plain(format!("{flag} {text}: {}, expected {}", error.found, error.expected))),
+    }
+}
+
+fn positive(flag: &str, value: f64) -> Result<f64, Failure> {
+    match value > 0.0 {
+        true => Ok(value),
+        false => Err(Failure::plain(format!("{flag}: found {value}, expected more than 0"))),
+    }
+}
+
+fn offset(words: Option<&str>) -> Result<[f64; 3], Failure> {
+    let Some(words) = words else {
+        return Ok([0.0; 3]);
+    };
+    let parts: Vec<&str> = words.split(',').collect();
+    let [x, y, z] = parts[..] else {
+        return Err(Failure::with_help(
+            format!("--offset {words}: found {} lengths, expected 3", parts.len()),
+            "give forward, right and down, such as --offset '-0.3 m,0,10 cm'",
+        ));
+    };
+    let length = |text| si::<LENGTH>("--offset", text);
+    Ok([length(x)?, length(y)?, length(z)?])
+}

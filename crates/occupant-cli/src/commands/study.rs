@@ -1,0 +1,29 @@
+//! `occupant study`.
+
+mod bands;
+mod report;
+
+use clap::Subcommand;
+
+use crate::base::failure::{Done, Failure};
+
+/// Work on the results of a study
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    command: Step,
+}
+
+#[derive(Debug, Subcommand)]
+enum Step {
+    Report(report::ReportArgs),
+    Bands(bands::BandsArgs),
+}
+
+/// Does what is asked of a study.
+pub(crate) fn study(args: &Args) -> Result<Done, Failure> {
+    match &args.command {
+        Step::Report(args) => report::report(args),
+        Step::Bands(args) => bands::bands(args),
+    }
+}

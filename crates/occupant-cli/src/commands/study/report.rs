@@ -1,0 +1,90 @@
+//! `occupant study report`.
+
+use std::path::{Path, PathBuf};
+
+use crate::base::failure::{Done, Failure};
+use crate::base::output_file::{Existing, FileProblem, publish};
+use crate::base::talk::say;
+use crate::jobs::study::{Report, Tables, open, page, write_tables};
+
+/// Make a page of a study: what matters, how much, how sure that is, and the command that runs each worst case again
+///
+/// The folder may be finished, or a sweep may still write it. The page opens in any browser and loads nothing from the
+/// network. All its numbers stand in REPORT.parquet beside it, the samples they are made of in REPORT-samples.parquet.
+#[derive(Debug, clap::Args)]
+pub(crate) struct ReportArgs {
+    /// The folder that `occupant sweep` has written, or several with shards of one sweep
+    #[arg(value_name = "FOLDER", required = true)]
+    folders: Vec<PathBuf>,
+
+    /// The page; FOLDER/report.html if absent
+    #[arg(short, long, value_name = "FILE.html")]
+    output: Option<PathBuf>,
+
+    /// Replace files that exist
+    #[arg(short, long)]
+    force: bool,
+
+    /// Figures to report on, such as hic15,belts.*.peak; those of head, chest, pelvis and belts that vary if absent
+    #[arg(long, value_name = "FIGURES", value_delimiter = ',')]
+    to: Vec<String>,
+}
+
+/// Makes the report of a study.
+pub(crate) fn report(args: &ReportArgs) -> Result<Done, Failure> {
+    let Some(first) = args.folders.first() else {
+        return Err(Failure::plain("no folder was given"));
+    };
+    let page_at = args.output.clone().unwrap_or_else(|| first.join("report.html"));
+    let tables = Tables::beside(&page_at);
+    let opened = open(&args.folders)?;
+    refuse(&page_at, &tables, args)?;
+    let report = Report::of(opened, &args.to)?;
+    for note in &report.notes {
+        say(note);
+    }
+    let existing = Existing::by(args.force);
+    write_tables(&report, &tables, existing)?;
+    publish(&page_at, args.force, page(&report).as_bytes())?;
+    Ok(Done::Well)
+}
+
+/// Refuses names that are no page, files of the sweep itself, and files that are there.
+fn refuse(page: &Path, tables: &Tables, args: &ReportArgs) -> Result<(), Failure> {
+    let ending = page.extension().and_then(|e| e.to_str());
+    if !ending.is_some_and(|e| e.eq_ignore_ascii_case("html") || e.eq_ignore_ascii_case("htm")) {
+        return Err(Failure::with_help(
+            format!("{} has not the ending of a page", page.display()),
+            "give a name that ends with .html",
+        ));
+    }
+    let names = ["results.parquet", "ensemble.parquet"];
+    let own = |table: &PathBuf| {
+        let mut ours = args.folders.iter().flat_map(|f| names.map(|n| f.join(n)));
+        ours.any(|ours| same(&ours, table))
+    };
+    if let Some(table) = [&tables.numbers, &tables.samples].into_iter().find(|t| own(t)) {
+        return Err(Failure::with_help(
+            format!("{} is a table of the sweep", table.display()),
+            "give the page another name",
+        ));
+    }
+    let there = [page, &tables.numbers, &tables.samples];
+    match there.into_iter().find(|p| p.exists()) {
+        Some(path) if !args.force => {
+            let path = path.to_owned();
+            Err(Failure::plain(FileProblem::Exists { path }.to_string()))
+        }
+        _ => Ok(()),
+    }
+}
+
+/// Whether two names lead to the same place, files that are not there yet included.
+fn same(a: &Path, b: &Path) -> bool {
+    let whole = |p: &Path| {
+        let folder = p.parent().filter(|f| !f.as_os_str().is_empty());
+        let folder = folder.unwrap_or(Path::new(".")).canonicalize().ok()?;
+        Some(folder.join(p.file_name()?))
+    };
+    whole(a).is_some() && whole(a) == whole(b)
+}

@@ -1,0 +1,192 @@
+//! The tables of `occupant check`.
+
+use occupant_core::diagnosis::{Diagnosis, Rate, SeatStart};
+
+use crate::base::text_table::Align::{Left, Right};
+use crate::base::text_table::{NONE, Table, facts, plain};
+
+/// Everything that a user should see before a run.
+pub(crate) fn check_text(d: &Diagnosis) -> String {
+    let mut parts = vec![format!("{}\n", plain(&d.title)), overview(d), segments(d)];
+    if let Some(seat) = &d.seat {
+        parts.push(seating(seat));
+    }
+    parts.push(contacts(d));
+    if !d.belts.is_empty() {
+        parts.push(belts(d));
+    }
+    parts.push(sphere_rates(d));
+    if !d.other_rates.is_empty() {
+        parts.push(other_rates(d));
+    }
+    parts.push(verdict(d));
+    parts.join("\n")
+}
+
+fn overview(d: &Diagnosis) -> String {
+    let (run, vehicle) = (&d.run, &d.vehicle);
+    let step = match run.step_s {
+        Some(step_s) => format!("{}, step {} ms", run.integrator, short(step_s * 1e3)),
+        None => format!("{}, step under error control", run.integrator),
+    };
+    facts(&[
+        (
+            "occupant",
+            format!(
+                "{}: {:.2} kg in {} segments, {} degrees of freedom, {} contact spheres",
+                d.body.name,
+                d.body.mass_kg,
+                d.body.segments.len(),
+                d.body.degrees_of_freedom,
+                d.body.spheres
+            ),
+        ),
+        (
+            "vehicle",
+            format!(
+                "{} path: {:.3} m/s at the start, {:.3} m/s at the end, velocity change {:.3} m/s; {} surfaces",
+                vehicle.path, vehicle.start_speed_m_s, vehicle.end_speed_m_s, vehicle.velocity_change_m_s, d.surfaces
+            ),
+        ),
+        (
+            "run",
+            format!(
+                "{} to {} ms, {} outputs every {} ms, {step}",
+                short(run.start_s * 1e3),
+                short(run.end_s * 1e3),
+                run.outputs,
+                short(run.output_s * 1e3)
+            ),
+        ),
+        ("gravity", format!("{:.5} m/s²", run.gravity_m_s2)),
+    ])
+}
+
+fn segments(d: &Diagnosis) -> String {
+    let mut table = Table::new(&[("segment", Left), ("mass, kg", Right), ("length, m", Right)]);
+    for s in &d.body.segments {
+        table.row([s.segment.to_owned(), format!("{:.3}", s.mass_kg), format!("{:.4}", s.length_m)]);
+    }
+    table.text()
+}
+
+fn seating(seat: &SeatStart) -> String {
+    let place = |[x, y, z]: [f64; 3]| format!("({x:.4}, {y:.4}, {z:.4}) m in the vehicle");
+    let mut lines = vec![
+        ("seated on", format!("{}, {}", seat.cushion, seat.back)),
+        ("pelvis", format!("centre at {}, sinks {:.1} mm into the cushion", place(seat.pelvis_m), seat.sink_m * 1e3)),
+        ("left knee", format!("at {}", place(seat.left_knee_m))),
+        ("legs", format!("thighs lean {:.1}°, lower legs {:.1}°", seat.thighs_deg, seat.lower_legs_deg)),
+    ];
+    if let Some(s) = &seat.settled {
+        lines.push((
+            "settled",
+            format!(
+                "moved {:.1} mm and turned {:.2}°; left over {:.2} N and {:.2} N·m of a weight of {:.1} N",
+                s.moved_m * 1e3,
+                s.turned_deg,
+                s.residual_force_n,
+                s.residual_moment_n_m,
+                s.weight_n
+            ),
+        ));
+    }
+    facts(&lines)
+}
+
+fn contacts(d: &Diagnosis) -> String {
+    if d.contacts.is_empty() {
+        return "nothing touches at the start\n".to_owned();
+    }
+    let mut table =
+        Table::new(&[("touches at the start", Left), ("surface", Left), ("depth, mm", Right), ("force, N", Right)]);
+    for c in &d.contacts {
+        table.row([
+            c.sphere.clone(),
+            c.surface.clone(),
+            format!("{:.2}", c.depth_m * 1e3),
+            format!("{:.1}", c.normal_force_n),
+        ]);
+    }
+    table.text()
+}
+
+fn belts(d: &Diagnosis) -> String {
+    let mut table = Table::new(&[
+        ("belt", Left),
+        ("round", Left),
+        ("length, m", Right),
+        ("unstretched, m", Right),
+        ("wrap, °", Right),
+        ("loop force, N", Right),
+    ]);
+    for b in &d.belts {
+        table.row([
+            b.belt.clone(),
+            b.sphere.clone(),
+            format!("{:.4}", b.length_m),
+            format!("{:.4}", b.rest_length_m),
+            format!("{:.1}", b.wrap_deg),
+            format!("{:.1}", b.loop_force_n),
+        ]);
+    }
+    table.text()
+}
+
+fn sphere_rates(d: &Diagnosis) -> String {
+    let mut table = Table::new(&[
+        ("sphere", Left),
+        ("stiffest material", Left),
+        ("effective mass, kg", Right),
+        ("slope, kN/m", Right),
+        ("time scale, ms", Right),
+        ("step/time scale", Right),
+        ("friction stable to, N", Right),
+    ]);
+    for s in &d.sphere_rates {
+        let r = &s.rate;
+        table.row([
+            r.of.clone(),
+            r.by.clone(),
+            format!("{:.3}", r.effective),
+            format!("{:.1}", r.coefficient / 1e3),
+            format!("{:.3}", r.time_scale_s * 1e3),
+            by_step(d, r),
+            s.friction_limit_n.map_or(NONE.to_owned(), |n| format!("{n:.0}")),
+        ]);
+    }
+    table.text()
+}
+
+fn other_rates(d: &Diagnosis) -> String {
+    let mut table =
+        Table::new(&[("belt or joint", Left), ("", Left), ("time scale, ms", Right), ("step/time scale", Right)]);
+    for r in &d.other_rates {
+        table.row([r.of.clone(), r.by.clone(), format!("{:.3}", r.time_scale_s * 1e3), by_step(d, r)]);
+    }
+    table.text()
+}
+
+fn by_step(d: &Diagnosis, rate: &Rate) -> String {
+    let step_s = d.run.step_s;
+    step_s.map_or(NONE.to_owned(), |h| format!("{:.3}", h / rate.time_scale_s))
+}
+
+fn verdict(d: &Diagnosis) -> String {
+    let Some(fastest) = &d.fastest else {
+        return "no contact, belt or joint sets a time scale\n".to_owned();
+    };
+    let scale = format!("fastest time scale: {:.4} ms ({}, {})", fastest.time_scale_s * 1e3, fastest.of, fastest.by);
+    match d.step_by_time_scale {
+        Some(number) => {
+            format!("{scale}; step/time scale {number:.3}, which must stay below 2.8\n")
+        }
+        None => format!("{scale}; the error control chooses the step\n"),
+    }
+}
+
+/// A number without the zeros that say nothing.
+fn short(value: f64) -> String {
+    let text = format!("{value:.4}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}

@@ -1,0 +1,113 @@
+//! Injury measures as tables.
+
+use crash_measures::injury::{Judgement, Measure};
+use crash_measures::unit::Unit;
+use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
+
+use super::summary::Marks;
+use crate::base::text_table::Align::{Left, Right};
+use crate::base::text_table::{NONE, Table, number};
+
+/// The table at the end of a run.
+pub(crate) fn short(measures: &[Measure], marks: &Marks) -> String {
+    let chosen = measures.iter().filter(|m| m.brief);
+    table(chosen, marks)
+}
+
+/// All measures; each limit on a line of its own.
+pub(crate) fn long(measures: &[Measure]) -> String {
+    table(measures.iter(), &Marks::none())
+}
+
+/// What to know of measures, a line each.
+pub(crate) fn remarks(measures: &[Measure]) -> String {
+    let remark = |m: &Measure| Some(format!("{}: {}\n", m.label, m.remark.as_ref()?));
+    measures.iter().filter_map(remark).collect()
+}
+
+/// Risks of injury, a line for each curve.
+pub(crate) fn risks(measures: &[Measure]) -> String {
+    let mut table = Table::new(&[("injury", Left), ("from", Left), ("risk, %", Right)]);
+    for m in measures {
+        for risk in &m.risks {
+            table.row([risk.injury.to_owned(), m.label.to_owned(), number(100.0 * risk.probability, 1)]);
+        }
+    }
+    table.text()
+}
+
+fn table<'m>(measures: impl Iterator<Item = &'m Measure>, marks: &Marks) -> String {
+    let mut table = Table::new(&[
+        ("injury measure", Left),
+        ("value", Right),
+        ("unit", Left),
+        ("at, ms", Right),
+        ("limit", Right),
+        ("of", Left),
+        ("margin", Right),
+        ("", Left),
+    ]);
+    for m in measures {
+        let mut limits = m.limits.iter();
+        let [limit, of, margin, verdict] = verdict(m, limits.next());
+        table.row([
+            m.label.to_owned(),
+            marks.put(m.figure.unwrap_or(m.name), m.value.map_or(NONE.to_owned(), |v| shown(m, v))),
+            unit(m).to_owned(),
+            at(m),
+            limit,
+            of,
+            margin,
+            verdict,
+        ]);
+        for more in limits {
+            let [limit, of, margin, verdict] = self::verdict(m, Some(more));
+            let blank = String::new;
+            table.row([blank(), blank(), blank(), blank(), limit, of, margin, verdict]);
+        }
+    }
+    table.text()
+}
+
+fn verdict(m: &Measure, limit: Option<&Judgement>) -> [String; 4] {
+    let Some(limit) = limit else {
+        return std::array::from_fn(|_| String::new());
+    };
+    [
+        shown(m, limit.most),
+        limit.rule.to_owned(),
+        format!("{:+.0} %", 100.0 * limit.relative_margin),
+        match limit.passed {
+            true => "met".to_owned(),
+            false => "EXCEEDED".to_owned(),
+        },
+    ]
+}
+
+fn at(m: &Measure) -> String {
+    let ms = |t: f64| format!("{:.1}", t * 1e3);
+    match (m.from_s, m.to_s) {
+        (Some(from), Some(to)) => format!("{}–{}", ms(from), ms(to)),
+        (Some(from), None) => ms(from),
+        _ => String::new(),
+    }
+}
+
+fn unit(m: &Measure) -> &'static str {
+    match m.unit {
+        Unit::MetrePerSecondSquared => "g",
+        Unit::One => "",
+        unit => unit.symbol(),
+    }
+}
+
+/// A value of a measure's unit; accelerations in g.
+fn shown(m: &Measure, value: f64) -> String {
+    match m.unit {
+        Unit::MetrePerSecondSquared => number(value / STANDARD_GRAVITY_M_S2, 1),
+        Unit::Newton => number(value, 0),
+        Unit::NewtonMetre => number(value, 1),
+        _ if value.abs() < 10.0 => number(value, 3),
+        _ => number(value, 1),
+    }
+}

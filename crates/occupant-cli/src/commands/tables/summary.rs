@@ -1,0 +1,229 @@
+//! The short table at the end of a run.
+
+use std::collections::BTreeSet;
+
+use occupant_core::results::summary::{Acceleration, ContactBegin, FirstContact, Level, RunStatus, Summary, word};
+
+use super::measures;
+use crate::base::text_table::Align::{Left, Right};
+use crate::base::text_table::{NONE, Table, facts, number, plain};
+use crate::jobs::run::recording::Written;
+
+/// Figures that an ensemble has found not to be stable: they carry a star.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Marks(Option<BTreeSet<String>>);
+
+impl Marks {
+    /// No ensemble was run.
+    pub(crate) fn none() -> Self {
+        Marks(None)
+    }
+
+    pub(crate) fn of<'a>(unstable: impl IntoIterator<Item = &'a str>) -> Self {
+        Marks(Some(unstable.into_iter().map(str::to_owned).collect()))
+    }
+
+    /// The text of a figure with its star, or with the room for one, so that columns stay in line.
+    pub(crate) fn put(&self, figure: &str, text: String) -> String {
+        match &self.0 {
+            None => text,
+            Some(marked) if marked.contains(figure) => text + "*",
+            Some(_) => text + " ",
+        }
+    }
+
+    fn explained(&self) -> Option<String> {
+        let marked = self.0.as_ref()?;
+        (!marked.is_empty()).then(|| "* NOT STABLE under small changes, see below\n".to_owned())
+    }
+}
+
+/// The table: title, accelerations, belts, first contacts, and how far to trust the run.
+pub(crate) fn summary_table(summary: &Summary, written: &Written, marks: &Marks) -> String {
+    let mut parts = vec![title(summary), accelerations(summary, marks)];
+    if !summary.belts.is_empty() {
+        parts.push(belts(summary, marks));
+    }
+    if !summary.first_contacts.is_empty() {
+        parts.push(first_contacts(summary, marks));
+    }
+    parts.push(measures::short(&summary.measures, marks));
+    parts.extend(marks.explained());
+    parts.push(trust(summary, written, marks));
+    parts.join("\n")
+}
+
+fn title(summary: &Summary) -> String {
+    let reached = format!("{} to {} ms", ms(summary.start_s), ms(summary.reached_s));
+    let ending = match summary.status {
+        RunStatus::Completed => reached,
+        RunStatus::Interrupted => format!("INTERRUPTED: {reached} of {} ms", ms(summary.end_s)),
+        RunStatus::Failed => format!("FAILED: {reached} of {} ms", ms(summary.end_s)),
+    };
+    let every = (summary.reached_s - summary.start_s) / summary.solver.outputs.saturating_sub(1).max(1) as f64;
+    let peaks = format!(
+        "peaks are those of outputs every {} ms",
+        number(every * 1e3, 3).trim_end_matches('0').trim_end_matches('.')
+    );
+    format!("{}\n{ending}; {peaks}\n", plain(&summary.title))
+}
+
+fn accelerations(summary: &Summary, marks: &Marks) -> String {
+    let mut table = Table::new(&[
+        ("acceleration", Left),
+        ("peak, g", Right),
+        ("at, ms", Right),
+        ("3 ms held, g", Right),
+        ("from–to, ms", Right),
+        ("3 ms in total, g", Right),
+    ]);
+    let a = &summary.accelerations;
+    for (name, part) in [("head", &a.head), ("chest", &a.chest), ("pelvis", &a.pelvis)] {
+        table.row(acceleration(name, part, marks));
+    }
+    table.text()
+}
+
+fn acceleration(name: &str, part: &Acceleration, marks: &Marks) -> [String; 6] {
+    let held = part.three_ms_contiguous;
+    let total = part.three_ms_cumulative;
+    let level = |l: Option<Level>| l.map_or(NONE.to_owned(), |l| number(l.level_g, 1));
+    let mark = |figure: &str, text| marks.put(&format!("{name}.{figure}"), text);
+    [
+        name.to_owned(),
+        mark("peak", number(part.peak_g, 1)),
+        mark("peak_time", ms(part.peak_time_s)),
+        mark("three_ms_contiguous", level(held)),
+        held.map_or(NONE.to_owned(), |l| format!("{}–{}", ms(l.from_s), ms(l.to_s))),
+        mark("three_ms_cumulative", level(total)),
+    ]
+}
+
+fn belts(summary: &Summary, marks: &Marks) -> String {
+    let mut table = Table::new(&[
+        ("belt", Left),
+        ("loop force, N", Right),
+        ("at, ms", Right),
+        ("stretch, mm", Right),
+        ("force on body, N", Right),
+    ]);
+    for belt in &summary.belts {
+        let name = word(&belt.belt);
+        let mark = |figure: &str, text| marks.put(&format!("belts.{name}.{figure}"), text);
+        table.row([
+            belt.belt.clone(),
+            mark("peak", number(belt.loop_force_n, 0)),
+            mark("peak_time", belt.time_s.map_or(NONE.to_owned(), ms)),
+            mark("stretch", number(belt.elongation_m * 1e3, 1)),
+            mark("body_peak", number(belt.body_force_n, 0)),
+        ]);
+    }
+    table.text()
+}
+
+fn first_contacts(summary: &Summary, marks: &Marks) -> String {
+    let mut table = Table::new(&[
+        ("contact", Left),
+        ("surface", Left),
+        ("at, ms", Right),
+        ("speed, m/s", Right),
+        ("greatest force, N", Right),
+        ("at, ms", Right),
+        ("on", Left),
+    ]);
+    for first in &summary.first_contacts {
+        rows_of(summary, first, marks).into_iter().for_each(|row| table.row(row));
+    }
+    table.text()
+}
+
+/// A row for each surface that a sphere touched; the greatest force of the whole run stands in the first.
+fn rows_of(summary: &Summary, first: &FirstContact, marks: &Marks) -> Vec<[String; 7]> {
+    let peak = summary.sphere_forces.iter().find(|p| p.sphere == first.sphere);
+    let none = || NONE.to_owned();
+    let name = word(&first.sphere);
+    let mark = |figure: &str, text| marks.put(&format!("contacts.{name}.{figure}"), text);
+    let force = match peak {
+        Some(p) => [mark("peak", number(p.force_n, 0)), mark("peak_time", ms(p.time_s)), p.surface.clone()],
+        None => [none(), none(), none()],
+    };
+    let own = summary.contacts.iter().filter(|c| c.sphere == first.sphere);
+    let mut touches: Vec<[String; 3]> = own.map(touch).collect();
+    let is_first = |t: &&[String; 3]| Some(&t[1]) == first.contact.as_ref().map(|c| ms(c.time_s)).as_ref();
+    let at = touches.iter().position(|t| is_first(&t));
+    if let Some([_, time, speed]) = at.and_then(|i| touches.get_mut(i)) {
+        *time = mark("first_time", std::mem::take(time));
+        *speed = mark("first_speed", std::mem::take(speed));
+    }
+    if touches.is_empty() {
+        touches.push([none(), none(), none()]);
+    }
+    let row = |(i, [surface, at, speed]): (usize, [String; 3])| {
+        let (name, [n, when, on]) = match i {
+            0 => (first.sphere.clone(), force.clone()),
+            _ => (String::new(), [String::new(), String::new(), String::new()]),
+        };
+        [name, surface, at, speed, n, when, on]
+    };
+    touches.into_iter().enumerate().map(row).collect()
+}
+
+/// Surface, time and closing speed; what touches at the start has not arrived.
+fn touch(contact: &ContactBegin) -> [String; 3] {
+    let [time, speed] = match contact.at_start {
+        true => ["at start".to_owned(), NONE.to_owned()],
+        false => [ms(contact.time_s), number(contact.closing_m_s, 2)],
+    };
+    [contact.surface.clone(), time, speed]
+}
+
+fn trust(summary: &Summary, written: &Written, marks: &Marks) -> String {
+    let mut lines = Vec::new();
+    if let Some(e) = &summary.head_excursion {
+        let mm = |way: &str, distance_m: f64| {
+            let text = format!("{way} {} mm", number(distance_m * 1e3, 0));
+            let marked = marks.put(&format!("head_excursion.{way}"), text);
+            marked.trim_end().to_owned()
+        };
+        let ways = [
+            format!("{} at {} ms", mm("forward", e.forward_m), ms(e.forward_time_s)),
+            mm("up", e.up_m),
+            mm("down", e.down_m),
+            mm("left", e.left_m),
+            mm("right", e.right_m),
+        ];
+        lines.push(("head excursion", ways.join(", ")));
+    }
+    lines.push((
+        "energy balance",
+        format!(
+            "error {:.1e} of the greatest kinetic energy in the vehicle, {} J",
+            summary.energy.balance_error,
+            number(summary.energy.greatest_kinetic_j, 0)
+        ),
+    ));
+    lines.push(("integration", integration(summary)));
+    match written {
+        Written::Nothing => {}
+        Written::Complete(path) => lines.push(("written", path.display().to_string())),
+        Written::Partial(path) => {
+            lines.push(("written", format!("{} (partial)", path.display())));
+        }
+    }
+    facts(&lines)
+}
+
+fn integration(summary: &Summary) -> String {
+    let s = &summary.solver;
+    let rejected = match s.rejected {
+        0 => String::new(),
+        n => format!(" ({n} rejected)"),
+    };
+    let time = s.wall_time_s.map_or(String::new(), |t| format!(", {t:.3} s of wall time"));
+    format!("{}, {} steps{rejected}, {} evaluations, {} outputs{time}", s.integrator, s.steps, s.evaluations, s.outputs)
+}
+
+/// Seconds as milliseconds.
+fn ms(time_s: f64) -> String {
+    format!("{:.1}", time_s * 1e3)
+}

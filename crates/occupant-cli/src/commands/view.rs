@@ -1,0 +1,225 @@
+//! `occupant view`.
+
+use std::path::PathBuf;
+
+use occupant_core::scenario::kind::{KINDS, TIME, UnitSystem};
+use occupant_core::scenario::text::Value;
+
+use crate::base::failure::{Done, Failure};
+use crate::base::output_file::{publish, refuse_input};
+use crate::base::talk::say;
+use crate::files::results::Results;
+use crate::pictures::Format;
+use crate::pictures::body::Snapshot;
+use crate::pictures::view::{Strip, View, draw};
+
+/// Pixels of a PNG for each unit of the drawing.
+const PIXELS: f64 = 2.0;
+/// Interval of the pictures where nobody asks for another, ms.
+const EVERY_MS: f64 = 40.0;
+/// Without `--times`, no more pictures than this.
+const MOST_BY_DEFAULT: usize = 12;
+/// With `--times`, no more than this.
+const MOST: usize = 120;
+
+/// Draw the body in the compartment from the side, from above and from ahead, at chosen times
+///
+/// A strip as in the report's Figs 21 to 38: one column a time, one row a view, all to one scale, with belts, and with
+/// contacts as arrows of the force on the body. Vehicle axes.
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {
+    /// The results of `occupant run`
+    #[arg(value_name = "RUN.mcap")]
+    run: PathBuf,
+
+    /// The picture; its ending tells the kind: .svg or .png
+    #[arg(short, long, value_name = "FILE")]
+    output: PathBuf,
+
+    /// Replace a file that exists
+    #[arg(short, long)]
+    force: bool,
+
+    /// Times, such as "0,40,80 ms" or "0.5 s"; a time without a unit takes that of the next one, else it is in seconds.
+    /// The nearest output is drawn, and its time written above. Every 40 ms if absent, less often in a long run
+    #[arg(long, value_name = "TIMES", allow_hyphen_values = true)]
+    times: Option<String>,
+
+    /// Views, in order
+    #[arg(
+        long,
+        value_name = "VIEWS",
+        value_enum,
+        value_delimiter = ',',
+        default_values = ["side", "top", "front"]
+    )]
+    views: Vec<View>,
+}
+
+pub(crate) fn view(args: &Args) -> Result<Done, Failure> {
+    let format = Format::of(&args.output).ok_or_else(|| {
+        Failure::with_help(
+            format!("{} has not the ending of a picture", args.output.display()),
+            "give a name that ends with .svg or .png",
+        )
+    })?;
+    let wanted = args.times.as_deref().map(times).transpose()?;
+    refuse_input(&args.output, &args.run).map_err(|e| Failure::plain(e.to_string()))?;
+    let results = Results::open(&args.run)?;
+    for note in results.notes() {
+        say(&note);
+    }
+    let outputs = outputs(&results, wanted)?;
+    let strip = Strip {
+        model: &results.model,
+        moments: moments(&results, &outputs)?,
+        views: distinct(&args.views),
+        origin: origin(&results),
+    };
+    let bytes =
+        format.encode(&draw(&strip), PIXELS).map_err(|e| Failure::with_help(e.to_string(), "draw fewer times"))?;
+    publish(&args.output, args.force, &bytes)?;
+    Ok(Done::Well)
+}
+
+/// Times of a list, s.
+fn times(list: &str) -> Result<Vec<f64>, Failure> {
+    let wrong = |entry: &str, expected: &str| {
+        Failure::with_help(
+            format!("--times {list}: `{entry}` is not a time; expected {expected}"),
+            "give times such as --times '0,40,80 ms'",
+        )
+    };
+    let mut unit = "s".to_owned();
+    let mut found = Vec::new();
+    for entry in list.rsplit(',').map(str::trim) {
+        let digits = entry.trim_end_matches(|c: char| c.is_alphabetic() || c == 'µ');
+        let own = entry[digits.len()..].trim();
+        if !own.is_empty() && digits.trim().parse::<f64>().is_ok() {
+            unit = own.to_owned();
+        }
+        let text = match digits.trim().parse::<f64>() {
+            Ok(number) => format!("{number} {unit}"),
+            Err(_) => return Err(wrong(entry, "a number and a unit")),
+        };
+        match KINDS[TIME].si(&Value::String(text), UnitSystem::Si) {
+            Ok(seconds) if seconds.is_finite() => found.push(seconds),
+            Ok(_) => return Err(wrong(entry, "a finite time")),
+            Err(error) => return Err(wrong(entry, &error.expected)),
+        }
+    }
+    if found.len() > MOST {
+        return Err(Failure::plain(format!(
+            "--times asks for {} pictures; at most {MOST} fit on a sheet",
+            found.len()
+        )));
+    }
+    found.reverse();
+    Ok(found)
+}
+
+/// Indices of the outputs to draw, in order.
+fn outputs(results: &Results, wanted: Option<Vec<f64>>) -> Result<Vec<usize>, Failure> {
+    let at: Vec<f64> = results.checkpoints.iter().map(|c| c.time_s).collect();
+    let (first, last) = (at[0], at[at.len() - 1]);
+    let wanted = wanted.unwrap_or_else(|| regular(first, last));
+    let half_interval = 0.5 * results.model.setup().time.output_s * (1.0 + 1e-9);
+    let nearest = |time: f64| {
+        if time < first - half_interval || time > last + half_interval {
+            return Err(Failure::with_help(
+                format!("no output near {time} s: the outputs go from {first} s to {last} s"),
+                "give --times within the run",
+            ));
+        }
+        let after = at.partition_point(|t| *t < time).min(at.len() - 1);
+        let before = after.saturating_sub(1);
+        let nearer = (time - at[before]).abs() < (at[after] - time).abs();
+        Ok(if nearer { before } else { after })
+    };
+    wanted.into_iter().map(nearest).collect()
+}
+
+/// Every 40 ms, or every 80, 200, 400, ... in a long run.
+fn regular(first_s: f64, last_s: f64) -> Vec<f64> {
+    let span_ms = (last_s - first_s) * 1e3;
+    let mut every_ms = EVERY_MS;
+    for factor in [2.0, 2.5, 2.0].into_iter().cycle() {
+        if span_ms / every_ms + 1.0 <= MOST_BY_DEFAULT as f64 || !span_ms.is_finite() {
+            break;
+        }
+        every_ms *= factor;
+    }
+    let count = (span_ms / every_ms + 1e-6).floor().max(0.0) as usize;
+    let time = |i| first_s + i as f64 * every_ms * 1e-3;
+    (0..=count).map(time).collect()
+}
+
+/// Snapshots of outputs, in the order asked for.
+fn moments(results: &Results, outputs: &[usize]) -> Result<Vec<Snapshot>, Failure> {
+    let mut seen = Vec::new();
+    let mut output = 0;
+    results.watch(|sample| {
+        if outputs.contains(&output) {
+            seen.push((output, Snapshot::of(sample)));
+        }
+        output += 1;
+    })?;
+    let find = |wanted: &usize| seen.iter().find(|(at, _)| at == wanted);
+    Ok(outputs.iter().filter_map(find).map(|s| s.1.clone()).collect())
+}
+
+fn distinct(views: &[View]) -> Vec<View> {
+    let mut found = Vec::new();
+    for view in views {
+        if !found.contains(view) {
+            found.push(*view);
+        }
+    }
+    found
+}
+
+/// The small print: file, its hash, program.
+fn origin(results: &Results) -> String {
+    let name = results.path.file_name().unwrap_or_default();
+    let program = results.run.get("program").map_or("-", String::as_str);
+    let state = match results.is_complete() {
+        true => "",
+        false => ", a run that did not complete",
+    };
+    format!("{} (SHA-256 {}…), run by {program}{state}", name.to_string_lossy(), &results.sha256[..12])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_time_takes_the_unit_of_the_next() {
+        let close = |list, expected: &[f64]| {
+            let found = times(list).unwrap();
+            assert_eq!(found.len(), expected.len(), "{list}");
+            for (a, b) in found.iter().zip(expected) {
+                assert!((a - b).abs() < 1e-12, "{list}: {found:?}");
+            }
+        };
+        close("0,40,80 ms", &[0.0, 0.04, 0.08]);
+        close("0.1, 0.2", &[0.1, 0.2]);
+        close("10ms,0.5 s", &[0.01, 0.5]);
+        close("-5 ms", &[-0.005]);
+        for wrong in ["", "now", "1 lbf", "1,,2", "inf", "1e400"] {
+            assert!(times(wrong).is_err(), "{wrong}");
+        }
+    }
+
+    #[test]
+    fn a_long_run_gets_fewer_pictures() {
+        let last = |v: &[f64]| v[v.len() - 1];
+        let short = regular(0.0, 0.2);
+        assert_eq!(short.len(), 6);
+        assert!((last(&short) - 0.2).abs() < 1e-12);
+        let long = regular(0.0, 2.4);
+        assert_eq!(long.len(), 7);
+        assert!((long[1] - 0.4).abs() < 1e-12);
+        assert_eq!(regular(0.0, 0.0), [0.0]);
+    }
+}

@@ -1,0 +1,90 @@
+//! Histories as a table: a column of doubles for the time and for each channel.
+//!
+//! CSV has one line of headings with units, `time[s],head.acceleration.x[m/s^2]`, then numbers: nothing but that, so that
+//! spreadsheets and data frames open it as it is. What the columns are stands beside it in `NAME.csv-metadata.json`, the
+//! place and form that "CSV on the Web" (W3C) gives it; of a Parquet file it is JSON in the file's key `occupant`.
+
+use std::io;
+
+use serde_json::{Value, json};
+
+use super::{About, ColumnAbout};
+use crate::files::history::{Histories, UnitChoice, shown};
+use crate::files::table::{Cell, Form, Kind, Table};
+
+/// The bytes of the file. In CSV, numbers have the fewest digits that give the same double again, and there is nothing for
+/// a value that is no number.
+///
+/// # Errors
+/// What the writer refuses, in its words.
+pub(crate) fn table(histories: &Histories, about: &About, units: UnitChoice, form: Form) -> io::Result<Vec<u8>> {
+    let named = |c: &ColumnAbout| if form == Form::Csv { heading(c) } else { c.name.clone() };
+    let columns: Vec<(String, Kind)> = about.columns.iter().map(|c| (named(c), Kind::Number)).collect();
+    let mut table = Table::new(Vec::new(), form, &columns, &[("occupant", serde_json::to_string(about)?)])?;
+    let columns = || histories.columns.iter();
+    let sizes: Vec<f64> = columns().map(|c| shown(c.channel.unit, units).si).collect();
+    for (i, time_s) in histories.time_s.iter().enumerate() {
+        let values = columns().zip(&sizes).map(|(column, size)| column.values[i] / size);
+        table.row(match form {
+            // 0 and not −0
+            Form::Csv => {
+                let values = values.map(|value| Cell::finite(value + 0.0));
+                std::iter::once(Cell::Number(rounded(*time_s))).chain(values).collect()
+            }
+            Form::Parquet => std::iter::once(*time_s).chain(values).map(Cell::Number).collect(),
+        })?;
+    }
+    table.finish()
+}
+
+fn heading(column: &ColumnAbout) -> String {
+    format!("{}[{}]", column.name, column.unit)
+}
+
+/// A time without the traces of counting it: 0.1 and not 0.10000000000000002.
+fn rounded(time_s: f64) -> f64 {
+    (time_s * 1e9).round() / 1e9
+}
+
+/// Metadata of the table `file`.
+pub(crate) fn metadata(about: &About, file: &str) -> Value {
+    let columns: Vec<Value> = about
+        .columns
+        .iter()
+        .map(|c| {
+            json!({
+                "titles": heading(c),
+                "name": c.name,
+                "datatype": "double",
+                "dc:description": c.meaning,
+                "unit": c.unit,
+                "frame": c.frame,
+                "filter": c.filter,
+            })
+        })
+        .collect();
+    json!({
+        "@context": "http://www.w3.org/ns/csvw",
+        "url": file,
+        "dc:title": about.title,
+        "dc:creator": about.program,
+        "dc:source": about.source,
+        "sha256 of the source": about.source_sha256,
+        "complete": about.complete,
+        "units": about.units,
+        "filter": about.filter,
+        "filter coefficients": about.filter_coefficients,
+        "notes": about.notes,
+        "tableSchema": { "columns": columns },
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_have_no_traces_of_counting() {
+        assert_eq!(rounded(0.1 + 0.2), 0.3);
+    }
+}

@@ -1,0 +1,161 @@
+//! From a result file to histories.
+
+use crash_measures::signal::{Interpolant, Interpolation, resultant, uniform_interval};
+use occupant_core::model::Model;
+use occupant_core::results::channel::{Channel, Series, find};
+
+use super::{Column, Family, Filter, Histories, filtered};
+use crate::base::failure::Failure;
+use crate::files::results::Results;
+
+/// What is done to histories, in this order: filter, resample.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Treatment {
+    pub(crate) filter: Filter,
+    /// Its coefficients.
+    pub(crate) family: Family,
+    /// New interval, s; that of the outputs if absent.
+    pub(crate) interval_s: Option<f64>,
+}
+
+/// Histories of these channels of a run.
+///
+/// A filtered resultant is that of the filtered components.
+///
+/// # Errors
+/// Outputs too far apart for the filter, or an interval that is none.
+pub(crate) fn load(results: &Results, channels: Vec<Channel>, treatment: Treatment) -> Result<Histories, Failure> {
+    let asked = asked(&results.model, &channels, treatment.filter);
+    let series = results.series(asked)?;
+    let treated = treated(&results.model, channels, series, treatment);
+    let mut histories = treated.map_err(|error| match error {
+        Untreated::Run(what) => Failure::plain(format!("{}: {what}", results.path.display())),
+        Untreated::Channel { name, reason } => too_coarse(results, &name, &reason),
+    })?;
+    histories.notes.splice(0..0, results.notes());
+    Ok(histories)
+}
+
+/// Why histories cannot be treated as asked.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Untreated {
+    /// None of them.
+    Run(String),
+    /// One of them.
+    Channel { name: String, reason: String },
+}
+
+/// The channels whose values [`treated`] needs for these channels.
+pub(crate) fn asked(model: &Model, channels: &[Channel], filter: Filter) -> Vec<Channel> {
+    let mut asked = channels.to_vec();
+    if filter != Filter::None {
+        asked.extend(channels.iter().flat_map(|c| components(model, c)));
+    }
+    asked
+}
+
+/// Histories of channels of a model from their values at the outputs.
+///
+/// # Errors
+/// Outputs too far apart for the filter, or an interval that is none.
+pub(crate) fn treated(
+    model: &Model,
+    channels: Vec<Channel>,
+    mut series: Series,
+    treatment: Treatment,
+) -> Result<Histories, Untreated> {
+    let mut notes = Vec::new();
+    let dt_s = match treatment.filter {
+        Filter::None => None,
+        _ => Some(even(&mut series, &mut notes).map_err(Untreated::Run)?),
+    };
+    let mut columns = Vec::with_capacity(channels.len());
+    for channel in channels {
+        let class = treatment.filter.class_of(&channel.name);
+        let values = match (class, dt_s) {
+            (Some(class), Some(dt_s)) => {
+                let apply = |name: &str| {
+                    let raw = series.of(name).unwrap_or_default();
+                    filtered(raw, dt_s, class, treatment.family)
+                };
+                let found = filtered_channel(model, &channel, &apply);
+                found.map_err(|reason| Untreated::Channel { name: channel.name.clone(), reason })?
+            }
+            _ => series.of(&channel.name).unwrap_or_default().to_vec(),
+        };
+        columns.push(Column { channel, class, values });
+    }
+    let mut histories = Histories { time_s: series.time_s, columns, notes };
+    if let Some(interval_s) = treatment.interval_s {
+        resample(&mut histories, interval_s).map_err(Untreated::Run)?;
+    }
+    Ok(histories)
+}
+
+/// X, Y and Z of a resultant; none of another channel.
+fn components(model: &Model, channel: &Channel) -> Vec<Channel> {
+    let Some(vector) = channel.name.strip_suffix(".resultant") else {
+        return Vec::new();
+    };
+    let named = |axis: &str| find(model, &format!("{vector}.{axis}")).ok();
+    ["x", "y", "z"].into_iter().filter_map(named).collect()
+}
+
+fn filtered_channel(
+    model: &Model,
+    channel: &Channel,
+    apply: &impl Fn(&str) -> Result<Vec<f64>, String>,
+) -> Result<Vec<f64>, String> {
+    let parts = components(model, channel);
+    let [x, y, z] = parts.as_slice() else {
+        return apply(&channel.name);
+    };
+    let (x, y, z) = (apply(&x.name)?, apply(&y.name)?, apply(&z.name)?);
+    resultant(&x, &y, &z).map_err(|e| e.to_string())
+}
+
+/// The interval of the outputs. The last output stands at the run's end, which need not be a whole interval after the one
+/// before; it is then left out.
+fn even(series: &mut Series, notes: &mut Vec<String>) -> Result<f64, String> {
+    match uniform_interval(&series.time_s) {
+        Ok(dt_s) => Ok(dt_s),
+        Err(error) => {
+            let last = series.time_s.len().saturating_sub(1);
+            let dt_s = uniform_interval(&series.time_s[..last]);
+            let dt_s = dt_s.map_err(|_| format!("it cannot be filtered: {error}"))?;
+            notes.push(format!(
+                "the last output, at {} s, is no whole interval after the one before and is left out",
+                series.time_s[last]
+            ));
+            series.time_s.truncate(last);
+            series.values.iter_mut().for_each(|v| v.truncate(last));
+            Ok(dt_s)
+        }
+    }
+}
+
+fn too_coarse(results: &Results, channel: &str, reason: &str) -> Failure {
+    Failure::with_help(
+        format!("{}: {channel} cannot be filtered: {reason}", results.path.display()),
+        "run with a shorter output.interval (--set 'output.interval=\"0.1 ms\"'), choose a lower class, or leave the channel out",
+    )
+}
+
+fn resample(histories: &mut Histories, interval_s: f64) -> Result<(), String> {
+    let time_s = std::mem::take(&mut histories.time_s);
+    let recorded_s = (time_s.len() > 1).then(|| (time_s[time_s.len() - 1] - time_s[0]) / (time_s.len() - 1) as f64);
+    for column in &mut histories.columns {
+        let line = Interpolant::new(&time_s, &column.values, Interpolation::Linear);
+        let line = line.map_err(|e| format!("{}: {e}", column.channel.name))?;
+        column.values = line.resample(interval_s).map_err(|e| e.to_string())?;
+    }
+    let count = histories.columns.first().map_or(0, |c| c.values.len());
+    let start_s = time_s.first().copied().unwrap_or_default();
+    histories.time_s = (0..count).map(|i| start_s + i as f64 * interval_s).collect();
+    if recorded_s.is_some_and(|r| interval_s > 1.5 * r) && histories.columns.iter().any(|c| c.class.is_none()) {
+        histories.notes.push(format!(
+            "samples {interval_s} s apart are taken from unfiltered outputs that stand closer: peaks between them are lost"
+        ));
+    }
+    Ok(())
+}

@@ -1,0 +1,86 @@
+//! A layout for Foxglove-compatible viewers: the scene beside the plots that a crash engineer looks at first. Viewers hide
+//! three-dimensional topics until a layout shows them, so it travels with every file.
+
+use occupant_core::results::catalogue::Message;
+use serde_json::{Value, json};
+
+use super::topics::{self, VEHICLE_FRAME};
+
+/// File name of the attachment.
+pub(crate) const NAME: &str = "layout.json";
+
+pub(crate) fn layout(messages: &[Message]) -> Value {
+    let fields = |message: &str, field: &str| -> Vec<String> {
+        let own = messages.iter().filter(|m| m.name == message);
+        own.map(|m| format!("{}.{field}", m.topic)).collect()
+    };
+    let accelerometers = ["head", "upper_torso", "lower_torso"]
+        .map(|segment| format!("/occupant/segment/{segment}.accelerometer_resultant_m_s2"));
+    let loops = fields("BeltState", "loop_force_n");
+    let forces = fields("SphereLoad", "contact_force_resultant_n");
+    let energies = ["kinetic_relative_j", "balance_j"].map(|field| fields("EnergyLedger", field)).concat();
+    let panels = json!({
+        "3D!scene": scene(),
+        "Plot!accelerations": plot("Accelerometers, m/s²", &accelerometers),
+        "Plot!belts": plot("Belts, N", &loops),
+        "Plot!contacts": plot("Contact forces, N", &forces),
+        "Plot!energy": plot("Energy, J", &energies),
+        "RosOut!log": {"searchTerms": [], "minLogLevel": 1, "topicToRender": topics::LOG},
+    });
+    json!({
+        "configById": panels,
+        "globalVariables": {},
+        "userNodes": {},
+        "playbackConfig": {"speed": 0.1},
+        "layout": row(
+            58,
+            column(80, json!("3D!scene"), json!("RosOut!log")),
+            column(
+                50,
+                column(50, json!("Plot!accelerations"), json!("Plot!belts")),
+                column(50, json!("Plot!contacts"), json!("Plot!energy")),
+            ),
+        ),
+    })
+}
+
+fn row(percent: u32, first: Value, second: Value) -> Value {
+    json!({"direction": "row", "splitPercentage": percent, "first": first, "second": second})
+}
+
+fn column(percent: u32, first: Value, second: Value) -> Value {
+    json!({"direction": "column", "splitPercentage": percent, "first": first, "second": second})
+}
+
+/// The camera follows the vehicle's place but keeps space's upright: the vehicle's Z points down.
+fn scene() -> Value {
+    json!({
+        "cameraState": {
+            "perspective": true, "distance": 3.5, "phi": 75, "thetaOffset": 65, "fovy": 40, "near": 0.05, "far": 500,
+            "target": [0, 0, 0], "targetOffset": [0, 0, 0], "targetOrientation": [0, 0, 0, 1],
+        },
+        "followMode": "follow-position",
+        "followTf": VEHICLE_FRAME,
+        "scene": {"backgroundColor": "#f4f4f6", "transforms": {"enablePreloading": true, "showLabel": false, "axisScale": 0}},
+        "transforms": {},
+        "layers": {},
+        "topics": {
+            topics::COMPARTMENT_SCENE: {"visible": true},
+            topics::BODY_SCENE: {"visible": true},
+            topics::SPHERES_SCENE: {"visible": false},
+            topics::BELTS_SCENE: {"visible": true},
+            topics::FORCES_SCENE: {"visible": true},
+            topics::LABELS_SCENE: {"visible": false},
+        },
+    })
+}
+
+fn plot(title: &str, paths: &[impl AsRef<str>]) -> Value {
+    let path = |p: &str| json!({"value": p, "enabled": true, "timestampMethod": "receiveTime"});
+    let paths: Vec<Value> = paths.iter().map(|p| path(p.as_ref())).collect();
+    json!({
+        "title": title, "paths": paths, "isSynced": true, "xAxisVal": "timestamp",
+        "showLegend": true, "legendDisplay": "floating", "showXAxisLabels": true, "showYAxisLabels": true,
+        "showPlotValuesInLegend": false, "sidebarDimension": 240,
+    })
+}

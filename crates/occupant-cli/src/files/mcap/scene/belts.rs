@@ -1,0 +1,58 @@
+//! Belts as lines: anchor, tangent point, round the sphere, tangent point, anchor.
+
+use nalgebra::{Point3, Vector3};
+use occupant_core::forces::belt::Belt;
+use occupant_core::forces::belt::law::BeltAction;
+use occupant_core::results::sample::Sample;
+
+use super::primitive::{Closing, line};
+use super::{Color, entity, replace};
+use crate::files::mcap::topics::VEHICLE_FRAME;
+use crate::files::mcap::wire::Wire;
+
+/// Greatest angle between two points of the arc, rad.
+const ARC_STEP_RAD: f64 = 0.15;
+const WIDTH_M: f64 = 0.025;
+const TAUT: Color = Color(0.85, 0.25, 0.15, 1.0);
+const SLACK: Color = Color(0.45, 0.45, 0.45, 1.0);
+
+/// A message with one entity for each belt, vehicle axes.
+pub(crate) fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>) {
+    replace(wire, ns, |w| {
+        for (belt, action) in sample.model.setup().belts.iter().zip(&sample.actions.belts) {
+            let radius_m = sample.model.body().spheres[belt.sphere].radius_m;
+            let centre = sample.sphere_centre_m(belt.sphere);
+            let course = course_m(belt, radius_m, centre, action);
+            let color = if action.loop_force > 0.0 { TAUT } else { SLACK };
+            entity(w, ns, VEHICLE_FRAME, &belt.name, |w| {
+                line(w, Closing::Open, &course, WIDTH_M, color);
+            });
+        }
+    });
+}
+
+/// Points of the belt from the first anchor to the second, vehicle axes; a straight line for a belt off the body.
+pub fn course_m(belt: &Belt, radius_m: f64, centre_m: Point3<f64>, action: &BeltAction<f64>) -> Vec<Point3<f64>> {
+    let [first, second] = belt.anchors_m;
+    let mut points = vec![first];
+    if action.wrap > 0.0 {
+        let free_1 = action.free[0].to_vector();
+        let tangent_1 = tangent_point(first, centre_m, radius_m, free_1);
+        // the arc leaves the first tangent point the way the webbing came: away from the first anchor
+        let out = (tangent_1 - centre_m) / radius_m;
+        let on = -free_1;
+        let steps = (action.wrap / ARC_STEP_RAD).ceil().max(1.0);
+        for i in 0..=steps as usize {
+            let angle = action.wrap * i as f64 / steps;
+            points.push(centre_m + (out * angle.cos() + on * angle.sin()) * radius_m);
+        }
+    }
+    points.push(second);
+    points
+}
+
+/// Where the free length from `anchor` along −`free` meets the sphere.
+fn tangent_point(anchor: Point3<f64>, centre: Point3<f64>, radius_m: f64, free: Vector3<f64>) -> Point3<f64> {
+    let square = (anchor - centre).norm_squared() - radius_m * radius_m;
+    anchor - free * square.max(0.0).sqrt()
+}

@@ -1,0 +1,110 @@
+//! The occupant's shape: limbs and trunk on one topic, contact spheres on another. For the eye only; the physics knows
+//! the spheres alone.
+//!
+//! A segment is drawn as the elliptic cylinder that has its mass and inertia, slimmed so that spheres and belts stand out:
+//! with half axes a along X and b along Y, I_z = ¼M(a² + b²) and I_x − I_y = ¼M(b² − a²) give
+//! a² = 2(I_z − I_x + I_y)/M and b² = 2(I_z + I_x − I_y)/M.
+
+use std::f64::consts::FRAC_PI_2;
+
+use nalgebra::{UnitQuaternion, Vector3};
+use occupant_core::body::tree::Landmarks;
+use occupant_core::body::{Body, Segment};
+
+use super::primitive::{cylinder, ellipsoid};
+use super::{Color, entity};
+use crate::files::mcap::transforms::FrameNames;
+use crate::files::mcap::wire::Wire;
+
+/// Drawn width over that of equal inertia.
+const SLIM: f64 = 0.8;
+/// The neck over the width of head and neck.
+const NECK: f64 = 0.55;
+/// Length of the drawn neck over that of head and neck.
+const NECK_LENGTH: f64 = 0.6;
+const SKIN: Color = Color(0.85, 0.65, 0.52, 1.0);
+const SHIRT: Color = Color(0.30, 0.42, 0.58, 1.0);
+const TROUSERS: Color = Color(0.25, 0.27, 0.33, 1.0);
+const SPHERE: Color = Color(0.95, 0.80, 0.30, 0.35);
+
+/// Limbs and trunk, one entity for each segment.
+pub(crate) fn write(wire: &mut Wire, body: &Body, frames: &FrameNames) {
+    for segment in body.tree.segments() {
+        entity(wire, 0, frames.of(segment), body.tree[segment].name, |w| {
+            write_segment(w, body, segment);
+        });
+    }
+}
+
+/// Contact spheres, one entity for each.
+pub(crate) fn write_spheres(wire: &mut Wire, body: &Body, frames: &FrameNames) {
+    for sphere in &body.spheres {
+        let centre = sphere_centre_m(body, sphere.segment, sphere.centre_from_lower_end_m.coords);
+        let size = Vector3::repeat(2.0 * sphere.radius_m);
+        entity(wire, 0, frames.of(sphere.segment), &sphere.name, |w| {
+            ellipsoid(w, centre, size, SPHERE);
+        });
+    }
+}
+
+fn write_segment(wire: &mut Wire, body: &Body, segment: Segment) {
+    let p = body.segment(segment);
+    let marks = body.tree.landmarks();
+    let color = color(marks, segment);
+    let length = if segment == marks.head { NECK_LENGTH * p.length_m } else { p.length_m };
+    let (lower, upper) = (-p.cg_from_lower_end_m, length - p.cg_from_lower_end_m);
+    let (a, b) = half_axes_m(body, segment);
+    let middle = Vector3::z() * (0.5 * (lower + upper));
+    let size = Vector3::new(2.0 * a, 2.0 * b, length);
+    cylinder(wire, middle, UnitQuaternion::identity(), size, color);
+    let cap = Vector3::new(2.0 * a, 2.0 * b, (a + b).min(0.5 * length));
+    ellipsoid(wire, Vector3::z() * lower, cap, color);
+    ellipsoid(wire, Vector3::z() * upper, cap, color);
+    if segment == marks.head {
+        for s in body.spheres.iter().filter(|s| s.segment == segment) {
+            let centre = sphere_centre_m(body, segment, s.centre_from_lower_end_m.coords);
+            ellipsoid(wire, centre, Vector3::repeat(2.0 * s.radius_m), SKIN);
+        }
+    } else if segment == marks.chest {
+        let arm = half_axes_m(body, marks.arms.left.upper).0;
+        girdle(wire, upper, body.shoulder_half_width_m, arm, color);
+    } else if segment == marks.pelvis {
+        let thigh = half_axes_m(body, marks.legs.left.upper).0;
+        girdle(wire, lower, body.hip_half_width_m, thigh, color);
+    }
+}
+
+/// A bar along Y that carries shoulders or hips.
+fn girdle(wire: &mut Wire, height_m: f64, half_width_m: f64, radius_m: f64, color: Color) {
+    let across = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), FRAC_PI_2);
+    let size = Vector3::new(2.0 * radius_m, 2.0 * radius_m, 2.0 * half_width_m);
+    cylinder(wire, Vector3::z() * height_m, across, size, color);
+    for side in [1.0, -1.0] {
+        let joint = Vector3::new(0.0, side * half_width_m, height_m);
+        ellipsoid(wire, joint, Vector3::repeat(2.0 * radius_m), color);
+    }
+}
+
+/// a and b as drawn.
+fn half_axes_m(body: &Body, segment: Segment) -> (f64, f64) {
+    let p = body.segment(segment);
+    let i = p.inertia_kg_m2;
+    let width = if segment == body.tree.landmarks().head { SLIM * NECK } else { SLIM };
+    let axis = |moment: f64| width * (2.0 * moment.max(0.0) / p.mass_kg).sqrt();
+    (axis(i.z - i.x + i.y), axis(i.z + i.x - i.y))
+}
+
+fn sphere_centre_m(body: &Body, segment: Segment, from_lower_end_m: Vector3<f64>) -> Vector3<f64> {
+    from_lower_end_m - Vector3::z() * body.segment(segment).cg_from_lower_end_m
+}
+
+fn color(marks: &Landmarks, segment: Segment) -> Color {
+    let arms = &marks.arms;
+    if [marks.head, arms.left.lower, arms.right.lower].contains(&segment) {
+        SKIN
+    } else if [marks.middle, marks.chest, arms.left.upper, arms.right.upper].contains(&segment) {
+        SHIRT
+    } else {
+        TROUSERS
+    }
+}

@@ -1,0 +1,70 @@
+//! The surfaces, as translucent plates with edges.
+
+use std::f64::consts::TAU;
+
+use nalgebra::Point3;
+use occupant_core::forces::contact::flat_face::FlatFace;
+use occupant_core::forces::contact::surface::{Frame, Outline};
+use occupant_core::model::Model;
+
+use super::primitive::{Closing, line, polygon};
+use super::{Color, entity};
+use crate::files::mcap::topics::{SPACE_FRAME, VEHICLE_FRAME};
+use crate::files::mcap::wire::Wire;
+
+/// Opacity of the plates.
+const OPACITY: f64 = 0.3;
+/// Half side of the square that stands for an unbounded plane, m.
+const PATCH_M: f64 = 2.5;
+/// Corners of the polygon that stands for a disc.
+const DISC_CORNERS: usize = 48;
+const EDGE_M: f64 = 0.006;
+/// Colours of the materials, in their order, again from the first when they run out.
+const PALETTE: [Color; 8] = [
+    Color(0.35, 0.55, 0.75, OPACITY),
+    Color(0.75, 0.60, 0.40, OPACITY),
+    Color(0.55, 0.65, 0.45, OPACITY),
+    Color(0.60, 0.75, 0.80, OPACITY),
+    Color(0.70, 0.50, 0.60, OPACITY),
+    Color(0.45, 0.45, 0.50, OPACITY),
+    Color(0.80, 0.75, 0.50, OPACITY),
+    Color(0.50, 0.70, 0.65, OPACITY),
+];
+
+/// One entity for each surface.
+pub(crate) fn write(wire: &mut Wire, model: &Model) {
+    for (surface, face) in model.setup().surfaces.iter().zip(model.faces()) {
+        let corners = corners_m(face);
+        let color = PALETTE[surface.material % PALETTE.len()];
+        entity(wire, 0, frame_name(face.frame), &surface.name, |w| {
+            polygon(w, &corners, color);
+            line(w, Closing::Closed, &corners, EDGE_M, color.with_opacity(0.9));
+        });
+    }
+}
+
+/// The viewer's name of a surface's frame.
+pub(crate) fn frame_name(frame: Frame) -> &'static str {
+    match frame {
+        Frame::Vehicle => VEHICLE_FRAME,
+        Frame::Space => SPACE_FRAME,
+    }
+}
+
+/// The outline as a polygon, counter-clockwise seen from the open side, in the axes of its frame.
+pub(crate) fn corners_m(face: &FlatFace) -> Vec<Point3<f64>> {
+    let (u, v) = face.plane_axes();
+    match &face.outline {
+        Outline::Polygon(corners) => corners.clone(),
+        Outline::Disc { centre_m, radius_m, .. } => {
+            let corner = |i| {
+                let angle = TAU * i as f64 / DISC_CORNERS as f64;
+                centre_m + (u * angle.cos() + v * angle.sin()) * *radius_m
+            };
+            (0..DISC_CORNERS).map(corner).collect()
+        }
+        Outline::Unbounded { point_m, .. } => [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)]
+            .map(|(a, b)| point_m + (u * a + v * b) * PATCH_M)
+            .to_vec(),
+    }
+}

@@ -1,0 +1,27 @@
+//! Names of the surfaces, and an arrow on each towards its open side.
+
+use nalgebra::Vector3;
+use occupant_core::model::Model;
+
+use super::compartment::{corners_m, frame_name};
+use super::primitive::{arrow, text};
+use super::{Color, entity};
+use crate::files::mcap::wire::Wire;
+
+const INK: Color = Color(0.15, 0.15, 0.2, 1.0);
+const HEIGHT_M: f64 = 0.04;
+const ARROW_M: f64 = 0.08;
+
+/// One entity for each surface.
+pub(crate) fn write(wire: &mut Wire, model: &Model) {
+    for (surface, face) in model.setup().surfaces.iter().zip(model.faces()) {
+        let corners = corners_m(face);
+        let sum: Vector3<f64> = corners.iter().map(|p| p.coords).sum();
+        let middle = sum / corners.len() as f64;
+        let tip = face.normal * ARROW_M;
+        entity(wire, 0, frame_name(face.frame), &surface.name, |w| {
+            arrow(w, middle, tip, 0.008, INK);
+            text(w, middle + tip * 1.3, HEIGHT_M, INK, &surface.name);
+        });
+    }
+}

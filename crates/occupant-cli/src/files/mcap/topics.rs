@@ -1,0 +1,27 @@
+//! Names of frames, and of the topics that are not results of the catalogue. ASCII and small letters, the same in every run of a scenario.
+
+/// Space: X forward, Y left, Z up; the root of all frames.
+pub(crate) const SPACE_FRAME: &str = "space";
+/// The vehicle: X forward, Y right, Z down, origin at its centre of gravity.
+pub(crate) const VEHICLE_FRAME: &str = "vehicle";
+
+pub(crate) const TRANSFORMS: &str = "/tf";
+/// Surfaces, written once.
+pub(crate) const COMPARTMENT_SCENE: &str = "/scene/compartment";
+/// Limbs and trunk, written once; the transforms move them.
+pub(crate) const BODY_SCENE: &str = "/scene/body";
+/// Contact spheres, written once; the transforms move them.
+pub(crate) const SPHERES_SCENE: &str = "/scene/spheres";
+/// Belts, every frame.
+pub(crate) const BELTS_SCENE: &str = "/scene/belts";
+/// Contact and belt forces, every frame.
+pub(crate) const FORCES_SCENE: &str = "/scene/forces";
+/// Names and open sides of the surfaces, written once.
+pub(crate) const LABELS_SCENE: &str = "/scene/labels";
+/// Warnings, first touches, the end.
+pub(crate) const LOG: &str = "/log";
+
+/// The frame of a segment: its axes, at its centre of gravity.
+pub(crate) fn segment_frame(name: &str) -> String {
+    format!("occupant/{name}")
+}

@@ -1,0 +1,180 @@
+//! The protobuf wire format, written straight into one buffer that is used again for every message.
+//!
+//! Fields are always written, also where they are zero: a file then holds every bit that was recorded (the usual writers
+//! leave zeros out, and −0 with them).
+
+use nalgebra::{UnitQuaternion, Vector3};
+use occupant_core::quantity::Value;
+
+/// Wire types of the protobuf encoding.
+const VARINT: u32 = 0;
+const FIXED_64: u32 = 1;
+const LENGTH_DELIMITED: u32 = 2;
+const FIXED_32: u32 = 5;
+
+/// A message under construction.
+#[derive(Debug, Default)]
+pub(crate) struct Wire {
+    bytes: Vec<u8>,
+}
+
+impl Wire {
+    /// What was written since the last [`Wire::clear`].
+    pub(crate) fn bytes(&self) -> &[u8] {
+        &self.bytes
+    }
+
+    /// Begins a new message.
+    pub(crate) fn clear(&mut self) {
+        self.bytes.clear();
+    }
+
+    /// A value of the catalogue; nothing for a vector that does not exist.
+    pub(crate) fn value(&mut self, field: u32, value: &Value) {
+        match value {
+            Value::Number(number) => self.number(field, *number),
+            Value::Count(count) => self.count(field, *count),
+            Value::Text(text) => self.text(field, text),
+            Value::Vector(vector) => vector.iter().for_each(|v| self.vector(field, v)),
+            Value::Rotation(rotation) => self.rotation(field, rotation),
+            Value::Numbers(numbers) => self.numbers(field, numbers),
+            Value::Indices(indices) => self.indices(field, indices),
+            Value::Parts(parts) => {
+                for part in parts {
+                    self.message(field, |wire| part.iter().for_each(|(field, value)| wire.value(*field, value)));
+                }
+            }
+        }
+    }
+
+    /// A `double`.
+    pub(crate) fn number(&mut self, field: u32, value: f64) {
+        self.key(field, FIXED_64);
+        self.bytes.extend_from_slice(&value.to_le_bytes());
+    }
+
+    /// A packed `repeated double`.
+    pub(crate) fn numbers(&mut self, field: u32, values: &[f64]) {
+        self.key(field, LENGTH_DELIMITED);
+        self.varint(8 * values.len() as u64);
+        for value in values {
+            self.bytes.extend_from_slice(&value.to_le_bytes());
+        }
+    }
+
+    /// A `fixed32`.
+    pub(crate) fn index(&mut self, field: u32, value: u32) {
+        self.key(field, FIXED_32);
+        self.bytes.extend_from_slice(&value.to_le_bytes());
+    }
+
+    /// A packed `repeated fixed32`.
+    pub(crate) fn indices(&mut self, field: u32, values: &[u32]) {
+        self.key(field, LENGTH_DELIMITED);
+        self.varint(4 * values.len() as u64);
+        for value in values {
+            self.bytes.extend_from_slice(&value.to_le_bytes());
+        }
+    }
+
+    /// A `uint64`, or an enum's number.
+    pub(crate) fn count(&mut self, field: u32, value: u64) {
+        self.key(field, VARINT);
+        self.varint(value);
+    }
+
+    /// A `bool`.
+    pub(crate) fn flag(&mut self, field: u32, value: bool) {
+        self.count(field, value.into());
+    }
+
+    /// A `string`.
+    pub(crate) fn text(&mut self, field: u32, value: &str) {
+        self.key(field, LENGTH_DELIMITED);
+        self.varint(value.len() as u64);
+        self.bytes.extend_from_slice(value.as_bytes());
+    }
+
+    /// A message within the message.
+    pub(crate) fn message(&mut self, field: u32, content: impl FnOnce(&mut Wire)) {
+        self.key(field, LENGTH_DELIMITED);
+        let start = self.bytes.len();
+        content(self);
+        let end = self.bytes.len();
+        // the length stands before the content, but is known only after it
+        self.varint((end - start) as u64);
+        let size = self.bytes.len() - end;
+        self.bytes[start..].rotate_right(size);
+    }
+
+    /// A `foxglove.Vector3` or `foxglove.Point3`.
+    pub(crate) fn vector(&mut self, field: u32, v: &Vector3<f64>) {
+        self.key(field, LENGTH_DELIMITED);
+        self.varint(27);
+        self.number(1, v.x);
+        self.number(2, v.y);
+        self.number(3, v.z);
+    }
+
+    /// A `foxglove.Quaternion`.
+    pub(crate) fn rotation(&mut self, field: u32, q: &UnitQuaternion<f64>) {
+        self.key(field, LENGTH_DELIMITED);
+        self.varint(36);
+        self.number(1, q.i);
+        self.number(2, q.j);
+        self.number(3, q.k);
+        self.number(4, q.w);
+    }
+
+    /// A `google.protobuf.Timestamp` or `google.protobuf.Duration` of `ns` nanoseconds.
+    pub(crate) fn time(&mut self, field: u32, ns: u64) {
+        self.message(field, |wire| {
+            wire.count(1, ns / 1_000_000_000);
+            wire.count(2, ns % 1_000_000_000);
+        });
+    }
+
+    fn key(&mut self, field: u32, wire_type: u32) {
+        self.varint(u64::from(field << 3 | wire_type));
+    }
+
+    fn varint(&mut self, mut value: u64) {
+        while value >= 0x80 {
+            self.bytes.push(value as u8 | 0x80);
+            value >>= 7;
+        }
+        self.bytes.push(value as u8);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The examples of the protobuf documentation: `150` in field 1, `"testing"` in field 2, a message in field 3.
+    #[test]
+    fn the_documented_examples_come_out() {
+        let mut wire = Wire::default();
+        wire.count(1, 150);
+        wire.text(2, "testing");
+        wire.message(3, |w| w.count(1, 150));
+        let expected = [&[0x08, 0x96, 0x01][..], b"\x12\x07testing", &[0x1a, 0x03, 0x08, 0x96, 0x01]];
+        assert_eq!(wire.bytes(), expected.concat());
+    }
+
+    #[test]
+    fn a_long_message_has_its_length_in_front() {
+        let mut wire = Wire::default();
+        wire.message(1, |w| w.text(2, &"x".repeat(300)));
+        // 300 + key and two bytes of length = 303 = 0b10_0101111
+        assert_eq!(&wire.bytes()[..6], [0x0a, 0xaf, 0x02, 0x12, 0xac, 0x02]);
+        assert_eq!(wire.bytes().len(), 306);
+    }
+
+    #[test]
+    fn minus_zero_is_written() {
+        let mut wire = Wire::default();
+        wire.number(1, -0.0);
+        assert_eq!(wire.bytes(), [9, 0, 0, 0, 0, 0, 0, 0, 0x80]);
+    }
+}

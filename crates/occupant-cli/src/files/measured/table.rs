@@ -1,0 +1,331 @@
+//! Text tables: a line of headings with units, `t[s],head_x[g]`, and a line of numbers for each time.
+//!
+//! Commas, semicolons, tabs or blanks between cells (with semicolons a comma is a decimal point); lines that start with `#`
+//! are comments. Units may also stand in a line of their own below the headings. Without headings the first column is the
+//! time in seconds. An empty cell, `NaN` or `NOVALUE` is a missing value.
+
+use std::path::Path;
+
+use crash_measures::unit::parse;
+
+use crate::base::failure::Failure;
+use crate::files::signals::{Recording, Signal, scale_of};
+use crate::files::trouble::{Trouble, failure};
+
+/// What stands between cells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Separator {
+    Sign(char),
+    Blanks,
+}
+
+#[derive(Clone, Debug, Default)]
+struct Heading {
+    name: String,
+    unit: Option<String>,
+    line: usize,
+}
+
+/// Reads a table.
+///
+/// # Errors
+/// What is wrong with it.
+pub(crate) fn read(path: &Path, text: &str, sha256: String) -> Result<Recording, Failure> {
+    let lines: Vec<(usize, &str)> = text
+        .trim_start_matches('\u{feff}')
+        .lines()
+        .enumerate()
+        .map(|(i, line)| (i + 1, line.trim_end()))
+        .filter(|(_, line)| !line.trim().is_empty() && !line.trim_start().starts_with('#'))
+        .collect();
+    let Some(&(_, first)) = lines.first() else {
+        return Err(Trouble::of(path, "an empty table", "headings and numbers").failure());
+    };
+    let separator = separator_of(first);
+    let mut notes = Vec::new();
+    let (headings, used) = headings(&lines, separator);
+    let time = time_column(&headings);
+    let mut reader = Reader { path, separator, headings, problems: Vec::new() };
+    let time_factor = reader.time_factor(time, used > 0, &mut notes);
+    let columns = reader.columns(&lines[used..]);
+    let time_s: Vec<f64> = columns.get(time).map(|c| c.iter().map(|t| t * time_factor).collect()).unwrap_or_default();
+    let numbers: Vec<usize> = lines[used..].iter().map(|(n, _)| *n).collect();
+    reader.check_times(&time_s, &numbers);
+    if !reader.problems.is_empty() {
+        return Err(failure(&reader.problems));
+    }
+    let signals = reader.signals(columns, time, &time_s);
+    if signals.is_empty() {
+        let found = "a table with one column";
+        return Err(Trouble::of(path, found, "a column of times and one of values").failure());
+    }
+    Ok(Recording { path: path.to_owned(), sha256, signals, notes })
+}
+
+fn separator_of(line: &str) -> Separator {
+    for sign in [';', '\t', ','] {
+        if line.contains(sign) {
+            return Separator::Sign(sign);
+        }
+    }
+    Separator::Blanks
+}
+
+/// Cells of a line, trimmed, quotes taken off.
+fn cells(line: &str, separator: Separator) -> Vec<String> {
+    match separator {
+        Separator::Blanks => line.split_whitespace().map(str::to_owned).collect(),
+        Separator::Sign(sign) => split_quoted(line, sign),
+    }
+}
+
+/// Cells between `sign`; a cell may stand in double quotes, doubled inside (RFC 4180).
+fn split_quoted(line: &str, sign: char) -> Vec<String> {
+    let mut cells = vec![String::new()];
+    let mut quoted = false;
+    let mut rest = line.chars().peekable();
+    while let Some(c) = rest.next() {
+        let Some(cell) = cells.last_mut() else { break };
+        match c {
+            '"' if quoted && rest.peek() == Some(&'"') => {
+                rest.next();
+                cell.push('"');
+            }
+            '"' if quoted || cell.trim().is_empty() => quoted = !quoted,
+            c if c == sign && !quoted => cells.push(String::new()),
+            c => cell.push(c),
+        }
+    }
+    cells.iter().map(|c| c.trim().to_owned()).collect()
+}
+
+fn number(cell: &str, separator: Separator) -> Option<f64> {
+    if matches!(cell.to_ascii_lowercase().as_str(), "" | "nan" | "novalue") {
+        return Some(f64::NAN);
+    }
+    let number = match separator {
+        Separator::Sign(';') => cell.replace(',', ".").parse::<f64>(),
+        _ => cell.parse::<f64>(),
+    };
+    number.ok().filter(|n| n.is_finite())
+}
+
+/// Headings, and how many lines they take.
+fn headings(lines: &[(usize, &str)], separator: Separator) -> (Vec<Heading>, usize) {
+    let (line, first) = lines[0];
+    let first = cells(first, separator);
+    let is_number = |c: &String| !c.is_empty() && number(c, separator).is_some();
+    if first.iter().any(is_number) {
+        let plain = |i: usize| Heading { name: (i + 1).to_string(), unit: None, line };
+        return ((0..first.len()).map(plain).collect(), 0);
+    }
+    let heading = |cell: &String| {
+        let (name, unit) = name_and_unit(cell);
+        Heading { name: name.to_owned(), unit: unit.map(str::to_owned), line }
+    };
+    let mut headings: Vec<Heading> = first.iter().map(heading).collect();
+    let Some((line, second)) = lines.get(1).copied() else {
+        return (headings, 1);
+    };
+    let second = cells(second, separator);
+    let is_unit = |c: &String| c.is_empty() || c == "-" || parse(c.trim_matches(['[', ']', '(', ')']), 0).is_ok();
+    if second.iter().any(is_number) || !second.iter().all(is_unit) {
+        return (headings, 1);
+    }
+    for (heading, unit) in headings.iter_mut().zip(&second) {
+        let unit = unit.trim_matches(['[', ']', '(', ')']);
+        if !unit.is_empty() && heading.unit.is_none() {
+            heading.unit = Some(unit.to_owned());
+            heading.line = line;
+        }
+    }
+    (headings, 2)
+}
+
+/// `x[m]` or `x (m)` → `x` and `m`.
+pub(crate) fn name_and_unit(text: &str) -> (&str, Option<&str>) {
+    let text = text.trim();
+    for (open, close) in [('[', ']'), ('(', ')')] {
+        if let Some((name, unit)) = text.strip_suffix(close).and_then(|t| t.split_once(open)) {
+            return (name.trim(), Some(unit.trim()));
+        }
+    }
+    (text, None)
+}
+
+/// The column called time, else the first.
+fn time_column(headings: &[Heading]) -> usize {
+    let names = ["t", "time", "time_s", "zeit", "temps"];
+    let named = |h: &Heading| names.contains(&h.name.to_lowercase().as_str());
+    headings.iter().position(named).unwrap_or(0)
+}
+
+struct Reader<'a> {
+    path: &'a Path,
+    separator: Separator,
+    headings: Vec<Heading>,
+    problems: Vec<Trouble>,
+}
+
+impl Reader<'_> {
+    fn time_factor(&mut self, time: usize, has_headings: bool, notes: &mut Vec<String>) -> f64 {
+        let Some(heading) = self.headings.get(time) else {
+            return 1.0;
+        };
+        let Some(unit) = &heading.unit else {
+            if has_headings && heading.name.ends_with("_s") {
+                return 1.0;
+            }
+            notes.push(format!("{} gives no unit for the time: taken as seconds", self.path.display()));
+            return 1.0;
+        };
+        let second = crash_measures::unit::Dimension::new(0, 0, 1, 0);
+        match parse(unit, 0) {
+            Ok(scale) if scale.dimension == second => scale.factor,
+            _ => {
+                let found = format!("`{unit}` as the unit of the time column `{}`", heading.name);
+                let trouble = Trouble::at(self.path, heading.line, found, "a unit of time, such as s or ms");
+                self.problems.push(trouble.hint("the time is the column called `t` or `time`, or the first"));
+                1.0
+            }
+        }
+    }
+
+    /// Numbers column by column, as far as lines are right.
+    fn columns(&mut self, lines: &[(usize, &str)]) -> Vec<Vec<f64>> {
+        let mut columns = vec![Vec::with_capacity(lines.len()); self.headings.len()];
+        for &(line, text) in lines {
+            let mut cells = cells(text, self.separator);
+            // a separator at the line's end opens no cell
+            if cells.len() == columns.len() + 1 && cells.last().is_some_and(String::is_empty) {
+                cells.pop();
+            }
+            if cells.len() != columns.len() {
+                let expected = format!("{}, one for each column", columns.len());
+                let found = format!("{} cells", cells.len());
+                self.problems.push(Trouble::at(self.path, line, found, expected));
+                columns.iter_mut().for_each(|c| c.push(f64::NAN));
+                continue;
+            }
+            for (column, cell) in columns.iter_mut().zip(&cells) {
+                let value = number(cell, self.separator);
+                if value.is_none() {
+                    let found = format!("`{cell}`");
+                    self.problems.push(Trouble::at(self.path, line, found, "a number"));
+                }
+                column.push(value.unwrap_or(f64::NAN));
+            }
+        }
+        columns
+    }
+
+    fn check_times(&mut self, time_s: &[f64], lines: &[usize]) {
+        if !self.problems.is_empty() {
+            return;
+        }
+        if time_s.is_empty() {
+            let trouble = Trouble::of(self.path, "headings without numbers", "a line for each time");
+            self.problems.push(trouble);
+        }
+        for (i, t) in time_s.iter().enumerate() {
+            let line = lines.get(i).copied().unwrap_or_default();
+            let found = match i.checked_sub(1).map(|before| time_s[before]) {
+                _ if t.is_nan() => "a line without its time".to_owned(),
+                Some(before) if *t <= before => format!("time {t} s after {before} s"),
+                _ => continue,
+            };
+            self.problems.push(Trouble::at(self.path, line, found, "times that increase"));
+        }
+    }
+
+    fn signals(&self, columns: Vec<Vec<f64>>, time: usize, time_s: &[f64]) -> Vec<Signal> {
+        let named = self.headings.iter().zip(columns).enumerate();
+        named
+            .filter(|(i, _)| *i != time)
+            .map(|(_, (heading, values))| Signal {
+                name: heading.name.clone(),
+                code: heading.name.parse().ok(),
+                unit: heading.unit.clone(),
+                scale: heading.unit.as_deref().and_then(scale_of),
+                time_s: time_s.to_vec(),
+                values,
+                place: format!("{}:{}", self.path.display(), heading.line),
+            })
+            .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn table(text: &str) -> Result<Recording, String> {
+        read(Path::new("t.csv"), text, String::new()).map_err(|f| match f {
+            Failure::CouldNotRun(m) | Failure::BrokeOff(m) => m,
+        })
+    }
+
+    #[test]
+    fn headings_carry_units() {
+        let found = table("# a comment\nt[ms], head_x[g]\n0, 1\n1, -2.5\n").unwrap();
+        let signal = &found.signals[0];
+        assert_eq!(signal.name, "head_x");
+        assert_eq!(signal.time_s, [0.0, 1e-3]);
+        assert_eq!(signal.values, [1.0, -2.5]);
+        assert_eq!(signal.scale.map(|s| s.factor), Some(9.80665));
+        assert!(found.notes.is_empty());
+    }
+
+    #[test]
+    fn units_may_stand_below_and_cells_may_be_quoted() {
+        let found = table("\"Time\";\"Head, x\";force\ns;m/s^2;kN\n0,5;1,5;2\n0,6;NaN;3\n").unwrap();
+        assert_eq!(found.signals[0].name, "Head, x");
+        assert_eq!(found.signals[0].time_s, [0.5, 0.6]);
+        assert_eq!(found.signals[0].values[0], 1.5);
+        assert!(found.signals[0].values[1].is_nan());
+        assert_eq!(found.signals[1].scale.map(|s| s.factor), Some(1000.0));
+    }
+
+    #[test]
+    fn two_columns_need_no_headings() {
+        let found = table("0.0  5\n0.1\t6\n").unwrap();
+        assert_eq!(found.signals[0].name, "2");
+        assert_eq!(found.signals[0].values, [5.0, 6.0]);
+        assert_eq!(found.signals[0].scale, None);
+        assert!(found.notes[0].contains("taken as seconds"));
+    }
+
+    /// Any text is read or refused.
+    #[test]
+    fn no_text_brings_the_reader_down() {
+        let letters: Vec<char> = "t,;\t \n\r\"[](01.-e#µg\u{feff}\u{0}NaN".chars().collect();
+        let mut seed = 1_u64;
+        for _ in 0..3000 {
+            let text: String = (0..40)
+                .map(|_| {
+                    seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+                    letters[(seed >> 33) as usize % letters.len()]
+                })
+                .collect();
+            let _ = table(&text);
+        }
+    }
+
+    #[test]
+    fn what_is_wrong_is_said_with_its_line() {
+        for (text, line, found) in [
+            ("t[s],a\n0,1\n0.1,x\n", "t.csv:3", "`x`"),
+            ("t[s],a\n0,1\n0.1\n", "t.csv:3", "1 cells"),
+            ("t[s],a\n0,1\n0,2\n", "t.csv:3", "time 0 s after 0 s"),
+            ("t[kg],a\n0,1\n", "t.csv:1", "`kg`"),
+            ("t[s],a\n,1\n", "t.csv:2", "without its time"),
+            ("t[s],a\n", "t.csv", "without numbers"),
+            ("", "t.csv", "empty"),
+            ("t\n1\n2\n", "t.csv", "one column"),
+        ] {
+            let message = table(text).unwrap_err();
+            assert!(message.contains(line) && message.contains(found), "{message}");
+            assert!(message.contains("= expected"), "{message}");
+        }
+    }
+}

@@ -1,0 +1,186 @@
+//! A result file opened again: its scenario, its model, and its outputs as the very samples of the run.
+//!
+//! A file holds the scenario and a checkpoint at every output, so each output can be evaluated once more, to the bit.
+//! Whatever is made from results (plots, views, reports, exports, scores) is a recorder over these samples.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use occupant_core::model::Model;
+use occupant_core::results::channel::{Channel, Series};
+use occupant_core::results::checkpoint::Checkpoint;
+use occupant_core::results::outcome::{Outcome, Status};
+use occupant_core::results::recorder::{Recorder, Watch};
+use occupant_core::results::sample::Sample;
+use occupant_core::results::summary::{RunStatus, Summarizer, Summary};
+use occupant_core::run::simulate::replay;
+use occupant_core::scenario::Loaded;
+
+use super::mcap::StoredRun;
+use super::scenario::stored;
+use crate::base::failure::Failure;
+use crate::base::names::program;
+use crate::base::sha256::sha256;
+
+/// A run that was recorded.
+pub struct Results {
+    pub(crate) path: PathBuf,
+    /// Its SHA-256.
+    pub(crate) sha256: String,
+    /// What the file says of the run before its start.
+    pub(crate) run: BTreeMap<String, String>,
+    /// What it says of the run's end; none if the run was cut off.
+    pub(crate) result: Option<BTreeMap<String, String>>,
+    /// The scenario, overrides included.
+    pub(crate) loaded: Loaded,
+    /// Its model.
+    pub model: Model,
+    /// The scenario as its author wrote it, without overrides.
+    pub(crate) scenario_text: Option<String>,
+    /// One an output, at least one.
+    pub(crate) checkpoints: Vec<Checkpoint>,
+}
+
+impl Results {
+    /// Opens a result file, one of a run that did not complete as far as it goes.
+    ///
+    /// # Errors
+    /// A file that cannot be read, holds no run, or whose scenario this program refuses.
+    pub fn open(path: &Path) -> Result<Self, Failure> {
+        let name = path.display();
+        let bytes = fs::read(path).map_err(|e| Failure::plain(format!("{name} cannot be read: {e}")))?;
+        let run = StoredRun::read(&bytes).map_err(|e| no_results(path, &e))?;
+        if run.run.is_empty() || run.checkpoints.is_empty() {
+            return Err(no_results(path, "it holds no outputs of a run"));
+        }
+        let loaded = stored(path, &run)?;
+        let (model, _) = loaded
+            .model()
+            .map_err(|problems| Failure::plain(format!("the scenario in {name} is refused:\n{problems}")))?;
+        for checkpoint in &run.checkpoints {
+            checkpoint.check(&model).map_err(|e| no_results(path, &e.to_string()))?;
+        }
+        let text = run.run.get("scenario").and_then(|n| run.attachments.get(n));
+        Ok(Results {
+            path: path.to_owned(),
+            sha256: sha256(&bytes),
+            scenario_text: text.map(|t| String::from_utf8_lossy(t).into_owned()),
+            run: run.run,
+            result: run.result,
+            loaded,
+            model,
+            checkpoints: run.checkpoints,
+        })
+    }
+
+    /// Whether the run reached its end.
+    pub(crate) fn is_complete(&self) -> bool {
+        self.status() == RunStatus::Completed
+    }
+
+    /// How the run ended; one that was cut off counts as interrupted.
+    pub(crate) fn status(&self) -> RunStatus {
+        let status = self.result.as_ref().and_then(|r| r.get("status"));
+        match status.map(String::as_str) {
+            Some("completed") => RunStatus::Completed,
+            Some("failed") => RunStatus::Failed,
+            _ => RunStatus::Interrupted,
+        }
+    }
+
+    /// What a user should know before trusting the results, in words.
+    pub(crate) fn notes(&self) -> Vec<String> {
+        let name = self.path.display();
+        let mut notes = Vec::new();
+        if !self.is_complete() {
+            let reason = self.result.as_ref().and_then(|r| r.get("reason"));
+            let reason = reason.map_or("it was cut off", String::as_str);
+            notes.push(format!("{name} holds a run that did not complete: {reason}"));
+        }
+        let theirs = self.run.get("program").map_or("?", String::as_str);
+        if theirs != program() {
+            notes.push(format!(
+                "{name} was written by {theirs}, this is {}: loads are computed anew from its states and may differ",
+                program()
+            ));
+        }
+        notes
+    }
+
+    /// Shows every output to `recorder`, which is told of the begin of the run but not of its end.
+    ///
+    /// # Errors
+    /// What the recorder reports.
+    pub(crate) fn replay(&self, mut recorder: impl Recorder) -> Result<(), Failure> {
+        let refused =
+            |e: &dyn std::fmt::Display| Failure::plain(format!("{} cannot be evaluated: {e}", self.path.display()));
+        recorder.begin(&self.model).map_err(|e| refused(&e))?;
+        for checkpoint in &self.checkpoints {
+            replay(&self.model, checkpoint, &mut recorder).map_err(|e| refused(&e))?;
+        }
+        Ok(())
+    }
+
+    /// Looks at every output.
+    ///
+    /// # Errors
+    /// None for a file that was opened.
+    pub(crate) fn watch(&self, look: impl FnMut(&Sample<'_>)) -> Result<(), Failure> {
+        self.replay(Watch(look))
+    }
+
+    /// Time histories of channels of [`Results::model`].
+    ///
+    /// # Errors
+    /// None for a file that was opened.
+    pub(crate) fn series(&self, channels: Vec<Channel>) -> Result<Series, Failure> {
+        let mut series = Series::new(channels);
+        self.replay(&mut series)?;
+        Ok(series)
+    }
+
+    /// The summary of the run, as at its end.
+    ///
+    /// # Errors
+    /// None for a file that was opened.
+    pub fn summary(&self) -> Result<Summary, Failure> {
+        let mut summarizer = Summarizer::new();
+        self.replay(&mut summarizer)?;
+        let refused = |what: &str| Failure::plain(format!("{}: {what}", self.path.display()));
+        summarizer.end(&self.outcome()).map_err(|e| refused(&e.to_string()))?;
+        let summary = summarizer.summary(None);
+        let mut summary = summary.ok_or_else(|| refused("the run left no summary"))?;
+        summary.status = self.status();
+        if !self.is_complete() {
+            let reason = self.result.as_ref().and_then(|r| r.get("reason").cloned());
+            summary.reason = Some(reason.unwrap_or_else(|| "the run was cut off".to_owned()));
+        }
+        Ok(summary)
+    }
+
+    /// The outcome up to the last output.
+    fn outcome(&self) -> Outcome {
+        let last = &self.checkpoints[self.checkpoints.len() - 1];
+        let progress = last.progress;
+        let greatest_j = progress.greatest_kinetic_j;
+        Outcome {
+            status: Status::Completed,
+            time_s: last.time_s,
+            effort: progress.effort,
+            first_touches: last.first_touches.clone(),
+            greatest_kinetic_j: greatest_j,
+            balance_error: match greatest_j > 0.0 {
+                true => progress.greatest_imbalance_j / greatest_j,
+                false => 0.0,
+            },
+        }
+    }
+}
+
+fn no_results(path: &Path, reason: &str) -> Failure {
+    Failure::with_help(
+        format!("{} holds no results: {reason}", path.display()),
+        "give an MCAP file that `occupant run` has written",
+    )
+}

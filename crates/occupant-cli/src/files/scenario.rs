@@ -1,0 +1,121 @@
+//! From a scenario's file name to a model.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+use occupant_core::model::Model;
+use occupant_core::problem::Severity;
+use occupant_core::scenario::{Diagnostics, Draft, Format, Loaded};
+
+use super::mcap::StoredRun;
+use super::mcap::about::RESOLVED;
+use crate::base::failure::Failure;
+use crate::base::names::file_name;
+
+/// Which scenario, and what is changed in it.
+#[derive(Clone, Debug, Args)]
+pub(crate) struct ScenarioArgs {
+    /// The scenario, TOML or JSON
+    #[arg(value_name = "SCENARIO")]
+    pub(crate) scenario: PathBuf,
+
+    /// Change a value, such as --set path.speed='30 mph' or --set joints.*.damping=2; may be repeated
+    #[arg(long = "set", value_name = "PATH.TO.KEY=VALUE")]
+    pub(crate) overrides: Vec<String>,
+}
+
+/// A scenario that can be run.
+pub(crate) struct Opened {
+    /// The bytes of the file.
+    pub(crate) bytes: Vec<u8>,
+    /// The scenario, overrides included.
+    pub(crate) loaded: Loaded,
+    pub(crate) model: Model,
+    /// Warnings, with their places.
+    pub(crate) warnings: Diagnostics,
+}
+
+/// Reads the scenario, applies the changes and makes the model.
+///
+/// # Errors
+/// A file that cannot be read; everything that is wrong with the scenario, at once.
+pub(crate) fn open(args: &ScenarioArgs) -> Result<Opened, Failure> {
+    let (bytes, draft) = draft(args)?;
+    open_draft(args, bytes, draft)
+}
+
+/// Reads the scenario's text and applies the changes.
+///
+/// # Errors
+/// A file that cannot be read; everything that is wrong with its words.
+pub(crate) fn draft(args: &ScenarioArgs) -> Result<(Vec<u8>, Draft), Failure> {
+    let path = &args.scenario;
+    let bytes = std::fs::read(path).map_err(|error| unreadable(path, &error))?;
+    let name = path.display().to_string();
+    let refuse = |problems: Diagnostics| refused(&name, &problems);
+    let mut draft = Draft::read_bytes(&bytes, format_of(path), &name).map_err(refuse)?;
+    for assignment in &args.overrides {
+        draft.set(assignment).map_err(refuse)?;
+    }
+    Ok((bytes, draft))
+}
+
+/// Makes the model of a draft of this scenario.
+///
+/// # Errors
+/// Everything that is wrong with the scenario, at once.
+pub(crate) fn open_draft(args: &ScenarioArgs, bytes: Vec<u8>, draft: Draft) -> Result<Opened, Failure> {
+    let name = args.scenario.display().to_string();
+    let refuse = |problems: Diagnostics| refused(&name, &problems);
+    let folder = args.scenario.parent().unwrap_or(Path::new("")).to_owned();
+    let resolver = move |file: &str| std::fs::read(folder.join(file)).map_err(|error| error.to_string());
+    let loaded = draft.load(&resolver).map_err(refuse)?;
+    let (model, warnings) = loaded.model().map_err(refuse)?;
+    Ok(Opened { bytes, loaded, model, warnings })
+}
+
+/// The scenario that a results file was made from, all that was changed in it included.
+///
+/// # Errors
+/// A file without it, or with one that this program cannot read.
+pub(crate) fn stored(file: &Path, run: &StoredRun) -> Result<Loaded, Failure> {
+    let name = file.display();
+    let bytes = run.attachments.get(RESOLVED);
+    let bytes = bytes.ok_or_else(|| Failure::plain(format!("{name} holds no scenario")))?;
+    let resolver = |table: &str| {
+        let found = run.attachments.get(&file_name(Path::new(table)));
+        found.cloned().ok_or_else(|| format!("{name} does not hold it"))
+    };
+    Draft::read_bytes(bytes, Some(Format::Toml), RESOLVED)
+        .and_then(|draft| draft.load(&resolver))
+        .map_err(|problems| Failure::plain(format!("the scenario in {name} cannot be read:\n{problems}")))
+}
+
+/// The format that the file name tells, if it does.
+pub(crate) fn format_of(path: &Path) -> Option<Format> {
+    let extension = path.extension()?.to_str()?.to_ascii_lowercase();
+    match extension.as_str() {
+        "toml" => Some(Format::Toml),
+        "json" => Some(Format::Json),
+        _ => None,
+    }
+}
+
+fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
+    let found = format!("the scenario {} cannot be read: {error}", path.display());
+    match error.kind() {
+        std::io::ErrorKind::NotFound => {
+            Failure::with_help(found, "check the path, or write a starter scenario with `occupant new NAME.toml`")
+        }
+        _ => Failure::plain(found),
+    }
+}
+
+fn refused(name: &str, problems: &Diagnostics) -> Failure {
+    let errors = problems.iter().filter(|d| d.problem.severity == Severity::Error).count();
+    let count = match errors {
+        1 => "1 error".to_owned(),
+        n => format!("{n} errors"),
+    };
+    Failure::CouldNotRun(format!("{problems}\n\n{name}: {count}, nothing was run"))
+}

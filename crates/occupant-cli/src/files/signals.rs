@@ -1,0 +1,46 @@
+//! Measured signals as their files give them, and the units in which they stand.
+
+use std::path::PathBuf;
+
+use crash_measures::unit::Scale;
+use crash_measures::unit::parse;
+
+use super::mme::Code;
+
+/// All signals of a file or test.
+#[derive(Clone, Debug)]
+pub(crate) struct Recording {
+    pub(crate) path: PathBuf,
+    /// SHA-256 of the file; of the test's channel files one after the other.
+    pub(crate) sha256: String,
+    /// The signals in the file's order.
+    pub(crate) signals: Vec<Signal>,
+    /// What was taken for granted in reading it.
+    pub(crate) notes: Vec<String>,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct Signal {
+    /// Column heading, or ISO-MME channel code; `2` for the second column of a table without headings.
+    pub(crate) name: String,
+    /// ISO-MME code.
+    pub(crate) code: Option<Code>,
+    /// Unit as written; none where the file gives none.
+    pub(crate) unit: Option<String>,
+    /// Its size and dimension; none also for a unit that is not known.
+    pub(crate) scale: Option<Scale>,
+    /// Times, s, increasing.
+    pub(crate) time_s: Vec<f64>,
+    /// Values in the file's unit, NaN where missing.
+    pub(crate) values: Vec<f64>,
+    /// Where it stands, for messages.
+    pub(crate) place: String,
+}
+
+/// Size and dimension of a unit as written; `-` and `1` are plain numbers.
+pub(crate) fn scale_of(unit: &str) -> Option<Scale> {
+    match unit.trim() {
+        "-" | "1" | "–" => Some(Scale { dimension: Default::default(), factor: 1.0 }),
+        unit => parse(unit, 0).ok(),
+    }
+}

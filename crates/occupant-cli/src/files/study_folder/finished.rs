@@ -1,0 +1,86 @@
+//! Which samples of a study are finished: one bit each.
+
+use std::ops::Range;
+
+/// A set of samples.
+#[derive(Clone, Debug)]
+pub(crate) struct Finished {
+    bits: Vec<u64>,
+    samples: u64,
+}
+
+impl Finished {
+    /// None of `samples`.
+    pub(crate) fn none(samples: u64) -> Self {
+        Finished { bits: vec![0; samples.div_ceil(64) as usize], samples }
+    }
+
+    /// Adds a sample; false if it was there or is none of the study.
+    pub(crate) fn add(&mut self, index: u64) -> bool {
+        let Some(word) = self.bits.get_mut((index / 64) as usize) else {
+            return false;
+        };
+        let bit = 1 << (index % 64);
+        let new = *word & bit == 0 && index < self.samples;
+        if new {
+            *word |= bit;
+        }
+        new
+    }
+
+    /// Whether a sample is finished.
+    pub(crate) fn has(&self, index: u64) -> bool {
+        let word = self.bits.get((index / 64) as usize);
+        word.is_some_and(|w| w & (1 << (index % 64)) != 0)
+    }
+
+    /// How many of a range are finished.
+    pub(crate) fn count(&self, range: Range<u64>) -> u64 {
+        range.filter(|i| self.has(*i)).count() as u64
+    }
+
+    /// Those of a range that are not, as ranges.
+    pub(crate) fn gaps(&self, range: Range<u64>) -> Vec<Range<u64>> {
+        let mut gaps: Vec<Range<u64>> = Vec::new();
+        for index in range.filter(|i| !self.has(*i)) {
+            match gaps.last_mut() {
+                Some(gap) if gap.end == index => gap.end += 1,
+                _ => gaps.push(index..index + 1),
+            }
+        }
+        gaps
+    }
+}
+
+/// Ranges as a reader counts them, `3, 7–12`, at most `most` of them.
+pub(crate) fn ranges_text(ranges: &[Range<u64>], most: usize) -> String {
+    let one = |r: &Range<u64>| match r.end - r.start {
+        1 => r.start.to_string(),
+        _ => format!("{}–{}", r.start, r.end - 1),
+    };
+    let mut text = ranges.iter().take(most).map(one).collect::<Vec<_>>().join(", ");
+    if ranges.len() > most {
+        text.push_str(&format!(" and {} more ranges", ranges.len() - most));
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn gaps_are_what_was_not_added() {
+        let mut finished = Finished::none(200);
+        for index in (0..200).filter(|i| !(60..70).contains(i) && *i != 199) {
+            assert!(finished.add(index));
+            assert!(!finished.add(index));
+        }
+        assert!(!finished.add(200) && !finished.add(1 << 40) && !finished.has(1 << 40));
+        assert_eq!(finished.gaps(0..200), [60..70, 199..200]);
+        assert_eq!(finished.gaps(0..65), vec![60..65]);
+        assert_eq!(finished.count(0..200), 189);
+        assert_eq!(ranges_text(&finished.gaps(0..200), 9), "60–69, 199");
+        assert_eq!(ranges_text(&finished.gaps(0..200), 1), "60–69 and 1 more ranges");
+    }
+}

@@ -1,0 +1,374 @@
+//! The folder of a sweep: manifest, copies of what it was made from, journal, table, kept runs, and who is at work in it.
+//!
+//! ```text
+//! sweep.json               what the folder is the sweep of
+//! inputs/                  copies of study, scenario and tables
+//! journal/*.rows           finished samples, in pieces
+//! journal/*.lock           locked while a process works on that shard
+//! results.parquet          the table, when all samples are finished
+//! runs/000123.mcap         whole runs that are kept
+//! ```
+
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::path::{Path, PathBuf};
+
+use super::manifest::{Manifest, Text};
+use super::problem::Problem;
+use super::shard::Shard;
+
+/// The names of everything that a sweep writes, its manifest aside.
+const LOCK: &str = "sweep.lock";
+const INPUTS: &str = "inputs";
+const JOURNAL: &str = "journal";
+const RUNS: &str = "runs";
+const TABLES: [&str; 10] = [
+    "results.parquet",
+    "results.partial.parquet",
+    "results.csv",
+    "results.partial.csv",
+    "columns.csv",
+    "columns.partial.csv",
+    "ensemble.parquet",
+    "ensemble.partial.parquet",
+    "ensemble.csv",
+    "ensemble.partial.csv",
+];
+
+/// What a fit writes besides: files, and folders with files of one ending.
+const FIT_RESULTS: [&str; 8] = [
+    "fit.json",
+    "fit.partial.json",
+    "fitted.toml",
+    "fitted.partial.toml",
+    "history.parquet",
+    "history.partial.parquet",
+    "history.csv",
+    "history.partial.csv",
+];
+const FITTED: &str = "fitted";
+const PLOTS: &str = "plots";
+
+/// What a folder holds the results of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Holds {
+    Sweep,
+    Fit,
+}
+
+impl Holds {
+    pub(crate) fn word(self) -> &'static str {
+        match self {
+            Holds::Sweep => "sweep",
+            Holds::Fit => "fit",
+        }
+    }
+
+    /// The manifest and its provisional name.
+    fn manifest(self) -> [&'static str; 2] {
+        match self {
+            Holds::Sweep => ["sweep.json", "sweep.partial.json"],
+            Holds::Fit => ["search.json", "search.partial.json"],
+        }
+    }
+}
+
+/// The folder of a sweep, or of a fit.
+#[derive(Clone, Debug)]
+pub(crate) struct Folder {
+    path: PathBuf,
+    holds: Holds,
+}
+
+/// A lock that a process holds until it ends, however it ends.
+#[derive(Debug)]
+pub(crate) struct Held {
+    // the lock lives as long as the file is open; a file system without locks gives none
+    _file: File,
+    /// What the file system says that knows no locks.
+    pub(crate) unlocked: Option<String>,
+}
+
+impl Folder {
+    /// The folder of a sweep at this place, there or not.
+    pub(crate) fn at(path: &Path) -> Self {
+        Folder { path: path.to_owned(), holds: Holds::Sweep }
+    }
+
+    /// The folder of a fit at this place, there or not.
+    pub(crate) fn of_fit(path: &Path) -> Self {
+        Folder { path: path.to_owned(), holds: Holds::Fit }
+    }
+
+    fn manifest_path(&self) -> PathBuf {
+        self.path.join(self.holds.manifest()[0])
+    }
+
+    pub(crate) fn path(&self) -> &Path {
+        &self.path
+    }
+
+    pub(crate) fn journal(&self) -> PathBuf {
+        self.path.join(JOURNAL)
+    }
+
+    /// The table.
+    pub(crate) fn parquet(&self) -> PathBuf {
+        self.path.join(TABLES[0])
+    }
+
+    /// The table as CSV.
+    pub(crate) fn csv(&self) -> PathBuf {
+        self.path.join(TABLES[2])
+    }
+
+    /// Names and units of the columns, beside the CSV table.
+    pub(crate) fn columns(&self) -> PathBuf {
+        self.path.join(TABLES[4])
+    }
+
+    /// The folder of the kept runs.
+    pub(crate) fn runs(&self) -> PathBuf {
+        self.path.join(RUNS)
+    }
+
+    /// The kept run of a sample.
+    pub(crate) fn run(&self, index: u64) -> PathBuf {
+        self.runs().join(format!("{index:06}.mcap"))
+    }
+
+    /// The bytes of a copy.
+    ///
+    /// # Errors
+    /// The operating system refuses.
+    pub(crate) fn copy_of(&self, text: &Text) -> Result<Vec<u8>, Problem> {
+        let path = self.path.join(&text.copy);
+        fs::read(&path).map_err(Problem::io("read", &path))
+    }
+
+    /// The manifest, if there is one.
+    ///
+    /// # Errors
+    /// The operating system refuses; a file that is no manifest.
+    pub(crate) fn manifest(&self) -> Result<Option<Manifest>, Problem> {
+        let path = self.manifest_path();
+        let bytes = match fs::read(&path) {
+            Ok(bytes) => bytes,
+            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            Err(error) => return Err(Problem::io("read", &path)(error)),
+        };
+        let read = serde_json::from_slice(&bytes);
+        read.map(Some).map_err(|error| Problem::Damaged {
+            found: format!("is no manifest of a {}: {error}", self.holds.word()),
+            path,
+        })
+    }
+
+    /// Makes the folder that of this sweep, or finds that it is, and takes part `shard` of it.
+    ///
+    /// # Errors
+    /// It holds something else; another process is at work on it; the operating system refuses.
+    pub(crate) fn claim(
+        &self,
+        manifest: &Manifest,
+        texts: &[Vec<u8>],
+        shard: Shard,
+        restart: bool,
+    ) -> Result<Held, Problem> {
+        fs::create_dir_all(&self.path).map_err(Problem::io("create", &self.path))?;
+        let _one_at_a_time = self.wait()?;
+        self.refuse_other_files()?;
+        self.refuse_others(shard, restart)?;
+        if restart {
+            self.clear()?;
+        }
+        match self.manifest()? {
+            Some(there) if there == *manifest => {}
+            Some(there) => return Err(self.differs(&there, manifest, texts)),
+            None => self.begin(manifest, texts)?,
+        }
+        let name = format!("{}.lock", shard.file_stem());
+        match self.lock(&self.journal().join(name))? {
+            Some(held) => Ok(held),
+            None => Err(self.busy(format!("computes shard {shard}"))),
+        }
+    }
+
+    /// The right to write the table.
+    ///
+    /// # Errors
+    /// Another process has it; the operating system refuses.
+    pub(crate) fn claim_table(&self) -> Result<Held, Problem> {
+        match self.lock(&self.path.join("table.lock"))? {
+            Some(held) => Ok(held),
+            None => Err(self.busy("writes the table".to_owned())),
+        }
+    }
+
+    /// Refuses a folder with tables or runs that are not those of this sweep.
+    ///
+    /// # Errors
+    /// What stands there.
+    pub(crate) fn refuse_other_results(&self, manifest: &Manifest) -> Result<(), Problem> {
+        if self.manifest()?.as_ref() == Some(manifest) {
+            return Ok(());
+        }
+        let others = [RUNS, self.holds.manifest()[0]];
+        let mut results = TABLES.iter().chain(&others);
+        match results.find(|name| self.path.join(name).exists()) {
+            Some(name) => Err(Problem::Exists { path: self.path.join(name) }),
+            None => Ok(()),
+        }
+    }
+
+    fn busy(&self, doing: String) -> Problem {
+        Problem::Busy { folder: self.path.clone(), doing }
+    }
+
+    fn differs(&self, there: &Manifest, here: &Manifest, texts: &[Vec<u8>]) -> Problem {
+        let text_here = |text: &Text| {
+            let at = here.texts.iter().position(|t| t == text)?;
+            texts.get(at).cloned()
+        };
+        Problem::Differs {
+            folder: self.path.clone(),
+            holds: self.holds,
+            differences: there.differences(here, |t| self.copy_of(t).ok(), text_here),
+        }
+    }
+
+    /// Waits until no other process is at the door. Where the file system knows no locks there is no door.
+    fn wait(&self) -> Result<File, Problem> {
+        let path = self.path.join(LOCK);
+        let file = open_lock(&path)?;
+        let _no_locks_here = file.lock();
+        Ok(file)
+    }
+
+    /// Files without a manifest are not ours.
+    fn refuse_other_files(&self) -> Result<(), Problem> {
+        if self.manifest_path().exists() {
+            return Ok(());
+        }
+        let ours = [LOCK, INPUTS, JOURNAL];
+        for name in names_in(&self.path)? {
+            if !ours.contains(&name.as_str()) && name != self.holds.manifest()[1] {
+                return Err(Problem::NotOurs { folder: self.path.clone(), holds: self.holds });
+            }
+        }
+        Ok(())
+    }
+
+    /// Processes that share the study in another way would compute the same samples.
+    fn refuse_others(&self, shard: Shard, all: bool) -> Result<(), Problem> {
+        let journal = self.journal();
+        if !journal.exists() {
+            return Ok(());
+        }
+        for name in names_in(&journal)?.iter().filter(|n| n.ends_with(".lock")) {
+            let Some(other) = Shard::of_file(name) else {
+                continue;
+            };
+            if (all || other.count() != shard.count()) && self.lock(&journal.join(name))?.is_none() {
+                return Err(self.busy(format!("computes shard {other}")));
+            }
+        }
+        Ok(())
+    }
+
+    /// Takes a lock, unless another process has it.
+    fn lock(&self, path: &Path) -> Result<Option<Held>, Problem> {
+        let file = open_lock(path)?;
+        let unlocked = match file.try_lock() {
+            Ok(()) => None,
+            Err(TryLockError::WouldBlock) => return Ok(None),
+            Err(TryLockError::Error(error)) => Some(error.to_string()),
+        };
+        Ok(Some(Held { _file: file, unlocked }))
+    }
+
+    /// Copies first, the manifest last: a folder with a manifest is whole.
+    fn begin(&self, manifest: &Manifest, texts: &[Vec<u8>]) -> Result<(), Problem> {
+        for folder in [self.path.join(INPUTS), self.journal()] {
+            fs::create_dir_all(&folder).map_err(Problem::io("create", &folder))?;
+        }
+        for (text, bytes) in manifest.texts.iter().zip(texts) {
+            let path = self.path.join(&text.copy);
+            write_whole(&path, bytes)?;
+        }
+        let path = self.manifest_path();
+        let bytes = manifest
+            .to_bytes()
+            .map_err(|error| Problem::Damaged { path: path.clone(), found: format!("cannot be written: {error}") })?;
+        let partial = self.path.join(self.holds.manifest()[1]);
+        write_whole(&partial, &bytes)?;
+        fs::rename(&partial, &path).map_err(Problem::io("rename to", &path))
+    }
+
+    /// Removes tables that were not completed.
+    pub(crate) fn remove_partial_tables(&self) {
+        for name in TABLES.iter().filter(|name| name.contains(".partial.")) {
+            // one that cannot be removed is replaced by the next table
+            let _stays = fs::remove_file(self.path.join(name));
+        }
+    }
+
+    /// Removes what a sweep has written, and nothing else.
+    fn clear(&self) -> Result<(), Problem> {
+        let (results, folders): (&[&str], &[(&str, &str)]) = match self.holds {
+            Holds::Sweep => (&TABLES, &[(RUNS, ".mcap")]),
+            Holds::Fit => (&FIT_RESULTS, &[(FITTED, ".toml"), (PLOTS, ".svg")]),
+        };
+        let mut files: Vec<PathBuf> = results.iter().map(|name| self.path.join(name)).collect();
+        let always = [(JOURNAL, ".rows"), (INPUTS, "")];
+        for (folder, ending) in always.iter().chain(folders) {
+            let folder = self.path.join(folder);
+            if folder.exists() {
+                let names = names_in(&folder)?;
+                let ours = names.iter().filter(|n| n.ends_with(ending));
+                files.extend(ours.map(|name| folder.join(name)));
+            }
+        }
+        // the manifest goes last: without it the rest would be nobody's
+        files.push(self.manifest_path());
+        for file in files {
+            match fs::remove_file(&file) {
+                Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
+                    return Err(Problem::io("remove", &file)(error));
+                }
+                _ => {}
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The names in a folder, sorted.
+///
+/// # Errors
+/// The operating system refuses.
+pub(crate) fn names_in(folder: &Path) -> Result<Vec<String>, Problem> {
+    let read = || -> std::io::Result<Vec<String>> {
+        let mut names = Vec::new();
+        for entry in fs::read_dir(folder)? {
+            names.push(entry?.file_name().to_string_lossy().into_owned());
+        }
+        names.sort();
+        Ok(names)
+    };
+    read().map_err(Problem::io("read", folder))
+}
+
+fn open_lock(path: &Path) -> Result<File, Problem> {
+    let mut options = OpenOptions::new();
+    let options = options.create(true).truncate(false).write(true);
+    options.open(path).map_err(Problem::io("create", path))
+}
+
+fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Problem> {
+    let write = || -> std::io::Result<()> {
+        let mut file = File::create(path)?;
+        std::io::Write::write_all(&mut file, bytes)?;
+        file.sync_all()
+    };
+    write().map_err(Problem::io("write", path))
+}

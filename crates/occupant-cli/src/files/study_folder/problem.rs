@@ -1,0 +1,90 @@
+//! What can go wrong with a folder of results.
+
+use std::io;
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+
+use super::finished::ranges_text;
+use super::folder::Holds;
+use super::shard::Shard;
+use crate::base::failure::Failure;
+
+/// So many ranges or shards are named.
+const SHOWN: usize = 20;
+
+/// What can go wrong with a folder of results.
+#[derive(Debug, thiserror::Error)]
+pub(crate) enum Problem {
+    #[error("cannot {doing} {}: {source}", .path.display())]
+    Io { doing: &'static str, path: PathBuf, source: io::Error },
+    #[error("{} exists and is not of this sweep", .path.display())]
+    Exists { path: PathBuf },
+    /// There are files, but none of ours.
+    #[error("{} holds files that are no {}'s", .folder.display(), .holds.word())]
+    NotOurs { folder: PathBuf, holds: Holds },
+    /// The folder holds something else, or the same of another version; a line for each difference.
+    #[error("{} holds another {} (there → here):\n   {}", .folder.display(), .holds.word(), .differences.join("\n   "))]
+    Differs { folder: PathBuf, holds: Holds, differences: Vec<String> },
+    /// A file of the folder is not what it should be.
+    #[error("{} {found}", .path.display())]
+    Damaged { path: PathBuf, found: String },
+    #[error("another process is at work in {}: it {doing}", .folder.display())]
+    Busy { folder: PathBuf, doing: String },
+    /// Samples are not finished; shards that have begun and how many samples each lacks.
+    #[error("{}", incomplete(.gaps, .samples, .shards))]
+    Incomplete { gaps: Vec<Range<u64>>, samples: u64, shards: Vec<(Shard, u64)> },
+    /// Two results of one sample disagree.
+    #[error("sample {index} has one result in {} and another in {}", .first.display(), .second.display())]
+    Disagree { index: u64, first: PathBuf, second: PathBuf },
+}
+
+impl Problem {
+    /// What the operating system said while something was done to a file.
+    pub(crate) fn io(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Problem {
+        let path = path.to_owned();
+        move |source| Problem::Io { doing, path, source }
+    }
+
+    /// How to go on, where there is something to say.
+    pub(crate) fn help(&self) -> Option<&'static str> {
+        match self {
+            Problem::Exists { .. } | Problem::NotOurs { .. } => Some("name a new folder, or an empty one"),
+            Problem::Differs { .. } => Some(
+                "name another folder, or compute everything anew with --restart, which removes the results that are there",
+            ),
+            Problem::Damaged { .. } => Some("remove the file: its samples are computed again by the same sweep"),
+            Problem::Busy { .. } => Some("wait for it, or name another folder"),
+            Problem::Incomplete { .. } => {
+                Some("give the same command of `occupant sweep` again: it goes on from what is there")
+            }
+            Problem::Disagree { .. } => Some(
+                "the results were computed by programs or machines that do not agree; compute them anew with --restart",
+            ),
+            Problem::Io { .. } => None,
+        }
+    }
+}
+
+/// Gaps among so many samples, and the shards that have begun and lack samples.
+fn incomplete(gaps: &[Range<u64>], samples: &u64, shards: &[(Shard, u64)]) -> String {
+    let missing: u64 = gaps.iter().map(|g| g.end - g.start).sum();
+    let mut text = format!("{missing} of {samples} samples are missing: {}", ranges_text(gaps, SHOWN));
+    for (shard, missing) in shards.iter().take(SHOWN) {
+        text += &format!("\n   shard {shard}: {missing}");
+    }
+    if shards.len() > SHOWN {
+        text += &format!("\n   and {} more shards", shards.len() - SHOWN);
+    }
+    text
+}
+
+impl From<Problem> for Failure {
+    fn from(problem: Problem) -> Self {
+        let help = problem.help().map(|h| format!("\n = help: {h}")).unwrap_or_default();
+        let message = format!("error: {problem}{help}");
+        match problem {
+            Problem::Io { doing: "write", .. } | Problem::Incomplete { .. } => Failure::BrokeOff(message),
+            _ => Failure::CouldNotRun(message),
+        }
+    }
+}

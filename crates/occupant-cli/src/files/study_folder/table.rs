@@ -1,0 +1,95 @@
+//! Rows of a study as tables: Parquet for pyarrow, DuckDB and the like, CSV where asked for.
+//!
+//! `index`, the inputs, `status`, `reason`, the figures, `wall_time_s`, `kernel`. The metadata of a Parquet file hold the
+//! manifest (`occupant.sweep`) and the units (`occupant.units`: a JSON object, column → unit).
+
+use std::path::PathBuf;
+
+use super::manifest::{Column, Manifest, Role};
+use super::row::Row;
+use crate::base::failure::Failure;
+use crate::base::output_file::Existing;
+use crate::files::table::{Cell, Form, Kind, TableFile};
+
+/// The files of a table under their provisional names.
+pub(crate) struct StudyTable {
+    files: Vec<TableFile>,
+    /// Cells of a row that stand before `status`.
+    inputs: usize,
+}
+
+impl StudyTable {
+    /// Begins the files; those that are there are replaced when the new ones are complete.
+    ///
+    /// # Errors
+    /// The operating system refuses.
+    pub(crate) fn create(parquet: PathBuf, csv: Option<PathBuf>, manifest: &Manifest) -> Result<Self, Failure> {
+        let columns = columns(manifest);
+        let units: serde_json::Map<String, serde_json::Value> =
+            manifest.columns.iter().map(|column| (column.name.clone(), column.unit.clone().into())).collect();
+        let whole = manifest.to_bytes().map_err(|e| Failure::plain(format!("the manifest cannot be written: {e}")))?;
+        let about = [
+            ("occupant.sweep", String::from_utf8_lossy(&whole).into_owned()),
+            ("occupant.units", serde_json::Value::Object(units).to_string()),
+        ];
+        let asked = std::iter::once((parquet, Form::Parquet)).chain(csv.map(|path| (path, Form::Csv)));
+        let files = asked.map(|(path, form)| TableFile::create(path, form, Existing::Replace, &columns, &about));
+        Ok(StudyTable {
+            files: files.collect::<Result<_, _>>()?,
+            inputs: manifest.columns.iter().filter(|c| c.role != Role::Figure).count(),
+        })
+    }
+
+    /// Adds a row.
+    ///
+    /// # Errors
+    /// The operating system refuses.
+    pub(crate) fn row(&mut self, row: &Row) -> Result<(), Failure> {
+        let (inputs, figures) = row.cells.split_at_checked(self.inputs).unwrap_or((&[], &[]));
+        let reason = if row.reason.is_empty() { Cell::Absent } else { Cell::text(&row.reason) };
+        let mut cells = vec![Cell::count(row.index)];
+        cells.extend_from_slice(inputs);
+        cells.extend([Cell::text(row.status.word()), reason]);
+        cells.extend_from_slice(figures);
+        cells.extend([Cell::Number(row.wall_time_s), Cell::text(&row.kernel)]);
+        self.files.iter_mut().try_for_each(|file| file.row(cells.clone()))
+    }
+
+    /// Gives the complete files their names.
+    ///
+    /// # Errors
+    /// The operating system refuses.
+    pub(crate) fn publish(self) -> Result<Vec<PathBuf>, Failure> {
+        self.files.into_iter().map(TableFile::publish).collect()
+    }
+}
+
+fn columns(manifest: &Manifest) -> Vec<(&str, Kind)> {
+    let of = |column: &'_ Column| match column.role {
+        Role::Input | Role::Figure => Kind::MaybeNumber,
+        Role::InputText => Kind::MaybeText,
+    };
+    let named = manifest.columns.iter().map(|column| (column, (column.name.as_str(), of(column))));
+    let (figures, inputs): (Vec<_>, Vec<_>) = named.partition(|(column, _)| column.role == Role::Figure);
+    let mut columns = vec![("index", Kind::Count)];
+    columns.extend(inputs.into_iter().map(|(_, column)| column));
+    columns.extend([("status", Kind::Text), ("reason", Kind::MaybeText)]);
+    columns.extend(figures.into_iter().map(|(_, column)| column));
+    columns.extend([("wall_time_s", Kind::Number), ("kernel", Kind::Text)]);
+    columns
+}
+
+/// Writes names, units and roles of the columns.
+///
+/// # Errors
+/// The operating system refuses.
+pub(crate) fn write_columns(path: PathBuf, manifest: &Manifest) -> Result<PathBuf, Failure> {
+    let headings = [("column", Kind::Text), ("unit", Kind::Text), ("role", Kind::Text)];
+    let mut table = TableFile::create(path, Form::Csv, Existing::Replace, &headings, &[])?;
+    for column in &manifest.columns {
+        let role = if column.role == Role::Figure { "figure" } else { "input" };
+        table.row([column.name.as_str(), &column.unit, role].map(Cell::text).into())?;
+    }
+    table.row(["wall_time_s", "s", "work"].map(Cell::text).into())?;
+    table.publish()
+}

@@ -1,0 +1,127 @@
+//! Everything that a sweep reads, read once and remembered, from where it was named or from the copies in a folder.
+
+use std::cell::RefCell;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::folder::Folder;
+use super::manifest::{Manifest, Text};
+use crate::base::names::file_name;
+use crate::base::sha256::sha256;
+
+/// Who names a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub(crate) enum NamedBy {
+    /// The command line: it is the study.
+    CommandLine,
+    /// The study, as the scenario to vary.
+    StudyAsBase,
+    /// The study, as a table of samples, a test or the scenario of a test.
+    Study,
+    Scenario,
+    CommandLineTest,
+}
+
+/// Where texts come from.
+#[derive(Clone, Debug)]
+enum Source {
+    /// The files themselves; a name of the study is relative to it, one of the scenario to that.
+    Files { study: PathBuf },
+    /// The copies in the folder of a sweep.
+    Copies { folder: Folder, texts: Vec<Text> },
+}
+
+/// Reads texts and remembers them.
+#[derive(Debug)]
+pub(crate) struct Texts {
+    source: Source,
+    read: RefCell<Vec<Read>>,
+    /// Folder of the scenario, relative names included.
+    base: RefCell<PathBuf>,
+}
+
+#[derive(Debug)]
+struct Read {
+    by: NamedBy,
+    name: String,
+    bytes: Vec<u8>,
+}
+
+impl Texts {
+    pub(crate) fn of_files(study: &Path) -> Self {
+        Texts::new(Source::Files { study: study.to_owned() })
+    }
+
+    /// Reads the copies in a folder.
+    pub(crate) fn of_copies(folder: &Folder, manifest: &Manifest) -> Self {
+        Texts::new(Source::Copies { folder: folder.clone(), texts: manifest.texts.clone() })
+    }
+
+    fn new(source: Source) -> Self {
+        Texts { source, read: RefCell::default(), base: RefCell::default() }
+    }
+
+    /// The bytes of a file that was named; read once.
+    ///
+    /// # Errors
+    /// Why it cannot be read.
+    pub(crate) fn get(&self, by: NamedBy, name: &str) -> Result<Vec<u8>, String> {
+        let known = |r: &&Read| r.by == by && r.name == name;
+        if let Some(read) = self.read.borrow().iter().find(known) {
+            return Ok(read.bytes.clone());
+        }
+        let bytes = self.fetch(by, name)?;
+        self.read.borrow_mut().push(Read { by, name: name.to_owned(), bytes: bytes.clone() });
+        Ok(bytes)
+    }
+
+    fn fetch(&self, by: NamedBy, name: &str) -> Result<Vec<u8>, String> {
+        match &self.source {
+            Source::Files { study } => {
+                let beside = study.parent().unwrap_or(Path::new(""));
+                let path = match by {
+                    NamedBy::CommandLine => study.clone(),
+                    NamedBy::CommandLineTest => PathBuf::from(name),
+                    NamedBy::Study => beside.join(name),
+                    NamedBy::Scenario => self.base.borrow().join(name),
+                    NamedBy::StudyAsBase => {
+                        let path = beside.join(name);
+                        *self.base.borrow_mut() = path.parent().unwrap_or(Path::new("")).to_owned();
+                        path
+                    }
+                };
+                fs::read(path).map_err(|error| error.to_string())
+            }
+            Source::Copies { folder, texts } => {
+                let text = texts.iter().find(|t| t.by == by && t.name == name);
+                let text = text.ok_or("the sweep holds no copy of it")?;
+                let bytes = folder.copy_of(text).map_err(|e| e.to_string())?;
+                if sha256(&bytes) != text.sha256 {
+                    return Err(format!("the copy {} was changed", text.copy));
+                }
+                Ok(bytes)
+            }
+        }
+    }
+
+    /// Remembers what stands for something that is no single file.
+    pub(crate) fn add(&self, by: NamedBy, name: &str, text: String) {
+        self.read.borrow_mut().push(Read { by, name: name.to_owned(), bytes: text.into_bytes() });
+    }
+
+    /// What was read, for the manifest, and the bytes.
+    pub(crate) fn all(&self) -> (Vec<Text>, Vec<Vec<u8>>) {
+        let read = self.read.borrow();
+        let text = |(i, read): (usize, &Read)| Text {
+            by: read.by,
+            name: read.name.clone(),
+            copy: format!("inputs/{i}-{}", file_name(Path::new(&read.name))),
+            sha256: sha256(&read.bytes),
+        };
+        let texts = read.iter().enumerate().map(text).collect();
+        (texts, read.iter().map(|r| r.bytes.clone()).collect())
+    }
+}

@@ -1,0 +1,292 @@
+//! Tables of words and numbers as CSV (RFC 4180) or Parquet, row by row; of a Parquet file a group of rows is held at a time.
+
+use std::io::{self, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
+use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::errors::ParquetError;
+use parquet::file::metadata::KeyValue;
+use parquet::file::properties::WriterProperties;
+use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::schema::types::Type;
+
+use crate::base::failure::Failure;
+use crate::base::names::program;
+use crate::base::output_file::{Existing, PartialFile};
+
+/// So many values are held at a time, but never fewer or more rows than these.
+const CELLS: usize = 400_000;
+const ROWS: [usize; 2] = [1024, 16_384];
+
+/// What a column holds; only those that say so may lack values.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    /// Whole numbers.
+    Count,
+    Number,
+    MaybeNumber,
+    Text,
+    MaybeText,
+}
+
+/// A value.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) enum Cell {
+    Absent,
+    Number(f64),
+    Text(Box<str>),
+}
+
+impl Cell {
+    pub(crate) fn text(text: &str) -> Self {
+        Cell::Text(text.into())
+    }
+
+    pub(crate) fn count(n: u64) -> Self {
+        Cell::Number(n as f64)
+    }
+
+    /// Absent if it is no finite number.
+    pub(crate) fn finite(x: f64) -> Self {
+        if x.is_finite() { Cell::Number(x) } else { Cell::Absent }
+    }
+
+    pub(crate) fn number(&self) -> Option<f64> {
+        match self {
+            Cell::Number(x) => Some(*x),
+            Cell::Absent | Cell::Text(_) => None,
+        }
+    }
+
+    /// Numbers as the shortest text that is read as the same number.
+    fn shown(&self) -> String {
+        match self {
+            Cell::Absent => String::new(),
+            Cell::Number(x) => x.to_string(),
+            Cell::Text(text) => text.to_string(),
+        }
+    }
+
+    fn bytes(&self) -> Option<ByteArray> {
+        match self {
+            Cell::Text(text) => Some(ByteArray::from(text.as_bytes().to_vec())),
+            Cell::Absent | Cell::Number(_) => None,
+        }
+    }
+}
+
+/// The form of a file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Form {
+    /// Text, with a line of headings.
+    Csv,
+    Parquet,
+}
+
+impl Form {
+    /// The form that the file's ending asks for.
+    pub(crate) fn of(path: &Path) -> Option<Form> {
+        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+            "csv" => Some(Form::Csv),
+            "parquet" => Some(Form::Parquet),
+            _ => None,
+        }
+    }
+}
+
+/// A table on its way to `W`.
+pub(crate) struct Table<W: Write + Send> {
+    kinds: Vec<Kind>,
+    waiting: Vec<Vec<Cell>>,
+    writer: Writer<W>,
+}
+
+enum Writer<W: Write + Send> {
+    Csv(csv::Writer<W>),
+    Parquet(Box<SerializedFileWriter<W>>),
+}
+
+impl<W: Write + Send> Table<W> {
+    /// Begins a table; `about` stands in the metadata of a Parquet file.
+    pub(crate) fn new(
+        to: W,
+        form: Form,
+        columns: &[(impl AsRef<str>, Kind)],
+        about: &[(&str, String)],
+    ) -> io::Result<Self> {
+        let writer = match form {
+            Form::Csv => {
+                let mut writer = csv::Writer::from_writer(to);
+                writer.write_record(columns.iter().map(|(name, _)| name.as_ref()))?;
+                Writer::Csv(writer)
+            }
+            Form::Parquet => Writer::Parquet(Box::new(begin(to, columns, about).map_err(reason)?)),
+        };
+        Ok(Table { kinds: columns.iter().map(|(_, kind)| *kind).collect(), waiting: Vec::new(), writer })
+    }
+
+    /// Adds a row, a cell for each column.
+    pub(crate) fn row(&mut self, cells: Vec<Cell>) -> io::Result<()> {
+        match &mut self.writer {
+            Writer::Csv(writer) => writer.write_record(cells.iter().map(Cell::shown))?,
+            Writer::Parquet(_) => {
+                self.waiting.push(cells);
+                if self.waiting.len() >= (CELLS / self.kinds.len().max(1)).clamp(ROWS[0], ROWS[1]) {
+                    self.flush()?;
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Ends the table and gives back where it went.
+    pub(crate) fn finish(mut self) -> io::Result<W> {
+        self.flush()?;
+        match self.writer {
+            Writer::Csv(writer) => writer.into_inner().map_err(|e| e.into_error()),
+            Writer::Parquet(writer) => writer.into_inner().map_err(reason),
+        }
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        let rows = std::mem::take(&mut self.waiting);
+        match &mut self.writer {
+            Writer::Parquet(writer) if !rows.is_empty() => write_group(writer, &self.kinds, &rows).map_err(reason),
+            _ => Ok(()),
+        }
+    }
+}
+
+fn begin<W: Write + Send, N: AsRef<str>>(
+    to: W,
+    columns: &[(N, Kind)],
+    about: &[(&str, String)],
+) -> Result<SerializedFileWriter<W>, ParquetError> {
+    let column = |(name, kind): &(N, Kind)| {
+        let (physical, logical) = match kind {
+            Kind::Count => (Physical::INT64, None),
+            Kind::Number | Kind::MaybeNumber => (Physical::DOUBLE, None),
+            Kind::Text | Kind::MaybeText => (Physical::BYTE_ARRAY, Some(LogicalType::String)),
+        };
+        let repetition = match kind {
+            Kind::MaybeNumber | Kind::MaybeText => Repetition::OPTIONAL,
+            Kind::Count | Kind::Number | Kind::Text => Repetition::REQUIRED,
+        };
+        let column = Type::primitive_type_builder(name.as_ref(), physical);
+        column.with_repetition(repetition).with_logical_type(logical).build().map(Arc::new)
+    };
+    let fields = columns.iter().map(column).collect::<Result<Vec<_>, _>>()?;
+    let schema = Type::group_type_builder("occupant_table").with_fields(fields).build()?;
+    let about = about.iter().map(|(key, value)| KeyValue::new((*key).to_owned(), value.clone()));
+    let properties = WriterProperties::builder()
+        .set_compression(Compression::SNAPPY)
+        .set_created_by(program())
+        .set_key_value_metadata(Some(about.collect()))
+        .build();
+    SerializedFileWriter::new(to, Arc::new(schema), Arc::new(properties))
+}
+
+fn write_group<W: Write + Send>(
+    writer: &mut SerializedFileWriter<W>,
+    kinds: &[Kind],
+    rows: &[Vec<Cell>],
+) -> Result<(), ParquetError> {
+    let mut group = writer.next_row_group()?;
+    for (i, kind) in kinds.iter().enumerate() {
+        write_column(&mut group, *kind, rows.iter().map(|row| row.get(i).unwrap_or(&Cell::Absent)))?;
+    }
+    group.close().map(|_| ())
+}
+
+fn write_column<'a, W: Write + Send>(
+    group: &mut SerializedRowGroupWriter<'_, W>,
+    kind: Kind,
+    cells: impl Iterator<Item = &'a Cell>,
+) -> Result<(), ParquetError> {
+    let no_column = || ParquetError::General("a column too many".to_owned());
+    let mut column = group.next_column()?.ok_or_else(no_column)?;
+    match kind {
+        Kind::Count => {
+            let values: Vec<i64> = cells.map(|c| c.number().unwrap_or(0.0) as i64).collect();
+            column.typed::<Int64Type>().write_batch(&values, None, None)?;
+        }
+        Kind::Number => {
+            let values: Vec<f64> = cells.map(|c| c.number().unwrap_or(f64::NAN)).collect();
+            column.typed::<DoubleType>().write_batch(&values, None, None)?;
+        }
+        Kind::MaybeNumber => {
+            let (values, levels) = present(cells.map(Cell::number));
+            column.typed::<DoubleType>().write_batch(&values, Some(&levels), None)?;
+        }
+        Kind::Text => {
+            let values: Vec<ByteArray> =
+                cells.map(|c| c.bytes().unwrap_or_else(|| ByteArray::from(Vec::new()))).collect();
+            column.typed::<ByteArrayType>().write_batch(&values, None, None)?;
+        }
+        Kind::MaybeText => {
+            let (values, levels) = present(cells.map(Cell::bytes));
+            column.typed::<ByteArrayType>().write_batch(&values, Some(&levels), None)?;
+        }
+    }
+    column.close()
+}
+
+/// The values that are there, and for each row 1 if it has one.
+fn present<T>(values: impl Iterator<Item = Option<T>>) -> (Vec<T>, Vec<i16>) {
+    let all: Vec<Option<T>> = values.collect();
+    let levels = all.iter().map(|value| i16::from(value.is_some())).collect();
+    (all.into_iter().flatten().collect(), levels)
+}
+
+fn reason(error: ParquetError) -> io::Error {
+    match error {
+        // the reason of the operating system, without the library's own words
+        ParquetError::External(source) => io::Error::other(source),
+        other => io::Error::other(other),
+    }
+}
+
+/// A table under its provisional name.
+pub(crate) struct TableFile {
+    path: PathBuf,
+    table: Table<PartialFile>,
+}
+
+impl TableFile {
+    /// Begins a file; `about` stands in the metadata of a Parquet file.
+    ///
+    /// # Errors
+    /// The file is there and may not be replaced; the operating system refuses.
+    pub(crate) fn create(
+        path: PathBuf,
+        form: Form,
+        existing: Existing,
+        columns: &[(impl AsRef<str>, Kind)],
+        about: &[(&str, String)],
+    ) -> Result<Self, Failure> {
+        let file = PartialFile::create(&path, existing).map_err(|e| broke_off(&e))?;
+        let table = Table::new(file, form, columns, about).map_err(|e| unwritten(&path, &e))?;
+        Ok(TableFile { path, table })
+    }
+
+    /// Adds a row, a cell for each column.
+    pub(crate) fn row(&mut self, cells: Vec<Cell>) -> Result<(), Failure> {
+        self.table.row(cells).map_err(|e| unwritten(&self.path, &e))
+    }
+
+    /// Gives the complete file its name.
+    pub(crate) fn publish(self) -> Result<PathBuf, Failure> {
+        let file = self.table.finish().map_err(|e| unwritten(&self.path, &e))?;
+        file.publish().map_err(|e| broke_off(&e))
+    }
+}
+
+fn unwritten(path: &Path, error: &io::Error) -> Failure {
+    broke_off(&format!("{} cannot be written: {error}", path.display()))
+}
+
+fn broke_off(reason: &dyn std::fmt::Display) -> Failure {
+    Failure::BrokeOff(format!("error: {reason}"))
+}

@@ -1,0 +1,66 @@
+//! What is wrong in a file of measured signals, in the words of every message.
+
+use std::fmt;
+use std::path::Path;
+
+use crate::base::failure::Failure;
+
+/// One problem.
+#[derive(Clone, Debug)]
+pub(crate) struct Trouble {
+    place: String,
+    found: String,
+    expected: String,
+    hint: Option<String>,
+}
+
+/// Problems of one file that are told at once; the rest is counted.
+const MOST_TOLD: usize = 10;
+
+impl Trouble {
+    /// In a line (from 1) of a file.
+    pub(crate) fn at(path: &Path, line: usize, found: impl Into<String>, expected: impl Into<String>) -> Self {
+        Trouble {
+            place: format!("{}:{line}", path.display()),
+            found: found.into(),
+            expected: expected.into(),
+            hint: None,
+        }
+    }
+
+    /// In a file as a whole.
+    pub(crate) fn of(path: &Path, found: impl Into<String>, expected: impl Into<String>) -> Self {
+        Trouble { place: path.display().to_string(), found: found.into(), expected: expected.into(), hint: None }
+    }
+
+    /// How to mend it.
+    pub(crate) fn hint(mut self, hint: impl Into<String>) -> Self {
+        self.hint = Some(hint.into());
+        self
+    }
+
+    /// As the end of a command.
+    pub(crate) fn failure(self) -> Failure {
+        failure(&[self])
+    }
+}
+
+impl fmt::Display for Trouble {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "error: {}\n --> {}\n = expected {}", self.found, self.place, self.expected)?;
+        match &self.hint {
+            Some(hint) => write!(f, "\n = help: {hint}"),
+            None => Ok(()),
+        }
+    }
+}
+
+/// All problems as the end of a command.
+pub(crate) fn failure(problems: &[Trouble]) -> Failure {
+    let told = problems.iter().take(MOST_TOLD).map(Trouble::to_string);
+    let mut text = told.collect::<Vec<_>>().join("\n\n");
+    if problems.len() > MOST_TOLD {
+        text.push_str(&format!("\n\nand {} more", problems.len() - MOST_TOLD));
+    }
+    Failure::CouldNotRun(text)
+}

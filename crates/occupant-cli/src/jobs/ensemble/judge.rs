@@ -1,0 +1,154 @@
+//! Which figures of an ensemble may be quoted as one number.
+
+use occupant_study::spread::{Rule, Spread, Verdict};
+
+/// How far the members may differ.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Tolerance {
+    /// Width of the middle 90 % as a part of the median, or of the range that a channel runs through.
+    pub(crate) relative: f64,
+}
+
+impl Default for Tolerance {
+    fn default() -> Self {
+        Tolerance { relative: Rule::default().relative }
+    }
+}
+
+/// A figure and how its ensemble spreads.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Judged {
+    pub(crate) name: String,
+    /// Its unit, `1` for a plain number.
+    pub(crate) unit: String,
+    /// Its value in the unchanged run.
+    pub(crate) nominal: Option<f64>,
+    /// How the members spread.
+    pub(crate) spread: Spread,
+    /// Whether it may be quoted as one number.
+    pub(crate) verdict: Verdict,
+}
+
+impl Judged {
+    /// Judges a figure: a value for each member, the unchanged run first, NaN where a member has none. None if no member
+    /// has one.
+    pub(crate) fn of(name: &str, unit: &str, values: &[f64], tolerance: Tolerance) -> Option<Judged> {
+        let spread = Spread::of(values)?;
+        Some(Judged {
+            name: name.to_owned(),
+            unit: unit.to_owned(),
+            nominal: values.first().copied().filter(|x| x.is_finite()),
+            verdict: spread.verdict(&rule(name, unit, tolerance)),
+            spread,
+        })
+    }
+
+    /// Whether it is known to spread too far.
+    pub(crate) fn is_unstable(&self) -> bool {
+        self.verdict == Verdict::NotStable
+    }
+}
+
+/// Judges figures (name, unit, a value for each member). Left out are those that no member has, and the times of peaks that
+/// are too small for anybody to act on: when nothing was greatest says nothing.
+pub(crate) fn judge<'a>(
+    figures: impl Iterator<Item = (&'a str, &'a str, Vec<f64>)>,
+    tolerance: Tolerance,
+) -> Vec<Judged> {
+    let mut judged: Vec<Judged> =
+        figures.filter_map(|(name, unit, values)| Judged::of(name, unit, &values, tolerance)).collect();
+    let of_nothing = |f: &&Judged| f.spread.greatest.abs() <= smallest(&f.name, &f.unit);
+    let nothing = judged.iter().filter(of_nothing);
+    let times: Vec<String> = nothing.map(|f| format!("{}_time", f.name)).collect();
+    judged.retain(|f| !times.contains(&f.name));
+    judged
+}
+
+/// Whether a figure is one of the run's result, and not of the work that it took or of how well it was computed.
+pub(crate) fn is_result(name: &str) -> bool {
+    !(name.starts_with("solver.") || name.starts_with("run.") || name == "energy.balance_error")
+}
+
+/// The word of a verdict in tables and JSON.
+pub(crate) fn word(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Stable => "stable",
+        Verdict::NotStable => "not_stable",
+        Verdict::TooFew => "too_few",
+    }
+}
+
+/// The rule for a figure. A time is judged by its plain difference alone: where a clock begins says nothing.
+pub(crate) fn rule(name: &str, unit: &str, tolerance: Tolerance) -> Rule {
+    Rule {
+        relative: match unit {
+            "s" => 0.0,
+            _ => tolerance.relative,
+        },
+        absolute: smallest(name, unit),
+        ..Rule::default()
+    }
+}
+
+/// The smallest difference that anybody would act on, in the unit: below it a figure is stable however small it is.
+pub(crate) fn smallest(name: &str, unit: &str) -> f64 {
+    let index = ["hic", "gsi", "csi"];
+    match unit {
+        "s" => 0.005,
+        "m" => 0.005,
+        "m/s" => 0.1,
+        // 1 g
+        "m/s^2" | "m/s²" => 9.80665,
+        "rad" => 1.0_f64.to_radians(),
+        "rad/s" => 0.5,
+        "rad/s²" => 100.0,
+        "N" => 50.0,
+        "N·m" => 2.0,
+        "J" => 5.0,
+        "1" if index.iter().any(|i| name.contains(i)) => 10.0,
+        "1" => 0.01,
+        _ => 0.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn small_figures_and_times_are_judged_by_plain_differences() {
+        let tolerance = Tolerance::default();
+        let verdict = |name, unit, centre: f64, half_width: f64| {
+            let values: Vec<f64> = (0..=20).map(|i| centre + half_width * (f64::from(i) / 10.0 - 1.0)).collect();
+            Judged::of(name, unit, &values, tolerance).map(|j| j.verdict)
+        };
+        // the middle 90 % of evenly spread values is 0.9 of their whole width
+        assert_eq!(verdict("a", "N", 1000.0, 55.0), Some(Verdict::Stable));
+        assert_eq!(verdict("a", "N", 1000.0, 56.0), Some(Verdict::NotStable));
+        assert_eq!(verdict("a", "N", 0.0, 27.0), Some(Verdict::Stable));
+        assert_eq!(verdict("a", "s", 10.0, 0.0027), Some(Verdict::Stable));
+        assert_eq!(verdict("a", "s", 10.0, 0.0029), Some(Verdict::NotStable));
+        assert_eq!(verdict("hic15", "1", 5.0, 5.0), Some(Verdict::Stable));
+        assert_eq!(verdict("nij", "1", 0.5, 0.03), Some(Verdict::NotStable));
+    }
+
+    #[test]
+    fn when_nothing_was_greatest_is_no_figure() {
+        let of = |peak: f64| {
+            let times = (0..12).map(f64::from).collect();
+            let figures = [("a.peak", "N", vec![peak; 12]), ("a.peak_time", "s", times)];
+            judge(figures.into_iter(), Tolerance::default()).len()
+        };
+        assert_eq!((of(50.0), of(51.0)), (1, 2));
+    }
+
+    #[test]
+    fn a_figure_that_no_member_has_is_none() {
+        assert_eq!(Judged::of("a", "s", &[f64::NAN; 12], Tolerance::default()), None);
+        let mut some = [1.0; 12];
+        some[0] = f64::NAN;
+        let judged = Judged::of("a", "s", &some, Tolerance::default());
+        let judged = judged.expect("eleven members have it");
+        assert_eq!((judged.nominal, judged.verdict), (None, Verdict::NotStable));
+    }
+}

@@ -1,0 +1,153 @@
+//! Bands over time of every sample of a study with an ensemble: a file for each sample.
+//!
+//! A sweep keeps no histories, so the members of a sample are run once more, one sample at a time: memory grows with
+//! members, channels and outputs, not with samples. A file carries its name only when it is complete and says of what it
+//! is, so that a process that was killed goes on with the first sample that has none.
+
+use std::fs::File;
+use std::path::{Path, PathBuf};
+
+use indicatif::ProgressBar;
+use occupant_core::results::channel::Channel;
+use occupant_study::engine::Engine;
+use parquet::file::reader::{FileReader, SerializedFileReader};
+
+use super::bands::{Bands, choose, refuse_too_much};
+use super::judge::Tolerance;
+use super::members::{Left, Member, Members};
+use crate::base::failure::Failure;
+use crate::base::interrupt::Interrupt;
+use crate::base::output_file::Existing;
+use crate::files::table::{Cell, Form, Kind, TableFile};
+use crate::jobs::sweep::plan::Plan;
+
+/// What a file says of itself.
+const ABOUT: &str = "occupant.bands";
+
+const COLUMNS: [(&str, Kind); 14] = [
+    ("sample", Kind::Count),
+    ("channel", Kind::Text),
+    ("unit", Kind::Text),
+    ("time_s", Kind::MaybeNumber),
+    ("nominal", Kind::MaybeNumber),
+    ("q05", Kind::MaybeNumber),
+    ("q25", Kind::MaybeNumber),
+    ("median", Kind::MaybeNumber),
+    ("q75", Kind::MaybeNumber),
+    ("q95", Kind::MaybeNumber),
+    ("tolerance", Kind::MaybeNumber),
+    ("lost_at_s", Kind::MaybeNumber),
+    ("members", Kind::Count),
+    ("failed", Kind::Count),
+];
+
+pub(crate) struct StudyBands<'a> {
+    pub(crate) plan: &'a Plan,
+    /// What names its sweep.
+    pub(crate) manifest_sha256: &'a str,
+    /// Names and patterns of channels; the main ones for none.
+    pub(crate) channels: &'a [String],
+    /// Where the files go.
+    pub(crate) folder: PathBuf,
+    pub(crate) engine: &'a Engine,
+    /// What stops it.
+    pub(crate) interrupt: &'a Interrupt,
+}
+
+/// What is there of a sample.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum There {
+    Bands,
+    Nothing,
+    /// A file of something else.
+    Other,
+}
+
+impl StudyBands<'_> {
+    pub(crate) fn file(&self, sample: u64) -> PathBuf {
+        self.folder.join(format!("{sample:06}.parquet"))
+    }
+
+    pub(crate) fn there(&self, sample: u64) -> There {
+        let path = self.file(sample);
+        match (path.exists(), said_of_itself(&path)) {
+            (false, _) => There::Nothing,
+            (true, Some(text)) if text == self.about() => There::Bands,
+            (true, _) => There::Other,
+        }
+    }
+
+    /// Of which sweep and channels the files are.
+    fn about(&self) -> String {
+        let about = serde_json::json!({
+            "sweep": self.manifest_sha256,
+            "channels": self.channels,
+            "within": Tolerance::default().relative,
+        });
+        about.to_string()
+    }
+
+    /// Runs the members of a sample and writes their bands.
+    ///
+    /// # Errors
+    /// A channel that is none; interrupted; the file cannot be written.
+    pub(crate) fn write(&self, sample: u64) -> Result<(), Failure> {
+        let study = self.plan.study();
+        let runs = sample * study.members()..(sample + 1) * study.members();
+        let channels = self.channels_of(runs.start)?;
+        let members = Members {
+            study,
+            runs,
+            resolver: &|name: &str| self.plan.table(name),
+            channels: &channels,
+            interrupt: self.interrupt,
+            bar: &ProgressBar::hidden(),
+        };
+        let members = members.run(self.engine)?;
+        self.publish(sample, &channels, &members)
+    }
+
+    /// The channels of a sample; none of one that is refused.
+    fn channels_of(&self, run: u64) -> Result<Vec<Channel>, Failure> {
+        let Ok(opened) = self.plan.open_sample(run) else {
+            return Ok(Vec::new());
+        };
+        let channels = choose(&opened.model, self.channels)?;
+        let members = self.plan.study().members();
+        refuse_too_much(members, channels.len(), opened.model.output_count())?;
+        Ok(channels)
+    }
+
+    fn publish(&self, sample: u64, channels: &[Channel], members: &[Member]) -> Result<(), Failure> {
+        let completed: Vec<&Left> = members.iter().flatten().collect();
+        let runs: Vec<&[Vec<f64>]> = completed.iter().map(|l| l.values.as_slice()).collect();
+        let time_s = completed.first().map_or(Vec::new(), |l| l.time_s.clone());
+        let mut bands = Bands::of(channels, time_s, &runs, Tolerance::default());
+        let counts = [completed.len(), members.len() - completed.len()].map(|n| n as u64);
+        if !matches!(members.first(), Some(Ok(_))) {
+            // the first that completed is not the unchanged one
+            bands.channels.iter_mut().for_each(|band| band.nominal.clear());
+        }
+        let about = [(ABOUT, self.about())];
+        let path = self.file(sample);
+        let mut table = TableFile::create(path, Form::Parquet, Existing::Replace, &COLUMNS, &about)?;
+        for band in &bands.channels {
+            let lost_at_s = band.lost_at_s.map_or(Cell::Absent, Cell::Number);
+            for i in 0..bands.time_s.len() {
+                let mut row = vec![Cell::count(sample)];
+                row.extend(band.cells(&bands.time_s, i));
+                row.extend([Cell::finite(band.tolerance), lost_at_s.clone()]);
+                row.extend(counts.map(Cell::count));
+                table.row(row)?;
+            }
+        }
+        table.publish().map(|_| ())
+    }
+}
+
+/// What the metadata of a file of bands say.
+fn said_of_itself(path: &Path) -> Option<String> {
+    let reader = SerializedFileReader::new(File::open(path).ok()?).ok()?;
+    let entries = reader.metadata().file_metadata().key_value_metadata()?;
+    entries.iter().find(|e| e.key == ABOUT)?.value.clone()
+}

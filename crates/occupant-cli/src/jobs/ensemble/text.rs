@@ -1,0 +1,250 @@
+//! An ensemble in words: what was changed, which figures hold, when the members part.
+
+use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
+use occupant_study::Tolerances;
+use occupant_study::spread::Verdict;
+
+use super::bands::ChannelBand;
+use super::judge::Judged;
+use super::of_table::Ensembles;
+use super::report::Report;
+use crate::base::text_table::Align::{Left, Right};
+use crate::base::text_table::{NONE, Table, facts, number};
+
+/// Figures that the table shows whether they are stable or not, besides belts.
+const ALWAYS: [&str; 17] = [
+    "head.peak",
+    "head.three_ms_contiguous",
+    "head.three_ms_cumulative",
+    "chest.peak",
+    "chest.three_ms_cumulative",
+    "pelvis.peak",
+    "contacts.head.peak",
+    "contacts.chest.peak",
+    "contacts.right_knee.peak",
+    "contacts.left_knee.peak",
+    "head_excursion.forward",
+    "hic15",
+    "hic36",
+    "nij",
+    "neck_tension",
+    "right_femur",
+    "left_femur",
+];
+/// So many failed members are named.
+const NAMED: usize = 3;
+/// So many figures are named that the table does not show.
+const LISTED: usize = 12;
+/// Fewer members have no verdict.
+const ENOUGH: u64 = 10;
+
+/// Everything about an ensemble that a person at a terminal wants to know.
+pub(crate) fn text(report: &Report) -> String {
+    let mut parts = vec![what(report), figures(report)];
+    if !report.bands.channels.is_empty() {
+        parts.push(channels(report));
+    }
+    parts.push(conclusion(report));
+    parts.join("\n")
+}
+
+fn what(report: &Report) -> String {
+    let failed = report.failed.len();
+    let mut ended = format!("{} runs, the unchanged one included", report.members);
+    if failed > 0 {
+        ended += &format!("; {failed} FAILED: no figure of this ensemble counts as stable");
+    }
+    let mut lines = vec![("ensemble", ended)];
+    for (member, reason) in report.failed.iter().take(NAMED) {
+        lines.push(("", format!("member {member}: {reason}")));
+    }
+    lines.push(("changed by up to", changes(&report.changes, report.seed)));
+    lines.push((
+        "stable",
+        format!(
+            "90 % of the members within {} % of the median, or closer than anybody would act on",
+            percent(report.tolerance.relative)
+        ),
+    ));
+    facts(&lines)
+}
+
+fn changes(most: &Tolerances, seed: u64) -> String {
+    format!(
+        "{}° of each angle, {} mm of place, {} % of the pulse, {} % of each stiffness (seed {seed})",
+        trimmed(most.posture_rad.to_degrees()),
+        trimmed(most.place_m * 1e3),
+        percent(most.path),
+        percent(most.stiffness)
+    )
+}
+
+fn percent(part: f64) -> String {
+    trimmed(100.0 * part)
+}
+
+fn trimmed(value: f64) -> String {
+    let text = format!("{value:.3}");
+    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+}
+
+fn figures(report: &Report) -> String {
+    let mut table = figure_table();
+    for figure in report.figures.iter().filter(|f| is_shown(&f.name)) {
+        table.row(figure_row(figure));
+    }
+    table.text()
+}
+
+/// A table of figures without rows.
+fn figure_table() -> Table {
+    Table::new(&[
+        ("figure", Left),
+        ("unchanged", Right),
+        ("median", Right),
+        ("5 %", Right),
+        ("95 %", Right),
+        ("", Left),
+        ("", Left),
+    ])
+}
+
+fn figure_row(figure: &Judged) -> [String; 7] {
+    let (per, unit) = shown_unit(&figure.unit);
+    let shown = |x: f64| number(x / per, decimals(figure.spread.median / per));
+    let s = &figure.spread;
+    let verdict = match (figure.verdict, s.missing) {
+        (Verdict::Stable, _) => "stable".to_owned(),
+        (Verdict::NotStable, 0) => "NOT STABLE".to_owned(),
+        (Verdict::NotStable, n) => format!("NOT STABLE ({n} members have none)"),
+        (Verdict::TooFew, _) => "too few members".to_owned(),
+    };
+    [
+        figure.name.clone(),
+        figure.nominal.map_or(NONE.to_owned(), shown),
+        shown(s.median),
+        shown(s.q05),
+        shown(s.q95),
+        unit.to_owned(),
+        verdict,
+    ]
+}
+
+/// SI units in one unit of the tables, and its name there.
+pub(crate) fn shown_unit(unit: &str) -> (f64, &str) {
+    match unit {
+        "m/s^2" | "m/s²" => (STANDARD_GRAVITY_M_S2, "g"),
+        "s" => (1e-3, "ms"),
+        "m" => (1e-3, "mm"),
+        "1" => (1.0, ""),
+        unit => (1.0, unit),
+    }
+}
+
+fn decimals(size: f64) -> usize {
+    match size.abs() {
+        x if x >= 1000.0 => 0,
+        x if x >= 10.0 => 1,
+        _ => 3,
+    }
+}
+
+fn channels(report: &Report) -> String {
+    let mut table = Table::new(&[
+        ("channel", Left),
+        ("members part at, ms", Right),
+        ("by more than", Right),
+        ("widest", Right),
+        ("at, ms", Right),
+        ("", Left),
+    ]);
+    for band in &report.bands.channels {
+        table.row(channel_row(band));
+    }
+    table.text()
+}
+
+fn channel_row(band: &ChannelBand) -> [String; 6] {
+    let (per, unit) = shown_unit(band.unit);
+    let ms = |t: f64| format!("{:.1}", t * 1e3);
+    let size = |x: f64| number(x / per, decimals(x / per));
+    [
+        band.name.clone(),
+        band.lost_at_s.map_or("never".to_owned(), ms),
+        size(band.tolerance),
+        band.widest.map_or(NONE.to_owned(), |(width, _)| size(width)),
+        band.widest.map_or(NONE.to_owned(), |(_, at)| ms(at)),
+        unit.to_owned(),
+    ]
+}
+
+fn conclusion(report: &Report) -> String {
+    let unstable = report.unstable();
+    let all = report.figures.len();
+    match unstable.as_slice() {
+        _ if report.members < ENOUGH => {
+            format!("{} members are too few for a verdict: {ENOUGH} or more\n", report.members)
+        }
+        [] => format!("all {all} figures are stable\n"),
+        some => {
+            let more: Vec<&str> = some.iter().copied().filter(|name| !is_shown(name)).collect();
+            let named = more.iter().take(LISTED).copied();
+            let mut named: Vec<&str> = named.collect();
+            if more.len() > LISTED {
+                named.push("… (--json has all)");
+            }
+            let besides = match named.as_slice() {
+                [] => String::new(),
+                named => format!("; besides those above: {}", named.join(", ")),
+            };
+            format!("NOT STABLE: {} of {all} figures{besides}\n", some.len())
+        }
+    }
+}
+
+/// The ensembles of a study in words.
+pub(crate) fn of_study(found: &Ensembles) -> String {
+    let failed = match found.failed {
+        0 => String::new(),
+        n => format!("; {n} members did not complete, and no figure of their samples counts as stable"),
+    };
+    let samples = match found.samples {
+        1 => "1 sample".to_owned(),
+        n => format!("{n} samples"),
+    };
+    let lines = [("ensembles", format!("{samples}{failed}"))];
+    let table = match found.samples {
+        0 | 1 => first_sample(found),
+        _ => all_samples(found),
+    };
+    format!("{}\n{table}", facts(&lines))
+}
+
+fn is_shown(name: &str) -> bool {
+    let belt = name.starts_with("belts.") && name.ends_with(".peak");
+    belt || ALWAYS.contains(&name)
+}
+
+fn first_sample(found: &Ensembles) -> String {
+    let mut table = figure_table();
+    for figure in found.first.iter().filter(|f| is_shown(&f.name)) {
+        table.row(figure_row(figure));
+    }
+    table.text()
+}
+
+fn all_samples(found: &Ensembles) -> String {
+    let mut table = Table::new(&[
+        ("figure", Left),
+        ("stable in", Right),
+        ("NOT STABLE in", Right),
+        ("too few members in", Right),
+        ("absent in", Right),
+    ]);
+    for figure in found.figures.iter().filter(|f| is_shown(&f.name)) {
+        let counts = [figure.stable, figure.unstable, figure.too_few, figure.absent];
+        let cells = counts.map(|n| n.to_string());
+        table.row(std::iter::once(figure.name.clone()).chain(cells));
+    }
+    table.text()
+}

@@ -1,0 +1,120 @@
+//! The procedure of 1970 for longer runs: run a deck to its end, then punch the deck that goes on from there.
+
+use std::path::Path;
+
+use cardio_legacy::{
+    CompartmentLayout, ConvertOptions, Deck, FromScenario, PathSource, RunEnd, spine_rest, write_file,
+};
+use occupant_core::model::Model;
+use occupant_core::results::outcome::Status;
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError, Watch};
+use occupant_core::results::sample::Sample;
+use occupant_core::run::simulate::{replay, simulate};
+use occupant_core::scenario::{Draft, Format};
+
+use crate::base::failure::Failure;
+use crate::base::talk::say;
+use crate::files::mcap::StoredRun;
+use crate::files::scenario;
+
+/// Runs a deck's scenario and gives the file of the deck that goes on from there.
+///
+/// # Errors
+/// A scenario that is refused, a run that does not reach its end, a time before that end.
+pub(crate) fn extend(
+    deck: &Deck,
+    toml: &str,
+    options: &ConvertOptions,
+    final_s: f64,
+    quiet: bool,
+) -> Result<Vec<u8>, Failure> {
+    let layout = match &options.compartment {
+        Some(layout) => layout.clone(),
+        None => CompartmentLayout::reconstruction().map_err(Failure::plain)?,
+    };
+    let beside = match &options.path {
+        Some(PathSource::Csv { text, .. }) => text.clone(),
+        _ => String::new(),
+    };
+    let resolver = |_: &str| Ok(beside.clone().into_bytes());
+    let refused = |problems: occupant_core::scenario::Diagnostics| Failure::CouldNotRun(problems.to_string());
+    let loaded =
+        Draft::read(toml, Format::Toml, "converted scenario").and_then(|d| d.load(&resolver)).map_err(refused)?;
+    let (model, _) = loaded.model().map_err(refused)?;
+    let end = run_end(&model, &layout)?;
+    refuse_early(final_s, end.time_s)?;
+    if !quiet {
+        say(&format!("ran to {} s; cards carry no greatest deformations, so the extension is approximate", end.time_s));
+    }
+    Ok(write_file(&[deck.extended(&end, final_s)]))
+}
+
+/// The deck that goes on from the last checkpoint of a results file, and what there is to say of it.
+///
+/// # Errors
+/// A file without checkpoint or scenario, a scenario that does not fit on cards, a time before the file's end.
+pub(crate) fn extend_run(
+    file: &Path,
+    bytes: &[u8],
+    layout: Option<&CompartmentLayout>,
+    final_s: f64,
+) -> Result<FromScenario, Failure> {
+    let name = file.display();
+    let stored = StoredRun::read(bytes).map_err(|e| Failure::plain(format!("{name}: {e}")))?;
+    let last = stored.checkpoints.last();
+    let last = last.ok_or_else(|| Failure::plain(format!("{name} holds no checkpoint")))?;
+    refuse_early(final_s, last.time_s)?;
+    let loaded = scenario::stored(file, &stored)?;
+    let (model, _) = loaded.model().map_err(|problems| Failure::CouldNotRun(problems.to_string()))?;
+    let cards = Deck::from_scenario(&loaded, layout);
+    let mut cards = cards.map_err(|e| Failure::CouldNotRun(format!("error: {name}: {e}")))?;
+    let layout = match layout {
+        Some(layout) => layout.clone(),
+        None => CompartmentLayout::reconstruction().map_err(Failure::plain)?,
+    };
+    let broke = |error: &dyn std::error::Error| Failure::BrokeOff(format!("error: {name}: {error}"));
+    let mut first = First(None);
+    simulate(&model, &mut first).map_err(|e| broke(&e))?;
+    let rest = first.0.unwrap_or_default();
+    let mut end = None;
+    let mut watch = Watch(|s: &Sample<'_>| end = Some(RunEnd::after(rest, s, &layout)));
+    replay(&model, last, &mut watch).map_err(|e| broke(&e))?;
+    let end = end.ok_or_else(|| Failure::plain(format!("{name} holds no checkpoint")))?;
+    cards.deck = cards.deck.extended(&end, final_s);
+    cards.remarks.push(format!(
+        "goes on from t = {} s; cards carry no greatest deformations, so the extension is approximate, `occupant run --resume` is exact",
+        end.time_s
+    ));
+    Ok(cards)
+}
+
+/// Looks at the first output alone, for β₀ of the spine.
+struct First(Option<[f64; 2]>);
+
+impl Recorder for First {
+    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        self.0 = Some(spine_rest(sample));
+        Ok(Flow::Stop)
+    }
+}
+
+fn refuse_early(final_s: f64, end_s: f64) -> Result<(), Failure> {
+    if final_s.is_nan() || final_s <= end_s {
+        let found = format!("--extend {final_s} s lies not after the end of the run, {end_s} s");
+        return Err(Failure::with_help(found, "give a later time"));
+    }
+    Ok(())
+}
+
+fn run_end(model: &Model, layout: &CompartmentLayout) -> Result<RunEnd, Failure> {
+    let (mut rest, mut end) = (None, None);
+    let watch = Watch(|sample: &Sample<'_>| {
+        let rest = *rest.get_or_insert_with(|| spine_rest(sample));
+        end = Some(RunEnd::after(rest, sample, layout));
+    });
+    let outcome = simulate(model, watch).map_err(|error| Failure::BrokeOff(format!("error: {error}")))?;
+    match (outcome.status, end) {
+        (Status::Completed, Some(end)) => Ok(end),
+        (status, _) => Err(Failure::BrokeOff(format!("error: the run did not reach its end: {status:?}"))),
+    }
+}

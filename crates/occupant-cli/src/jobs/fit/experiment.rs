@@ -1,0 +1,168 @@
+//! A scenario that stands for one test or several, with the parameters of the study in it.
+
+use std::path::PathBuf;
+
+use occupant_core::model::Model;
+use occupant_core::results::channel::{Channel, Series};
+use occupant_core::scenario::{Diagnostics, Draft, Loaded};
+use occupant_study::{FitTest, Misfit, Study};
+
+use super::target::{FAMILY, Target};
+use crate::files::history::{Filter, Histories, Treatment, Untreated, asked, treated};
+
+/// A scenario with the parameters of the study.
+pub(crate) struct Experiment {
+    /// Path of the scenario, for messages and results.
+    pub(crate) scenario: PathBuf,
+    pub(crate) text: String,
+    /// The first test that it stands for.
+    pub(crate) of: FitTest,
+    /// The study with this scenario as its base.
+    pub(crate) study: Study,
+    /// Files that the scenario names.
+    pub(crate) tables: Vec<(String, Vec<u8>)>,
+    /// The model without any parameter.
+    pub(crate) model: Model,
+    /// Measured channels, and of which test each is.
+    pub(crate) targets: Vec<(usize, Target)>,
+    groups: Vec<(Filter, Vec<Channel>)>,
+    pub(crate) recorded: Vec<Channel>,
+}
+
+impl Experiment {
+    /// A scenario to which no test belongs yet.
+    ///
+    /// # Errors
+    /// What is wrong with the scenario.
+    pub(crate) fn new(
+        scenario: PathBuf,
+        text: String,
+        of: FitTest,
+        study: Study,
+        tables: Vec<(String, Vec<u8>)>,
+    ) -> Result<(Experiment, Diagnostics), Diagnostics> {
+        let (_, model, warnings) = opened(study.base().clone(), &tables)?;
+        let experiment = Experiment {
+            scenario,
+            text,
+            of,
+            study,
+            tables,
+            model,
+            targets: Vec::new(),
+            groups: Vec::new(),
+            recorded: Vec::new(),
+        };
+        Ok((experiment, warnings))
+    }
+
+    /// Whether it stands for a test, too.
+    pub(crate) fn stands_for(&self, test: &FitTest) -> bool {
+        (&self.of.base, &self.of.set) == (&test.base, &test.set)
+    }
+
+    /// Adds a measured channel of a test.
+    pub(crate) fn add(&mut self, test: usize, target: Target) {
+        let group = self.groups.iter().position(|(f, _)| *f == target.filter);
+        let group = group.unwrap_or_else(|| {
+            self.groups.push((target.filter, Vec::new()));
+            self.groups.len() - 1
+        });
+        let channels = &mut self.groups[group].1;
+        if channels.iter().all(|c| c.name != target.channel.name) {
+            channels.push(target.channel.clone());
+        }
+        self.targets.push((test, target));
+        self.recorded.clear();
+        for (filter, channels) in &self.groups {
+            for channel in asked(&self.model, channels, *filter) {
+                if self.recorded.iter().all(|c| c.name != channel.name) {
+                    self.recorded.push(channel);
+                }
+            }
+        }
+    }
+
+    /// First and last output that can be compared, s.
+    pub(crate) fn run_s(&self) -> [f64; 2] {
+        let time = self.model.setup().time;
+        // the last output need not be a whole interval after the one before
+        let steps = crash_measures::signal::whole_steps(time.end_s - time.start_s, time.output_s);
+        [time.start_s, time.start_s + steps as f64 * time.output_s]
+    }
+
+    /// The model with these values of all parameters, or without any.
+    ///
+    /// # Errors
+    /// What is wrong with the scenario then.
+    pub(crate) fn model_of(&self, values: Option<&[f64]>) -> Result<Model, Diagnostics> {
+        let mut draft = self.study.base().clone();
+        for assignment in values.map_or(Vec::new(), |v| self.study.assignments_of(v)) {
+            draft.set_value(&assignment.path, &assignment.text())?;
+        }
+        opened(draft, &self.tables).map(|(_, model, _)| model)
+    }
+
+    /// The histories of a run that count, by filter.
+    ///
+    /// # Errors
+    /// Outputs too far apart for a filter.
+    pub(crate) fn histories(&self, series: &Series) -> Result<Vec<(Filter, Histories)>, String> {
+        let of = |(filter, channels): &(Filter, Vec<Channel>)| {
+            let treatment = Treatment { filter: *filter, family: FAMILY, interval_s: None };
+            let histories = treated(&self.model, channels.clone(), series.clone(), treatment);
+            histories.map(|h| (*filter, h)).map_err(|e| match e {
+                Untreated::Run(reason) => reason,
+                Untreated::Channel { name, reason } => format!("{name}: {reason}"),
+            })
+        };
+        self.groups.iter().map(of).collect()
+    }
+
+    /// The misfit of each target of a run.
+    ///
+    /// # Errors
+    /// Histories that cannot be compared.
+    pub(crate) fn misfits(&self, misfit: Misfit, series: &Series) -> Result<Vec<f64>, String> {
+        let histories = self.histories(series)?;
+        let of = |(_, target): &(usize, Target)| {
+            let computed = target.computed(in_group(&histories, target.filter)?)?;
+            target.misfit(misfit, &computed)
+        };
+        self.targets.iter().map(of).collect()
+    }
+
+    /// Computed less measured of each target, over the greatest measured value.
+    ///
+    /// # Errors
+    /// Histories that cannot be compared.
+    pub(crate) fn residuals(&self, series: &Series) -> Result<Vec<Vec<f64>>, String> {
+        let histories = self.histories(series)?;
+        let of = |(_, target): &(usize, Target)| {
+            let computed = target.computed(in_group(&histories, target.filter)?)?;
+            let peak = target.reference.iter().fold(0.0, |g: f64, m| g.max(m.abs()));
+            let pairs = computed.iter().zip(&target.reference);
+            Ok(pairs.map(|(c, m)| (c - m) / peak).collect())
+        };
+        self.targets.iter().map(of).collect()
+    }
+}
+
+pub(crate) fn in_group(groups: &[(Filter, Histories)], filter: Filter) -> Result<&Histories, String> {
+    let found = groups.iter().find(|(f, _)| *f == filter);
+    found.map(|(_, histories)| histories).ok_or_else(|| "a channel without a history".to_owned())
+}
+
+/// The scenario and the model of a draft.
+///
+/// # Errors
+/// What is wrong with it.
+pub(crate) fn opened(draft: Draft, tables: &[(String, Vec<u8>)]) -> Result<(Loaded, Model, Diagnostics), Diagnostics> {
+    let table = |name: &str| {
+        let found = tables.iter().find(|(table, _)| table == name);
+        found.map(|(_, bytes)| bytes.clone()).ok_or_else(|| "it was not there when the fit began".to_owned())
+    };
+    let loaded = draft.load(&table)?;
+    let (model, warnings) = loaded.model()?;
+    Ok((loaded, model, warnings))
+}

@@ -1,0 +1,373 @@
+//! What a fit has found, in the form of fit.json. Nothing in it depends on the day, the machine or the number of threads.
+
+use occupant_study::ApplyChoice;
+use occupant_study::search::{Descent, Stage};
+use serde::Serialize;
+
+use super::evaluator::Record;
+use super::fitting::Fitting;
+use super::identified::{Answer, Near};
+use super::scenario_text::Fitted;
+use super::verdict::{Verdict, verdicts};
+use crate::base::names::file_name;
+use crate::files::history::class_name;
+
+/// Correlations beyond this say that two parameters compensate each other.
+pub(crate) const COMPENSATING: f64 = 0.9;
+
+/// All of fit.json.
+#[derive(Serialize)]
+pub(crate) struct Found {
+    pub(crate) program: String,
+    /// Title of the study.
+    pub(crate) title: String,
+    pub(crate) study: File,
+    /// Changes from the command line.
+    pub(crate) overrides: Vec<String>,
+    /// What was made small.
+    pub(crate) objective: &'static str,
+    /// Names the random numbers.
+    pub(crate) seed: u64,
+    /// Evaluations that the global search could use.
+    pub(crate) budget: u64,
+    /// Scores of a descent that differ by less are the same.
+    pub(crate) tolerance: f64,
+    pub(crate) tests: Vec<TestFound>,
+    pub(crate) score: Score,
+    /// What the intervals hold.
+    pub(crate) near: NearFound,
+    pub(crate) parameters: Vec<ParameterFound>,
+    /// Correlations of near-optimal sets, each pair once; those with a parameter at a bound are missing.
+    pub(crate) correlations: Vec<Correlation>,
+    /// The numbers as they stand in the fitted scenarios.
+    pub(crate) written: Vec<Written>,
+    /// The descents of the global search.
+    pub(crate) descents: Vec<DescentFound>,
+    /// How many evaluations were made, and for what.
+    pub(crate) evaluations: Evaluations,
+    /// What the user should know.
+    pub(crate) warnings: Vec<String>,
+}
+
+/// A file that was read.
+#[derive(Serialize)]
+pub(crate) struct File {
+    pub(crate) file: String,
+    /// Its SHA-256.
+    pub(crate) sha256: String,
+}
+
+#[derive(Serialize)]
+pub(crate) struct TestFound {
+    pub(crate) name: String,
+    pub(crate) file: String,
+    /// SHA-256 of the file.
+    pub(crate) sha256: String,
+    /// The scenario that stands for it.
+    pub(crate) scenario: String,
+    /// That scenario with the fitted numbers.
+    pub(crate) fitted: String,
+}
+
+/// Scores; 0 is a run that is the test.
+#[derive(Serialize)]
+pub(crate) struct Score {
+    /// Of the base scenario; none if it could not be run.
+    pub(crate) before: Option<f64>,
+    /// Of the fitted scenario, with the numbers as they are written.
+    pub(crate) after: f64,
+    pub(crate) channels: Vec<ChannelFound>,
+}
+
+/// A channel of a test.
+#[derive(Serialize)]
+pub(crate) struct ChannelFound {
+    pub(crate) test: String,
+    pub(crate) channel: String,
+    pub(crate) signal: String,
+    /// Filter of both.
+    pub(crate) filter: String,
+    /// How much it counts.
+    pub(crate) weight: f64,
+    /// First and last time compared, s.
+    pub(crate) window_s: [f64; 2],
+    /// Misfit of the base scenario.
+    pub(crate) before: Option<f64>,
+    /// Misfit of the fitted scenario.
+    pub(crate) after: f64,
+}
+
+/// What the intervals hold.
+#[derive(Serialize)]
+pub(crate) struct NearFound {
+    /// Sets with a score up to this count as good as the best.
+    pub(crate) score: f64,
+    pub(crate) by: &'static str,
+    /// Residuals that are unrelated, where the likelihood says so.
+    unrelated_residuals: Option<f64>,
+    /// How many of the evaluated sets are as good.
+    pub(crate) sets: usize,
+}
+
+/// A parameter. Numbers are SI, angles in rad.
+#[derive(Serialize)]
+pub(crate) struct ParameterFound {
+    pub(crate) name: String,
+    /// SI unit; empty for factors and plain numbers.
+    pub(crate) unit: &'static str,
+    /// What is done with the number.
+    pub(crate) apply: ApplyChoice,
+    /// Where it acts.
+    pub(crate) places: Vec<String>,
+    /// Between which ends it was looked for.
+    pub(crate) bounds: [f64; 2],
+    /// Whether equal ratios were equal steps.
+    pub(crate) log: bool,
+    /// What the base scenario says, where that is one number.
+    pub(crate) base: Option<f64>,
+    /// The fitted value.
+    pub(crate) value: f64,
+    /// Between these all other parameters can make up for it.
+    pub(crate) interval: [f64; 2],
+    /// Whether each end of the interval is a bound, of this or of another parameter, and not the score.
+    pub(crate) open: [bool; 2],
+    /// Between these it can go alone.
+    pub(crate) alone: [f64; 2],
+    /// Least and greatest among the evaluated sets that are as good as the best.
+    pub(crate) near_optimal: [f64; 2],
+    /// How well it is identified.
+    pub(crate) verdict: Verdict,
+    /// The same in words.
+    pub(crate) words: String,
+    /// Parameters that make up for it.
+    pub(crate) compensated_by: Vec<String>,
+    /// All parameters and the score at both ends of the interval.
+    pub(crate) ends: [EndFound; 2],
+}
+
+/// An end of an interval.
+#[derive(Serialize)]
+pub(crate) struct EndFound {
+    /// The values of all parameters there, in their order.
+    pub(crate) values: Vec<f64>,
+    pub(crate) score: f64,
+}
+
+#[derive(Serialize)]
+pub(crate) struct Correlation {
+    pub(crate) between: [String; 2],
+    /// From −1 to 1.
+    pub(crate) correlation: f64,
+}
+
+/// A fitted number.
+#[derive(Serialize)]
+pub(crate) struct Written {
+    pub(crate) fitted: String,
+    pub(crate) path: String,
+    /// As it is written there.
+    pub(crate) text: String,
+}
+
+#[derive(Serialize)]
+pub(crate) struct DescentFound {
+    /// Candidates of a generation.
+    pub(crate) population: usize,
+    pub(crate) evaluations: u64,
+    /// Least score.
+    pub(crate) score: f64,
+    pub(crate) ended: &'static str,
+}
+
+/// How many evaluations were made.
+#[derive(Serialize, Default)]
+pub(crate) struct Evaluations {
+    /// By the global search.
+    pub(crate) search: usize,
+    /// By the local refinement.
+    pub(crate) refinement: usize,
+    /// For curvature and intervals.
+    pub(crate) intervals: usize,
+    /// All, the base scenario included.
+    pub(crate) all: usize,
+    /// Those that could not be run.
+    pub(crate) failed: usize,
+    /// Why not, of the first of them.
+    pub(crate) reason: Option<String>,
+}
+
+/// The fitted scenarios and what they came to.
+pub(crate) struct Fittings {
+    /// Names of the files, one for each experiment.
+    pub(crate) names: Vec<String>,
+    /// Numbers, one list for each experiment.
+    pub(crate) numbers: Vec<Vec<Fitted>>,
+    /// Misfits of the runs, experiment by experiment.
+    pub(crate) parts: Vec<f64>,
+}
+
+/// Puts everything together.
+pub(crate) fn found(
+    fitting: &Fitting,
+    answer: &Answer,
+    records: &[Record],
+    fitted: &Fittings,
+    program: String,
+) -> Found {
+    let misfit = fitting.fit.misfit;
+    let before = (answer.before.reason.is_none()).then_some(answer.before.score);
+    let evaluations = evaluations(records);
+    let limit = misfit.of_cost(answer.best.value + answer.rise);
+    let sets: Vec<&Record> = records.iter().filter(|r| r.at.is_some() && r.score <= limit).collect();
+    let parameters = verdicts(fitting, answer, &sets);
+    let mut warnings = fitting.warnings.clone();
+    warnings.extend(remarks(fitting, answer, &parameters, &evaluations));
+    Found {
+        program,
+        title: fitting.title.clone(),
+        study: File { file: fitting.study_name.clone(), sha256: fitting.study_sha256.clone() },
+        overrides: fitting.overrides.clone(),
+        objective: misfit.name(),
+        seed: fitting.fit.seed,
+        budget: fitting.fit.budget,
+        tolerance: fitting.fit.tolerance,
+        tests: tests(fitting, fitted),
+        score: Score { before, after: fitting.score(&fitted.parts), channels: channels(fitting, answer, fitted) },
+        near: NearFound::of(answer.near, limit, sets.len()),
+        parameters,
+        correlations: correlations(fitting, answer),
+        written: written(fitted),
+        descents: answer.global.descents.iter().map(DescentFound::of).collect(),
+        evaluations,
+        warnings,
+    }
+}
+
+impl NearFound {
+    fn of(near: Near, score: f64, sets: usize) -> Self {
+        let (by, unrelated_residuals) = match near {
+            Near::Study => ("the study", None),
+            Near::Likelihood { unrelated } => ("95 % likelihood of the residuals", Some(unrelated)),
+            Near::Peak => ("0.05 % of the measured peaks: the residuals are smaller", None),
+            Near::Score => ("scores that differ by less than 0.01", None),
+        };
+        NearFound { score, by, unrelated_residuals, sets }
+    }
+}
+
+impl DescentFound {
+    fn of(descent: &Descent) -> Self {
+        DescentFound {
+            population: descent.population,
+            evaluations: descent.evaluations,
+            score: descent.best.value,
+            ended: descent.ending.words(),
+        }
+    }
+}
+
+fn tests(fitting: &Fitting, fitted: &Fittings) -> Vec<TestFound> {
+    let test = |test: &super::fitting::Test| TestFound {
+        name: test.name.clone(),
+        file: test.file.clone(),
+        sha256: test.sha256.clone(),
+        scenario: file_name(&fitting.experiments[test.experiment].scenario),
+        fitted: fitted.names[test.experiment].clone(),
+    };
+    fitting.tests.iter().map(test).collect()
+}
+
+fn channels(fitting: &Fitting, answer: &Answer, fitted: &Fittings) -> Vec<ChannelFound> {
+    let parts = fitted.parts.iter().enumerate();
+    let targets = fitting.targets().zip(parts);
+    targets
+        .map(|((test, target), (i, after))| ChannelFound {
+            test: fitting.tests[*test].name.clone(),
+            channel: target.channel.name.clone(),
+            signal: target.measured.signal.clone(),
+            filter: class_name(target.class),
+            weight: target.weight,
+            window_s: target.window_s,
+            before: answer.before.parts.get(i).copied(),
+            after: *after,
+        })
+        .collect()
+}
+
+fn correlations(fitting: &Fitting, answer: &Answer) -> Vec<Correlation> {
+    let parameters = fitting.parameters();
+    let mut all = Vec::new();
+    for a in 0..parameters.len() {
+        for b in a + 1..parameters.len() {
+            if let Some(correlation) = answer.shape.correlation(a, b) {
+                all.push(Correlation { between: [a, b].map(|i| parameters[i].name.clone()), correlation });
+            }
+        }
+    }
+    all
+}
+
+fn written(fitted: &Fittings) -> Vec<Written> {
+    let files = fitted.names.iter().zip(&fitted.numbers);
+    let number = |(name, numbers): (&String, &Vec<Fitted>)| {
+        let written =
+            numbers.iter().map(|n| Written { fitted: name.clone(), path: n.path.clone(), text: n.text.clone() });
+        written.collect::<Vec<_>>()
+    };
+    files.flat_map(number).collect()
+}
+
+fn evaluations(records: &[Record]) -> Evaluations {
+    let mut found = Evaluations { all: records.len(), ..Evaluations::default() };
+    for record in records {
+        match record.stage {
+            None => {}
+            Some(Stage::Descent { .. }) => found.search += 1,
+            Some(Stage::Refinement) => found.refinement += 1,
+            Some(Stage::Scan | Stage::Shape | Stage::Profile) => found.intervals += 1,
+        }
+        if let Some(reason) = &record.reason {
+            found.failed += 1;
+            found.reason.get_or_insert_with(|| reason.clone());
+        }
+    }
+    found
+}
+
+/// What should be said of the answer.
+fn remarks(
+    fitting: &Fitting,
+    answer: &Answer,
+    parameters: &[ParameterFound],
+    evaluations: &Evaluations,
+) -> Vec<String> {
+    let mut all = Vec::new();
+    for parameter in parameters {
+        let bound = match parameter.verdict {
+            Verdict::AtLowerBound => "lower",
+            Verdict::AtUpperBound => "upper",
+            _ => continue,
+        };
+        all.push(format!("{} is at its {bound} bound: a wider range may fit better", parameter.name));
+    }
+    if evaluations.failed > 0 {
+        all.push(format!(
+            "{} of {} candidates could not be run and count as worst; the first: {}",
+            evaluations.failed,
+            evaluations.all,
+            evaluations.reason.as_deref().unwrap_or("no reason")
+        ));
+    }
+    if answer.before.reason.is_some() {
+        all.push("the base scenario itself could not be run".to_owned());
+    }
+    let misfit = fitting.fit.misfit;
+    let best = misfit.of_cost(answer.best.value);
+    let limit = misfit.of_cost(answer.best.value + answer.rise);
+    let descents = &answer.global.descents;
+    let same = descents.iter().filter(|d| d.best.value <= limit.max(best + fitting.fit.tolerance));
+    if descents.len() > 1 && same.count() < 2 {
+        all.push("only one descent has found this score: a greater budget may find a better one".to_owned());
+    }
+    all
+}

@@ -1,0 +1,22 @@
+//! Fits: the parameters within their bounds with which runs follow measured channels best.
+//!
+//! ```text
+//! study + tests ─ Fitting ─ search (core) ⇄ Evaluator (journal, threads, lanes) ─ Found ─ fit.json, fitted.toml, plots, history
+//! ```
+//!
+//! The search asks for values of whole generations; the evaluator runs what the journal does not hold yet. As both depend on
+//! nothing but study, tests and program, a fit that was killed goes on to the same answer.
+
+mod candidates;
+pub(crate) mod evaluator;
+mod experiment;
+pub(crate) mod fitting;
+mod found;
+pub(crate) mod identified;
+pub(crate) mod output;
+mod plots;
+pub(crate) mod progress;
+pub(crate) mod report;
+mod scenario_text;
+mod target;
+mod verdict;

@@ -1,0 +1,77 @@
+//! Measured against computed before and after a fit: one sheet for each test, one figure for each channel.
+
+use occupant_core::results::channel::Series;
+
+use super::experiment::{Experiment, in_group};
+use super::fitting::Fitting;
+use super::target::Target;
+use crate::files::history::{Filter, Histories, UnitChoice};
+use crate::pictures::plot::{Entry, Figure, Material, Overlay, RunCurves, Sheet, Wish, figures, sheet};
+
+/// Runs of an experiment before and after.
+pub(crate) struct Pair {
+    /// The base scenario; none if it could not be run.
+    pub(crate) before: Option<Series>,
+    /// The fitted one.
+    pub(crate) after: Series,
+}
+
+/// The sheet of each test, with its name. `runs` has a pair for each experiment; `lines` stand below the headings.
+///
+/// # Errors
+/// Histories that cannot be drawn.
+pub(crate) fn sheets(fitting: &Fitting, runs: &[Pair], lines: &[String]) -> Result<Vec<(String, String)>, String> {
+    let mut sheets = Vec::new();
+    for (number, test) in fitting.tests.iter().enumerate() {
+        let experiment = &fitting.experiments[test.experiment];
+        let drawn = figures_of(experiment, number, &test.file, &runs[test.experiment])?;
+        let words = Sheet { title: format!("{}: measured and fitted", test.name), lines: lines.to_vec(), columns: 2 };
+        sheets.push((test.name.clone(), sheet(&words, &drawn)));
+    }
+    Ok(sheets)
+}
+
+type Groups = Vec<(Filter, Histories)>;
+
+fn figures_of(experiment: &Experiment, test: usize, file: &str, runs: &Pair) -> Result<Vec<Figure>, String> {
+    let after = experiment.histories(&runs.after)?;
+    let before = match &runs.before {
+        Some(series) => Some(experiment.histories(series)?),
+        None => None,
+    };
+    let own = experiment.targets.iter().filter(|(t, _)| *t == test);
+    own.map(|(_, target)| figure(target, file, before.as_ref(), &after)).collect()
+}
+
+fn figure(target: &Target, file: &str, before: Option<&Groups>, after: &Groups) -> Result<Figure, String> {
+    let curves = |label: &str, groups: &Groups| {
+        in_group(groups, target.filter)
+            .map(|histories| RunCurves { label: label.to_owned(), histories: histories.clone() })
+    };
+    let mut runs = Vec::new();
+    if let Some(before) = before {
+        runs.push(curves("before", before)?);
+    }
+    runs.push(curves("fitted", after)?);
+    let overlay = Overlay {
+        channel: target.channel.name.clone(),
+        file: file.rsplit(['/', '\\']).next().unwrap_or(file).to_owned(),
+        pair: target.measured.clone(),
+    };
+    let wish = Wish {
+        title: target.channel.name.clone(),
+        axis: target.channel.unit.quantity().to_owned(),
+        entries: vec![Entry { channel: target.channel.name.clone(), label: target.channel.name.clone() }],
+        empty: String::new(),
+    };
+    let material = Material {
+        runs: &runs,
+        overlays: std::slice::from_ref(&overlay),
+        limits: &[],
+        x: None,
+        units: UnitChoice::Si,
+        window_s: target.window_s,
+    };
+    let drawn = figures(std::slice::from_ref(&wish), &material)?;
+    drawn.into_iter().next().ok_or_else(|| "no figure".to_owned())
+}

@@ -1,0 +1,99 @@
+//! A measured channel, made ready to be compared: in the channel's unit, filtered, cut to its window, at 10 kHz.
+
+use crash_measures::signal::{ChannelClass, whole_steps};
+use occupant_core::results::channel::Channel;
+use occupant_study::{FilterChoice, Misfit};
+
+use crate::base::failure::Failure;
+use crate::files::history::{Family, Filter, Histories};
+use crate::files::measured::Pair;
+use crate::jobs::compare::{RATE_HZ, Track, Window, overlap, sampled};
+
+/// Coefficients of the filter classes.
+pub(crate) const FAMILY: Family = Family::Iso6487;
+
+/// A measured channel of a test.
+#[derive(Clone, Debug)]
+pub(crate) struct Target {
+    pub(crate) channel: Channel,
+    /// Filter class of both sides.
+    pub(crate) class: Option<ChannelClass>,
+    /// Filter as the study says it.
+    pub(crate) filter: Filter,
+    /// How much it counts, its test's weight included.
+    pub(crate) weight: f64,
+    /// The measured signal, filtered, on the clock of the run.
+    pub(crate) measured: Pair,
+    /// First and last time that count, s.
+    pub(crate) window_s: [f64; 2],
+    /// The measured values at 10 kHz in that window.
+    pub(crate) reference: Vec<f64>,
+}
+
+/// The filter of a study's word.
+pub(crate) fn filter_of(choice: FilterChoice) -> Filter {
+    match choice {
+        FilterChoice::None => Filter::None,
+        FilterChoice::J211 => Filter::J211,
+        FilterChoice::Cfc60 => Filter::Class(ChannelClass::Cfc60),
+        FilterChoice::Cfc180 => Filter::Class(ChannelClass::Cfc180),
+        FilterChoice::Cfc600 => Filter::Class(ChannelClass::Cfc600),
+        FilterChoice::Cfc1000 => Filter::Class(ChannelClass::Cfc1000),
+    }
+}
+
+impl Target {
+    /// A measured signal made ready; `run_s` are first and last output of the run.
+    ///
+    /// # Errors
+    /// No common time, missing values, samples that cannot be filtered, nothing in the signal.
+    pub(crate) fn new(
+        channel: Channel,
+        filter: Filter,
+        weight: f64,
+        (mut measured, shift_s): (Pair, f64),
+        window_s: [Option<f64>; 2],
+        run_s: [f64; 2],
+        misfit: Misfit,
+    ) -> Result<Target, String> {
+        let class = filter.class_of(&channel.name);
+        if let Some(class) = class {
+            let filtered = measured.filter(class, FAMILY);
+            filtered.map_err(Failure::words)?;
+        }
+        measured.time_s.iter_mut().for_each(|t| *t += shift_s);
+        let theirs = Track { time_s: &measured.time_s, values: &measured.values };
+        let ours = Track { time_s: &run_s, values: &[0.0; 2] };
+        let window = Window { from_s: window_s[0], to_s: window_s[1], shift_s: 0.0 };
+        let [from_s, to_s] = overlap(ours, theirs, window)?;
+        let samples = whole_steps(to_s - from_s, 1.0 / RATE_HZ) + 1;
+        if samples as f64 > RATE_HZ * 100.0 {
+            return Err(format!("{} s to compare: at most 100 s", to_s - from_s));
+        }
+        let reference = sampled(theirs, from_s, to_s, samples, "the measured signal")?;
+        let itself = misfit.of(&reference, &reference, 1.0 / RATE_HZ);
+        itself.map_err(|e| e.to_string())?;
+        Ok(Target { channel, class, filter, weight, measured, window_s: [from_s, to_s], reference })
+    }
+
+    /// The computed values on the grid of the measured ones.
+    ///
+    /// # Errors
+    /// Histories without this channel, or with values missing in the window.
+    pub(crate) fn computed(&self, histories: &Histories) -> Result<Vec<f64>, String> {
+        let found = histories.columns.iter().find(|c| c.channel.name == self.channel.name);
+        let column = found.ok_or_else(|| format!("no history of {}", self.channel.name))?;
+        let [from_s, to_s] = self.window_s;
+        let track = Track { time_s: &histories.time_s, values: &column.values };
+        sampled(track, from_s, to_s, self.reference.len(), "the computed history")
+    }
+
+    /// How far computed values are from the measured ones.
+    ///
+    /// # Errors
+    /// Values that cannot be compared.
+    pub(crate) fn misfit(&self, misfit: Misfit, computed: &[f64]) -> Result<f64, String> {
+        let found = misfit.of(&self.reference, computed, 1.0 / RATE_HZ);
+        found.map_err(|e| format!("{}: {e}", self.channel.name))
+    }
+}

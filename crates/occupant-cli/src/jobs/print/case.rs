@@ -1,0 +1,127 @@
+//! What is printed: the recorded run, and the model rebuilt from the scenario that travels with it.
+
+use occupant_core::forces::contact::{PASSED, PairHistory};
+use occupant_core::model::Model;
+use occupant_core::scenario::kind::UnitSystem;
+use occupant_core::scenario::{Draft, Loaded};
+
+use cardio_legacy::CompartmentLayout;
+
+use super::unit::{INCH_POUND, SI, Units};
+use crate::files::mcap::StoredRun;
+use crate::files::mcap::about::RUN;
+
+/// A run to print.
+pub(crate) struct Case {
+    /// The recorded run.
+    pub(crate) file: StoredRun,
+    /// The scenario, overrides included.
+    pub(crate) loaded: Loaded,
+    pub(crate) model: Model,
+    /// Warnings about it, in words.
+    pub(crate) warnings: Vec<String>,
+    /// Numbers of the surfaces, in the setup's order.
+    pub(crate) numbers: Vec<usize>,
+    /// Whether they are the report's.
+    pub(crate) numbers_of_report: bool,
+}
+
+impl Case {
+    /// Reads a result file and rebuilds its model.
+    ///
+    /// # Errors
+    /// A file that `occupant run` has not written, that lacks its scenario or a table that it names, or whose scenario or
+    /// checkpoints this program refuses.
+    pub(crate) fn read(bytes: &[u8]) -> Result<Self, String> {
+        let file = StoredRun::read(bytes)?;
+        if file.run.is_empty() {
+            return Err(format!("it is an MCAP file without the record `{RUN}`: no result of `occupant run`"));
+        }
+        let loaded = load(&file)?;
+        let (model, warnings) = loaded.model().map_err(|d| format!("the scenario in the file is refused:\n{d}"))?;
+        file.checkpoints.iter().try_for_each(|c| c.check(&model)).map_err(|e| e.to_string())?;
+        let report = report_numbers(&model);
+        let in_order = || (1..=model.setup().surfaces.len()).collect();
+        Ok(Case {
+            warnings: warnings.iter().map(|w| w.problem.to_string()).collect(),
+            numbers_of_report: report.is_some(),
+            numbers: report.unwrap_or_else(in_order),
+            file,
+            loaded,
+            model,
+        })
+    }
+
+    /// The units of the scenario.
+    pub(crate) fn units(&self) -> &'static Units {
+        match self.loaded.scenario.units {
+            Some(UnitSystem::InchPound) => &INCH_POUND,
+            _ => &SI,
+        }
+    }
+
+    /// The two lines on top of each page: the title cards, or the title and where the run comes from.
+    pub(crate) fn titles(&self) -> [String; 2] {
+        let notes = self.loaded.scenario.notes.as_deref().unwrap_or_default();
+        let second = notes.lines().find_map(|line| line.trim().strip_prefix("TITLE 2 = "));
+        let known = |key: &str| self.file.run.get(key).map_or("-", String::as_str);
+        let origin = || format!("{}, {}", known("scenario"), known("program"));
+        [self.model.setup().title.clone(), second.map_or_else(origin, str::to_owned)]
+    }
+
+    /// Whether the run reached its end.
+    pub(crate) fn is_complete(&self) -> bool {
+        let status = self.file.result.as_ref().and_then(|r| r.get("status"));
+        status.is_some_and(|s| s == "completed")
+    }
+
+    /// A surface by its number and name.
+    pub(crate) fn surface(&self, index: usize) -> String {
+        let name = self.model.setup().surfaces.get(index).map(|s| &s.name);
+        let number = self.numbers.get(index).copied().unwrap_or_default();
+        format!("{number:>2} {}", name.map_or("-", String::as_str))
+    }
+
+    /// The pairs (sphere, surface), by index, that have passed a surface's edge: those with NARRY = 0.
+    pub(crate) fn passed(&self, pairs: &[PairHistory<f64>]) -> Vec<(usize, usize)> {
+        let contacts = &self.model.system().forces.contacts;
+        let mut passed = Vec::new();
+        for group in contacts.groups() {
+            for i in group.pairs.clone() {
+                let is_passed = pairs.get(i).is_some_and(|p| p.phase == PASSED);
+                let parts = contacts.pairs().get(i).map_or(&[][..], |p| &p.parts);
+                let own = parts.iter().filter(|_| is_passed);
+                passed.extend(own.map(|part| (group.sphere, part.surface)));
+            }
+        }
+        let number = |surface: usize| self.numbers.get(surface).copied();
+        passed.sort_by_key(|&(sphere, surface)| (sphere, number(surface)));
+        passed
+    }
+}
+
+/// The report's surface numbers, if every surface bears a name of the cards' compartment.
+fn report_numbers(model: &Model) -> Option<Vec<usize>> {
+    let layout = CompartmentLayout::reconstruction().ok()?;
+    let number = |name: &str| layout.number_of(name).and_then(|n| usize::try_from(n).ok());
+    let surfaces = &model.setup().surfaces;
+    surfaces.iter().map(|s| number(&s.name)).collect()
+}
+
+/// The scenario as it was run: the resolved one, else the one that was read.
+fn load(file: &StoredRun) -> Result<Loaded, String> {
+    let read = file.run.get("scenario").map(String::as_str);
+    let resolved = ["resolved.toml"].into_iter().chain(read);
+    let found = resolved.filter_map(|name| Some((name, file.attachments.get(name)?)));
+    let (name, content) =
+        { found }.next().ok_or("the file holds no scenario, so nothing can be said of its numbers")?;
+    let resolver = |name: &str| {
+        let base = name.rsplit(['/', '\\']).next().unwrap_or(name);
+        let table = file.attachments.get(base);
+        let missing = || "it is not attached to the results".to_owned();
+        table.cloned().ok_or_else(missing)
+    };
+    Draft::read_bytes(content, None, name)
+        .and_then(|draft| draft.load(&resolver))
+        .map_err(|d| format!("the scenario in the file is refused:\n{d}"))
+}

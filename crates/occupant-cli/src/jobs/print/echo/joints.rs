@@ -1,0 +1,70 @@
+//! Dampers, stops and springs of the joints.
+
+use occupant_core::body::joint::{Joint, Joints, Stop};
+
+use crate::jobs::print::case::Case;
+use crate::jobs::print::page::Pages;
+use crate::jobs::print::table::Table;
+use crate::jobs::print::unit::{DEGREE, Units};
+
+/// Writes the joints.
+pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units) {
+    let joints = &case.model.setup().joints;
+    balls(joints, units).write(pages);
+    hinges(joints, units).write(pages);
+}
+
+fn balls(joints: &Joints, units: &Units) -> Table {
+    let (d, k) = (units.joint_damping, units.joint_stiffness);
+    let mut table = Table::new(
+        format!("BALL JOINTS ({}, DEG, {}); EPSILON OF BETA {}", d.name, k.name, joints.epsilon),
+        &["NO", "<JOINT", "DAMPING", "TWIST", "STOP FROM", "TO", "DAMPING", "SPRING", "<REST"],
+    );
+    for (joint, law) in joints.iter() {
+        let Some(ball) = law.ball() else {
+            continue;
+        };
+        let rest = ball.spring.map(|s| match s.rest_rad {
+            Some(rest) => DEGREE.show(rest),
+            None => "AS AT THE START".to_owned(),
+        });
+        let damping = [d.show(ball.damping_n_m_s), d.show(ball.twist_damping_n_m_s)];
+        let spring = [k.perhaps(ball.spring.map(|s| s.stiffness_n_m)), rest.unwrap_or_else(|| "-".to_owned())];
+        let stop = stop(ball.stop, units);
+        let cells = label(joints, joint).into_iter().chain(damping);
+        table.row(cells.chain(stop).chain(spring));
+    }
+    table
+}
+
+fn hinges(joints: &Joints, units: &Units) -> Table {
+    let d = units.joint_damping;
+    let mut table = Table::new(
+        format!("HINGES ({}, DEG)", d.name),
+        &["NO", "<JOINT", "DAMPING", "LOWER STOP FROM", "TO", "DAMPING", "UPPER STOP FROM", "TO", "DAMPING"],
+    );
+    for (joint, law) in joints.iter() {
+        let Some(hinge) = law.hinge() else {
+            continue;
+        };
+        let cells = label(joints, joint)
+            .into_iter()
+            .chain([d.show(hinge.damping_n_m_s)])
+            .chain(stop(hinge.lower_stop, units))
+            .chain(stop(hinge.upper_stop, units));
+        table.row(cells);
+    }
+    table
+}
+
+fn label(joints: &Joints, joint: Joint) -> [String; 2] {
+    [joint.number().to_string(), joints.tree()[joint].name.to_owned()]
+}
+
+fn stop(stop: Option<Stop>, units: &Units) -> [String; 3] {
+    [
+        DEGREE.perhaps(stop.map(|s| s.begin_rad)),
+        DEGREE.perhaps(stop.map(|s| s.full_rad)),
+        units.joint_damping.perhaps(stop.map(|s| s.damping_n_m_s)),
+    ]
+}

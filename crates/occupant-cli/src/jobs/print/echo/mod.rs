@@ -1,0 +1,31 @@
+//! The echo of everything read, and of what was computed from it before the first step (the report's PRNTIN).
+
+mod belts;
+mod body;
+mod compartment;
+mod joints;
+mod path;
+mod run;
+mod seating;
+mod sensors;
+
+pub(crate) use seating::coordinates;
+
+use super::case::Case;
+use super::page::Pages;
+use super::unit::Units;
+
+/// Writes the echo.
+pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units) {
+    run::write(pages, case, units);
+    pages.begin("INPUT: OCCUPANT");
+    body::write(pages, case, units);
+    joints::write(pages, case, units);
+    pages.begin("INPUT: COMPARTMENT AND BELTS");
+    compartment::write(pages, case, units);
+    belts::write(pages, case, units);
+    pages.begin("INPUT: PATH OF THE VEHICLE");
+    path::write(pages, case, units);
+    pages.begin("INPUT AND COMPUTED: THE OCCUPANT AT THE START");
+    seating::write(pages, case, units);
+}

@@ -1,0 +1,91 @@
+//! Tables of the printout: a title with the units, a head, rows; names are cut where a line has no room for them.
+
+use super::page::{COLUMNS, Pages, cut};
+
+/// Columns between columns.
+const GAP: usize = 2;
+/// A name keeps at least so many characters.
+const SHORTEST: usize = 6;
+
+/// A table under construction.
+#[derive(Debug)]
+pub(crate) struct Table {
+    title: String,
+    /// By column: true for words, which stand to the left.
+    words: Vec<bool>,
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    /// A table; the heads of columns of words begin with `<`.
+    pub(crate) fn new(title: impl Into<String>, head: &[&str]) -> Self {
+        let plain = |h: &&str| h.trim_start_matches('<').to_owned();
+        Table {
+            title: title.into(),
+            words: head.iter().map(|h| h.starts_with('<')).collect(),
+            rows: vec![head.iter().map(plain).collect()],
+        }
+    }
+
+    /// Adds a row; cells missing at its end are blank.
+    pub(crate) fn row(&mut self, cells: impl IntoIterator<Item = String>) {
+        self.rows.push(cells.into_iter().collect());
+    }
+
+    /// True without any row.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.rows.len() == 1
+    }
+
+    /// Writes it; its title and head are repeated on pages that continue it.
+    pub(crate) fn write(&self, pages: &mut Pages) {
+        let widths = self.widths();
+        let mut lines = vec![self.title.clone()];
+        lines.extend(self.rows.iter().map(|row| self.line(row, &widths)));
+        pages.block(&lines, 2);
+    }
+
+    fn widths(&self) -> Vec<usize> {
+        let width = |column: usize| {
+            let cells = self.rows.iter().filter_map(|row| row.get(column));
+            cells.map(|cell| cell.chars().count()).max().unwrap_or(0)
+        };
+        let mut widths: Vec<usize> = (0..self.words.len()).map(width).collect();
+        let gaps = GAP * widths.len().saturating_sub(1);
+        let mut excess = (widths.iter().sum::<usize>() + gaps).saturating_sub(COLUMNS);
+        while excess > 0 {
+            let names = widths.iter_mut().zip(&self.words).filter(|(_, words)| **words);
+            match names.map(|(w, _)| w).max() {
+                Some(widest) if *widest > SHORTEST => *widest -= 1,
+                _ => break,
+            }
+            excess -= 1;
+        }
+        widths
+    }
+
+    fn line(&self, row: &[String], widths: &[usize]) -> String {
+        let cells = row.iter().zip(widths).zip(&self.words);
+        let set = cells.map(|((cell, &width), words)| match words {
+            true => format!("{:<width$}", cut(cell, width)),
+            false => format!("{cell:>width$}"),
+        });
+        set.collect::<Vec<String>>().join("  ")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_give_way_to_numbers() {
+        let mut table = Table::new("T", &["<NAME", "X"]);
+        table.row(["n".repeat(200), "12345.678".to_owned()]);
+        let widths = table.widths();
+        assert_eq!(widths, [COLUMNS - GAP - 9, 9]);
+        let line = table.line(&table.rows[1], &widths);
+        assert_eq!(line.chars().count(), COLUMNS);
+        assert!(line.ends_with("n~  12345.678"));
+    }
+}

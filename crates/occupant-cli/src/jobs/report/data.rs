@@ -1,0 +1,202 @@
+//! What the page is made from. The names of the fields are those that `assets/viewer/src` reads.
+
+use occupant_core::forces::contact::surface::{Frame, Outline};
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::results::sample::Sample;
+use serde::Serialize;
+
+use super::array::Array;
+use super::curves::Plot;
+use super::measures::Measure;
+use super::motion::{Belt, Contacts, Motion};
+use super::{curves, measures, provenance};
+use crate::base::failure::Failure;
+use crate::files::mcap::scene::compartment::corners_m;
+use crate::files::results::Results;
+use crate::pictures::body::{Lump, PATCH_M, Part, Tone, parts, sphere_centre_m};
+
+/// All that the page shows.
+#[derive(Debug, Serialize)]
+pub(crate) struct Report {
+    /// The program that made it, with its version.
+    pub(crate) program: String,
+    /// The run, and the one it is compared with.
+    pub(crate) runs: Vec<Run>,
+}
+
+impl Report {
+    /// The title of the page.
+    pub(crate) fn title(&self) -> String {
+        let titles = self.runs.iter().map(|run| match run.title.as_str() {
+            "" => run.label.as_str(),
+            title => title,
+        });
+        titles.collect::<Vec<_>>().join(" – ")
+    }
+}
+
+#[derive(Debug, Serialize)]
+pub(crate) struct Run {
+    label: String,
+    title: String,
+    /// What a reader should know before trusting the results.
+    notes: Vec<String>,
+    times: Array,
+    segments: Vec<String>,
+    parts: Vec<PartData>,
+    spheres: Vec<SphereData>,
+    surfaces: Vec<SurfaceData>,
+    belts: Vec<Belt>,
+    poses: Array,
+    vehicle: Array,
+    contacts: Contacts,
+    plots: Vec<Plot>,
+    measures: Vec<Measure>,
+    first_contacts: Vec<occupant_core::results::summary::ContactBegin>,
+    provenance: Vec<[String; 2]>,
+    scenario: String,
+}
+
+/// The convex hull of two ellipsoids, each centre x, y, z and half axes x, y, z, segment axes, m.
+#[derive(Debug, Serialize)]
+struct PartData {
+    segment: usize,
+    tone: &'static str,
+    ends: [[f64; 6]; 2],
+}
+
+/// A contact sphere; centre from the segment's centre of gravity, segment axes, m.
+#[derive(Debug, Serialize)]
+struct SphereData {
+    name: String,
+    segment: usize,
+    centre: [f64; 3],
+    radius: f64,
+}
+
+/// A surface; corners in axes of the vehicle or, for `space`, in vehicle-space. One without bounds has them about its foot
+/// below the origin.
+#[derive(Debug, Serialize)]
+struct SurfaceData {
+    name: String,
+    frame: &'static str,
+    bounded: bool,
+    material: usize,
+    corners: Vec<[f64; 3]>,
+    normal: [f64; 3],
+}
+
+/// Two recorders that see the samples together.
+struct Both<'a>(&'a mut Motion, &'a mut occupant_core::results::channel::Series);
+
+impl Recorder for Both<'_> {
+    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        self.0.add(sample);
+        self.1.record(sample)
+    }
+}
+
+impl Run {
+    /// Gathers a run.
+    ///
+    /// # Errors
+    /// None for a file that was opened.
+    pub(crate) fn of(results: &Results) -> Result<Self, Failure> {
+        let model = &results.model;
+        let mut motion = Motion::of(model);
+        let mut series = curves::series(model);
+        results.replay(Both(&mut motion, &mut series))?;
+        let summary = results.summary()?;
+        let name = results.path.file_name().unwrap_or_default();
+        let mut notes = results.notes();
+        notes.extend(model.warnings().iter().map(|w| w.to_string()));
+        Ok(Run {
+            label: name.to_string_lossy().into_owned(),
+            title: model.setup().title.clone(),
+            notes,
+            times: Array::float64(series.time_s.iter().copied()),
+            segments: model.body().tree.segment_rows().iter().map(|row| row.name.replace('_', " ")).collect(),
+            parts: parts(model.body()).iter().map(PartData::of).collect(),
+            spheres: spheres(results),
+            surfaces: surfaces(results),
+            belts: motion.belts(model),
+            poses: motion.poses(),
+            vehicle: motion.vehicle(),
+            contacts: motion.contacts(),
+            plots: curves::plots(&series),
+            measures: measures::measures(&summary),
+            first_contacts: summary.contacts.clone(),
+            provenance: provenance::lines(results, &summary),
+            scenario: results.scenario_text.clone().unwrap_or_default(),
+        })
+    }
+}
+
+impl PartData {
+    fn of(part: &Part) -> Self {
+        let end = |l: &Lump| {
+            let (c, h) = (l.centre_m, l.half_m);
+            [c.x, c.y, c.z, h.x, h.y, h.z]
+        };
+        PartData {
+            segment: part.segment.index(),
+            tone: match part.tone {
+                Tone::Skin => "skin",
+                Tone::Shirt => "shirt",
+                Tone::Trousers => "trousers",
+            },
+            ends: [end(&part.ends[0]), end(&part.ends[1])],
+        }
+    }
+}
+
+fn spheres(results: &Results) -> Vec<SphereData> {
+    let body = results.model.body();
+    let data = |(i, s): (usize, &occupant_core::body::ContactSphere)| SphereData {
+        name: s.name.clone(),
+        segment: s.segment.index(),
+        centre: sphere_centre_m(body, i).into(),
+        radius: s.radius_m,
+    };
+    body.spheres.iter().enumerate().map(data).collect()
+}
+
+fn surfaces(results: &Results) -> Vec<SurfaceData> {
+    let model = &results.model;
+    let all = model.setup().surfaces.iter().zip(model.faces());
+    all.map(|(surface, face)| {
+        let bounded = !matches!(face.outline, Outline::Unbounded { .. });
+        // space is Y left, Z up; vehicle-space Y right, Z down
+        let turn = match face.frame {
+            Frame::Vehicle => [1.0, 1.0, 1.0],
+            Frame::Space => [1.0, -1.0, -1.0],
+        };
+        let turned = |v: [f64; 3]| [0, 1, 2].map(|i| turn[i] * v[i]);
+        let follows = !bounded && face.frame == Frame::Space;
+        let foot = face.normal * face.offset_m;
+        let corners = corners_m(face).into_iter();
+        SurfaceData {
+            name: surface.name.clone(),
+            frame: match face.frame {
+                Frame::Vehicle => "vehicle",
+                Frame::Space => "space",
+            },
+            bounded,
+            material: surface.material,
+            // a patch that follows the vehicle moves along the plane from its foot below the origin
+            corners: match follows {
+                true => patch(face, foot).into_iter().map(turned).collect(),
+                false => corners.map(|p| turned(p.into())).collect(),
+            },
+            normal: turned(face.normal.into()),
+        }
+    })
+    .collect()
+}
+
+/// A square of the plane about a point of it.
+fn patch(face: &occupant_core::forces::contact::flat_face::FlatFace, about: nalgebra::Vector3<f64>) -> Vec<[f64; 3]> {
+    let (u, v) = face.plane_axes();
+    let half = PATCH_M;
+    [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)].map(|(a, b)| (about + (u * a + v * b) * half).into()).to_vec()
+}

@@ -1,0 +1,31 @@
+//! The report of a run: one HTML file that shows the motion, the time histories and the numbers, and needs no network.
+//!
+//! The page is drawn by JavaScript (`assets/viewer`, bundled with its libraries). Here the data are gathered from the
+//! run's samples and put into it.
+
+mod array;
+mod curves;
+mod data;
+mod measures;
+mod motion;
+mod page;
+mod provenance;
+
+use crate::base::failure::Failure;
+use crate::base::names::program;
+use crate::files::results::Results;
+
+pub(crate) use data::Report;
+
+/// The page for a run, or for a run and another to compare it with.
+///
+/// # Errors
+/// None for files that were opened, but the words of whatever refuses.
+pub(crate) fn page(run: &Results, against: Option<&Results>) -> Result<String, Failure> {
+    let mut runs = vec![data::Run::of(run)?];
+    if let Some(other) = against {
+        runs.push(data::Run::of(other)?);
+    }
+    let report = Report { program: program(), runs };
+    page::fill(&report)
+}

@@ -1,0 +1,198 @@
+//! The report as text, in the manner of a test report: measures in SI and US units, limits, what was left out.
+
+use crash_measures::measure::limits::{Basis, Grade, Quantity};
+use crash_measures::signal::CfcFamily;
+use occupant_core::vehicle::risk::{Judgement, VerticalGravity};
+
+use super::Report;
+use super::figures::{Figure, Figures, G_UNIT, KM_H, M_S, PLAIN, Unit};
+use super::subject::Source;
+use crate::base::text_table::{Align, NONE, Table, facts, number};
+
+pub(crate) fn text(report: &Report) -> String {
+    let figures = Figures::of(report);
+    let mut parts = vec![head(report), measures(&figures)];
+    if !report.judgements.is_empty() {
+        parts.push(limits(&report.judgements));
+    }
+    if !figures.left_out.is_empty() {
+        let lines = figures.left_out.iter();
+        let lines: String = lines.map(|l| format!("  {}: {}\n", l.name, l.reason)).collect();
+        parts.push(format!("left out\n{lines}"));
+    }
+    parts.join("\n")
+}
+
+fn head(report: &Report) -> String {
+    let (signals, preparation) = (&report.signals, &report.preparation);
+    let filter = match preparation.filter {
+        Some((class, family)) => format!("CFC {:.0}, {}", class.hertz(), family_name(family)),
+        None => "none: taken as filtered already".to_owned(),
+    };
+    let [x, y, z] = preparation.offset_m;
+    let place = match preparation.offset_m {
+        [0.0, 0.0, 0.0] => "at the centre of gravity".to_owned(),
+        _ => format!("({x}, {y}, {z}) m from the centre of gravity; moved to it"),
+    };
+    let gravity = match (report.subject.source, preparation.gravity) {
+        (Source::Recorded, VerticalGravity::Included) => "in az: 1 g was added to it",
+        (Source::Recorded, VerticalGravity::Removed) => "taken as not in the accelerations",
+        _ => "not in the accelerations",
+    };
+    let flight = &report.flight;
+    facts(&[
+        ("vehicle", format!("{} ({})", report.subject.name, source_name(report))),
+        (
+            "record",
+            format!(
+                "{} samples, {:.0} a second, {:.4} s to {:.4} s; first contact at {:.4} s",
+                signals.samples(),
+                1.0 / signals.dt_s,
+                signals.start_s,
+                signals.end_s(),
+                signals.start_s
+            ),
+        ),
+        ("filter", filter),
+        ("sensors", place),
+        ("gravity", gravity.to_owned()),
+        (
+            "occupant",
+            format!(
+                "free over {} m forward and back, {} m to either side; head of THIV {} m ahead of the centre of gravity",
+                flight.distances.longitudinal_m, flight.distances.lateral_m, flight.head.start_x_m
+            ),
+        ),
+        (
+            "signs",
+            "x forward, y right, z down (SAE J211, J670); OIV, THIV, PHD as magnitudes; roll right side down, pitch nose up, yaw right"
+                .to_owned(),
+        ),
+    ])
+}
+
+/// Name of a family of filter coefficients.
+pub(crate) fn family_name(family: CfcFamily) -> &'static str {
+    match family {
+        CfcFamily::Iso6487 => "ISO 6487",
+        CfcFamily::SaeJ211 => "SAE J211",
+    }
+}
+
+/// Where the motion comes from, in words.
+pub(crate) fn source_name(report: &Report) -> &'static str {
+    match report.subject.source {
+        Source::Recorded => "recorded",
+        Source::Path => "path of a scenario, sampled",
+        Source::PathOfStraightLines => {
+            "path of a scenario with straight lines between stations: its velocity jumps at them, and what is \
+             measured depends on the filter"
+        }
+    }
+}
+
+fn measures(figures: &Figures) -> String {
+    let mut table = Table::new(&[
+        ("measure", Align::Left),
+        ("value", Align::Right),
+        ("unit", Align::Left),
+        ("or", Align::Right),
+        ("unit", Align::Left),
+        ("time, s", Align::Left),
+        ("", Align::Left),
+    ]);
+    for figure in &figures.figures {
+        let [first, second] = figure.units;
+        let mut cells = vec![figure.name.clone(), shown(figure.value, first), first.name.into()];
+        match first == second {
+            true => cells.extend([String::new(), String::new()]),
+            false => cells.extend([shown(figure.value, second), second.name.into()]),
+        }
+        cells.push(when(figure));
+        cells.push(figure.remark.to_owned());
+        table.row(cells);
+    }
+    table.text()
+}
+
+fn when(figure: &Figure) -> String {
+    let times = figure.when_s.iter().map(|t| format!("{t:.4}"));
+    times.collect::<Vec<String>>().join(" – ")
+}
+
+fn shown(si: f64, unit: Unit) -> String {
+    // minus zero is zero
+    let text = number(si / unit.si, unit.decimals);
+    match text.trim_start_matches(['-', '0', '.']) {
+        "" => text.trim_start_matches('-').to_owned(),
+        _ => text,
+    }
+}
+
+fn limits(judgements: &[Judgement]) -> String {
+    let mut table = Table::new(&[
+        ("rule", Align::Left),
+        ("measure", Align::Left),
+        ("limit", Align::Left),
+        ("at most", Align::Right),
+        ("value", Align::Right),
+        ("margin", Align::Right),
+        ("unit", Align::Left),
+        ("verdict", Align::Left),
+        ("limit read in", Align::Left),
+    ]);
+    for judgement in judgements {
+        let unit = unit_of(judgement.limit.quantity);
+        let perhaps = |si: Option<f64>| si.map_or(NONE.to_owned(), |si| shown(si, unit));
+        table.row([
+            judgement.limit.rule.name().to_owned(),
+            judgement.measure.to_owned(),
+            grade_name(judgement.limit.grade).to_owned(),
+            shown(judgement.limit.most, unit),
+            perhaps(judgement.value),
+            perhaps(judgement.verdict.map(|v| v.margin)),
+            unit.name.to_owned(),
+            verdict_name(judgement).to_owned(),
+            basis_name(judgement.limit.basis).to_owned(),
+        ]);
+    }
+    table.text()
+}
+
+fn unit_of(quantity: Quantity) -> Unit {
+    match quantity {
+        Quantity::OccupantImpactVelocity => M_S,
+        Quantity::Thiv => KM_H,
+        Quantity::RidedownAcceleration | Quantity::Phd => G_UNIT,
+        _ => PLAIN,
+    }
+}
+
+/// What a limit is, in words.
+pub(crate) fn grade_name(grade: Grade) -> &'static str {
+    match grade {
+        Grade::Maximum => "maximum",
+        Grade::Preferred => "preferred",
+        Grade::ClassA => "class A",
+        Grade::ClassB => "class B",
+        Grade::ClassC => "class C",
+    }
+}
+
+/// Where a limit was read, in words.
+pub(crate) fn basis_name(basis: Basis) -> &'static str {
+    match basis {
+        Basis::SecondarySource => "a source that quotes the rule",
+        Basis::CommonKnowledge => "general knowledge",
+    }
+}
+
+/// The verdict in a word.
+pub(crate) fn verdict_name(judgement: &Judgement) -> &'static str {
+    match judgement.verdict {
+        None => "not measured",
+        Some(verdict) if verdict.passed => "pass",
+        Some(_) if judgement.breaks_the_rule() => "FAIL",
+        Some(_) => "exceeded",
+    }
+}

@@ -1,0 +1,181 @@
+//! The MCAP file of a run, from its first byte to its name.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use occupant_core::model::Model;
+use occupant_core::results::outcome::Outcome;
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::results::sample::Sample;
+
+use super::resume::Resumption;
+use crate::base::failure::Failure;
+use crate::base::names::{file_name, program};
+use crate::base::output_file::{Existing, FileProblem, PartialFile, partial_path, refuse_input};
+use crate::files::mcap::about::RESOLVED;
+use crate::files::mcap::{About, Document, McapOptions, McapRecorder};
+use crate::files::scenario::{Opened, ScenarioArgs};
+
+/// A recorder that writes a file, or none.
+pub(crate) struct Recording(Option<Open>);
+
+struct Open {
+    partial: PathBuf,
+    recorder: McapRecorder<PartialFile>,
+}
+
+/// What became of the file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(crate) enum Written {
+    /// None was asked for.
+    Nothing,
+    Complete(PathBuf),
+    /// The run did not complete; this is what there is.
+    Partial(PathBuf),
+}
+
+impl Written {
+    /// Its name, if there is one.
+    pub(crate) fn name(&self) -> Option<String> {
+        match self {
+            Written::Nothing => None,
+            Written::Complete(path) | Written::Partial(path) => Some(path.display().to_string()),
+        }
+    }
+}
+
+impl Written {
+    /// Words about what there is, for messages of what came after it.
+    pub(crate) fn left(&self) -> String {
+        match self.name() {
+            Some(name) => format!("the run itself is in {name}"),
+            None => "the run itself was completed; no file was asked for".to_owned(),
+        }
+    }
+}
+
+impl Recording {
+    pub(crate) fn none() -> Self {
+        Recording(None)
+    }
+
+    /// Begins the file.
+    ///
+    /// # Errors
+    /// A file that exists, without `force`; the file that is being resumed; whatever the file system says.
+    pub(crate) fn begin(
+        name: &Path,
+        existing: Existing,
+        args: &ScenarioArgs,
+        opened: &Opened,
+        from: Option<&Resumption>,
+    ) -> Result<Self, Failure> {
+        let mut about = about(args, opened)?;
+        if let Some(from) = from {
+            from.keep_from(name, &partial_path(name))?;
+            about.notes.extend(from.notes());
+        }
+        refuse_input(name, &args.scenario).map_err(|e| refused(&e))?;
+        if let Some((table, _)) = opened.loaded.table() {
+            let folder = args.scenario.parent().unwrap_or(Path::new(""));
+            refuse_input(name, &folder.join(table)).map_err(|e| refused(&e))?;
+        }
+        let file = PartialFile::create(name, existing).map_err(|e| refused(&e))?;
+        let partial = file.partial_path().to_owned();
+        let recorder = McapRecorder::new(file, about, McapOptions::default());
+        let recorder = recorder.map_err(|e| Failure::plain(format!("{} cannot be written: {e}", partial.display())))?;
+        let recorder = match opened.loaded.table() {
+            Some((name, text)) => recorder.with_table(Document {
+                name: file_name(Path::new(name)),
+                media_type: "text/csv".to_owned(),
+                content: text.as_bytes().to_vec(),
+            }),
+            None => recorder,
+        };
+        Ok(Recording(Some(Open { partial, recorder })))
+    }
+
+    /// Words about what a run that broke off left behind.
+    pub(crate) fn left(&self) -> String {
+        match &self.0 {
+            Some(open) => format!("\n = done: what was written before is in {}", open.partial.display()),
+            None => String::new(),
+        }
+    }
+
+    /// Closes the file; it gets its name only if the run is complete.
+    ///
+    /// # Errors
+    /// Whatever the file system says.
+    pub(crate) fn close(self, completed: bool) -> Result<Written, Failure> {
+        let Some(open) = self.0 else {
+            return Ok(Written::Nothing);
+        };
+        let file = open.recorder.into_inner();
+        let file = file.map_err(|e| {
+            let partial = open.partial.display();
+            Failure::BrokeOff(format!("error: {partial} cannot be closed: {e}"))
+        })?;
+        let closed = match completed {
+            true => file.publish().map(Written::Complete),
+            false => file.keep().map(Written::Partial),
+        };
+        closed.map_err(|problem| {
+            let partial = open.partial.display();
+            Failure::BrokeOff(format!("error: {problem}\n = done: the run is in {partial}"))
+        })
+    }
+}
+
+/// A file that cannot be begun.
+fn refused(problem: &FileProblem) -> Failure {
+    Failure::plain(problem.to_string())
+}
+
+impl Recorder for Recording {
+    fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
+        match &mut self.0 {
+            Some(open) => open.recorder.begin(model),
+            None => Ok(()),
+        }
+    }
+
+    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        match &mut self.0 {
+            Some(open) => open.recorder.record(sample),
+            None => Ok(Flow::Continue),
+        }
+    }
+
+    fn end(&mut self, outcome: &Outcome) -> Result<(), RecorderError> {
+        match &mut self.0 {
+            Some(open) => open.recorder.end(outcome),
+            None => Ok(()),
+        }
+    }
+}
+
+/// What the file says of where it comes from. Nothing in it depends on the day or the machine.
+fn about(args: &ScenarioArgs, opened: &Opened) -> Result<About, Failure> {
+    let name = file_name(&args.scenario);
+    let resolved = opened.loaded.explicit().to_toml();
+    let resolved = resolved.map_err(|e| Failure::plain(format!("the scenario cannot be written down: {e}")))?;
+    let media_type = match args.scenario.extension() {
+        Some(e) if e.eq_ignore_ascii_case("json") => "application/json",
+        _ => "application/toml",
+    };
+    let mut notes = BTreeMap::new();
+    if !args.overrides.is_empty() {
+        notes.insert("overrides".to_owned(), args.overrides.join("\n"));
+    }
+    Ok(About {
+        program: program(),
+        scenario: Document { name, media_type: media_type.to_owned(), content: opened.bytes.clone() },
+        resolved: Some(Document {
+            name: RESOLVED.to_owned(),
+            media_type: "application/toml".to_owned(),
+            content: resolved.into_bytes(),
+        }),
+        notes,
+    })
+}

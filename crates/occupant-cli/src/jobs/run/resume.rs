@@ -1,0 +1,204 @@
+//! `occupant run --resume`: which checkpoint of which file a run goes on from, and whether it may.
+
+use std::collections::BTreeMap;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use occupant_core::model::Model;
+use occupant_core::results::checkpoint::{Checkpoint, CheckpointError};
+use occupant_core::results::outcome::Outcome;
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::results::sample::Sample;
+use occupant_core::run::simulate::replay;
+use serde::Serialize;
+
+use super::difference::differences;
+use crate::base::failure::Failure;
+use crate::base::names::{file_name, program};
+use crate::base::sha256::sha256;
+use crate::base::talk::say;
+use crate::files::mcap::StoredRun;
+use crate::files::scenario::{self, Opened};
+
+/// Differences of scenarios that a message shows; more are counted.
+const SHOWN: usize = 8;
+
+/// What a run goes on from.
+pub(crate) struct Resumption {
+    /// The output it goes on from.
+    pub(crate) checkpoint: Checkpoint,
+    /// The outputs of the file before that.
+    pub(crate) earlier: Vec<Checkpoint>,
+    file: PathBuf,
+    sha256: String,
+}
+
+/// What `--json` says of it.
+#[derive(Serialize)]
+pub(crate) struct Resumed {
+    file: String,
+    at_s: f64,
+    output: usize,
+}
+
+impl Resumption {
+    /// Reads `file` and finds the last checkpoint that a run of the scenario would pass.
+    ///
+    /// # Errors
+    /// A file that cannot be read or holds no checkpoint; another scenario; an end that lies not after the file's.
+    pub(crate) fn find(file: &Path, opened: &Opened) -> Result<Self, Failure> {
+        let name = file.display();
+        let bytes = fs::read(file).map_err(|e| Failure::plain(format!("{name}, to resume, cannot be read: {e}")))?;
+        let stored = StoredRun::read(&bytes).map_err(|e| Failure::plain(format!("{name} cannot be resumed: {e}")))?;
+        let Some(last) = stored.checkpoints.last() else {
+            return Err(Failure::with_help(
+                format!("{name} holds no checkpoint"),
+                "only a results file of `occupant run` does, from its first complete chunk on; run the scenario from its start",
+            ));
+        };
+        same_scenario(file, &stored, opened)?;
+        let end_s = opened.model.setup().time.end_s;
+        if end_s <= last.time_s {
+            return Err(Failure::with_help(
+                format!("{name} reaches t = {} s, and the run is to end at {end_s} s", last.time_s),
+                "give a later end with --until TIME",
+            ));
+        }
+        let sha256 = sha256(&bytes);
+        let (checkpoint, earlier) = last_fitting(file, stored.checkpoints, &opened.model)?;
+        Ok(Resumption { checkpoint, earlier, file: file.to_owned(), sha256 })
+    }
+
+    /// What the new file says of it.
+    pub(crate) fn notes(&self) -> BTreeMap<String, String> {
+        let checkpoint = &self.checkpoint;
+        [
+            ("resumed_from", file_name(&self.file)),
+            ("resumed_from_sha256", self.sha256.clone()),
+            ("resumed_at_s", checkpoint.time_s.to_string()),
+            ("resumed_output", checkpoint.index.to_string()),
+        ]
+        .map(|(key, value)| (key.to_owned(), value))
+        .into()
+    }
+
+    /// Says where the run goes on, and what the summary leaves out.
+    pub(crate) fn announce(&self) {
+        let (file, at_s) = (self.file.display(), self.checkpoint.time_s);
+        say(&format!("resumed {file} at t = {at_s} s"));
+        let first = self.earlier.first().unwrap_or(&self.checkpoint);
+        if first.index > 0 {
+            say(&format!(
+                "note: {file} was itself resumed and begins at t = {} s; peaks and 3 ms levels of the summary count from there",
+                first.time_s
+            ));
+        }
+    }
+
+    /// For `--json`.
+    pub(crate) fn describe(&self) -> Resumed {
+        Resumed { file: self.file.display().to_string(), at_s: self.checkpoint.time_s, output: self.checkpoint.index }
+    }
+
+    /// Refuses to write over what is being resumed.
+    ///
+    /// # Errors
+    /// `target`, or the name that it has until it is complete, is the file.
+    pub(crate) fn keep_from(&self, target: &Path, partial: &Path) -> Result<(), Failure> {
+        let same = |a: &Path| match (fs::canonicalize(a), fs::canonicalize(&self.file)) {
+            (Ok(a), Ok(b)) => a == b,
+            _ => false,
+        };
+        match same(target) || same(partial) {
+            true => Err(Failure::with_help(
+                format!("{} would write over {}, which it resumes", target.display(), self.file.display()),
+                "choose another name with -o FILE.mcap",
+            )),
+            false => Ok(()),
+        }
+    }
+}
+
+/// The last checkpoint that fits, and those before it. A run that ended between two output times ended at no output of a
+/// longer run: then it is the one before.
+fn last_fitting(
+    file: &Path,
+    mut checkpoints: Vec<Checkpoint>,
+    model: &Model,
+) -> Result<(Checkpoint, Vec<Checkpoint>), Failure> {
+    let refused = |e| Failure::plain(format!("{} cannot be resumed: {e}", file.display()));
+    let mut reason = None;
+    while let Some(last) = checkpoints.pop() {
+        match last.check(model) {
+            Ok(()) => return Ok((last, checkpoints)),
+            Err(error @ CheckpointError::Time { .. }) => reason = reason.or(Some(error)),
+            Err(error) => return Err(refused(error)),
+        }
+    }
+    Err(match reason {
+        Some(error) => refused(error),
+        None => Failure::plain(format!("{} holds no checkpoint", file.display())),
+    })
+}
+
+/// Refuses a file of another scenario; warns of another program.
+fn same_scenario(file: &Path, stored: &StoredRun, opened: &Opened) -> Result<(), Failure> {
+    let name = file.display();
+    let theirs = scenario::stored(file, stored)?;
+    let mut found = differences(theirs.explicit(), opened.loaded.explicit())
+        .map_err(|e| Failure::plain(format!("the scenarios cannot be compared: {e}")))?;
+    let table = |loaded: &occupant_core::scenario::Loaded| loaded.table().map(|(_, text)| sha256(text.as_bytes()));
+    if table(&theirs) != table(&opened.loaded) {
+        found.push("the content of the path's table".to_owned());
+    }
+    if !found.is_empty() {
+        let more = found.len().saturating_sub(SHOWN);
+        let mut lines: String = found.iter().take(SHOWN).map(|line| format!("\n   {line}")).collect();
+        if more > 0 {
+            lines.push_str(&format!("\n   and {more} more"));
+        }
+        return Err(Failure::with_help(
+            format!(
+                "{name} is of another scenario: {} (there → here){lines}",
+                match found.len() {
+                    1 => "one difference".to_owned(),
+                    n => format!("{n} differences"),
+                }
+            ),
+            "resume with the same scenario and the same --set, or run from the start",
+        ));
+    }
+    let theirs = stored.run.get("program").map_or("?", String::as_str);
+    if theirs != program() {
+        say(&format!(
+            "warning: {name} was written by {theirs}, this is {}: the states before and after may not be of one run to the last bit",
+            program()
+        ));
+    }
+    Ok(())
+}
+
+/// Recorders that first see again what an earlier run has recorded.
+pub(crate) struct Retold<R> {
+    pub(crate) earlier: Vec<Checkpoint>,
+    /// Who sees them.
+    pub(crate) to: R,
+}
+
+impl<R: Recorder> Recorder for Retold<R> {
+    fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
+        self.to.begin(model)?;
+        for checkpoint in &self.earlier {
+            replay(model, checkpoint, &mut self.to)?;
+        }
+        Ok(())
+    }
+
+    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        self.to.record(sample)
+    }
+
+    fn end(&mut self, outcome: &Outcome) -> Result<(), RecorderError> {
+        self.to.end(outcome)
+    }
+}

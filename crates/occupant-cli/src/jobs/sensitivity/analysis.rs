@@ -1,0 +1,217 @@
+//! The work of `occupant sensitivity`.
+
+use std::time::Instant;
+
+use occupant_core::model::Model;
+use occupant_core::problem::Problem;
+use occupant_core::results::channel::{Channel, find, matching};
+use occupant_core::results::outcome::Status;
+use occupant_core::results::summary::{Figure, Summarizer};
+use occupant_core::run::simulate::simulate;
+use occupant_core::scenario::{Draft, Resolver};
+use occupant_study::sensitivity::finite::{CHANGES, Comparison, Finite, compare, finite_changes};
+use occupant_study::sensitivity::measures::{Derivatives, Values, Wish, chosen, derivatives, plain_values};
+use occupant_study::sensitivity::{Built, Parameter, Trajectory, follow, parameter};
+
+use crate::base::failure::Failure;
+
+/// What is asked for, all of it there.
+pub(crate) struct Asked<'a> {
+    pub(crate) parameters: Vec<Parameter<'a>>,
+    pub(crate) wish: Wish,
+    /// Units of the figures.
+    pub(crate) units: Vec<&'static str>,
+}
+
+/// What came of it.
+pub(crate) struct Analysis {
+    /// The plain run's values.
+    pub(crate) values: Values,
+    pub(crate) trajectory: Trajectory,
+    /// What the models are built of, by parameter.
+    pub(crate) built: Vec<Built>,
+    pub(crate) derivatives: Vec<Derivatives>,
+    /// Finite changes by parameter.
+    pub(crate) finite: Vec<Vec<Finite>>,
+    /// By parameter, then by figure.
+    pub(crate) comparisons: Vec<Vec<Comparison>>,
+    /// Time of a plain run and of the run in duals beside it, s.
+    pub(crate) cost_s: [f64; 2],
+}
+
+/// Words of the command line.
+pub(crate) struct Words<'a> {
+    pub(crate) to: &'a [String],
+    pub(crate) of: &'a [String],
+    pub(crate) channels: &'a [String],
+}
+
+/// Finds what the words ask for.
+///
+/// # Errors
+/// Everything that is not there, at once.
+pub(crate) fn ask<'a>(
+    draft: &'a Draft,
+    model: &Model,
+    resolver: Resolver<'a>,
+    words: &Words<'_>,
+) -> Result<Asked<'a>, Failure> {
+    let mut wrong: Vec<String> = Vec::new();
+    let mut parameters: Vec<Parameter<'a>> = Vec::new();
+    for path in split(words.of) {
+        if parameters.iter().any(|p| p.name == path) {
+            continue;
+        }
+        match parameter(draft, &path, resolver) {
+            Ok(parameter) => parameters.push(parameter),
+            Err(misplaced) => wrong.push(told("--of", &misplaced)),
+        }
+    }
+    let mut channels: Vec<Channel> = Vec::new();
+    for name in split(words.channels) {
+        match fitting(model, &name) {
+            Ok(found) => channels.extend(found),
+            Err(found) => wrong.push(found),
+        }
+    }
+    let mut seen = std::collections::HashSet::new();
+    channels.retain(|c| seen.insert(c.name.clone()));
+    let figures = figures(model)?;
+    let mut names: Vec<String> = Vec::new();
+    for name in split(words.to) {
+        match chosen(&figures, &name) {
+            Ok(found) => names.extend(found),
+            Err(misplaced) => wrong.push(told("--to", &misplaced)),
+        }
+    }
+    let mut seen = std::collections::HashSet::new();
+    names.retain(|n| seen.insert(n.clone()));
+    if !wrong.is_empty() {
+        let count = match wrong.len() {
+            1 => "1 error".to_owned(),
+            n => format!("{n} errors"),
+        };
+        return Err(Failure::CouldNotRun(format!("{}\n\n{count}, nothing was computed", wrong.join("\n"))));
+    }
+    let unit = |name: &String| figures.iter().find(|f| f.name == *name).map_or("1", |f| f.unit);
+    Ok(Asked { parameters, units: names.iter().map(unit).collect(), wish: Wish { figures: names, channels } })
+}
+
+/// Lists with commas, several of them; a comma within double quotes belongs to a name.
+fn split(lists: &[String]) -> Vec<String> {
+    let mut items = Vec::new();
+    for list in lists {
+        let mut quoted = false;
+        let parts = list.split(|c: char| {
+            quoted ^= c == '"';
+            c == ',' && !quoted
+        });
+        items.extend(parts.map(|part| part.trim().to_owned()));
+    }
+    items
+}
+
+fn told(flag: &str, misplaced: &Problem) -> String {
+    let mut text = format!("error: {flag}: {}\n = expected: {}", misplaced.found, misplaced.expected);
+    if let Some(hint) = &misplaced.hint {
+        text.push_str(&format!("\n = help: {hint}"));
+    }
+    text
+}
+
+fn fitting(model: &Model, name: &str) -> Result<Vec<Channel>, String> {
+    let unknown = |hint: Option<String>| {
+        let help = hint.map_or_else(
+            || "names are such as head.acceleration.x, belt.lap.force; `*` stands for anything".to_owned(),
+            |nearest| format!("did you mean `{nearest}`?"),
+        );
+        format!("error: --channels: no channel is called `{name}`\n = help: {help}")
+    };
+    if name.contains('*') {
+        let found = matching(model, name);
+        return match found.is_empty() {
+            true => Err(unknown(None)),
+            false => Ok(found),
+        };
+    }
+    find(model, name).map(|c| vec![c]).map_err(unknown)
+}
+
+/// The figures of the plain run.
+fn figures(model: &Model) -> Result<Vec<Figure>, Failure> {
+    let mut summarizer = Summarizer::new();
+    let outcome =
+        simulate(model, &mut summarizer).map_err(|e| Failure::BrokeOff(format!("error: the run broke off: {e}")))?;
+    if let Status::Failed(reason) = outcome.status {
+        return Err(Failure::BrokeOff(format!("error: the run was not completed, so it has no derivative: {reason}")));
+    }
+    let summary = summarizer.summary(None);
+    Ok(summary.map_or_else(Vec::new, |s| s.figures(model)))
+}
+
+/// Computes all derivatives.
+///
+/// # Errors
+/// Every parameter that has none; a run that cannot be followed.
+pub(crate) fn analyse(model: &Model, asked: &Asked<'_>) -> Result<Analysis, Failure> {
+    let mut built = Vec::with_capacity(asked.parameters.len());
+    let mut wrong = Vec::new();
+    for parameter in &asked.parameters {
+        match Built::new(model, parameter) {
+            Ok(one) => built.push(one),
+            Err(trouble) => wrong.push(format!("error: --of: {trouble}")),
+        }
+    }
+    if !wrong.is_empty() {
+        return Err(Failure::CouldNotRun(wrong.join("\n")));
+    }
+    let broke_off = |e: &dyn std::fmt::Display| Failure::BrokeOff(format!("error: {e}"));
+    let begun = Instant::now();
+    simulate(model, ()).map_err(|e| broke_off(&e))?;
+    let plain_s = begun.elapsed().as_secs_f64();
+    let begun = Instant::now();
+    let trajectory = follow(model, &mut built).map_err(|e| broke_off(&e))?;
+    let dual_s = begun.elapsed().as_secs_f64();
+    let values = plain_values(model, &trajectory, &asked.wish).map_err(|e| broke_off(&e))?;
+    let (mut all, mut finite, mut comparisons) = (Vec::new(), Vec::new(), Vec::new());
+    for (k, parameter) in asked.parameters.iter().enumerate() {
+        let found = derivatives(model, parameter, &trajectory, k, &asked.wish);
+        let found = found.map_err(|e| broke_off(&e))?;
+        let changes = match asked.wish.figures.is_empty() {
+            true => Vec::new(),
+            false => finite_changes(parameter, &CHANGES, &asked.wish.figures),
+        };
+        let one = |i: usize| {
+            let value = values.figures[i];
+            compare(&found.figures[i], value, parameter.size, &changes, i)
+        };
+        comparisons.push((0..asked.wish.figures.len()).map(one).collect());
+        all.push(found);
+        finite.push(changes);
+    }
+    Ok(Analysis { values, trajectory, built, derivatives: all, finite, comparisons, cost_s: [plain_s, dual_s] })
+}
+
+/// Relative sensitivity: parts of the figure per part of the parameter; none where one of them is 0.
+pub(crate) fn relative(derivative: f64, value: f64, nominal: f64) -> Option<f64> {
+    let relative = derivative * nominal / value;
+    (value != 0.0 && nominal != 0.0 && relative.is_finite()).then_some(relative)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_are_split_at_commas_outside_quotes() {
+        let lists = ["a.b, c".to_owned(), "surfaces.\"x, y\".k1".to_owned()];
+        assert_eq!(split(&lists), ["a.b", "c", "surfaces.\"x, y\".k1"]);
+    }
+
+    #[test]
+    fn nothing_is_relative_to_nothing() {
+        assert_eq!(relative(3.0, 2.0, 4.0), Some(6.0));
+        assert_eq!(relative(3.0, 0.0, 4.0), None);
+        assert_eq!(relative(3.0, 2.0, 0.0), None);
+    }
+}

@@ -1,0 +1,70 @@
+//! Time histories of derivatives as tables: the channel, then its derivative by each parameter.
+
+use occupant_core::model::Model;
+
+use super::analysis::{Analysis, Asked};
+use super::units::{ascii, per};
+use crate::base::names::program;
+use crate::files::export::{About, ColumnAbout};
+use crate::files::history::{Column, Histories, UnitChoice, shown};
+
+/// Channels and their derivatives over the outputs.
+pub(crate) fn histories(asked: &Asked<'_>, found: &Analysis) -> Histories {
+    let mut columns = Vec::new();
+    for (c, channel) in asked.wish.channels.iter().enumerate() {
+        let mut column = |values: Vec<f64>| {
+            columns.push(Column { channel: channel.clone(), class: None, values });
+        };
+        column(found.values.channels[c].clone());
+        for derivatives in &found.derivatives {
+            column(derivatives.channels[c].iter().map(|s| s.value).collect());
+        }
+    }
+    let outputs = &found.trajectory.checkpoints;
+    Histories { time_s: outputs.iter().map(|o| o.time_s).collect(), columns, notes: Vec::new() }
+}
+
+/// What the columns are; `source` is the scenario's name and SHA-256.
+pub(crate) fn about(model: &Model, asked: &Asked<'_>, found: &Analysis, [source, sha256]: [&str; 2]) -> About {
+    let mut columns = vec![ColumnAbout {
+        name: "time".to_owned(),
+        unit: "s".to_owned(),
+        frame: "none",
+        filter: "none".to_owned(),
+        meaning: "time of the run".to_owned(),
+    }];
+    for channel in &asked.wish.channels {
+        let unit = shown(channel.unit, UnitChoice::Si).ascii;
+        let column = |name: String, unit: String, meaning: String| ColumnAbout {
+            name,
+            unit,
+            frame: channel.axes.name(),
+            filter: "none".to_owned(),
+            meaning,
+        };
+        columns.push(column(channel.name.clone(), unit.to_owned(), channel.meaning.clone()));
+        for parameter in &asked.parameters {
+            columns.push(column(
+                format!("d({})/d({})", channel.name, parameter.name),
+                ascii(&per(unit, &parameter.unit)),
+                format!("derivative of {} by {}", channel.name, parameter.name),
+            ));
+        }
+    }
+    let events = found.trajectory.events.len();
+    let mut notes: Vec<String> = found.built.iter().flat_map(|b| b.notes.clone()).collect();
+    notes
+        .push(format!("derivatives at fixed times, in SI units; {events} places of the run where they are not smooth"));
+    About {
+        program: program(),
+        title: model.setup().title.clone(),
+        source: source.to_owned(),
+        source_sha256: sha256.to_owned(),
+        complete: true,
+        units: UnitChoice::Si.name(),
+        filter: "none".to_owned(),
+        filter_coefficients: None,
+        notes,
+        columns,
+    }
+}

@@ -1,0 +1,231 @@
+//! The answer in words: a table of derivatives, how far they hold, and where the run is not smooth.
+
+use occupant_core::model::Model;
+use occupant_study::sensitivity::events::{Change, Event, Happening, Touching};
+use occupant_study::sensitivity::finite::Verdict;
+
+use super::analysis::{Analysis, Asked, relative};
+use super::units::per;
+use crate::base::text_table::{Align, NONE, Table, facts};
+
+/// Distance of two extrapolations of the vehicle's motion that is told as a kink.
+const KINK: f64 = 1e-2;
+/// Events told one by one.
+const TOLD: usize = 30;
+
+/// The whole answer.
+pub(crate) fn text(model: &Model, asked: &Asked<'_>, found: &Analysis) -> String {
+    let mut text = heading(model, asked, found);
+    if !asked.wish.figures.is_empty() {
+        text.push('\n');
+        text.push_str(&table(asked, found));
+        text.push_str(
+            "\nrelative: % of the measure per % of the parameter. holds: finite changes, run in full, differ from the\n\
+             derivative by no more than this part of it, for changes of the parameter up to that part of its value.\n",
+        );
+    }
+    text.push('\n');
+    text.push_str(&events(model, &found.trajectory.events));
+    if found.trajectory.dropped_events > 0 {
+        text.push_str(&format!("and {} more\n", found.trajectory.dropped_events));
+    }
+    for note in found.built.iter().flat_map(|b| &b.notes) {
+        text.push_str(&format!("note: {note}\n"));
+    }
+    for (parameter, built) in asked.parameters.iter().zip(&found.built) {
+        if let Some((doubt, time_s)) = built.path_doubt().filter(|(doubt, _)| *doubt > KINK) {
+            text.push_str(&format!(
+                "note: {}: the vehicle's motion has a kink at this value (at {:.1} ms, by {:.0} %): the two sides differ\n",
+                parameter.name,
+                time_s * 1e3,
+                doubt * 100.0
+            ));
+        }
+    }
+    text
+}
+
+fn heading(model: &Model, asked: &Asked<'_>, found: &Analysis) -> String {
+    let outcome = &found.trajectory.outcome;
+    let worst = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0_f64, f64::max);
+    let constants = worst(&mut found.built.iter().map(|b| b.doubt));
+    let figures = found.derivatives.iter().flat_map(|d| &d.figures);
+    let figures = worst(&mut figures.filter(|s| s.value != 0.0).map(|s| s.doubt / s.value.abs()));
+    let mut accuracy = format!("the start and all constants to {constants:.0e}");
+    if let Some((doubt, time_s)) = found.built.iter().filter_map(|b| b.path_doubt()).max_by(|a, b| a.0.total_cmp(&b.0))
+    {
+        accuracy.push_str(&format!(", the vehicle's motion to {doubt:.0e} (worst at {:.1} ms)", time_s * 1e3));
+    }
+    if !asked.wish.figures.is_empty() {
+        accuracy.push_str(&format!(", measures to {figures:.0e}"));
+    }
+    let [plain, dual] = found.cost_s;
+    let count = match asked.parameters.len() {
+        1 => "1 parameter".to_owned(),
+        n => format!("{n} parameters"),
+    };
+    facts(&[
+        ("scenario", model.setup().title.clone()),
+        (
+            "run",
+            format!(
+                "{} steps to {:.1} ms; every value of the run in dual numbers is that of the plain run to the bit",
+                outcome.effort.steps,
+                outcome.time_s * 1e3
+            ),
+        ),
+        ("extrapolated", accuracy),
+        ("cost", format!("{:.1} times the plain run for {count}", dual / plain)),
+    ])
+}
+
+fn table(asked: &Asked<'_>, found: &Analysis) -> String {
+    let mut table = Table::new(&[
+        ("measure", Align::Left),
+        ("value", Align::Right),
+        ("parameter", Align::Left),
+        ("value", Align::Right),
+        ("derivative", Align::Right),
+        ("unit", Align::Left),
+        ("relative", Align::Right),
+        ("holds", Align::Left),
+    ]);
+    for (i, measure) in asked.wish.figures.iter().enumerate() {
+        let (value, unit) = (found.values.figures[i], asked.units[i]);
+        for (k, parameter) in asked.parameters.iter().enumerate() {
+            let slope = found.derivatives[k].figures[i];
+            let relative = relative(slope.value, value, parameter.nominal);
+            table.row([
+                measure.clone(),
+                with_unit(value, unit),
+                parameter.name.clone(),
+                with_unit(parameter.nominal, &parameter.unit),
+                number(slope.value),
+                per(unit, &parameter.unit),
+                relative.map_or_else(|| NONE.to_owned(), |r| format!("{r:+.3}")),
+                words(&found.comparisons[k][i].verdict, parameter.nominal == 0.0),
+            ]);
+        }
+    }
+    table.text()
+}
+
+fn with_unit(value: f64, unit: &str) -> String {
+    match unit {
+        "1" | "" => number(value),
+        _ => format!("{} {unit}", number(value)),
+    }
+}
+
+/// Five digits.
+fn number(value: f64) -> String {
+    match value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
+        true => {
+            let digits = match value.abs() {
+                x if x >= 1e4 => 0,
+                x if x >= 1e3 => 1,
+                x if x >= 1e2 => 2,
+                x if x >= 1e1 => 3,
+                x if x >= 1.0 || x == 0.0 => 4,
+                x if x >= 0.1 => 5,
+                x if x >= 0.01 => 6,
+                _ => 7,
+            };
+            format!("{value:.digits$}")
+        }
+        false => format!("{value:.4e}"),
+    }
+}
+
+fn words(verdict: &Verdict, of_zero: bool) -> String {
+    let part = |part: f64| match of_zero {
+        // a parameter of 0 has no parts: its size stands for it
+        true => format!("{} of its size", percent(part)),
+        false => percent(part),
+    };
+    match *verdict {
+        Verdict::Holds { off, up_to } => {
+            format!("within {} up to ±{}", percent(off), part(up_to))
+        }
+        Verdict::NoInfluence => "no influence".to_owned(),
+        Verdict::NotReliable { off, at } => format!("not to be relied upon: {} off at ±{}", percent(off), part(at)),
+        Verdict::Unchecked => "not checked: no run beside it".to_owned(),
+    }
+}
+
+/// Two digits at least.
+fn percent(part: f64) -> String {
+    let value = part * 100.0;
+    match value {
+        x if x >= 1000.0 => "> 1000 %".to_owned(),
+        x if x >= 10.0 => format!("{x:.0} %"),
+        x if x >= 0.995 => format!("{x:.1} %").replace(".0 %", " %"),
+        x if x >= 0.0095 => {
+            let text = format!("{x:.2}");
+            format!("{} %", text.trim_end_matches('0').trim_end_matches('.'))
+        }
+        _ => format!("{value:.0e} %"),
+    }
+}
+
+/// Jumps and what begins or ends, one by one; what only bends a force, by number.
+fn events(model: &Model, events: &[Event]) -> String {
+    let is_told = |e: &&Event| {
+        let minor = matches!(
+            e.happening,
+            Happening::Contact {
+                what: Touching::Unloads | Touching::Reloads | Touching::Stiffens | Touching::SlipsBack,
+                ..
+            }
+        );
+        e.change == Change::Jump || !minor
+    };
+    let jumps = events.iter().filter(|e| e.change == Change::Jump).count();
+    let mut text = format!(
+        "{} places where the motion is not smooth: {jumps} where a force jumps, {} where it bends\n",
+        events.len(),
+        events.len() - jumps
+    );
+    let told: Vec<&Event> = events.iter().filter(is_told).collect();
+    for event in told.iter().take(TOLD) {
+        let jump = match event.change {
+            Change::Jump => format!(": a force jumps by {:.0} N", event.jump_n),
+            Change::Kink => String::new(),
+        };
+        let words = event.happening.words(model);
+        text.push_str(&format!("{:9.2} ms  {words}{jump}\n", event.time_s * 1e3));
+    }
+    if told.len() > TOLD {
+        text.push_str(&format!("and {} more of these\n", told.len() - TOLD));
+    }
+    let count = |what: Touching| {
+        let fits = |e: &&Event| matches!(e.happening, Happening::Contact { what: w, .. } if w == what);
+        events.iter().filter(fits).count()
+    };
+    text.push_str(&format!(
+        "besides: springs of contacts unload {} times, load again {} times, reach their second slope {} times; friction reverses {} times\n",
+        count(Touching::Unloads),
+        count(Touching::Reloads),
+        count(Touching::Stiffens),
+        count(Touching::SlipsBack)
+    ));
+    if jumps > 0 {
+        text.push_str(
+            "Where a force jumps the derivative lacks the jump times the shift of its instant; the finite changes have it.\n",
+        );
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_are_told_as_per_cent() {
+        let told: Vec<String> = [1e-4, 1e-3, 0.01, 0.0123, 0.2, 30.0].map(percent).into();
+        assert_eq!(told, ["0.01 %", "0.1 %", "1 %", "1.2 %", "20 %", "> 1000 %"]);
+        assert_eq!(number(-0.001234567), "-0.0012346");
+        assert_eq!(number(1234567.0), "1.2346e6");
+    }
+}

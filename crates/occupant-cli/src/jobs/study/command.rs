@@ -1,0 +1,80 @@
+//! The shell command that runs one sample again.
+//!
+//! It names the copies in the folder of the sweep, so that it gives the same figures wherever the folder is moved, and says
+//! the values themselves: factors and offsets stand as what they come to, in digits that give the same bits back.
+
+use std::path::Path;
+
+use occupant_core::scenario::text::Value as Node;
+
+use crate::base::names::file_name;
+use crate::files::study_folder::manifest::Manifest;
+use crate::files::study_folder::texts::NamedBy;
+use crate::jobs::sweep::plan::Plan;
+
+/// The key under which a scenario names a file.
+const FILE: &str = "path.file";
+
+/// The command that runs a run of the study again, given in the folder of the sweep. None where no shell can say it.
+pub(crate) fn command(plan: &Plan, manifest: &Manifest, run: u64) -> Option<String> {
+    let (args, _) = plan.command(run);
+    let base = manifest.texts.iter().find(|t| t.by == NamedBy::StudyAsBase)?;
+    let mut words = vec!["occupant".to_owned(), "run".to_owned(), base.copy.clone()];
+    let table = table(plan, manifest, run);
+    for change in args.overrides.into_iter().chain(table) {
+        words.extend(["--set".to_owned(), change]);
+    }
+    words.extend(["-o".to_owned(), format!("sample-{run:06}.mcap")]);
+    let quoted: Option<Vec<String>> = words.iter().map(|w| quoted(w)).collect();
+    quoted.map(|words| words.join(" "))
+}
+
+/// The file that the sample's scenario names, by the name of its copy, which stands beside that of the scenario.
+fn table(plan: &Plan, manifest: &Manifest, run: u64) -> Option<String> {
+    let mut draft = plan.study().draft(run).ok()?;
+    let found = draft.get(FILE).ok()?;
+    let Some((_, Node::String(name))) = found.first() else {
+        return None;
+    };
+    let mut texts = manifest.texts.iter();
+    let text = texts.find(|t| t.by == NamedBy::Scenario && t.name == *name)?;
+    let copy = file_name(Path::new(&text.copy));
+    Some(format!("{FILE}={}", serde_json::Value::from(copy)))
+}
+
+/// A word as a POSIX shell reads it back unchanged; none if it holds a character that no argument can.
+pub(crate) fn quoted(word: &str) -> Option<String> {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_./=,:@%+-".contains(c);
+    match word {
+        _ if word.contains('\0') => None,
+        _ if !word.is_empty() && word.chars().all(plain) => Some(word.to_owned()),
+        _ => Some(format!("'{}'", word.replace('\'', "'\\''"))),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::quoted;
+
+    #[test]
+    fn a_shell_reads_back_what_was_quoted() {
+        let words = [
+            "a",
+            "joints.*.damping=2",
+            "it's $HOME `x` \"y\" \\ !",
+            "",
+            "two\nlines",
+            "é 20 N·m",
+            "a'b''c",
+            "~",
+            "#no",
+        ];
+        for word in words {
+            let script = format!("printf %s {}", quoted(word).unwrap());
+            let output = std::process::Command::new("sh").args(["-c", &script]).output();
+            assert_eq!(output.unwrap().stdout, word.as_bytes(), "{word}");
+        }
+        assert_eq!(quoted("a\0b"), None);
+        assert_eq!(quoted("speed=3.5").as_deref(), Some("speed=3.5"));
+    }
+}

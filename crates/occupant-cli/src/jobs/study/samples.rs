@@ -1,0 +1,103 @@
+//! A table of samples: what each one was given, and what came of it. All analyses are made from it alone.
+
+use occupant_study::{Role, Study};
+
+/// A table of samples, in the order of their numbers.
+#[derive(Clone, Debug, Default)]
+pub struct Samples {
+    /// Numbers of the samples, increasing; those that are not finished are not there.
+    pub(crate) numbers: Vec<u64>,
+    /// What each is in its design.
+    pub(crate) roles: Vec<Role>,
+    /// By how much a step of Morris moved its parameter, as a part of its range.
+    pub(crate) steps: Vec<Option<f64>>,
+    /// What was varied.
+    pub inputs: Vec<Input>,
+    /// What came of it.
+    pub responses: Vec<Response>,
+}
+
+/// A parameter's column.
+#[derive(Clone, Debug, Default)]
+pub struct Input {
+    pub(crate) name: String,
+    /// SI unit, empty for plain numbers and words.
+    pub(crate) unit: String,
+    /// Its values, NaN where a sample has none; of words, their places in `words`.
+    pub values: Vec<f64>,
+    /// The words of a parameter that has words for values; none for one with numbers.
+    pub(crate) words: Option<Vec<String>>,
+}
+
+/// A figure's column.
+#[derive(Clone, Debug, Default)]
+pub struct Response {
+    pub(crate) name: String,
+    pub(crate) unit: String,
+    /// Its values, NaN where a run failed or has none.
+    pub values: Vec<f64>,
+    /// With an ensemble: samples whose members agree, and samples whose members do not.
+    pub(crate) stable: [u64; 2],
+}
+
+impl Samples {
+    /// A table without rows, for a study and responses by name and unit.
+    pub fn new(study: &Study, responses: &[(String, String)]) -> Self {
+        let input = |parameter: &occupant_study::Parameter| Input {
+            name: parameter.name.clone(),
+            unit: parameter.unit.to_owned(),
+            ..Input::default()
+        };
+        let response = |(name, unit): &(String, String)| Response {
+            name: name.clone(),
+            unit: unit.clone(),
+            ..Response::default()
+        };
+        Samples {
+            inputs: study.parameters().iter().map(input).collect(),
+            responses: responses.iter().map(response).collect(),
+            ..Samples::default()
+        }
+    }
+
+    /// How many samples there are.
+    pub(crate) fn len(&self) -> usize {
+        self.numbers.len()
+    }
+
+    /// Whether there is none.
+    pub(crate) fn is_empty(&self) -> bool {
+        self.numbers.is_empty()
+    }
+
+    /// The row of a sample, if it is there.
+    pub(crate) fn row_of(&self, number: u64) -> Option<usize> {
+        self.numbers.binary_search(&number).ok()
+    }
+
+    /// Adds the row of a sample; `run` is the number of its first run.
+    pub fn add(&mut self, study: &Study, run: u64) {
+        self.numbers.push(study.sample_and_member(run).0);
+        self.roles.push(study.role(run));
+        self.steps.push(study.morris_step(run));
+    }
+}
+
+impl Input {
+    /// Whether its values are numbers.
+    pub(crate) fn is_number(&self) -> bool {
+        self.words.is_none()
+    }
+
+    /// Whether it takes more than one value.
+    pub(crate) fn varies(&self) -> bool {
+        varies(&self.values)
+    }
+}
+
+/// Whether finite numbers differ by more than rounding.
+pub(crate) fn varies(values: &[f64]) -> bool {
+    let finite = || values.iter().copied().filter(|x| x.is_finite());
+    let (low, high) = (finite().fold(f64::INFINITY, f64::min), finite().fold(f64::NEG_INFINITY, f64::max));
+    high - low > 1e-12 * low.abs().max(high.abs())
+}

@@ -1,0 +1,158 @@
+//! The sections of the page.
+
+use super::analysis::Analysis;
+use super::command::command;
+use super::samples::Response;
+use super::shown::{shown, shown_unit, with_unit};
+use super::{Report, caution, describe, matters, pictures};
+use crate::pictures::html::{Cell, Html};
+
+pub(crate) fn study(html: &mut Html, report: &Report) {
+    let opened = &report.opened;
+    let (study, manifest) = (opened.plan.study(), &opened.manifest);
+    let ends = &report.gathered.ends;
+    let mut facts = vec![
+        ("base scenario", study.base_name().to_owned()),
+        ("design", describe::design(study)),
+        ("seed", study.seed().to_string()),
+        ("runs", format!("{} of {} finished", ends.finished, ends.planned)),
+    ];
+    if let Some(ensemble) = study.ensemble() {
+        let each = format!(
+            "{} members for each sample, {} small changes; the response of a sample is the median of its members",
+            ensemble.members,
+            ensemble.perturbations.len()
+        );
+        facts.push(("ensemble", each));
+    }
+    if !manifest.overrides.is_empty() {
+        facts.push(("changes of the command line", manifest.overrides.join(", ")));
+    }
+    html.text("h2", "The study");
+    html.facts(&facts);
+}
+
+pub(crate) fn varied(html: &mut Html, report: &Report) {
+    let study = report.opened.plan.study();
+    if study.parameters().is_empty() {
+        return;
+    }
+    html.text("h2", "What is varied");
+    let rows = study.parameters().iter().map(|p| {
+        vec![
+            Cell::Words(p.name.clone()),
+            Cell::Words(describe::law(p)),
+            Cell::Words(describe::nominal(p)),
+            Cell::Words(describe::places(p)),
+        ]
+    });
+    let head = ["parameter", "values", "in the base", "where"];
+    html.table(&head, &rows.collect::<Vec<_>>());
+}
+
+/// How the runs ended.
+pub(crate) fn ends(html: &mut Html, report: &Report) {
+    let ends = &report.gathered.ends;
+    html.text("h2", "How the runs ended");
+    let mut facts = vec![("completed", ends.completed.to_string())];
+    for (name, count) in [
+        ("completed, energy balance off by more than 10 %: left out", ends.doubtful),
+        ("failed", ends.failed),
+        ("refused", ends.refused),
+        ("the program broke off", ends.broken),
+        ("not finished yet", ends.planned - ends.finished),
+    ] {
+        if count > 0 {
+            facts.push((name, count.to_string()));
+        }
+    }
+    html.facts(&facts);
+    if ends.reasons.is_empty() {
+        return;
+    }
+    let row = |(reason, count, run): &(String, u64, u64)| {
+        vec![Cell::Number(count.to_string()), Cell::Number(run.to_string()), Cell::Words(reason.clone())]
+    };
+    let mut rows: Vec<Vec<Cell>> = ends.reasons.iter().map(row).collect();
+    if ends.other_reasons > 0 {
+        rows.push(vec![
+            Cell::Number(ends.other_reasons.to_string()),
+            Cell::Number("–".to_owned()),
+            Cell::Words("other reasons".to_owned()),
+        ]);
+    }
+    html.table(&["runs", "first", "reason"], &rows);
+}
+
+pub(crate) fn response(html: &mut Html, report: &Report, analysis: &Analysis) {
+    let samples = &report.gathered.samples;
+    let response = &samples.responses[analysis.response];
+    html.raw(&format!("<section id=\"r{}\">\n", analysis.response));
+    html.text("h2", &heading(response));
+    spread(html, response, analysis);
+    if analysis.spread.is_some() && !analysis.constant {
+        matters::by_design(html, report, analysis);
+        matters::linear(html, report, analysis);
+        pictures::pictures(html, report, analysis);
+    }
+    extremes(html, report, analysis);
+    html.raw("</section>\n");
+}
+
+fn heading(response: &Response) -> String {
+    match shown_unit(&response.unit).1 {
+        "" => response.name.clone(),
+        unit => format!("{}, {unit}", response.name),
+    }
+}
+
+fn spread(html: &mut Html, response: &Response, analysis: &Analysis) {
+    let Some(s) = analysis.spread else {
+        html.text("p class=\"note\"", "No sample that is there has this figure.");
+        return;
+    };
+    let lacking = caution::lacking(Some(&s));
+    if let Some(why) = &lacking {
+        html.text("p class=\"note\"", &format!("† {why}."));
+    }
+    let [stable, unstable] = response.stable;
+    if unstable > 0 {
+        html.text(
+            "p class=\"note\"",
+            &format!(
+                "In {unstable} of {} samples the members of the ensemble do not agree on this figure.",
+                stable + unstable
+            ),
+        );
+    }
+    if analysis.constant {
+        let value = with_unit(s.median, &response.unit);
+        html.text("p", &format!("The same in all {} samples: {value}.", s.members));
+        return;
+    }
+    let head = ["samples", "least", "5 %", "median", "95 %", "greatest"];
+    let mut row = vec![Cell::Number(s.members.to_string())];
+    let values = [s.least, s.q05, s.median, s.q95, s.greatest];
+    row.extend(values.map(|x| Cell::of(shown(x, &response.unit), lacking.clone())));
+    html.table(&head, &[row]);
+}
+
+fn extremes(html: &mut Html, report: &Report, analysis: &Analysis) {
+    let samples = &report.gathered.samples;
+    let response = &samples.responses[analysis.response];
+    let found = &report.gathered.extremes[analysis.response];
+    if found.worst.is_empty() {
+        return;
+    }
+    html.text("h3", "Worst and best runs");
+    for (word, runs) in [("greatest", &found.worst), ("least", &found.best)] {
+        for (value, run) in runs {
+            let value = with_unit(*value, &response.unit);
+            html.text("p class=\"run\"", &format!("Run {run}, {word}: {value}"));
+            match command(&report.opened.plan, &report.opened.manifest, *run) {
+                Some(command) => html.text("pre class=\"command\"", &command),
+                None => html.text("p class=\"remark\"", "No shell command can say its values."),
+            }
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! Numbers as people read them.
+
+use crate::jobs::ensemble::text::shown_unit as shown_figure_unit;
+
+/// SI units in one unit that is shown, and its symbol; empty for a plain number.
+pub(crate) fn shown_unit(unit: &str) -> (f64, &str) {
+    match unit {
+        "rad" => (1.0_f64.to_radians(), "°"),
+        "rad/s" => (1.0_f64.to_radians(), "°/s"),
+        unit => shown_figure_unit(unit),
+    }
+}
+
+/// A number in its shown unit.
+pub(crate) fn shown(value: f64, unit: &str) -> String {
+    significant(value / shown_unit(unit).0)
+}
+
+/// A number with its shown unit.
+pub(crate) fn with_unit(value: f64, unit: &str) -> String {
+    match shown_unit(unit).1 {
+        "" => shown(value, unit),
+        "°" => format!("{}°", shown(value, unit)),
+        symbol => format!("{} {symbol}", shown(value, unit)),
+    }
+}
+
+/// Four significant digits; an exponent where no reader would count zeros.
+pub(crate) fn significant(value: f64) -> String {
+    let size = value.abs();
+    let text = match size {
+        _ if !value.is_finite() => return "–".to_owned(),
+        0.0 => return "0".to_owned(),
+        _ if !(1e-4..1e6).contains(&size) => format!("{value:.3e}"),
+        _ => {
+            let decimals = (3.0 - size.log10().floor()).clamp(0.0, 8.0) as usize;
+            format!("{value:.decimals$}")
+        }
+    };
+    text.replace('-', "−")
+}
+
+/// The same without zeros at the end: of numbers that somebody gave.
+pub(crate) fn given(value: f64, unit: &str) -> String {
+    let text = shown(value, unit);
+    match text.contains('.') && !text.contains('e') {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
+    }
+}
+
+/// A given number with its shown unit.
+pub(crate) fn given_with_unit(value: f64, unit: &str) -> String {
+    match shown_unit(unit).1 {
+        "" => given(value, unit),
+        "°" => format!("{}°", given(value, unit)),
+        symbol => format!("{} {symbol}", given(value, unit)),
+    }
+}
+
+/// Three decimals: parts and correlations.
+pub(crate) fn part(value: f64) -> String {
+    match value.is_finite() {
+        true => format!("{:.3}", value + 0.0).replace('-', "−"),
+        false => "–".to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn four_digits_are_shown() {
+        let cases = [
+            (1234.56, "1235"),
+            (-0.012345, "−0.01235"),
+            (0.0, "0"),
+            (3.2e7, "3.200e7"),
+            (1e-9, "1.000e−9"),
+            (f64::NAN, "–"),
+        ];
+        for (value, text) in cases {
+            assert_eq!(significant(value), text);
+        }
+        assert_eq!(with_unit(0.5, "m"), "500.0 mm");
+        assert_eq!(given_with_unit(0.5, "m"), "500 mm");
+        assert_eq!((given(100.0, ""), given(3e7, "")), ("100".to_owned(), "3.000e7".to_owned()));
+        assert_eq!(with_unit(std::f64::consts::PI, "rad"), "180.0°");
+        assert_eq!((part(-0.25), part(f64::NAN)), ("−0.250".to_owned(), "–".to_owned()));
+    }
+}

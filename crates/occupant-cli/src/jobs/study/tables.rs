@@ -1,0 +1,122 @@
+//! The numbers of a report as Parquet: one table of all numbers, one of the samples that they are made of.
+
+use std::path::{Path, PathBuf};
+
+use super::Report;
+use super::numbers::{Number, numbers};
+use super::samples::Samples;
+use crate::base::failure::Failure;
+use crate::base::output_file::Existing;
+use crate::files::table::{Cell, Form, Kind, TableFile};
+
+const COLUMNS: [(&str, Kind); 12] = [
+    ("response", Kind::Text),
+    ("quantity", Kind::Text),
+    ("parameter", Kind::Text),
+    ("run", Kind::MaybeNumber),
+    ("value", Kind::MaybeNumber),
+    ("low", Kind::MaybeNumber),
+    ("high", Kind::MaybeNumber),
+    ("unit", Kind::Text),
+    ("rows", Kind::Count),
+    ("mark", Kind::Text),
+    ("command", Kind::Text),
+    ("place", Kind::Count),
+];
+
+/// Where the tables of a report go.
+#[derive(Clone, Debug)]
+pub(crate) struct Tables {
+    pub(crate) numbers: PathBuf,
+    pub(crate) samples: PathBuf,
+}
+
+impl Tables {
+    /// Beside the page: `report.html` has `report.parquet` and `report-samples.parquet`.
+    pub(crate) fn beside(page: &Path) -> Self {
+        let stem = page.file_stem().unwrap_or_default().to_string_lossy();
+        Tables {
+            numbers: page.with_file_name(format!("{stem}.parquet")),
+            samples: page.with_file_name(format!("{stem}-samples.parquet")),
+        }
+    }
+}
+
+/// Writes the tables.
+///
+/// # Errors
+/// A file that is there and may not be replaced; the operating system refuses.
+pub(crate) fn write(report: &Report, tables: &Tables, existing: Existing) -> Result<(), Failure> {
+    let about = [
+        ("occupant.study", report.opened.manifest_sha256.clone()),
+        (
+            "occupant.units",
+            "{\"value\": \"column unit\", \"low\": \"column unit\", \"high\": \"column unit\"}".to_owned(),
+        ),
+    ];
+    let mut table = TableFile::create(tables.numbers.clone(), Form::Parquet, existing, &COLUMNS, &about)?;
+    let mut place = 0;
+    let mut last = ("", String::new());
+    for number in numbers(report) {
+        // the first, second, third worst
+        let now = (number.quantity, number.response.clone());
+        place = if number.run.is_some() && now == last { place + 1 } else { 0 };
+        last = now;
+        table.row(row(&number, place))?;
+    }
+    table.publish()?;
+    samples(&report.gathered.samples, report, &tables.samples, existing)
+}
+
+fn row(number: &Number, place: u64) -> Vec<Cell> {
+    vec![
+        Cell::text(&number.response),
+        Cell::text(number.quantity),
+        Cell::text(&number.parameter),
+        number.run.map_or(Cell::Absent, Cell::count),
+        Cell::finite(number.value),
+        Cell::finite(number.interval[0]),
+        Cell::finite(number.interval[1]),
+        Cell::text(&number.unit),
+        Cell::count(number.rows as u64),
+        Cell::text(&number.mark),
+        Cell::text(&number.command),
+        Cell::count(place),
+    ]
+}
+
+fn samples(samples: &Samples, report: &Report, path: &Path, existing: Existing) -> Result<(), Failure> {
+    let mut columns = vec![("sample".to_owned(), Kind::Count)];
+    let mut units = serde_json::Map::new();
+    for input in &samples.inputs {
+        let kind = if input.is_number() { Kind::MaybeNumber } else { Kind::Text };
+        let name = format!("input.{}", input.name);
+        let unit = if input.unit.is_empty() && input.is_number() { "1" } else { &input.unit };
+        units.insert(name.clone(), unit.into());
+        columns.push((name, kind));
+    }
+    for response in &samples.responses {
+        units.insert(response.name.clone(), response.unit.clone().into());
+        columns.push((response.name.clone(), Kind::MaybeNumber));
+    }
+    let about = [
+        ("occupant.study", report.opened.manifest_sha256.clone()),
+        ("occupant.units", serde_json::Value::Object(units).to_string()),
+    ];
+    let mut table = TableFile::create(path.to_owned(), Form::Parquet, existing, &columns, &about)?;
+    for (i, number) in samples.numbers.iter().enumerate() {
+        let mut row = vec![Cell::count(*number)];
+        for input in &samples.inputs {
+            let value = input.values[i];
+            let word = |words: &Vec<String>| words.get(value as usize).filter(|_| !value.is_nan()).cloned();
+            row.push(match &input.words {
+                None => Cell::finite(value),
+                Some(words) => Cell::text(&word(words).unwrap_or_default()),
+            });
+        }
+        let values = samples.responses.iter();
+        row.extend(values.map(|response| Cell::finite(response.values[i])));
+        table.row(row)?;
+    }
+    table.publish().map(|_| ())
+}

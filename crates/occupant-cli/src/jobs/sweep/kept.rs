@@ -1,0 +1,119 @@
+//! Whole runs of chosen samples, written after the sweep: those of the worst, and those whose file is missing.
+
+use std::fs;
+use std::ops::Range;
+use std::sync::atomic::AtomicBool;
+
+use occupant_study::Keep;
+use occupant_study::engine::Engine;
+
+use super::plan::Plan;
+use super::simulation::{Simulation, is_kept};
+use crate::base::failure::Failure;
+use crate::base::output_file::partial_path;
+use crate::files::study_folder::folder::Folder;
+use crate::files::study_folder::journal::Journal;
+use crate::files::study_folder::problem::Problem;
+use crate::files::study_folder::row::Status;
+
+/// Reads `none`, `all`, `3, 17` or `worst 5 by head.peak`.
+pub(crate) fn parse(text: &str) -> Option<Keep> {
+    let words: Vec<&str> = text.split_whitespace().collect();
+    match words[..] {
+        ["none"] => Some(Keep::None),
+        ["all"] => Some(Keep::All),
+        ["worst", count, "by", measure] => {
+            Some(Keep::Worst { count: count.parse().ok().filter(|n| *n > 0)?, measure: measure.to_owned() })
+        }
+        _ => {
+            let number = |word: &str| word.trim().parse::<u64>().ok();
+            let numbers: Option<Vec<u64>> = text.split(',').map(number).collect();
+            let mut numbers = numbers?;
+            numbers.sort_unstable();
+            numbers.dedup();
+            Some(Keep::Indices(numbers))
+        }
+    }
+}
+
+/// Makes the folder of the kept runs, where there will be any.
+///
+/// # Errors
+/// The operating system refuses.
+pub(crate) fn prepare(keep: &Keep, folder: &Folder) -> Result<(), Problem> {
+    if *keep == Keep::None {
+        return Ok(());
+    }
+    let runs = folder.runs();
+    fs::create_dir_all(&runs).map_err(Problem::io("create", &runs))
+}
+
+/// Of these samples, all of them finished, those whose file is missing. A run that failed has a partial file, a sample that
+/// was refused none.
+///
+/// # Errors
+/// A journal that cannot be read.
+pub(crate) fn missing(
+    folder: &Folder,
+    journal: &Journal,
+    samples: impl IntoIterator<Item = u64>,
+) -> Result<Vec<u64>, Problem> {
+    let mut missing = Vec::new();
+    for index in samples {
+        let file = folder.run(index);
+        if file.exists() {
+            continue;
+        }
+        let rows = journal.rows(index..index + 1)?;
+        let lacks = match rows.first().map(|row| row.status) {
+            Some(Status::Completed) => true,
+            Some(Status::Failed) => !partial_path(&file).exists(),
+            Some(Status::Refused | Status::Broken) | None => false,
+        };
+        if lacks {
+            missing.push(index);
+        }
+    }
+    Ok(missing)
+}
+
+/// Those of a range that are kept beforehand.
+pub(crate) fn wanted(keep: &Keep, samples: Range<u64>) -> Box<dyn Iterator<Item = u64> + '_> {
+    match keep {
+        Keep::All => Box::new(samples),
+        Keep::Indices(_) => Box::new(samples.filter(|i| is_kept(keep, *i))),
+        Keep::None | Keep::Worst { .. } => Box::new(std::iter::empty()),
+    }
+}
+
+/// Runs samples again and writes their files.
+///
+/// # Errors
+/// A file that cannot be written.
+pub(crate) fn write(
+    plan: &Plan,
+    folder: &Folder,
+    samples: &[u64],
+    engine: &Engine,
+    stop: &AtomicBool,
+) -> Result<(), Failure> {
+    let simulation = Simulation { plan, keep: &Keep::All, folder };
+    engine.run(&simulation, samples.iter().copied(), stop, |_row| Ok(()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_words_of_a_command_line_are_read() {
+        assert_eq!(parse("none"), Some(Keep::None));
+        assert_eq!(parse(" all "), Some(Keep::All));
+        assert_eq!(parse("7,3, 7"), Some(Keep::Indices(vec![3, 7])));
+        let worst = Keep::Worst { count: 5, measure: "hic15".to_owned() };
+        assert_eq!(parse("worst 5 by hic15"), Some(worst));
+        for wrong in ["", "worst", "worst 0 by hic15", "worst five by hic15", "-1", "some"] {
+            assert_eq!(parse(wrong), None, "{wrong}");
+        }
+    }
+}

@@ -1,0 +1,279 @@
+//! From the name of a study to samples that can be run.
+
+use std::path::{Path, PathBuf};
+
+use occupant_core::model::Model;
+use occupant_core::problem::Severity;
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::results::sample::Sample;
+use occupant_core::results::summary::{Figure, Summarizer};
+use occupant_core::run::simulate::simulate;
+use occupant_core::scenario::text::Value as Written;
+use occupant_core::scenario::{Diagnostics, Draft, Loaded};
+use occupant_study::{Design, Law, Parameter, Setting, Study, StudyText, Value};
+
+use crate::base::failure::Failure;
+use crate::base::names::file_name;
+use crate::files::scenario::{Opened, ScenarioArgs, format_of};
+use crate::files::study_folder::manifest::{Column, Manifest, Role};
+use crate::files::study_folder::texts::{NamedBy, Texts};
+use crate::files::table::Cell;
+
+/// So many samples are tried to find the columns where the base scenario itself cannot be run.
+const TRIED: u64 = 16;
+
+/// A study and everything it needs. Shared by all threads.
+pub(crate) struct Plan {
+    study: Study,
+    /// Path of the scenario that is varied, for messages and results.
+    scenario: PathBuf,
+    bytes: Vec<u8>,
+    /// Changes of the study and of the command line that are the same in all samples.
+    changes: Vec<String>,
+    /// What the scenarios of the samples name.
+    tables: Vec<(String, Vec<u8>)>,
+    /// What the folder of the sweep will hold.
+    pub(crate) manifest: Manifest,
+    /// Bytes of the manifest's texts.
+    pub(crate) texts: Vec<Vec<u8>>,
+    /// Warnings about study and scenario.
+    pub(crate) warnings: Diagnostics,
+}
+
+impl Plan {
+    /// Reads a study and all that it names; `name` is what messages call it.
+    ///
+    /// # Errors
+    /// Everything that is wrong with it, in words.
+    pub(crate) fn open(name: &Path, overrides: &[String], texts: &Texts, program: String) -> Result<Plan, Failure> {
+        let shown = name.display();
+        let bytes = texts.get(NamedBy::CommandLine, &file_name(name));
+        let bytes = bytes.map_err(|e| Failure::plain(format!("the study {shown} cannot be read: {e}")))?;
+        let text = StudyText::read_bytes(&bytes, format_of(name), &shown.to_string())
+            .map_err(|problems| refused(&shown.to_string(), &problems))?;
+        let scenario = name.parent().unwrap_or(Path::new("")).join(text.base());
+        let bytes = texts.get(NamedBy::StudyAsBase, text.base()).map_err(|e| {
+            let base = scenario.display();
+            Failure::plain(format!("the scenario {base}, which the study {shown} varies, cannot be read: {e}"))
+        })?;
+        let scenario_name = scenario.display().to_string();
+        let draft = Draft::read_bytes(&bytes, format_of(&scenario), &scenario_name)
+            .map_err(|problems| refused(&scenario_name, &problems))?;
+        let beside = |file: &str| texts.get(NamedBy::Study, file);
+        let study = text.bind(draft, overrides, &beside).map_err(|problems| refused(&shown.to_string(), &problems))?;
+        let mut changes = changes_of(&text);
+        changes.extend(overrides.iter().cloned());
+        let title = text.section.title.clone().unwrap_or_default();
+        let manifest = Manifest::new(program, title, study.len(), overrides.to_vec());
+        let mut plan = Plan {
+            warnings: study.warnings().clone(),
+            study,
+            scenario,
+            bytes,
+            changes,
+            tables: Vec::new(),
+            manifest,
+            texts: Vec::new(),
+        };
+        plan.take_tables(texts);
+        plan.manifest.columns = plan.columns()?;
+        (plan.manifest.texts, plan.texts) = texts.all();
+        Ok(plan)
+    }
+
+    pub(crate) fn study(&self) -> &Study {
+        &self.study
+    }
+
+    /// The values of a sample, by the columns that are inputs.
+    pub(crate) fn inputs(&self, index: u64) -> Vec<Cell> {
+        let columns = &self.manifest.columns;
+        let cell = |(at, setting): (usize, &Setting)| {
+            let is_text = columns.get(at).is_some_and(|c| c.role == Role::InputText);
+            match &setting.value {
+                Value::Number(x) if is_text => Cell::Text(x.to_string().into()),
+                Value::Number(x) => Cell::Number(*x),
+                Value::Text(text) => Cell::Text(text.as_str().into()),
+                Value::Truth(b) => Cell::Text(b.to_string().into()),
+                Value::Base => Cell::Absent,
+            }
+        };
+        let settings = self.study.sample(index);
+        let mut cells: Vec<Cell> = settings.iter().enumerate().map(cell).collect();
+        if self.study.members() > 1 {
+            let (sample, member) = self.study.sample_and_member(index);
+            cells.extend([sample, member].map(|n| Cell::Number(n as f64)));
+        }
+        cells
+    }
+
+    /// The model of a sample.
+    ///
+    /// # Errors
+    /// What is wrong with its scenario.
+    pub(crate) fn open_sample(&self, index: u64) -> Result<Opened, Diagnostics> {
+        let (loaded, model, warnings) = self.model(Some(index))?;
+        Ok(Opened {
+            // only a run that is kept needs them
+            bytes: Vec::new(),
+            loaded,
+            model,
+            warnings,
+        })
+    }
+
+    /// The bytes of a table that a scenario of the study names.
+    pub(crate) fn table(&self, name: &str) -> Result<Vec<u8>, String> {
+        let found = self.tables.iter().find(|(table, _)| table == name);
+        found.map(|(_, bytes)| bytes.clone()).ok_or_else(|| "it was not there when the sweep began".to_owned())
+    }
+
+    /// The words with which `occupant run` runs a sample, and the scenario's bytes.
+    pub(crate) fn command(&self, index: u64) -> (ScenarioArgs, Vec<u8>) {
+        let mut overrides = self.changes.clone();
+        let assignments = self.study.assignments(index);
+        overrides.extend(assignments.iter().map(|a| format!("{}={}", a.path, a.text())));
+        let scenario = self.scenario.clone();
+        let args = ScenarioArgs { scenario, overrides };
+        (args, self.bytes.clone())
+    }
+
+    /// The model of a sample, or of the base scenario.
+    fn model(&self, index: Option<u64>) -> Result<(Loaded, Model, Diagnostics), Diagnostics> {
+        let mut draft = self.study.base().clone();
+        if let Some(index) = index {
+            self.study.apply(index, &mut draft)?;
+        }
+        let loaded = draft.load(&|name| self.table(name))?;
+        let (model, warnings) = loaded.model()?;
+        Ok((loaded, model, warnings))
+    }
+
+    /// Reads what the scenario names, and what those of the samples name where a study varies the name of a file.
+    fn take_tables(&mut self, texts: &Texts) {
+        let mut names: Vec<String> = Vec::new();
+        let file = "path.file";
+        let mut base = self.study.base().clone();
+        if let Ok(found) = base.get(file) {
+            let name = |(_, value): &(String, Written)| match value {
+                Written::String(name) => Some(name.clone()),
+                _ => None,
+            };
+            names.extend(found.iter().filter_map(name));
+        }
+        let varied = self.study.parameters().iter().any(|p| p.targets.iter().any(|t| t.path == file));
+        if varied {
+            for index in 0..self.study.len() {
+                for assignment in &self.study.assignments(index) {
+                    if let (true, Value::Text(name)) = (assignment.path == file, &assignment.value)
+                        && !names.contains(name)
+                    {
+                        names.push(name.clone());
+                    }
+                }
+            }
+        }
+        for name in names {
+            // one that cannot be read is a refusal of the samples that name it
+            if let Ok(bytes) = texts.get(NamedBy::Scenario, &name) {
+                self.tables.push((name, bytes));
+            }
+        }
+    }
+
+    /// Inputs as the study names them, figures as the base scenario has them.
+    fn columns(&self) -> Result<Vec<Column>, Failure> {
+        let number = |name: &str, unit: &str| Column {
+            name: format!("input.{name}"),
+            unit: match unit {
+                "" => "1".to_owned(),
+                unit => unit.to_owned(),
+            },
+            role: Role::Input,
+        };
+        let input = |(at, parameter): (usize, &Parameter)| {
+            if has_texts(&self.study, at) {
+                Column { name: format!("input.{}", parameter.name), unit: String::new(), role: Role::InputText }
+            } else {
+                number(&parameter.name, parameter.unit)
+            }
+        };
+        let parameters = self.study.parameters().iter().enumerate();
+        let mut columns: Vec<Column> = parameters.map(input).collect();
+        if self.study.members() > 1 {
+            columns.push(number("ensemble.sample", ""));
+            columns.push(number("ensemble.member", ""));
+        }
+        let figures = self.figures()?;
+        columns.extend(figures.into_iter().map(|figure| Column {
+            name: figure.name,
+            unit: figure.unit.to_owned(),
+            role: Role::Figure,
+        }));
+        Ok(columns)
+    }
+
+    /// The figures of the first scenario that can be run.
+    fn figures(&self) -> Result<Vec<Figure>, Failure> {
+        let tried = std::iter::once(None).chain((0..self.study.len().min(TRIED)).map(Some));
+        let mut first_refusal = None;
+        for index in tried {
+            match self.model(index) {
+                Ok((_, model, _)) => {
+                    let mut summarizer = Summarizer::new();
+                    // one output is enough to know them
+                    let stopped = simulate(&model, (&mut summarizer, Enough));
+                    if let (Ok(_), Some(summary)) = (stopped, summarizer.summary(None)) {
+                        return Ok(summary.figures(&model));
+                    }
+                }
+                Err(problems) => {
+                    first_refusal.get_or_insert(problems);
+                }
+            }
+        }
+        let scenario = self.scenario.display().to_string();
+        Err(refused(&scenario, &first_refusal.unwrap_or_else(Diagnostics::new)))
+    }
+}
+
+/// What the study puts into its scenario in all samples, as `--set` writes it.
+fn changes_of(text: &StudyText) -> Vec<String> {
+    let change = |(path, value): (&String, &Written)| match value {
+        Written::Bool(b) => format!("{path}={b}"),
+        Written::Integer(i) => format!("{path}={i}"),
+        Written::Float(x) => format!("{path}={x:?}"),
+        Written::String(text) => format!("{path}={}", serde_json::Value::from(text.as_str())),
+        // the check has refused all others
+        Written::Null | Written::Array(_) | Written::Table(_) => format!("{path}="),
+    };
+    text.section.set.iter().map(change).collect()
+}
+
+/// Whether a parameter has values that are no numbers.
+fn has_texts(study: &Study, at: usize) -> bool {
+    let text = |value: &Value| matches!(value, Value::Text(_) | Value::Truth(_));
+    match (study.parameters().get(at).map(|p| &p.law), study.design()) {
+        (Some(Law::List(values)), _) => values.iter().any(text),
+        (Some(Law::Table), Design::Table { rows }) => rows.iter().any(|row| row.get(at).is_some_and(text)),
+        _ => false,
+    }
+}
+
+/// Ends a run at its first output.
+struct Enough;
+
+impl Recorder for Enough {
+    fn record(&mut self, _sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        Ok(Flow::Stop)
+    }
+}
+
+fn refused(name: &str, problems: &Diagnostics) -> Failure {
+    let errors = problems.iter().filter(|d| d.problem.severity == Severity::Error);
+    let count = match errors.count() {
+        1 => "1 error".to_owned(),
+        n => format!("{n} errors"),
+    };
+    Failure::CouldNotRun(format!("{problems}\n\n{name}: {count}, nothing was run"))
+}

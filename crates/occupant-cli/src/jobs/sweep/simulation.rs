@@ -1,0 +1,91 @@
+//! One sample: scenario, model, run, figures, row.
+
+use occupant_core::model::Model;
+use occupant_core::results::summary::{Summarizer, Summary};
+use occupant_study::Keep;
+use occupant_study::engine::{Finished, NotBegun, Source};
+
+use super::plan::Plan;
+use crate::base::failure::Failure;
+use crate::base::output_file::Existing;
+use crate::files::study_folder::folder::Folder;
+use crate::files::study_folder::manifest::Role;
+use crate::files::study_folder::row::{Row, Status};
+use crate::files::table::Cell;
+use crate::jobs::run::recording::Recording;
+
+/// Runs the samples of a plan.
+pub(crate) struct Simulation<'a> {
+    pub(crate) plan: &'a Plan,
+    /// Of which samples the whole run is written.
+    pub(crate) keep: &'a Keep,
+    pub(crate) folder: &'a Folder,
+}
+
+/// Whether a keep says, beforehand, that the run of a sample is written.
+pub(crate) fn is_kept(keep: &Keep, index: u64) -> bool {
+    match keep {
+        Keep::All => true,
+        Keep::Indices(numbers) => numbers.binary_search(&index).is_ok(),
+        Keep::None | Keep::Worst { .. } => false,
+    }
+}
+
+impl Source for Simulation<'_> {
+    type Recorder = (Summarizer, Recording);
+    type Row = Row;
+    type Error = Failure;
+
+    fn begin(&self, index: u64) -> Result<(Model, Self::Recorder), NotBegun<Failure>> {
+        let mut opened = self.plan.open_sample(index)?;
+        let mut recording = Recording::none();
+        if is_kept(self.keep, index) {
+            let (args, bytes) = self.plan.command(index);
+            opened.bytes = bytes;
+            let name = self.folder.run(index);
+            let begun = Recording::begin(&name, Existing::Replace, &args, &opened, None);
+            recording = begun.map_err(NotBegun::Error)?;
+        }
+        Ok((opened.model, (Summarizer::new(), recording)))
+    }
+
+    fn end(&self, run: Finished<Self::Recorder>) -> Result<Row, Failure> {
+        let mut cells = self.plan.inputs(run.index);
+        cells.resize(self.plan.manifest.columns.len(), Cell::Absent);
+        let mut row = Row::of(&run, cells);
+        if let Some(ran) = run.ran {
+            let (summarizer, recording) = ran.recorder;
+            recording.close(row.status == Status::Completed)?;
+            if let Some(summary) = summarizer.summary(None) {
+                self.fill(&mut row, &summary, &ran.model);
+            }
+        }
+        Ok(row)
+    }
+
+    fn stopped(&self, (_, recording): Self::Recorder) -> Result<(), Failure> {
+        recording.close(false).map(|_| ())
+    }
+}
+
+impl Simulation<'_> {
+    /// Puts the figures into their columns. A run that failed has only those of its work: its peaks are those of numbers
+    /// that ran away.
+    fn fill(&self, row: &mut Row, summary: &Summary, model: &Model) {
+        let columns = &self.plan.manifest.columns;
+        let first = columns.iter().take_while(|c| c.role != Role::Figure).count();
+        for (i, figure) in summary.figures(model).iter().enumerate() {
+            let of_work = figure.name.starts_with("solver.") || figure.name.starts_with("run.");
+            if row.status != Status::Completed && !of_work {
+                continue;
+            }
+            let is_it = |at: &usize| columns.get(*at).is_some_and(|c| c.name == figure.name);
+            // a sample whose belts or spheres are others has its figures in other places
+            let elsewhere = || (first..columns.len()).find(is_it);
+            let at = Some(first + i).filter(is_it).or_else(elsewhere);
+            if let (Some(at), Some(value)) = (at, figure.value) {
+                row.cells[at] = Cell::Number(value);
+            }
+        }
+    }
+}

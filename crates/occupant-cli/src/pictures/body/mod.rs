@@ -1,0 +1,195 @@
+//! How the occupant looks in pictures: rounded parts fixed to the segments. For the eye only; the physics knows the
+//! contact spheres alone.
+//!
+//! A part is the convex hull of two ellipsoids whose axes are the segment's. Limbs are capsules through their spheres;
+//! the trunk has the elliptic section that gives it its mass and inertia: with half axes a along X and b along Y,
+//! I_z = ¼M(a² + b²) and I_x − I_y = ¼M(b² − a²) give a² = 2(I_z − I_x + I_y)/M and b² = 2(I_z + I_x − I_y)/M.
+
+mod snapshot;
+
+use nalgebra::Vector3;
+use occupant_core::body::tree::Landmarks;
+use occupant_core::body::{Body, Segment, SegmentProperties};
+
+pub(crate) use snapshot::{PATCH_M, Snapshot};
+
+/// Drawn width of the trunk over that of equal inertia.
+const SLIM: f64 = 0.85;
+/// Radius of the drawn neck over that of the head.
+const NECK: f64 = 0.5;
+/// Size of the nose over the radius of the head.
+const NOSE: f64 = 0.22;
+/// A sphere farther from its segment's long axis is no part of the limb, m.
+const OFF_AXIS_M: f64 = 0.02;
+/// A limb's last sphere ends the limb if it comes this near to its end, m.
+const NEAR_END_M: f64 = 0.02;
+
+/// An ellipsoid along its segment's axes.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Lump {
+    /// Centre from the centre of gravity, segment axes.
+    pub(crate) centre_m: Vector3<f64>,
+    /// Half axes.
+    pub(crate) half_m: Vector3<f64>,
+}
+
+/// What a part wears.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Tone {
+    /// Head, forearms.
+    Skin,
+    /// Upper trunk, upper arms.
+    Shirt,
+    /// Lower trunk, legs.
+    Trousers,
+}
+
+/// The convex hull of two ellipsoids.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Part {
+    /// The segment it is fixed to.
+    pub(crate) segment: Segment,
+    /// What it wears.
+    pub(crate) tone: Tone,
+    pub(crate) ends: [Lump; 2],
+}
+
+/// All parts of a body, in the order of the segments.
+pub(crate) fn parts(body: &Body) -> Vec<Part> {
+    let of_segment = |segment| {
+        let marks = body.tree.landmarks();
+        let ends = match segment {
+            _ if segment == marks.head => head(body, segment),
+            _ if segment == marks.chest => upper_torso(body, segment),
+            _ if segment == marks.middle => vec![trunk(body, segment)],
+            _ if segment == marks.pelvis => lower_torso(body, segment),
+            _ => limb(body, segment),
+        };
+        let tone = tone(marks, segment);
+        ends.into_iter().map(move |ends| Part { segment, tone, ends })
+    };
+    body.tree.segments().flat_map(of_segment).collect()
+}
+
+/// Centre of a sphere from its segment's centre of gravity, segment axes, m.
+pub(crate) fn sphere_centre_m(body: &Body, sphere: usize) -> Vector3<f64> {
+    let s = &body.spheres[sphere];
+    let cg = body.segment(s.segment).cg_from_lower_end_m;
+    s.centre_from_lower_end_m.coords - Vector3::z() * cg
+}
+
+/// Neck, head and a nose that tells where it looks. Without a sphere the head is as wide as its inertia says.
+fn head(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
+    let p = body.segment(segment);
+    let own = (0..body.spheres.len()).filter(|&s| body.spheres[s].segment == segment);
+    let largest = own.max_by(|&a, &b| {
+        let radius = |s: usize| body.spheres[s].radius_m;
+        radius(a).total_cmp(&radius(b))
+    });
+    let (centre, radius) = match largest {
+        Some(s) => (sphere_centre_m(body, s), body.spheres[s].radius_m),
+        None => {
+            let radius = mean_radius(p).min(0.5 * p.length_m);
+            let height = p.length_m - radius - p.cg_from_lower_end_m;
+            (Vector3::z() * height, radius)
+        }
+    };
+    let skull = ball(centre, radius);
+    let neck = NECK * radius;
+    let bridge = centre + Vector3::new(0.8 * radius, 0.0, 0.1 * radius);
+    let nose = centre + Vector3::new(radius, 0.0, -0.1 * radius);
+    vec![
+        [ball(Vector3::z() * -p.cg_from_lower_end_m, neck), ball(centre, neck)],
+        [skull, skull],
+        [ball(bridge, NOSE * radius), ball(nose, NOSE * radius)],
+    ]
+}
+
+/// The chest and the bar that carries the shoulders.
+fn upper_torso(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
+    let p = body.segment(segment);
+    let upper = p.length_m - p.cg_from_lower_end_m;
+    let shoulder = limb_radius(body, body.tree.landmarks().arms.left.upper);
+    let bar = |side: f64| {
+        let place = Vector3::new(0.0, side * body.shoulder_half_width_m, upper);
+        ball(place, shoulder)
+    };
+    vec![trunk(body, segment), [bar(1.0), bar(-1.0)]]
+}
+
+/// The pelvis and the bar that carries the hips.
+fn lower_torso(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
+    let p = body.segment(segment);
+    let hip = 0.9 * limb_radius(body, body.tree.landmarks().legs.left.upper);
+    let bar = |side: f64| {
+        let place = Vector3::new(0.0, side * body.hip_half_width_m, -p.cg_from_lower_end_m);
+        ball(place, hip)
+    };
+    vec![trunk(body, segment), [bar(1.0), bar(-1.0)]]
+}
+
+/// The elliptic column of a segment of the trunk, rounded at its ends.
+fn trunk(body: &Body, segment: Segment) -> [Lump; 2] {
+    let p = body.segment(segment);
+    let i = p.inertia_kg_m2;
+    let axis = |moment: f64| SLIM * (2.0 * moment.max(0.0) / p.mass_kg).sqrt();
+    let (a, b) = (axis(i.z - i.x + i.y), axis(i.z + i.x - i.y));
+    let half = Vector3::new(a, b, 0.25 * p.length_m);
+    let lower = -p.cg_from_lower_end_m + half.z;
+    let end = |z: f64| Lump { centre_m: Vector3::z() * z, half_m: half };
+    [end(lower), end(lower + 2.0 * half.z)]
+}
+
+/// Capsules from one sphere of a limb to the next, and on to its ends.
+fn limb(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
+    let p = body.segment(segment);
+    let (lower, upper) = (-p.cg_from_lower_end_m, p.length_m - p.cg_from_lower_end_m);
+    let mut stations = stations(body, segment);
+    let radius = limb_radius(body, segment);
+    let first = stations.first().copied().unwrap_or((upper, radius));
+    if first.0 - first.1 > lower + NEAR_END_M {
+        stations.insert(0, (lower, first.1));
+    }
+    let last = stations.last().copied().unwrap_or((lower, radius));
+    if last.0 < upper - NEAR_END_M {
+        stations.push((upper, last.1));
+    }
+    let at = |&(z, r): &(f64, f64)| ball(Vector3::z() * z, r);
+    stations.windows(2).map(|two| [at(&two[0]), at(&two[1])]).collect()
+}
+
+/// Heights and radii of the spheres on a segment's long axis, from the lower end up.
+fn stations(body: &Body, segment: Segment) -> Vec<(f64, f64)> {
+    let cg = body.segment(segment).cg_from_lower_end_m;
+    let own = body.spheres.iter().filter(|s| s.segment == segment);
+    let on_axis = own.filter(|s| s.centre_from_lower_end_m.coords.xy().norm() < OFF_AXIS_M);
+    let mut stations: Vec<_> = on_axis.map(|s| (s.centre_from_lower_end_m.z - cg, s.radius_m)).collect();
+    stations.sort_by(|a, b| a.0.total_cmp(&b.0));
+    stations
+}
+
+/// The radius of a limb's upper part: that of its highest sphere, else that of its inertia.
+fn limb_radius(body: &Body, segment: Segment) -> f64 {
+    let highest = stations(body, segment).last().map(|s| s.1);
+    highest.unwrap_or_else(|| SLIM * mean_radius(body.segment(segment)))
+}
+
+/// Radius of the cylinder with the segment's mass and I_z.
+fn mean_radius(p: &SegmentProperties) -> f64 {
+    (2.0 * p.inertia_kg_m2.z.max(0.0) / p.mass_kg).sqrt()
+}
+
+fn ball(centre_m: Vector3<f64>, radius_m: f64) -> Lump {
+    Lump { centre_m, half_m: Vector3::repeat(radius_m) }
+}
+
+fn tone(marks: &Landmarks, segment: Segment) -> Tone {
+    let arms = &marks.arms;
+    if [marks.head, arms.left.lower, arms.right.lower].contains(&segment) {
+        Tone::Skin
+    } else if [marks.middle, marks.chest, arms.left.upper, arms.right.upper].contains(&segment) {
+        Tone::Shirt
+    } else {
+        Tone::Trousers
+    }
+}

@@ -1,0 +1,100 @@
+//! HTML element by element. Texts are escaped where they are put, so that nothing a user named can leave its place.
+
+use super::svg::escape;
+
+/// A part of a page.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Html(String);
+
+/// A cell of a table.
+#[derive(Clone, Debug)]
+pub(crate) enum Cell {
+    Words(String),
+    Number(String),
+    /// A number that a rule marks, and why.
+    Marked(String, String),
+}
+
+impl Html {
+    /// An element of one text; `tag` may carry attributes of ours.
+    pub(crate) fn text(&mut self, tag: &str, text: &str) {
+        let name = tag.split(' ').next().unwrap_or(tag);
+        self.0.push_str(&format!("<{tag}>{}</{name}>\n", escape(text)));
+    }
+
+    /// Something that is HTML already.
+    pub(crate) fn raw(&mut self, html: &str) {
+        self.0.push_str(html);
+    }
+
+    /// Two columns of words.
+    pub(crate) fn facts(&mut self, facts: &[(&str, String)]) {
+        self.raw("<div class=\"scroll\"><table>\n");
+        for (name, text) in facts {
+            self.raw(&format!(
+                "<tr><th scope=\"row\">{}</th><td class=\"wrap\">{}</td></tr>\n",
+                escape(name),
+                escape(text)
+            ));
+        }
+        self.raw("</table></div>\n");
+    }
+
+    pub(crate) fn table(&mut self, head: &[&str], rows: &[Vec<Cell>]) {
+        self.raw("<div class=\"scroll\"><table>\n<tr>");
+        for (i, name) in head.iter().enumerate() {
+            let numbers = rows.first().and_then(|r| r.get(i)).is_some_and(|c| !matches!(c, Cell::Words(_)));
+            let class = if numbers { " class=\"number\"" } else { "" };
+            self.raw(&format!("<th{class}>{}</th>", escape(name)));
+        }
+        self.raw("</tr>\n");
+        for row in rows {
+            self.raw("<tr>");
+            for cell in row {
+                self.raw(&cell.html());
+            }
+            self.raw("</tr>\n");
+        }
+        self.raw("</table></div>\n");
+    }
+
+    pub(crate) fn finish(self) -> String {
+        self.0
+    }
+}
+
+impl Cell {
+    fn html(&self) -> String {
+        match self {
+            Cell::Words(text) => format!("<td>{}</td>", escape(text)),
+            Cell::Number(text) => format!("<td class=\"number\">{}</td>", escape(text)),
+            Cell::Marked(text, why) => {
+                format!("<td class=\"number marked\" title=\"{}\">{}\u{a0}†</td>", escape(why), escape(text))
+            }
+        }
+    }
+
+    /// A number, marked or not.
+    pub(crate) fn of(text: String, mark: Option<String>) -> Cell {
+        match mark {
+            Some(why) => Cell::Marked(text, why),
+            None => Cell::Number(text),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_stays_a_text() {
+        let mut html = Html::default();
+        html.text("h2 id=\"r0\"", "</h2><script>");
+        html.facts(&[("<b>", "a & b".to_owned())]);
+        html.table(&["<i>"], &[vec![Cell::Marked("1".to_owned(), "\" onclick=\"".to_owned())]]);
+        let text = html.finish();
+        assert!(!text.contains("<script>") && !text.contains("<b>") && !text.contains("<i>"));
+        assert!(!text.contains("\" onclick"), "{text}");
+    }
+}

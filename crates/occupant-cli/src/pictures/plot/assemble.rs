@@ -1,0 +1,280 @@
+//! Figures from runs, measured signals and limits.
+
+use std::str::FromStr;
+
+use crash_measures::unit::Unit;
+use occupant_core::results::channel::Channel;
+
+use super::figure::{Axis, Curve, Figure, Limit, Style};
+use super::standard::{Entry, Wish};
+use crate::files::history::{Column, Histories, Shown, UnitChoice, dimension, plotted};
+use crate::files::measured::Pair;
+use crate::files::signals::scale_of;
+
+/// The histories of one run with its name in legends.
+#[derive(Clone, Debug)]
+pub(crate) struct RunCurves {
+    /// Name; empty if the run is alone.
+    pub(crate) label: String,
+    pub(crate) histories: Histories,
+}
+
+/// A measured signal to draw over a channel.
+#[derive(Clone, Debug)]
+pub(crate) struct Overlay {
+    pub(crate) channel: String,
+    /// Name of the file.
+    pub(crate) file: String,
+    /// The signal.
+    pub(crate) pair: Pair,
+}
+
+/// `channel=value unit`: a level to draw where the channel is.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct LimitArgument {
+    pub(crate) channel: String,
+    /// Level as written.
+    pub(crate) text: String,
+    value: f64,
+    unit: Option<String>,
+}
+
+impl FromStr for LimitArgument {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let expected = "expected CHANNEL=LEVEL, such as 'head.acceleration.resultant=80 g'";
+        let (channel, level) = text.split_once('=').ok_or(expected)?;
+        let level = level.trim();
+        let sign = |c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-');
+        // an exponent such as 1e3 belongs to the number
+        let mut end = level.find(|c| !sign(c)).unwrap_or(level.len());
+        if level[end..].starts_with(['e', 'E']) {
+            let digits = level[end + 1..].find(|c| !sign(c)).unwrap_or(level.len() - end - 1);
+            if digits > 0 {
+                end += 1 + digits;
+            }
+        }
+        let value: f64 = level[..end].parse().map_err(|_| expected.to_owned())?;
+        let unit = level[end..].trim();
+        if let Some(wrong) = (!unit.is_empty() && scale_of(unit).is_none()).then_some(unit) {
+            return Err(format!("`{wrong}` is no unit; {expected}"));
+        }
+        Ok(LimitArgument {
+            channel: channel.trim().to_owned(),
+            text: level.to_owned(),
+            value,
+            unit: (!unit.is_empty()).then(|| unit.to_owned()),
+        })
+    }
+}
+
+impl LimitArgument {
+    /// The level in a shown unit.
+    ///
+    /// # Errors
+    /// A unit of another kind.
+    fn level(&self, unit: Unit, shown: Shown) -> Result<f64, String> {
+        let Some(written) = &self.unit else {
+            return Ok(self.value);
+        };
+        match scale_of(written) {
+            Some(scale) if scale.dimension == dimension(unit) => Ok(self.value * scale.factor / shown.si),
+            _ => Err(format!(
+                "--limit {}={}: `{written}` is not a unit of this channel, which is in {}",
+                self.channel, self.text, shown.symbol
+            )),
+        }
+    }
+}
+
+/// What figures are made of.
+#[derive(Clone, Debug)]
+pub(crate) struct Material<'a> {
+    /// Runs, at least one.
+    pub(crate) runs: &'a [RunCurves],
+    /// Measured signals.
+    pub(crate) overlays: &'a [Overlay],
+    pub(crate) limits: &'a [LimitArgument],
+    /// Channel across; time if absent.
+    pub(crate) x: Option<&'a str>,
+    pub(crate) units: UnitChoice,
+    /// First and last time drawn, s.
+    pub(crate) window_s: [f64; 2],
+}
+
+/// One figure for each wish.
+///
+/// # Errors
+/// Channels of different units in a figure, a limit in another unit.
+pub(crate) fn figures(wishes: &[Wish], material: &Material<'_>) -> Result<Vec<Figure>, String> {
+    wishes.iter().map(|w| figure(w, material)).collect()
+}
+
+fn figure(wish: &Wish, material: &Material<'_>) -> Result<Figure, String> {
+    let unit = common_unit(wish, material.runs)?;
+    let shown = plotted(unit, material.units);
+    let mut curves = Vec::new();
+    for (r, run) in material.runs.iter().enumerate() {
+        for (e, entry) in wish.entries.iter().enumerate() {
+            let Some(column) = column(&run.histories, &entry.channel) else {
+                continue;
+            };
+            // a colour for each run and a dash for each channel, as long as there are enough
+            let style = match (material.runs.len(), wish.entries.len()) {
+                (1, _) => Style::of(e, 0),
+                (runs, channels) if runs <= Style::COLOURS && channels <= Style::DASHES => Style::of(r, e),
+                _ => Style::of(curves.len(), 0),
+            };
+            curves.push(Curve {
+                label: label(entry, run, wish, material),
+                style,
+                points: points(run, column, shown, material),
+            });
+        }
+    }
+    if curves.len() > Style::DISTINCT {
+        return Err(format!(
+            "{} curves in the plot {}: at most {} can be told apart",
+            curves.len(),
+            wish.title,
+            Style::DISTINCT
+        ));
+    }
+    for (e, entry) in wish.entries.iter().enumerate() {
+        let measured = material.overlays.iter().filter(|o| o.channel == entry.channel);
+        curves.extend(measured.map(|o| overlay(o, entry, e, wish, shown, material)));
+    }
+    let mut limits = Vec::new();
+    for limit in material.limits {
+        if wish.entries.iter().any(|e| e.channel == limit.channel) {
+            limits.push(Limit {
+                label: match wish.entries.len() {
+                    1 => format!("limit {}", limit.text),
+                    _ => format!("limit of {}: {}", limit.channel, limit.text),
+                },
+                level: limit.level(unit, shown)?,
+            });
+        }
+    }
+    Ok(Figure {
+        title: wish.title.clone(),
+        x: x_axis(material),
+        y: Axis::of(&wish.axis, symbol(shown)),
+        curves,
+        limits,
+        empty: wish.empty.clone(),
+    })
+}
+
+/// A plain number has no symbol.
+fn symbol(shown: Shown) -> String {
+    match shown.ascii {
+        "1" => String::new(),
+        _ => shown.symbol.to_owned(),
+    }
+}
+
+fn column<'a>(histories: &'a Histories, channel: &str) -> Option<&'a Column> {
+    histories.columns.iter().find(|c| c.channel.name == channel)
+}
+
+fn channel_of<'a>(runs: &'a [RunCurves], name: &str) -> Option<&'a Channel> {
+    runs.iter().find_map(|r| column(&r.histories, name)).map(|c| &c.channel)
+}
+
+fn common_unit(wish: &Wish, runs: &[RunCurves]) -> Result<Unit, String> {
+    let mut found: Option<(&str, Unit)> = None;
+    for entry in &wish.entries {
+        let Some(channel) = channel_of(runs, &entry.channel) else {
+            continue;
+        };
+        match found {
+            Some((first, unit)) if unit != channel.unit => {
+                return Err(format!(
+                    "{first} is in {}, but {} in {}: one plot has one axis",
+                    unit.symbol(),
+                    channel.name,
+                    channel.unit.symbol()
+                ));
+            }
+            _ => found = Some((&entry.channel, channel.unit)),
+        }
+    }
+    Ok(found.map_or(Unit::One, |(_, unit)| unit))
+}
+
+/// What tells this curve from the others of its figure.
+fn label(entry: &Entry, run: &RunCurves, wish: &Wish, material: &Material<'_>) -> String {
+    let measured = material.overlays.iter().any(|o| wish.entries.iter().any(|e| e.channel == o.channel));
+    match (run.label.as_str(), wish.entries.len()) {
+        ("", 1) if measured => "run".to_owned(),
+        ("", 1) => String::new(),
+        ("", _) => entry.label.clone(),
+        (run, 1) => run.to_owned(),
+        (run, _) => format!("{} · {run}", entry.label),
+    }
+}
+
+fn in_window(time_s: f64, [from, to]: [f64; 2]) -> bool {
+    time_s >= from - 1e-9 && time_s <= to + 1e-9
+}
+
+fn points(run: &RunCurves, column: &Column, shown: Shown, material: &Material<'_>) -> Vec<[f64; 2]> {
+    let time_s = &run.histories.time_s;
+    let across: Vec<f64> = match material.x.map(|x| self::column(&run.histories, x)) {
+        None => time_s.iter().map(|t| t * 1e3).collect(),
+        Some(Some(x)) => {
+            let size = plotted(x.channel.unit, material.units).si;
+            x.values.iter().map(|v| v / size).collect()
+        }
+        Some(None) => Vec::new(),
+    };
+    let inside = |t: &f64| in_window(*t, material.window_s);
+    let both = across.iter().zip(&column.values).zip(time_s);
+    both.filter(|(_, t)| inside(t)).map(|((x, y), _)| [*x, y / shown.si]).collect()
+}
+
+fn overlay(overlay: &Overlay, entry: &Entry, dash: usize, wish: &Wish, shown: Shown, material: &Material<'_>) -> Curve {
+    let pair = &overlay.pair;
+    let label = match wish.entries.len() {
+        1 => format!("test: {} ({})", pair.signal, overlay.file),
+        _ => format!("test: {}, {} ({})", entry.label, pair.signal, overlay.file),
+    };
+    let inside = pair.time_s.iter().zip(&pair.values);
+    Curve {
+        label,
+        style: Style::measured(dash),
+        points: inside
+            .filter(|(t, _)| in_window(**t, material.window_s))
+            .map(|(t, v)| [t * 1e3, v / shown.si])
+            .collect(),
+    }
+}
+
+fn x_axis(material: &Material<'_>) -> Axis {
+    let across = material.x.and_then(|x| channel_of(material.runs, x));
+    match across {
+        Some(channel) => Axis::of(&channel.name, symbol(plotted(channel.unit, material.units))),
+        None => Axis::of("time", "ms"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn limits_are_read_with_their_units() {
+        let limit: LimitArgument = "head.acceleration.resultant = 80 g".parse().unwrap();
+        let acceleration = Unit::MetrePerSecondSquared;
+        let si = plotted(acceleration, UnitChoice::Si);
+        assert!((limit.level(acceleration, si).unwrap() - 784.532).abs() < 1e-9);
+        assert!(limit.level(Unit::Newton, plotted(Unit::Newton, UnitChoice::Si)).is_err());
+        let plain: LimitArgument = "neck.force.z=-1.5e3".parse().unwrap();
+        assert_eq!(plain.level(Unit::Newton, plotted(Unit::Newton, UnitChoice::Si)), Ok(-1500.0));
+        assert_eq!("a=4 kN".parse::<LimitArgument>().map(|l| l.value), Ok(4.0));
+        assert!("a".parse::<LimitArgument>().is_err() && "a=b".parse::<LimitArgument>().is_err());
+        assert!("a=3 furlong".parse::<LimitArgument>().is_err());
+    }
+}

@@ -1,0 +1,175 @@
+//! What a plot shows, before it has a place.
+
+/// One plot.
+#[derive(Clone, Debug)]
+pub(crate) struct Figure {
+    /// Heading.
+    pub(crate) title: String,
+    /// Across.
+    pub(crate) x: Axis,
+    /// Upward.
+    pub(crate) y: Axis,
+    /// Curves in the order of the legend.
+    pub(crate) curves: Vec<Curve>,
+    /// Limits on Y.
+    pub(crate) limits: Vec<Limit>,
+    /// What stands in the middle if there is no curve.
+    pub(crate) empty: String,
+}
+
+#[derive(Clone, Debug)]
+pub(crate) struct Axis {
+    pub(crate) name: String,
+    /// Symbol of the unit.
+    pub(crate) unit: String,
+    /// Words that stand at 0, 1, 2, …, instead of figures; empty for an axis of numbers. Upward they go down the page.
+    pub(crate) words: Vec<String>,
+    /// Least and greatest value that an axis of numbers shows whatever the curves need.
+    pub(crate) includes: Option<[f64; 2]>,
+}
+
+impl Axis {
+    /// An axis of numbers.
+    pub(crate) fn of(name: impl Into<String>, unit: impl Into<String>) -> Self {
+        Axis { name: name.into(), unit: unit.into(), words: Vec::new(), includes: None }
+    }
+
+    /// A range that covers `range` and what is to be shown at any rate.
+    fn widened(&self, [low, high]: [f64; 2]) -> [f64; 2] {
+        match self.includes {
+            Some([from, to]) => [low.min(from), high.max(to)],
+            None => [low, high],
+        }
+    }
+
+    /// An axis of words.
+    pub(crate) fn of_words(name: impl Into<String>, words: Vec<String>) -> Self {
+        Axis { words, ..Axis::of(name, "") }
+    }
+}
+
+/// A curve: points in the units of the axes, a gap where a number is not finite.
+#[derive(Clone, Debug)]
+pub(crate) struct Curve {
+    /// For the legend.
+    pub(crate) label: String,
+    /// How it is drawn.
+    pub(crate) style: Style,
+    /// Points in their order.
+    pub(crate) points: Vec<[f64; 2]>,
+}
+
+/// How a curve is drawn.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Style {
+    pub(crate) colour: &'static str,
+    /// SVG dash pattern; solid if empty.
+    pub(crate) dash: &'static str,
+    /// Width of the line, or of a dot.
+    pub(crate) width: f64,
+    /// Line or dots.
+    pub(crate) mark: Mark,
+}
+
+/// What stands at the points of a curve.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Mark {
+    /// A line through them.
+    #[default]
+    Line,
+    Dots,
+}
+
+/// A level that should not be passed.
+#[derive(Clone, Debug)]
+pub(crate) struct Limit {
+    /// For the legend.
+    pub(crate) label: String,
+    /// Level in the unit of Y.
+    pub(crate) level: f64,
+}
+
+/// Colours that most colour-blind people tell apart (Okabe and Ito, 2008), their yellow left out for white paper.
+const COLOURS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#56b4e9", "#e69f00", "#666666"];
+const DASHES: [&str; 4] = ["", "7 3", "2 2.5", "9 3 2 3"];
+pub(crate) const LIMIT: Style = Style { colour: "#c00000", dash: "5 3", width: 1.1, mark: Mark::Line };
+
+impl Style {
+    pub(crate) const COLOURS: usize = COLOURS.len();
+    /// Dash patterns, the solid line counted.
+    pub(crate) const DASHES: usize = DASHES.len();
+    /// Styles that differ.
+    pub(crate) const DISTINCT: usize = COLOURS.len() * DASHES.len();
+
+    /// The style of a curve: colours by `colour`, dashes by `dash`; colours that come round again bring the next dash.
+    pub(crate) fn of(colour: usize, dash: usize) -> Self {
+        let dash = dash + colour / COLOURS.len();
+        Style {
+            colour: COLOURS[colour % COLOURS.len()],
+            dash: DASHES[dash % DASHES.len()],
+            width: 1.5,
+            mark: Mark::Line,
+        }
+    }
+
+    /// Measured curves: black.
+    pub(crate) fn measured(dash: usize) -> Self {
+        Style { colour: "#000000", dash: DASHES[dash % DASHES.len()], width: 1.2, mark: Mark::Line }
+    }
+
+    /// A solid line of any width: a bar, a whisker.
+    pub(crate) fn line(colour: &'static str, width: f64) -> Self {
+        Style { colour, dash: "", width, mark: Mark::Line }
+    }
+
+    pub(crate) fn dots(colour: &'static str, diameter: f64) -> Self {
+        Style { mark: Mark::Dots, ..Style::line(colour, diameter) }
+    }
+
+    /// As attributes of SVG.
+    pub(crate) fn attributes(&self) -> String {
+        let dash = match self.dash {
+            "" => String::new(),
+            dash => format!(" stroke-dasharray=\"{dash}\""),
+        };
+        let ends = match self.mark {
+            Mark::Line => "",
+            Mark::Dots => " stroke-linecap=\"round\"",
+        };
+        format!(
+            "fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"{ends}{dash}",
+            self.colour, self.width
+        )
+    }
+}
+
+/// Room beyond a limit, over its level.
+const LIMIT_ROOM: f64 = 0.02;
+/// Largest magnitude that is drawn; greater numbers count as none.
+const GREATEST: f64 = 1e300;
+
+/// Whether a number can be drawn.
+pub(crate) fn drawable(value: f64) -> bool {
+    value.abs() <= GREATEST
+}
+
+impl Figure {
+    /// Least and greatest of X and of Y, limits included; none without a point.
+    pub(crate) fn extent(&self) -> Option<[[f64; 2]; 2]> {
+        let points = self.curves.iter().flat_map(|c| &c.points);
+        let mut extent: Option<[[f64; 2]; 2]> = None;
+        for point in points.filter(|[x, y]| drawable(*x) && drawable(*y)) {
+            let [x, y] = extent.get_or_insert([[point[0]; 2], [point[1]; 2]]);
+            *x = [x[0].min(point[0]), x[1].max(point[0])];
+            *y = [y[0].min(point[1]), y[1].max(point[1])];
+        }
+        if let Some([_, y]) = &mut extent {
+            for limit in self.limits.iter().filter(|l| drawable(l.level)) {
+                // room on both sides, so that no limit falls together with the frame
+                let room = LIMIT_ROOM * limit.level.abs();
+                *y = [y[0].min(limit.level - room), y[1].max(limit.level + room)];
+            }
+        }
+        extent.map(|[x, y]| [self.x.widened(x), self.y.widened(y)])
+    }
+}

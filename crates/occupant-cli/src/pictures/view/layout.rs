@@ -1,0 +1,97 @@
+//! Where the panels stand on the sheet.
+
+use super::Strip;
+use super::projection::View;
+use super::window::Window;
+
+/// Most times side by side; more begin another block below.
+const COLUMNS: usize = 6;
+/// Width of the widest panel.
+const PANEL: f64 = 230.0;
+/// Room on the left for the names of the views.
+pub(crate) const LEFT: f64 = 84.0;
+/// Room on top for the title.
+const TOP: f64 = 52.0;
+/// Room above a block for its times.
+pub(crate) const TIMES: f64 = 24.0;
+/// Between panels.
+const GAP: f64 = 8.0;
+/// Room below for scales and legend.
+const FOOT: f64 = 74.0;
+/// The title wants this much.
+const LEAST_WIDTH: f64 = 560.0;
+
+/// The measures of a sheet, in user units.
+pub(crate) struct Layout {
+    /// User units a metre.
+    pub(crate) scale: f64,
+    /// What the panels show.
+    pub(crate) window: Window,
+    /// Width of the sheet.
+    pub(crate) width: f64,
+    /// Height of the sheet.
+    pub(crate) height: f64,
+    views: Vec<View>,
+    column: f64,
+    columns: usize,
+    block: f64,
+}
+
+impl Layout {
+    pub(crate) fn of(strip: &Strip<'_>) -> Self {
+        let window = Window::of(strip);
+        let widths = strip.views.iter().map(|v| window.size_m(*v)[0]);
+        let widest = widths.fold(0.0, f64::max);
+        let scale = PANEL / widest.max(1e-3);
+        let columns = strip.moments.len().clamp(1, COLUMNS);
+        let blocks = strip.moments.len().div_ceil(columns).max(1);
+        let mut layout = Layout {
+            scale,
+            window,
+            width: 0.0,
+            height: 0.0,
+            views: strip.views.clone(),
+            column: widest * scale,
+            columns,
+            block: 0.0,
+        };
+        layout.block = TIMES + layout.rows_above(layout.views.len());
+        layout.width = (LEFT + columns as f64 * (layout.column + GAP) + GAP).max(LEAST_WIDTH);
+        layout.height = TOP + blocks as f64 * layout.block + FOOT;
+        layout
+    }
+
+    /// Upper left corner, width and height of the panel of a moment in a row, centred in its column.
+    pub(crate) fn panel(&self, moment: usize, row: usize) -> ([f64; 2], [f64; 2]) {
+        let size = self.window.size_m(self.views[row]).map(|m| m * self.scale);
+        let [x, y] = self.head(moment);
+        let aside = 0.5 * (self.column - size[0]);
+        ([x + aside, y + TIMES + self.rows_above(row)], size)
+    }
+
+    /// Upper left corner of the column of a moment.
+    pub(crate) fn head(&self, moment: usize) -> [f64; 2] {
+        let (block, column) = (moment / self.columns, moment % self.columns);
+        [LEFT + column as f64 * (self.column + GAP), TOP + block as f64 * self.block]
+    }
+
+    /// Width of a column.
+    pub(crate) fn column(&self) -> f64 {
+        self.column
+    }
+
+    /// Whether a moment is the first of its block.
+    pub(crate) fn begins_block(&self, moment: usize) -> bool {
+        moment.is_multiple_of(self.columns)
+    }
+
+    /// Top of the room for scales and legend.
+    pub(crate) fn foot(&self) -> f64 {
+        self.height - FOOT
+    }
+
+    fn rows_above(&self, row: usize) -> f64 {
+        let heights = self.views[..row].iter().map(|v| self.window.size_m(*v)[1]);
+        heights.map(|m| m * self.scale + GAP).sum()
+    }
+}

@@ -1,0 +1,81 @@
+//! The sheet: title, panels with their times, scales.
+
+use super::layout::Layout;
+use super::panel::Pen;
+use super::{Strip, legend, panel};
+use crate::pictures::body::parts;
+use crate::pictures::font::Weight;
+use crate::pictures::svg::{Anchor, Svg, Text};
+
+/// Length of the arrow of the greatest contact force, user units.
+const LONGEST_FORCE: f64 = 70.0;
+
+/// The strip as SVG.
+pub(crate) fn draw(strip: &Strip<'_>) -> String {
+    let layout = Layout::of(strip);
+    let title = &strip.model.setup().title;
+    let mut svg = Svg::new(layout.width, layout.height, title);
+    svg.rect(0.0, 0.0, layout.width, layout.height, "fill=\"#ffffff\"");
+    let heading = Text { size: 15.0, weight: Weight::Bold, ..Text::default() };
+    svg.text([12.0, 24.0], title, &heading);
+    let axes = "Vehicle axes: X forward, Y right, Z down. One scale in all panels.";
+    let small = Text { size: 10.5, fill: "#555555", ..Text::default() };
+    svg.text([12.0, 41.0], axes, &small);
+    let parts = parts(strip.model.body());
+    let pen = Pen { strip, parts: &parts, scale: layout.scale, per_n: force_scale(strip) };
+    for moment in 0..strip.moments.len() {
+        draw_moment(&mut svg, &layout, &pen, moment);
+    }
+    legend::draw(&mut svg, &layout, &pen);
+    svg.finish()
+}
+
+/// User units a newton, for the greatest force of all moments; none without contacts.
+fn force_scale(strip: &Strip<'_>) -> Option<f64> {
+    let contacts = strip.moments.iter().flat_map(|m| &m.contacts);
+    let greatest = contacts.map(|c| c.force_n.norm()).fold(0.0, f64::max);
+    (greatest > 0.0).then(|| LONGEST_FORCE / greatest)
+}
+
+/// The column of one moment.
+fn draw_moment(svg: &mut Svg, layout: &Layout, pen: &Pen<'_>, moment: usize) {
+    let snapshot = &pen.strip.moments[moment];
+    let [x, y] = layout.head(moment);
+    let label = Text { size: 13.0, weight: Weight::Bold, anchor: Anchor::Middle, ..Text::default() };
+    let middle = x + 0.5 * layout.column();
+    svg.text([middle, y + 16.0], &time_label(snapshot.time_s), &label);
+    for (row, &view) in pen.strip.views.iter().enumerate() {
+        let (corner, [width, height]) = layout.panel(moment, row);
+        if layout.begins_block(moment) {
+            legend::name_row(svg, view, corner[1]);
+        }
+        let [x, y] = corner;
+        let name = format!("panel-{moment}-{}", view.name());
+        svg.begin_clip(&name, x, y, width, height);
+        let corner_m = layout.window.corner_m(view);
+        panel::draw(svg, pen, snapshot, view, corner, corner_m);
+        svg.end();
+        svg.rect(x, y, width, height, "fill=\"none\" stroke=\"#cccccc\"");
+    }
+}
+
+/// `40 ms`, with as many decimals (up to three) as the time has.
+fn time_label(time_s: f64) -> String {
+    let text = format!("{:.3}", time_s * 1e3);
+    let text = text.trim_end_matches('0').trim_end_matches('.');
+    let text = if text == "-0" { "0" } else { text };
+    format!("{text} ms")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_labelled_in_milliseconds() {
+        assert_eq!(time_label(0.04), "40 ms");
+        assert_eq!(time_label(0.0125), "12.5 ms");
+        assert_eq!(time_label(-1e-9), "0 ms");
+        assert_eq!(time_label(0.1 + 0.2), "300 ms");
+    }
+}

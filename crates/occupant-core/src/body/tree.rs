@@ -1,0 +1,282 @@
+//! What a body is made of, as one table: segments, the joints that hold them together, and the spheres round them.
+//!
+//! Everything that depends on the order or the topology of a body is derived from its [`Tree`]: what the kernel loops over
+//! ([`crate::motion::layout`]), the report's coordinates, names in scenarios and results. Nothing here knows a number of
+//! kilograms or metres; those are a [`super::Body`].
+
+use std::ops::Index;
+
+/// A segment of a tree: its place in the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Segment(pub(super) usize);
+
+impl Segment {
+    /// Position in the table, from 0.
+    pub const fn index(self) -> usize {
+        self.0
+    }
+
+    /// The report's number, from 1.
+    pub const fn number(self) -> usize {
+        self.0 + 1
+    }
+}
+
+/// A joint of a tree: its place in the table.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
+pub struct Joint(pub(super) usize);
+
+impl Joint {
+    /// Position in the table, from 0.
+    pub const fn index(self) -> usize {
+        self.0
+    }
+
+    /// The report's number, from 1.
+    pub const fn number(self) -> usize {
+        self.0 + 1
+    }
+}
+
+/// An end of a segment; the lower one is lower when the body stands upright with hanging arms.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum End {
+    /// The proximal end of a limb.
+    Upper,
+    /// The distal end of a limb.
+    Lower,
+}
+
+/// A side of the body, as the occupant sees it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Side {
+    /// +Y.
+    Left,
+    /// −Y.
+    Right,
+}
+
+/// A distance from the middle plane that a body gives.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Width {
+    /// L_s.
+    Shoulder,
+    /// L_H.
+    Hip,
+}
+
+/// A row of the table of segments.
+#[derive(Debug)]
+pub struct SegmentRow {
+    /// Name in scenarios and result channels.
+    pub name: &'static str,
+    /// The end at which the joint is that carries it.
+    pub joint_end: End,
+}
+
+impl SegmentRow {
+    /// True for a segment that hangs from its upper end, false for one that stands on its lower end.
+    pub const fn hangs(&self) -> bool {
+        matches!(self.joint_end, End::Upper)
+    }
+}
+
+/// How the distal segment of a joint can turn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum JointKind {
+    /// Any way.
+    Ball,
+    /// About the common Y axis only.
+    Hinge,
+}
+
+/// Where a joint is on its proximal segment.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Place {
+    /// At the reference point T1, the joint end of the first segment.
+    Root,
+    /// At the end opposite to the joint end.
+    FarEnd,
+    /// Beside that end.
+    Beside(Width, Side),
+}
+
+/// A row of the table of joints.
+#[derive(Debug)]
+pub struct JointRow {
+    /// Name in scenarios and result channels.
+    pub name: &'static str,
+    /// How it turns.
+    pub kind: JointKind,
+    /// The segment nearer to the root.
+    pub proximal: Segment,
+    /// The segment that it carries.
+    pub distal: Segment,
+    /// Where it is on the proximal segment.
+    pub place: Place,
+}
+
+impl JointRow {
+    /// True for elbows and knees.
+    pub const fn is_hinge(&self) -> bool {
+        matches!(self.kind, JointKind::Hinge)
+    }
+}
+
+/// A row of the table of standard spheres: its centre lies `lengths`·L + `radii`·r above the segment's lower end, L the
+/// segment's length and r the sphere's radius.
+#[derive(Debug)]
+pub struct SphereRow {
+    /// Name in scenarios and result channels.
+    pub name: &'static str,
+    /// The segment that carries it.
+    pub segment: Segment,
+    /// Share of the segment's length.
+    pub lengths: f64,
+    /// Share of the sphere's own radius.
+    pub radii: f64,
+    /// Distance from the middle plane; on it if absent.
+    pub beside: Option<(Width, Side)>,
+}
+
+/// An arm or a leg.
+#[derive(Clone, Copy, Debug)]
+pub struct Limb {
+    /// Upper arm or thigh.
+    pub upper: Segment,
+    /// Forearm or lower leg, on a hinge.
+    pub lower: Segment,
+}
+
+/// One of each side.
+#[derive(Clone, Copy, Debug)]
+pub struct Pair<T> {
+    /// The left one.
+    pub left: T,
+    /// The right one.
+    pub right: T,
+}
+
+/// The parts that instruments are fixed to and that seating asks for.
+#[derive(Debug)]
+pub struct Landmarks {
+    /// Carries the accelerometer of the head.
+    pub head: Segment,
+    /// Carries the accelerometer of the chest.
+    pub chest: Segment,
+    /// Sits on the cushion.
+    pub pelvis: Segment,
+    /// Between T1 and the pelvis.
+    pub middle: Segment,
+    /// Its load is that of the upper neck.
+    pub neck: Joint,
+    /// Arms.
+    pub arms: Pair<Limb>,
+    /// Legs.
+    pub legs: Pair<Limb>,
+}
+
+/// The tables of a body. A segment stands after the one that carries it.
+#[derive(Debug)]
+pub struct Tree {
+    pub(super) name: &'static str,
+    pub(super) segments: &'static [SegmentRow],
+    pub(super) joints: &'static [JointRow],
+    pub(super) spheres: &'static [SphereRow],
+    pub(super) landmarks: Landmarks,
+}
+
+/// Trees are constants of this crate, told apart by their names.
+impl PartialEq for Tree {
+    fn eq(&self, other: &Tree) -> bool {
+        self.name == other.name
+    }
+}
+
+impl Tree {
+    /// Rows of the segments.
+    pub const fn segment_rows(&self) -> &'static [SegmentRow] {
+        self.segments
+    }
+
+    /// Rows of the joints.
+    pub const fn joint_rows(&self) -> &'static [JointRow] {
+        self.joints
+    }
+
+    /// Rows of the standard spheres.
+    pub const fn spheres(&self) -> &'static [SphereRow] {
+        self.spheres
+    }
+
+    /// Names of the standard spheres, in the table's order.
+    pub fn sphere_names(&self) -> Vec<&'static str> {
+        self.spheres.iter().map(|row| row.name).collect()
+    }
+
+    /// The parts that instruments and seating ask for.
+    pub const fn landmarks(&self) -> &Landmarks {
+        &self.landmarks
+    }
+
+    /// The segment at a place in the table.
+    ///
+    /// # Panics
+    /// If the table has no such row.
+    pub const fn segment(&self, index: usize) -> Segment {
+        assert!(index < self.segments.len());
+        Segment(index)
+    }
+
+    /// The joint at a place in the table.
+    ///
+    /// # Panics
+    /// If the table has no such row.
+    pub const fn joint(&self, index: usize) -> Joint {
+        assert!(index < self.joints.len());
+        Joint(index)
+    }
+
+    /// All segments in the table's order.
+    pub fn segments(&self) -> impl ExactSizeIterator<Item = Segment> + Clone + use<> {
+        (0..self.segments.len()).map(Segment)
+    }
+
+    /// All joints in the table's order.
+    pub fn joints(&self) -> impl ExactSizeIterator<Item = Joint> + Clone + use<> {
+        (0..self.joints.len()).map(Joint)
+    }
+
+    /// The segment with this name.
+    pub fn segment_named(&self, name: &str) -> Option<Segment> {
+        self.segments().find(|s| self[*s].name == name)
+    }
+
+    /// The joint that carries a segment; nothing carries the first.
+    pub const fn carrier(&self, segment: Segment) -> Option<Joint> {
+        let mut j = 0;
+        while j < self.joints.len() {
+            if self.joints[j].distal.0 == segment.0 {
+                return Some(Joint(j));
+            }
+            j += 1;
+        }
+        None
+    }
+}
+
+impl Index<Segment> for Tree {
+    type Output = SegmentRow;
+
+    fn index(&self, segment: Segment) -> &SegmentRow {
+        &self.segments[segment.0]
+    }
+}
+
+impl Index<Joint> for Tree {
+    type Output = JointRow;
+
+    fn index(&self, joint: Joint) -> &JointRow {
+        &self.joints[joint.0]
+    }
+}

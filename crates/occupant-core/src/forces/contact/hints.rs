@@ -1,0 +1,192 @@
+//! Which pairs are worth looking at.
+//!
+//! Nearly all pairs of a sphere and a face are far apart, or have passed each other for good. A commit looks at all pairs
+//! of a group, keeps in mind those that touch or may soon come near or open, and how far the nearest of the others is from
+//! that. As long as the sphere has not moved as far, nothing can have happened to the others: later commits leave them
+//! alone. Among the watched pairs those that can exert a force before the next commit are near; evaluations within a step
+//! look at no others. No result depends on it.
+
+use std::ops::Range;
+
+use crate::forces::contact::encounter::Sphere;
+use crate::forces::contact::{ContactSystem, Group, OPEN, PASSED, PairHistory};
+use crate::forces::element::Hints;
+use crate::motion::scalar::Scalar;
+use crate::motion::vector::V3;
+
+/// Distances are trusted to this, m.
+const MARGIN_M: f64 = 1e-9;
+/// How far a sphere goes at least before all its pairs are looked at again, m: a longer way costs more watched pairs, a
+/// shorter one more looks.
+const LEAST_WAY_M: f64 = 0.02;
+
+/// Which pairs are worth looking at.
+#[derive(Clone, Debug)]
+pub struct ContactHints<S: Scalar> {
+    /// Pairs that a commit must look at: those of each group in ascending order, from the place of its first pair on.
+    pub(super) watched: Vec<u32>,
+    /// Pairs that an evaluation within a step must look at, in the same way.
+    pub(super) near: Vec<Near<S>>,
+    /// By group of pairs.
+    looks: Vec<Look<S>>,
+}
+
+/// A pair that can exert a force before the next commit.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Near<S: Scalar> {
+    pub pair: u32,
+    /// Where it can.
+    pub lanes: S::Mask,
+}
+
+/// The last look at all pairs of a group.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Look<S> {
+    /// How many pairs are watched since.
+    watched: usize,
+    /// How many pairs were near at the last commit.
+    near: usize,
+    /// Where the sphere was, axes of the frame, m.
+    centre: V3<S>,
+    /// Square of the way that the sphere may go before the next look, m²; negative if there must be one.
+    reach_squared: S,
+}
+
+impl<S: Scalar> ContactHints<S> {
+    /// Every pair counts as near until the first commit.
+    pub(super) fn new(contacts: &ContactSystem<S>) -> Self {
+        let lanes = S::truth(true);
+        let all = 0..contacts.pairs.len() as u32;
+        let looks = contacts.groups.iter().map(|group| Look {
+            watched: group.pairs.len(),
+            near: group.pairs.len(),
+            centre: V3::zero(),
+            reach_squared: -S::one(),
+        });
+        ContactHints {
+            watched: all.clone().collect(),
+            near: all.map(|pair| Near { pair, lanes }).collect(),
+            looks: looks.collect(),
+        }
+    }
+
+    /// Places of the watched pairs of `group`, number `g`.
+    #[inline(always)]
+    pub(super) fn watched_of(&self, g: usize, group: &Group) -> Range<usize> {
+        let start = group.pairs.start;
+        start..start + self.looks[g].watched
+    }
+
+    /// Places of the near pairs of `group`, number `g`.
+    #[inline(always)]
+    pub(super) fn near_of(&self, g: usize, group: &Group) -> Range<usize> {
+        let start = group.pairs.start;
+        start..start + self.looks[g].near
+    }
+
+    /// True if the sphere may have come near pairs of group `g` that are not watched.
+    #[inline(always)]
+    pub(super) fn must_look(&self, g: usize, centre: V3<S>) -> bool {
+        let look = &self.looks[g];
+        let way = (centre - look.centre).norm_squared();
+        S::any(!way.lt(look.reach_squared))
+    }
+}
+
+impl<S: Scalar> Hints for ContactHints<S> {
+    fn take_over(&mut self, other: &Self) {
+        self.watched.copy_from_slice(&other.watched);
+        self.near.copy_from_slice(&other.near);
+        self.looks.copy_from_slice(&other.looks);
+    }
+
+    fn look_again(&mut self) {
+        for look in &mut self.looks {
+            look.reach_squared = -S::one();
+        }
+    }
+}
+
+/// The near pairs of a group, being found.
+pub(super) struct Nearing {
+    first: usize,
+    count: usize,
+}
+
+impl Nearing {
+    #[inline(always)]
+    pub fn new(group: &Group) -> Self {
+        Nearing { first: group.pairs.start, count: 0 }
+    }
+
+    /// Decides whether pair `i`, committed at deformation `depth`, is near.
+    #[inline(always)]
+    pub fn at<S: Scalar>(
+        &mut self,
+        i: usize,
+        depth: S,
+        contacts: &ContactSystem<S>,
+        pair: &PairHistory<S>,
+        hints: &mut ContactHints<S>,
+    ) {
+        let lanes = contacts.is_near(depth, pair);
+        if S::any(lanes) {
+            let pair = i as u32;
+            hints.near[self.first + self.count] = Near { pair, lanes };
+            self.count += 1;
+        }
+    }
+
+    /// Remembers the near pairs of group `g`.
+    #[inline(always)]
+    pub fn end<S: Scalar>(self, g: usize, hints: &mut ContactHints<S>) {
+        hints.looks[g].near = self.count;
+    }
+}
+
+/// A look at all pairs of a group, under way.
+pub(super) struct Looking<S> {
+    first: usize,
+    count: usize,
+    /// |Δ| of the pair that is not watched and has the least.
+    least: S,
+}
+
+impl<S: Scalar> Looking<S> {
+    #[inline(always)]
+    pub fn new(group: &Group) -> Self {
+        Looking { first: group.pairs.start, count: 0, least: S::of(f64::INFINITY) }
+    }
+
+    /// Decides whether pair `i`, committed at deformation `depth`, is watched: an open one until the sphere comes near, a
+    /// passed one until the sphere comes back, one that touches always.
+    #[inline(always)]
+    pub fn at(
+        &mut self,
+        i: usize,
+        depth: S,
+        contacts: &ContactSystem<S>,
+        pair: &PairHistory<S>,
+        hints: &mut ContactHints<S>,
+    ) {
+        let phase = pair.phase;
+        let touches = phase.gt(S::of(OPEN)) & phase.lt(S::of(PASSED));
+        let (off, enough) = (depth.abs(), contacts.reach_of_a_step + S::of(LEAST_WAY_M));
+        if S::any(touches | off.lt(enough)) {
+            hints.watched[self.first + self.count] = i as u32;
+            self.count += 1;
+        } else {
+            self.least = self.least.min(off);
+        }
+    }
+
+    /// Remembers the look of `sphere` at group `g`.
+    #[inline(always)]
+    pub fn end(self, g: usize, sphere: &Sphere<'_, S>, contacts: &ContactSystem<S>, hints: &mut ContactHints<S>) {
+        let way = (self.least - contacts.reach_of_a_step - S::of(MARGIN_M)).max(S::zero());
+        let look = &mut hints.looks[g];
+        look.watched = self.count;
+        look.centre = sphere.centre_f;
+        look.reach_squared = way * way;
+    }
+}

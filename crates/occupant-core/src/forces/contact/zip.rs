@@ -1,0 +1,68 @@
+//! Contact laws number by number.
+
+use super::{ContactSystem, Pair, Part, Plane};
+use crate::forces::element::Unlike;
+
+/// Other pairs of spheres and surfaces, because of other surfaces, frames, seams or lists of spheres.
+pub const OTHER_PAIRS: Unlike = Unlike("the spheres meet other surfaces");
+/// Surfaces of another kind, or with another number of corners.
+pub const OTHER_OUTLINES: Unlike = Unlike("the surfaces have other outlines or numbers of corners");
+
+impl<S: Copy> ContactSystem<S> {
+    pub(super) fn zip<A: Copy, T>(
+        &self,
+        other: &ContactSystem<A>,
+        f: &impl Fn(S, A) -> T,
+    ) -> Result<ContactSystem<T>, Unlike> {
+        if self.groups != other.groups {
+            return Err(OTHER_PAIRS);
+        }
+        let planes = self.planes.iter().zip(&other.planes);
+        let pairs = self.pairs.iter().zip(&other.pairs);
+        Ok(ContactSystem {
+            groups: self.groups.clone(),
+            planes: planes.map(|(a, b)| a.zip(b, f)).collect(),
+            pairs: pairs.map(|(a, b)| a.zip(b, f)).collect::<Result<_, _>>()?,
+            edge_lever: f(self.edge_lever, other.edge_lever),
+            reach_of_a_step: f(self.reach_of_a_step, other.reach_of_a_step),
+        })
+    }
+}
+
+impl<S: Copy> Plane<S> {
+    fn zip<A: Copy, T>(&self, other: &Plane<A>, f: &impl Fn(S, A) -> T) -> Plane<T> {
+        Plane { normal: self.normal.zip(&other.normal, f), reach: f(self.reach, other.reach) }
+    }
+}
+
+impl<S: Copy> Pair<S> {
+    fn zip<A: Copy, T>(&self, other: &Pair<A>, f: &impl Fn(S, A) -> T) -> Result<Pair<T>, Unlike> {
+        if self.parts.len() != other.parts.len() {
+            return Err(OTHER_PAIRS);
+        }
+        let parts = self.parts.iter().zip(&other.parts);
+        Ok(Pair {
+            u: self.u.zip(&other.u, f),
+            v: self.v.zip(&other.v, f),
+            normal: self.normal.zip(&other.normal, f),
+            parts: parts.map(|(a, b)| a.zip(b, f)).collect::<Result<_, _>>()?,
+            retain: f(self.retain, other.retain),
+        })
+    }
+}
+
+impl<S: Copy> Part<S> {
+    fn zip<A: Copy, T>(&self, other: &Part<A>, f: &impl Fn(S, A) -> T) -> Result<Part<T>, Unlike> {
+        if self.surface != other.surface {
+            return Err(OTHER_PAIRS);
+        }
+        let outline = self.outline.zip(&other.outline, f);
+        Ok(Part {
+            surface: self.surface,
+            outline: outline.ok_or(OTHER_OUTLINES)?,
+            spring: self.spring.zip(&other.spring, f),
+            friction: f(self.friction, other.friction),
+            friction_speed_squared: f(self.friction_speed_squared, other.friction_speed_squared),
+        })
+    }
+}

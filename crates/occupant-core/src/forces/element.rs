@@ -1,0 +1,218 @@
+//! What a kind of force element owes the rest of the simulator.
+
+use std::fmt::Debug;
+
+use crate::body::{Body, SEGMENTS};
+use crate::forces::sphere::Site;
+use crate::motion::dynamics::Wrench;
+use crate::motion::frame::Frames;
+use crate::motion::kinematics::Kinematics;
+use crate::motion::scalar::Scalar;
+use crate::motion::state::{State, Work};
+use crate::motion::vector::V3;
+use crate::problem::Problems;
+
+/// A kind of force element: all elements of one kind in a model share a law, a place in the energy ledger, and the way in
+/// which they are checked, laid, remembered and compared.
+///
+/// The type that implements it is only a name; the types of its law and memory stand beside it. A kind may use the body,
+/// its motion and the frames, and knows no other kind.
+pub trait Element {
+    /// Where the energy stands that the elements store.
+    const STORED: StoredEnergy;
+    /// The work sums that they add to.
+    const SUMS: &'static [WorkSum];
+    /// What messages call one of them, and many.
+    const NAMES: [&'static str; 2];
+
+    /// What a setup says of them.
+    type Data<'a>: Copy;
+    /// Constants of the law.
+    type Law<S>;
+    /// What one of them remembers between steps: numbers that change only at accepted steps.
+    type Past<S>;
+    /// What spares an evaluation needless work. No result depends on it.
+    type Hints<S: Scalar>: Hints;
+    /// What one of them does at one instant.
+    type Action<S>;
+
+    /// Reports what is wrong with the data by themselves.
+    fn check(data: Self::Data<'_>, body: &Body, problems: &mut Problems);
+
+    /// Constants that do not depend on where the body is.
+    fn new(data: Self::Data<'_>, body: &Body) -> Self::Law<f64>;
+
+    /// Constants that follow from where the body is, while it settles with locked joints and at the start of the run.
+    fn lay(_law: &mut Self::Law<f64>, _data: Self::Data<'_>, _body: &Body, _at: &Instant<'_, f64>) {}
+
+    /// Constants that follow from where the body is at the start of the run alone, and what is wrong with the start.
+    fn begin(
+        _law: &mut Self::Law<f64>,
+        _data: Self::Data<'_>,
+        _body: &Body,
+        _at: &Instant<'_, f64>,
+        _problems: &mut Problems,
+    ) {
+    }
+
+    /// What each remembers of a body that stands where it is.
+    fn start(law: &Self::Law<f64>, at: &Instant<'_, f64>) -> Vec<Self::Past<f64>>;
+
+    /// Hints that leave nothing out.
+    fn hints<S: Scalar>(law: &Self::Law<S>) -> Self::Hints<S>;
+
+    /// How many there are that remember something.
+    fn count<S>(law: &Self::Law<S>) -> usize;
+
+    /// How many may act at one instant.
+    fn most_actions<S>(law: &Self::Law<S>) -> usize {
+        Self::count(law)
+    }
+
+    /// f applied to every number of a law and the one in the same place of another.
+    ///
+    /// # Errors
+    /// Laws of unlike structure.
+    fn zip<S: Copy, A: Copy, T>(
+        one: &Self::Law<S>,
+        other: &Self::Law<A>,
+        f: &impl Fn(S, A) -> T,
+    ) -> Result<Self::Law<T>, Unlike>;
+
+    /// f called with every number that two of them remember, in one order.
+    fn each<S, A>(one: &mut Self::Past<S>, other: &mut Self::Past<A>, f: &mut impl FnMut(&mut S, &mut A));
+
+    /// What one remembers with every number replaced by f of it, in the order of [`Element::each`].
+    fn map<A: Copy, S>(past: &Self::Past<A>, f: &mut impl FnMut(A) -> S) -> Self::Past<S>;
+
+    /// Whether one could remember this.
+    fn is_possible(_past: &Self::Past<f64>) -> bool {
+        true
+    }
+
+    /// Brings what one remembers back into range after its numbers were changed a little.
+    fn confine(_past: &mut Self::Past<f64>) {}
+
+    /// Adds forces and powers to `load` and shows every action. With `COMMIT` each element first takes over the present
+    /// position, which must be that of an accepted step; without it what they remember is only read.
+    fn apply<S: Scalar, const COMMIT: bool>(
+        law: &Self::Law<S>,
+        at: &Instant<'_, S>,
+        past: &mut [Self::Past<S>],
+        hints: &mut Self::Hints<S>,
+        load: &mut Load<S>,
+        show: &mut impl FnMut(&Self::Action<S>),
+    );
+
+    /// Energy stored in all of them, from all that they do at one instant, J.
+    fn stored_j(actions: &[Self::Action<f64>]) -> f64;
+}
+
+/// What spares an evaluation needless work.
+pub trait Hints: Clone + Debug {
+    /// Becomes what `other`, of the same elements, is; allocates nothing.
+    fn take_over(&mut self, other: &Self);
+
+    /// Leaves nothing out until the next commit, as it must be where the remembered numbers are those of another place.
+    fn look_again(&mut self);
+}
+
+/// No hints.
+impl Hints for () {
+    fn take_over(&mut self, _other: &Self) {}
+    fn look_again(&mut self) {}
+}
+
+/// An energy that the elements of a kind store.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct StoredEnergy {
+    /// Its place in the energy ledger.
+    pub at: usize,
+    /// Its name in results.
+    pub name: &'static str,
+    /// What it is.
+    pub meaning: &'static str,
+    /// The work sum that also holds it, by place; none if it follows from the posture alone.
+    pub held_by: Option<usize>,
+}
+
+/// A sum of work in [`Work::sums`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WorkSum {
+    /// Its place there and among the losses of the energy ledger.
+    pub at: usize,
+    /// The loss's name in results.
+    pub name: &'static str,
+    /// What the loss is.
+    pub meaning: &'static str,
+}
+
+/// Where the body and the frames are at one instant, and how they move.
+#[derive(Clone, Copy, Debug)]
+pub struct Instant<'a, S> {
+    /// Places and velocities of the segments.
+    pub k: &'a Kinematics<S>,
+    /// State.
+    pub state: &'a State<S>,
+    /// Frames.
+    pub frames: &'a Frames<S>,
+    /// Spheres of the body.
+    pub spheres: &'a [Site<S>],
+}
+
+impl<S: Scalar> Instant<'_, S> {
+    /// A sphere's centre in the axes of a frame, m.
+    pub(crate) fn centre_in(&self, sphere: usize, frame: usize) -> V3<S> {
+        let frame = &self.frames[frame];
+        let (_, centre, _) = self.spheres[sphere].place(self.k);
+        frame.axes.into_frame(centre - frame.origin)
+    }
+}
+
+/// Loads on the segments but gravity, and their powers.
+#[derive(Clone, Copy, Debug)]
+pub struct Load<S> {
+    /// By segment.
+    pub wrench: [Wrench<S>; SEGMENTS],
+    /// W.
+    pub power: Work<S>,
+}
+
+impl<S: Scalar> Load<S> {
+    /// None yet.
+    #[inline(always)]
+    pub fn zero() -> Self {
+        Load { wrench: [Wrench::zero(); SEGMENTS], power: Work::zero() }
+    }
+}
+
+/// What keeps two systems from being computed side by side, in words.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{0}")]
+pub struct Unlike(pub &'static str);
+
+/// What elements cannot remember.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Misfit {
+    /// Another number of them.
+    #[error("the checkpoint has {found} {of}, the scenario {expected}")]
+    Count {
+        /// Of what.
+        of: &'static str,
+        /// In the checkpoint.
+        found: usize,
+        /// In the model.
+        expected: usize,
+    },
+    /// One is in a state in which none can be.
+    #[error("the checkpoint's {of} {number} is in no possible state")]
+    Impossible {
+        /// What it is.
+        of: &'static str,
+        /// Its number.
+        number: usize,
+    },
+    /// A number that is not finite.
+    #[error("the checkpoint holds numbers that are not finite")]
+    NotFinite,
+}

@@ -1,0 +1,94 @@
+//! Moments in the joints: viscous dampers, stops, springs in β, resistance to twist.
+
+mod check;
+mod law;
+
+pub use law::*;
+
+use crate::body::Body;
+use crate::body::joint::Joints;
+use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkSum};
+use crate::motion::layout::BALLS;
+use crate::motion::scalar::Scalar;
+use crate::problem::Problems;
+
+/// Place of the springs' energy in the energy ledger.
+pub const STORED: usize = 0;
+/// Place of the work that dampers and stops dissipate.
+pub const DAMPING: usize = 2;
+
+/// Springs in other joints.
+pub const OTHER_SPRINGS: Unlike = Unlike("other joints have springs");
+
+/// The kind of force element: moments in the joints.
+#[derive(Clone, Copy, Debug)]
+pub struct JointMoments;
+
+impl Element for JointMoments {
+    const STORED: StoredEnergy =
+        StoredEnergy { at: STORED, name: "spine", meaning: "stored in the joints' springs", held_by: None };
+    const SUMS: &'static [WorkSum] = &[WorkSum { at: DAMPING, name: "lost_joints", meaning: "dissipated by joints" }];
+    const NAMES: [&'static str; 2] = ["joint", "joints"];
+
+    type Data<'a> = &'a Joints;
+    type Law<S> = JointSystem<S>;
+    type Past<S> = ();
+    type Hints<S: Scalar> = ();
+    type Action<S> = BallAction<S>;
+
+    fn check(data: &Joints, _body: &Body, problems: &mut Problems) {
+        check::check(data, problems);
+    }
+
+    fn new(data: &Joints, _body: &Body) -> JointSystem<f64> {
+        JointSystem::new(data, &[0.0; BALLS.len()])
+    }
+
+    /// The springs are at rest where the body begins, unless they give their own angles.
+    fn begin(law: &mut JointSystem<f64>, data: &Joints, _body: &Body, at: &Instant<'_, f64>, _problems: &mut Problems) {
+        let rest = std::array::from_fn(|i| law.beta(i, at.k));
+        *law = JointSystem::new(data, &rest);
+    }
+
+    fn start(_law: &JointSystem<f64>, _at: &Instant<'_, f64>) -> Vec<()> {
+        Vec::new()
+    }
+
+    fn hints<S: Scalar>(_law: &JointSystem<S>) {}
+
+    fn count<S>(_law: &JointSystem<S>) -> usize {
+        0
+    }
+
+    fn most_actions<S>(_law: &JointSystem<S>) -> usize {
+        BALLS.len()
+    }
+
+    fn zip<S: Copy, A: Copy, T>(
+        one: &JointSystem<S>,
+        other: &JointSystem<A>,
+        f: &impl Fn(S, A) -> T,
+    ) -> Result<JointSystem<T>, Unlike> {
+        if one.springs() == other.springs() { Ok(one.zip(other, f)) } else { Err(OTHER_SPRINGS) }
+    }
+
+    fn each<S, A>(_one: &mut (), _other: &mut (), _f: &mut impl FnMut(&mut S, &mut A)) {}
+
+    fn map<A: Copy, S>(_past: &(), _f: &mut impl FnMut(A) -> S) {}
+
+    #[inline(always)]
+    fn apply<S: Scalar, const COMMIT: bool>(
+        law: &JointSystem<S>,
+        at: &Instant<'_, S>,
+        _past: &mut [()],
+        _hints: &mut (),
+        load: &mut Load<S>,
+        show: &mut impl FnMut(&BallAction<S>),
+    ) {
+        load.power.sums[DAMPING] = law.apply(at.k, at.state, &mut load.wrench, show);
+    }
+
+    fn stored_j(actions: &[BallAction<f64>]) -> f64 {
+        actions.iter().map(|ball| ball.stored).sum()
+    }
+}

@@ -1,0 +1,306 @@
+//! The list of all kinds of force elements, and what follows from it.
+
+use super::belt::Belts;
+use super::contact::Contacts;
+use super::element::{Element, Hints as _, Instant, Load, Misfit, StoredEnergy, Unlike, WorkSum};
+use super::joint::JointMoments;
+use crate::body::Body;
+use crate::motion::scalar::Scalar;
+use crate::motion::state::WORK_SUMS;
+use crate::problem::Problems;
+
+/// Everything that goes over all kinds, for the kinds in the order in which their forces are added.
+macro_rules! kinds {
+    ($($kind:ident: $Kind:ident),+ $(,)?) => {
+        /// How many kinds there are.
+        pub const KINDS: usize = [$(stringify!($kind)),+].len();
+
+        /// The energies that elements store, in the order of results.
+        pub const STORED: [StoredEnergy; KINDS] = stored_in_order([$($Kind::STORED),+]);
+
+        /// The work sums of the elements, in their order in [`crate::motion::state::Work`].
+        pub const SUMS: [WorkSum; WORK_SUMS] = sums_in_order([$($Kind::SUMS),+]);
+
+        /// What a setup says of all force elements.
+        #[derive(Clone, Copy)]
+        #[allow(missing_docs, reason = "one field for each kind")]
+        pub struct Data<'a> {
+            $(pub $kind: <$Kind as Element>::Data<'a>),+
+        }
+
+        /// Force laws of everything that acts on the body.
+        #[derive(Clone, Debug)]
+        #[allow(missing_docs, reason = "one field for each kind")]
+        pub struct Forces<S> {
+            $(pub $kind: <$Kind as Element>::Law<S>),+
+        }
+
+        /// What force elements remember between steps: plain numbers that a run carries on.
+        #[derive(Clone, Debug, PartialEq)]
+        #[allow(missing_docs, reason = "one field for each kind")]
+        pub struct Memory<S> {
+            $(pub $kind: Vec<<$Kind as Element>::Past<S>>),+
+        }
+
+        #[derive(Clone, Debug)]
+        struct AllHints<S: Scalar> {
+            $($kind: <$Kind as Element>::Hints<S>),+
+        }
+
+        /// What all force elements do at one instant.
+        #[derive(Clone, Debug)]
+        #[allow(missing_docs, reason = "one field for each kind")]
+        pub struct Actions<S> {
+            $(pub $kind: Vec<<$Kind as Element>::Action<S>>),+
+        }
+
+        /// Receives what happens in an evaluation.
+        #[allow(missing_docs, reason = "one method for each kind")]
+        pub trait Observer<S> {
+            $(
+                #[inline(always)]
+                fn $kind(&mut self, _action: &<$Kind as Element>::Action<S>) {}
+            )+
+        }
+
+        /// Collects everything.
+        impl<S: Copy> Observer<S> for Actions<S> {
+            $(
+                #[inline(always)]
+                fn $kind(&mut self, action: &<$Kind as Element>::Action<S>) {
+                    self.$kind.push(*action);
+                }
+            )+
+        }
+
+        impl<S> Actions<S> {
+            /// Room for all that `forces` can do.
+            pub fn with_room(forces: &Forces<impl Sized>) -> Self {
+                Actions { $($kind: Vec::with_capacity($Kind::most_actions(&forces.$kind))),+ }
+            }
+
+            /// Nothing yet.
+            pub fn clear(&mut self) {
+                $(self.$kind.clear();)+
+            }
+        }
+
+        impl Actions<f64> {
+            /// Stored energies in the order of [`STORED`], J.
+            pub fn stored_j(&self) -> [f64; KINDS] {
+                let mut list = [0.0; KINDS];
+                $(list[$Kind::STORED.at] = $Kind::stored_j(&self.$kind);)+
+                list
+            }
+        }
+
+        impl Data<'_> {
+            /// Reports what is wrong with the data by themselves, in the order of [`STORED`].
+            pub(crate) fn check(&self, body: &Body, problems: &mut Problems) {
+                let mut found = [const { Problems::new() }; KINDS];
+                $($Kind::check(self.$kind, body, &mut found[$Kind::STORED.at]);)+
+                found.into_iter().for_each(|some| problems.extend(some));
+            }
+        }
+
+        impl Forces<f64> {
+            /// Laws for a body that has no place yet.
+            pub fn new(data: &Data<'_>, body: &Body) -> Self {
+                Forces { $($kind: $Kind::new(data.$kind, body)),+ }
+            }
+
+            /// Takes over where the body is while it settles or begins; see [`Element::lay`].
+            pub(crate) fn lay(&mut self, data: &Data<'_>, body: &Body, at: &Instant<'_, f64>) {
+                $($Kind::lay(&mut self.$kind, data.$kind, body, at);)+
+            }
+
+            /// Takes over where the body begins; see [`Element::begin`].
+            pub(crate) fn begin(
+                &mut self,
+                data: &Data<'_>,
+                body: &Body,
+                at: &Instant<'_, f64>,
+                problems: &mut Problems,
+            ) {
+                $($Kind::begin(&mut self.$kind, data.$kind, body, at, problems);)+
+            }
+
+            /// What all remember of a body that stands where it is.
+            pub(crate) fn start(&self, at: &Instant<'_, f64>) -> History<f64> {
+                History::new(self, Memory { $($kind: $Kind::start(&self.$kind, at)),+ })
+            }
+        }
+
+        impl<S: Copy> Forces<S> {
+            /// f applied to every number and the one in the same place of `other`.
+            ///
+            /// # Errors
+            /// Elements of unlike structure.
+            pub fn zip<A: Copy, T>(&self, other: &Forces<A>, f: &impl Fn(S, A) -> T) -> Result<Forces<T>, Unlike> {
+                Ok(Forces { $($kind: $Kind::zip(&self.$kind, &other.$kind, f)?),+ })
+            }
+        }
+
+        impl<S: Scalar> Forces<S> {
+            /// All loads and powers at one instant. With `COMMIT` the history first takes over the present position, which
+            /// must be that of an accepted step; without it the history is only read.
+            #[inline(always)]
+            pub fn apply<const COMMIT: bool>(
+                &self,
+                at: &Instant<'_, S>,
+                history: &mut History<S>,
+                observer: &mut impl Observer<S>,
+            ) -> Load<S> {
+                let mut load = Load::zero();
+                $($Kind::apply::<S, COMMIT>(
+                    &self.$kind,
+                    at,
+                    &mut history.memory.$kind,
+                    &mut history.hints.$kind,
+                    &mut load,
+                    &mut |action| observer.$kind(action),
+                );)+
+                load
+            }
+        }
+
+        impl<S> Memory<S> {
+            /// f called with every number and the one in the same place of `other`, of the same elements.
+            pub fn each<A>(&mut self, other: &mut Memory<A>, f: &mut impl FnMut(&mut S, &mut A)) {
+                $(
+                    for (one, other) in self.$kind.iter_mut().zip(&mut other.$kind) {
+                        $Kind::each(one, other, f);
+                    }
+                )+
+            }
+        }
+
+        impl<S: Copy> Memory<S> {
+            /// The same with every number replaced by f of it, in the order of [`Memory::each`].
+            pub fn map<T>(&self, f: &mut impl FnMut(S) -> T) -> Memory<T> {
+                Memory { $($kind: self.$kind.iter().map(|past| $Kind::map(past, f)).collect()),+ }
+            }
+
+            fn take_over(&mut self, other: &Self) {
+                $(self.$kind.copy_from_slice(&other.$kind);)+
+            }
+        }
+
+        impl Memory<f64> {
+            /// Whether it is of as many elements as `forces` has.
+            ///
+            /// # Errors
+            /// The first kind that it has another number of.
+            pub fn check_count(&self, forces: &Forces<f64>) -> Result<(), Misfit> {
+                $(
+                    let [_, of] = $Kind::NAMES;
+                    let (found, expected) = (self.$kind.len(), $Kind::count(&forces.$kind));
+                    if found != expected {
+                        return Err(Misfit::Count { of, found, expected });
+                    }
+                )+
+                Ok(())
+            }
+
+            /// Whether elements can remember this.
+            ///
+            /// # Errors
+            /// The first that cannot.
+            pub fn check(&self) -> Result<(), Misfit> {
+                $(
+                    let [of, _] = $Kind::NAMES;
+                    if let Some(number) = self.$kind.iter().position(|past| !$Kind::is_possible(past)) {
+                        return Err(Misfit::Impossible { of, number });
+                    }
+                )+
+                let mut is_finite = true;
+                self.map(&mut |x: f64| is_finite &= x.is_finite());
+                if is_finite { Ok(()) } else { Err(Misfit::NotFinite) }
+            }
+
+            /// Brings all back into range after numbers were changed a little.
+            pub fn confine(&mut self) {
+                $(self.$kind.iter_mut().for_each($Kind::confine);)+
+            }
+        }
+
+        impl<S: Scalar> AllHints<S> {
+            fn new(forces: &Forces<S>) -> Self {
+                AllHints { $($kind: $Kind::hints(&forces.$kind)),+ }
+            }
+
+            fn take_over(&mut self, other: &Self) {
+                $(self.$kind.take_over(&other.$kind);)+
+            }
+
+            fn look_again(&mut self) {
+                $(self.$kind.look_again();)+
+            }
+        }
+    };
+}
+
+kinds! {
+    contacts: Contacts,
+    belts: Belts,
+    joints: JointMoments,
+}
+
+/// Sees nothing.
+impl<S> Observer<S> for () {}
+
+/// What force elements remember between steps, changed only at accepted steps, and what spares them work.
+#[derive(Clone, Debug)]
+pub struct History<S: Scalar> {
+    /// All that a run carries on.
+    pub memory: Memory<S>,
+    hints: AllHints<S>,
+}
+
+impl<S: Scalar> History<S> {
+    /// What elements of `forces` remember; nothing is left out until the first commit.
+    pub fn new(forces: &Forces<S>, memory: Memory<S>) -> Self {
+        History { memory, hints: AllHints::new(forces) }
+    }
+
+    /// Becomes what `other`, a history of the same elements, is.
+    pub fn take_over(&mut self, other: &History<S>) {
+        self.memory.take_over(&other.memory);
+        self.hints.take_over(&other.hints);
+    }
+
+    /// Lets the next commit look at everything, as it must where the remembered numbers are those of another place.
+    pub fn look_again(&mut self) {
+        self.hints.look_again();
+    }
+}
+
+/// The energies by their places, of which each must be taken once.
+const fn stored_in_order(kinds: [StoredEnergy; KINDS]) -> [StoredEnergy; KINDS] {
+    let (mut list, mut is_taken, mut i) = (kinds, [false; KINDS], 0);
+    while i < KINDS {
+        let at = kinds[i].at;
+        assert!(!is_taken[at], "two kinds store their energy in one place");
+        (is_taken[at], list[at]) = (true, kinds[i]);
+        i += 1;
+    }
+    list
+}
+
+/// The work sums by their places, of which each must be taken once.
+const fn sums_in_order(kinds: [&[WorkSum]; KINDS]) -> [WorkSum; WORK_SUMS] {
+    let (mut list, mut is_taken, mut count) = ([kinds[0][0]; WORK_SUMS], [false; WORK_SUMS], 0);
+    let mut i = 0;
+    while i < KINDS {
+        let mut j = 0;
+        while j < kinds[i].len() {
+            let at = kinds[i][j].at;
+            assert!(!is_taken[at], "two work sums in one place");
+            (is_taken[at], list[at]) = (true, kinds[i][j]);
+            (count, j) = (count + 1, j + 1);
+        }
+        i += 1;
+    }
+    assert!(count == WORK_SUMS, "a place for a work sum that no element takes");
+    list
+}

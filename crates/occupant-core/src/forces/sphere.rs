@@ -1,0 +1,46 @@
+//! The spheres of the body as the kernel sees them: what surfaces press on and belts go round.
+
+use crate::body::{Body, ContactSphere};
+use crate::motion::kinematics::Kinematics;
+use crate::motion::scalar::Scalar;
+use crate::motion::vector::V3;
+
+/// A sphere of the body.
+#[derive(Clone, Copy, Debug)]
+pub struct Site<S> {
+    /// Index of its segment.
+    pub segment: usize,
+    /// Centre seen from the segment's proximal joint, segment axes, m.
+    pub offset: V3<S>,
+    /// r, m.
+    pub radius: S,
+}
+
+impl<S: Copy> Site<S> {
+    pub(crate) fn zip<A: Copy, T>(&self, other: &Site<A>, f: &impl Fn(S, A) -> T) -> Site<T> {
+        Site { segment: self.segment, offset: self.offset.zip(&other.offset, f), radius: f(self.radius, other.radius) }
+    }
+}
+
+impl<S: Scalar> Site<S> {
+    fn new(body: &Body, sphere: &ContactSphere) -> Site<S> {
+        // the proximal joint of a hanging segment is its upper end
+        let joint = if body.tree[sphere.segment].hangs() { body.segment(sphere.segment).length_m } else { 0.0 };
+        let mut offset = sphere.centre_from_lower_end_m.coords;
+        offset.z -= joint;
+        Site { segment: sphere.segment.index(), offset: V3::of(&offset), radius: S::of(sphere.radius_m) }
+    }
+
+    /// The spheres of `body`, in its order.
+    pub fn all(body: &Body) -> Vec<Site<S>> {
+        body.spheres.iter().map(|sphere| Site::new(body, sphere)).collect()
+    }
+
+    /// The centre seen from the segment's joint, in space, and its velocity; all in space axes.
+    #[inline(always)]
+    pub fn place(&self, k: &Kinematics<S>) -> (V3<S>, V3<S>, V3<S>) {
+        let n = self.segment;
+        let arm = k.axes[n].out(self.offset);
+        (arm, k.joint[n] + arm, k.joint_velocity[n] + k.omega[n].cross(arm))
+    }
+}

@@ -1,0 +1,291 @@
+//! The words of results: what a quantity is called, its unit and axes, its field in the result file, and how it is taken
+//! from what it belongs to.
+//!
+//! Whatever has results of its own lists its quantities once; [`crate::results::catalogue`] puts the lists of a model
+//! together. Nothing here knows a model or a run.
+
+use std::fmt;
+
+use crash_measures::unit::Unit;
+use nalgebra::{UnitQuaternion, Vector3};
+
+/// The axes that a component is along.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Axes {
+    /// No axes: a scalar or a resultant.
+    None,
+    /// Vehicle axes: X forward, Y right, Z down.
+    Vehicle,
+    /// Axes of the segment: X ahead, Y to the occupant's left, Z up when standing upright.
+    Segment,
+    /// SAE J211 axes of the segment: X ahead, Y to the occupant's right, Z down when standing upright.
+    J211,
+    /// Vehicle-space: X′_v forward, Y′_v right, Z′_v down, fixed.
+    VehicleSpace,
+    /// Space: X′ forward, Y′ left, Z′ up.
+    Space,
+}
+
+impl Axes {
+    /// Its name in metadata.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Axes::None => "none",
+            Axes::Vehicle => "vehicle",
+            Axes::Segment => "segment",
+            Axes::J211 => "segment (SAE J211)",
+            Axes::VehicleSpace => "vehicle-space",
+            Axes::Space => "space",
+        }
+    }
+
+    /// Its word in the names of fields.
+    const fn word(self) -> &'static str {
+        match self {
+            Axes::None => "",
+            Axes::Vehicle => "vehicle",
+            Axes::Segment => "segment",
+            Axes::J211 => "j211",
+            Axes::VehicleSpace => "path",
+            Axes::Space => "space",
+        }
+    }
+}
+
+/// Segment axes (left, up) to SAE J211 axes (right, down), or back: a half turn about X.
+pub fn to_j211(v: Vector3<f64>) -> Vector3<f64> {
+    Vector3::new(v.x, -v.y, -v.z)
+}
+
+/// What quantities belong to: the vehicle, a segment, a belt.
+pub trait Owner {
+    /// It at one output.
+    type At<'a>;
+}
+
+/// A quantity of results: a time history, a field of a message, or both.
+pub struct Quantity<O: Owner> {
+    /// SI unit.
+    pub unit: Unit,
+    /// What it is along.
+    pub axes: Axes,
+    /// How it is taken from its owner.
+    pub take: Take<O>,
+    /// As a time history.
+    pub channel: Option<ChannelWords>,
+    /// As a field of its owner's message.
+    pub field: Option<FieldWords>,
+    /// The field of a vector's magnitude.
+    pub resultant: Option<FieldWords>,
+}
+
+/// How a time history is called.
+#[derive(Clone, Copy, Debug)]
+pub struct ChannelWords {
+    /// The end of its name, after the owner's.
+    pub name: &'static str,
+    /// What it is, with `{}` for the owner.
+    pub meaning: &'static str,
+}
+
+/// How a field of a message is called. Numbers are never given again to something else.
+#[derive(Clone, Copy, Debug)]
+pub struct FieldWords {
+    /// Field number.
+    pub number: u32,
+    /// Its name without axes and unit.
+    pub stem: &'static str,
+    /// What it is, for the file's metadata.
+    pub meaning: &'static str,
+}
+
+/// How a quantity is taken from its owner at one output.
+pub enum Take<O: Owner> {
+    /// A number.
+    Number(for<'a> fn(&O::At<'a>) -> f64),
+    /// A whole number.
+    Count(for<'a> fn(&O::At<'a>) -> u64),
+    /// Words.
+    Text(for<'a> fn(&O::At<'a>) -> String),
+    /// A vector.
+    Vector(for<'a> fn(&O::At<'a>) -> Vector3<f64>),
+    /// A vector that need not exist.
+    Perhaps(for<'a> fn(&O::At<'a>) -> Option<Vector3<f64>>),
+    /// A rotation.
+    Rotation(for<'a> fn(&O::At<'a>) -> UnitQuaternion<f64>),
+    /// A list of numbers.
+    Numbers(for<'a> fn(&O::At<'a>) -> Vec<f64>),
+    /// A list of indices.
+    Indices(for<'a> fn(&O::At<'a>) -> Vec<u32>),
+    /// Messages of the named type within the message.
+    Parts(&'static str, for<'a> fn(&O::At<'a>) -> Vec<Vec<(u32, Value)>>),
+}
+
+/// What was taken.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Value {
+    /// A number.
+    Number(f64),
+    /// A whole number.
+    Count(u64),
+    /// Words.
+    Text(String),
+    /// A vector; none where it does not exist.
+    Vector(Option<Vector3<f64>>),
+    /// A rotation.
+    Rotation(UnitQuaternion<f64>),
+    /// A list of numbers.
+    Numbers(Vec<f64>),
+    /// A list of indices.
+    Indices(Vec<u32>),
+    /// Messages within the message: fields by number.
+    Parts(Vec<Vec<(u32, Value)>>),
+}
+
+/// The type of a field.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Kind {
+    /// A number.
+    Number,
+    /// A whole number.
+    Count,
+    /// Words.
+    Text,
+    /// A vector.
+    Vector,
+    /// A rotation.
+    Rotation,
+    /// A list of numbers.
+    Numbers,
+    /// A list of indices.
+    Indices,
+    /// Messages of the named type.
+    Parts(&'static str),
+}
+
+impl<O: Owner> Clone for Quantity<O> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<O: Owner> Copy for Quantity<O> {}
+
+impl<O: Owner> fmt::Debug for Quantity<O> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Quantity { unit, axes, channel, field, .. } = self;
+        write!(f, "Quantity({unit:?}, {axes:?}, {channel:?}, {field:?})")
+    }
+}
+
+impl<O: Owner> fmt::Debug for Take<O> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Take")
+    }
+}
+
+impl<O: Owner> Clone for Take<O> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<O: Owner> Copy for Take<O> {}
+
+impl<O: Owner> Quantity<O> {
+    /// What a function takes from its owner.
+    pub const fn new(unit: Unit, axes: Axes, take: Take<O>) -> Self {
+        Quantity { unit, axes, take, channel: None, field: None, resultant: None }
+    }
+
+    /// A number.
+    pub const fn number(unit: Unit, of: fn(&O::At<'_>) -> f64) -> Self {
+        Quantity::new(unit, Axes::None, Take::Number(of))
+    }
+
+    /// A whole number.
+    pub const fn count(of: fn(&O::At<'_>) -> u64) -> Self {
+        Quantity::new(Unit::One, Axes::None, Take::Count(of))
+    }
+
+    /// A vector.
+    pub const fn vector(unit: Unit, axes: Axes, of: fn(&O::At<'_>) -> Vector3<f64>) -> Self {
+        Quantity::new(unit, axes, Take::Vector(of))
+    }
+
+    /// A vector that need not exist.
+    pub const fn perhaps(unit: Unit, axes: Axes, of: fn(&O::At<'_>) -> Option<Vector3<f64>>) -> Self {
+        Quantity::new(unit, axes, Take::Perhaps(of))
+    }
+
+    /// Also a time history; `{}` in `meaning` stands for the owner.
+    pub const fn channel(mut self, name: &'static str, meaning: &'static str) -> Self {
+        self.channel = Some(ChannelWords { name, meaning });
+        self
+    }
+
+    /// Also a field of the owner's message; axes and unit are added to `stem`.
+    pub const fn field(mut self, number: u32, stem: &'static str, meaning: &'static str) -> Self {
+        self.field = Some(FieldWords { number, stem, meaning });
+        self
+    }
+
+    /// Its magnitude is a field too.
+    pub const fn resultant(mut self, number: u32, stem: &'static str, meaning: &'static str) -> Self {
+        self.resultant = Some(FieldWords { number, stem, meaning });
+        self
+    }
+
+    /// The name of its field: quantity, axes, unit.
+    pub fn field_name(&self, stem: &str) -> String {
+        let unit = suffix(self.unit);
+        [stem, self.axes.word(), &unit].into_iter().filter(|w| !w.is_empty()).collect::<Vec<_>>().join("_")
+    }
+
+    /// The name of the field of its magnitude.
+    pub fn resultant_name(&self, stem: &str) -> String {
+        format!("{stem}_resultant_{}", suffix(self.unit))
+    }
+
+    /// Its value.
+    pub fn value(&self, at: &O::At<'_>) -> Value {
+        match self.take {
+            Take::Number(of) => Value::Number(of(at)),
+            Take::Count(of) => Value::Count(of(at)),
+            Take::Text(of) => Value::Text(of(at)),
+            Take::Vector(of) => Value::Vector(Some(of(at))),
+            Take::Perhaps(of) => Value::Vector(of(at)),
+            Take::Rotation(of) => Value::Rotation(of(at)),
+            Take::Numbers(of) => Value::Numbers(of(at)),
+            Take::Indices(of) => Value::Indices(of(at)),
+            Take::Parts(_, of) => Value::Parts(of(at)),
+        }
+    }
+
+    /// The type of its field.
+    pub const fn kind(&self) -> Kind {
+        match self.take {
+            Take::Number(_) => Kind::Number,
+            Take::Count(_) => Kind::Count,
+            Take::Text(_) => Kind::Text,
+            Take::Vector(_) | Take::Perhaps(_) => Kind::Vector,
+            Take::Rotation(_) => Kind::Rotation,
+            Take::Numbers(_) => Kind::Numbers,
+            Take::Indices(_) => Kind::Indices,
+            Take::Parts(message, _) => Kind::Parts(message),
+        }
+    }
+}
+
+/// `m_s2` for m/s²; nothing for a plain number.
+fn suffix(unit: Unit) -> String {
+    match unit {
+        Unit::One => String::new(),
+        unit => unit.symbol().to_lowercase().replace(['/', '·'], "_").replace('²', "2"),
+    }
+}
+
+/// Values of all fields of a list, by number.
+pub fn values<O: Owner>(list: &[Quantity<O>], at: &O::At<'_>) -> Vec<(u32, Value)> {
+    list.iter().filter_map(|q| Some((q.field?.number, q.value(at)))).collect()
+}

@@ -1,0 +1,104 @@
+//! Place and motion of the segments (report, "Output", items 1 to 4), the dummy's load cells, the report's coordinates.
+
+use crash_measures::unit::Unit::{
+    Metre, MetrePerSecond, MetrePerSecondSquared, Newton, NewtonMetre, One, RadianPerSecond, RadianPerSecondSquared,
+};
+
+use super::Run;
+use crate::body::Segment;
+use crate::body::tree::Landmarks;
+use crate::quantity::{Axes, Owner, Quantity, Take, to_j211};
+use crate::results::reaction::{femur_axial_n, reaction};
+use crate::results::sample::Sample;
+
+/// A segment.
+#[derive(Debug)]
+pub(super) struct OfSegment;
+
+impl Owner for OfSegment {
+    type At<'a> = (&'a Sample<'a>, Segment);
+}
+
+type Of = Quantity<OfSegment>;
+
+/// Message `SegmentState`.
+pub(super) const SEGMENT: &[Of] = &[
+    Of::vector(MetrePerSecondSquared, Axes::Segment, |(s, n)| s.specific_force_m_s2(*n))
+        .channel(
+            "acceleration",
+            "accelerometer reading (acceleration minus gravity) at the centre of gravity of the {}",
+        )
+        .field(7, "accelerometer", "what an accelerometer there reads: the same less gravity (item 2)")
+        .resultant(8, "accelerometer", "magnitude of the accelerometer's reading"),
+    Of::vector(MetrePerSecondSquared, Axes::Segment, |(s, n)| s.cg_acceleration_m_s2(*n))
+        .channel("kinematic_acceleration", "kinematic acceleration of the centre of gravity of the {}")
+        .field(6, "cg_acceleration", "kinematic acceleration of the centre of gravity (item 2)"),
+    Of::vector(RadianPerSecond, Axes::Segment, |(s, n)| s.angular_velocity_rad_s(*n))
+        .channel("angular_velocity", "absolute angular velocity of the {}")
+        .field(10, "angular_velocity", "angular velocity in space, along the segment's axes (item 4)"),
+    Of::vector(RadianPerSecondSquared, Axes::Segment, |(s, n)| s.angular_acceleration_rad_s2(*n))
+        .channel("angular_acceleration", "angular acceleration of the {}")
+        .field(9, "angular_acceleration", "angular acceleration in space, along the segment's axes (item 3)"),
+    Of::vector(MetrePerSecond, Axes::Vehicle, |(s, n)| s.vehicle.vector_to_frame(s.cg_velocity_m_s(*n)))
+        .channel("velocity", "absolute velocity of the centre of gravity of the {}"),
+    Of::vector(Metre, Axes::Vehicle, |(s, n)| s.cg_m(*n).coords)
+        .channel("position", "place of the centre of gravity of the {}")
+        .field(4, "cg", "centre of gravity"),
+    Of::vector(Metre, Axes::Vehicle, |(s, n)| s.end_points_m(*n)[0].coords).field(2, "upper_end", "upper end (item 1)"),
+    Of::vector(Metre, Axes::Vehicle, |(s, n)| s.end_points_m(*n)[1].coords).field(
+        3,
+        "lower_end",
+        "lower end; the far end of a limb (item 1)",
+    ),
+    Of::new(One, Axes::Vehicle, Take::Rotation(|(s, n)| s.orientation(*n))).field(
+        5,
+        "orientation_in",
+        "turns segment axes into vehicle axes",
+    ),
+    Of::vector(MetrePerSecond, Axes::Space, |(s, n)| s.cg_velocity_m_s(*n)).field(
+        11,
+        "cg_velocity",
+        "velocity of the centre of gravity",
+    ),
+];
+
+type Instrument = Quantity<Run>;
+
+fn marks<'a>(s: &Sample<'a>) -> &'a Landmarks {
+    s.model.body().tree.landmarks()
+}
+
+/// Message `Instruments`: what the load cells of a dummy would read.
+pub(super) const INSTRUMENTS: &[Instrument] = &[
+    Instrument::vector(Newton, Axes::J211, |s| to_j211(reaction(s, marks(s).neck).force_n))
+        .channel(
+            "neck.force",
+            "upper neck force on the head at its joint: +x shear that pushes the head ahead, +z tension",
+        )
+        .field(2, "neck_force", "upper neck force on the head at its joint, SAE J211 axes: +z tension"),
+    Instrument::vector(NewtonMetre, Axes::J211, |s| to_j211(reaction(s, marks(s).neck).moment_n_m))
+        .channel("neck.moment", "upper neck moment on the head at its joint: +y in flexion")
+        .field(3, "neck_moment", "upper neck moment on the head at its joint, SAE J211 axes: +y flexion"),
+    Instrument::number(Newton, |s| femur_axial_n(s, marks(s).legs.right.upper))
+        .channel("right_femur.axial", FEMUR)
+        .field(4, "right_femur_axial", "axial force at the knee end of the right thigh, tension positive"),
+    Instrument::number(Newton, |s| femur_axial_n(s, marks(s).legs.left.upper))
+        .channel("left_femur.axial", FEMUR)
+        .field(5, "left_femur_axial", "axial force at the knee end of the left thigh, tension positive"),
+];
+
+const FEMUR: &str = "axial force at the knee end of the thigh, tension positive";
+
+/// Message `ReportCoordinates`, on request.
+pub(super) const REPORT_COORDINATES: &[Instrument] = &[
+    Instrument::new(One, Axes::None, Take::Numbers(|s| s.report_coordinates().q.to_vec())).field(
+        2,
+        "q_m_or_rad",
+        "q1 to q31 in the report's order: q1 to q3 in m, the angles in rad",
+    ),
+    Instrument::new(One, Axes::None, Take::Numbers(|s| s.report_coordinates().rates.to_vec())).field(
+        3,
+        "q_rate_m_s_or_rad_s",
+        "their rates",
+    ),
+];

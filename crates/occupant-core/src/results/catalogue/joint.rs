@@ -1,0 +1,50 @@
+//! Angles of the joints and what they carry.
+
+use crash_measures::unit::Unit::{Newton, NewtonMetre, Radian};
+
+use crate::body::tree::{Joint, Tree};
+use crate::quantity::{Axes, Owner, Quantity};
+use crate::results::reaction::reaction;
+use crate::results::sample::Sample;
+
+/// A joint.
+#[derive(Debug)]
+pub(super) struct OfJoint;
+
+impl Owner for OfJoint {
+    type At<'a> = (&'a Sample<'a>, Joint);
+}
+
+type Of = Quantity<OfJoint>;
+
+/// A field of the message `JointAngles`, which has one for each joint: its number is the report's joint number + 1.
+pub(super) fn angle(tree: &Tree, joint: Joint) -> Of {
+    let row = &tree[joint];
+    let arms = &tree.landmarks().arms;
+    let (history, meaning) = if !row.is_hinge() {
+        ("β of the {}", "β, angle between the Z axes of the two segments")
+    } else if [arms.left.lower, arms.right.lower].contains(&row.distal) {
+        ("α of the {}", "α about Y; negative brings the hand forward")
+    } else {
+        ("α of the {}", "α about Y; positive brings the heel back")
+    };
+    Of::number(Radian, |(s, joint)| s.joint_angle_rad(*joint)).channel("angle", history).field(
+        joint.number() as u32 + 1,
+        row.name,
+        meaning,
+    )
+}
+
+/// Message `JointLoad`.
+pub(super) const LOAD: &[Of] = &[
+    Of::vector(Newton, Axes::Segment, |(s, joint)| reaction(s, *joint).force_n)
+        .channel("force", "force that the proximal segment of the {} exerts on the distal one, in its axes")
+        .field(2, "force", "force that the proximal segment exerts on the distal one, in axes of the distal segment"),
+    Of::vector(NewtonMetre, Axes::Segment, |(s, joint)| reaction(s, *joint).moment_n_m)
+        .channel("moment", "moment that the proximal segment of the {} exerts on the distal one, in its axes")
+        .field(
+            3,
+            "moment",
+            "moment that the proximal segment exerts on the distal one; damper, stop and spring are part of it",
+        ),
+];

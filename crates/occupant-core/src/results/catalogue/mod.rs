@@ -1,0 +1,297 @@
+//! The catalogue of results: every quantity of a model once, as a time history ([`crate::results::channel`]) and as a field
+//! of the result file's messages ([`messages`]).
+//!
+//! Summaries, plots, exports, prints and studies take names, units, axes and values from here. It writes nothing.
+
+mod body;
+mod energy;
+mod joint;
+mod sphere;
+mod vehicle;
+
+use std::collections::BTreeSet;
+use std::fmt;
+use std::sync::Arc;
+
+use crate::forces::belt::results as belt;
+use crate::model::Model;
+use crate::quantity::{Kind, Owner, Quantity, Value};
+use crate::results::channel::{Channel, Component};
+use crate::results::sample::Sample;
+
+pub use sphere::touch;
+
+/// How a value is taken from a sample of the model that was catalogued.
+#[derive(Clone)]
+pub struct Source(Arc<dyn Fn(&Sample<'_>) -> Value + Send + Sync>);
+
+impl Source {
+    /// A source from a function.
+    pub fn new(of: impl Fn(&Sample<'_>) -> Value + Send + Sync + 'static) -> Self {
+        Source(Arc::new(of))
+    }
+
+    /// The value at an output.
+    pub fn value(&self, sample: &Sample<'_>) -> Value {
+        (self.0)(sample)
+    }
+}
+
+impl fmt::Debug for Source {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("Source")
+    }
+}
+
+/// The run as a whole: what a model has once.
+#[derive(Debug)]
+pub struct Run;
+
+impl Owner for Run {
+    type At<'a> = &'a Sample<'a>;
+}
+
+/// A message type of the result file, its topic and its fields by number.
+#[derive(Clone, Debug)]
+pub struct Message {
+    /// Name of the type.
+    pub name: &'static str,
+    /// Topic: ASCII and small letters, the same in every run of a scenario.
+    pub topic: String,
+    /// Fields in the order of their numbers.
+    pub fields: Vec<Field>,
+}
+
+/// A field of a message.
+#[derive(Clone, Debug)]
+pub struct Field {
+    /// Its number.
+    pub number: u32,
+    /// Quantity, axes, unit.
+    pub name: String,
+    /// What it is.
+    pub meaning: &'static str,
+    /// Its type.
+    pub kind: Kind,
+    /// Where it comes from.
+    pub source: Source,
+}
+
+/// Message types in the order in which a file has them.
+const ORDER: [&str; 10] = [
+    "VehicleMotion",
+    "SegmentState",
+    "SphereLoad",
+    "BeltState",
+    "JointAngles",
+    "JointLoad",
+    "Instruments",
+    "EnergyLedger",
+    "SolverState",
+    "ReportCoordinates",
+];
+
+/// All time histories of a model: vehicle, segments, neck and femurs, spheres, belts, joints, energies.
+pub(super) fn channels(model: &Model) -> Vec<Channel> {
+    Catalogue::of(model).channels
+}
+
+/// All messages of a model that have results at every output, in the order in which a file has them.
+pub fn messages(model: &Model) -> Vec<Message> {
+    let mut messages = Catalogue::of(model).messages;
+    messages.sort_by_key(|m| ORDER.iter().position(|name| *name == m.name));
+    for message in &mut messages {
+        message.fields.sort_by_key(|f| f.number);
+    }
+    messages
+}
+
+/// What quantities of a list belong to in a model.
+struct Place<'a> {
+    /// Message type.
+    message: &'static str,
+    topic: String,
+    /// Beginning of the names of channels.
+    name: &'a str,
+    /// The owner in words.
+    words: &'a str,
+}
+
+/// The lists put together.
+#[derive(Default)]
+struct Catalogue {
+    channels: Vec<Channel>,
+    messages: Vec<Message>,
+}
+
+impl Catalogue {
+    fn of(model: &Model) -> Self {
+        let mut all = Catalogue::default();
+        all.whole("VehicleMotion", "/vehicle", "vehicle", vehicle::QUANTITIES, |s| s);
+        let tree = model.body().tree;
+        for segment in tree.segments() {
+            let name = tree[segment].name;
+            let topic = format!("/occupant/segment/{name}");
+            let place = Place { message: "SegmentState", topic, name, words: &name.replace('_', " ") };
+            all.add(&place, body::SEGMENT, move |s| (s, segment));
+        }
+        all.whole("Instruments", "/occupant/instruments", "", body::INSTRUMENTS, |s| s);
+        let names = model.body().spheres.iter().map(|s| s.name.as_str());
+        for (i, (name, topic)) in named("/occupant/sphere", names).into_iter().enumerate() {
+            let (channel, words) = (format!("sphere.{name}"), format!("sphere {name}"));
+            let place = Place { message: "SphereLoad", topic, name: &channel, words: &words };
+            all.add(&place, sphere::QUANTITIES, move |s| (s, i));
+        }
+        let names = model.setup().belts.iter().map(|b| b.name.as_str());
+        for (i, (name, topic)) in named("/belt", names).into_iter().enumerate() {
+            let (channel, words) = (format!("belt.{name}"), format!("belt {name}"));
+            let place = Place { message: "BeltState", topic, name: &channel, words: &words };
+            all.add(&place, belt::QUANTITIES, move |s| s.actions.belts[i]);
+        }
+        for joint in tree.joints() {
+            let name = tree[joint].name;
+            let (channel, words) = (format!("joint.{name}"), name.replace('_', " "));
+            let topic = "/occupant/joints".to_owned();
+            let place = Place { message: "JointAngles", topic, name: &channel, words: &words };
+            all.add(&place, &[joint::angle(tree, joint)], move |s| (s, joint));
+            let topic = format!("/occupant/joint/{name}");
+            let place = Place { message: "JointLoad", topic, name: &channel, words: &words };
+            all.add(&place, joint::LOAD, move |s| (s, joint));
+        }
+        all.whole("EnergyLedger", "/energy", "energy", energy::ENERGIES, |s| s.energy);
+        all.whole("SolverState", "/solver", "", energy::EFFORT, |s| s.effort);
+        if model.setup().output.report_coordinates {
+            all.whole("ReportCoordinates", "/occupant/report_coordinates", "", body::REPORT_COORDINATES, |s| s);
+        }
+        all
+    }
+
+    /// Adds a list of what a model has once.
+    fn whole<O: Owner + 'static>(
+        &mut self,
+        message: &'static str,
+        topic: &str,
+        name: &str,
+        list: &[Quantity<O>],
+        at: impl for<'a> Fn(&'a Sample<'a>) -> O::At<'a> + Send + Sync + Copy + 'static,
+    ) {
+        self.add(&Place { message, topic: topic.to_owned(), name, words: name }, list, at);
+    }
+
+    /// Adds the quantities of one owner; `at` gives it at an output.
+    fn add<O: Owner + 'static>(
+        &mut self,
+        place: &Place<'_>,
+        list: &[Quantity<O>],
+        at: impl for<'a> Fn(&'a Sample<'a>) -> O::At<'a> + Send + Sync + Copy + 'static,
+    ) {
+        for &quantity in list {
+            let source = Source::new(move |sample| quantity.value(&at(sample)));
+            self.add_channels(place, &quantity, &source);
+            self.add_fields(place, &quantity, source);
+        }
+    }
+
+    fn add_channels<O: Owner>(&mut self, place: &Place<'_>, quantity: &Quantity<O>, source: &Source) {
+        let Some(words) = quantity.channel else {
+            return;
+        };
+        let name = [place.name, words.name].into_iter().filter(|w| !w.is_empty()).collect::<Vec<_>>().join(".");
+        let meaning = words.meaning.replace("{}", place.words);
+        let (unit, axes) = (quantity.unit, quantity.axes);
+        let channel = |name, axes, component| {
+            let (meaning, source) = (meaning.clone(), source.clone());
+            Channel { name, unit, axes, meaning, source, component }
+        };
+        if quantity.kind() == Kind::Vector {
+            let components = Component::ALL.into_iter();
+            self.channels.extend(components.map(|c| channel(format!("{name}.{}", c.name()), c.axes(axes), c)));
+        } else {
+            self.channels.push(channel(name, axes, Component::X));
+        }
+    }
+
+    fn add_fields<O: Owner>(&mut self, place: &Place<'_>, quantity: &Quantity<O>, source: Source) {
+        let fields = fields(quantity, source);
+        match self.messages.iter_mut().find(|m| m.topic == place.topic) {
+            Some(message) => message.fields.extend(fields),
+            None => self.messages.push(Message {
+                name: place.message,
+                topic: place.topic.clone(),
+                fields: [time()].into_iter().chain(fields).collect(),
+            }),
+        }
+    }
+}
+
+impl Message {
+    /// A message of what a model has once.
+    pub fn of(name: &'static str, topic: &str, list: &[Quantity<Run>]) -> Self {
+        let own = list.iter().flat_map(|&quantity| fields(&quantity, Source::new(move |s| quantity.value(&s))));
+        Message { name, topic: topic.to_owned(), fields: [time()].into_iter().chain(own).collect() }
+    }
+}
+
+/// The fields of a quantity: its own and that of its magnitude.
+fn fields<O: Owner>(quantity: &Quantity<O>, source: Source) -> impl Iterator<Item = Field> + use<O> {
+    let own = quantity.field.map(|words| Field {
+        number: words.number,
+        name: quantity.field_name(words.stem),
+        meaning: words.meaning,
+        kind: quantity.kind(),
+        source: source.clone(),
+    });
+    let resultant = quantity.resultant.map(|words| Field {
+        number: words.number,
+        name: quantity.resultant_name(words.stem),
+        meaning: words.meaning,
+        kind: Kind::Number,
+        source: Source::new(move |sample| Value::Number(Component::Resultant.of(&source.value(sample)))),
+    });
+    own.into_iter().chain(resultant)
+}
+
+/// The time, in the first field of every message.
+fn time() -> Field {
+    Field {
+        number: 1,
+        name: "time_s".to_owned(),
+        meaning: "time of the scenario",
+        kind: Kind::Number,
+        source: Source::new(|s| Value::Number(s.time_s)),
+    }
+}
+
+/// Names that a user chose, each with a topic of its own below `parent`.
+fn named<'a>(parent: &str, names: impl IntoIterator<Item = &'a str>) -> Vec<(&'a str, String)> {
+    let mut taken = BTreeSet::new();
+    let mut topic = |name: &str| {
+        let plain = format!("{parent}/{}", in_small_letters(name));
+        let mut topic = plain.clone();
+        let mut number = 2;
+        while !taken.insert(topic.clone()) {
+            topic = format!("{plain}_{number}");
+            number += 1;
+        }
+        topic
+    };
+    names.into_iter().map(|name| (name, topic(name))).collect()
+}
+
+/// Letters and digits stay, in small letters; anything else becomes `_`.
+fn in_small_letters(name: &str) -> String {
+    let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '_' };
+    name.chars().map(letter).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn names_become_different_topics() {
+        let topics: Vec<String> =
+            named("/belt", ["lap", "Lap", "left knee", "gurt/λ"]).into_iter().map(|n| n.1).collect();
+        assert_eq!(topics, ["/belt/lap", "/belt/lap_2", "/belt/left_knee", "/belt/gurt__"]);
+    }
+}

@@ -1,0 +1,176 @@
+//! The result channels: every scalar time history of a run, by name, with its unit and axes.
+//!
+//! Plots, exports, comparisons and studies take their numbers from here. A name is a place and a quantity,
+//! `head.acceleration.x`, `belt.lap.force`, `joint.neck.moment.resultant`; names of spheres and belts are those of the
+//! scenario. The list depends on the model alone, so every run of a scenario has the same channels.
+
+pub use crash_measures::unit::Unit;
+
+use crate::model::Model;
+use crate::problem::nearest;
+pub use crate::quantity::Axes;
+use crate::quantity::Value;
+use crate::results::catalogue::{self, Source};
+use crate::results::recorder::{Flow, Recorder, RecorderError};
+use crate::results::sample::Sample;
+
+/// A scalar time history of a run.
+#[derive(Clone, Debug)]
+pub struct Channel {
+    /// Unique name, lower-case words with dots between.
+    pub name: String,
+    /// SI unit.
+    pub unit: Unit,
+    /// What it is along.
+    pub axes: Axes,
+    /// What it is, in a sentence without a full stop.
+    pub meaning: String,
+    pub(super) source: Source,
+    pub(super) component: Component,
+}
+
+impl Channel {
+    /// Its value at an output, in its SI unit; the sample must be of the model that the channel was listed for.
+    pub fn value(&self, sample: &Sample<'_>) -> f64 {
+        self.component.of(&self.source.value(sample))
+    }
+}
+
+/// A component of a vector; a number counts as X.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Component {
+    X,
+    Y,
+    Z,
+    Resultant,
+}
+
+impl Component {
+    pub const ALL: [Component; 4] = [Component::X, Component::Y, Component::Z, Component::Resultant];
+
+    pub const fn name(self) -> &'static str {
+        ["x", "y", "z", "resultant"][self as usize]
+    }
+
+    /// A resultant has no axes.
+    pub fn axes(self, of_vector: Axes) -> Axes {
+        if self == Component::Resultant { Axes::None } else { of_vector }
+    }
+
+    pub fn of(self, value: &Value) -> f64 {
+        match (value, self) {
+            (Value::Number(x), _) => *x,
+            (Value::Vector(Some(v)), Component::Resultant) => v.norm(),
+            (Value::Vector(Some(v)), component) => v[component as usize],
+            _ => f64::NAN,
+        }
+    }
+}
+
+/// All channels of a model, in a fixed order: vehicle, segments, neck and femurs, spheres, belts, joints, energies.
+pub fn channels(model: &Model) -> Vec<Channel> {
+    catalogue::channels(model)
+}
+
+/// The channel of this name.
+///
+/// # Errors
+/// The nearest name there is, if one is near.
+pub fn find(model: &Model, name: &str) -> Result<Channel, Option<String>> {
+    let mut all = channels(model);
+    match all.iter().position(|c| c.name == name) {
+        Some(at) => Ok(all.swap_remove(at)),
+        None => Err(nearest(name, all.iter().map(|c| c.name.as_str())).map(str::to_owned)),
+    }
+}
+
+/// Channels whose name matches a pattern in which `*` stands for any characters, in the list's order.
+pub fn matching(model: &Model, pattern: &str) -> Vec<Channel> {
+    let pieces: Vec<&str> = pattern.split('*').collect();
+    let mut all = channels(model);
+    all.retain(|c| matches(&c.name, &pieces));
+    all
+}
+
+/// Whether `name` is the pieces in order with anything between.
+pub fn matches(name: &str, pieces: &[&str]) -> bool {
+    let [first, rest @ ..] = pieces else {
+        return false;
+    };
+    let Some(mut left) = name.strip_prefix(first) else {
+        return false;
+    };
+    let Some((last, middle)) = rest.split_last() else {
+        return left.is_empty();
+    };
+    for piece in middle {
+        match left.find(piece) {
+            Some(at) => left = &left[at + piece.len()..],
+            None => return false,
+        }
+    }
+    left.ends_with(last)
+}
+
+/// A recorder that keeps the values of chosen channels at every output.
+#[derive(Clone, Debug, Default)]
+pub struct Series {
+    /// The channels.
+    pub channels: Vec<Channel>,
+    /// Output times, s.
+    pub time_s: Vec<f64>,
+    /// By channel: a value for each output time, in the channel's SI unit.
+    pub values: Vec<Vec<f64>>,
+}
+
+impl Series {
+    /// Nothing seen yet.
+    pub fn new(channels: Vec<Channel>) -> Self {
+        let values = vec![Vec::new(); channels.len()];
+        Series { channels, time_s: Vec::new(), values }
+    }
+
+    /// Values of the channel of this name, if it was chosen.
+    pub fn of(&self, name: &str) -> Option<&[f64]> {
+        let at = self.channels.iter().position(|c| c.name == name)?;
+        Some(&self.values[at])
+    }
+}
+
+impl Recorder for Series {
+    fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
+        let outputs = model.output_count();
+        self.time_s.clear();
+        self.time_s.reserve(outputs);
+        for values in &mut self.values {
+            values.clear();
+            values.reserve(outputs);
+        }
+        Ok(())
+    }
+
+    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        self.time_s.push(sample.time_s);
+        for (values, channel) in self.values.iter_mut().zip(&self.channels) {
+            values.push(channel.value(sample));
+        }
+        Ok(Flow::Continue)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_star_stands_for_anything() {
+        let found = |pattern: &str, name| matches(name, &pattern.split('*').collect::<Vec<_>>());
+        assert!(found("head.acceleration.x", "head.acceleration.x"));
+        assert!(!found("head.acceleration", "head.acceleration.x"));
+        assert!(found("head.*.x", "head.acceleration.x"));
+        assert!(!found("head.*.y", "head.acceleration.x"));
+        assert!(found("*", "anything") && found("*lap*", "belt.lap.force"));
+        // the pieces must not overlap
+        assert!(!found("aba*ba", "aba"));
+    }
+}

@@ -1,0 +1,114 @@
+//! The step of all lanes, compiled for the instructions of the lanes.
+//!
+//! The kernel is generic and inlined whole; here it gets into functions that may use wide registers. Values of `Avx2` and
+//! `Avx512` may only be made where [`has_avx2`](crate::motion::lanes::has_avx2) and
+//! [`has_avx512`](crate::motion::lanes::has_avx512) say so.
+
+use super::place::Witness;
+use crate::forces::{History, Observer};
+use crate::kernel::System;
+use crate::motion::frame::Frames;
+use crate::motion::integrate::rk4::{self, Stage};
+use crate::motion::lanes::Lanes;
+use crate::motion::state::State;
+
+/// Everything that acts on the runs side by side, and what it remembers.
+#[derive(Clone, Debug)]
+pub(crate) struct Bench<L: Lanes> {
+    pub system: System<L>,
+    pub history: History<L>,
+    /// At the step's start, middle and end.
+    pub frames: [Frames<L>; 3],
+}
+
+/// Lanes that some processors can compute with.
+pub(crate) trait Machine: Lanes {
+    /// The state after a step, and a 1 for every lane in which it is one of finite numbers. Each lane has its length of step;
+    /// `witness` sees the first evaluation.
+    fn step(bench: &mut Bench<Self>, state: &State<Self>, h: Self, witness: &mut Witness<'_>) -> (State<Self>, Self);
+}
+
+impl<L: Lanes> Bench<L> {
+    /// The rate at a stage of a step, in the instructions of the caller; with `START` the history takes over the state.
+    #[inline(always)]
+    fn rate<const START: bool>(&mut self, stage: Stage, state: &State<L>, observer: &mut impl Observer<L>) -> State<L> {
+        let frames = &self.frames[stage as usize];
+        self.system.rate_observed::<START>(state, frames, &mut self.history, observer)
+    }
+
+    /// One step, in the instructions of the caller; `rate` is [`Bench::rate`] compiled for them.
+    #[inline(always)]
+    fn step(
+        &mut self,
+        state: &State<L>,
+        h: L,
+        mut rate: impl FnMut(&mut Self, Stage, &State<L>) -> State<L>,
+    ) -> (State<L>, L) {
+        let next = rk4::step(state, h, |stage, state| rate(self, stage, state));
+        let finite = L::select(next.finite(), L::one(), L::zero());
+        (next, finite)
+    }
+}
+
+#[cfg(test)]
+impl<const N: usize> Machine for crate::motion::lanes::Plain<N> {
+    fn step(bench: &mut Bench<Self>, state: &State<Self>, h: Self, witness: &mut Witness<'_>) -> (State<Self>, Self) {
+        bench.step(state, h, |bench, stage, state| match stage {
+            Stage::Start => bench.rate::<true>(stage, state, witness),
+            _ => bench.rate::<false>(stage, state, &mut ()),
+        })
+    }
+}
+
+/// The step of `$lanes`, in functions that may use the registers of `$features`.
+#[cfg(target_arch = "x86_64")]
+macro_rules! machine {
+    ($lanes:ident, $features:literal, $module:ident) => {
+        #[allow(unsafe_code, reason = "a function for instructions that not every processor has is unsafe to call")]
+        mod $module {
+            use super::*;
+            use crate::motion::lanes::$lanes;
+
+            impl Machine for $lanes {
+                fn step(
+                    bench: &mut Bench<Self>,
+                    state: &State<Self>,
+                    h: Self,
+                    witness: &mut Witness<'_>,
+                ) -> (State<Self>, Self) {
+                    // SAFETY: `h` exists, so the processor has the instructions
+                    unsafe { step(bench, state, h, witness) }
+                }
+            }
+
+            #[target_feature(enable = $features)]
+            fn step(
+                bench: &mut Bench<$lanes>,
+                state: &State<$lanes>,
+                h: $lanes,
+                witness: &mut Witness<'_>,
+            ) -> (State<$lanes>, $lanes) {
+                bench.step(state, h, |bench, stage, state| match stage {
+                    Stage::Start => rate::<true>(bench, stage, state, witness),
+                    _ => rate::<false>(bench, stage, state, &mut ()),
+                })
+            }
+
+            #[inline(never)]
+            #[target_feature(enable = $features)]
+            fn rate<const START: bool>(
+                bench: &mut Bench<$lanes>,
+                stage: Stage,
+                state: &State<$lanes>,
+                observer: &mut impl Observer<$lanes>,
+            ) -> State<$lanes> {
+                bench.rate::<START>(stage, state, observer)
+            }
+        }
+    };
+}
+
+#[cfg(target_arch = "x86_64")]
+machine!(Avx2, "avx2", avx2);
+#[cfg(target_arch = "x86_64")]
+machine!(Avx512, "avx512f,avx512dq", avx512);

@@ -1,0 +1,152 @@
+//! A vehicle path that a program computes itself: its own vehicle model, another simulator, a formula. Ours.
+
+use std::fmt::Debug;
+use std::sync::Arc;
+
+use nalgebra::Vector3;
+
+use super::attitude::turning;
+use super::frame::{FrameMotion, rotation_to_space, to_space};
+use super::problem::PathProblem;
+use super::{Attitude, VehiclePose};
+
+/// The vehicle at one instant as a vehicle model knows it: place, roll, pitch and yaw with their first and second derivatives
+/// in time, in vehicle-space axes (X′_v forward, Y′_v right, Z′_v down).
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct VehicleState {
+    /// Place and attitude.
+    pub pose: VehiclePose,
+    /// Velocity of the c.g., m/s.
+    pub velocity_m_s: Vector3<f64>,
+    /// Acceleration of the c.g., m/s².
+    pub acceleration_m_s2: Vector3<f64>,
+    /// dφ/dt, dθ/dt, dψ/dt of roll, pitch and yaw, rad/s. A rate gyro in the vehicle reads something else as soon as the
+    /// vehicle rolls or pitches.
+    pub angle_rates_rad_s: Vector3<f64>,
+    /// d²φ/dt², d²θ/dt², d²ψ/dt², rad/s².
+    pub angle_accelerations_rad_s2: Vector3<f64>,
+}
+
+impl VehicleState {
+    /// The same in space axes, with the angular velocity and acceleration as vectors.
+    pub fn motion(&self) -> FrameMotion {
+        let turning = turning(self.pose.attitude.to_vector(), self.angle_rates_rad_s, self.angle_accelerations_rad_s2);
+        FrameMotion {
+            origin_m: to_space(self.pose.position_m),
+            rotation: rotation_to_space(turning.matrix),
+            velocity_m_s: to_space(self.velocity_m_s),
+            angular_velocity_rad_s: to_space(turning.velocity_rad_s),
+            acceleration_m_s2: to_space(self.acceleration_m_s2),
+            angular_acceleration_rad_s2: to_space(turning.acceleration_rad_s2),
+        }
+    }
+
+    fn is_finite(&self) -> bool {
+        let angles = self.pose.attitude.to_vector();
+        let all = [
+            &self.pose.position_m,
+            &angles,
+            &self.velocity_m_s,
+            &self.acceleration_m_s2,
+            &self.angle_rates_rad_s,
+            &self.angle_accelerations_rad_s2,
+        ];
+        all.into_iter().flatten().all(|x| x.is_finite())
+    }
+}
+
+/// A program's own vehicle model.
+///
+/// A run asks for one instant several times, in any order, from any thread; a resumed run and a run side by side with others
+/// ask again. So the answer must depend on the time alone, **to the bit**: nothing remembered from call to call, no clock, no
+/// random numbers. A model that must be integrated is integrated before the run and answers from what it has stored.
+///
+/// The velocities must be the derivatives of the place and the angles: contacts and belts take energy out of the vehicle's
+/// motion by them, and the energy ledger shows a contradiction as an imbalance. Place and velocity must be continuous;
+/// accelerations may jump, at the times of [`VehicleMotion::breaks_s`]. For the same bits on every machine take sines and
+/// the like from `crash_measures::trig`: those of the standard library differ in the last digit.
+pub trait VehicleMotion: Debug + Send + Sync {
+    /// The vehicle at `t_s`, a time within [`VehicleMotion::span_s`].
+    fn at(&self, t_s: f64) -> VehicleState;
+
+    /// First and last time for which there is an answer, s. A run that leaves them is refused.
+    fn span_s(&self) -> (f64, f64) {
+        (f64::NEG_INFINITY, f64::INFINITY)
+    }
+
+    /// Times at which an acceleration jumps, s: an integrator that lets its steps end there keeps its order.
+    fn breaks_s(&self) -> Vec<f64> {
+        Vec::new()
+    }
+}
+
+/// A path that a [`VehicleMotion`] computes. Two of them are equal if they are the same one, shared.
+#[derive(Clone, Debug)]
+pub struct OwnPath(Arc<dyn VehicleMotion>);
+
+impl PartialEq for OwnPath {
+    fn eq(&self, other: &Self) -> bool {
+        Arc::ptr_eq(&self.0, &other.0)
+    }
+}
+
+impl OwnPath {
+    /// The path of `motion`.
+    pub fn new(motion: impl VehicleMotion + 'static) -> Self {
+        OwnPath(Arc::new(motion))
+    }
+
+    /// Pose and motion at `t_s`, in space axes. Outside its span the vehicle coasts.
+    pub fn motion(&self, t_s: f64) -> FrameMotion {
+        let inside_s = self.inside_s(t_s);
+        let motion = self.0.at(inside_s).motion();
+        if t_s == inside_s { motion } else { motion.coasted(t_s - inside_s) }
+    }
+
+    /// Place and attitude at `t_s`, for output.
+    pub fn pose(&self, t_s: f64) -> VehiclePose {
+        let inside_s = self.inside_s(t_s);
+        let pose = self.0.at(inside_s).pose;
+        if t_s == inside_s {
+            return pose;
+        }
+        let coasted = self.motion(t_s);
+        VehiclePose {
+            position_m: to_space(coasted.origin_m),
+            attitude: Attitude::from_matrix(&rotation_to_space(coasted.rotation), &pose.attitude),
+        }
+    }
+
+    /// As [`VehicleMotion::span_s`].
+    pub fn span_s(&self) -> (f64, f64) {
+        self.0.span_s()
+    }
+
+    /// As [`VehicleMotion::breaks_s`], in increasing order.
+    pub fn breaks_s(&self) -> Vec<f64> {
+        let mut breaks_s = self.0.breaks_s();
+        breaks_s.sort_by(f64::total_cmp);
+        breaks_s
+    }
+
+    /// Whether the path has an answer from `start_s` to `end_s`.
+    ///
+    /// # Errors
+    /// A run outside the span; numbers that are not finite at its start or its end.
+    pub fn check_span(&self, start_s: f64, end_s: f64) -> Result<(), PathProblem> {
+        let (first_s, last_s) = self.span_s();
+        if !(first_s <= start_s && end_s <= last_s) {
+            return Err(PathProblem::OutsideOwnPath { start_s, end_s, first_s, last_s });
+        }
+        let broken_s = [start_s, end_s].into_iter().find(|&t_s| !self.0.at(t_s).is_finite());
+        match broken_s {
+            Some(time_s) => Err(PathProblem::OwnPathNotFinite { time_s }),
+            None => Ok(()),
+        }
+    }
+
+    fn inside_s(&self, t_s: f64) -> f64 {
+        let (first_s, last_s) = self.span_s();
+        t_s.max(first_s).min(last_s)
+    }
+}

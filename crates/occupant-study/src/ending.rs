@@ -1,0 +1,116 @@
+//! What a run came to, by one rule for sweeps, ensembles, bands, fits and single runs.
+
+use std::any::Any;
+
+use occupant_core::problem::Severity;
+use occupant_core::results::outcome::{Outcome, Status};
+use occupant_core::scenario::{Diagnostic, Diagnostics};
+
+/// How well a run kept its energy: greatest imbalance over greatest kinetic energy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Balance {
+    /// Off by 1 % at most.
+    Kept,
+    /// Off by more than 1 %: results are doubtful.
+    Doubtful,
+    /// Off by more than 10 %, or by what is no number: results mean nothing.
+    Lost,
+}
+
+impl Balance {
+    /// Of a `balance_error` as outcomes, summaries and tables hold it.
+    pub fn of(error: f64) -> Balance {
+        match error.abs() {
+            error if error <= 0.01 => Balance::Kept,
+            error if error <= 0.1 => Balance::Doubtful,
+            _ => Balance::Lost,
+        }
+    }
+}
+
+/// How a run of many ended.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Ending {
+    /// At its end time, its energy in balance to 10 %.
+    Completed,
+    /// At its end time, but its results mean nothing; the balance error.
+    OutOfBalance(f64),
+    /// The integration failed: when, where and why.
+    Failed(String),
+    /// Its scenario is refused, so that nothing was run: what is wrong with it, in one line.
+    Refused(String),
+    /// The program broke off, which is a defect: its last words.
+    Broken(String),
+}
+
+impl Ending {
+    /// Of a run with this outcome; none if it was stopped on its way.
+    pub fn of(outcome: &Outcome) -> Option<Ending> {
+        match &outcome.status {
+            Status::Stopped => None,
+            Status::Failed(error) => Some(Ending::Failed(error.to_string())),
+            Status::Completed => Some(match Balance::of(outcome.balance_error) {
+                Balance::Lost => Ending::OutOfBalance(outcome.balance_error),
+                Balance::Kept | Balance::Doubtful => Ending::Completed,
+            }),
+        }
+    }
+
+    /// Of a run whose scenario has these problems.
+    pub fn refused(problems: &Diagnostics) -> Ending {
+        let errors = problems.iter().filter(|d| d.problem.severity == Severity::Error);
+        let line = |Diagnostic { problem: p, .. }: &Diagnostic| {
+            let at = if p.path.is_empty() { String::new() } else { format!("{}: ", p.path) };
+            format!("{at}{}; expected {}", p.found, p.expected)
+        };
+        let lines: Vec<String> = errors.map(line).collect();
+        Ending::Refused(lines.join(" | ").replace(['\n', '\r'], " "))
+    }
+
+    /// Of a run in which the program panicked.
+    pub fn broken(panic: &(dyn Any + Send)) -> Ending {
+        let text = panic.downcast_ref::<String>().map(String::as_str);
+        let text = text.or_else(|| panic.downcast_ref::<&str>().copied());
+        Ending::Broken(format!("the program broke off: {}", text.unwrap_or("without a word")))
+    }
+
+    /// Why the run has no results; none if it has.
+    pub fn reason(&self) -> Option<String> {
+        match self {
+            Ending::Completed => None,
+            Ending::OutOfBalance(error) => Some(format!("its energy balance is off by {:.0} %", 100.0 * error.abs())),
+            Ending::Failed(reason) | Ending::Refused(reason) | Ending::Broken(reason) => Some(reason.clone()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn results_are_doubtful_above_1_percent_and_mean_nothing_above_10() {
+        let of = |errors: [f64; 3]| errors.map(Balance::of);
+        assert_eq!(of([0.0, 0.01, -0.01]), [Balance::Kept; 3]);
+        assert_eq!(of([0.011, 0.1, -0.1]), [Balance::Doubtful; 3]);
+        assert_eq!(of([0.11, -2.0, f64::NAN]), [Balance::Lost; 3]);
+    }
+
+    #[test]
+    fn a_run_is_a_result_only_at_its_end_time_and_in_balance() {
+        let of = |status: Status, balance_error: f64| {
+            Ending::of(&Outcome {
+                status,
+                time_s: 0.1,
+                effort: Default::default(),
+                first_touches: Vec::new(),
+                greatest_kinetic_j: 1.0,
+                balance_error,
+            })
+        };
+        assert_eq!(of(Status::Completed, 0.05), Some(Ending::Completed));
+        assert_eq!(of(Status::Stopped, 0.5), None);
+        let off = of(Status::Completed, 0.12).and_then(|ending| ending.reason());
+        assert_eq!(off.as_deref(), Some("its energy balance is off by 12 %"));
+    }
+}

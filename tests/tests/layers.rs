@@ -1,0 +1,174 @@
+//! Which room of a crate may use which: each only those that stand before it, so that there are no circles.
+//!
+//! Rooms are the folders and files directly under a crate's `src`. Read from the sources as text: `crate::ROOM` outside
+//! comments and test modules.
+
+use std::collections::BTreeSet;
+use std::fs;
+use std::path::{Path, PathBuf};
+
+/// Crates with their rooms from the lowest to the highest.
+const ROOMS: [(&str, &[&str]); 4] = [
+    ("crash-measures", &["trig", "unit", "signal", "correlation", "measure", "injury"]),
+    (
+        "occupant-core",
+        &[
+            "problem",
+            "quantity",
+            "body",
+            "vehicle",
+            "motion",
+            "forces",
+            "kernel",
+            "model",
+            "results",
+            "run",
+            "scenario",
+            "diagnosis",
+        ],
+    ),
+    (
+        "cardio-legacy",
+        &[
+            "rule",
+            "punched",
+            "fortran",
+            "cards",
+            "deck",
+            "compartment",
+            "notes",
+            "diagnostics",
+            "check",
+            "read",
+            "write",
+            "convert",
+            "back",
+        ],
+    ),
+    ("occupant-cli", &["base", "files", "pictures", "jobs", "commands"]),
+];
+
+/// Crates that a crate of the workspace may depend on, outside its tests.
+const CRATES: [(&str, &[&str]); 5] = [
+    ("crash-measures", &[]),
+    ("occupant-core", &["crash-measures"]),
+    ("occupant-study", &["crash-measures", "occupant-core"]),
+    ("cardio-legacy", &["crash-measures", "occupant-core"]),
+    ("occupant-cli", &["crash-measures", "occupant-core", "occupant-study", "cardio-legacy"]),
+];
+
+fn crates() -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../crates")
+}
+
+fn name(path: &Path) -> String {
+    path.file_stem().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// Source files below `path`, those of tests left out.
+fn sources(path: &Path, found: &mut Vec<PathBuf>) {
+    if path.is_dir() {
+        let mut entries: Vec<_> = fs::read_dir(path).unwrap().map(|entry| entry.unwrap().path()).collect();
+        entries.sort();
+        entries.iter().filter(|entry| name(entry) != "tests").for_each(|entry| sources(entry, found));
+    } else if path.extension().is_some_and(|e| e == "rs") {
+        found.push(path.to_owned());
+    }
+}
+
+/// First words after `crate::` in `text`, also those of a list in braces.
+fn uses(text: &str) -> BTreeSet<String> {
+    let word = |s: &str| s.trim_start().chars().take_while(|c| c.is_alphanumeric() || *c == '_').collect::<String>();
+    let mut found = BTreeSet::new();
+    for (at, _) in text.match_indices("crate::") {
+        let rest = &text[at + "crate::".len()..];
+        if text[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == '$') {
+            continue;
+        }
+        match rest.strip_prefix('{') {
+            None => drop(found.insert(word(rest))),
+            Some(list) => {
+                let (mut depth, mut first) = (0, true);
+                for (i, c) in list.char_indices() {
+                    if first {
+                        found.insert(word(&list[i..]));
+                    }
+                    first = c == ',' && depth == 0;
+                    match c {
+                        '{' => depth += 1,
+                        '}' if depth == 0 => break,
+                        '}' => depth -= 1,
+                        _ => {}
+                    }
+                }
+            }
+        }
+    }
+    found
+}
+
+/// The code of a file: no comments, and nothing from its test module on.
+fn code(path: &Path) -> String {
+    let text = fs::read_to_string(path).unwrap();
+    let text = text.split("#[cfg(test)]\nmod ").next().unwrap_or_default().to_owned();
+    text.lines().map(|line| line.split("//").next().unwrap_or_default()).collect::<Vec<_>>().join("\n")
+}
+
+#[test]
+fn rooms_use_only_rooms_below_them() {
+    let mut wrong = Vec::new();
+    for (krate, rooms) in ROOMS {
+        let src = crates().join(krate).join("src");
+        for entry in fs::read_dir(&src).unwrap().map(|entry| entry.unwrap().path()) {
+            let room = name(&entry);
+            if ["lib", "main", "tests"].contains(&room.as_str()) {
+                continue;
+            }
+            let Some(height) = rooms.iter().position(|r| *r == room) else {
+                wrong.push(format!("{krate}: the room `{room}` is not in the list of this test"));
+                continue;
+            };
+            let mut files = Vec::new();
+            sources(&entry, &mut files);
+            for file in files {
+                let above = uses(&code(&file)).into_iter().filter(|used| rooms[height + 1..].contains(&used.as_str()));
+                wrong
+                    .extend(above.map(|used| format!("{} uses `{used}`, which stands above `{room}`", file.display())));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+}
+
+#[test]
+fn crates_depend_only_on_crates_below_them() {
+    for (krate, below) in CRATES {
+        let manifest = fs::read_to_string(crates().join(krate).join("Cargo.toml")).unwrap();
+        let own = manifest.split("[dev-dependencies]").next().unwrap_or_default();
+        for (other, _) in CRATES {
+            let depends = own.lines().any(|line| line.starts_with(&format!("{other}.workspace")));
+            assert!(!depends || below.contains(&other), "{krate} depends on {other}");
+        }
+    }
+}
+
+#[test]
+fn the_core_reads_no_files_prints_nothing_and_starts_no_threads() {
+    for krate in ["crash-measures", "occupant-core", "cardio-legacy"] {
+        let mut files = Vec::new();
+        sources(&crates().join(krate).join("src"), &mut files);
+        for file in files {
+            let code = code(&file);
+            for forbidden in ["std::fs", "std::thread", "println!", "eprintln!", "std::process"] {
+                assert!(!code.contains(forbidden), "{} uses {forbidden}", file.display());
+            }
+        }
+    }
+}
+
+#[test]
+fn the_scanner_sees_what_is_there() {
+    let text = "use crate::run::Run;\nuse crate::{model::Model, results::{a, b}, forces};\nlet x = $crate::no; occupant_crate::no;";
+    let found: Vec<_> = uses(text).into_iter().filter(|word| !word.is_empty()).collect();
+    assert_eq!(found, ["forces", "model", "results", "run"]);
+}
