@@ -3,8 +3,8 @@
 mod support;
 
 use cardio_legacy::{ConvertOptions, Deck, ParseOptions, Strictness};
+use occupant_core::scenario::Format;
 use occupant_core::scenario::Scenario;
-use occupant_core::scenario::document::Format;
 use support::{DECKS, bytes};
 
 /// A small generator (xorshift64*), so that a finding can be repeated from its seed.

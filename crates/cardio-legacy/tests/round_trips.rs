@@ -3,8 +3,8 @@
 mod support;
 
 use cardio_legacy::{ConvertOptions, Deck, ParseOptions, PathSource, Strictness};
+use occupant_core::scenario::Format;
 use occupant_core::scenario::Scenario;
-use occupant_core::scenario::document::Format;
 use support::{DECKS, lines, path, punch};
 
 /// Ten columns at the edges of what F10.0 holds and of what a scenario tells apart.

@@ -10,7 +10,7 @@ use occupant_core::model::Model;
 use occupant_core::results::outcome::{FirstTouch, Status};
 use occupant_core::results::recorder::Watch;
 use occupant_core::run::simulate::simulate;
-use occupant_core::scenario::document::Format;
+use occupant_core::scenario::Format;
 use occupant_core::scenario::{Loaded, Scenario};
 use support::{DECKS, bytes, path};
 

@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+pub use crash_measures::nearest::nearest;
+
 /// How bad a problem is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
@@ -24,6 +26,29 @@ pub struct Problem {
     pub expected: String,
     /// How to mend it, where that can be said.
     pub hint: Option<String>,
+}
+
+impl Problem {
+    /// An error.
+    pub fn error(path: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) -> Self {
+        Problem {
+            severity: Severity::Error,
+            path: path.into(),
+            found: found.into(),
+            expected: expected.into(),
+            hint: None,
+        }
+    }
+
+    /// A warning.
+    pub fn warning(path: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) -> Self {
+        Problem { severity: Severity::Warning, ..Problem::error(path, found, expected) }
+    }
+
+    /// The same with a remedy, if there is one.
+    pub fn with_hint(self, hint: Option<impl Into<String>>) -> Self {
+        Problem { hint: hint.map(Into::into), ..self }
+    }
 }
 
 impl fmt::Display for Problem {
@@ -52,7 +77,7 @@ impl Problems {
 
     /// Adds an error.
     pub fn error(&mut self, path: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) {
-        self.push(Severity::Error, path, found, expected, None);
+        self.0.push(Problem::error(path, found, expected));
     }
 
     /// Adds an error with a remedy.
@@ -63,23 +88,12 @@ impl Problems {
         expected: impl Into<String>,
         hint: impl Into<String>,
     ) {
-        self.push(Severity::Error, path, found, expected, Some(hint.into()));
+        self.0.push(Problem::error(path, found, expected).with_hint(Some(hint)));
     }
 
     /// Adds a warning.
     pub fn warning(&mut self, path: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) {
-        self.push(Severity::Warning, path, found, expected, None);
-    }
-
-    fn push(
-        &mut self,
-        severity: Severity,
-        path: impl Into<String>,
-        found: impl Into<String>,
-        expected: impl Into<String>,
-        hint: Option<String>,
-    ) {
-        self.0.push(Problem { severity, path: path.into(), found: found.into(), expected: expected.into(), hint });
+        self.0.push(Problem::warning(path, found, expected));
     }
 
     /// Adds an error unless `value` is positive; returns whether it is.
@@ -132,48 +146,3 @@ impl fmt::Display for Problems {
 }
 
 impl std::error::Error for Problems {}
-
-/// The candidate most like `word`, if any is near enough to be meant: at most a third of the letters differ, or only
-/// upper and lower case. The first of several equally near ones; else the only one that contains the word.
-pub fn nearest<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let candidates: Vec<&str> = candidates.collect();
-    alike(word, candidates.iter().copied()).or_else(|| {
-        let mut longer = candidates.iter().filter(|c| word.len() > 3 && c.contains(word));
-        longer.next().filter(|_| longer.next().is_none()).copied()
-    })
-}
-
-fn alike<'a>(word: &str, candidates: impl Iterator<Item = &'a str>) -> Option<&'a str> {
-    let plain = plain(word);
-    let limit = plain.chars().count().clamp(2, 60) / 3;
-    candidates
-        .map(|candidate| (strsim::osa_distance(&plain, &self::plain(candidate)), candidate))
-        .filter(|(d, _)| *d <= limit.max(1))
-        .min_by_key(|(d, _)| *d)
-        .filter(|(d, candidate)| *d == 0 || plain.chars().count() > 2 || candidate.len() > 2)
-        .map(|(_, candidate)| candidate)
-}
-
-/// Letters in lower case, `-` and blanks as `_`.
-fn plain(word: &str) -> String {
-    word.chars().take(80).flat_map(char::to_lowercase).map(|c| if c == '-' || c == ' ' { '_' } else { c }).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn finds_what_was_meant_and_nothing_else() {
-        let names = ["damping", "stop", "twist_damping", "k1", "k2", "friction"];
-        let find = |word| nearest(word, names.into_iter());
-        assert_eq!(find("dampng"), Some("damping"));
-        assert_eq!(find("Damping"), Some("damping"));
-        assert_eq!(find("twist-damping"), Some("twist_damping"));
-        assert_eq!(find("firction"), Some("friction"));
-        assert_eq!(find("K1"), Some("k1"));
-        assert_eq!(find("twist"), Some("twist_damping"));
-        assert_eq!(find("colour"), None);
-        assert_eq!(find(""), None);
-    }
-}

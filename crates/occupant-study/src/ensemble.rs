@@ -7,10 +7,8 @@
 
 use super::parameter::{Assignment, Parameter, Target, changed, place};
 use super::random::{Purpose, unit};
-use occupant_core::scenario::Draft;
-use occupant_core::scenario::expand::rival_path;
-use occupant_core::scenario::kind::UnitSystem;
-use occupant_core::scenario::place::Misplaced;
+use occupant_core::problem::Problem;
+use occupant_core::scenario::{Draft, rival_path};
 
 /// How far the standard changes may go.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -91,7 +89,7 @@ fn each(base: &Draft, paths: &[String], change: Change) -> Vec<Perturbation> {
 }
 
 /// The numbers that a path leads to.
-pub(super) fn targets(base: &Draft, path: &str) -> Result<Vec<Target>, Misplaced> {
+pub(super) fn targets(base: &Draft, path: &str) -> Result<Vec<Target>, Problem> {
     let places = base.places(path)?;
     Ok(places.iter().filter(|p| p.si.is_some()).map(Target::of).collect())
 }
@@ -111,10 +109,7 @@ pub(super) fn seat_place(base: &Draft, most_m: f64) -> Vec<Perturbation> {
     let written = ["posture.heels[0]", "posture.heels[1]", "seats.*.y"].map(str::to_owned);
     let exact: Vec<String> = (0..3).map(|i| format!("initial_state.q[{i}]")).collect();
     // q₁ … q₃ have no unit of their own but are in the file's length
-    let length_m = match base.units() {
-        UnitSystem::Si => 1.0,
-        UnitSystem::InchPound => 0.0254,
-    };
+    let length_m = base.units().length_m();
     [each(base, &written, Change::Offset(most_m)), each(base, &exact, Change::Offset(most_m / length_m))].concat()
 }
 
@@ -129,10 +124,10 @@ pub(super) fn path(base: &Draft, parameters: &[Parameter], most: f64) -> Vec<Per
             strengths.push(target.clone());
         }
     }
-    match strengths.is_empty() {
-        true => Vec::new(),
-        false => vec![Perturbation { change: Change::Factor(most), targets: strengths }],
+    if strengths.is_empty() {
+        return Vec::new();
     }
+    vec![Perturbation { change: Change::Factor(most), targets: strengths }]
 }
 
 /// A change of each material and each belt, both straight lines of one together.

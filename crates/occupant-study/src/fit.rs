@@ -6,8 +6,8 @@ use super::Study;
 use super::fit_section::{FilterChoice, Misfit};
 use super::law::{Law, Value, between, log_between};
 use super::parameter::{Assignment, Parameter};
-use crate::section::Free;
 use crash_measures::trig::ln;
+use occupant_core::scenario::text::Value as Written;
 
 /// A fit as a study says it.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,7 +55,7 @@ pub struct FitTest {
     /// Its own scenario, relative to the study.
     pub base: Option<String>,
     /// What its scenario has besides.
-    pub set: IndexMap<String, Free>,
+    pub set: IndexMap<String, Written>,
     /// First and last time that count, s.
     pub window_s: [Option<f64>; 2],
     /// Added to its clock, s.

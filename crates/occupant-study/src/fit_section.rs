@@ -4,24 +4,20 @@ use indexmap::IndexMap;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use crate::section::Free;
-use occupant_core::scenario::model::Time;
+use occupant_core::scenario::sections::Time;
+use occupant_core::scenario::text::Value;
 
 /// What `occupant fit` makes the parameters of the study reproduce: measured channels of one test or several.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct FitSection {
     /// What is made small; "rms" if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub objective: Option<Misfit>,
     /// Filter of measured and computed channels alike; "none" if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub filter: Option<FilterChoice>,
     /// First time that counts, on the clock of the run; that of the test or the run, whichever is later, if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub from: Option<Time>,
     /// Last time that counts.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to: Option<Time>,
     /// The channels that count; all that the tests have if absent.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
@@ -31,20 +27,16 @@ pub struct FitSection {
     pub tests: Vec<FitTestSection>,
     /// Evaluations of the global search, each a run of every experiment; 400 for each parameter if absent. Refinement and
     /// intervals come on top.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("minimum" = 1))]
     pub budget: Option<u64>,
     /// Candidates of a generation of the first descent; 16, or 4 + 3 ln n if that is more, if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("minimum" = 4))]
     pub population: Option<u64>,
     /// A descent has arrived when scores differ by less; 0.0001 if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub tolerance: Option<f64>,
     /// Sets of parameters whose score is worse by no more than this are as good as the best, and the intervals hold them;
     /// if absent, with "rms" what the noise of the test leaves open (95 %), else 0.01.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub near: Option<f64>,
 }
@@ -94,11 +86,9 @@ pub struct FitChannelSection {
     /// Its name, such as `upper_torso.acceleration.x`; `occupant export` lists them.
     pub channel: String,
     /// How much it counts; 1 if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub weight: Option<f64>,
     /// Its own filter.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub filter: Option<FilterChoice>,
 }
 
@@ -107,34 +97,26 @@ pub struct FitChannelSection {
 #[serde(deny_unknown_fields)]
 pub struct FitTestSection {
     /// Its name in results; that of the file if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// The measured signals, relative to this file: a text table (CSV) or an ISO-MME test; that of --to if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub file: Option<String>,
     /// Its own scenario, relative to this file; that of the study if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub base: Option<String>,
     /// Values that its scenario has besides those of the study, by path: `"path.speed" = "25 mph"`.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
-    pub set: IndexMap<String, Free>,
+    pub set: IndexMap<String, Value>,
     /// First time that counts in this test, on the clock of the run.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub from: Option<Time>,
     /// Last time that counts in this test.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub to: Option<Time>,
     /// Time added to the clock of the test; 0 if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub shift: Option<Time>,
     /// How much the test counts; 1 if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub weight: Option<f64>,
     /// Which column is which channel: "column=channel", "column[unit]=channel", "column=-channel" for opposite signs.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub map: Vec<String>,
     /// Position of the occupant in ISO-MME codes, one character; "1" if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub seat: Option<String>,
 }

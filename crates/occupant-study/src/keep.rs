@@ -1,6 +1,38 @@
-//! Of which runs the whole motion is kept.
+//! `keep` of a study: of which runs the whole motion is kept.
 
-use crate::section::KeepSection;
+use std::borrow::Cow;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Serialize};
+use serde_json::Value as Json;
+
+/// Of which runs the whole motion is kept.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum KeepSection {
+    /// "all", "none", "worst 5 by hic15".
+    Words(String),
+    /// Indices.
+    Indices(Vec<Json>),
+}
+
+impl JsonSchema for KeepSection {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "keep".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "type": ["string", "array"],
+            "items": { "type": "integer", "minimum": 0 },
+            "x-example": "\"all\", \"none\", [0, 12, 99], \"worst 5 by hic15\"",
+        })
+    }
+}
 
 /// Of which runs the whole motion is kept.
 #[derive(Clone, Debug, PartialEq, Default)]
@@ -32,9 +64,8 @@ impl Keep {
                 Keep::from_words(words).ok_or_else(|| format!("\"{words}\" says nothing about which runs to keep"))
             }
             KeepSection::Indices(items) => {
-                let index = |item: &serde_json::Value| {
-                    item.as_u64().ok_or_else(|| format!("`{item}` is no index, which counts from 0"))
-                };
+                let index =
+                    |item: &Json| item.as_u64().ok_or_else(|| format!("`{item}` is no index, which counts from 0"));
                 let mut indices = items.iter().map(index).collect::<Result<Vec<u64>, _>>()?;
                 indices.sort_unstable();
                 indices.dedup();

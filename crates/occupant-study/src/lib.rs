@@ -81,7 +81,7 @@ pub use keep::Keep;
 pub use law::{Law, Value};
 pub use parameter::{Assignment, Parameter, Target};
 pub use saltelli::Block;
-pub use section::{ApplyChoice, Free, StudySection, schema_json};
+pub use section::{ApplyChoice, StudySection, schema_json};
 pub use text::StudyText;
 
 use self::copula::Copula;

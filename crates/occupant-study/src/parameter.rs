@@ -2,8 +2,8 @@
 
 use super::law::{Law, Value};
 use crate::section::ApplyChoice;
-use occupant_core::scenario::kind::Kind;
-use occupant_core::scenario::place::{Place, Wanted};
+use occupant_core::scenario::text::Value as Written;
+use occupant_core::scenario::{Place, Wanted};
 
 /// A parameter that has found its places in the base scenario.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,29 +42,23 @@ pub struct Assignment {
     pub unit: &'static str,
 }
 
-/// SI unit of a kind of quantity, angles in rad.
-pub(super) fn si_unit(kind: &Kind) -> &'static str {
-    match kind.name {
-        "angle" => "rad",
-        "angular velocity" => "rad/s",
-        _ => kind.si,
+/// SI unit of the numbers at a place; empty where none has one.
+pub(super) fn si_unit(wanted: &Wanted) -> &'static str {
+    match wanted {
+        Wanted::Quantity(kind) => kind.unit.expression(),
+        _ => "",
     }
 }
 
 impl Target {
     pub(crate) fn of(place: &Place) -> Target {
-        use occupant_core::scenario::document::Value as Node;
         let base = match (&place.value, place.si) {
             (_, Some(x)) => Value::Number(x),
-            (Some(Node::String(text)), _) => Value::Text(text.clone()),
-            (Some(Node::Bool(b)), _) => Value::Truth(*b),
+            (Some(Written::String(text)), _) => Value::Text(text.clone()),
+            (Some(Written::Bool(b)), _) => Value::Truth(*b),
             _ => Value::Base,
         };
-        let unit = match place.wanted {
-            Wanted::Quantity(kind) => si_unit(kind),
-            _ => "",
-        };
-        Target { path: place.path.clone(), unit, base }
+        Target { path: place.path.clone(), unit: si_unit(&place.wanted), base }
     }
 }
 

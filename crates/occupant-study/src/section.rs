@@ -2,19 +2,19 @@
 //!
 //! The doc comments are the descriptions of the JSON Schema, so they speak to the person who writes a study.
 
-use std::borrow::Cow;
 use std::sync::OnceLock;
 
 use indexmap::IndexMap;
-use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
 use super::fit_section::FitSection;
+use super::keep::KeepSection;
 use occupant_core::scenario::kind::UnitSystem;
-use occupant_core::scenario::model::{Angle, Length, Ratio};
-use occupant_core::scenario::quantity::Written;
-use occupant_core::scenario::schema::schema_of;
+use occupant_core::scenario::schema_of;
+use occupant_core::scenario::sections::{Angle, FRACTION, Length, NOT_NEGATIVE, POSITIVE, Ratio};
+use occupant_core::scenario::text::Value;
 
 /// The JSON Schema of a study file.
 pub fn schema_json() -> &'static Json {
@@ -30,23 +30,19 @@ pub fn schema_json() -> &'static Json {
 #[serde(deny_unknown_fields)]
 pub struct StudySection {
     /// One line that names the study.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub title: Option<String>,
     /// What the study is about, for readers.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub notes: Option<String>,
     /// Units of bare numbers in this file; "si" if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub units: Option<UnitSystem>,
     /// The scenario file that is varied, its name relative to this file.
     pub base: String,
     /// Names the random numbers of the study; the same seed gives the same samples everywhere; 0 if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("minimum" = 0))]
     pub seed: Option<u64>,
     /// Values that the base scenario has in all runs of this study, by path: `"time.end" = "0.25 s"`.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
-    pub set: IndexMap<String, Free>,
+    pub set: IndexMap<String, Value>,
     /// What is varied.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub parameters: Vec<ParameterSection>,
@@ -54,20 +50,15 @@ pub struct StudySection {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub correlations: Vec<CorrelationSection>,
     /// How the samples are chosen.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub design: Option<DesignSection>,
     /// Repeats every sample with small changes, to see which figures are stable.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub ensemble: Option<EnsembleSection>,
     /// What `occupant fit` makes the parameters reproduce; a sweep does not look at it.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub fit: Option<FitSection>,
     /// Of which runs the whole motion is kept: "all", "none", a list of indices, or such as "worst 5 by hic15"; "none"
     /// if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub keep: Option<KeepSection>,
     /// What is written besides the table of results.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub output: Option<StudyOutputSection>,
 }
 
@@ -80,30 +71,22 @@ pub struct StudySection {
 ))]
 pub struct ParameterSection {
     /// Name of its column in the table of results; its path if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub name: Option<String>,
     /// Where it stands in the scenario, such as `joints.neck.damping` or, for a group, `joints.*.damping`.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub path: Option<String>,
     /// Several places that are varied together.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("minItems" = 1))]
     pub paths: Option<Vec<String>>,
     /// What is done with the number; "value" if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub apply: Option<ApplyChoice>,
     /// Evenly spaced values.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub grid: Option<GridSection>,
     /// These values: numbers, or texts such as names of materials or of files.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("minItems" = 1))]
-    pub list: Option<Vec<Free>>,
+    pub list: Option<Vec<Value>>,
     /// Any value between two.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub range: Option<RangeSection>,
     /// Values as likely as a distribution says.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub distribution: Option<DistributionSection>,
 }
 
@@ -125,14 +108,13 @@ pub enum ApplyChoice {
 #[serde(deny_unknown_fields)]
 pub struct GridSection {
     /// First value.
-    pub from: Free,
+    pub from: Value,
     /// Last value.
-    pub to: Free,
+    pub to: Value,
     /// How many values.
     #[schemars(extend("minimum" = 2))]
     pub steps: u64,
     /// "linear" has equal differences, "log" equal ratios; "linear" if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<ScaleChoice>,
 }
 
@@ -141,11 +123,10 @@ pub struct GridSection {
 #[serde(deny_unknown_fields)]
 pub struct RangeSection {
     /// Least value.
-    pub from: Free,
+    pub from: Value,
     /// Greatest value.
-    pub to: Free,
+    pub to: Value,
     /// With "log" equal ratios are equally likely; "linear" if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scale: Option<ScaleChoice>,
 }
 
@@ -181,9 +162,9 @@ pub enum DistributionSection {
 #[serde(deny_unknown_fields)]
 pub struct BoundsSection {
     /// Least value.
-    pub from: Free,
+    pub from: Value,
     /// Greatest value.
-    pub to: Free,
+    pub to: Value,
 }
 
 /// A normal distribution.
@@ -191,9 +172,9 @@ pub struct BoundsSection {
 #[serde(deny_unknown_fields)]
 pub struct NormalSection {
     /// Mean.
-    pub mean: Free,
+    pub mean: Value,
     /// Standard deviation.
-    pub sd: Free,
+    pub sd: Value,
 }
 
 /// A normal distribution of which only the part between two values counts.
@@ -201,13 +182,13 @@ pub struct NormalSection {
 #[serde(deny_unknown_fields)]
 pub struct TruncatedNormalSection {
     /// Mean before it is cut.
-    pub mean: Free,
+    pub mean: Value,
     /// Standard deviation before it is cut.
-    pub sd: Free,
+    pub sd: Value,
     /// Least value.
-    pub from: Free,
+    pub from: Value,
     /// Greatest value.
-    pub to: Free,
+    pub to: Value,
 }
 
 /// A triangular distribution.
@@ -215,11 +196,11 @@ pub struct TruncatedNormalSection {
 #[serde(deny_unknown_fields)]
 pub struct TriangularSection {
     /// Least value.
-    pub from: Free,
+    pub from: Value,
     /// Likeliest value.
-    pub mode: Free,
+    pub mode: Value,
     /// Greatest value.
-    pub to: Free,
+    pub to: Value,
 }
 
 /// A correlation between two parameters.
@@ -277,7 +258,6 @@ pub struct SobolSection {
     #[schemars(extend("minimum" = 1))]
     pub samples: u64,
     /// Whether the sequence is scrambled by the seed; true if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub scramble: Option<bool>,
 }
 
@@ -286,9 +266,7 @@ pub struct SobolSection {
 #[serde(deny_unknown_fields)]
 pub struct TailSection {
     /// The part of a normal distribution that lies below its low and above its high value; 0.05 if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub tail: Option<Ratio>,
+    pub tail: Option<Ratio<POSITIVE>>,
 }
 
 /// A table of samples.
@@ -308,7 +286,6 @@ pub struct SaltelliSection {
     #[schemars(extend("minimum" = 1))]
     pub samples: u64,
     /// Whether B with one column of A is run too, for interactions of two; false if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub second_order: Option<bool>,
 }
 
@@ -320,13 +297,10 @@ pub struct MorrisSection {
     #[schemars(extend("minimum" = 1))]
     pub trajectories: u64,
     /// Into how many levels each range is cut, an even number; 4 if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("minimum" = 2))]
     pub levels: Option<u64>,
     /// The part of a normal distribution that lies below its low and above its high level; 0.05 if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("exclusiveMinimum" = 0))]
-    pub tail: Option<Ratio>,
+    pub tail: Option<Ratio<POSITIVE>>,
 }
 
 /// Small changes of every sample. A change is anywhere within plus and minus its tolerance, each place as likely.
@@ -337,21 +311,13 @@ pub struct EnsembleSection {
     #[schemars(extend("minimum" = 2))]
     pub members: u64,
     /// Tolerance of each angle of the posture, or of the angles of the initial state.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("minimum" = 0))]
-    pub posture: Option<Angle>,
+    pub posture: Option<Angle<NOT_NEGATIVE>>,
     /// Tolerance of the place of the occupant: heels and lateral seat place, or position in the initial state.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("minimum" = 0))]
-    pub place: Option<Length>,
+    pub place: Option<Length<NOT_NEGATIVE>>,
     /// Tolerance of the strength of the pulse, such as "1 %".
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("minimum" = 0, "maximum" = 1))]
-    pub path: Option<Ratio>,
+    pub path: Option<Ratio<FRACTION>>,
     /// Tolerance of the stiffness of each material and each belt, such as "2 %".
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("minimum" = 0, "maximum" = 1))]
-    pub stiffness: Option<Ratio>,
+    pub stiffness: Option<Ratio<FRACTION>>,
     /// Further changes.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub perturbations: Vec<PerturbationSection>,
@@ -365,19 +331,14 @@ pub struct EnsembleSection {
 ))]
 pub struct PerturbationSection {
     /// Where.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub path: Option<String>,
     /// Several places that change together.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(extend("minItems" = 1))]
     pub paths: Option<Vec<String>>,
     /// Up to this much is added or taken away.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub offset: Option<Free>,
+    pub offset: Option<Value>,
     /// Up to this part is added or taken away, such as "2 %".
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    #[schemars(extend("minimum" = 0, "maximum" = 1))]
-    pub factor: Option<Ratio>,
+    pub factor: Option<Ratio<FRACTION>>,
 }
 
 /// What is written besides the table of results.
@@ -385,77 +346,5 @@ pub struct PerturbationSection {
 #[serde(deny_unknown_fields)]
 pub struct StudyOutputSection {
     /// Whether the table is also written as CSV; false if absent.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
     pub csv: Option<bool>,
-}
-
-/// A value whose meaning its path decides.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
-pub enum Free {
-    /// True or false.
-    Truth(bool),
-    /// Bare whole number.
-    Integer(i64),
-    /// Bare number.
-    Float(f64),
-    /// Number with unit, or a name.
-    Text(String),
-}
-
-impl Free {
-    /// The number or text as a quantity; none for true and false.
-    pub fn written(&self) -> Option<Written> {
-        match self {
-            Free::Truth(_) => None,
-            Free::Integer(i) => Some(Written::Integer(*i)),
-            Free::Float(x) => Some(Written::Float(*x)),
-            Free::Text(text) => Some(Written::Text(text.clone())),
-        }
-    }
-}
-
-impl JsonSchema for Free {
-    fn inline_schema() -> bool {
-        true
-    }
-
-    fn schema_name() -> Cow<'static, str> {
-        "value".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({
-            "type": ["number", "string", "boolean"],
-            "x-example": "a value as the scenario has it: 0.3, \"20 in lbf s/rad\", \"seat\"",
-        })
-    }
-}
-
-/// Of which runs the whole motion is kept.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
-pub enum KeepSection {
-    /// "all", "none", "worst 5 by hic15".
-    Words(String),
-    /// Indices.
-    Indices(Vec<Json>),
-}
-
-impl JsonSchema for KeepSection {
-    fn inline_schema() -> bool {
-        true
-    }
-
-    fn schema_name() -> Cow<'static, str> {
-        "keep".into()
-    }
-
-    fn json_schema(_: &mut SchemaGenerator) -> Schema {
-        json_schema!({
-            "type": ["string", "array"],
-            "items": { "type": "integer", "minimum": 0 },
-            "x-example": "\"all\", \"none\", [0, 12, 99], \"worst 5 by hic15\"",
-        })
-    }
 }

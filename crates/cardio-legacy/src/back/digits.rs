@@ -3,7 +3,7 @@
 //! A quantity of a scenario is its number times its unit's factor. The shortest decimal number that gives the same product
 //! is the number that was written, so a deck's digits come back however its scenario was read.
 
-use occupant_core::scenario::unit_expression;
+use crash_measures::unit::parse;
 
 use crate::cards::Unit;
 use crate::deck::Number;
@@ -14,7 +14,7 @@ const WIDTH: usize = 10;
 
 /// SI units in one unit of a card.
 pub(super) fn factor(unit: Unit) -> f64 {
-    unit_expression::parse(unit.in_scenarios, 0).map_or(1.0, |scale| scale.factor)
+    parse(unit.in_scenarios, 0).map_or(1.0, |scale| scale.factor)
 }
 
 /// The digits of `si` in a card's unit, and the number as it fits into ten columns where that is not the same.

@@ -13,7 +13,7 @@ mod path;
 mod report;
 mod writer;
 
-use occupant_core::scenario::document::Format;
+use occupant_core::scenario::Format;
 use occupant_core::scenario::{Diagnostics as ScenarioDiagnostics, Scenario};
 use thiserror::Error;
 

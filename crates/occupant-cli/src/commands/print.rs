@@ -4,8 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use occupant_core::scenario::kind::UnitSystem;
-use occupant_core::scenario::model::Time;
+use occupant_core::scenario::kind::{KINDS, TIME};
 
 use crate::base::failure::{Done, Failure};
 use crate::base::talk::{print, say};
@@ -74,11 +73,7 @@ pub(crate) fn print_run(args: &Args) -> Result<Done, Failure> {
 
 /// A time with its unit; a bare number is in seconds.
 fn interval(text: &str) -> Result<f64, Failure> {
-    let time = match text.trim().parse() {
-        Ok(seconds) => Time::bare(seconds),
-        Err(_) => Time::text(text),
-    };
-    let seconds = time.si(UnitSystem::Si).map_err(|error| error.expected);
+    let seconds = KINDS[TIME].read(text).map_err(|error| error.expected);
     let wrong = |expected: &str| {
         Failure::with_help(
             format!("--every {text}: not a print interval; expected {expected}"),

@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use occupant_core::scenario::kind::UnitSystem;
-use occupant_core::scenario::model::Time;
+use occupant_core::scenario::kind::{KINDS, TIME, UnitSystem};
+use occupant_core::scenario::text::Value;
 
 use crate::base::failure::{Done, Failure};
 use crate::base::output_file::{publish, refuse_input};
@@ -102,7 +102,7 @@ fn times(list: &str) -> Result<Vec<f64>, Failure> {
             Ok(number) => format!("{number} {unit}"),
             Err(_) => return Err(wrong(entry, "a number and a unit")),
         };
-        match Time::text(&text).si(UnitSystem::Si) {
+        match KINDS[TIME].si(&Value::String(text), UnitSystem::Si) {
             Ok(seconds) if seconds.is_finite() => found.push(seconds),
             Ok(_) => return Err(wrong(entry, "a finite time")),
             Err(error) => return Err(wrong(entry, &error.expected)),

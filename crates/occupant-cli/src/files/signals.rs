@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use occupant_core::scenario::unit::Scale;
-use occupant_core::scenario::unit_expression::parse;
+use crash_measures::unit::Scale;
+use crash_measures::unit::parse;
 
 use super::mme::Code;
 

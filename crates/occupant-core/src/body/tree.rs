@@ -209,6 +209,11 @@ impl Tree {
         self.spheres
     }
 
+    /// Names of the standard spheres, in the table's order.
+    pub fn sphere_names(&self) -> Vec<&'static str> {
+        self.spheres.iter().map(|row| row.name).collect()
+    }
+
     /// The parts that instruments and seating ask for.
     pub const fn landmarks(&self) -> &Landmarks {
         &self.landmarks

@@ -5,9 +5,8 @@
 
 use std::sync::OnceLock;
 
-use super::document::{Entry, Node, Table, Value};
-use super::source::Sources;
-use super::toml_text;
+use super::sections::schema;
+use super::text::{Document, Entry, Format, Node, Sources, Table, Value};
 use crate::body::tree::JointRow;
 use crate::body::tti12::TTI12;
 
@@ -55,24 +54,18 @@ pub fn rival_path(path: &str) -> Option<String> {
     found.map(|[_, rival]| format!("{above}.{rival}"))
 }
 
-/// A preset: a piece of scenario that comes with the program.
-struct Preset {
-    text: &'static str,
-    root: Node,
-}
-
-/// The preset with this name, read once.
-fn preset(name: &str) -> Option<&'static Preset> {
-    static MALE50: OnceLock<Option<Preset>> = OnceLock::new();
+/// The preset with this name, a piece of scenario that comes with the program: read and checked once.
+fn preset(name: &str) -> Option<&'static Document> {
+    static MALE50: OnceLock<Option<Document>> = OnceLock::new();
     let (cell, text) = match name {
         "male50" => (&MALE50, include_str!("presets/male50.toml")),
         _ => return None,
     };
     let read = || {
-        let mut sources = Sources::new();
-        let id = sources.add(name, text);
-        let root = toml_text::parse(&sources, id).ok()?;
-        Some(Preset { text, root })
+        let mut document = Document::read(text, Format::Toml, name).ok()?;
+        // it lacks what a whole scenario has; its quantities are read
+        document.check(schema(), "the preset");
+        Some(document)
     };
     cell.get_or_init(read).as_ref()
 }
@@ -98,13 +91,13 @@ fn section(sources: &mut Sources, root: &Node, key: &str, explicit: impl FnOnce(
     let preset = entry.node.get("preset").and_then(Node::as_str);
     let base = preset.and_then(|name| preset_section(sources, name, key));
     let layers: Vec<Node> = base.into_iter().chain([entry.node.clone()]).collect();
-    Some(Entry { node: Node { span: entry.node.span, value: Value::Table(explicit(layers)) }, ..entry })
+    Some(Entry { node: Node::new(entry.node.span, Value::Table(explicit(layers))), ..entry })
 }
 
 fn preset_section(sources: &mut Sources, name: &str, key: &str) -> Option<Node> {
     let preset = preset(name)?;
     let title = format!("preset {name}");
-    let id = sources.named(&title).unwrap_or_else(|| sources.add(title, preset.text));
+    let id = sources.named(&title).unwrap_or_else(|| sources.add(title, preset.text()));
     Some(preset.root.get(key)?.moved_to(id))
 }
 
@@ -118,7 +111,7 @@ fn body(layers: &[Node]) -> Table {
     let names = TTI12.segment_rows().iter().map(|row| row.name);
     put(&mut explicit, "segments", &segments, members(&segments, names, &SEGMENT_PAIRS));
     let spheres = parts("spheres");
-    let standard: Vec<&str> = TTI12.spheres().iter().map(|row| row.name).collect();
+    let standard = TTI12.sphere_names();
     let others = other_names(&spheres, &SPHERE_PAIRS, &standard);
     let names = standard.iter().copied().chain(others.iter().map(String::as_str));
     put(&mut explicit, "spheres", &spheres, members(&spheres, names, &SPHERE_PAIRS));
@@ -134,29 +127,35 @@ fn joints(layers: &[Node], sets: Option<&Node>) -> Table {
     }
     for joint in TTI12.joint_rows() {
         let pair = JOINT_PAIRS.iter().find(|p| p.contains(&joint.name)).map(|p| p[0]);
-        let mut merged: Option<Entry> = None;
-        for layer in layers {
-            for word in ["all"].into_iter().chain(pair).chain([joint.name]) {
-                let entry = layer.as_table().and_then(|t| t.get(word));
-                if let Some(entry) = entry {
-                    let entry = with_set(entry, sets);
-                    let entry = if word == "all" { fitting(entry, joint) } else { entry };
-                    merged = Some(laid_over(merged, entry));
-                }
-            }
-        }
-        if let Some(entry) = merged {
+        let words = ["all"].into_iter().chain(pair).chain([joint.name]);
+        let whole = |entry: &Entry| {
+            let whole = with_set(entry, sets);
+            if entry.key == "all" { fitting(whole, joint) } else { whole }
+        };
+        if let Some(entry) = merged(layers, words, whole) {
             explicit.insert(Entry { key: joint.name.to_owned(), ..entry });
         }
     }
     explicit
 }
 
+/// What the layers say under any of `words`, later words and layers laid over earlier ones.
+fn merged<'a>(
+    layers: &[Node],
+    words: impl Iterator<Item = &'a str> + Clone,
+    whole: impl Fn(&Entry) -> Entry,
+) -> Option<Entry> {
+    let tables = layers.iter().filter_map(Node::as_table);
+    let entries = tables.flat_map(|table| words.clone().filter_map(|word| table.get(word)));
+    entries.fold(None, |merged, entry| Some(laid_over(merged, whole(entry))))
+}
+
 /// What is said of all joints, without what this kind of joint cannot have.
 fn fitting(mut entry: Entry, joint: &JointRow) -> Entry {
-    let foreign: &[&str] = match joint.is_hinge() {
-        true => &["twist_damping", "stop", "stiffness", "rest_angle"],
-        false => &["lower_stop", "upper_stop"],
+    let foreign: &[&str] = if joint.is_hinge() {
+        &["twist_damping", "stop", "stiffness", "rest_angle"]
+    } else {
+        &["lower_stop", "upper_stop"]
     };
     if let Some(table) = entry.node.as_table_mut() {
         for key in foreign {
@@ -211,15 +210,8 @@ fn members<'a>(layers: &[Node], names: impl Iterator<Item = &'a str>, pairs: &[[
     names
         .filter_map(|name| {
             let pair = pairs.iter().find(|p| p[1..].contains(&name)).map(|p| p[0]);
-            let mut merged: Option<Entry> = None;
-            for table in layers.iter().filter_map(Node::as_table) {
-                for word in pair.into_iter().chain([name]) {
-                    if let Some(entry) = table.get(word) {
-                        merged = Some(laid_over(merged, entry.clone()));
-                    }
-                }
-            }
-            merged.map(|entry| Entry { key: name.to_owned(), ..entry })
+            let entry = merged(layers, pair.into_iter().chain([name]), Entry::clone)?;
+            Some(Entry { key: name.to_owned(), ..entry })
         })
         .collect()
 }
@@ -233,7 +225,7 @@ fn put(explicit: &mut Table, key: &str, layers: &[Node], members: Vec<Entry>) {
     explicit.insert(Entry {
         key: key.to_owned(),
         key_span: last.span,
-        node: Node { span: last.span, value: Value::Table(table) },
+        node: Node::new(last.span, Value::Table(table)),
     });
 }
 

@@ -1,34 +1,10 @@
-//! The kinds of quantity a scenario can hold: name, dimension, and the unit of a bare number in each unit system.
+//! The kinds of quantity a scenario can hold: how each is called and written, what a bare number means in each unit
+//! system, and how a written one becomes a number in SI units.
 
+use crash_measures::unit::{Dimension, Scale, Unit, UnitError, parse};
 use serde::{Deserialize, Serialize};
 
-/// Exponents of length, mass, time and angle.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Dimension {
-    /// Length.
-    pub length: i32,
-    /// Mass.
-    pub mass: i32,
-    /// Time.
-    pub time: i32,
-    /// Plane angle, kept apart from plain numbers so that `15` and `15 deg` cannot be confused.
-    pub angle: i32,
-}
-
-impl Dimension {
-    /// A dimension from its four exponents.
-    pub const fn new(length: i32, mass: i32, time: i32, angle: i32) -> Self {
-        Dimension { length, mass, time, angle }
-    }
-
-    /// Whether a value of dimension `self` may stand where `wanted` is expected.
-    ///
-    /// The radian of "per radian" may be left out, as in `5.73 in·lbf·s` for a rotational damper.
-    pub fn serves_as(self, wanted: Dimension) -> bool {
-        let silent_radian = Dimension { angle: wanted.angle, ..self };
-        self == wanted || (wanted.angle < 0 && self.angle == 0 && silent_radian == wanted)
-    }
-}
+use super::text::Value;
 
 /// Which units bare numbers have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]
@@ -42,6 +18,16 @@ pub enum UnitSystem {
     InchPound,
 }
 
+impl UnitSystem {
+    /// Metres in one unit of length.
+    pub const fn length_m(self) -> f64 {
+        match self {
+            UnitSystem::Si => 1.0,
+            UnitSystem::InchPound => 0.0254,
+        }
+    }
+}
+
 /// A kind of quantity.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Kind {
@@ -49,35 +35,14 @@ pub struct Kind {
     pub name: &'static str,
     /// With its article, for messages.
     pub noun: &'static str,
-    /// Dimension.
-    pub dimension: Dimension,
-    /// Unit of a bare number under `units = "si"`; empty for plain numbers.
-    pub si: &'static str,
-    /// Unit of a bare number under `units = "in-lbf-s"`.
-    pub inch_pound: &'static str,
+    /// Its SI unit.
+    pub unit: Unit,
     /// How it may be written.
     pub example: &'static str,
 }
 
-impl Kind {
-    /// The unit of a bare number.
-    pub const fn bare_unit(&self, units: UnitSystem) -> &'static str {
-        match units {
-            UnitSystem::Si => self.si,
-            UnitSystem::InchPound => self.inch_pound,
-        }
-    }
-}
-
-const fn kind(
-    name: &'static str,
-    noun: &'static str,
-    exponents: [i32; 4],
-    [si, inch_pound]: [&'static str; 2],
-    example: &'static str,
-) -> Kind {
-    let [length, mass, time, angle] = exponents;
-    Kind { name, noun, dimension: Dimension::new(length, mass, time, angle), si, inch_pound, example }
+const fn kind(name: &'static str, noun: &'static str, unit: Unit, example: &'static str) -> Kind {
+    Kind { name, noun, unit, example }
 }
 
 /// Index of "length" in [`KINDS`]; the names below likewise.
@@ -107,20 +72,194 @@ pub const ROTATIONAL_DAMPING: usize = 11;
 /// Plain number.
 pub const RATIO: usize = 12;
 
-/// All kinds. Exponents are those of length, mass, time, angle.
+/// All kinds.
 #[rustfmt::skip]
 pub const KINDS: [Kind; 13] = [
-    kind("length", "a length", [1, 0, 0, 0], ["m", "in"], "0.3, \"12 in\", \"305 mm\""),
-    kind("time", "a time", [0, 0, 1, 0], ["s", "s"], "0.08, \"80 ms\""),
-    kind("angle", "an angle", [0, 0, 0, 1], ["deg", "deg"], "15, \"15 deg\", \"0.26 rad\""),
-    kind("speed", "a speed", [1, 0, -1, 0], ["m/s", "in/s"], "8.9, \"20 mph\", \"32 km/h\""),
-    kind("acceleration", "an acceleration", [1, 0, -2, 0], ["m/s^2", "in/s^2"], "9.81, \"17.9 g\", \"386.04 in/s^2\""),
-    kind("angular velocity", "an angular velocity", [0, 0, -1, 1], ["deg/s", "deg/s"], "30, \"30 deg/s\", \"0.5 rad/s\""),
-    kind("mass", "a mass", [0, 1, 0, 0], ["kg", "lbf·s^2/in"], "5.2, \"5.2 kg\", \"11.55 lb\""),
-    kind("force", "a force", [1, 1, -2, 0], ["N", "lbf"], "51, \"51 N\", \"11.55 lbf\""),
-    kind("moment of inertia", "a moment of inertia", [2, 1, 0, 0], ["kg·m^2", "lbf·in·s^2"], "0.03, \"0.03 kg m^2\", \"0.27 lbf in s^2\""),
-    kind("stiffness", "a stiffness", [0, 1, -2, 0], ["N/m", "lbf/in"], "8400, \"8.4 kN/m\", \"48 lbf/in\""),
-    kind("rotational stiffness", "a rotational stiffness", [2, 1, -2, -1], ["N·m/rad", "in·lbf/rad"], "113, \"113 N m/rad\", \"1000 in lbf/rad\""),
-    kind("rotational damping", "a rotational damping", [2, 1, -1, -1], ["N·m·s/rad", "in·lbf·s/rad"], "0.65, \"5.73 in·lbf·s/rad\", \"0.1 in lbf s/deg\""),
-    kind("ratio", "a plain number", [0, 0, 0, 0], ["", ""], "0.5, \"50 %\""),
+    kind("length", "a length", Unit::Metre, "0.3, \"12 in\", \"305 mm\""),
+    kind("time", "a time", Unit::Second, "0.08, \"80 ms\""),
+    kind("angle", "an angle", Unit::Radian, "15, \"15 deg\", \"0.26 rad\""),
+    kind("speed", "a speed", Unit::MetrePerSecond, "8.9, \"20 mph\", \"32 km/h\""),
+    kind("acceleration", "an acceleration", Unit::MetrePerSecondSquared, "9.81, \"17.9 g\", \"386.04 in/s^2\""),
+    kind("angular velocity", "an angular velocity", Unit::RadianPerSecond, "30, \"30 deg/s\", \"0.5 rad/s\""),
+    kind("mass", "a mass", Unit::Kilogram, "5.2, \"5.2 kg\", \"11.55 lb\""),
+    kind("force", "a force", Unit::Newton, "51, \"51 N\", \"11.55 lbf\""),
+    kind("moment of inertia", "a moment of inertia", Unit::KilogramMetreSquared, "0.03, \"0.03 kg m^2\", \"0.27 lbf in s^2\""),
+    kind("stiffness", "a stiffness", Unit::NewtonPerMetre, "8400, \"8.4 kN/m\", \"48 lbf/in\""),
+    kind("rotational stiffness", "a rotational stiffness", Unit::NewtonMetrePerRadian, "113, \"113 N m/rad\", \"1000 in lbf/rad\""),
+    kind("rotational damping", "a rotational damping", Unit::NewtonMetreSecondPerRadian, "0.65, \"5.73 in·lbf·s/rad\", \"0.1 in lbf s/deg\""),
+    kind("ratio", "a plain number", Unit::One, "0.5, \"50 %\""),
 ];
+
+impl Kind {
+    /// The kind with this name.
+    pub(super) fn named(name: &str) -> Option<&'static Kind> {
+        KINDS.iter().find(|k| k.name == name)
+    }
+
+    /// The unit of a bare number: that of the system, but degrees for angles; empty for plain numbers.
+    pub const fn bare_unit(&self, units: UnitSystem) -> &'static str {
+        match (self.unit, units) {
+            (Unit::Radian, _) => "deg",
+            (Unit::RadianPerSecond, _) => "deg/s",
+            (unit, UnitSystem::Si) => unit.expression(),
+            (unit, UnitSystem::InchPound) => unit.inch_pound(),
+        }
+    }
+
+    /// What it is and how it may be written, for messages.
+    pub fn expected(&self) -> String {
+        format!("{}: {}", self.noun, self.example)
+    }
+
+    /// What is written as a number in SI units, angles in radians.
+    ///
+    /// # Errors
+    /// No number, no number with a unit of this kind, or a number that is not finite.
+    pub fn si(&self, written: &Value, units: UnitSystem) -> Result<f64, UnitError> {
+        if let Value::String(text) = written {
+            return self.text_si(text);
+        }
+        let Some(value) = written.number() else {
+            let found = format!("{} where {} should stand", written.kind(), self.noun);
+            return Err(whole("", found, self.expected()));
+        };
+        let unit = self.bare_unit(units);
+        let factor = if unit.is_empty() { 1.0 } else { parse(unit, 0)?.factor };
+        finite(value * factor, &value.to_string())
+    }
+
+    /// A number as a flag of a command gives it: bare in SI units, angles in degrees, or with its unit.
+    ///
+    /// # Errors
+    /// As [`Kind::si`].
+    pub fn read(&self, text: &str) -> Result<f64, UnitError> {
+        let written = text.trim().parse().map_or_else(|_| Value::String(text.to_owned()), Value::Float);
+        self.si(&written, UnitSystem::Si)
+    }
+
+    /// Reads `"48 lbf/in"` and the like.
+    fn text_si(&self, text: &str) -> Result<f64, UnitError> {
+        let whole = |found: String, hint: Option<String>| UnitError { hint, ..whole(text, found, self.expected()) };
+        let (number, start) =
+            split_number(text).ok_or_else(|| whole(format!("`{text}` does not start with a number"), None))?;
+        let unit_text = text[start..].trim_end();
+        if unit_text.is_empty() {
+            let hint = format!("write {} without quotes", text.trim());
+            return Err(whole(format!("a number without unit in quotes, `{text}`"), Some(hint)));
+        }
+        if unit_text.starts_with(',') {
+            let hint = "decimals are written with a point".to_owned();
+            return Err(whole(format!("a comma in the number `{text}`"), Some(hint)));
+        }
+        let scale = parse(unit_text, start)?;
+        if !self.is_measured_in(scale) {
+            let found = format!("`{unit_text}` is not the unit of {}", self.noun);
+            let hint = self.pound_hint(number, unit_text, scale);
+            return Err(UnitError { start, end: start + unit_text.len(), ..whole(found, hint) });
+        }
+        finite(number * scale.factor, text)
+    }
+
+    fn dimension(&self) -> Dimension {
+        self.unit.dimension()
+    }
+
+    fn is_measured_in(&self, scale: Scale) -> bool {
+        scale.dimension.serves_as(self.dimension())
+    }
+
+    /// SI units in one of the unit in brackets after the name of a column, `x[mm]`.
+    ///
+    /// # Errors
+    /// No unit; a unit that cannot be read, or of something else. Places are those of the unit's text.
+    pub fn column_factor(&self, name: &str, unit: Option<&str>) -> Result<f64, UnitError> {
+        let expected =
+            format!("the unit of {} in brackets, such as `{name}[{}]`", self.noun, self.bare_unit(UnitSystem::Si));
+        let Some(unit) = unit else {
+            return Err(whole(name, format!("column `{name}` without a unit"), expected));
+        };
+        match parse(unit, 0) {
+            Ok(scale) if self.is_measured_in(scale) => Ok(scale.factor),
+            Ok(_) => Err(whole(unit, format!("`{unit}` is not the unit of {}", self.noun), expected)),
+            Err(error) => Err(UnitError { expected, ..error }),
+        }
+    }
+
+    /// The usual slip: pounds of mass for pounds of force, or the other way round.
+    fn pound_hint(&self, number: f64, unit_text: &str, scale: Scale) -> Option<String> {
+        if self.unit == Unit::One || scale.dimension == self.dimension() {
+            return None;
+        }
+        let slips = [("lbf", "lb", "mass"), ("lb", "lbf", "force"), ("lbs", "lbf", "force")];
+        slips.into_iter().find_map(|(wrong, right, what)| {
+            let swapped: String = words(unit_text).map(|w| if w == wrong { right } else { w }).collect();
+            let fits = parse(&swapped, 0).is_ok_and(|s| self.is_measured_in(s));
+            fits.then(|| format!("the pound of {what} is `{right}`: \"{number} {swapped}\""))
+        })
+    }
+}
+
+/// A text such as `"20 mph"` with its number multiplied and its unit kept; none if it does not start with a number.
+pub(super) fn scaled_text(text: &str, factor: f64) -> Option<String> {
+    let (number, unit_start) = split_number(text)?;
+    let unit = text[unit_start..].trim_end();
+    Some(format!("{} {unit}", number * factor))
+}
+
+fn finite(value: f64, text: &str) -> Result<f64, UnitError> {
+    if value.is_finite() {
+        return Ok(value);
+    }
+    Err(whole(text, format!("`{text}` is not finite"), "a finite number".into()))
+}
+
+/// An error about a whole text.
+fn whole(text: &str, found: String, expected: String) -> UnitError {
+    UnitError { start: 0, end: text.len(), found, expected, hint: None }
+}
+
+/// The number at the start of a text, and where its unit starts.
+pub(super) fn split_number(text: &str) -> Option<(f64, usize)> {
+    let start = text.len() - text.trim_start().len();
+    let body = &text[start..];
+    let (sign, body_start) = match body.chars().next()? {
+        '-' => (-1.0, 1),
+        '−' => (-1.0, '−'.len_utf8()),
+        '+' => (1.0, 1),
+        _ => (1.0, 0),
+    };
+    let digits = &body[body_start..];
+    let bytes = digits.as_bytes();
+    let run = |from: usize| bytes[from..].iter().take_while(|b| b.is_ascii_digit()).count();
+    let mut length = run(0);
+    if bytes.get(length) == Some(&b'.') {
+        length += 1 + run(length + 1);
+    }
+    if matches!(bytes.get(length), Some(b'e' | b'E')) {
+        let signed = usize::from(matches!(bytes.get(length + 1), Some(b'-' | b'+')));
+        let exponent = run((length + 1 + signed).min(bytes.len()));
+        if exponent > 0 {
+            length += 1 + signed + exponent;
+        }
+    }
+    let value: f64 = digits[..length].parse().ok()?;
+    let unit = &digits[length..];
+    let blanks = unit.len() - unit.trim_start().len();
+    Some((sign * value, start + body_start + length + blanks))
+}
+
+/// Splits into runs of letters and single other characters.
+fn words(text: &str) -> impl Iterator<Item = &str> {
+    let mut rest = text;
+    std::iter::from_fn(move || {
+        let first = rest.chars().next()?;
+        let length = if first.is_alphabetic() {
+            rest.find(|c: char| !c.is_alphabetic()).unwrap_or(rest.len())
+        } else {
+            first.len_utf8()
+        };
+        let (word, tail) = rest.split_at(length);
+        rest = tail;
+        Some(word)
+    })
+}

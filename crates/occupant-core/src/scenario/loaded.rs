@@ -1,16 +1,9 @@
 //! A scenario that has passed the check, with the tables beside it, ready to be built.
 
-use serde::Deserialize;
-
-use super::build::build;
-use super::check::check;
-use super::diagnostic::{Diagnostic, Diagnostics};
-use super::document::{Format, Node};
-use super::draft::{Draft, refuse, text_of};
+use super::draft::Draft;
 use super::expand::expand;
-use super::model::{PathSection, Scenario};
-use super::path_text::locate;
-use super::source::{SourceId, Sources};
+use super::sections::{Scenario, setup};
+use super::text::{Diagnostics, Document, Format, SourceId, text_of};
 use crate::model::Model;
 use crate::model::setup::Setup;
 use crate::problem::{Problem, Problems};
@@ -23,10 +16,9 @@ pub type Resolver<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, String>;
 pub struct Loaded {
     /// The scenario as it was written, overrides included.
     pub scenario: Scenario,
-    sources: Sources,
-    main: SourceId,
-    explicit: Node,
-    explicit_scenario: Scenario,
+    explicit: Scenario,
+    /// The tree of the explicit scenario.
+    document: Document,
     path_table: Option<SourceId>,
 }
 
@@ -52,22 +44,36 @@ impl Scenario {
     /// # Errors
     /// None for a scenario that was read from a text.
     pub fn to_json(&self) -> Result<String, serde_json::Error> {
-        serde_json::to_string_pretty(self)
+        let mut value = serde_json::to_value(self)?;
+        without_null(&mut value);
+        serde_json::to_string_pretty(&value)
+    }
+}
+
+/// Takes away the keys that are not written.
+fn without_null(value: &mut serde_json::Value) {
+    match value {
+        serde_json::Value::Object(table) => {
+            table.retain(|_, value| !value.is_null());
+            table.values_mut().for_each(without_null);
+        }
+        serde_json::Value::Array(items) => items.iter_mut().for_each(without_null),
+        _ => {}
     }
 }
 
 impl Loaded {
-    pub(super) fn from_draft(draft: Draft, resolver: Resolver) -> Result<Loaded, Diagnostics> {
-        let Draft { mut sources, main, root } = draft;
-        let problems = check(&sources, &root);
+    pub(super) fn from_draft(mut draft: Draft, resolver: Resolver) -> Result<Loaded, Diagnostics> {
+        let problems = draft.check_words();
         if problems.has_errors() {
             return Err(problems);
         }
-        let explicit = expand(&mut sources, &root);
-        let scenario = model_of(&sources, main, &root)?;
-        let explicit_scenario = model_of(&sources, main, &explicit)?;
-        let path_table = read_path_table(&mut sources, &explicit, &scenario, resolver)?;
-        Ok(Loaded { scenario, sources, main, explicit, explicit_scenario, path_table })
+        let mut document = draft.document;
+        let scenario: Scenario = document.sections("scenario")?;
+        document.root = expand(&mut document.sources, &document.root);
+        let explicit = document.sections("scenario")?;
+        let path_table = read_path_table(&mut document, &scenario, resolver)?;
+        Ok(Loaded { scenario, explicit, document, path_table })
     }
 
     /// The plain data of the scenario, with warnings.
@@ -75,7 +81,7 @@ impl Loaded {
     /// # Errors
     /// Everything that does not fit together: names that lead nowhere, keys that are missing or have no meaning here.
     pub fn build(&self) -> Result<(Setup, Diagnostics), Diagnostics> {
-        build(&self.scenario, &self.explicit_scenario, &self.explicit, &self.sources, self.path_table)
+        setup(&self.scenario, &self.explicit, &self.document, self.path_table)
     }
 
     /// The model of the scenario, ready to be run, with warnings.
@@ -100,71 +106,41 @@ impl Loaded {
     pub fn diagnose(&self, problems: &Problems) -> Diagnostics {
         let mut placed = Diagnostics::new();
         for problem in problems.iter() {
-            placed.push(place(&self.sources, self.main, &self.explicit, problem.clone()));
+            placed.push(self.document.place(problem.clone()));
         }
         placed
     }
 
     /// The scenario with presets, pairs, `all` and joint sets written out.
     pub fn explicit(&self) -> &Scenario {
-        &self.explicit_scenario
+        &self.explicit
     }
 
     /// Name and text of the table the scenario names, if it names one.
     pub fn table(&self) -> Option<(&str, &str)> {
         let id = self.path_table?;
-        Some((self.sources.name(id), self.sources.text(id)))
+        Some((self.document.sources.name(id), self.document.sources.text(id)))
     }
 
     /// The text the scenario was read from.
     pub fn text(&self) -> &str {
-        self.sources.text(self.main)
+        self.document.text()
     }
-}
-
-/// Finds the words that a problem's path points at.
-pub fn place(sources: &Sources, main: SourceId, root: &Node, problem: Problem) -> Diagnostic {
-    match locate(root, &problem.path) {
-        Some(span) => Diagnostic::at(sources, span, problem),
-        None => Diagnostic::of(sources.name(main), problem),
-    }
-}
-
-/// The serde model of a checked tree. A difference between checker and model is reported, not a panic.
-fn model_of(sources: &Sources, main: SourceId, root: &Node) -> Result<Scenario, Diagnostics> {
-    Scenario::deserialize(root.to_json())
-        .map_err(|error| refuse(sources.name(main), format!("the scenario cannot be read: {error}"), "a scenario"))
 }
 
 /// Reads the CSV file that the vehicle path names.
 fn read_path_table(
-    sources: &mut Sources,
-    explicit: &Node,
+    document: &mut Document,
     scenario: &Scenario,
     resolver: Resolver,
 ) -> Result<Option<SourceId>, Diagnostics> {
-    let file = match &scenario.path {
-        PathSection::Table(table) => table.file.as_ref(),
-        PathSection::Pulse(pulse) => pulse.file.as_ref(),
-        PathSection::Sensors(sensors) => sensors.file.as_ref(),
-        PathSection::Fixed(_) => None,
-    };
-    let Some(file) = file else {
+    let Some(file) = scenario.path.file() else {
         return Ok(None);
     };
     let bytes = resolver(file).map_err(|reason| {
-        let mut problems = Problems::new();
-        problems.error(
-            "path.file",
-            format!("`{file}` cannot be read: {reason}"),
-            "a CSV file, its name relative to the scenario",
-        );
-        let mut placed = Diagnostics::new();
-        for problem in problems.iter() {
-            placed.push(place(sources, explicit.span.source, explicit, problem.clone()));
-        }
-        placed
+        let found = format!("`{file}` cannot be read: {reason}");
+        document.place(Problem::error("path.file", found, "a CSV file, its name relative to the scenario"))
     })?;
     let text = text_of(&bytes, file)?;
-    Ok(Some(sources.add(file, text)))
+    Ok(Some(document.sources.add(file, text)))
 }

@@ -1,7 +1,19 @@
 //! Scenarios: what a person writes, read with places, checked, and turned into the core's plain data.
 //!
 //! ```text
-//! text ─ Draft (overrides) ─ check against the schema ─ Loaded ─ build ─ Setup ─ Model
+//! text ─ Draft (overrides) ─ check ─ sections ─ Loaded ─ plain data ─ Setup ─ Model
+//! ```
+//!
+//! - `text`: TOML, JSON and CSV with places, and messages that point at them;
+//! - `kind`: what a number can be, and how a written one becomes SI;
+//! - `check`: every value of the tree against the schema of the sections; quantities become SI here, once;
+//! - `sections`: one file for each concept: its keys, and the plain data they come to;
+//! - `expand`, `overrides`, `places`: presets and groups written out, values put and found by path.
+//!
+//! What it never does: read files, print, or compute anything that a run computes.
+//!
+//! ```text
+//! `path.speed = "20 mph"` ─ Value ─ 8.9408 m/s in the tree ─ Quantity ─ PulseDefinition
 //! ```
 //!
 //! Problems never stop at the first: each stage reports everything it can find, with file, line and column.
@@ -24,40 +36,24 @@
 //! # Ok::<(), occupant_core::scenario::Diagnostics>(())
 //! ```
 
-mod build;
-pub mod check;
-mod check_groups;
-mod check_references;
-pub mod csv_text;
-pub mod diagnostic;
-pub mod document;
-pub mod draft;
-pub mod expand;
-mod json;
+mod check;
+mod draft;
+mod expand;
 pub mod kind;
-pub mod loaded;
-pub mod model;
-mod number_table;
+mod loaded;
 mod overrides;
-pub mod path_text;
-pub mod place;
-pub mod quantity;
-mod record_file;
-pub mod schema;
-pub mod source;
-mod toml_text;
-pub mod unit;
-pub mod unit_expression;
-mod view;
-mod written;
+mod places;
+mod presets;
+pub mod sections;
+pub mod text;
 
-pub use diagnostic::{Diagnostic, Diagnostics};
-pub use document::Format;
+pub use check::schema_of;
 pub use draft::Draft;
+pub use expand::rival_path;
 pub use loaded::{Loaded, Resolver};
-pub use model::Scenario;
-pub use record_file::{RecordFile, read_record};
-pub use schema::schema;
+pub use places::{Place, Wanted};
+pub use sections::{RecordFile, Scenario, read_record, schema};
+pub use text::{Diagnostic, Diagnostics, Format};
 
 #[cfg(test)]
 mod tests;

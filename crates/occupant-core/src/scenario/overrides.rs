@@ -1,46 +1,13 @@
 //! `path.to.key=value`: changes to a scenario from a command line or a sweep, made before it is checked.
 
-use super::document::{Entry, Node, Table, Value};
 use super::expand::RIVALS;
-use super::path_text::{Step, child, child_of, with_key};
-use super::source::Span;
+use super::text::{Entry, Node, Span, Step, Table, Value, child, follow, with_step};
 
 /// Whether a path can only be followed in the explicit form of a scenario: it has wildcards, or it leads into a list that
 /// is not written.
 pub(super) fn needs_explicit(root: &Node, steps: &[Step]) -> bool {
-    let written = || steps.iter().try_fold(root, child_of).is_some();
+    let written = || follow(root, steps).is_some();
     steps.contains(&Step::Every) || (steps.iter().any(|s| matches!(s, Step::Index(_))) && !written())
-}
-
-/// The places a path with wildcards leads to in the explicit form of a scenario, as paths without wildcards.
-///
-/// A path without wildcards leads to itself, even where nothing stands yet.
-pub(super) fn targets(explicit: &Node, steps: &[Step]) -> Vec<Vec<Step>> {
-    if !steps.contains(&Step::Every) {
-        return vec![steps.to_vec()];
-    }
-    let mut found = Vec::new();
-    collect(explicit, steps, &mut Vec::new(), &mut found);
-    found
-}
-
-fn collect(node: &Node, rest: &[Step], path: &mut Vec<Step>, found: &mut Vec<Vec<Step>>) {
-    let Some((step, rest)) = rest.split_first() else {
-        found.push(path.clone());
-        return;
-    };
-    let next: Vec<Step> = match (step, &node.value) {
-        (Step::Every, Value::Table(table)) => table.iter().map(|e| Step::Key(e.key.clone())).collect(),
-        (Step::Every, Value::Array(items)) => (0..items.len()).map(Step::Index).collect(),
-        _ => vec![step.clone()],
-    };
-    for step in next {
-        if let Some(below) = child(node, &step) {
-            path.push(step);
-            collect(below, rest, path, found);
-            path.pop();
-        }
-    }
 }
 
 /// Puts `value` at a path without wildcards. Of two keys that say the same thing in two ways, such as the `peak` and the
@@ -57,11 +24,7 @@ pub(super) fn put(root: &mut Node, explicit: Option<&Node>, steps: &[Step], valu
         let last = i + 1 == steps.len();
         let above = path.clone();
         shadow = shadow.and_then(|s| child(s, step));
-        path = match step {
-            Step::Key(key) => with_key(&path, key),
-            Step::Index(at) => format!("{path}[{at}]"),
-            Step::Every => format!("{path}.*"),
-        };
+        path = with_step(&path, step);
         if let (Step::Key(key), Value::Table(table)) = (step, &mut node.value)
             && table.get(key).is_none()
         {
@@ -96,11 +59,8 @@ fn blank(key: &str, span: Span, next: Option<&Step>, shadow: Option<&Node>) -> E
         (Some(_), Some(Value::Array(items))) => Some(Value::Array(items.clone())),
         _ => None,
     };
-    Entry {
-        key: key.to_owned(),
-        key_span: span,
-        node: Node { span, value: copied.unwrap_or(Value::Table(Table::new())) },
-    }
+    let node = Node::new(span, copied.unwrap_or(Value::Table(Table::new())));
+    Entry { key: key.to_owned(), key_span: span, node }
 }
 
 fn below_mut<'a>(node: &'a mut Node, step: &Step) -> Option<&'a mut Node> {

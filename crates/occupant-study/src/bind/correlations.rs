@@ -4,8 +4,7 @@ use super::Binder;
 use crate::copula::Copula;
 use crate::design::Design;
 use crate::parameter::Parameter;
-use occupant_core::problem::nearest;
-use occupant_core::scenario::check::one_of;
+use occupant_core::scenario::text::{did_you_mean, one_of};
 
 impl Binder<'_> {
     pub(super) fn copula(&mut self, parameters: &[Parameter], design: &Design) -> Option<Copula> {
@@ -57,7 +56,7 @@ impl Binder<'_> {
     }
 
     pub(super) fn unknown_name(&mut self, at: &str, name: &str, names: &[&str]) {
-        let hint = nearest(name, names.iter().copied()).map(|n| format!("did you mean \"{n}\"?"));
+        let hint = did_you_mean(name, names, '"');
         let found = format!("no parameter is named \"{name}\"");
         self.error(at, found, one_of(names, '"'), hint);
     }

@@ -6,11 +6,9 @@ use crate::ensemble::Ensemble;
 use crate::parameter::Parameter;
 use crate::section::DesignSection;
 use crate::sobol::MAX_DIMENSIONS;
-use crate::text::problem;
-use occupant_core::problem::Severity;
+use occupant_core::problem::Problem;
 use occupant_core::scenario::Resolver;
-use occupant_core::scenario::kind::UnitSystem;
-use occupant_core::scenario::model::Ratio;
+use occupant_core::scenario::sections::{POSITIVE, Ratio};
 
 impl Binder<'_> {
     /// The design of the study; columns of a table of samples may become parameters.
@@ -97,14 +95,9 @@ impl Binder<'_> {
         };
         if !samples.is_power_of_two() {
             let near = samples.checked_next_power_of_two().unwrap_or(*samples);
-            let warning = problem(
-                Severity::Warning,
-                "design.samples",
-                format!("{samples} points of Sobol's sequence, which is even only in powers of 2"),
-                "a power of 2",
-                Some(format!("samples = {} or {near}", near / 2)),
-            );
-            self.text.report(&mut self.problems, warning);
+            let found = format!("{samples} points of Sobol's sequence, which is even only in powers of 2");
+            let hint = format!("samples = {} or {near}", near / 2);
+            self.report(Problem::warning("design.samples", found, "a power of 2").with_hint(Some(hint)));
         }
     }
 }
@@ -127,7 +120,6 @@ fn chosen(section: &DesignSection) -> Design {
     }
 }
 
-fn tail(written: &Option<Ratio>) -> f64 {
-    let ratio = written.as_ref().and_then(|t| t.si(UnitSystem::Si).ok());
-    ratio.unwrap_or(0.05)
+fn tail(written: &Option<Ratio<POSITIVE>>) -> f64 {
+    written.as_ref().map_or(0.05, Ratio::si)
 }

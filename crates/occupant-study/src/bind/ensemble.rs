@@ -1,13 +1,13 @@
 //! The `[ensemble]` of a study: tolerances find their places.
 
 use super::Binder;
-use super::law::Quantities;
+use super::law::{Quantities, kind_of};
+use super::parameters::paths_at;
 use crate::ensemble::{self, Change, Ensemble, Perturbation};
 use crate::parameter::{Parameter, Target};
 use crate::section::{ApplyChoice, EnsembleSection, PerturbationSection};
 use occupant_core::scenario::Draft;
-use occupant_core::scenario::kind::{KINDS, RATIO, UnitSystem};
-use occupant_core::scenario::place::Wanted;
+use occupant_core::scenario::sections::{Angle, Length, Ratio};
 
 /// The ensemble of a study, if it has one. Without any tolerance it has the standard ones.
 pub(super) fn bind(binder: &mut Binder, base: &Draft, parameters: &[Parameter]) -> Option<Ensemble> {
@@ -37,11 +37,10 @@ fn tolerances(
     parameters: &[Parameter],
     section: &EnsembleSection,
 ) -> Vec<Perturbation> {
-    let units = binder.units();
-    let posture = section.posture.as_ref().and_then(|t| t.si(units).ok());
-    let place = section.place.as_ref().and_then(|t| t.si(units).ok());
-    let path = section.path.as_ref().and_then(|t| t.si(units).ok());
-    let stiffness = section.stiffness.as_ref().and_then(|t| t.si(units).ok());
+    let posture = section.posture.as_ref().map(Angle::si);
+    let place = section.place.as_ref().map(Length::si);
+    let path = section.path.as_ref().map(Ratio::si);
+    let stiffness = section.stiffness.as_ref().map(Ratio::si);
     let groups = [
         ("posture", posture.map(|most| ensemble::posture(base, most)), "a posture"),
         ("place", place.map(|most| ensemble::seat_place(base, most)), "a posture"),
@@ -63,33 +62,17 @@ fn tolerances(
 }
 
 fn perturbation(binder: &mut Binder, section: &PerturbationSection, at: &str) -> Option<Perturbation> {
-    let paths: Vec<(String, &str)> = match (&section.path, &section.paths) {
-        (Some(path), _) => vec![(format!("{at}.path"), path)],
-        (None, Some(paths)) => {
-            paths.iter().enumerate().map(|(i, p)| (format!("{at}.paths[{i}]"), p.as_str())).collect()
-        }
-        (None, None) => return None,
-    };
+    let paths = paths_at(&section.path, &section.paths, at)?;
     let places = binder.places(&paths)?;
     let wanted = binder.common(&places, &paths[0].0)?;
-    let apply = match section.factor {
-        Some(_) => ApplyChoice::Factor,
-        None => ApplyChoice::Offset,
-    };
+    let apply = if section.factor.is_some() { ApplyChoice::Factor } else { ApplyChoice::Offset };
     if !binder.all_numbers(&places, &paths[0].0, apply) {
         return None;
     }
     let change = match (&section.factor, &section.offset) {
-        (Some(factor), _) => Change::Factor(factor.si(UnitSystem::Si).ok()?),
+        (Some(factor), _) => Change::Factor(factor.si()),
         (None, Some(offset)) => {
-            let quantities = Quantities {
-                kind: match &wanted {
-                    Wanted::Quantity(kind) => Some(*kind),
-                    _ => Some(&KINDS[RATIO]),
-                },
-                wanted: &wanted,
-                units: binder.units(),
-            };
+            let quantities = Quantities { kind: kind_of(&wanted, apply), wanted: &wanted, units: binder.units() };
             Change::Offset(quantities.number(binder, offset, &format!("{at}.offset"))?)
         }
         (None, None) => return None,

@@ -5,9 +5,8 @@ use super::Binder;
 use crate::law::{Law, Value};
 use crate::parameter::{Assignment, Parameter};
 use crate::section::ApplyChoice;
-use crate::text::problem;
-use occupant_core::problem::Severity;
-use occupant_core::scenario::{Diagnostics, Draft};
+use occupant_core::problem::{Problem, Severity};
+use occupant_core::scenario::{Diagnostics, Draft, Place};
 
 /// The part of a normal distribution beyond which values out of range are not looked for.
 const RARE: f64 = 1e-6;
@@ -17,10 +16,7 @@ pub(super) fn check(binder: &mut Binder, base: &Draft, parameters: &[Parameter],
     let written = binder.text.section.parameters.len();
     for (i, parameter) in parameters.iter().enumerate() {
         // a broken parameter shifts the others; then point at the name only
-        let at = match parameters.len() == written {
-            true => format!("parameters[{i}]"),
-            false => "parameters".to_owned(),
-        };
+        let at = if parameters.len() == written { format!("parameters[{i}]") } else { "parameters".to_owned() };
         by_hand(binder, base, parameter, overrides, &at);
         for value in extremes(&parameter.law) {
             let mut list = Vec::new();
@@ -39,16 +35,14 @@ fn tell(binder: &mut Binder, at: &str, parameter: &Parameter, wrong: Diagnostics
         return;
     };
     let (name, words) = (&parameter.name, &first.problem);
-    let (severity, hint) = match rare {
-        true => {
-            let hint = "a \"truncated_normal\" distribution keeps to what is possible";
-            (Severity::Warning, Some(hint.to_owned()))
-        }
-        false => (Severity::Error, words.hint.clone()),
-    };
     let found = format!("`{name}` spoils the scenario: {}", words.found);
-    let told = problem(severity, at, found, words.expected.clone(), hint);
-    binder.text.report(&mut binder.problems, told);
+    let problem = Problem::error(at, found, words.expected.clone());
+    binder.report(if rare {
+        let hint = "a \"truncated_normal\" distribution keeps to what is possible";
+        Problem { severity: Severity::Warning, ..problem }.with_hint(Some(hint))
+    } else {
+        problem.with_hint(words.hint.clone())
+    });
 }
 
 /// The values between which all others lie, or all values of a list.
@@ -67,10 +61,7 @@ fn put_in(base: &Draft, list: &[Assignment]) -> Result<(), Diagnostics> {
         draft.set_value(&assignment.path, &assignment.text())?;
     }
     let wrong = draft.check();
-    match wrong.has_errors() {
-        true => Err(wrong),
-        false => Ok(()),
-    }
+    if wrong.has_errors() { Err(wrong) } else { Ok(()) }
 }
 
 /// Tells of an override that this parameter would undo.
@@ -80,8 +71,7 @@ fn by_hand(binder: &mut Binder, base: &Draft, parameter: &Parameter, overrides: 
     }
     for path in overrides.iter().filter_map(|o| o.split_once('=')) {
         let places = base.places(path.0.trim()).unwrap_or_default();
-        let shared =
-            |place: &occupant_core::scenario::place::Place| parameter.targets.iter().any(|t| t.path == place.path);
+        let shared = |place: &Place| parameter.targets.iter().any(|t| t.path == place.path);
         if let Some(place) = places.iter().find(|p| shared(p)) {
             let found = format!("`{}` is given by hand and varied by `{}`", place.path, parameter.name);
             binder.error(at, found, "one of the two", Some("leave the override out".into()));

@@ -5,12 +5,11 @@ use indexmap::IndexMap;
 use super::{Binder, Purpose};
 use crate::fit::{Bounds, Fit, FitChannel, FitTest};
 use crate::fit_section::{FitSection, FitTestSection};
-use crate::section::Free;
-use crate::text::problem;
 use crate::{Parameter, Study, StudyText};
 use crash_measures::trig::ln;
-use occupant_core::problem::Severity;
-use occupant_core::scenario::model::Time;
+use occupant_core::problem::Problem;
+use occupant_core::scenario::sections::Time;
+use occupant_core::scenario::text::Value;
 use occupant_core::scenario::{Diagnostics, Draft, Resolver};
 
 /// Evaluations for each parameter.
@@ -61,10 +60,7 @@ impl StudyText {
             tolerance: section.tolerance.unwrap_or(TOLERANCE),
             near: section.near,
         };
-        match binder.problems.has_errors() {
-            true => Err(binder.problems),
-            false => Ok(fit),
-        }
+        if binder.problems.has_errors() { Err(binder.problems) } else { Ok(fit) }
     }
 
     /// Checks the study against the base scenario of a test: `set` is what that test's scenario has besides, at `at` in the
@@ -76,7 +72,7 @@ impl StudyText {
     pub fn bind_fit(
         &self,
         base: Draft,
-        (set, at): (&IndexMap<String, Free>, &str),
+        (set, at): (&IndexMap<String, Value>, &str),
         overrides: &[String],
         resolver: Resolver,
     ) -> Result<Study, Diagnostics> {
@@ -92,8 +88,7 @@ impl StudyText {
         hint: Option<String>,
     ) -> Diagnostics {
         let mut problems = Diagnostics::new();
-        let problem = problem(Severity::Error, path, found, expected, hint);
-        self.report(&mut problems, problem);
+        self.report(&mut problems, Problem::error(path, found, expected).with_hint(hint));
         problems
     }
 }
@@ -134,9 +129,7 @@ impl Binder<'_> {
     }
 
     fn window(&mut self, times: [&Option<Time>; 2], at: &str) -> [Option<f64>; 2] {
-        let units = self.units();
-        // the check has refused what is no time
-        let [from, to] = times.map(|t| t.as_ref().and_then(|t| t.si(units).ok()));
+        let [from, to] = times.map(|t| t.as_ref().map(Time::si));
         if let (Some(from_s), Some(to_s)) = (from, to)
             && from_s >= to_s
         {
@@ -164,7 +157,6 @@ impl Binder<'_> {
     }
 
     fn fit_test(&mut self, test: &FitTestSection, at: &str) -> FitTest {
-        let units = self.units();
         let seat = test.seat.as_deref().unwrap_or("1");
         let mut letters = seat.chars();
         let seat = match (letters.next(), letters.next()) {
@@ -182,7 +174,7 @@ impl Binder<'_> {
             base: test.base.clone(),
             set: test.set.clone(),
             window_s: self.window([&test.from, &test.to], at),
-            shift_s: test.shift.as_ref().and_then(|t| t.si(units).ok()).unwrap_or(0.0),
+            shift_s: test.shift.as_ref().map_or(0.0, Time::si),
             weight: self.weight(test.weight, at),
             map: test.map.clone(),
             seat,

@@ -1,13 +1,11 @@
 //! The written numbers of a parameter as a [`Law`] in SI units.
 
-use super::{Binder, noun};
+use super::Binder;
 use crate::law::{Law, Value};
-use crate::section::{DistributionSection, Free, GridSection, ParameterSection, ScaleChoice};
-use occupant_core::problem::nearest;
-use occupant_core::scenario::check::one_of;
-use occupant_core::scenario::kind::{Kind, UnitSystem};
-use occupant_core::scenario::place::Wanted;
-use occupant_core::scenario::quantity::si_value;
+use crate::section::{ApplyChoice, DistributionSection, GridSection, ParameterSection, ScaleChoice};
+use occupant_core::scenario::Wanted;
+use occupant_core::scenario::kind::{KINDS, Kind, RATIO, UnitSystem};
+use occupant_core::scenario::text::{Value as Written, did_you_mean, one_of};
 
 /// How the values of one parameter are to be read.
 pub(super) struct Quantities<'w> {
@@ -26,7 +24,7 @@ impl Quantities<'_> {
             return self.list(binder, list, &format!("{at}.list"));
         }
         if self.kind.is_none() {
-            let found = format!("numbers for {}", noun(self.wanted));
+            let found = format!("numbers for {}", self.wanted.noun());
             binder.error(at, found, "a `list` of values", None);
             return None;
         }
@@ -37,34 +35,20 @@ impl Quantities<'_> {
             let at = format!("{at}.range");
             let log = range.scale == Some(ScaleChoice::Log);
             let [from, to] = self.ends(binder, &at, [&range.from, &range.to], log)?;
-            return Some(match log {
-                true => Law::LogUniform { from, to },
-                false => Law::Uniform { from, to },
-            });
+            return Some(if log { Law::LogUniform { from, to } } else { Law::Uniform { from, to } });
         }
         let distribution = section.distribution.as_ref()?;
         self.distribution(binder, distribution, &format!("{at}.distribution"))
     }
 
     /// A number in SI units; a wrong one is reported.
-    pub(super) fn number(&self, binder: &mut Binder, free: &Free, at: &str) -> Option<f64> {
-        let kind = self.kind?;
-        let Some(written) = free.written() else {
-            let found = format!("true or false where {} should stand", kind.noun);
-            binder.error(at, found, format!("{}: {}", kind.noun, kind.example), None);
-            return None;
-        };
-        match si_value(&written, kind, self.units) {
-            Ok(value) => Some(value),
-            Err(error) => {
-                binder.error(at, error.found, error.expected, error.hint);
-                None
-            }
-        }
+    pub(super) fn number(&self, binder: &mut Binder, free: &Written, at: &str) -> Option<f64> {
+        let value = self.kind?.si(free, self.units);
+        value.map_err(|error| binder.error(at, error.found, error.expected, error.hint)).ok()
     }
 
     /// Two ends, the first below the second, both positive on a logarithmic scale.
-    fn ends(&self, binder: &mut Binder, at: &str, [from, to]: [&Free; 2], log: bool) -> Option<[f64; 2]> {
+    fn ends(&self, binder: &mut Binder, at: &str, [from, to]: [&Written; 2], log: bool) -> Option<[f64; 2]> {
         let from = self.number(binder, from, &format!("{at}.from"));
         let to = self.number(binder, to, &format!("{at}.to"));
         let (from, to) = (from?, to?);
@@ -75,10 +59,7 @@ impl Quantities<'_> {
             return None;
         }
         if from >= to {
-            let found = match from == to {
-                true => "`from` and `to` are the same",
-                false => "`from` is above `to`",
-            };
+            let found = if from == to { "`from` and `to` are the same" } else { "`from` is above `to`" };
             binder.error(&format!("{at}.to"), found, "`from` below `to`", None);
             return None;
         }
@@ -131,7 +112,7 @@ impl Quantities<'_> {
         }
     }
 
-    fn mean_and_sd(&self, binder: &mut Binder, mean: &Free, sd: &Free, at: &str) -> Option<[f64; 2]> {
+    fn mean_and_sd(&self, binder: &mut Binder, mean: &Written, sd: &Written, at: &str) -> Option<[f64; 2]> {
         let mean = self.number(binder, mean, &format!("{at}.mean"));
         let sd = self.number(binder, sd, &format!("{at}.sd"))?;
         if sd <= 0.0 {
@@ -142,39 +123,42 @@ impl Quantities<'_> {
         Some([mean?, sd])
     }
 
-    fn list(&self, binder: &mut Binder, list: &[Free], at: &str) -> Option<Law> {
+    fn list(&self, binder: &mut Binder, list: &[Written], at: &str) -> Option<Law> {
         let values: Vec<Option<Value>> =
             list.iter().enumerate().map(|(i, free)| self.item(binder, free, &format!("{at}[{i}]"))).collect();
         values.into_iter().collect::<Option<_>>().map(Law::List)
     }
 
     /// One value of a list.
-    pub(super) fn item(&self, binder: &mut Binder, free: &Free, at: &str) -> Option<Value> {
+    pub(super) fn item(&self, binder: &mut Binder, free: &Written, at: &str) -> Option<Value> {
         if self.kind.is_some() {
             return self.number(binder, free, at).map(Value::Number);
         }
         match (self.wanted, free) {
-            (Wanted::Truth, Free::Truth(b)) => Some(Value::Truth(*b)),
-            (Wanted::Text, Free::Text(text)) => Some(Value::Text(text.clone())),
-            (Wanted::Names(names), Free::Text(text)) if names.contains(&text.as_str()) => {
+            (Wanted::Truth, Written::Bool(b)) => Some(Value::Truth(*b)),
+            (Wanted::Text, Written::String(text)) => Some(Value::Text(text.clone())),
+            (Wanted::Names(names), Written::String(text)) if names.contains(&text.as_str()) => {
                 Some(Value::Text(text.clone()))
             }
-            (Wanted::Names(names), Free::Text(text)) => {
-                let hint = nearest(text, names.iter().copied()).map(|n| format!("did you mean \"{n}\"?"));
+            (Wanted::Names(names), Written::String(text)) => {
                 let found = format!("\"{text}\" is not one of its names");
-                binder.error(at, found, one_of(names, '"'), hint);
+                binder.error(at, found, one_of(names, '"'), did_you_mean(text, names, '"'));
                 None
             }
             _ => {
-                let found = match free {
-                    Free::Truth(_) => "true or false",
-                    Free::Text(_) => "a text",
-                    Free::Integer(_) | Free::Float(_) => "a number",
-                };
-                let found = format!("{found} where {} should stand", noun(self.wanted));
-                binder.error(at, found, noun(self.wanted), None);
+                let found = format!("{} where {} should stand", free.kind(), self.wanted.noun());
+                binder.error(at, found, self.wanted.noun(), None);
                 None
             }
         }
+    }
+}
+
+/// The kind of the numbers that a parameter has; none for names.
+pub(super) fn kind_of(wanted: &Wanted, apply: ApplyChoice) -> Option<&'static Kind> {
+    match (wanted, apply) {
+        (_, ApplyChoice::Factor) | (Wanted::Number, _) => Some(&KINDS[RATIO]),
+        (Wanted::Quantity(kind), _) => Some(kind),
+        _ => None,
     }
 }

@@ -11,18 +11,18 @@ mod table;
 
 use indexmap::IndexMap;
 
-use self::parameters::noun;
 use super::Study;
+use super::copula::Copula;
 use super::design::Design;
+use super::ensemble::Ensemble;
 use super::keep::Keep;
+use super::parameter::Parameter;
 use super::sobol::Sobol;
-use super::text::{StudyText, problem};
-use crate::section::Free;
-use occupant_core::problem::Severity;
+use super::text::StudyText;
+use occupant_core::problem::Problem;
 use occupant_core::scenario::kind::UnitSystem;
-use occupant_core::scenario::path_text::with_key;
-use occupant_core::scenario::place::{Misplaced, Wanted};
-use occupant_core::scenario::{Diagnostics, Draft, Resolver};
+use occupant_core::scenario::text::{Value, with_key};
+use occupant_core::scenario::{Diagnostics, Draft, Resolver, Wanted};
 
 impl StudyText {
     /// Checks the study against its base scenario. What the study's `set` says is put into the base first, then the
@@ -45,18 +45,7 @@ impl StudyText {
         binder.prepare(&mut base, overrides)?;
         binder.base = Some(&base);
         let mut parameters = binder.parameters();
-        let (design, copula, ensemble) = match purpose {
-            Purpose::Sweep => {
-                let design = binder.design(&mut parameters, resolver);
-                let copula = binder.copula(&parameters, &design);
-                let ensemble = ensemble::bind(&mut binder, &base, &parameters);
-                (design, copula, ensemble)
-            }
-            Purpose::Fit { .. } => {
-                binder.have_ends(&parameters);
-                (Design::Single, None, None)
-            }
-        };
+        let (design, copula, ensemble) = binder.varied(&base, &mut parameters, resolver);
         let keep = binder.keep();
         binder.sizes(&parameters, &design, ensemble.as_ref());
         extremes::check(&mut binder, &base, &parameters, overrides);
@@ -93,7 +82,7 @@ pub(super) enum Purpose<'a> {
     /// Its parameters are fitted to a test.
     Fit {
         /// What the scenario of that test has besides.
-        set: &'a IndexMap<String, Free>,
+        set: &'a IndexMap<String, Value>,
         /// Where that stands in the study.
         at: &'a str,
     },
@@ -125,12 +114,29 @@ impl<'a> Binder<'a> {
         expected: impl Into<String>,
         hint: Option<String>,
     ) {
-        let problem = problem(Severity::Error, path, found, expected, hint);
+        self.report(Problem::error(path, found, expected).with_hint(hint));
+    }
+
+    /// Adds a problem at the words of the study that its path points at.
+    pub(super) fn report(&mut self, problem: Problem) {
         self.text.report(&mut self.problems, problem);
     }
 
-    fn misplaced(&mut self, path: &str, error: Misplaced) {
-        self.error(path, error.found, error.expected, error.hint);
+    /// Which samples there are, and what changes besides; nothing of that counts for a fit.
+    fn varied(
+        &mut self,
+        base: &Draft,
+        parameters: &mut Vec<Parameter>,
+        resolver: Resolver,
+    ) -> (Design, Option<Copula>, Option<Ensemble>) {
+        if let Purpose::Fit { .. } = self.purpose {
+            self.have_ends(parameters);
+            return (Design::Single, None, None);
+        }
+        let design = self.design(parameters, resolver);
+        let copula = self.copula(parameters, &design);
+        let ensemble = ensemble::bind(self, base, parameters);
+        (design, copula, ensemble)
     }
 
     /// Puts what is the same in all runs into the base.
@@ -148,14 +154,11 @@ impl<'a> Binder<'a> {
             }
         }
         let wrong = base.check();
-        match wrong.has_errors() {
-            true => Err(wrong),
-            false => Ok(()),
-        }
+        if wrong.has_errors() { Err(wrong) } else { Ok(()) }
     }
 
     /// Puts the values of a `set` at `at` into the base.
-    fn set(&mut self, base: &mut Draft, set: &IndexMap<String, Free>, at: &str) {
+    fn set(&mut self, base: &mut Draft, set: &IndexMap<String, Value>, at: &str) {
         for (path, value) in set {
             let value = self.written(base, path, value);
             self.changes.push((path.clone(), value.clone()));
@@ -169,17 +172,19 @@ impl<'a> Binder<'a> {
     }
 
     /// A value of `set` as the base reads it; a bare number is in the study's units.
-    fn written(&self, base: &Draft, path: &str, value: &Free) -> String {
+    fn written(&self, base: &Draft, path: &str, value: &Value) -> String {
         let wanted = base.places(path).ok().and_then(|p| p.into_iter().next());
         let unit = match wanted.map(|p| p.wanted) {
             Some(Wanted::Quantity(kind)) => kind.bare_unit(self.units()),
             _ => "",
         };
         match value {
-            Free::Truth(b) => b.to_string(),
-            Free::Integer(i) => format!("{i} {unit}").trim().to_owned(),
-            Free::Float(x) => format!("{x:?} {unit}").trim().to_owned(),
-            Free::Text(text) => toml::Value::String(text.clone()).to_string(),
+            Value::Bool(b) => b.to_string(),
+            Value::Integer(i) => format!("{i} {unit}").trim().to_owned(),
+            Value::Float(x) => format!("{x:?} {unit}").trim().to_owned(),
+            Value::String(text) => toml::Value::String(text.clone()).to_string(),
+            // the check has refused all others
+            Value::Null | Value::Array(_) | Value::Table(_) => String::new(),
         }
     }
 

@@ -1,12 +1,11 @@
 //! The `[[parameters]]` of a study find their places and their laws.
 
-use super::law::Quantities;
+use super::law::{Quantities, kind_of};
 use super::{Binder, Purpose};
 use crate::law::Law;
 use crate::parameter::{Parameter, Target, si_unit};
 use crate::section::{ApplyChoice, DesignSection, ParameterSection};
-use occupant_core::scenario::kind::{KINDS, Kind, RATIO};
-use occupant_core::scenario::place::{Place, Wanted};
+use occupant_core::scenario::{Place, Wanted};
 
 impl Binder<'_> {
     /// The parameters that have found their places; a broken one is reported and left out.
@@ -24,20 +23,10 @@ impl Binder<'_> {
     }
 
     pub(super) fn parameter(&mut self, section: &ParameterSection, at: &str) -> Option<Parameter> {
-        let paths: Vec<(String, &str)> = match (&section.path, &section.paths) {
-            (Some(path), _) => vec![(format!("{at}.path"), path)],
-            (None, Some(paths)) => {
-                paths.iter().enumerate().map(|(i, p)| (format!("{at}.paths[{i}]"), p.as_str())).collect()
-            }
-            (None, None) => return None,
-        };
+        let paths = paths_at(&section.path, &section.paths, at)?;
         let places = self.places(&paths)?;
         let apply = section.apply.unwrap_or_default();
         let wanted = self.common(&places, &paths[0].0)?;
-        let kind = match wanted {
-            Wanted::Quantity(kind) => Some(kind),
-            _ => None,
-        };
         if apply != ApplyChoice::Value && !self.all_numbers(&places, &paths[0].0, apply) {
             return None;
         }
@@ -46,7 +35,7 @@ impl Binder<'_> {
             name: section.name.clone().unwrap_or_else(|| paths[0].1.to_owned()),
             unit: match apply {
                 ApplyChoice::Factor => "",
-                _ => kind.map_or("", si_unit),
+                _ => si_unit(&wanted),
             },
             apply,
             law,
@@ -69,7 +58,7 @@ impl Binder<'_> {
                     }
                 }
                 Err(error) => {
-                    self.misplaced(at, error);
+                    self.error(at, error.found, error.expected, error.hint);
                     whole = false;
                 }
             }
@@ -85,7 +74,7 @@ impl Binder<'_> {
             None => Some(first.wanted.clone()),
             Some(other) => {
                 let found =
-                    format!("`{}` is {}, `{}` is {}", first.path, noun(&first.wanted), other.path, noun(&other.wanted));
+                    format!("`{}` is {}, `{}` is {}", first.path, first.wanted.noun(), other.path, other.wanted.noun());
                 self.error(at, found, "places of one kind", None);
                 None
             }
@@ -102,7 +91,7 @@ impl Binder<'_> {
             _ => "added to",
         };
         let what = match other.value {
-            Some(_) => format!("is {}", noun(&other.wanted)),
+            Some(_) => format!("is {}", other.wanted.noun()),
             None => "is not in the base scenario".to_owned(),
         };
         let found = format!("`{}` {what}, so it cannot be {word}", other.path);
@@ -137,13 +126,7 @@ impl Binder<'_> {
             self.error(at, "a parameter that does not say how it varies", expected, Some(hint));
             return None;
         }
-        let kind = match (apply, wanted) {
-            (ApplyChoice::Factor, _) => Some(&KINDS[RATIO]),
-            (_, Wanted::Quantity(kind)) => Some(*kind),
-            (_, Wanted::Number) => Some(&KINDS[RATIO]),
-            _ => None,
-        };
-        let quantities = Quantities { kind, wanted, units: self.units() };
+        let quantities = Quantities { kind: kind_of(wanted, apply), wanted, units: self.units() };
         quantities.law(self, section, at)
     }
 
@@ -167,13 +150,17 @@ impl Binder<'_> {
     }
 }
 
-/// What may stand at a place, with its article.
-pub(super) fn noun(wanted: &Wanted) -> &'static str {
-    match wanted {
-        Wanted::Quantity(Kind { noun, .. }) => noun,
-        Wanted::Number => "a number",
-        Wanted::Names(_) => "a name",
-        Wanted::Text => "a text",
-        Wanted::Truth => "true or false",
+/// The paths of a section at `at`, each with its place in the study.
+pub(super) fn paths_at<'s>(
+    path: &'s Option<String>,
+    paths: &'s Option<Vec<String>>,
+    at: &str,
+) -> Option<Vec<(String, &'s str)>> {
+    match (path, paths) {
+        (Some(path), _) => Some(vec![(format!("{at}.path"), path)]),
+        (None, Some(paths)) => {
+            Some(paths.iter().enumerate().map(|(i, p)| (format!("{at}.paths[{i}]"), p.as_str())).collect())
+        }
+        (None, None) => None,
     }
 }

@@ -1,18 +1,14 @@
 //! The samples of a CSV file: a line of names with units, then one line for each sample.
 
-use super::{Binder, noun};
+use super::Binder;
+use super::law::kind_of;
 use crate::law::{Law, Value};
 use crate::parameter::{Parameter, Target, si_unit};
 use crate::section::ApplyChoice;
-use crate::text::problem;
-use occupant_core::problem::Severity;
-use occupant_core::scenario::csv_text::{Cell, cells, lines, name_and_unit};
-use occupant_core::scenario::diagnostic::Diagnostic;
-use occupant_core::scenario::draft::text_of;
-use occupant_core::scenario::kind::{KINDS, Kind, RATIO};
-use occupant_core::scenario::place::Wanted;
-use occupant_core::scenario::source::{Sources, Span};
-use occupant_core::scenario::{Resolver, unit_expression};
+use occupant_core::problem::Problem;
+use occupant_core::scenario::kind::Kind;
+use occupant_core::scenario::text::{Cell, Sources, Span, cells, lines, name_and_unit, number, one_of, text_of};
+use occupant_core::scenario::{Diagnostic, Resolver, Wanted};
 
 /// How the cells of a column are read.
 struct Column {
@@ -68,19 +64,11 @@ struct Reader<'s, 'b, 'a> {
 
 impl Reader<'_, '_, '_> {
     fn error(&mut self, span: Span, found: impl Into<String>, expected: impl Into<String>) {
-        self.error_with_hint(span, found, expected, None);
+        self.report(span, Problem::error("", found, expected));
     }
 
-    fn error_with_hint(
-        &mut self,
-        span: Span,
-        found: impl Into<String>,
-        expected: impl Into<String>,
-        hint: Option<String>,
-    ) {
-        let problem = problem(Severity::Error, "", found, expected, hint);
-        let diagnostic = Diagnostic::at(self.sources, span, problem);
-        self.binder.problems.push(diagnostic);
+    fn report(&mut self, span: Span, problem: Problem) {
+        self.binder.problems.push(Diagnostic::at(self.sources, span, problem));
     }
 
     fn header(&mut self, line: Span, parameters: &mut Vec<Parameter>) -> Vec<Option<Column>> {
@@ -118,11 +106,7 @@ impl Reader<'_, '_, '_> {
         };
         let of = &parameters[parameter];
         let wanted = self.wanted(of)?;
-        let kind = match (&wanted, of.apply) {
-            (_, ApplyChoice::Factor) | (Wanted::Number, _) => Some(&KINDS[RATIO]),
-            (Wanted::Quantity(kind), _) => Some(*kind),
-            _ => None,
-        };
+        let kind = kind_of(&wanted, of.apply);
         let factor = self.factor(cell, name, unit, kind)?;
         Some(Column { parameter, wanted, kind, factor })
     }
@@ -140,22 +124,19 @@ impl Reader<'_, '_, '_> {
             Ok(places) => places,
             Err(error) => {
                 let expected = format!("the name of a parameter, or a path: {}", error.expected);
-                self.error_with_hint(span, error.found, expected, error.hint);
+                self.report(span, Problem { expected, ..error });
                 return None;
             }
         };
         let wanted = places.first().map(|p| p.wanted.clone())?;
         if let Some(other) = places.iter().find(|p| p.wanted != wanted) {
-            let found = format!("`{}` is {}, others are not", other.path, noun(&other.wanted));
+            let found = format!("`{}` is {}, others are not", other.path, other.wanted.noun());
             self.error(span, found, "places of one kind");
             return None;
         }
         Some(Parameter {
             name: path.to_owned(),
-            unit: match wanted {
-                Wanted::Quantity(kind) => si_unit(kind),
-                _ => "",
-            },
+            unit: si_unit(&wanted),
             apply: ApplyChoice::Value,
             law: Law::Table,
             targets: places.iter().map(Target::of).collect(),
@@ -164,32 +145,16 @@ impl Reader<'_, '_, '_> {
 
     /// SI units in one of the column's own.
     fn factor(&mut self, cell: &Cell, name: &str, unit: Option<&str>, kind: Option<&Kind>) -> Option<f64> {
-        let plain = kind.is_none_or(|k| k.si.is_empty());
-        match (unit.filter(|u| !u.is_empty()), kind) {
-            (None, _) if plain => Some(1.0),
-            (None, kind) => {
-                let (noun, si) = kind.map_or(("", ""), |k| (k.noun, k.si));
-                let expected = format!("the unit of {noun} in brackets, such as `{name}[{si}]`");
-                self.error(cell.span, format!("column `{name}` without a unit"), expected);
-                None
+        let factor = match (unit.filter(|u| !u.is_empty()), kind) {
+            (None, None) => Ok(1.0),
+            (None, Some(kind)) if kind.unit.expression().is_empty() => Ok(1.0),
+            (unit, Some(kind)) => {
+                let factor = kind.column_factor(name, unit);
+                factor.map_err(|e| Problem::error("", e.found, e.expected).with_hint(e.hint))
             }
-            (Some(_), None) => {
-                self.error(cell.span, format!("a unit for names, `{name}`"), "no unit");
-                None
-            }
-            (Some(unit), Some(kind)) => match unit_expression::parse(unit, 0) {
-                Ok(scale) if scale.dimension.serves_as(kind.dimension) => Some(scale.factor),
-                Ok(_) => {
-                    let found = format!("`{unit}` is not the unit of {}", kind.noun);
-                    self.error(cell.span, found, format!("{}: {}", kind.noun, kind.example));
-                    None
-                }
-                Err(error) => {
-                    self.error_with_hint(cell.span, error.found, error.expected, error.hint);
-                    None
-                }
-            },
-        }
+            (Some(_), None) => Err(Problem::error("", format!("a unit for names, `{name}`"), "no unit")),
+        };
+        factor.map_err(|problem| self.report(cell.span, problem)).ok()
     }
 
     fn row(&mut self, line: Span, columns: &[Option<Column>], n: usize) -> Option<Vec<Value>> {
@@ -210,16 +175,14 @@ impl Reader<'_, '_, '_> {
 
     fn cell(&mut self, cell: &Cell, column: &Column) -> Option<Value> {
         if column.kind.is_some() {
-            let number = cell.text.parse::<f64>().ok().map(|x| x * column.factor);
-            if let Some(x) = number.filter(|x| x.is_finite()) {
-                return Some(Value::Number(x));
-            }
-            let found = match cell.text {
-                "" => "an empty cell".to_owned(),
-                text => format!("`{text}`"),
+            let number = number(cell).map(|x| x * column.factor);
+            return match number {
+                Ok(x) if x.is_finite() => Some(Value::Number(x)),
+                found => {
+                    self.error(cell.span, found.err().unwrap_or_else(|| format!("`{}`", cell.text)), "a number");
+                    None
+                }
             };
-            self.error(cell.span, found, "a number");
-            return None;
         }
         let value = match (&column.wanted, cell.text) {
             (Wanted::Truth, "true") => Some(Value::Truth(true)),
@@ -230,8 +193,8 @@ impl Reader<'_, '_, '_> {
         };
         if value.is_none() {
             let expected = match &column.wanted {
-                Wanted::Names(names) => occupant_core::scenario::check::one_of(names, '"'),
-                wanted => noun(wanted).to_owned(),
+                Wanted::Names(names) => one_of(names, '"'),
+                wanted => wanted.noun().to_owned(),
             };
             self.error(cell.span, format!("`{}`", cell.text), expected);
         }

@@ -13,6 +13,7 @@ use super::parameter::{Family, Parameter};
 use super::trajectory::Trajectory;
 use super::trouble::Trouble;
 use occupant_core::model::Model;
+use occupant_core::problem::Problem;
 use occupant_core::problem::nearest;
 use occupant_core::results::channel::{Channel, Series, matches};
 use occupant_core::results::checkpoint::{Checkpoint, Progress};
@@ -20,7 +21,6 @@ use occupant_core::results::energy::EnergyStart;
 use occupant_core::results::recorder::{Recorder, Watch};
 use occupant_core::results::summary::{Figure, Summarizer};
 use occupant_core::run::simulate::replay;
-use occupant_core::scenario::place::Misplaced;
 
 /// How far outputs are displaced at most, m and rad.
 const FARTHEST: [f64; 3] = [1e-6, 2e-5, 4e-4];
@@ -191,9 +191,9 @@ pub(super) fn pick(figures: &[Figure], names: &[String]) -> Vec<f64> {
 ///
 /// # Errors
 /// A name or a pattern that fits none; a figure that the run has not, or that has no derivative.
-pub fn chosen(figures: &[Figure], name: &str) -> Result<Vec<String>, Misplaced> {
+pub fn chosen(figures: &[Figure], name: &str) -> Result<Vec<String>, Problem> {
     let refuse =
-        |found: String, expected: &str, hint: Option<String>| Misplaced { found, expected: expected.to_owned(), hint };
+        |found: String, expected: &str, hint: Option<String>| Problem::error("", found, expected).with_hint(hint);
     if name.contains('*') {
         let pieces: Vec<&str> = name.split('*').collect();
         let fits = |f: &&Figure| matches(&f.name, &pieces);

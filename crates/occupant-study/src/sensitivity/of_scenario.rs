@@ -2,21 +2,18 @@
 
 use super::parameter::{Parameter, size_of};
 use crate::{Assignment, Target, Value};
-use occupant_core::scenario::place::{Misplaced, Wanted};
-use occupant_core::scenario::{Draft, Resolver};
+use occupant_core::problem::Problem;
+use occupant_core::scenario::{Draft, Resolver, Wanted};
 
 /// The parameter at a path: the number that stands there, or for a path to several numbers, such as `joints.*.damping`, a
 /// factor on all of them.
 ///
 /// # Errors
 /// A path that leads nowhere, to no number, or to numbers that a factor does not change.
-pub fn parameter<'a>(draft: &'a Draft, path: &str, resolver: Resolver<'a>) -> Result<Parameter<'a>, Misplaced> {
+pub fn parameter<'a>(draft: &'a Draft, path: &str, resolver: Resolver<'a>) -> Result<Parameter<'a>, Problem> {
     let places = draft.places(path)?;
-    let refuse = |found: String, hint: Option<&str>| Misplaced {
-        found,
-        expected: "a number of the scenario".to_owned(),
-        hint: hint.map(str::to_owned),
-    };
+    let refuse =
+        |found: String, hint: Option<&str>| Problem::error("", found, "a number of the scenario").with_hint(hint);
     for place in &places {
         let at = &place.path;
         match (place.si, &place.wanted, &place.value) {

@@ -3,11 +3,11 @@
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 
+use crash_measures::unit::UnitError;
 use occupant_core::run::batch::Kernel;
 use occupant_core::scenario::Draft;
-use occupant_core::scenario::kind::UnitSystem;
-use occupant_core::scenario::model::{Angle, Length, Ratio};
-use occupant_core::scenario::unit::UnitError;
+use occupant_core::scenario::kind::{self, KINDS, UnitSystem};
+use occupant_core::scenario::text::Value;
 use occupant_study::{Study, Tolerances};
 
 use super::sweep::engine;
@@ -124,10 +124,10 @@ fn changes(given: &[String]) -> Result<Tolerances, Failure> {
             value.map_err(|e| refused(&format!("{}; expected {}", e.found, e.expected)))
         };
         let (to, value, most) = match what.trim() {
-            "posture" => (&mut changes.posture_rad, si(Angle::text(amount).si(UnitSystem::Si))?, f64::INFINITY),
-            "place" => (&mut changes.place_m, si(Length::text(amount).si(UnitSystem::Si))?, f64::INFINITY),
-            "path" => (&mut changes.path, si(ratio(amount).si(UnitSystem::Si))?, 1.0),
-            "stiffness" => (&mut changes.stiffness, si(ratio(amount).si(UnitSystem::Si))?, 1.0),
+            "posture" => (&mut changes.posture_rad, si(measured(kind::ANGLE, amount))?, f64::INFINITY),
+            "place" => (&mut changes.place_m, si(measured(kind::LENGTH, amount))?, f64::INFINITY),
+            "path" => (&mut changes.path, si(ratio(amount))?, 1.0),
+            "stiffness" => (&mut changes.stiffness, si(ratio(amount))?, 1.0),
             other => return Err(refused(&format!("nothing is called `{other}`"))),
         };
         if !(0.0..=most).contains(&value) {
@@ -141,16 +141,17 @@ fn changes(given: &[String]) -> Result<Tolerances, Failure> {
 /// A part such as `10 %` or 0.1, above 0.
 fn part(flag: &str, text: &str) -> Result<f64, Failure> {
     let refused = |found: String| Failure::with_help(format!("{flag} {text}: {found}"), "give a part such as '10 %'");
-    let value = ratio(text).si(UnitSystem::Si);
+    let value = ratio(text);
     let value = value.map_err(|e| refused(format!("{}; expected {}", e.found, e.expected)))?;
     if value > 0.0 && value.is_finite() { Ok(value) } else { Err(refused("it is not above 0".to_owned())) }
 }
 
+/// A number with its unit, SI.
+fn measured(kind: usize, text: &str) -> Result<f64, UnitError> {
+    KINDS[kind].si(&Value::String(text.to_owned()), UnitSystem::Si)
+}
+
 /// `10 %` or a bare 0.1.
-fn ratio(text: &str) -> Ratio {
-    let text = text.trim();
-    match text.parse::<f64>() {
-        Ok(number) => Ratio::bare(number),
-        Err(_) => Ratio::text(text),
-    }
+fn ratio(text: &str) -> Result<f64, UnitError> {
+    KINDS[kind::RATIO].read(text.trim())
 }

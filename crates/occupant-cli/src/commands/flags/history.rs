@@ -1,7 +1,6 @@
 //! Flags that exports, plots and comparisons share: filter and coefficients.
 
-use occupant_core::scenario::kind::UnitSystem;
-use occupant_core::scenario::model::Time;
+use occupant_core::scenario::kind::{KINDS, TIME};
 
 use crate::base::failure::Failure;
 use crate::files::history::{Family, Filter, Treatment};
@@ -58,17 +57,13 @@ impl HistoryArgs {
 /// # Errors
 /// What is no time.
 pub(crate) fn time(flag: &str, text: &str) -> Result<f64, Failure> {
-    let time = match text.trim().parse() {
-        Ok(seconds) => Time::bare(seconds),
-        Err(_) => Time::text(text),
-    };
     let wrong = |expected: &str| {
         Failure::with_help(
             format!("{flag} {text}: not a time; expected {expected}"),
             "give a number with its unit, such as '80 ms'",
         )
     };
-    match time.si(UnitSystem::Si) {
+    match KINDS[TIME].read(text) {
         Ok(seconds) if seconds.is_finite() => Ok(seconds),
         Ok(_) => Err(wrong("a finite time")),
         Err(error) => Err(wrong(&error.expected)),

@@ -2,7 +2,6 @@
 
 use crash_measures::signal::{CfcFamily, ChannelClass};
 use occupant_core::scenario::kind;
-use occupant_core::scenario::quantity::Quantity;
 use occupant_core::vehicle::risk::{Flight, Preparation, VerticalGravity};
 
 use super::{Args, ClassChoice, FamilyChoice};
@@ -65,11 +64,7 @@ fn quantity<const KIND: usize>(flag: &str, words: &Option<String>) -> Result<Opt
 
 fn si<const KIND: usize>(flag: &str, text: &str) -> Result<f64, Failure> {
     let text = text.trim();
-    let quantity = match text.parse() {
-        Ok(number) => Quantity::<KIND>::bare(number),
-        Err(_) => Quantity::<KIND>::text(text),
-    };
-    match quantity.si(kind::UnitSystem::Si) {
+    match kind::KINDS[KIND].read(text) {
         Ok(value) if value.is_finite() => Ok(value),
         Ok(value) => Err(Failure::plain(format!("{flag} {text}: found {value}, expected a finite number"))),
         Err(error) => Err(Failure::plain(format!("{flag} {text}: {}, expected {}", error.found, error.expected))),

@@ -3,9 +3,9 @@
 use std::f64::consts::PI;
 
 use clap::ValueEnum;
+use crash_measures::unit::Dimension;
 use crash_measures::unit::Unit;
 use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
-use occupant_core::scenario::kind::Dimension;
 
 /// Units asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -61,17 +61,9 @@ pub(crate) const fn shown(unit: Unit, choice: UnitChoice) -> Shown {
         (Unit::MetrePerSecondSquared, InchPound) => shown_as("in/s²", "in/s^2", INCH_M),
         (Unit::Newton, InchPound) => shown_as("lbf", "lbf", POUND_FORCE_N),
         (Unit::NewtonMetre | Unit::Joule, InchPound) => shown_as("in·lbf", "in*lbf", INCH_POUND_J),
-        (Unit::Metre, _) => shown_as("m", "m", 1.0),
-        (Unit::MetrePerSecond, _) => shown_as("m/s", "m/s", 1.0),
-        (Unit::MetrePerSecondSquared, _) => shown_as("m/s²", "m/s^2", 1.0),
-        (Unit::Radian, _) => shown_as("rad", "rad", 1.0),
-        (Unit::RadianPerSecond, _) => shown_as("rad/s", "rad/s", 1.0),
-        (Unit::RadianPerSecondSquared, _) => shown_as("rad/s²", "rad/s^2", 1.0),
-        (Unit::Newton, _) => shown_as("N", "N", 1.0),
         (Unit::NewtonMetre, _) => shown_as("N·m", "N*m", 1.0),
-        (Unit::Joule, _) => shown_as("J", "J", 1.0),
-        (Unit::Second, _) => shown_as("s", "s", 1.0),
         (Unit::One, _) => shown_as("–", "1", 1.0),
+        (unit, _) => shown_as(unit.symbol(), unit.expression(), 1.0),
     }
 }
 
@@ -86,25 +78,13 @@ pub(crate) const fn plotted(unit: Unit, choice: UnitChoice) -> Shown {
 
 /// What a channel's unit measures.
 pub(crate) const fn dimension(unit: Unit) -> Dimension {
-    // exponents of length, mass, time, angle
-    match unit {
-        Unit::Metre => Dimension::new(1, 0, 0, 0),
-        Unit::MetrePerSecond => Dimension::new(1, 0, -1, 0),
-        Unit::MetrePerSecondSquared => Dimension::new(1, 0, -2, 0),
-        Unit::Radian => Dimension::new(0, 0, 0, 1),
-        Unit::RadianPerSecond => Dimension::new(0, 0, -1, 1),
-        Unit::RadianPerSecondSquared => Dimension::new(0, 0, -2, 1),
-        Unit::Newton => Dimension::new(1, 1, -2, 0),
-        Unit::NewtonMetre | Unit::Joule => Dimension::new(2, 1, -2, 0),
-        Unit::Second => Dimension::new(0, 0, 1, 0),
-        Unit::One => Dimension::new(0, 0, 0, 0),
-    }
+    unit.dimension()
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use occupant_core::scenario::unit_expression::parse;
+    use crash_measures::unit::parse;
 
     const ALL: [Unit; 11] = [
         Unit::Metre,

@@ -7,8 +7,8 @@ use std::fmt;
 use std::str::FromStr;
 
 use crash_measures::signal::{ChannelClass, uniform_interval};
+use crash_measures::unit::Dimension;
 use occupant_core::results::channel::Channel;
-use occupant_core::scenario::kind::Dimension;
 
 use super::table::name_and_unit;
 use crate::base::failure::Failure;

@@ -6,7 +6,7 @@
 
 use std::path::Path;
 
-use occupant_core::scenario::unit_expression::parse;
+use crash_measures::unit::parse;
 
 use crate::base::failure::Failure;
 use crate::files::signals::{Recording, Signal, scale_of};
@@ -179,7 +179,7 @@ impl Reader<'_> {
             notes.push(format!("{} gives no unit for the time: taken as seconds", self.path.display()));
             return 1.0;
         };
-        let second = occupant_core::scenario::kind::Dimension::new(0, 0, 1, 0);
+        let second = crash_measures::unit::Dimension::new(0, 0, 1, 0);
         match parse(unit, 0) {
             Ok(scale) if scale.dimension == second => scale.factor,
             _ => {

@@ -183,7 +183,7 @@ impl RawChannel {
             return Err(Trouble::at(&self.path, line, found, "the code of a channel of times"));
         };
         let unit = times.header.get("Unit").and_then(|(u, _)| scale_of(u));
-        let seconds = occupant_core::scenario::kind::Dimension::new(0, 0, 1, 0);
+        let seconds = crash_measures::unit::Dimension::new(0, 0, 1, 0);
         let factor = match unit {
             Some(scale) if scale.dimension == seconds => scale.factor,
             _ => {

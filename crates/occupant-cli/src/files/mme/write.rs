@@ -114,16 +114,10 @@ fn channel_file(column: &Column, place: &Place, code: &Code, interval_s: f64, fi
 /// Units as ISO-MME files have them.
 const fn unit(unit: Unit) -> &'static str {
     match unit {
-        Unit::Metre => "m",
-        Unit::MetrePerSecond => "m/s",
         Unit::MetrePerSecondSquared => "m/(s*s)",
-        Unit::Radian => "rad",
-        Unit::RadianPerSecond => "rad/s",
         Unit::RadianPerSecondSquared => "rad/(s*s)",
-        Unit::Newton => "N",
         Unit::NewtonMetre => "Nm",
-        Unit::Joule => "J",
-        Unit::Second => "s",
         Unit::One => "-",
+        unit => unit.symbol(),
     }
 }

@@ -348,7 +348,7 @@ impl Opening<'_> {
 
     /// The file that a scenario names, if it names one; one that cannot be read is told when the scenario is opened.
     fn tables(&self, study: &Study, base: &str) -> Vec<(String, Vec<u8>)> {
-        use occupant_core::scenario::document::Value;
+        use occupant_core::scenario::text::Value;
         let beside = Path::new(base).parent().unwrap_or(Path::new(""));
         let named = study.base().clone().get("path.file").unwrap_or_default();
         let read = |(_, value): (String, Value)| {

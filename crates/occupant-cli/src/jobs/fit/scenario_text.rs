@@ -3,7 +3,7 @@
 //! The numbers are put into the text itself. The text counts only if it says the same scenario as the program's own
 //! changes do; where it cannot (a list that only a preset has, a text in JSON), the scenario is written anew.
 
-use occupant_core::scenario::path_text::{Step, parse};
+use occupant_core::scenario::text::{Step, parse_path};
 use occupant_core::scenario::{Draft, Format, Scenario};
 use occupant_study::Parameter;
 use toml_edit::{DocumentMut, InlineTable, Item, Table, TableLike, Value, value};
@@ -109,7 +109,7 @@ fn edited(experiment: &Experiment, numbers: &[Fitted], provenance: &[(String, St
             paths.push(path);
         }
         for path in paths {
-            put(document.as_item_mut(), &parse(path).ok()?, new.clone())?;
+            put(document.as_item_mut(), &parse_path(path).ok()?, new.clone())?;
         }
     }
     if !provenance.is_empty() {

@@ -44,7 +44,7 @@ fn compare(path: &str, there: Option<&Value>, here: Option<&Value>, found: &mut 
 /// A value in one short line.
 fn show(value: Option<&Value>) -> String {
     let text = match value {
-        None => return "absent".to_owned(),
+        None | Some(Value::Null) => return "absent".to_owned(),
         Some(value) => value.to_string(),
     };
     match text.char_indices().nth(60) {

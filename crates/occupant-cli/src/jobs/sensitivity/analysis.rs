@@ -3,11 +3,11 @@
 use std::time::Instant;
 
 use occupant_core::model::Model;
+use occupant_core::problem::Problem;
 use occupant_core::results::channel::{Channel, find, matching};
 use occupant_core::results::outcome::Status;
 use occupant_core::results::summary::{Figure, Summarizer};
 use occupant_core::run::simulate::simulate;
-use occupant_core::scenario::place::Misplaced;
 use occupant_core::scenario::{Draft, Resolver};
 use occupant_study::sensitivity::finite::{CHANGES, Comparison, Finite, compare, finite_changes};
 use occupant_study::sensitivity::measures::{Derivatives, Values, Wish, chosen, derivatives, plain_values};
@@ -111,7 +111,7 @@ fn split(lists: &[String]) -> Vec<String> {
     items
 }
 
-fn told(flag: &str, misplaced: &Misplaced) -> String {
+fn told(flag: &str, misplaced: &Problem) -> String {
     let mut text = format!("error: {flag}: {}\n = expected: {}", misplaced.found, misplaced.expected);
     if let Some(hint) = &misplaced.hint {
         text.push_str(&format!("\n = help: {hint}"));

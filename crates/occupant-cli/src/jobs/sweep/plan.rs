@@ -8,8 +8,9 @@ use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{Figure, Summarizer};
 use occupant_core::run::simulate::simulate;
+use occupant_core::scenario::text::Value as Written;
 use occupant_core::scenario::{Diagnostics, Draft, Loaded};
-use occupant_study::{Design, Free, Law, Parameter, Setting, Study, StudyText, Value};
+use occupant_study::{Design, Law, Parameter, Setting, Study, StudyText, Value};
 
 use crate::base::failure::Failure;
 use crate::base::names::file_name;
@@ -154,8 +155,8 @@ impl Plan {
         let file = "path.file";
         let mut base = self.study.base().clone();
         if let Ok(found) = base.get(file) {
-            let name = |(_, value): &(String, occupant_core::scenario::document::Value)| match value {
-                occupant_core::scenario::document::Value::String(name) => Some(name.clone()),
+            let name = |(_, value): &(String, Written)| match value {
+                Written::String(name) => Some(name.clone()),
                 _ => None,
             };
             names.extend(found.iter().filter_map(name));
@@ -238,11 +239,13 @@ impl Plan {
 
 /// What the study puts into its scenario in all samples, as `--set` writes it.
 fn changes_of(text: &StudyText) -> Vec<String> {
-    let change = |(path, value): (&String, &Free)| match value {
-        Free::Truth(b) => format!("{path}={b}"),
-        Free::Integer(i) => format!("{path}={i}"),
-        Free::Float(x) => format!("{path}={x:?}"),
-        Free::Text(text) => format!("{path}={}", serde_json::Value::from(text.as_str())),
+    let change = |(path, value): (&String, &Written)| match value {
+        Written::Bool(b) => format!("{path}={b}"),
+        Written::Integer(i) => format!("{path}={i}"),
+        Written::Float(x) => format!("{path}={x:?}"),
+        Written::String(text) => format!("{path}={}", serde_json::Value::from(text.as_str())),
+        // the check has refused all others
+        Written::Null | Written::Array(_) | Written::Table(_) => format!("{path}="),
     };
     text.section.set.iter().map(change).collect()
 }

@@ -1,15 +1,14 @@
 //! Units: closed forms, spellings that mean the same, slips that are refused.
 
 use crate::scenario::kind::{
-    ACCELERATION, ANGLE, ANGULAR_VELOCITY, Dimension, FORCE, INERTIA, KINDS, LENGTH, MASS, RATIO, ROTATIONAL_DAMPING,
-    SPEED, STIFFNESS, TIME, UnitSystem,
+    ACCELERATION, ANGLE, ANGULAR_VELOCITY, FORCE, INERTIA, KINDS, LENGTH, MASS, RATIO, ROTATIONAL_DAMPING, SPEED,
+    STIFFNESS, TIME, UnitSystem,
 };
-use crate::scenario::quantity::{Written, si_value};
-use crate::scenario::unit::{UNITS, UnitError};
-use crate::scenario::unit_expression::parse;
+use crate::scenario::text::Value;
+use crash_measures::unit::{Dimension, UNITS, UnitError, parse};
 
 fn read(text: &str, kind: usize) -> Result<f64, UnitError> {
-    si_value(&Written::Text(text.into()), &KINDS[kind], UnitSystem::Si)
+    KINDS[kind].si(&Value::String(text.into()), UnitSystem::Si)
 }
 
 fn value(text: &str, kind: usize) -> f64 {
@@ -83,7 +82,7 @@ fn spellings_mean_the_same() {
 
 #[test]
 fn bare_numbers_follow_the_unit_system() {
-    let bare = |x: f64, kind: usize, units| si_value(&Written::Float(x), &KINDS[kind], units).unwrap();
+    let bare = |x: f64, kind: usize, units| KINDS[kind].si(&Value::Float(x), units).unwrap();
     assert_same(bare(2.0, LENGTH, UnitSystem::Si), 2.0);
     assert_same(bare(2.0, LENGTH, UnitSystem::InchPound), 0.0508);
     assert_same(bare(90.0, ANGLE, UnitSystem::Si), std::f64::consts::FRAC_PI_2);
@@ -98,15 +97,15 @@ fn bare_numbers_follow_the_unit_system() {
 #[test]
 fn every_bare_unit_measures_its_kind() {
     for kind in KINDS {
-        for unit in [kind.si, kind.inch_pound] {
+        for unit in [UnitSystem::Si, UnitSystem::InchPound].map(|units| kind.bare_unit(units)) {
             if !unit.is_empty() {
-                assert_eq!(parse(unit, 0).unwrap().dimension, kind.dimension, "{}", kind.name);
+                assert_eq!(parse(unit, 0).unwrap().dimension, kind.unit.dimension(), "{}", kind.name);
             }
         }
         for example in kind.example.split(", ") {
             if let Some(text) = example.strip_prefix('"') {
-                let written = Written::Text(text.trim_end_matches('"').into());
-                si_value(&written, &kind, UnitSystem::Si).unwrap();
+                let written = Value::String(text.trim_end_matches('"').into());
+                kind.si(&written, UnitSystem::Si).unwrap();
             }
         }
     }

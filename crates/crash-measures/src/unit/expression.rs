@@ -1,0 +1,211 @@
+//! Unit expressions such as `lbf/in`, `in·lbf·s/rad`, `m/s^2`, `km/h`.
+//!
+//! A product is written with a blank, `·`, `*` or `-`; a quotient with `/`; a power with `^`, `**` or a raised digit. As
+//! `a/b·c` is read differently by different people, a product after a quotient needs parentheses: `a/(b·c)`.
+//!
+//! `lb` is the pound of mass, `lbf` the pound of force; `g` is standard gravity, and there is no gram.
+
+use super::named::{MAX_EXPONENT, Scale, named};
+
+/// Deepest nesting of parentheses.
+const MAX_DEPTH: usize = 8;
+
+/// Why a quantity cannot be read, and where in its text (bytes).
+#[derive(Clone, Debug, PartialEq)]
+pub struct UnitError {
+    /// First byte of the offending words.
+    pub start: usize,
+    /// One past the last.
+    pub end: usize,
+    /// What was found.
+    pub found: String,
+    /// What was expected.
+    pub expected: String,
+    /// How to mend it.
+    pub hint: Option<String>,
+}
+
+/// Reads a unit expression; `offset` is where it starts in the text that errors point into.
+///
+/// # Errors
+/// Unknown units, misplaced signs, ambiguous quotients.
+pub fn parse(text: &str, offset: usize) -> Result<Scale, UnitError> {
+    let mut parser = Parser { tokens: tokens(text, offset)?, at: 0, end: offset + text.len() };
+    let scale = parser.expression(0)?;
+    match parser.peek() {
+        None => Ok(scale),
+        Some(token) => Err(token.error("an unmatched `)`", "a unit")),
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Word<'a> {
+    Name(&'a str),
+    Power(i32),
+    Times,
+    Over,
+    Open,
+    Close,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Token<'a> {
+    word: Word<'a>,
+    start: usize,
+    end: usize,
+}
+
+impl Token<'_> {
+    fn error(&self, found: impl Into<String>, expected: impl Into<String>) -> UnitError {
+        UnitError { start: self.start, end: self.end, found: found.into(), expected: expected.into(), hint: None }
+    }
+}
+
+/// Splits a unit expression into words.
+fn tokens(text: &str, offset: usize) -> Result<Vec<Token<'_>>, UnitError> {
+    let mut tokens = Vec::new();
+    let mut rest = text;
+    while let Some(c) = rest.chars().next() {
+        let start = offset + text.len() - rest.len();
+        let (word, length) = match c {
+            _ if c.is_whitespace() => (None, c.len_utf8()),
+            '/' => (Some(Word::Over), 1),
+            '(' => (Some(Word::Open), 1),
+            ')' => (Some(Word::Close), 1),
+            '*' if rest.starts_with("**") => power(&rest[2..], 2, start)?,
+            '^' => power(&rest[1..], 1, start)?,
+            '*' | '·' | '⋅' | '×' | '-' => (Some(Word::Times), c.len_utf8()),
+            _ if raised(c).is_some() => raised_power(rest, start)?,
+            _ if is_name(c) => {
+                let length = rest.find(|c| !is_name(c)).unwrap_or(rest.len());
+                (Some(Word::Name(&rest[..length])), length)
+            }
+            _ => {
+                let token = Token { word: Word::Times, start, end: start + c.len_utf8() };
+                return Err(token.error(format!("`{c}` in a unit"), "units such as in, lbf, s joined by `·`, `/`, `^`"));
+            }
+        };
+        if let Some(word) = word {
+            tokens.push(Token { word, start, end: start + length });
+        }
+        rest = &rest[length..];
+    }
+    Ok(tokens)
+}
+
+fn is_name(c: char) -> bool {
+    c.is_alphabetic() || matches!(c, '°' | '%' | '0')
+}
+
+/// Plain form of a raised character: a digit, or minus.
+fn raised(c: char) -> Option<char> {
+    let at = "⁰¹²³⁴⁵⁶⁷⁸⁹⁻".chars().position(|r| r == c)?;
+    "0123456789-".chars().nth(at)
+}
+
+/// `^2`, `^-1`, `**2`: `digits` follows the sign of `sign_length` bytes at `start`.
+fn power(digits: &str, sign_length: usize, start: usize) -> Result<(Option<Word<'static>>, usize), UnitError> {
+    let minus = usize::from(digits.starts_with('-'));
+    let length = digits[minus..].find(|c: char| !c.is_ascii_digit()).unwrap_or(digits.len() - minus) + minus;
+    exponent(&digits[..length], start, sign_length + length)
+}
+
+fn raised_power(text: &str, start: usize) -> Result<(Option<Word<'static>>, usize), UnitError> {
+    let length = text.find(|c| raised(c).is_none()).unwrap_or(text.len());
+    let digits: String = text[..length].chars().filter_map(raised).collect();
+    exponent(&digits, start, length)
+}
+
+fn exponent(digits: &str, start: usize, length: usize) -> Result<(Option<Word<'static>>, usize), UnitError> {
+    match digits.parse::<i32>() {
+        Ok(n) if n.abs() <= MAX_EXPONENT => Ok((Some(Word::Power(n)), length)),
+        _ => Err(UnitError {
+            start,
+            end: start + length.max(1),
+            found: "a power that cannot be read".into(),
+            expected: format!("a whole number from -{MAX_EXPONENT} to {MAX_EXPONENT}, as in s^2"),
+            hint: None,
+        }),
+    }
+}
+
+struct Parser<'a> {
+    tokens: Vec<Token<'a>>,
+    at: usize,
+    end: usize,
+}
+
+impl<'a> Parser<'a> {
+    fn peek(&self) -> Option<&Token<'a>> {
+        self.tokens.get(self.at)
+    }
+
+    /// factor { [·] factor | / factor }
+    fn expression(&mut self, depth: usize) -> Result<Scale, UnitError> {
+        let mut product = self.factor(depth)?;
+        let mut divided = false;
+        while let Some(token) = self.peek().copied() {
+            let sign = match token.word {
+                Word::Close => break,
+                Word::Over => {
+                    self.at += 1;
+                    divided = true;
+                    -1
+                }
+                Word::Times | Word::Name(_) | Word::Open | Word::Power(_) if divided => {
+                    return Err(UnitError {
+                        hint: Some("write a/(b·c) if both divide, a·c/b if only b does".into()),
+                        ..token.error("a product after `/`", "parentheses that say what is divided")
+                    });
+                }
+                Word::Times => {
+                    self.at += 1;
+                    1
+                }
+                _ => 1,
+            };
+            let factor = self.factor(depth)?;
+            product = factor.power(sign).and_then(|f| product.times(f)).ok_or_else(|| too_high(&token))?;
+        }
+        Ok(product)
+    }
+
+    /// name [power] | ( expression ) [power]
+    fn factor(&mut self, depth: usize) -> Result<Scale, UnitError> {
+        let Some(token) = self.peek().copied() else {
+            return Err(UnitError {
+                start: self.end,
+                end: self.end,
+                found: "no unit where one should follow".into(),
+                expected: "a unit such as in, lbf, s".into(),
+                hint: None,
+            });
+        };
+        self.at += 1;
+        let base = match token.word {
+            Word::Name(name) => named(name, token.start, token.end)?,
+            Word::Open if depth < MAX_DEPTH => {
+                let inner = self.expression(depth + 1)?;
+                match self.peek() {
+                    Some(t) if t.word == Word::Close => self.at += 1,
+                    _ => return Err(token.error("`(` without its `)`", "`)`")),
+                }
+                inner
+            }
+            _ => {
+                return Err(token.error("a sign where a unit should stand", "a unit such as in, lbf, s"));
+            }
+        };
+        match self.peek().copied() {
+            Some(Token { word: Word::Power(n), .. }) => {
+                self.at += 1;
+                base.power(n).ok_or_else(|| too_high(&token))
+            }
+            _ => Ok(base),
+        }
+    }
+}
+
+fn too_high(token: &Token<'_>) -> UnitError {
+    token.error("too high a power", format!("powers of at most {MAX_EXPONENT}"))
+}

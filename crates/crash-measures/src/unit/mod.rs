@@ -1,0 +1,200 @@
+//! The one table of units: what results and scenarios are measured in, the names that people may write, and the reader of
+//! unit expressions.
+//!
+//! Inside the program there are SI units only, angles in radians. Conversion happens where a number is read or shown.
+
+mod expression;
+mod named;
+
+pub use expression::{UnitError, parse};
+pub use named::{NamedUnit, Scale, UNITS};
+
+/// Exponents of length, mass, time and angle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Dimension {
+    /// Length.
+    pub length: i32,
+    /// Mass.
+    pub mass: i32,
+    /// Time.
+    pub time: i32,
+    /// Plane angle, kept apart from plain numbers so that `15` and `15 deg` cannot be confused.
+    pub angle: i32,
+}
+
+impl Dimension {
+    /// A dimension from its four exponents.
+    pub const fn new(length: i32, mass: i32, time: i32, angle: i32) -> Self {
+        Dimension { length, mass, time, angle }
+    }
+
+    /// Whether a value of dimension `self` may stand where `wanted` is expected.
+    ///
+    /// The radian of "per radian" may be left out, as in `5.73 in·lbf·s` for a rotational damper.
+    pub fn serves_as(self, wanted: Dimension) -> bool {
+        let silent_radian = Dimension { angle: wanted.angle, ..self };
+        self == wanted || (wanted.angle < 0 && self.angle == 0 && silent_radian == wanted)
+    }
+}
+
+/// An SI unit of a result or of a number of a scenario.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
+pub enum Unit {
+    /// m.
+    Metre,
+    /// m/s.
+    MetrePerSecond,
+    /// m/s².
+    MetrePerSecondSquared,
+    /// rad.
+    Radian,
+    /// rad/s.
+    RadianPerSecond,
+    /// rad/s².
+    RadianPerSecondSquared,
+    /// N.
+    Newton,
+    /// N·m.
+    NewtonMetre,
+    /// J.
+    Joule,
+    /// s.
+    Second,
+    /// A number.
+    One,
+    /// kg.
+    Kilogram,
+    /// kg·m².
+    KilogramMetreSquared,
+    /// N/m.
+    NewtonPerMetre,
+    /// N·m/rad.
+    NewtonMetrePerRadian,
+    /// N·m·s/rad.
+    NewtonMetreSecondPerRadian,
+}
+
+/// What there is to say of a [`Unit`].
+struct Row {
+    /// What it measures.
+    quantity: &'static str,
+    /// For people: `m/s²`.
+    symbol: &'static str,
+    /// As [`parse`] reads it: `m/s^2`; empty for plain numbers.
+    si: &'static str,
+    /// The same quantity in inch, pound-force, second.
+    inch_pound: &'static str,
+    dimension: Dimension,
+}
+
+const fn row(
+    quantity: &'static str,
+    [symbol, si, inch_pound]: [&'static str; 3],
+    [length, mass, time, angle]: [i32; 4],
+) -> Row {
+    Row { quantity, symbol, si, inch_pound, dimension: Dimension::new(length, mass, time, angle) }
+}
+
+/// In the order of [`Unit`]; exponents of length, mass, time, angle.
+#[rustfmt::skip]
+const TABLE: [Row; 16] = [
+    row("length", ["m", "m", "in"], [1, 0, 0, 0]),
+    row("velocity", ["m/s", "m/s", "in/s"], [1, 0, -1, 0]),
+    row("acceleration", ["m/s²", "m/s^2", "in/s^2"], [1, 0, -2, 0]),
+    row("angle", ["rad", "rad", "rad"], [0, 0, 0, 1]),
+    row("angular velocity", ["rad/s", "rad/s", "rad/s"], [0, 0, -1, 1]),
+    row("angular acceleration", ["rad/s²", "rad/s^2", "rad/s^2"], [0, 0, -2, 1]),
+    row("force", ["N", "N", "lbf"], [1, 1, -2, 0]),
+    row("moment", ["N·m", "N·m", "in·lbf"], [2, 1, -2, 0]),
+    row("energy", ["J", "J", "in·lbf"], [2, 1, -2, 0]),
+    row("time", ["s", "s", "s"], [0, 0, 1, 0]),
+    row("number", ["1", "", ""], [0, 0, 0, 0]),
+    row("mass", ["kg", "kg", "lbf·s^2/in"], [0, 1, 0, 0]),
+    row("moment of inertia", ["kg·m²", "kg·m^2", "lbf·in·s^2"], [2, 1, 0, 0]),
+    row("stiffness", ["N/m", "N/m", "lbf/in"], [0, 1, -2, 0]),
+    row("rotational stiffness", ["N·m/rad", "N·m/rad", "in·lbf/rad"], [2, 1, -2, -1]),
+    row("rotational damping", ["N·m·s/rad", "N·m·s/rad", "in·lbf·s/rad"], [2, 1, -1, -1]),
+];
+
+impl Unit {
+    /// What it measures, in words.
+    pub const fn quantity(self) -> &'static str {
+        TABLE[self as usize].quantity
+    }
+
+    /// Its symbol for people: `m/s²`.
+    pub const fn symbol(self) -> &'static str {
+        TABLE[self as usize].symbol
+    }
+
+    /// It as [`parse`] reads it: `m/s^2`; empty for plain numbers.
+    pub const fn expression(self) -> &'static str {
+        TABLE[self as usize].si
+    }
+
+    /// The unit of the same quantity in inch, pound-force, second, as [`parse`] reads it: `in/s^2`.
+    pub const fn inch_pound(self) -> &'static str {
+        TABLE[self as usize].inch_pound
+    }
+
+    /// Its dimension.
+    pub const fn dimension(self) -> Dimension {
+        TABLE[self as usize].dimension
+    }
+
+    /// How many of it are one of the unit that `expression` names; 1 for an empty one.
+    ///
+    /// # Errors
+    /// As [`parse`]; a unit of something else.
+    pub fn in_one(self, expression: &str) -> Result<f64, UnitError> {
+        if expression.is_empty() {
+            return Ok(1.0);
+        }
+        let scale = parse(expression, 0)?;
+        if scale.dimension.serves_as(self.dimension()) {
+            return Ok(scale.factor);
+        }
+        Err(UnitError {
+            start: 0,
+            end: expression.len(),
+            found: format!("`{expression}` is not the unit of {}", self.quantity()),
+            expected: format!("a unit such as `{}`", self.expression()),
+            hint: None,
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const ALL: [Unit; 16] = [
+        Unit::Metre,
+        Unit::MetrePerSecond,
+        Unit::MetrePerSecondSquared,
+        Unit::Radian,
+        Unit::RadianPerSecond,
+        Unit::RadianPerSecondSquared,
+        Unit::Newton,
+        Unit::NewtonMetre,
+        Unit::Joule,
+        Unit::Second,
+        Unit::One,
+        Unit::Kilogram,
+        Unit::KilogramMetreSquared,
+        Unit::NewtonPerMetre,
+        Unit::NewtonMetrePerRadian,
+        Unit::NewtonMetreSecondPerRadian,
+    ];
+
+    /// SI units read back as 1 of themselves, those in inches and pounds as the same dimension.
+    #[test]
+    fn every_unit_reads_back() {
+        for (i, unit) in ALL.into_iter().enumerate() {
+            assert_eq!(unit as usize, i);
+            assert_eq!(unit.in_one(unit.expression()), Ok(1.0), "{unit:?}");
+            assert!(unit.in_one(unit.inch_pound()).is_ok(), "{unit:?}");
+        }
+        assert!(Unit::Metre.in_one("s").is_err());
+    }
+}

@@ -1,0 +1,249 @@
+//! `[body]`: its keys, and the [`Body`] they come to.
+
+use indexmap::IndexMap;
+use nalgebra::{Point3, Vector3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::builder::Builder;
+use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, point, si_or};
+use super::{Acceleration, Force, Inertia, Length, Mass};
+use crate::body::tree::SphereRow;
+use crate::body::tti12::TTI12;
+use crate::body::{Body, ContactSphere, SegmentProperties, Tree};
+use crate::model::setup::STANDARD_GRAVITY_M_S2;
+use crate::problem::Problem;
+use crate::scenario::text::with_key;
+
+/// A preset, changes to it, or a whole body of one's own.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct BodySection {
+    /// Body to start from: "male50". Keys given here replace its values. Without a preset everything must be given.
+    #[schemars(extend("enum" = ["male50"]))]
+    pub(crate) preset: Option<String>,
+    /// L_s, distance of a shoulder joint from the middle plane.
+    pub(crate) shoulder_half_width: Option<Length<NOT_NEGATIVE>>,
+    /// L_H, distance of a hip joint from the middle plane.
+    pub(crate) hip_half_width: Option<Length<NOT_NEGATIVE>>,
+    /// Gravity by which a `weight` is divided to give a mass; standard gravity if absent.
+    pub(crate) weighed_at: Option<Acceleration<POSITIVE>>,
+    /// The twelve segments. `upper_arms`, `forearms`, `thighs`, `lower_legs` stand for left and right.
+    pub(crate) segments: Option<Segments>,
+    /// Contact spheres by name. The report's 17 (`head`, `chest`, `pelvis`, `left_shoulder`, …) know their place and need
+    /// only a radius; `shoulders`, `elbows`, `hands`, `thighs`, `knees`, `shins`, `feet` stand for left and right.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) spheres: IndexMap<String, SphereSection>,
+}
+
+/// The twelve segments of the body.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Segments {
+    /// 1.
+    pub(crate) middle_torso: Option<SegmentSection>,
+    /// 2.
+    pub(crate) upper_torso: Option<SegmentSection>,
+    /// 3, with the neck.
+    pub(crate) head: Option<SegmentSection>,
+    /// 4, the pelvis.
+    pub(crate) lower_torso: Option<SegmentSection>,
+    /// 5 and 6.
+    pub(crate) upper_arms: Option<SegmentSection>,
+    /// 5.
+    pub(crate) left_upper_arm: Option<SegmentSection>,
+    /// 6.
+    pub(crate) right_upper_arm: Option<SegmentSection>,
+    /// 7 and 8, with the hands.
+    pub(crate) forearms: Option<SegmentSection>,
+    /// 7, with the hand.
+    pub(crate) left_forearm: Option<SegmentSection>,
+    /// 8, with the hand.
+    pub(crate) right_forearm: Option<SegmentSection>,
+    /// 9 and 10.
+    pub(crate) thighs: Option<SegmentSection>,
+    /// 9.
+    pub(crate) left_thigh: Option<SegmentSection>,
+    /// 10.
+    pub(crate) right_thigh: Option<SegmentSection>,
+    /// 11 and 12, with the feet.
+    pub(crate) lower_legs: Option<SegmentSection>,
+    /// 11, with the foot.
+    pub(crate) left_lower_leg: Option<SegmentSection>,
+    /// 12, with the foot.
+    pub(crate) right_lower_leg: Option<SegmentSection>,
+}
+
+/// One segment.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("x-at-most-one" = [["mass", "weight"]]))]
+pub(crate) struct SegmentSection {
+    /// L, distance between the segment's ends.
+    pub(crate) length: Option<Length<POSITIVE>>,
+    /// ρ, distance of the centre of gravity from the lower end, standing posture (the distal end of a limb).
+    pub(crate) cg_from_lower_end: Option<Length>,
+    /// Mass. Give this or `weight`.
+    pub(crate) mass: Option<Mass<POSITIVE>>,
+    /// Weight, a force; divided by `body.weighed_at` to give the mass.
+    pub(crate) weight: Option<Force<POSITIVE>>,
+    /// I_x, I_y, I_z about the centre of gravity; X ahead, Y left, Z up when standing.
+    pub(crate) inertia: Option<[Inertia; 3]>,
+}
+
+/// A contact sphere.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SphereSection {
+    /// Radius.
+    pub(crate) radius: Option<Length<POSITIVE>>,
+    /// Segment that carries it; the 17 of the report know theirs.
+    #[schemars(extend("enum" = [
+        "middle_torso", "upper_torso", "head", "lower_torso", "left_upper_arm", "right_upper_arm",
+        "left_forearm", "right_forearm", "left_thigh", "right_thigh", "left_lower_leg", "right_lower_leg",
+    ]))]
+    pub(crate) segment: Option<String>,
+    /// Centre from the segment's lower end, in segment axes (X ahead, Y left, Z up when standing).
+    pub(crate) centre: Option<[Length; 3]>,
+    /// True takes the sphere away.
+    pub(crate) remove: Option<bool>,
+}
+
+/// The body; `section` is explicit, `preset` is the one it came from.
+pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection) -> Body {
+    let weighed_at_m_s2 = si_or(&section.weighed_at, STANDARD_GRAVITY_M_S2);
+    let none = Segments::default();
+    let sections = section.segments.as_ref().unwrap_or(&none);
+    let tree = &TTI12;
+    let segment = |i: usize| {
+        let name = tree.segment_rows()[i].name;
+        segment(b, name, sections.of(name), weighed_at_m_s2)
+    };
+    let mut body = Body {
+        name: preset.unwrap_or("own").to_owned(),
+        tree,
+        segments: std::array::from_fn(segment),
+        shoulder_half_width_m: b.needed("body", "shoulder_half_width", &section.shoulder_half_width),
+        hip_half_width_m: b.needed("body", "hip_half_width", &section.hip_half_width),
+        spheres: Vec::new(),
+    };
+    body.spheres = spheres(b, &section.spheres, &body);
+    body
+}
+
+impl Segments {
+    /// What is said of one segment by its own name.
+    fn of(&self, name: &str) -> Option<&SegmentSection> {
+        let segment = match name {
+            "middle_torso" => &self.middle_torso,
+            "upper_torso" => &self.upper_torso,
+            "head" => &self.head,
+            "lower_torso" => &self.lower_torso,
+            "left_upper_arm" => &self.left_upper_arm,
+            "right_upper_arm" => &self.right_upper_arm,
+            "left_forearm" => &self.left_forearm,
+            "right_forearm" => &self.right_forearm,
+            "left_thigh" => &self.left_thigh,
+            "right_thigh" => &self.right_thigh,
+            "left_lower_leg" => &self.left_lower_leg,
+            "right_lower_leg" => &self.right_lower_leg,
+            _ => return None,
+        };
+        segment.as_ref()
+    }
+}
+
+fn segment(b: &mut Builder, name: &str, section: Option<&SegmentSection>, weighed_at_m_s2: f64) -> SegmentProperties {
+    let path = format!("body.segments.{name}");
+    let Some(section) = section else {
+        let found = format!("the body has no segment `{name}`");
+        let hint = "body.preset = \"male50\" gives a whole body to change";
+        b.report(Problem::error(path, found, "all twelve segments").with_hint(Some(hint)));
+        return SegmentProperties {
+            length_m: f64::NAN,
+            mass_kg: f64::NAN,
+            cg_from_lower_end_m: f64::NAN,
+            inertia_kg_m2: Vector3::zeros(),
+        };
+    };
+    let mass_kg = match (&section.mass, &section.weight) {
+        (None, Some(weight)) => weight.si() / weighed_at_m_s2,
+        (mass, _) => b.needed(&path, "mass", mass),
+    };
+    let inertia_kg_m2 = match &section.inertia {
+        Some(inertia) => Vector3::from(all_si(inertia)),
+        None => {
+            b.error(&path, format!("`{path}` has no key `inertia`"), "inertia = [I_x, I_y, I_z]");
+            Vector3::zeros()
+        }
+    };
+    SegmentProperties {
+        length_m: b.needed(&path, "length", &section.length),
+        mass_kg,
+        cg_from_lower_end_m: b.needed(&path, "cg_from_lower_end", &section.cg_from_lower_end),
+        inertia_kg_m2,
+    }
+}
+
+/// The spheres: the report's in its order, then others as written.
+fn spheres(b: &mut Builder, sections: &IndexMap<String, SphereSection>, body: &Body) -> Vec<ContactSphere> {
+    let kept = |name: &str| {
+        let section = sections.get(name)?;
+        (section.remove != Some(true)).then_some(section)
+    };
+    let radius_m = |row: &SphereRow| {
+        kept(row.name).map_or(0.0, |s| b.needed(&format!("body.spheres.{}", row.name), "radius", &s.radius))
+    };
+    let standard = body.tree.spheres();
+    let radii_m: Vec<f64> = standard.iter().map(radius_m).collect();
+    let mut spheres = Vec::new();
+    for sphere in body.standard_spheres(&radii_m) {
+        if let Some(section) = kept(&sphere.name) {
+            spheres.push(moved(b, body.tree, sphere, section));
+        }
+    }
+    for (name, section) in sections {
+        if standard.iter().all(|row| row.name != name) && section.remove != Some(true) {
+            spheres.extend(own_sphere(b, body.tree, name, section));
+        }
+    }
+    spheres
+}
+
+/// A standard sphere with a place of its own.
+fn moved(b: &mut Builder, tree: &Tree, mut sphere: ContactSphere, section: &SphereSection) -> ContactSphere {
+    let path = with_key("body.spheres", &sphere.name);
+    let segment = section.segment.as_deref().and_then(|name| tree.segment_named(name));
+    if let Some(centre) = &section.centre {
+        sphere.centre_from_lower_end_m = point(centre);
+        sphere.segment = segment.unwrap_or(sphere.segment);
+    } else if segment.is_some_and(|s| s != sphere.segment) {
+        b.error(
+            &with_key(&path, "segment"),
+            format!("`{}` moved to another segment without a place there", sphere.name),
+            "centre = [x, y, z] from the lower end of that segment",
+        );
+    }
+    sphere
+}
+
+fn own_sphere(b: &mut Builder, tree: &Tree, name: &str, section: &SphereSection) -> Option<ContactSphere> {
+    let path = with_key("body.spheres", name);
+    let radius_m = b.needed(&path, "radius", &section.radius);
+    let segment = section.segment.as_deref().and_then(|name| tree.segment_named(name));
+    if segment.is_none() {
+        let found = format!("sphere `{name}` without a segment");
+        let hint = format!("only the report's 17 spheres know theirs: {}", tree.sphere_names().join(", "));
+        b.report(Problem::error(&path, found, "segment = the segment that carries it").with_hint(Some(hint)));
+    }
+    if section.centre.is_none() {
+        let found = format!("sphere `{name}` without a centre");
+        b.error(&path, found, "centre = [x, y, z] from the lower end of its segment");
+    }
+    Some(ContactSphere {
+        name: name.to_owned(),
+        segment: segment?,
+        centre_from_lower_end_m: section.centre.as_ref().map_or_else(Point3::origin, point),
+        radius_m,
+    })
+}

@@ -1,0 +1,52 @@
+//! What every section needs to become plain data: the text it comes from, and a list for what is wrong with it.
+
+use super::quantity::Quantity;
+use crate::problem::Problem;
+use crate::scenario::text::{Diagnostics, Document, follow, parse_path, with_key};
+
+/// Collects problems while the plain data are put together.
+pub(super) struct Builder<'a> {
+    /// The explicit scenario.
+    pub(super) document: &'a Document,
+    pub(super) problems: Diagnostics,
+}
+
+impl Builder<'_> {
+    /// The value in SI units of a key that must be there.
+    pub(super) fn needed<const KIND: usize, const RANGE: usize>(
+        &mut self,
+        path: &str,
+        key: &str,
+        quantity: &Option<Quantity<KIND, RANGE>>,
+    ) -> f64 {
+        if quantity.is_none() {
+            let expected = format!("{key} = {}", Quantity::<KIND, RANGE>::KIND.expected());
+            self.error(path, format!("`{path}` has no key `{key}`"), expected);
+        }
+        quantity.as_ref().map_or(f64::NAN, Quantity::si)
+    }
+
+    /// Adds an error at each of `keys` that is written in the section at `path`.
+    pub(super) fn refuse_keys(&mut self, path: &str, keys: &[&str], found: impl Fn(&str) -> String, expected: &str) {
+        let document = self.document;
+        let section = parse_path(path).ok().and_then(|steps| follow(&document.root, &steps));
+        for key in keys.iter().filter(|key| section.is_some_and(|s| s.get(key).is_some())) {
+            self.error(&with_key(path, key), found(key), expected);
+        }
+    }
+
+    /// Adds an error.
+    pub(super) fn error(&mut self, path: &str, found: impl Into<String>, expected: impl Into<String>) {
+        self.report(Problem::error(path, found, expected));
+    }
+
+    /// Adds a problem at the words that its path points at.
+    pub(super) fn report(&mut self, problem: Problem) {
+        self.problems.push(self.document.place(problem));
+    }
+}
+
+/// The index of a name among those that there are; the check of references has refused all others.
+pub(super) fn index_of<'n>(name: &str, mut names: impl Iterator<Item = &'n str>) -> usize {
+    names.position(|n| n == name).unwrap_or(0)
+}

@@ -1,0 +1,122 @@
+//! The sections of a scenario: for each its keys, as they are written, and the plain data they come to.
+//!
+//! The structs are the only declaration of the keys: the JSON Schema, and so the check, the overrides and the hints, come
+//! from them. Their doc comments are the descriptions of the schema, so they speak to the person who writes a scenario.
+
+mod belts;
+mod body;
+mod builder;
+mod joints;
+mod materials;
+mod number_table;
+mod path;
+mod plausible;
+mod posture;
+mod pulse;
+mod quantity;
+mod record_file;
+mod run;
+mod sensors;
+mod setup;
+mod surfaces;
+
+use std::sync::OnceLock;
+
+use indexmap::IndexMap;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+pub use quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, Quantity};
+pub use record_file::{RecordFile, read_record};
+pub(super) use setup::{occupant, setup};
+
+use self::belts::BeltSection;
+use self::body::BodySection;
+use self::joints::{JointSection, JointsSection};
+use self::materials::MaterialSection;
+use self::path::PathSection;
+use self::posture::{InitialStateSection, PostureSection, SeatSection};
+use self::quantity::ANY;
+use self::run::{IntegratorSection, OutputSection, TimeSection};
+use self::surfaces::{ContactSection, SurfaceSection};
+use super::check::schema_of;
+use super::kind::{self, UnitSystem};
+
+/// The JSON Schema of a scenario.
+pub fn schema() -> &'static serde_json::Value {
+    static SCHEMA: OnceLock<serde_json::Value> = OnceLock::new();
+    SCHEMA.get_or_init(|| schema_of::<Scenario>("occupant scenario"))
+}
+
+/// Length.
+pub type Length<const RANGE: usize = ANY> = Quantity<{ kind::LENGTH }, RANGE>;
+/// Time.
+pub type Time<const RANGE: usize = ANY> = Quantity<{ kind::TIME }, RANGE>;
+/// Plane angle.
+pub type Angle<const RANGE: usize = ANY> = Quantity<{ kind::ANGLE }, RANGE>;
+/// Plain number.
+pub type Ratio<const RANGE: usize = ANY> = Quantity<{ kind::RATIO }, RANGE>;
+type Speed<const RANGE: usize = ANY> = Quantity<{ kind::SPEED }, RANGE>;
+type Acceleration<const RANGE: usize = ANY> = Quantity<{ kind::ACCELERATION }, RANGE>;
+type Mass<const RANGE: usize = ANY> = Quantity<{ kind::MASS }, RANGE>;
+type Force<const RANGE: usize = ANY> = Quantity<{ kind::FORCE }, RANGE>;
+type Inertia<const RANGE: usize = ANY> = Quantity<{ kind::INERTIA }, RANGE>;
+type Stiffness<const RANGE: usize = ANY> = Quantity<{ kind::STIFFNESS }, RANGE>;
+type RotationalStiffness<const RANGE: usize = ANY> = Quantity<{ kind::ROTATIONAL_STIFFNESS }, RANGE>;
+type RotationalDamping<const RANGE: usize = ANY> = Quantity<{ kind::ROTATIONAL_DAMPING }, RANGE>;
+
+/// A crash or a violent manoeuvre with one occupant.
+///
+/// A bare number is in SI units with angles in degrees, or in the units named by `units`; a text carries its own unit,
+/// such as "20 mph", "48 lbf/in", "5.73 in·lbf·s/rad".
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("x-exactly-one" = [["posture", "initial_state"]]))]
+pub struct Scenario {
+    /// One line that names the case.
+    pub title: String,
+    /// What the case is about, for readers.
+    pub notes: Option<String>,
+    /// Units of bare numbers; "si" if absent.
+    pub units: Option<UnitSystem>,
+    /// Acceleration of gravity, downwards in space; standard gravity, 9.80665 m/s², if absent; 0 switches it off.
+    pub(crate) gravity: Option<Acceleration<NOT_NEGATIVE>>,
+    /// A point inside the compartment, vehicle axes: the open side of every vehicle surface that does not say otherwise.
+    pub(crate) inside: Option<[Length; 3]>,
+    /// Where numbers come from: a path such as `materials.seat`, and its source.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub provenance: IndexMap<String, String>,
+    /// When the run starts and ends.
+    pub(crate) time: TimeSection,
+    /// What is recorded.
+    pub(crate) output: Option<OutputSection>,
+    /// How the equations of motion are integrated; "adaptive" with its own defaults if absent.
+    pub(crate) integrator: Option<IntegratorSection>,
+    /// Motion of the vehicle.
+    pub(crate) path: PathSection,
+    /// The occupant.
+    pub(crate) body: BodySection,
+    /// How the occupant sits.
+    pub(crate) posture: Option<PostureSection>,
+    /// Exact position and velocity at the start, instead of a posture.
+    pub(crate) initial_state: Option<InitialStateSection>,
+    /// Seats by name.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) seats: IndexMap<String, SeatSection>,
+    /// The occupant's joints.
+    pub(crate) joints: JointsSection,
+    /// Joint properties named once, for joints to refer to.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) joint_sets: IndexMap<String, JointSection>,
+    /// Belts by name.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) belts: IndexMap<String, BeltSection>,
+    /// Contact materials by name.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) materials: IndexMap<String, MaterialSection>,
+    /// How contact forces act.
+    pub(crate) contact: Option<ContactSection>,
+    /// Surfaces by name.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) surfaces: IndexMap<String, SurfaceSection>,
+}

@@ -1,0 +1,141 @@
+//! `[seats]`, `[posture]` and `[initial_state]`: their keys, and the [`InitialPosture`] and [`InitialVelocity`] they come
+//! to.
+
+use nalgebra::Vector3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::builder::{Builder, index_of};
+use super::quantity::{all_si, si_or};
+use super::{Angle, Length, Scenario, Speed};
+use crate::body::Body;
+use crate::model::seating::{InitialPosture, InitialVelocity, Seating};
+use crate::motion::report_coordinates::{DOF, ReportCoordinates};
+use crate::problem::Problem;
+
+/// A place to sit.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct SeatSection {
+    /// Name of the cushion in `surfaces`.
+    pub(crate) cushion: String,
+    /// Name of the seat back in `surfaces`.
+    pub(crate) back: String,
+    /// Lateral place of the occupant's middle plane; left is negative; 0 if absent.
+    pub(crate) y: Option<Length>,
+}
+
+/// How the occupant sits. Angles lean the top of a segment back from the vehicle's vertical.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+#[schemars(extend("x-at-most-one" = [["moves_with_vehicle", "velocity"]]))]
+pub(crate) struct PostureSection {
+    /// Name of the seat in `seats`.
+    pub(crate) seat: String,
+    /// γ₁.
+    pub(crate) middle_torso: Angle,
+    /// γ₂.
+    pub(crate) upper_torso: Angle,
+    /// γ₃.
+    pub(crate) head: Angle,
+    /// γ₄.
+    pub(crate) lower_torso: Angle,
+    /// γ₅, both upper arms; positive brings the elbows ahead of the shoulders.
+    pub(crate) upper_arms: Angle,
+    /// α, both elbows; negative brings the hands forward.
+    pub(crate) elbows: Angle,
+    /// [x, z] of both heels, vehicle axes.
+    pub(crate) heels: [Length; 2],
+    /// Move the seated body as one piece until cushion, back and belts carry it; false if absent.
+    pub(crate) settle: Option<bool>,
+    /// True: every point starts with the velocity of the vehicle there. False: all start with the velocity of the
+    /// vehicle's origin. True if absent.
+    pub(crate) moves_with_vehicle: Option<bool>,
+    /// Velocity of every point at the start, vehicle axes, instead of the vehicle's.
+    pub(crate) velocity: Option<[Speed; 3]>,
+}
+
+/// Position and velocity at the start in the report's generalized coordinates.
+///
+/// The numbers have no unit of their own: q₁ to q₃ and their rates are in the file's length (m or in) and per second, all
+/// others in radians and radians per second, as the report prints them.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct InitialStateSection {
+    /// q₁…q₃₁.
+    #[schemars(extend("minItems" = 31, "maxItems" = 31))]
+    pub(crate) q: Vec<f64>,
+    /// Their rates.
+    #[schemars(extend("minItems" = 31, "maxItems" = 31))]
+    pub(crate) rates: Vec<f64>,
+    /// To extend a run from cards: [sphere, surface] of the pairs that have passed each other; all others that overlap
+    /// touch. If absent, a sphere whose centre is beyond the plane or beside the face has passed it.
+    pub(crate) passed: Option<Vec<[String; 2]>>,
+}
+
+/// Position and velocity at the start.
+pub(super) fn posture(b: &mut Builder, s: &Scenario, body: &Body) -> (Option<InitialPosture>, InitialVelocity) {
+    match (&s.posture, &s.initial_state) {
+        (Some(posture), _) => (seating(s, posture).map(InitialPosture::Seated), velocity(posture)),
+        (None, Some(state)) => (state_of(b, s, state, body), InitialVelocity::default()),
+        (None, None) => (None, InitialVelocity::default()),
+    }
+}
+
+fn seating(s: &Scenario, p: &PostureSection) -> Option<Seating> {
+    let seat = s.seats.get(&p.seat)?;
+    Some(Seating {
+        cushion: s.surfaces.get_index_of(&seat.cushion)?,
+        back: s.surfaces.get_index_of(&seat.back)?,
+        lateral_m: si_or(&seat.y, 0.0),
+        lean_rad: [p.middle_torso.si(), p.upper_torso.si(), p.head.si(), p.lower_torso.si()],
+        upper_arms_rad: p.upper_arms.si(),
+        elbows_rad: p.elbows.si(),
+        heels_m: all_si(&p.heels),
+        settle: p.settle.unwrap_or(false),
+    })
+}
+
+fn velocity(p: &PostureSection) -> InitialVelocity {
+    match (&p.velocity, p.moves_with_vehicle) {
+        (Some(v), _) => InitialVelocity::Given(Vector3::from(all_si(v))),
+        (None, Some(false)) => InitialVelocity::VehicleOrigin,
+        (None, Some(true)) => InitialVelocity::WithVehicle,
+        (None, None) => InitialVelocity::default(),
+    }
+}
+
+/// The exact state, with the pairs that have passed where they are told.
+fn state_of(b: &mut Builder, s: &Scenario, state: &InitialStateSection, body: &Body) -> Option<InitialPosture> {
+    let coordinates = Box::new(coordinates(b, state)?);
+    let Some(pairs) = &state.passed else {
+        return Some(InitialPosture::Coordinates(coordinates));
+    };
+    let mut passed = Vec::with_capacity(pairs.len());
+    for (i, [sphere, surface]) in pairs.iter().enumerate() {
+        let meeting = s.surfaces.get(surface).and_then(|f| f.spheres.as_ref());
+        if meeting.is_some_and(|spheres| !spheres.contains(sphere)) {
+            let found = format!("`{surface}` cannot be passed by `{sphere}`: it is not among its `spheres`");
+            let expected = format!("one of the spheres of `surfaces.{surface}.spheres`");
+            let hint = format!("add \"{sphere}\" to them, or leave this pair out");
+            let path = format!("initial_state.passed[{i}][0]");
+            b.report(Problem::error(path, found, expected).with_hint(Some(hint)));
+        }
+        passed.push((
+            index_of(sphere, body.spheres.iter().map(|s| s.name.as_str())),
+            index_of(surface, s.surfaces.keys().map(String::as_str)),
+        ));
+    }
+    Some(InitialPosture::Continued { coordinates, passed })
+}
+
+/// q₁–q₃ are lengths in the file's unit, all others radians.
+fn coordinates(b: &Builder, section: &InitialStateSection) -> Option<ReportCoordinates> {
+    let length_m = b.document.units().length_m();
+    let si = |values: &[f64]| -> Option<[f64; DOF]> {
+        let scaled = values.iter().enumerate();
+        let scaled: Vec<f64> = scaled.map(|(i, x)| if i < 3 { x * length_m } else { *x }).collect();
+        scaled.try_into().ok()
+    };
+    Some(ReportCoordinates { q: si(&section.q)?, rates: si(&section.rates)? })
+}

@@ -1,0 +1,122 @@
+//! A number with a unit as a scenario writes it: bare (`14`, in the file's units) or with its unit (`"20 mph"`).
+
+use std::borrow::Cow;
+
+use nalgebra::Point3;
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::{Deserialize, Serialize, Serializer};
+use serde_json::json;
+
+use super::Length;
+use crate::scenario::kind::{KINDS, Kind, UnitSystem};
+use crate::scenario::text::Value;
+
+/// Any number.
+pub(crate) const ANY: usize = 0;
+/// Numbers of at least 0.
+pub const NOT_NEGATIVE: usize = 1;
+/// Numbers above 0.
+pub const POSITIVE: usize = 2;
+/// Numbers from 0 to 1.
+pub const FRACTION: usize = 3;
+
+/// The words of the schema for each range.
+const RANGES: [&[(&str, i32)]; 4] =
+    [&[], &[("minimum", 0)], &[("exclusiveMinimum", 0)], &[("minimum", 0), ("maximum", 1)]];
+
+/// A quantity of kind `KINDS[KIND]` in a range: as it was written, and what that is in SI units.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(from = "Read")]
+pub struct Quantity<const KIND: usize, const RANGE: usize = ANY> {
+    written: Value,
+    si: f64,
+}
+
+/// A quantity of a tree that has passed the check has its value in SI units beside what is written.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum Read {
+    Checked(f64, Value),
+    Written(Value),
+}
+
+impl<const KIND: usize, const RANGE: usize> From<Read> for Quantity<KIND, RANGE> {
+    fn from(read: Read) -> Self {
+        match read {
+            Read::Checked(si, written) => Quantity { written, si },
+            Read::Written(written) => Quantity { written, si: f64::NAN },
+        }
+    }
+}
+
+impl<const KIND: usize, const RANGE: usize> Quantity<KIND, RANGE> {
+    /// What it measures.
+    pub(super) const KIND: &'static Kind = &KINDS[KIND];
+
+    /// The value in SI units, angles in radians; not a number in a tree that has not passed the check.
+    pub fn si(&self) -> f64 {
+        self.si
+    }
+
+    /// The number, if it is bare.
+    pub(super) fn bare(&self) -> Option<f64> {
+        self.written.number()
+    }
+}
+
+/// The value in SI units, or `default` where nothing is written.
+pub(super) fn si_or<const KIND: usize, const RANGE: usize>(
+    quantity: &Option<Quantity<KIND, RANGE>>,
+    default: f64,
+) -> f64 {
+    quantity.as_ref().map_or(default, Quantity::si)
+}
+
+/// Several values in SI units.
+pub(super) fn all_si<const KIND: usize, const RANGE: usize, const N: usize>(
+    quantities: &[Quantity<KIND, RANGE>; N],
+) -> [f64; N] {
+    quantities.each_ref().map(Quantity::si)
+}
+
+/// A point.
+pub(super) fn point(point: &[Length; 3]) -> Point3<f64> {
+    Point3::from(all_si(point))
+}
+
+impl<const KIND: usize, const RANGE: usize> Serialize for Quantity<KIND, RANGE> {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        self.written.serialize(serializer)
+    }
+}
+
+impl<const KIND: usize, const RANGE: usize> JsonSchema for Quantity<KIND, RANGE> {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        Self::KIND.name.into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        let kind = Self::KIND;
+        let mut schema = json_schema!({
+            "type": ["number", "string"],
+            "x-dimension": kind.name,
+            "x-bare-unit": {
+                "si": kind.bare_unit(UnitSystem::Si),
+                "in-lbf-s": kind.bare_unit(UnitSystem::InchPound),
+            },
+            "x-example": kind.example,
+        });
+        if RANGE != ANY {
+            // keeps the place of the field's own description, before the bounds
+            schema.insert("description".to_owned(), json!(""));
+        }
+        for (word, bound) in RANGES[RANGE] {
+            schema.insert((*word).to_owned(), json!(bound));
+        }
+        schema
+    }
+}

@@ -1,0 +1,82 @@
+//! The sections of a checked scenario → the core's plain SI data.
+//!
+//! Words, numbers and names have passed the check; here keys that only make sense together are put together. Numbers that
+//! contradict the physics are left to the model, which checks plain data whoever made it.
+
+use serde::Deserialize;
+
+use super::builder::Builder;
+use super::quantity::si_or;
+use super::{
+    BodySection, JointsSection, Scenario, belts, body, joints, materials, path, plausible, posture, run, surfaces,
+};
+use crate::body::Body;
+use crate::body::joint::Joints;
+use crate::model::setup::{STANDARD_GRAVITY_M_S2, Setup};
+use crate::problem::Problem;
+use crate::scenario::check::references;
+use crate::scenario::text::{Diagnostics, Document, SourceId, locate, with_key};
+
+/// Builds the plain data; `written` is the scenario as it was written, `explicit` the one with presets written out, and
+/// `document` the tree of the latter.
+pub(in crate::scenario) fn setup(
+    written: &Scenario,
+    explicit: &Scenario,
+    document: &Document,
+    path_table: Option<SourceId>,
+) -> Result<(Setup, Diagnostics), Diagnostics> {
+    let b = &mut Builder { document, problems: Diagnostics::new() };
+    let body = body::body(b, written.body.preset.as_deref(), &explicit.body);
+    let joints = joints::joints(b, &explicit.joints);
+    references(&document.root, &[]).into_iter().for_each(|problem| b.report(problem));
+    let surfaces = surfaces::surfaces(b, explicit, &body);
+    let belts = belts::belts(explicit, &body);
+    let (posture, velocity) = posture::posture(b, explicit, &body);
+    let time = run::time(b, explicit);
+    let integrator = run::integrator(b, explicit);
+    let gravity_m_s2 = si_or(&explicit.gravity, STANDARD_GRAVITY_M_S2);
+    let path = path::path(b, &explicit.path, path_table, gravity_m_s2);
+    check_provenance(b, written);
+    let (Some(path), Some(posture), false) = (path, posture, b.problems.has_errors()) else {
+        return Err(std::mem::take(&mut b.problems));
+    };
+    let setup = Setup {
+        title: explicit.title.clone(),
+        body,
+        joints,
+        gravity_m_s2,
+        materials: materials::materials(explicit),
+        surfaces,
+        edge_force: surfaces::edge_force(explicit),
+        belts,
+        path,
+        posture,
+        velocity,
+        time,
+        integrator,
+        output: run::output(explicit),
+    };
+    plausible::check(b, &setup, explicit);
+    Ok((setup, std::mem::take(&mut b.problems)))
+}
+
+/// Builds the occupant alone; `document` is the tree of an explicit scenario that came from `preset`.
+pub(in crate::scenario) fn occupant(preset: &str, document: &Document) -> Option<(Body, Joints)> {
+    let body = BodySection::deserialize(document.root.get("body")?).ok()?;
+    let joints = JointsSection::deserialize(document.root.get("joints")?).ok()?;
+    let b = &mut Builder { document, problems: Diagnostics::new() };
+    let occupant = (body::body(b, Some(preset), &body), joints::joints(b, &joints));
+    (!b.problems.has_errors()).then_some(occupant)
+}
+
+/// Warns of provenance notes that speak of nothing in the scenario.
+fn check_provenance(b: &mut Builder, written: &Scenario) {
+    for topic in written.provenance.keys() {
+        let is_path = topic.contains('.') && !topic.contains(' ');
+        if is_path && locate(&b.document.root, topic).is_none() {
+            let found = format!("`{topic}` is no part of the scenario");
+            let expected = "a path such as materials.seat, or a topic in words";
+            b.report(Problem::warning(with_key("provenance", topic), found, expected));
+        }
+    }
+}

@@ -1,0 +1,126 @@
+//! Texts that scenarios and studies are made of: TOML and JSON as one tree whose values know their places, paths into it,
+//! lines of CSV, and messages that point at the words they are about. Knows no key of any section.
+
+mod csv;
+mod diagnostic;
+mod json;
+mod node;
+mod path;
+mod source;
+mod toml;
+
+pub use csv::{Cell, cells, lines, name_and_unit, number};
+pub use diagnostic::{Diagnostic, Diagnostics};
+pub(crate) use node::{Entry, Node, Table};
+pub use node::{Format, Value};
+pub use path::{Step, parse as parse_path, with_key};
+pub(crate) use path::{child, follow, locate, targets, to_text, with_step};
+pub(crate) use source::SourceId;
+pub use source::{Sources, Span};
+pub(crate) use toml::parse_value;
+
+use serde::de::DeserializeOwned;
+
+use crate::problem::{Problem, nearest};
+
+/// A text that has been read: its tree, and the texts that the places of the tree point into.
+#[derive(Clone, Debug)]
+pub struct Document {
+    pub(crate) sources: Sources,
+    pub(crate) main: SourceId,
+    pub(crate) root: Node,
+}
+
+impl Document {
+    /// Reads a text; `name` is what messages call it, such as its file name.
+    ///
+    /// # Errors
+    /// Everything that is wrong with its syntax.
+    pub fn read(text: &str, format: Format, name: &str) -> Result<Document, Diagnostics> {
+        let mut sources = Sources::new();
+        let main = sources.add(name, text);
+        let root = match format {
+            Format::Toml => toml::parse(&sources, main)?,
+            Format::Json => json::parse(&sources, main)?,
+        };
+        Ok(Document { sources, main, root })
+    }
+
+    /// Reads bytes that should be UTF-8 text; the format is told by [`Format::of_text`] unless given.
+    ///
+    /// # Errors
+    /// The place of the first byte that is not UTF-8; else as [`Document::read`].
+    pub fn read_bytes(bytes: &[u8], format: Option<Format>, name: &str) -> Result<Document, Diagnostics> {
+        let text = text_of(bytes, name)?;
+        Document::read(text, format.unwrap_or_else(|| Format::of_text(text)), name)
+    }
+
+    /// The text it was read from.
+    pub fn text(&self) -> &str {
+        self.sources.text(self.main)
+    }
+
+    /// Whether its root has this key.
+    pub fn has(&self, key: &str) -> bool {
+        self.root.get(key).is_some()
+    }
+
+    /// A problem at the words that its path points at.
+    pub fn place(&self, problem: Problem) -> Diagnostic {
+        match locate(&self.root, &problem.path) {
+            Some(span) => Diagnostic::at(&self.sources, span, problem),
+            None => Diagnostic::of(self.sources.name(self.main), problem),
+        }
+    }
+
+    /// Its sections, once it has passed the check; `what` is what messages call it. A difference between check and
+    /// sections is reported, not a panic.
+    ///
+    /// # Errors
+    /// The first such difference.
+    pub fn sections<T: DeserializeOwned>(&self, what: &str) -> Result<T, Diagnostics> {
+        T::deserialize(&self.root).map_err(|error| {
+            let found = format!("the {what} cannot be read: {error}");
+            refuse(self.sources.name(self.main), found, &format!("a {what}"))
+        })
+    }
+}
+
+/// Bytes as text; `name` is what messages call them.
+///
+/// # Errors
+/// The line of the first byte that is not UTF-8.
+pub fn text_of<'a>(bytes: &'a [u8], name: &str) -> Result<&'a str, Diagnostics> {
+    std::str::from_utf8(bytes).map_err(|error| {
+        let before = &bytes[..error.valid_up_to()];
+        let line = before.iter().filter(|b| **b == b'\n').count() + 1;
+        let byte = bytes.get(before.len()).copied().unwrap_or(0);
+        let found = format!("byte 0x{byte:02x} in line {line} is not UTF-8");
+        refuse(name, found, "a text in UTF-8")
+    })
+}
+
+/// One problem of a text as a whole.
+pub(crate) fn refuse(source: &str, found: String, expected: &str) -> Diagnostics {
+    Diagnostic::of(source, Problem::error("", found, expected)).into()
+}
+
+/// `"a", "b" or "c"`.
+pub fn one_of(names: &[&str], quote: char) -> String {
+    match names {
+        [] => "no key at all".to_owned(),
+        [only] => format!("{quote}{only}{quote}"),
+        [first @ .., last] => format!("{} or {quote}{last}{quote}", quoted(first, quote)),
+    }
+}
+
+/// `"a", "b", "c"`.
+pub(crate) fn quoted(names: &[&str], quote: char) -> String {
+    let each: Vec<String> = names.iter().map(|n| format!("{quote}{n}{quote}")).collect();
+    each.join(", ")
+}
+
+/// The name that a misspelt one is most like, as a hint.
+pub fn did_you_mean(word: &str, names: &[&str], quote: char) -> Option<String> {
+    nearest(word, names.iter().copied()).map(|n| format!("did you mean {quote}{n}{quote}?"))
+}

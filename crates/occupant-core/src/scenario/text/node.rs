@@ -1,0 +1,309 @@
+//! The tree that a scenario text is read into, TOML and JSON alike: plain values, each with its [`Span`].
+
+use std::borrow::Cow;
+
+use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
+use serde::de::value::{Error, MapDeserializer, SeqDeserializer};
+use serde::de::{Deserializer, IntoDeserializer, Visitor};
+use serde::{Deserialize, Serialize, forward_to_deserialize_any};
+
+use super::source::{SourceId, Span};
+
+/// How a scenario text is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Format {
+    /// TOML 1.1.
+    Toml,
+    /// JSON, strict (RFC 8259).
+    Json,
+}
+
+impl Format {
+    /// JSON if the first character that is not a blank opens an object, else TOML: no TOML document starts with `{`.
+    pub fn of_text(text: &str) -> Format {
+        let text = text.trim_start_matches('\u{feff}').trim_start();
+        if text.starts_with('{') { Format::Json } else { Format::Toml }
+    }
+}
+
+/// A value and where it stands.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Node {
+    /// Where.
+    pub span: Span,
+    /// What.
+    pub value: Value,
+    /// Of a quantity its value in SI units, angles in radians, once the check has read it.
+    pub si: Option<f64>,
+}
+
+/// What is written at a place.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
+pub enum Value {
+    /// JSON's `null`.
+    #[serde(skip)]
+    Null,
+    /// Truth.
+    Bool(bool),
+    /// Whole number.
+    Integer(i64),
+    /// Number with a decimal point or an exponent.
+    Float(f64),
+    /// Text.
+    String(String),
+    /// List.
+    #[serde(skip)]
+    Array(Vec<Node>),
+    /// Named values.
+    #[serde(skip)]
+    Table(Table),
+}
+
+/// Named values in the order in which they were written; names are unique.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Table(Vec<Entry>);
+
+/// A name and its value.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// The name.
+    pub key: String,
+    /// Where the name stands.
+    pub key_span: Span,
+    /// The value.
+    pub node: Node,
+}
+
+impl Value {
+    /// The kind of value in words: `a number`, `a table`.
+    pub fn kind(&self) -> &'static str {
+        match self {
+            Value::Null => "null",
+            Value::Bool(_) => "true or false",
+            Value::Integer(_) | Value::Float(_) => "a number",
+            Value::String(_) => "a text",
+            Value::Array(_) => "a list",
+            Value::Table(_) => "a table",
+        }
+    }
+
+    /// The number, if it is a bare one.
+    pub fn number(&self) -> Option<f64> {
+        match self {
+            Value::Integer(i) => Some(*i as f64),
+            Value::Float(x) => Some(*x),
+            _ => None,
+        }
+    }
+
+    fn visit<'de, V: Visitor<'de>>(&'de self, visitor: V) -> Result<V::Value, Error> {
+        match self {
+            Value::Null => visitor.visit_unit(),
+            Value::Bool(b) => visitor.visit_bool(*b),
+            Value::Integer(i) => visitor.visit_i64(*i),
+            Value::Float(x) => visitor.visit_f64(*x),
+            Value::String(text) => visitor.visit_borrowed_str(text),
+            Value::Array(items) => visitor.visit_seq(SeqDeserializer::new(items.iter())),
+            Value::Table(table) => {
+                visitor.visit_map(MapDeserializer::new(table.iter().map(|e| (e.key.as_str(), &e.node))))
+            }
+        }
+    }
+}
+
+/// A value whose meaning another part of the document decides.
+impl JsonSchema for Value {
+    fn inline_schema() -> bool {
+        true
+    }
+
+    fn schema_name() -> Cow<'static, str> {
+        "value".into()
+    }
+
+    fn json_schema(_: &mut SchemaGenerator) -> Schema {
+        json_schema!({
+            "type": ["number", "string", "boolean"],
+            "x-example": "a value as the scenario has it: 0.3, \"20 in lbf s/rad\", \"seat\"",
+        })
+    }
+}
+
+impl Node {
+    /// A value and where it stands.
+    pub(crate) fn new(span: Span, value: Value) -> Node {
+        Node { span, value, si: None }
+    }
+
+    /// The table, if it is one.
+    pub(crate) fn as_table(&self) -> Option<&Table> {
+        match &self.value {
+            Value::Table(table) => Some(table),
+            _ => None,
+        }
+    }
+
+    /// The table, if it is one.
+    pub(crate) fn as_table_mut(&mut self) -> Option<&mut Table> {
+        match &mut self.value {
+            Value::Table(table) => Some(table),
+            _ => None,
+        }
+    }
+
+    /// The text, if it is one.
+    pub(crate) fn as_str(&self) -> Option<&str> {
+        match &self.value {
+            Value::String(text) => Some(text),
+            _ => None,
+        }
+    }
+
+    /// The entry of a table with this key.
+    pub(crate) fn get(&self, key: &str) -> Option<&Node> {
+        self.as_table().and_then(|t| t.get(key)).map(|e| &e.node)
+    }
+
+    /// The items, if it is a list.
+    pub(crate) fn items(&self) -> &[Node] {
+        match &self.value {
+            Value::Array(items) => items,
+            _ => &[],
+        }
+    }
+
+    /// The same tree as if it had been read from another text.
+    pub(crate) fn moved_to(&self, source: SourceId) -> Node {
+        let value = match &self.value {
+            Value::Array(items) => Value::Array(items.iter().map(|item| item.moved_to(source)).collect()),
+            Value::Table(table) => Value::Table(Table(
+                table
+                    .iter()
+                    .map(|entry| Entry {
+                        key: entry.key.clone(),
+                        key_span: Span { source, ..entry.key_span },
+                        node: entry.node.moved_to(source),
+                    })
+                    .collect(),
+            )),
+            plain => plain.clone(),
+        };
+        Node { span: Span { source, ..self.span }, value, ..*self }
+    }
+}
+
+/// Sections are read from the tree itself. A quantity that the check has read is the pair of its SI value and what is
+/// written.
+impl<'de> Deserializer<'de> for &'de Node {
+    type Error = Error;
+
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        match self.si {
+            Some(si) => visitor.visit_seq(SeqDeserializer::new([Part::Si(si), Part::Written(&self.value)].into_iter())),
+            None => self.value.visit(visitor),
+        }
+    }
+
+    fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        visitor.visit_some(self)
+    }
+
+    fn deserialize_enum<V: Visitor<'de>>(
+        self,
+        name: &'static str,
+        variants: &'static [&'static str],
+        visitor: V,
+    ) -> Result<V::Value, Error> {
+        self.as_str().unwrap_or_default().into_deserializer().deserialize_enum(name, variants, visitor)
+    }
+
+    forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf unit unit_struct
+        newtype_struct seq tuple tuple_struct map struct identifier ignored_any
+    }
+}
+
+impl<'de> IntoDeserializer<'de> for &'de Node {
+    type Deserializer = Self;
+
+    fn into_deserializer(self) -> Self {
+        self
+    }
+}
+
+/// The two parts of a quantity.
+enum Part<'de> {
+    Si(f64),
+    Written(&'de Value),
+}
+
+impl<'de> Deserializer<'de> for Part<'de> {
+    type Error = Error;
+
+    fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
+        match self {
+            Part::Si(si) => visitor.visit_f64(si),
+            Part::Written(value) => value.visit(visitor),
+        }
+    }
+
+    forward_to_deserialize_any! {
+        bool i8 i16 i32 i64 i128 u8 u16 u32 u64 u128 f32 f64 char str string bytes byte_buf option unit unit_struct
+        newtype_struct seq tuple tuple_struct map struct enum identifier ignored_any
+    }
+}
+
+impl<'de> IntoDeserializer<'de> for Part<'de> {
+    type Deserializer = Self;
+
+    fn into_deserializer(self) -> Self {
+        self
+    }
+}
+
+impl Table {
+    /// An empty table.
+    pub(crate) fn new() -> Self {
+        Table::default()
+    }
+
+    /// The entry with this key.
+    pub(crate) fn get(&self, key: &str) -> Option<&Entry> {
+        self.0.iter().find(|e| e.key == key)
+    }
+
+    /// The entry with this key.
+    pub(crate) fn get_mut(&mut self, key: &str) -> Option<&mut Entry> {
+        self.0.iter_mut().find(|e| e.key == key)
+    }
+
+    /// Adds an entry, or replaces the one with the same key in its place.
+    pub(crate) fn insert(&mut self, entry: Entry) {
+        match self.get_mut(&entry.key) {
+            Some(old) => *old = entry,
+            None => self.0.push(entry),
+        }
+    }
+
+    /// Takes an entry out.
+    pub(crate) fn remove(&mut self, key: &str) -> Option<Entry> {
+        let at = self.0.iter().position(|e| e.key == key)?;
+        Some(self.0.remove(at))
+    }
+
+    /// The entries in order.
+    pub(crate) fn iter(&self) -> std::slice::Iter<'_, Entry> {
+        self.0.iter()
+    }
+
+    /// The entries in order.
+    pub(crate) fn iter_mut(&mut self) -> std::slice::IterMut<'_, Entry> {
+        self.0.iter_mut()
+    }
+
+    /// Appends an entry whose key is known to be new; for the parsers.
+    pub(crate) fn push(&mut self, entry: Entry) {
+        self.0.push(entry);
+    }
+}

@@ -1,0 +1,181 @@
+//! Paths into a scenario: `belts.lap.anchors[1]`, `joints.*.damping`, `surfaces."front cushion".material`.
+
+use super::node::{Node, Value};
+use super::source::Span;
+
+/// One step of a path.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Step {
+    /// Into a table by key, or into a list of things by their `name`.
+    Key(String),
+    /// Into a list, from 0.
+    Index(usize),
+    /// Into every table or list below that has what follows.
+    Every,
+}
+
+/// More steps than any path into a scenario has.
+const MAX_STEPS: usize = 32;
+
+/// Reads a path.
+///
+/// # Errors
+/// What is wrong with it.
+pub fn parse(text: &str) -> Result<Vec<Step>, String> {
+    let mut steps = Vec::new();
+    let mut rest = text.trim();
+    let mut after_dot = true;
+    while !rest.is_empty() {
+        let (step, length) = match rest.as_bytes()[0] {
+            b'[' => index_step(rest)?,
+            b'.' if !after_dot => {
+                rest = &rest[1..];
+                after_dot = true;
+                continue;
+            }
+            _ if !after_dot => return Err(format!("a `.` is missing before `{rest}`")),
+            b'"' => quoted_step(rest)?,
+            b'*' => (Step::Every, 1),
+            _ => {
+                let length = rest.find(['.', '[']).unwrap_or(rest.len());
+                (Step::Key(rest[..length].trim().to_owned()), length)
+            }
+        };
+        if step == Step::Key(String::new()) {
+            return Err(format!("an empty name in `{text}`"));
+        }
+        if steps.len() == MAX_STEPS {
+            return Err(format!("a path of more than {MAX_STEPS} names"));
+        }
+        steps.push(step);
+        rest = &rest[length..];
+        after_dot = false;
+    }
+    match (after_dot, text.trim()) {
+        (true, "") => Err("an empty path".to_owned()),
+        (true, _) => Err(format!("`{text}` ends where a name should follow")),
+        (false, _) => Ok(steps),
+    }
+}
+
+fn index_step(text: &str) -> Result<(Step, usize), String> {
+    let end = text.find(']').ok_or_else(|| format!("`[` without `]` in `{text}`"))?;
+    let inner = text[1..end].trim();
+    let step = match inner {
+        "*" => Step::Every,
+        _ => Step::Index(inner.parse().map_err(|_| format!("`{inner}` in brackets is no index, which counts from 0"))?),
+    };
+    Ok((step, end + 1))
+}
+
+fn quoted_step(text: &str) -> Result<(Step, usize), String> {
+    let inner = text[1..].find('"').ok_or_else(|| format!("a quote without its second one in `{text}`"))?;
+    Ok((Step::Key(text[1..=inner].to_owned()), inner + 2))
+}
+
+/// A path with one more key.
+pub fn with_key(path: &str, key: &str) -> String {
+    let plain = !key.is_empty() && key.chars().all(|c| c.is_alphanumeric() || c == '_' || c == '-');
+    let key = if plain { key.to_owned() } else { format!("\"{key}\"") };
+    if path.is_empty() { key } else { format!("{path}.{key}") }
+}
+
+/// The path of step texts, for messages.
+pub(crate) fn to_text(steps: &[Step]) -> String {
+    steps.iter().fold(String::new(), |path, step| with_step(&path, step))
+}
+
+/// A path with one more step.
+pub(crate) fn with_step(path: &str, step: &Step) -> String {
+    match step {
+        Step::Key(key) => with_key(path, key),
+        Step::Index(i) => format!("{path}[{i}]"),
+        Step::Every if path.is_empty() => "*".to_owned(),
+        Step::Every => format!("{path}.*"),
+    }
+}
+
+/// Where the steps of a path lead in a tree.
+pub(crate) fn follow<'a>(root: &'a Node, steps: &[Step]) -> Option<&'a Node> {
+    steps.iter().try_fold(root, child)
+}
+
+/// The item of a node that a key or an index leads to. Items of lists are found by their `name`, too.
+pub(crate) fn child<'a>(node: &'a Node, step: &Step) -> Option<&'a Node> {
+    match (&node.value, step) {
+        (Value::Table(table), Step::Key(key)) => table.get(key).map(|e| &e.node),
+        (Value::Array(items), Step::Index(i)) => items.get(*i),
+        (Value::Array(items), Step::Key(key)) => {
+            items.iter().find(|item| item.get("name").and_then(Node::as_str) == Some(key))
+        }
+        _ => None,
+    }
+}
+
+/// The places a path with wildcards leads to in the explicit form of a scenario, as paths without wildcards.
+///
+/// A path without wildcards leads to itself, even where nothing stands yet.
+pub(crate) fn targets(explicit: &Node, steps: &[Step]) -> Vec<Vec<Step>> {
+    if !steps.contains(&Step::Every) {
+        return vec![steps.to_vec()];
+    }
+    let mut found = Vec::new();
+    collect(explicit, steps, &mut Vec::new(), &mut found);
+    found
+}
+
+fn collect(node: &Node, rest: &[Step], path: &mut Vec<Step>, found: &mut Vec<Vec<Step>>) {
+    let Some((step, rest)) = rest.split_first() else {
+        found.push(path.clone());
+        return;
+    };
+    let next: Vec<Step> = match (step, &node.value) {
+        (Step::Every, Value::Table(table)) => table.iter().map(|e| Step::Key(e.key.clone())).collect(),
+        (Step::Every, Value::Array(items)) => (0..items.len()).map(Step::Index).collect(),
+        _ => vec![step.clone()],
+    };
+    for step in next {
+        if let Some(below) = child(node, &step) {
+            path.push(step);
+            collect(below, rest, path, found);
+            path.pop();
+        }
+    }
+}
+
+/// Where a path stands in a tree: its value, or the nearest part above it that exists.
+pub(crate) fn locate(root: &Node, path: &str) -> Option<Span> {
+    let steps = parse(path).ok()?;
+    let mut node = root;
+    let mut found = None;
+    for step in &steps {
+        match child(node, step) {
+            Some(next) => {
+                found = Some(next.span);
+                node = next;
+            }
+            None => break,
+        }
+    }
+    found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn reads_names_indices_and_wildcards() {
+        let key = |k: &str| Step::Key(k.into());
+        assert_eq!(
+            parse("belts.lap.anchors[1][0]").unwrap(),
+            [key("belts"), key("lap"), key("anchors"), Step::Index(1), Step::Index(0)]
+        );
+        assert_eq!(parse("joints.*.damping").unwrap(), [key("joints"), Step::Every, key("damping")]);
+        let quoted = "surfaces.\"front. cushion\".material";
+        assert_eq!(to_text(&parse(quoted).unwrap()), quoted);
+        for wrong in ["", ".", "a.", "a..b", "a[", "a[x]", "a[0]b", "a.\"b", "a.\"\""] {
+            assert!(parse(wrong).is_err(), "{wrong}");
+        }
+    }
+}
