@@ -1,7 +1,7 @@
 //! Joints: the rate of β, springs, dampers, stops, twist.
 
 use nalgebra::{Unit, UnitQuaternion, Vector3};
-use occupant_core::body::joint::{AngularSpring, BallJoint, HingeJoint, Joints, Stop};
+use occupant_core::forces::joint::{AngularSpring, BallJoint, HingeJoint, Joints, Stop};
 use occupant_core::forces::joint::{BALLS, BallAction, JointSystem};
 use occupant_core::motion::kinematics::Kinematics;
 use occupant_core::motion::skeleton::Skeleton;

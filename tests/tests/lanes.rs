@@ -4,8 +4,8 @@ use std::ops::ControlFlow;
 
 use occupant_core::forces::belt::OTHER_BELTS;
 use occupant_core::forces::contact::OTHER_PAIRS;
+use occupant_core::forces::contact::material::Memory;
 use occupant_core::forces::joint::OTHER_SPRINGS;
-use occupant_core::forces::material::Memory;
 use occupant_core::model::Model;
 use occupant_core::model::setup::{Integrator, Setup};
 use occupant_core::results::outcome::{Outcome, Status};

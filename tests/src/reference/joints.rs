@@ -9,7 +9,7 @@ use super::{
     vector::Vector,
 };
 use nalgebra::Vector3;
-use occupant_core::body::joint::{BallJoint, HingeJoint, Joints, Stop};
+use occupant_core::forces::joint::{BallJoint, HingeJoint, Joints, Stop};
 
 /// The seven ball joints with their segments k and l (Fig. 8).
 pub(super) fn balls(joints: &Joints) -> [(BallJoint, usize, usize); 7] {

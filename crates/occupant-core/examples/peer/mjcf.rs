@@ -2,7 +2,7 @@
 //! bending resists all three turns, a spring in β holds the whole turn of its joint, a belt is a tendon round its sphere
 //! with one stiffness. Stops that damp and the force law of the contacts have no counterpart and are left out.
 
-use occupant_core::body::joint::{BallJoint, Joints};
+use occupant_core::forces::joint::{BallJoint, Joints};
 use occupant_core::body::{SEGMENTS, Segment};
 use occupant_core::model::Model;
 

@@ -2,7 +2,7 @@
 //! that every engine states alike.
 
 use occupant_core::body::SEGMENTS;
-use occupant_core::body::joint::{BallJoint, HingeJoint, Joints};
+use occupant_core::forces::joint::{BallJoint, HingeJoint, Joints};
 use occupant_core::forces::joint::JointSystem;
 use occupant_core::forces::{History, Memory};
 use occupant_core::model::Model;

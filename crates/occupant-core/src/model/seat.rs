@@ -9,8 +9,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::body::{Body, Segment};
 use crate::forces::contact::flat_face::FlatFace;
-use crate::forces::material::BilinearSpring;
-use crate::forces::spring::Spring;
+use crate::forces::spring::{BilinearSpring, Spring};
 use crate::model::seating::Seating;
 use crate::motion::report_coordinates::quaternion;
 use crate::motion::state::State;

@@ -8,6 +8,7 @@ pub mod kinematics;
 #[cfg(any(target_arch = "x86_64", test))]
 pub(crate) mod lanes;
 pub mod limb;
+pub mod mobility;
 pub mod report_coordinates;
 pub mod scalar;
 pub mod skeleton;

@@ -1,29 +1,16 @@
 //! Dampers, stops and springs of the joints.
 
-use crate::body::joint::{BallJoint, HingeJoint, Joints, Stop};
+use crate::forces::joint::{BallJoint, HingeJoint, Joints, Stop};
 use crate::problem::Problems;
 
 pub(super) fn check(j: &Joints, problems: &mut Problems) {
-    let balls = [
-        ("neck", &j.neck),
-        ("right_shoulder", &j.right_shoulder),
-        ("left_shoulder", &j.left_shoulder),
-        ("upper_back", &j.upper_back),
-        ("lower_back", &j.lower_back),
-        ("right_hip", &j.right_hip),
-        ("left_hip", &j.left_hip),
-    ];
-    for (name, ball) in balls {
-        check_ball(ball, &format!("joints.{name}"), problems);
+    for (joint, ball) in j.balls() {
+        check_ball(ball, &format!("joints.{}", joint.name()), problems);
     }
-    let hinges = [
-        ("left_elbow", &j.left_elbow),
-        ("right_elbow", &j.right_elbow),
-        ("right_knee", &j.right_knee),
-        ("left_knee", &j.left_knee),
-    ];
-    for (name, hinge) in hinges {
-        check_hinge(hinge, &format!("joints.{name}"), problems);
+    let mut hinges = j.hinges();
+    hinges.sort_by_key(|(joint, _)| *joint);
+    for (joint, hinge) in hinges {
+        check_hinge(hinge, &format!("joints.{}", joint.name()), problems);
     }
     if !(0.0..=0.1).contains(&j.epsilon) {
         problems.error("joints.epsilon", format!("{}", j.epsilon), "a number from 0 to 0.1");

@@ -7,7 +7,7 @@
 use std::array::from_fn;
 
 use crate::body::SEGMENTS;
-use crate::body::joint::{BallJoint, HingeJoint, Joints, Stop};
+use crate::forces::joint::{BallJoint, HingeJoint, Joints, Stop};
 use crate::motion::dynamics::Wrench;
 use crate::motion::kinematics::{Kinematics, LIMBS};
 use crate::motion::scalar::Scalar;
@@ -137,14 +137,11 @@ impl<S: Copy> JointSystem<S> {
 impl<S: Scalar> JointSystem<S> {
     /// Constants from data; `rest_rad` are the β₀ of the ball joints that do not give their own.
     pub fn new(joints: &Joints, rest_rad: &[f64; 7]) -> Self {
-        let j = joints;
-        let balls =
-            [&j.neck, &j.right_shoulder, &j.left_shoulder, &j.upper_back, &j.lower_back, &j.right_hip, &j.left_hip];
-        let hinges = [&j.left_elbow, &j.right_elbow, &j.left_knee, &j.right_knee];
+        let (balls, epsilon) = (joints.balls(), joints.epsilon);
         JointSystem {
-            balls: from_fn(|i| ball(balls[i], rest_rad[i], j.epsilon)),
-            hinges: hinges.map(hinge),
-            epsilon_squared: S::of(j.epsilon * j.epsilon),
+            balls: from_fn(|i| ball(balls[i].1, rest_rad[i], epsilon)),
+            hinges: joints.hinges().map(|(_, joint)| hinge(joint)),
+            epsilon_squared: S::of(epsilon * epsilon),
         }
     }
 

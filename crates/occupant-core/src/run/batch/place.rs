@@ -31,14 +31,14 @@ pub(super) enum Next {
 }
 
 impl Next {
-    pub fn ended(status: Status) -> Self {
+    pub(super) fn ended(status: Status) -> Self {
         Next::Ends(Ok(status))
     }
 }
 
 impl<T, R: Recorder> Place<T, R> {
     /// The run of `job` at its start.
-    pub fn new(job: Job<T, R>, step_s: f64) -> Self {
+    pub(super) fn new(job: Job<T, R>, step_s: f64) -> Self {
         let run = Run::new(&job.model);
         Place {
             tag: job.tag,
@@ -52,7 +52,7 @@ impl<T, R: Recorder> Place<T, R> {
     }
 
     /// The first output.
-    pub fn begin(&mut self) -> Next {
+    pub(super) fn begin(&mut self) -> Next {
         match self.run.begin(&self.model, &mut self.recorder) {
             Ok(()) => self.output(),
             Err(error) => Next::Ends(Err(error)),
@@ -60,7 +60,7 @@ impl<T, R: Recorder> Place<T, R> {
     }
 
     /// Records an output and turns to the next.
-    pub fn output(&mut self) -> Next {
+    pub(super) fn output(&mut self) -> Next {
         match self.run.record(&self.model, &mut self.recorder) {
             Err(error) => return Next::Ends(Err(error)),
             Ok(Flow::Stop) => return Next::ended(Status::Stopped),
@@ -74,14 +74,14 @@ impl<T, R: Recorder> Place<T, R> {
     }
 
     /// The rest of the run, alone.
-    pub fn finish(&mut self) -> Result<Status, RecordingFailed> {
+    pub(super) fn finish(&mut self) -> Result<Status, RecordingFailed> {
         match self.run.advance_rk4(&self.model, self.stretch) {
             Err(error) => Ok(Status::Failed(error)),
             Ok(()) => go_on(&self.model, &mut self.run, &mut self.recorder),
         }
     }
 
-    pub fn end(mut self, kernel: Kernel, status: Result<Status, RecordingFailed>) -> Ended<T, R> {
+    pub(super) fn end(mut self, kernel: Kernel, status: Result<Status, RecordingFailed>) -> Ended<T, R> {
         let outcome = status.and_then(|status| self.run.end(status, &mut self.recorder));
         Ended { tag: self.tag, model: self.model, recorder: self.recorder, outcome, kernel }
     }

@@ -1,7 +1,8 @@
 //! `[joints]` → [`Joints`].
 
 use super::builder::Builder;
-use crate::body::joint::{AngularSpring, BallJoint, HingeJoint, Joint, Joints, Stop};
+use crate::body::joint::Joint;
+use crate::forces::joint::{AngularSpring, BallJoint, HingeJoint, Joints, Stop};
 use crate::scenario::document::{Node, Table};
 use crate::scenario::model::{JointSection, JointsSection, StopSection};
 use crate::scenario::path_text::with_key;

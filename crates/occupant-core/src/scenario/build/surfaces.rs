@@ -4,8 +4,9 @@ use nalgebra::{Point3, Vector3};
 
 use super::builder::Builder;
 use crate::body::Body;
+use crate::forces::contact::material::{DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
 use crate::forces::contact::surface::{Facing, Frame, Outline, Surface};
-use crate::forces::material::{BilinearSpring, DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
+use crate::forces::spring::BilinearSpring;
 use crate::scenario::model::{
     DiscSection, FrameChoice, Length, MaterialSection, MemoryChoice, Ratio, Scenario, Stiffness, SurfaceSection,
 };
