@@ -1,8 +1,9 @@
 //! `[joints]` → [`Joints`].
 
 use super::builder::Builder;
-use crate::body::joint::{AngularSpring, BallJoint, HingeJoint, Joint, JointLaw, Joints, Stop};
+use crate::body::Joint;
 use crate::body::tti12::TTI12;
+use crate::forces::joint::{AngularSpring, BallJoint, HingeJoint, JointLaw, Joints, Stop};
 use crate::scenario::document::{Node, Table};
 use crate::scenario::model::{JointSection, JointsSection, StopSection};
 use crate::scenario::path_text::with_key;

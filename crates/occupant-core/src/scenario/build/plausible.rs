@@ -3,7 +3,7 @@
 
 use super::builder::Builder;
 use crate::body::tti12::TTI12;
-use crate::forces::material::BilinearSpring;
+use crate::forces::spring::BilinearSpring;
 use crate::model::seating::InitialPosture;
 use crate::model::setup::Setup;
 use crate::scenario::model::{Angle, PostureSection, Scenario};

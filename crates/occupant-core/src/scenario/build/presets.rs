@@ -8,7 +8,7 @@ use serde::de::DeserializeOwned;
 use super::builder::Builder;
 use super::{body, joints};
 use crate::body::Body;
-use crate::body::joint::Joints;
+use crate::forces::joint::Joints;
 use crate::scenario::document::Node;
 use crate::scenario::expand::expand;
 use crate::scenario::kind::UnitSystem;

@@ -4,8 +4,9 @@ use nalgebra::Vector3;
 
 use super::builder::Builder;
 use crate::body::Body;
+use crate::forces::contact::material::{Material, Memory};
 use crate::forces::contact::surface::{Facing, Frame, Outline, Surface};
-use crate::forces::material::{BilinearSpring, Material, Memory};
+use crate::forces::spring::BilinearSpring;
 use crate::scenario::model::{
     DiscSection, FrameChoice, Length, MaterialSection, MemoryChoice, Ratio, Scenario, Stiffness, SurfaceSection,
 };
