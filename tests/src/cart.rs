@@ -1,12 +1,12 @@
 //! The lap-belted occupant on a cart that stops from 20 mph: compartment, joints, belt and pulse.
 
 use nalgebra::{Point3, Vector3};
-use occupant_core::body::joint::{AngularSpring, BallJoint, HingeJoint, Joints, Stop};
 use occupant_core::body::tti12::{self, TTI12};
 use occupant_core::forces::belt::{Belt, RestLength};
 use occupant_core::forces::contact::EdgeForce;
+use occupant_core::forces::contact::material::{DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
 use occupant_core::forces::contact::surface::{Facing, Frame, Outline, Surface};
-use occupant_core::forces::material::{DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
+use occupant_core::forces::joint::{AngularSpring, BallJoint, HingeJoint, Joints, Stop};
 use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating};
 use occupant_core::model::setup::{Integrator, OutputOptions, Setup, TimeSpan};
 use occupant_core::vehicle::{

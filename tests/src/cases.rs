@@ -1,13 +1,14 @@
 //! Bodies, materials, surfaces and whole cases, built in code from published figures.
 
 use nalgebra::{Point3, Vector3};
-use occupant_core::body::joint::Joints;
 use occupant_core::body::tti12::TTI12;
 use occupant_core::body::{Body, SEGMENTS, SegmentProperties};
 use occupant_core::forces::belt::{Belt, RestLength};
 use occupant_core::forces::contact::EdgeForce;
+use occupant_core::forces::contact::material::{DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
 use occupant_core::forces::contact::surface::{Facing, Frame, Outline, Surface};
-use occupant_core::forces::material::{BilinearSpring, DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
+use occupant_core::forces::joint::Joints;
+use occupant_core::forces::spring::BilinearSpring;
 use occupant_core::model::seating::{InitialPosture, InitialVelocity};
 use occupant_core::model::setup::{Integrator, OutputOptions, Setup, TimeSpan};
 use occupant_core::motion::report_coordinates::{DOF, ReportCoordinates};

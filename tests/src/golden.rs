@@ -5,11 +5,11 @@ use nalgebra::{Point3, Vector3};
 use occupant_core::body::Body;
 use occupant_core::body::ContactSphere;
 use occupant_core::body::SegmentProperties;
-use occupant_core::body::joint::AngularSpring;
-use occupant_core::body::joint::BallJoint;
-use occupant_core::body::joint::HingeJoint;
-use occupant_core::body::joint::Joints;
 use occupant_core::body::tti12::{self, TTI12};
+use occupant_core::forces::joint::AngularSpring;
+use occupant_core::forces::joint::BallJoint;
+use occupant_core::forces::joint::HingeJoint;
+use occupant_core::forces::joint::Joints;
 use serde::Deserialize;
 
 /// The whole file; index 0 is the report's number 1. Inches, pounds-force, seconds, radians.

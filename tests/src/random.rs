@@ -10,12 +10,12 @@ use nalgebra::{Quaternion, UnitQuaternion, Vector3};
 use occupant_core::body::Body;
 use occupant_core::body::Segment;
 use occupant_core::body::SegmentProperties;
-use occupant_core::body::joint::AngularSpring;
-use occupant_core::body::joint::BallJoint;
-use occupant_core::body::joint::HingeJoint;
-use occupant_core::body::joint::Joints;
-use occupant_core::body::joint::Stop;
 use occupant_core::body::tti12::{self, TTI12};
+use occupant_core::forces::joint::AngularSpring;
+use occupant_core::forces::joint::BallJoint;
+use occupant_core::forces::joint::HingeJoint;
+use occupant_core::forces::joint::Joints;
+use occupant_core::forces::joint::Stop;
 use std::f64::consts::PI;
 
 /// SplitMix64 (Steele, Lea, Flood 2014).

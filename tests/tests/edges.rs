@@ -2,9 +2,9 @@
 
 use nalgebra::Vector3;
 use occupant_core::forces::contact::EdgeForce;
+use occupant_core::forces::contact::material::Material;
 use occupant_core::forces::contact::surface::Surface;
 use occupant_core::forces::contact::{OPEN, PASSED, TOUCHING};
-use occupant_core::forces::material::Material;
 use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
 use occupant_core::results::recorder::Watch;

@@ -3,9 +3,9 @@
 use nalgebra::{Matrix2, UnitQuaternion, Vector2, Vector3};
 use occupant_core::body::Body;
 use occupant_core::body::Segment;
-use occupant_core::body::joint::Joints;
 use occupant_core::body::tti12::{self, TTI12};
 use occupant_core::forces::joint::DAMPING;
+use occupant_core::forces::joint::Joints;
 use occupant_core::motion::kinematics::axes;
 use occupant_core::motion::state::State;
 use occupant_tests::{

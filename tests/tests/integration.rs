@@ -1,8 +1,8 @@
 //! Integrators: observed order, error control, step halving, motion through the singular posture of Euler angles.
 
 use nalgebra::{Point3, Vector3};
-use occupant_core::body::joint::{AngularSpring, BallJoint, HingeJoint, Joints};
 use occupant_core::body::tti12::TTI12;
+use occupant_core::forces::joint::{AngularSpring, BallJoint, HingeJoint, Joints};
 use occupant_core::forces::{belt, joint};
 use occupant_core::model::Model;
 use occupant_core::model::seating::InitialPosture;

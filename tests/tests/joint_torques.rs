@@ -1,8 +1,8 @@
 //! The reference's joints against the torques that the joint model states, as vectors.
 
 use nalgebra::Vector3;
-use occupant_core::body::joint::{BallJoint, HingeJoint, Joints, Stop};
 use occupant_core::body::tti12::{self, TTI12};
+use occupant_core::forces::joint::{BallJoint, HingeJoint, Joints, Stop};
 use occupant_tests::{
     random::Random,
     reference::{DOF, ball, damping_forces, hinge, joint_angle, space_velocities, spine_energy},

@@ -1,8 +1,8 @@
 //! Joints: the rate of β, springs, dampers, stops, twist.
 
 use nalgebra::{Unit, UnitQuaternion, Vector3};
-use occupant_core::body::joint::{AngularSpring, BallJoint, HingeJoint, Joints, Stop};
 use occupant_core::body::tti12::{self, TTI12};
+use occupant_core::forces::joint::{AngularSpring, BallJoint, HingeJoint, Joints, Stop};
 use occupant_core::forces::joint::{BallAction, JointSystem};
 use occupant_core::motion::kinematics::Kinematics;
 use occupant_core::motion::layout::{BALLS, FREE, free_slot};

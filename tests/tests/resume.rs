@@ -1,8 +1,8 @@
 //! A run that goes on from a checkpoint is, to the bit, the run that was never interrupted.
 
 use occupant_core::forces::Misfit;
+use occupant_core::forces::contact::material::Memory;
 use occupant_core::forces::contact::{OPEN, PASSED, TOUCHING};
-use occupant_core::forces::material::Memory;
 use occupant_core::model::Model;
 use occupant_core::model::seating::InitialPosture;
 use occupant_core::model::setup::{Integrator, Setup};

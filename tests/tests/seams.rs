@@ -4,9 +4,9 @@ use std::f64::consts::FRAC_PI_4;
 
 use nalgebra::{Point3, Vector3};
 use occupant_core::forces::contact::EdgeForce;
+use occupant_core::forces::contact::material::Material;
 use occupant_core::forces::contact::surface::{Facing, Frame, Outline, Surface};
 use occupant_core::forces::contact::{PASSED, TOUCHING};
-use occupant_core::forces::material::Material;
 use occupant_tests::cases::{rectangle, smooth, spring};
 use occupant_tests::measure::assert_below;
 use occupant_tests::probe::{Probe, RADIUS_M};

@@ -1,10 +1,10 @@
 //! Seats: the cushion carries what it should, legs reach their heels, settled bodies stay.
 
 use nalgebra::{Matrix3, Vector3};
-use occupant_core::body::joint::{BallJoint, HingeJoint, Joints};
 use occupant_core::body::tti12::{self, TTI12};
 use occupant_core::body::{Body, Segment};
 use occupant_core::forces::contact::surface::Outline;
+use occupant_core::forces::joint::{BallJoint, HingeJoint, Joints};
 use occupant_core::model::Model;
 use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating};
 use occupant_core::model::setup::{Integrator, Setup};

@@ -2,8 +2,8 @@
 
 use nalgebra::Vector3;
 use occupant_core::forces::contact::EdgeForce;
-use occupant_core::forces::material::{BilinearSpring, Material, Memory};
-use occupant_core::forces::spring::Spring;
+use occupant_core::forces::contact::material::{Material, Memory};
+use occupant_core::forces::spring::{BilinearSpring, Spring};
 use occupant_core::model::Model;
 use occupant_core::results::recorder::Watch;
 use occupant_core::run::simulate::simulate;

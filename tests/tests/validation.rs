@@ -1,9 +1,9 @@
 //! Wrong setups: every problem at once, each with its place, what was found and what was expected.
 
 use nalgebra::{Point3, Vector3};
-use occupant_core::body::joint::Stop;
 use occupant_core::body::tti12;
 use occupant_core::forces::contact::surface::{Facing, Frame, Outline};
+use occupant_core::forces::joint::Stop;
 use occupant_core::model::Model;
 use occupant_core::model::seating::InitialPosture;
 use occupant_core::model::setup::{Integrator, Setup};

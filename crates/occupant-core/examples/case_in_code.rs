@@ -8,10 +8,11 @@ use std::error::Error;
 
 use nalgebra::Point3;
 use occupant_core::body::Body;
-use occupant_core::body::joint::Joints;
 use occupant_core::forces::belt::Belt;
+use occupant_core::forces::contact::material::Material;
 use occupant_core::forces::contact::surface::{Frame, Outline, Surface};
-use occupant_core::forces::material::{BilinearSpring, Material};
+use occupant_core::forces::joint::Joints;
+use occupant_core::forces::spring::BilinearSpring;
 use occupant_core::model::Model;
 use occupant_core::model::builder::SetupBuilder;
 use occupant_core::model::seating::{InitialPosture, Seating};

@@ -57,9 +57,11 @@
 //!
 //! ```
 //! use nalgebra::{Point3, Vector3};
-//! use occupant_core::body::{Body, joint::Joints};
+//! use occupant_core::body::Body;
 //! use occupant_core::forces::contact::surface::{Facing, Frame, Outline, Surface};
-//! use occupant_core::forces::material::{BilinearSpring, Material};
+//! use occupant_core::forces::contact::material::Material;
+//! use occupant_core::forces::joint::Joints;
+//! use occupant_core::forces::spring::BilinearSpring;
 //! use occupant_core::model::{Model, builder::SetupBuilder, seating::InitialPosture};
 //! use occupant_core::motion::report_coordinates::{DOF, ReportCoordinates};
 //! use occupant_core::results::summary::Summarizer;

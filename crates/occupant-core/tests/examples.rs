@@ -16,7 +16,7 @@ mod sweep_with_rayon;
 use std::path::Path;
 
 use occupant_core::body::Body;
-use occupant_core::body::joint::Joints;
+use occupant_core::forces::joint::Joints;
 use occupant_core::model::Model;
 use occupant_core::model::builder::SetupBuilder;
 use occupant_core::model::seating::InitialPosture;

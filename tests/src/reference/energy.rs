@@ -10,7 +10,7 @@ use super::{
 };
 use nalgebra::Vector3;
 use occupant_core::body::Body;
-use occupant_core::body::joint::Joints;
+use occupant_core::forces::joint::Joints;
 
 /// U, Eq. 54.
 pub fn kinetic_energy<T: Number>(body: &Body, q: &[T; DOF], rates: &[T; DOF]) -> T {

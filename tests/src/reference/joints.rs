@@ -9,8 +9,9 @@ use super::{
     vector::Vector,
 };
 use nalgebra::Vector3;
-use occupant_core::body::joint::{BallJoint, HingeJoint, Joint, Joints, Stop};
+use occupant_core::body::Joint;
 use occupant_core::body::tti12;
+use occupant_core::forces::joint::{BallJoint, HingeJoint, Joints, Stop};
 
 /// The law of a ball joint.
 ///

@@ -28,7 +28,7 @@ pub use vector::Vector;
 
 use nalgebra::Vector3;
 use occupant_core::body::Body;
-use occupant_core::body::joint::Joints;
+use occupant_core::forces::joint::Joints;
 
 /// Number of generalized coordinates.
 pub const DOF: usize = 31;

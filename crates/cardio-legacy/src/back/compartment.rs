@@ -1,8 +1,8 @@
 //! Materials and surfaces → series 8 and 9.
 
 use nalgebra::{Point3, Vector3};
+use occupant_core::forces::contact::material::{DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
 use occupant_core::forces::contact::surface::{Frame, Outline, Surface};
-use occupant_core::forces::material::{DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
 
 use super::digits::{digits, factor};
 use super::points::{Polygon, place_points};

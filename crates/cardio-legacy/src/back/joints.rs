@@ -1,7 +1,7 @@
 //! Joints → series 11.
 
-use occupant_core::body::joint::{BallJoint, HingeJoint, Joints, Stop};
 use occupant_core::body::tti12::*;
+use occupant_core::forces::joint::{BallJoint, HingeJoint, Joints, Stop};
 
 use super::Back;
 use crate::cards::{JOINTS, Joint};

@@ -4,8 +4,8 @@
 
 use occupant_bench::Instant;
 use occupant_core::body::SEGMENTS;
-use occupant_core::body::joint::{BallJoint, Joints};
 use occupant_core::body::tti12::{self, TTI12};
+use occupant_core::forces::joint::{BallJoint, Joints};
 use occupant_core::model::Model;
 
 use crate::coordinates::{ORDER, PARENTS, Placed, limb, positions, speeds};

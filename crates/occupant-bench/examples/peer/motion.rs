@@ -3,8 +3,8 @@
 
 use occupant_bench::{self as scene, Instant};
 use occupant_core::body::SEGMENTS;
-use occupant_core::body::joint::{HingeJoint, JointLaw, Joints};
 use occupant_core::forces::joint::JointSystem;
+use occupant_core::forces::joint::{HingeJoint, JointLaw, Joints};
 use occupant_core::forces::{History, Memory};
 use occupant_core::model::Model;
 use occupant_core::motion::frame::VEHICLE;

@@ -4,8 +4,8 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::{UnitQuaternion, Vector3};
 use occupant_cli::mcap::StoredRun;
+use occupant_core::body::Joint;
 use occupant_core::body::Segment;
-use occupant_core::body::joint::Joint;
 use occupant_core::results::reaction::{femur_axial_n, reaction};
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;

@@ -3,14 +3,13 @@
 //! Report: "Body Geometry and Coordinate Systems", Fig. 1, Fig. 5, Eqs 13–26. Segment axes are X ahead, Y to the
 //! occupant's left and Z up when the occupant stands upright with hanging arms; they are principal axes.
 
-pub mod joint;
 pub mod tree;
 pub mod tti12;
 
 use nalgebra::{Point3, Vector3};
 
+pub use tree::{Joint, Segment, Tree};
 use tree::{Place, Side, Width};
-pub use tree::{Segment, Tree};
 
 /// Number of rigid segments of the bodies that the kernel is compiled for.
 pub const SEGMENTS: usize = tti12::TTI12.segment_rows().len();

@@ -5,7 +5,7 @@
 
 use serde::Serialize;
 
-use super::mobility::Mobility;
+use super::mobility_of;
 use super::rates::FrictionMasses;
 use crate::model::Model;
 use crate::model::setup::Integrator;
@@ -14,7 +14,7 @@ use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
 
 /// Stability number above which a warning is due.
-pub const LIMIT: f64 = 2.0;
+pub(super) const LIMIT: f64 = 2.0;
 
 /// A sphere's friction against one material that was too strong for the step.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -139,7 +139,7 @@ impl Recorder for FrictionWatch {
             Integrator::Adaptive { .. } => 0.0,
         };
         *self = FrictionWatch {
-            masses: Some(FrictionMasses::new(model, &Mobility::new(model))),
+            masses: Some(FrictionMasses::new(model, &mobility_of(model))),
             step_s,
             worst: vec![Worst::default(); setup.materials.len() * setup.body.spheres.len()],
         };

@@ -2,23 +2,23 @@
 //!
 //! All figures are those of the start of the run. Ours; the report prints the seating only.
 
-pub mod friction;
-pub mod mobility;
-pub mod rates;
+mod friction;
+mod rates;
 mod start;
 
 use nalgebra::Vector3;
 use serde::Serialize;
 
+pub use crate::forces::rate::Rate;
 pub use friction::{FrictionWatch, UnstableFriction};
-pub use rates::{RK4_STABILITY_LIMIT, Rate, SphereRate};
+pub use rates::{RK4_STABILITY_LIMIT, SphereRate};
 pub use start::{BeltStart, ContactStart, SeatStart, SettleStart, SphereBehind};
 
 use crate::body::Segment;
 use crate::model::Model;
 use crate::model::setup::Integrator;
+use crate::motion::mobility::Mobility;
 use crate::vehicle::{PathCursor, VehiclePath};
-use mobility::Mobility;
 use rates::FrictionMasses;
 
 /// Degrees of freedom of the body.
@@ -127,12 +127,11 @@ pub fn diagnose(model: &Model) -> Diagnosis {
         Integrator::Rk4 { step_s } => Some(step_s),
         Integrator::Adaptive { .. } => None,
     };
-    let mobility = Mobility::new(model);
+    let mobility = mobility_of(model);
     let masses = FrictionMasses::new(model, &mobility);
     let sphere_rates = rates::of_spheres(model, &mobility, &masses, step_s);
     let start = start::look(model, &mobility);
-    let mut other_rates = start.belt_rates;
-    other_rates.extend(rates::of_joints(model, &mobility));
+    let other_rates = start.rates;
     let all = sphere_rates.iter().map(|s| &s.rate).chain(&other_rates);
     let fastest = all.min_by(|a, b| a.time_scale_s.total_cmp(&b.time_scale_s)).cloned();
     let step_by_time_scale = step_s.zip(fastest.as_ref()).map(|(h, r)| h / r.time_scale_s);
@@ -162,6 +161,11 @@ pub fn diagnose(model: &Model) -> Diagnosis {
         fastest,
         step_by_time_scale,
     }
+}
+
+/// How the body of `model` gives way at the start.
+fn mobility_of(model: &Model) -> Mobility<'_> {
+    Mobility::new(&model.system().skeleton, &model.start().state)
 }
 
 fn body(model: &Model) -> BodyFigures {

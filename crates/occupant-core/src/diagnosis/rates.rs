@@ -1,43 +1,23 @@
-//! The fastest rates of the equations of motion at the start: springs of contacts and belts, dampers of joints.
+//! The fastest rates of contacts at the start, and the friction that a step can bear.
 //!
-//! A spring K against an effective mass m oscillates with ω = √(K/m); a damper J against an effective inertia I decays
-//! with J/I. The classical Runge–Kutta method is stable while step·rate stays below about 2.8 on either axis. These are
+//! The classical Runge–Kutta method is stable while step·rate stays below about 2.8 on either axis. These are
 //! estimates: the posture is that of the start, the slope the steepest of the material, the mass the smallest of any
 //! direction, and each force acts alone.
 
-use nalgebra::{Matrix3, Vector3};
+use nalgebra::Vector3;
 use serde::Serialize;
 
-use super::mobility::{Mobility, across, greatest};
-use crate::body::joint::{BallJoint, Joint};
 use crate::forces::contact::flat_face::FlatFace;
+use crate::forces::contact::material::Material;
 use crate::forces::contact::surface::Frame;
-use crate::forces::material::{BilinearSpring, Material};
-use crate::forces::spring::Spring;
+use crate::forces::rate::Rate;
 use crate::model::Model;
 use crate::model::setup::Setup;
-use crate::motion::frame::Moving;
-use crate::motion::layout::{BALL_JOINTS, BALLS, HINGE_JOINTS};
-use crate::results::sample::Sample;
+use crate::motion::mobility::{Mobility, across, greatest};
 use crate::vehicle::{FrameMotion, PathCursor};
 
 /// step·rate at which the classical Runge–Kutta method becomes unstable, on the imaginary axis; 2.785 on the real one.
 pub const RK4_STABILITY_LIMIT: f64 = 2.8;
-
-/// A rate of the equations of motion.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Rate {
-    /// Name of the sphere, belt or joint.
-    pub of: String,
-    /// What makes it: the material, the belt's sphere, or the joint's damper or spring.
-    pub by: String,
-    /// Effective mass in kg, or effective inertia in kg·m².
-    pub effective: f64,
-    /// Stiffness in N/m or N·m/rad, or damping in N·m·s/rad.
-    pub coefficient: f64,
-    /// 1/rate, s.
-    pub time_scale_s: f64,
-}
 
 /// What a sphere meets: its stiffest contact and the friction that the step can bear.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -53,7 +33,7 @@ pub struct SphereRate {
 
 /// Effective mass of a sphere for friction, by surface.
 #[derive(Clone, Debug)]
-pub struct FrictionMasses {
+pub(super) struct FrictionMasses {
     surfaces: usize,
     /// By sphere and surface, kg; 0 for pairs that cannot touch.
     tangential_kg: Vec<f64>,
@@ -61,7 +41,7 @@ pub struct FrictionMasses {
 
 impl FrictionMasses {
     /// For every sphere and every surface that it can touch.
-    pub fn new(model: &Model, mobility: &Mobility<'_>) -> Self {
+    pub(super) fn new(model: &Model, mobility: &Mobility<'_>) -> Self {
         let surfaces = model.faces().len();
         let mut tangential_kg = vec![0.0; surfaces * model.body().spheres.len()];
         for (sphere, surface) in pairs(model) {
@@ -71,7 +51,7 @@ impl FrictionMasses {
     }
 
     /// step·f·wF/(v_s·m_eff), the friction's rate times the step; unstable above 2.
-    pub fn number(&self, model: &Model, sphere: usize, surface: usize, normal_force_n: f64, step_s: f64) -> f64 {
+    pub(super) fn number(&self, model: &Model, sphere: usize, surface: usize, normal_force_n: f64, step_s: f64) -> f64 {
         let per_newton = self.per_newton(model, sphere, surface, step_s);
         normal_force_n * per_newton
     }
@@ -127,7 +107,7 @@ pub(super) fn of_spheres(
     let setup = model.setup();
     let one = |sphere: usize| {
         let own = || pairs(model).filter(move |&(s, _)| s == sphere).map(|(_, f)| f);
-        let slope = |&surface: &usize| steepest(&material_of(setup, surface).spring);
+        let slope = |&surface: &usize| material_of(setup, surface).spring.steepest_n_per_m();
         let stiffest = own().max_by(|a, b| slope(a).total_cmp(&slope(b)))?;
         let site = &model.system().spheres[sphere];
         let (_, centre, _) = model.system().sphere(mobility.kinematics(), sphere);
@@ -138,7 +118,7 @@ pub(super) fn of_spheres(
             (per_newton > 0.0).then_some((super::friction::LIMIT / per_newton, surface))
         });
         let name = |surface: usize| setup.surfaces[surface].name.clone();
-        let rate = spring_rate(
+        let rate = Rate::of_spring(
             setup.body.spheres[sphere].name.clone(),
             material_of(setup, stiffest).name.clone(),
             mass_kg,
@@ -153,93 +133,7 @@ pub(super) fn of_spheres(
     (0..setup.body.spheres.len()).filter_map(one).collect()
 }
 
-/// Belts: loop stiffness against the mass that the sum of the two free lengths' directions moves.
-pub(super) fn of_belts(sample: &Sample<'_>, mobility: &Mobility<'_>) -> Vec<Rate> {
-    let model = sample.model;
-    let setup = model.setup();
-    let vehicle: Moving<f64> = Moving::of(sample.vehicle);
-    let one = |(belt, action): (&crate::forces::belt::Belt, &crate::forces::belt::law::BeltAction<f64>)| {
-        // −gradient of the length with respect to the centre
-        let gradient = vehicle.axes.out(action.free[0] + action.free[1]).to_vector();
-        let site = &model.system().spheres[belt.sphere];
-        let (_, centre, _) = model.system().sphere(mobility.kinematics(), belt.sphere);
-        let give = gradient.dot(&(mobility.of_point(site.segment, centre) * gradient));
-        let sphere = &setup.body.spheres[belt.sphere].name;
-        spring_rate(belt.name.clone(), format!("on {sphere}"), 1.0 / give, steepest(&belt.webbing))
-    };
-    setup.belts.iter().zip(&sample.actions.belts).map(one).collect()
-}
-
-/// Joints: the damper at its strongest, and the spring.
-pub(super) fn of_joints(model: &Model, mobility: &Mobility<'_>) -> Vec<Rate> {
-    let j = &model.setup().joints;
-    let name = |joint: Joint| j.tree()[joint].name;
-    let mut rates = Vec::new();
-    for (joint, &(inner, outer)) in BALL_JOINTS.iter().zip(BALLS) {
-        let Some(law) = j[*joint].ball() else { continue };
-        let relative = mobility.of_joint(inner, outer);
-        rates.extend(ball_rates(name(*joint), law, &relative, mobility, inner, outer, j.epsilon));
-    }
-    for (limb, joint) in HINGE_JOINTS.iter().enumerate() {
-        let Some(law) = j[*joint].hinge() else { continue };
-        let stops = [law.lower_stop, law.upper_stop];
-        let strongest = stops.iter().flatten().fold(law.damping_n_m_s, |most, stop| most.max(stop.damping_n_m_s));
-        rates.extend(damper_rate(name(*joint), 1.0 / mobility.of_hinge(limb), strongest));
-    }
-    rates
-}
-
-fn ball_rates(
-    name: &str,
-    joint: &BallJoint,
-    relative: &Matrix3<f64>,
-    mobility: &Mobility<'_>,
-    inner: usize,
-    outer: usize,
-    epsilon: f64,
-) -> Vec<Rate> {
-    let axes = &mobility.kinematics().axes;
-    let (z_k, z_l) = (axes[inner].z.to_vector(), axes[outer].z.to_vector());
-    let n = z_k.cross(&z_l);
-    let sine_squared = (n.norm_squared() + epsilon * epsilon).max(1e-30);
-    // T = −J·C·ω with C = [n nᵀ + ε²(1 − Z_k Z_kᵀ)]/(s² + ε²)
-    let plane = Matrix3::identity() - z_k * z_k.transpose();
-    let shape = (n * n.transpose() + plane * (epsilon * epsilon)) / sine_squared;
-    let damping = joint.stop.map_or(joint.damping_n_m_s, |s| s.damping_n_m_s.max(joint.damping_n_m_s));
-    // the eigenvalues of C·W are those of LᵀCL, W = L·Lᵀ
-    let give = relative.cholesky().map_or(0.0, |c| greatest(c.l().transpose() * shape * c.l()));
-    let mut rates = Vec::new();
-    if give > 0.0 {
-        rates.extend(damper_rate(name, 1.0 / give, damping));
-    }
-    let twist = z_l.dot(&(relative * z_l));
-    rates.extend(damper_rate(&format!("{name}, twist"), 1.0 / twist, joint.twist_damping_n_m_s));
-    let bend = n.dot(&(relative * n)) / sine_squared;
-    if let Some(spring) = joint.spring.filter(|s| s.stiffness_n_m > 0.0 && bend > 0.0) {
-        rates.push(spring_rate(name.to_owned(), "spring".to_owned(), 1.0 / bend, spring.stiffness_n_m));
-    }
-    rates
-}
-
-fn spring_rate(of: String, by: String, effective: f64, stiffness: f64) -> Rate {
-    Rate { of, by, effective, coefficient: stiffness, time_scale_s: (effective / stiffness).sqrt() }
-}
-
-fn damper_rate(of: &str, inertia_kg_m2: f64, damping_n_m_s: f64) -> Option<Rate> {
-    (damping_n_m_s > 0.0).then(|| Rate {
-        of: of.to_owned(),
-        by: "damper".to_owned(),
-        effective: inertia_kg_m2,
-        coefficient: damping_n_m_s,
-        time_scale_s: inertia_kg_m2 / damping_n_m_s,
-    })
-}
-
 /// Material of a surface.
 fn material_of(setup: &Setup, surface: usize) -> &Material {
     &setup.materials[setup.surfaces[surface].material]
-}
-
-fn steepest(spring: &BilinearSpring) -> f64 {
-    Spring::<f64>::new(spring).steepest()
 }

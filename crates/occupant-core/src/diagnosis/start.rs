@@ -2,14 +2,16 @@
 
 use serde::Serialize;
 
-use super::mobility::Mobility;
-use super::rates::{Rate, of_belts, vehicle_at_start};
+use super::rates::vehicle_at_start;
+use crate::forces::Instant;
 use crate::forces::contact::PASSED;
 use crate::forces::contact::face;
 use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::contact::surface::{Frame, Outline};
+use crate::forces::rate::Rate;
 use crate::model::Model;
 use crate::model::seating::InitialPosture;
+use crate::motion::mobility::Mobility;
 use crate::motion::vector::V3;
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::{Contact, Sample};
@@ -97,7 +99,8 @@ pub struct BeltStart {
 pub(super) struct Look {
     pub contacts: Vec<ContactStart>,
     pub belts: Vec<BeltStart>,
-    pub belt_rates: Vec<Rate>,
+    /// Of force elements.
+    pub rates: Vec<Rate>,
 }
 
 /// Takes the first sample of a run and ends it there.
@@ -115,10 +118,14 @@ struct First<'a> {
 
 impl Recorder for First<'_> {
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        let (model, k) = (sample.model, &sample.evaluation.kinematics);
+        let spheres = &model.system().spheres;
+        let at = Instant { k, state: sample.state, frames: sample.frames, spheres };
+        let data = model.setup().forces(model.faces());
         self.look = Look {
             contacts: sample.contacts().map(|c| contact(sample, &c)).collect(),
             belts: belts(sample),
-            belt_rates: of_belts(sample, self.mobility),
+            rates: data.rates(model.body(), &at, sample.actions, self.mobility),
         };
         Ok(Flow::Stop)
     }

@@ -1,4 +1,4 @@
-use nalgebra::Vector3;
+use nalgebra::{SymmetricEigen, Vector3};
 
 use super::*;
 use crate::body::tti12::TTI12;
@@ -6,6 +6,7 @@ use crate::motion::dynamics::{Wrench, solve};
 use crate::motion::frame::Moving;
 use crate::motion::kinematics::Kinematics;
 use crate::motion::layout::FREE;
+use crate::motion::mobility::greatest;
 use crate::motion::state::State;
 use crate::motion::vector::V3;
 use crate::results::energy::kinetic;
@@ -33,7 +34,7 @@ pub(crate) fn free_body() -> Model {
 /// Height of the lowest point of the spheres of [`free_body`], m.
 pub(crate) fn lowest_m() -> f64 {
     let model = free_body();
-    let mobility = Mobility::new(&model);
+    let mobility = mobility_of(&model);
     let spheres = model.body().spheres.iter().enumerate();
     let bottom = spheres.map(|(i, sphere)| {
         let (_, centre, _) = model.system().sphere(mobility.kinematics(), i);
@@ -62,17 +63,17 @@ fn standing_on(friction: f64, step: &str) -> Model {
 fn an_impulse_at_a_point_gives_the_kinetic_energy_that_its_mobility_says() {
     // u = D⁻¹JᵀF has ½uᵀDu = ½F·(JD⁻¹Jᵀ)F: energy and mobility come from different code
     let model = free_body();
-    let mobility = Mobility::new(&model);
+    let mobility = mobility_of(&model);
     let k = mobility.kinematics();
     let skeleton = &model.system().skeleton;
     let force = Vector3::new(0.7, -1.1, 0.4);
     for segment in TTI12.segments() {
         let n = segment.index();
         let arm = V3 { x: 0.05, y: -0.02, z: 0.11 };
-        let mut loads = [Wrench::zero(); 12];
+        let mut loads = [Wrench::zero(); SEGMENTS];
         loads[n] = Wrench { force: V3::of(&force), moment: arm.cross(V3::of(&force)) };
         let still = State { velocity: V3::zero(), omega: [V3::zero(); 8], hinge_rate: [0.0; 4], ..model.start().state };
-        let base = solve(skeleton, k, &[0.0; 4], &[Wrench::zero(); 12]);
+        let base = solve(skeleton, k, &[0.0; 4], &[Wrench::zero(); SEGMENTS]);
         let pushed = solve(skeleton, k, &[0.0; 4], &loads);
         let moving = State {
             velocity: pushed.joint[0] - base.joint[0],
@@ -152,4 +153,43 @@ fn contacts_at_the_start_are_those_of_the_first_output() {
     }
     assert_eq!(d.body.degrees_of_freedom, 31);
     assert!((d.body.segments.iter().map(|s| s.mass_kg).sum::<f64>() - d.body.mass_kg).abs() < 1e-12);
+}
+
+#[test]
+fn a_point_responds_as_the_change_of_its_velocity_under_an_impulse_says() {
+    // reciprocity and positive work: the mobility is symmetric and positive for any point of any segment
+    let model = free_body();
+    let mobility = mobility_of(&model);
+    for segment in TTI12.segments() {
+        let n = segment.index();
+        let point = mobility.kinematics().joint[n] + V3 { x: 0.03, y: -0.05, z: 0.1 };
+        let raw = mobility.of_point(n, point);
+        let eigenvalues = SymmetricEigen::new(raw).eigenvalues;
+        assert!(eigenvalues.min() > 0.0, "{segment:?}: {eigenvalues}");
+        // no point can be lighter than nothing or heavier than the body
+        let lightest = 1.0 / greatest(raw);
+        assert!(lightest < model.body().mass_kg(), "{segment:?}");
+    }
+}
+
+#[test]
+fn a_force_through_the_whole_body_moves_its_mass() {
+    // Σ over segments of the response to M_n·g is g itself: the tree falls as one
+    let model = free_body();
+    let mobility = mobility_of(&model);
+    let k = mobility.kinematics();
+    let skeleton = &model.system().skeleton;
+    let mut loads = [Wrench::zero(); SEGMENTS];
+    for (n, link) in skeleton.links.iter().enumerate() {
+        let force = V3 { x: link.mass, y: 0.0, z: 0.0 };
+        loads[n] = Wrench { force, moment: (k.cg(skeleton, n) - k.joint[n]).cross(force) };
+    }
+    let a = mobility.loaded(&loads);
+    for segment in TTI12.segments() {
+        let n = segment.index();
+        let change = a.joint[n] - mobility.unloaded.joint[n];
+        // measured: 6.7e-16, and 5.2e-15 for the angular part
+        assert!((change.x - 1.0).abs() < 1e-12, "{segment:?}: {change:?}");
+        assert!(a.alpha[n].norm_squared().sqrt() < 1e-11, "{segment:?}");
+    }
 }

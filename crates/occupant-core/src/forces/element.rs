@@ -3,10 +3,12 @@
 use std::fmt::Debug;
 
 use crate::body::{Body, SEGMENTS};
+use crate::forces::rate::Rate;
 use crate::forces::sphere::Site;
 use crate::motion::dynamics::Wrench;
 use crate::motion::frame::Frames;
 use crate::motion::kinematics::Kinematics;
+use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::motion::state::{State, Work};
 use crate::motion::vector::V3;
@@ -104,6 +106,17 @@ pub trait Element {
         load: &mut Load<S>,
         show: &mut impl FnMut(&Self::Action<S>),
     );
+
+    /// The fastest rates of the equations of motion that they make where the body begins, each acting alone.
+    fn rates(
+        _data: Self::Data<'_>,
+        _body: &Body,
+        _at: &Instant<'_, f64>,
+        _actions: &[Self::Action<f64>],
+        _mobility: &Mobility<'_>,
+    ) -> Vec<Rate> {
+        Vec::new()
+    }
 
     /// Energy stored in all of them, from all that they do at one instant, J.
     fn stored_j(actions: &[Self::Action<f64>]) -> f64;

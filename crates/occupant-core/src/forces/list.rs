@@ -4,7 +4,9 @@ use super::belt::Belts;
 use super::contact::Contacts;
 use super::element::{Element, Hints as _, Instant, Load, Misfit, StoredEnergy, Unlike, WorkSum};
 use super::joint::JointMoments;
+use super::rate::Rate;
 use crate::body::Body;
+use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::motion::state::WORK_SUMS;
 use crate::problem::Problems;
@@ -13,7 +15,7 @@ use crate::problem::Problems;
 macro_rules! kinds {
     ($($kind:ident: $Kind:ident),+ $(,)?) => {
         /// How many kinds there are.
-        pub const KINDS: usize = [$(stringify!($kind)),+].len();
+        pub(crate) const KINDS: usize = [$(stringify!($kind)),+].len();
 
         /// The energies that elements store, in the order of results.
         pub const STORED: [StoredEnergy; KINDS] = stored_in_order([$($Kind::STORED),+]);
@@ -100,6 +102,21 @@ macro_rules! kinds {
                 let mut found = [const { Problems::new() }; KINDS];
                 $($Kind::check(self.$kind, body, &mut found[$Kind::STORED.at]);)+
                 found.into_iter().for_each(|some| problems.extend(some));
+            }
+        }
+
+        impl Data<'_> {
+            /// The fastest rates that they make where the body begins; see [`Element::rates`].
+            pub(crate) fn rates(
+                &self,
+                body: &Body,
+                at: &Instant<'_, f64>,
+                actions: &Actions<f64>,
+                mobility: &Mobility<'_>,
+            ) -> Vec<Rate> {
+                let mut list = Vec::new();
+                $(list.extend($Kind::rates(self.$kind, body, at, &actions.$kind, mobility));)+
+                list
             }
         }
 

@@ -12,7 +12,7 @@ pub mod contact;
 mod element;
 pub mod joint;
 mod list;
-pub mod material;
+pub mod rate;
 pub mod sphere;
 pub mod spring;
 

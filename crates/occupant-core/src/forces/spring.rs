@@ -1,4 +1,4 @@
-//! The bilinear dissipative spring of contacts and webbing.
+//! The bilinear dissipative spring of contacts and webbing: data and law.
 //!
 //! Report: Fig. 16 is lost; the curve is our decision. With Δ_m the greatest deformation so far (the present one counts),
 //! a = min(Δ_m, Δ_b), b = max(Δ_m − Δ_b, 0) and e = Δ − Δ_m + μ₁a + μ₂b:
@@ -8,11 +8,68 @@
 //!
 //! Loading is the case Δ = Δ_m of the same formula.
 
-use crate::forces::material::BilinearSpring;
 use crate::motion::scalar::Scalar;
+use crate::problem::Problems;
 
 /// A fraction below this counts as this, so that μ = 0 is a very steep drop.
 pub const LEAST_FRACTION: f64 = 0.01;
+
+/// Force over deformation while loading: slope K₁ up to Δ_b, then K₂.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BilinearSpring {
+    /// K₁.
+    pub k1_n_per_m: f64,
+    /// K₂.
+    pub k2_n_per_m: f64,
+    /// Δ_b, where the slope changes.
+    pub break_m: f64,
+    /// μ₁, fraction of the energy stored below Δ_b that unloading returns, 0 to 1.
+    pub returned_1: f64,
+    /// μ₂, the same above Δ_b.
+    pub returned_2: f64,
+}
+
+impl BilinearSpring {
+    /// One straight line of slope `k_n_per_m` (N/m), of whose energy unloading returns the fraction `returned`.
+    pub fn linear(k_n_per_m: f64, returned: f64) -> Self {
+        BilinearSpring {
+            k1_n_per_m: k_n_per_m,
+            k2_n_per_m: k_n_per_m,
+            break_m: 0.0,
+            returned_1: returned,
+            returned_2: returned,
+        }
+    }
+
+    /// The same up to the deformation `break_m` (m), and the slope `k2_n_per_m` (N/m) beyond.
+    pub fn then(self, break_m: f64, k2_n_per_m: f64) -> Self {
+        BilinearSpring { break_m, k2_n_per_m, ..self }
+    }
+
+    /// Slope of the stiffest branch, N/m.
+    pub(crate) fn steepest_n_per_m(&self) -> f64 {
+        Spring::<f64>::new(self).steepest()
+    }
+
+    /// Reports what is wrong with it under `path`.
+    pub(crate) fn check(&self, path: &str, problems: &mut Problems) {
+        problems.check_at_least_zero(&format!("{path}.k1"), self.k1_n_per_m, "N/m");
+        problems.check_at_least_zero(&format!("{path}.k2"), self.k2_n_per_m, "N/m");
+        problems.check_at_least_zero(&format!("{path}.break_at"), self.break_m, "m");
+        for (key, value) in [("mu1", self.returned_1), ("mu2", self.returned_2)] {
+            if !(0.0..=1.0).contains(&value) {
+                let expected = "a fraction of returned energy, from 0 to 1";
+                problems.error(format!("{path}.{key}"), format!("{value}"), expected);
+            } else if value < LEAST_FRACTION {
+                problems.warning(
+                    format!("{path}.{key}"),
+                    format!("{value}, which counts as {LEAST_FRACTION}"),
+                    "at least 0.01: unloading needs some slope",
+                );
+            }
+        }
+    }
+}
 
 /// Constants of the law.
 #[derive(Clone, Copy, Debug)]

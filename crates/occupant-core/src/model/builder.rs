@@ -1,11 +1,11 @@
 //! A [`Setup`] put together in code.
 
 use crate::body::Body;
-use crate::body::joint::Joints;
 use crate::forces::belt::Belt;
 use crate::forces::contact::EdgeForce;
+use crate::forces::contact::material::Material;
 use crate::forces::contact::surface::Surface;
-use crate::forces::material::Material;
+use crate::forces::joint::Joints;
 use crate::model::seating::{InitialPosture, InitialVelocity};
 use crate::model::setup::{DEFAULT_OUTPUT_S, Integrator, OutputOptions, STANDARD_GRAVITY_M_S2, Setup, TimeSpan};
 use crate::vehicle::VehiclePath;

@@ -3,13 +3,13 @@
 //! [`SetupBuilder`](crate::model::builder::SetupBuilder) puts one together in code. A `Setup` may still be wrong; [`crate::model::Model::new`] checks it and reports every problem at once.
 
 use crate::body::Body;
-use crate::body::joint::Joints;
 use crate::forces::Data;
 use crate::forces::belt::Belt;
 use crate::forces::contact::flat_face::FlatFace;
+use crate::forces::contact::material::Material;
 use crate::forces::contact::surface::Surface;
 use crate::forces::contact::{ContactData, EdgeForce};
-use crate::forces::material::Material;
+use crate::forces::joint::Joints;
 use crate::model::seating::{InitialPosture, InitialVelocity};
 use crate::vehicle::VehiclePath;
 

@@ -9,6 +9,7 @@ pub mod kinematics;
 pub(crate) mod lanes;
 pub mod layout;
 pub mod limb;
+pub mod mobility;
 pub mod report_coordinates;
 pub mod scalar;
 pub mod skeleton;

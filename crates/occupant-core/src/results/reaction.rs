@@ -14,7 +14,7 @@
 
 use nalgebra::Vector3;
 
-use crate::body::joint::Joint;
+use crate::body::Joint;
 use crate::body::{SEGMENTS, Segment};
 use crate::motion::dynamics::Wrench;
 use crate::motion::layout::hung_from;

@@ -2,8 +2,8 @@
 
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 
+use crate::body::Joint;
 use crate::body::Segment;
-use crate::body::joint::Joint;
 use crate::forces::contact::Touch;
 use crate::forces::{Actions, History};
 use crate::kernel::Evaluation;

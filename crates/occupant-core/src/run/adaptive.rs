@@ -8,7 +8,7 @@ use crash_measures::trig;
 
 /// What bounds the steps.
 #[derive(Clone, Copy, Debug)]
-pub struct Control {
+pub(super) struct Control {
     pub tolerance: Tolerance,
     pub min_step_s: f64,
     pub max_step_s: f64,
@@ -16,7 +16,7 @@ pub struct Control {
 
 /// What the error control remembers from step to step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Memory {
+pub(super) struct Memory {
     /// Step that it wants next, s.
     pub wanted_s: f64,
     /// Error of the last accepted step in units of the tolerance.
@@ -25,7 +25,7 @@ pub struct Memory {
 
 impl Memory {
     /// Before any step.
-    pub fn new(first_step_s: f64) -> Self {
+    pub(super) fn new(first_step_s: f64) -> Self {
         Memory { wanted_s: first_step_s, error: 1.0 }
     }
 

@@ -48,7 +48,7 @@ pub(super) struct Crossing<'a> {
 
 impl Crossing<'_> {
     /// Where to end the step instead: just behind its first corner that matters, s.
-    pub fn end_behind_corner(&self) -> Option<f64> {
+    pub(super) fn end_behind_corner(&self) -> Option<f64> {
         let begun = self.at_end.iter().filter_map(|end| {
             let start = partner(self.at_start, end);
             start.map_or_else(|| self.beginning(end), |start| self.turn(start, end))

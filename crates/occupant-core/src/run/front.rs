@@ -18,7 +18,7 @@ use crate::run::observers::Seen;
 use crate::vehicle::PathCursor;
 
 /// The latest step of the integration, and where it stands.
-pub struct Front {
+pub(super) struct Front {
     pub step: Step,
     from: State<f64>,
     to: State<f64>,
@@ -42,7 +42,7 @@ pub struct Front {
 
 impl Front {
     /// Standing at `state`, before any step.
-    pub fn new(time_s: f64, state: &State<f64>, history: &History<f64>) -> Self {
+    pub(super) fn new(time_s: f64, state: &State<f64>, history: &History<f64>) -> Self {
         Front {
             step: Step { start_s: time_s, end_s: time_s },
             from: *state,
@@ -59,7 +59,7 @@ impl Front {
     }
 
     /// Within the step that a checkpoint tells the start of.
-    pub fn within(model: &Model, start: &StepStart) -> Self {
+    pub(super) fn within(model: &Model, start: &StepStart) -> Self {
         let history = History::new(&model.system().forces, start.memory.clone());
         let mut front = Front::new(start.start_s, &start.state, &history);
         front.step.end_s = start.end_s;
@@ -68,7 +68,7 @@ impl Front {
     }
 
     /// Takes the step again of which only the start is known.
-    pub fn complete(&mut self, model: &Model, tolerance: &Tolerance, breaks_s: &[f64], cursor: &mut PathCursor) {
+    pub(super) fn complete(&mut self, model: &Model, tolerance: &Tolerance, breaks_s: &[f64], cursor: &mut PathCursor) {
         if self.is_half_known {
             self.is_half_known = false;
             let step = self.step;
@@ -79,7 +79,7 @@ impl Front {
     }
 
     /// Evaluates the rate at the start of `step`, which begins where the front stands, unless it is known.
-    pub fn look(&mut self, model: &Model, step: Step, cursor: &mut PathCursor) {
+    pub(super) fn look(&mut self, model: &Model, step: Step, cursor: &mut PathCursor) {
         if self.rate_is_known {
             return;
         }
@@ -93,7 +93,13 @@ impl Front {
     }
 
     /// Tries `step`, which begins where the front stands.
-    pub fn attempt(&mut self, model: &Model, step: Step, tolerance: &Tolerance, cursor: &mut PathCursor) -> Trial {
+    pub(super) fn attempt(
+        &mut self,
+        model: &Model,
+        step: Step,
+        tolerance: &Tolerance,
+        cursor: &mut PathCursor,
+    ) -> Trial {
         let (system, h) = (model.system(), step.length_s());
         let middle_s = 0.5 * (step.start_s + step.end_s);
         self.trial.take_over(&self.after);
@@ -112,7 +118,7 @@ impl Front {
     }
 
     /// Accepts `trial` of `step`; `at_break`: the velocity of the vehicle may jump at its end.
-    pub fn take_over(&mut self, trial: Trial, step: Step, at_break: bool) {
+    pub(super) fn take_over(&mut self, trial: Trial, step: Step, at_break: bool) {
         self.step = step;
         self.from = self.to;
         self.to = trial.state;
@@ -124,14 +130,14 @@ impl Front {
     }
 
     /// Where to end `step` instead, which was just tried: just behind its first corner that matters, s.
-    pub fn end_behind_corner(&self, model: &Model, step: Step, tolerance: &Tolerance) -> Option<f64> {
+    pub(super) fn end_behind_corner(&self, model: &Model, step: Step, tolerance: &Tolerance) -> Option<f64> {
         let crossing =
             Crossing { model, step, at_start: &self.met, at_end: &self.met_in_trial, history: &self.after, tolerance };
         crossing.end_behind_corner()
     }
 
     /// Notes what touches at the end of the step, as all outputs before it are recorded.
-    pub fn note(&mut self, model: &Model, seen: &mut Seen) {
+    pub(super) fn note(&mut self, model: &Model, seen: &mut Seen) {
         for touching in &self.met {
             seen.note(model, self.step.end_s, touching.meeting);
         }
@@ -139,7 +145,7 @@ impl Front {
 
     /// State and history at `time_s` within the step; the history is that of the step's start, into which the present
     /// position is not yet taken over.
-    pub fn show(&self, time_s: f64, state: &mut State<f64>, history: &mut History<f64>) {
+    pub(super) fn show(&self, time_s: f64, state: &mut State<f64>, history: &mut History<f64>) {
         let h = self.step.length_s();
         *state = if time_s >= self.step.end_s {
             self.to
@@ -151,7 +157,7 @@ impl Front {
     }
 
     /// The start of the step, if it goes on beyond `time_s`.
-    pub fn under_way(&self, time_s: f64) -> Option<StepUnderWay<'_>> {
+    pub(super) fn under_way(&self, time_s: f64) -> Option<StepUnderWay<'_>> {
         let at = if self.is_half_known { &self.to } else { &self.from };
         (time_s < self.step.end_s).then_some(StepUnderWay {
             start_s: self.step.start_s,

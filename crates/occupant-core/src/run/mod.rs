@@ -7,7 +7,7 @@ pub mod batch;
 mod corner;
 mod fixed;
 mod front;
-pub(crate) mod observers;
+mod observers;
 pub mod simulate;
 
 pub use fixed::{Step, Stretch};
@@ -41,7 +41,7 @@ pub struct Run {
     /// History of the force elements there.
     pub history: History<f64>,
     pub(crate) cursor: PathCursor,
-    pub(crate) seen: Seen,
+    seen: Seen,
     pub(crate) effort: Effort,
     /// The integration under error control; none at a fixed step.
     front: Option<Box<Front>>,
@@ -87,7 +87,7 @@ impl Run {
     }
 
     /// A run of `model` at one of its outputs.
-    pub fn from_checkpoint(model: &Model, from: &Checkpoint) -> Result<Self, CheckpointError> {
+    pub(crate) fn from_checkpoint(model: &Model, from: &Checkpoint) -> Result<Self, CheckpointError> {
         from.check(model)?;
         let mut run = Run::new(model);
         let progress = from.progress;
@@ -194,7 +194,7 @@ impl Run {
     }
 
     /// Takes over the state after a step, if it is one of numbers.
-    pub fn accept(&mut self, next: State<f64>, step: Step) -> Result<(), StepError> {
+    pub(crate) fn accept(&mut self, next: State<f64>, step: Step) -> Result<(), StepError> {
         if !next.is_finite() {
             return Err(StepError::NotFinite {
                 time_s: step.start_s,
@@ -208,7 +208,7 @@ impl Run {
     }
 
     /// Counts an accepted step whose state is kept elsewhere.
-    pub fn accept_time(&mut self, step: Step) {
+    pub(crate) fn accept_time(&mut self, step: Step) {
         self.time_s = step.end_s;
         self.count(step);
     }

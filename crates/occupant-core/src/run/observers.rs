@@ -7,7 +7,7 @@ use crate::results::outcome::FirstTouch;
 
 /// A sphere against a part of a face, as first touches tell it.
 #[derive(Clone, Copy)]
-pub struct Meeting {
+pub(super) struct Meeting {
     pub sphere: usize,
     pub pair: usize,
     /// Which of the pair's parts.
@@ -23,7 +23,7 @@ impl From<&Touch<f64>> for Meeting {
 }
 
 /// Remembers which sphere has touched which surface.
-pub struct Seen {
+pub(super) struct Seen {
     surfaces: usize,
     /// By sphere and surface.
     known: Vec<bool>,
@@ -31,14 +31,14 @@ pub struct Seen {
 }
 
 impl Seen {
-    pub fn new(model: &Model) -> Self {
+    pub(super) fn new(model: &Model) -> Self {
         let surfaces = model.faces().len();
         let combinations = model.body().spheres.len() * surfaces;
         Seen { surfaces, known: vec![false; combinations], touches: Vec::with_capacity(combinations) }
     }
 
     /// Takes over what an earlier part of the run has seen; all of it is of the model.
-    pub fn know(&mut self, touches: &[FirstTouch]) {
+    pub(super) fn know(&mut self, touches: &[FirstTouch]) {
         for touch in touches {
             self.known[touch.sphere * self.surfaces + touch.surface] = true;
         }
@@ -47,7 +47,7 @@ impl Seen {
 
     /// Notes a touch of `model`, the one that this was made for.
     #[inline]
-    pub fn note(&mut self, model: &Model, time_s: f64, meeting: Meeting) {
+    pub(super) fn note(&mut self, model: &Model, time_s: f64, meeting: Meeting) {
         let pair = &model.system().forces.contacts.pairs()[meeting.pair];
         let (sphere, surface) = (meeting.sphere, pair.parts[meeting.part].surface);
         let known = &mut self.known[sphere * self.surfaces + surface];
@@ -59,7 +59,7 @@ impl Seen {
 }
 
 /// Watches the first evaluation of a step.
-pub struct SeenAt<'s> {
+pub(super) struct SeenAt<'s> {
     pub model: &'s Model,
     pub seen: &'s mut Seen,
     pub time_s: f64,

@@ -7,7 +7,7 @@ use super::expand::expand;
 use super::sections::occupant;
 use super::text::{Document, Format};
 use crate::body::Body;
-use crate::body::joint::Joints;
+use crate::forces::joint::Joints;
 
 impl Body {
     /// The 50th-percentile male (78.7 kg) of the GEBOD generator, with the report's 17 spheres: `body.preset = "male50"`.

@@ -110,7 +110,7 @@ fn pass<const N: usize>(model: &Model, built: &mut [Built]) -> Result<Trajectory
         checkpoints: keeper.0,
         outcome: outcome.map_err(|e| failed(&e))?,
         events: lookout.events(count),
-        dropped_events: lookout.dropped,
+        dropped_events: lookout.dropped(),
         slopes,
     })
 }

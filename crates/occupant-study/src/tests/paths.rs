@@ -2,9 +2,9 @@
 
 use super::super::{StudyText, Value};
 use super::{base, bind, no_files, study};
-use occupant_core::body::joint::{JointLaw, Joints};
 use occupant_core::body::tree::Joint;
 use occupant_core::body::tti12;
+use occupant_core::forces::joint::{JointLaw, Joints};
 use occupant_core::model::setup::Setup;
 use occupant_core::scenario::Format;
 

@@ -10,8 +10,10 @@ use nalgebra::Point3;
 
 use crate::body::Body;
 use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkSum};
-use crate::forces::material::BilinearSpring;
+use crate::forces::rate::Rate;
+use crate::forces::spring::BilinearSpring;
 use crate::motion::frame::VEHICLE;
+use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::v3;
 use crate::problem::Problems;
@@ -174,6 +176,26 @@ impl Element for Belts {
             power.vehicle += force.dot(carried);
             show(&action);
         }
+    }
+
+    /// Loop stiffness against the mass that the sum of the two free lengths' directions moves.
+    fn rates(
+        data: &[Belt],
+        body: &Body,
+        at: &Instant<'_, f64>,
+        actions: &[BeltAction<f64>],
+        mobility: &Mobility<'_>,
+    ) -> Vec<Rate> {
+        let one = |(belt, action): (&Belt, &BeltAction<f64>)| {
+            // −gradient of the length with respect to the centre
+            let gradient = at.frames[VEHICLE].axes.out(action.free[0] + action.free[1]).to_vector();
+            let site = &at.spheres[belt.sphere];
+            let (_, centre, _) = site.place(mobility.kinematics());
+            let give = gradient.dot(&(mobility.of_point(site.segment, centre) * gradient));
+            let by = format!("on {}", body.spheres[belt.sphere].name);
+            Rate::of_spring(belt.name.clone(), by, 1.0 / give, belt.webbing.steepest_n_per_m())
+        };
+        data.iter().zip(actions).map(one).collect()
     }
 
     fn stored_j(actions: &[BeltAction<f64>]) -> f64 {

@@ -1,8 +1,8 @@
 //! What is wrong with materials and surfaces by themselves.
 
 use crate::body::Body;
+use crate::forces::contact::material::Material;
 use crate::forces::contact::surface::Surface;
-use crate::forces::material::Material;
 use crate::problem::Problems;
 
 pub(super) fn check(materials: &[Material], surfaces: &[Surface], body: &Body, problems: &mut Problems) {

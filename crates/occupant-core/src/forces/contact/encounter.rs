@@ -47,7 +47,7 @@ struct Load<S: Scalar> {
 impl<'a, S: Scalar> Sphere<'a, S> {
     /// The sphere of `group`, with no load yet.
     #[inline(always)]
-    pub fn new(contacts: &'a ContactSystem<S>, group: &'a Group, at: &Instant<'a, S>) -> Self {
+    pub(super) fn new(contacts: &'a ContactSystem<S>, group: &'a Group, at: &Instant<'a, S>) -> Self {
         let (site, frame, k) = (&at.spheres[group.sphere], &at.frames[group.frame], at.k);
         let arm = k.axes[site.segment].out(site.offset);
         let centre = k.joint[site.segment] + arm;
@@ -58,7 +58,7 @@ impl<'a, S: Scalar> Sphere<'a, S> {
     /// Takes the present position, that of an accepted step, over into the history of pair `i` and adds its forces; returns
     /// the deformation.
     #[inline(always)]
-    pub fn commit(
+    pub(super) fn commit(
         &mut self,
         i: usize,
         pair: &mut PairHistory<S>,
@@ -75,7 +75,7 @@ impl<'a, S: Scalar> Sphere<'a, S> {
     /// Adds the forces of pair `i` at deformation `depth`, in the lanes of `contact`. In all others nothing changes, not
     /// even the sign of a zero.
     #[inline(always)]
-    pub fn meet<const COMMIT: bool>(
+    pub(super) fn meet<const COMMIT: bool>(
         &mut self,
         i: usize,
         depth: S,
@@ -115,7 +115,7 @@ impl<'a, S: Scalar> Sphere<'a, S> {
 
     /// Puts the gathered load on the sphere's segment (Eqs 94, 63–68).
     #[inline(always)]
-    pub fn load(self, all: &mut AllLoads<S>) {
+    pub(super) fn load(self, all: &mut AllLoads<S>) {
         let Some(load) = self.load else { return };
         let frame = self.frame;
         let (force, twist) = (frame.axes.out(load.force), frame.axes.out(load.twist));

@@ -78,7 +78,7 @@ impl FlatFace {
     }
 
     /// True if the two faces lie in one plane of one frame, look the same way and share part of an edge.
-    pub fn joins(&self, other: &FlatFace) -> bool {
+    pub(crate) fn joins(&self, other: &FlatFace) -> bool {
         let coplanar = self.frame == other.frame
             && self.normal.dot(&other.normal) > 0.0
             && self.normal.cross(&other.normal).norm() < SAME_M

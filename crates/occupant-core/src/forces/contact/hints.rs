@@ -115,13 +115,13 @@ pub(super) struct Nearing {
 
 impl Nearing {
     #[inline(always)]
-    pub fn new(group: &Group) -> Self {
+    pub(super) fn new(group: &Group) -> Self {
         Nearing { first: group.pairs.start, count: 0 }
     }
 
     /// Decides whether pair `i`, committed at deformation `depth`, is near.
     #[inline(always)]
-    pub fn at<S: Scalar>(
+    pub(super) fn at<S: Scalar>(
         &mut self,
         i: usize,
         depth: S,
@@ -139,7 +139,7 @@ impl Nearing {
 
     /// Remembers the near pairs of group `g`.
     #[inline(always)]
-    pub fn end<S: Scalar>(self, g: usize, hints: &mut ContactHints<S>) {
+    pub(super) fn end<S: Scalar>(self, g: usize, hints: &mut ContactHints<S>) {
         hints.looks[g].near = self.count;
     }
 }
@@ -154,14 +154,14 @@ pub(super) struct Looking<S> {
 
 impl<S: Scalar> Looking<S> {
     #[inline(always)]
-    pub fn new(group: &Group) -> Self {
+    pub(super) fn new(group: &Group) -> Self {
         Looking { first: group.pairs.start, count: 0, least: S::of(f64::INFINITY) }
     }
 
     /// Decides whether pair `i`, committed at deformation `depth`, is watched: an open one until the sphere comes near, a
     /// passed one until the sphere comes back, one that touches always.
     #[inline(always)]
-    pub fn at(
+    pub(super) fn at(
         &mut self,
         i: usize,
         depth: S,
@@ -182,7 +182,13 @@ impl<S: Scalar> Looking<S> {
 
     /// Remembers the look of `sphere` at group `g`.
     #[inline(always)]
-    pub fn end(self, g: usize, sphere: &Sphere<'_, S>, contacts: &ContactSystem<S>, hints: &mut ContactHints<S>) {
+    pub(super) fn end(
+        self,
+        g: usize,
+        sphere: &Sphere<'_, S>,
+        contacts: &ContactSystem<S>,
+        hints: &mut ContactHints<S>,
+    ) {
         let way = (self.least - contacts.reach_of_a_step - S::of(MARGIN_M)).max(S::zero());
         let look = &mut hints.looks[g];
         look.watched = self.count;

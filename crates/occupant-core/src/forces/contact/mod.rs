@@ -6,6 +6,7 @@ mod encounter;
 pub mod face;
 pub mod flat_face;
 mod hints;
+pub mod material;
 pub mod surface;
 mod system;
 mod zip;
@@ -16,9 +17,9 @@ pub use zip::{OTHER_OUTLINES, OTHER_PAIRS};
 
 use crate::body::Body;
 use crate::forces::contact::flat_face::FlatFace;
+use crate::forces::contact::material::Material;
 use crate::forces::contact::surface::Surface;
 use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkSum};
-use crate::forces::material::Material;
 use crate::motion::scalar::Scalar;
 use crate::problem::Problems;
 use crate::quantity::energy;

@@ -67,7 +67,7 @@ pub struct Plane<S> {
 impl<S: Scalar> Plane<S> {
     /// Δ for a centre in the face's frame (Eqs 89, 92).
     #[inline(always)]
-    pub fn depth(&self, centre: V3<S>) -> S {
+    pub(crate) fn depth(&self, centre: V3<S>) -> S {
         self.reach - self.normal.dot(centre)
     }
 }
@@ -147,7 +147,7 @@ impl<S: Scalar> ContactSystem<S> {
     }
 
     /// The state of a pair at the initial time: passed where the centre is beyond the plane or beside the face.
-    pub fn initial_history(&self, i: usize, radius: S, centre: V3<S>) -> PairHistory<S> {
+    pub(crate) fn initial_history(&self, i: usize, radius: S, centre: V3<S>) -> PairHistory<S> {
         let depth = self.planes[i].depth(centre);
         let (offset, _) = self.pairs[i].nearest(centre);
         let beside = !weight(offset.distance, radius).gt(S::zero());
@@ -161,7 +161,7 @@ impl<S: Scalar> ContactSystem<S> {
     }
 
     /// The state of a pair where an earlier run ended, which tells whether it has passed but not how deep it was.
-    pub fn continued_history(&self, i: usize, centre: V3<S>, passed: bool) -> PairHistory<S> {
+    pub(crate) fn continued_history(&self, i: usize, centre: V3<S>, passed: bool) -> PairHistory<S> {
         let o = S::zero();
         let depth = self.planes[i].depth(centre);
         let contact = depth.gt(o);

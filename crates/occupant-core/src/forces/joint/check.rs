@@ -1,6 +1,6 @@
 //! Dampers, stops and springs of the joints.
 
-use crate::body::joint::{BallJoint, HingeJoint, JointLaw, Joints, Stop};
+use crate::forces::joint::{BallJoint, HingeJoint, JointLaw, Joints, Stop};
 use crate::problem::Problems;
 
 pub(super) fn check(j: &Joints, problems: &mut Problems) {

@@ -6,8 +6,9 @@
 
 use std::array::from_fn;
 
+use crate::body::Joint;
 use crate::body::SEGMENTS;
-use crate::body::joint::{BallJoint, HingeJoint, Joint, Joints, Stop};
+use crate::forces::joint::{BallJoint, HingeJoint, Joints, Stop};
 use crate::motion::dynamics::Wrench;
 use crate::motion::kinematics::Kinematics;
 use crate::motion::layout::{BALL_JOINTS, BALLS, HINGE_JOINTS, LIMBS};

@@ -1,14 +1,18 @@
 //! Moments in the joints: viscous dampers, stops, springs in β, resistance to twist.
 
 mod check;
+mod data;
 mod law;
+mod rates;
 
+pub use data::*;
 pub use law::*;
 
 use crate::body::Body;
-use crate::body::joint::Joints;
 use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkSum};
+use crate::forces::rate::Rate;
 use crate::motion::layout::BALLS;
+use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::problem::Problems;
 use crate::quantity::energy;
@@ -98,6 +102,16 @@ impl Element for JointMoments {
         show: &mut impl FnMut(&BallAction<S>),
     ) {
         load.power.sums[DAMPING] = law.apply(at.k, at.state, &mut load.wrench, show);
+    }
+
+    fn rates(
+        data: &Joints,
+        _body: &Body,
+        _at: &Instant<'_, f64>,
+        _actions: &[BallAction<f64>],
+        mobility: &Mobility<'_>,
+    ) -> Vec<Rate> {
+        rates::rates(data, mobility)
     }
 
     fn stored_j(actions: &[BallAction<f64>]) -> f64 {

@@ -31,12 +31,12 @@ pub(super) struct Group<L: Machine, T, R> {
 
 impl<L: Machine, T, R: Recorder> Group<L, T, R> {
     /// No runs yet.
-    pub fn new(kernel: Kernel) -> Self {
+    pub(super) fn new(kernel: Kernel) -> Self {
         Group { kernel, bench: None, state: State::zero(), places: none::<L, _>(), riders: none::<L, _>() }
     }
 
     /// Runs all `jobs`; `on_end` gets each when it has ended.
-    pub fn run_all(
+    pub(super) fn run_all(
         &mut self,
         mut jobs: impl Iterator<Item = Job<T, R>>,
         on_end: &mut impl FnMut(Ended<T, R>) -> ControlFlow<()>,

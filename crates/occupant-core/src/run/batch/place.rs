@@ -29,7 +29,7 @@ pub(super) enum Next {
 }
 
 impl Next {
-    pub fn ended(status: Status) -> Self {
+    pub(super) fn ended(status: Status) -> Self {
         Next::Ends(Ok(status))
     }
 }
@@ -42,14 +42,14 @@ pub(super) struct Rider<T, R> {
 
 impl Place {
     /// A run of `model` at its start.
-    pub fn new(model: Model, step_s: f64) -> Self {
+    pub(super) fn new(model: Model, step_s: f64) -> Self {
         let run = Run::new(&model);
         let stretch = Stretch::new(run.time_s, run.time_s, step_s);
         Place { model, stretch, run, step_s, step: Step::default() }
     }
 
     /// The first output.
-    pub fn begin(&mut self, recorder: &mut dyn Recorder) -> Next {
+    pub(super) fn begin(&mut self, recorder: &mut dyn Recorder) -> Next {
         match self.run.begin(&self.model, recorder) {
             Ok(()) => self.output(recorder),
             Err(error) => Next::Ends(Err(error)),
@@ -57,7 +57,7 @@ impl Place {
     }
 
     /// Records an output and turns to the next.
-    pub fn output(&mut self, recorder: &mut dyn Recorder) -> Next {
+    pub(super) fn output(&mut self, recorder: &mut dyn Recorder) -> Next {
         match self.run.record(&self.model, recorder) {
             Err(error) => return Next::Ends(Err(error)),
             Ok(Flow::Stop) => return Next::ended(Status::Stopped),
@@ -71,14 +71,14 @@ impl Place {
     }
 
     /// The rest of the run, alone.
-    pub fn finish(&mut self, recorder: &mut dyn Recorder) -> Result<Status, RecordingFailed> {
+    pub(super) fn finish(&mut self, recorder: &mut dyn Recorder) -> Result<Status, RecordingFailed> {
         match self.run.advance_rk4(&self.model, self.stretch) {
             Err(error) => Ok(Status::Failed(error)),
             Ok(()) => go_on(&self.model, &mut self.run, recorder),
         }
     }
 
-    pub fn end<T, R: Recorder>(
+    pub(super) fn end<T, R: Recorder>(
         self,
         mut rider: Rider<T, R>,
         kernel: Kernel,

@@ -5,7 +5,7 @@ use super::builder::Builder;
 use super::posture::PostureSection;
 use super::{Angle, Scenario};
 use crate::body::tti12::TTI12;
-use crate::forces::material::BilinearSpring;
+use crate::forces::spring::BilinearSpring;
 use crate::model::seating::InitialPosture;
 use crate::model::setup::Setup;
 use crate::problem::Problem;

@@ -11,7 +11,7 @@ use super::{
     BodySection, JointsSection, Scenario, belts, body, joints, materials, path, plausible, posture, run, surfaces,
 };
 use crate::body::Body;
-use crate::body::joint::Joints;
+use crate::forces::joint::Joints;
 use crate::model::setup::{STANDARD_GRAVITY_M_S2, Setup};
 use crate::problem::Problem;
 use crate::scenario::check::references;

@@ -5,8 +5,8 @@ use nalgebra::{Point3, Vector3};
 
 use super::{build, complaint, load, short_with};
 use crate::body::tti12;
+use crate::forces::contact::material::{DEFAULT_FRICTION_SPEED_M_S, Memory};
 use crate::forces::contact::surface::{Facing, Frame, Outline};
-use crate::forces::material::{DEFAULT_FRICTION_SPEED_M_S, Memory};
 use crate::model::seating::{InitialPosture, InitialVelocity};
 use crate::model::setup::{Integrator, STANDARD_GRAVITY_M_S2};
 

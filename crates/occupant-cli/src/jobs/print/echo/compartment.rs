@@ -2,8 +2,8 @@
 
 use nalgebra::Point3;
 use occupant_core::forces::contact::flat_face::FlatFace;
+use occupant_core::forces::contact::material::Memory;
 use occupant_core::forces::contact::surface::{Frame, Outline};
-use occupant_core::forces::material::Memory;
 
 use crate::jobs::print::case::Case;
 use crate::jobs::print::page::Pages;

@@ -1,6 +1,7 @@
 //! Dampers, stops and springs of the joints.
 
-use occupant_core::body::joint::{Joint, Joints, Stop};
+use occupant_core::body::Joint;
+use occupant_core::forces::joint::{Joints, Stop};
 
 use crate::jobs::print::case::Case;
 use crate::jobs::print::page::Pages;

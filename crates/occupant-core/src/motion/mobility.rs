@@ -6,7 +6,6 @@
 use nalgebra::{Matrix3, SymmetricEigen, Vector3};
 
 use crate::body::SEGMENTS;
-use crate::model::Model;
 use crate::motion::dynamics::{Accelerations, Wrench, solve};
 use crate::motion::kinematics::Kinematics;
 use crate::motion::layout::{HINGED, LIMBS};
@@ -19,14 +18,12 @@ use crate::motion::vector::V3;
 pub struct Mobility<'a> {
     skeleton: &'a Skeleton<f64>,
     kinematics: Kinematics<f64>,
-    unloaded: Accelerations<f64>,
+    pub(crate) unloaded: Accelerations<f64>,
 }
 
 impl<'a> Mobility<'a> {
-    /// Of the body as it stands at the start.
-    pub fn new(model: &'a Model) -> Self {
-        let skeleton = &model.system().skeleton;
-        let start = &model.start().state;
+    /// Of a body that stands as it does at the start.
+    pub(crate) fn new(skeleton: &'a Skeleton<f64>, start: &State<f64>) -> Self {
         let zero = State::zero();
         let still = State { velocity: zero.velocity, omega: zero.omega, hinge_rate: zero.hinge_rate, ..*start };
         let kinematics = Kinematics::new(skeleton, &still);
@@ -35,12 +32,12 @@ impl<'a> Mobility<'a> {
     }
 
     /// Places at the start.
-    pub fn kinematics(&self) -> &Kinematics<f64> {
+    pub(crate) fn kinematics(&self) -> &Kinematics<f64> {
         &self.kinematics
     }
 
     /// Acceleration of a point of a segment for a unit force there, space axes, 1/kg.
-    pub fn of_point(&self, segment: usize, point: V3<f64>) -> Matrix3<f64> {
+    pub(crate) fn of_point(&self, segment: usize, point: V3<f64>) -> Matrix3<f64> {
         let arm = point - self.kinematics.joint[segment];
         let column = |force: V3<f64>| {
             let mut loads = [Wrench::zero(); SEGMENTS];
@@ -54,7 +51,7 @@ impl<'a> Mobility<'a> {
     }
 
     /// Angular acceleration of `outer` relative to `inner` for a unit moment between them, space axes, 1/(kg·m²).
-    pub fn of_joint(&self, inner: usize, outer: usize) -> Matrix3<f64> {
+    pub(crate) fn of_joint(&self, inner: usize, outer: usize) -> Matrix3<f64> {
         let relative = |a: &Accelerations<f64>| a.alpha[outer] - a.alpha[inner];
         let column = |moment: V3<f64>| {
             let mut loads = [Wrench::zero(); SEGMENTS];
@@ -66,7 +63,7 @@ impl<'a> Mobility<'a> {
     }
 
     /// α̈ of the hinge of a limb for a unit moment in it, 1/(kg·m²).
-    pub fn of_hinge(&self, limb: usize) -> f64 {
+    pub(crate) fn of_hinge(&self, limb: usize) -> f64 {
         let (upper, lower) = LIMBS[limb];
         let axis = self.kinematics.axes[upper].y;
         let mut loads = [Wrench::zero(); SEGMENTS];
@@ -75,7 +72,7 @@ impl<'a> Mobility<'a> {
         self.loaded(&loads).hinge[limb] - self.unloaded.hinge[limb]
     }
 
-    fn loaded(&self, loads: &[Wrench<f64>; SEGMENTS]) -> Accelerations<f64> {
+    pub(crate) fn loaded(&self, loads: &[Wrench<f64>; SEGMENTS]) -> Accelerations<f64> {
         solve(self.skeleton, &self.kinematics, &[0.0; HINGED.len()], loads)
     }
 }
@@ -88,58 +85,12 @@ fn symmetric(column: impl Fn(V3<f64>) -> Vector3<f64>) -> Matrix3<f64> {
 }
 
 /// Greatest eigenvalue of a symmetric matrix.
-pub(super) fn greatest(matrix: Matrix3<f64>) -> f64 {
+pub(crate) fn greatest(matrix: Matrix3<f64>) -> f64 {
     SymmetricEigen::new(matrix).eigenvalues.max()
 }
 
 /// The part of a mobility across `normal`.
-pub(super) fn across(mobility: &Matrix3<f64>, normal: &Vector3<f64>) -> Matrix3<f64> {
+pub(crate) fn across(mobility: &Matrix3<f64>, normal: &Vector3<f64>) -> Matrix3<f64> {
     let plane = Matrix3::identity() - normal * normal.transpose();
     plane * mobility * plane
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::body::tti12::TTI12;
-    use crate::diagnosis::tests::free_body;
-
-    #[test]
-    fn a_point_responds_as_the_change_of_its_velocity_under_an_impulse_says() {
-        // reciprocity and positive work: the mobility is symmetric and positive for any point of any segment
-        let model = free_body();
-        let mobility = Mobility::new(&model);
-        for segment in TTI12.segments() {
-            let n = segment.index();
-            let point = mobility.kinematics().joint[n] + V3 { x: 0.03, y: -0.05, z: 0.1 };
-            let raw = mobility.of_point(n, point);
-            let eigenvalues = SymmetricEigen::new(raw).eigenvalues;
-            assert!(eigenvalues.min() > 0.0, "{segment:?}: {eigenvalues}");
-            // no point can be lighter than nothing or heavier than the body
-            let lightest = 1.0 / greatest(raw);
-            assert!(lightest < model.body().mass_kg(), "{segment:?}");
-        }
-    }
-
-    #[test]
-    fn a_force_through_the_whole_body_moves_its_mass() {
-        // Σ over segments of the response to M_n·g is g itself: the tree falls as one
-        let model = free_body();
-        let mobility = Mobility::new(&model);
-        let k = mobility.kinematics();
-        let skeleton = &model.system().skeleton;
-        let mut loads = [Wrench::zero(); SEGMENTS];
-        for (n, link) in skeleton.links.iter().enumerate() {
-            let force = V3 { x: link.mass, y: 0.0, z: 0.0 };
-            loads[n] = Wrench { force, moment: (k.cg(skeleton, n) - k.joint[n]).cross(force) };
-        }
-        let a = mobility.loaded(&loads);
-        for segment in TTI12.segments() {
-            let n = segment.index();
-            let change = a.joint[n] - mobility.unloaded.joint[n];
-            // measured: 6.7e-16, and 5.2e-15 for the angular part
-            assert!((change.x - 1.0).abs() < 1e-12, "{segment:?}: {change:?}");
-            assert!(a.alpha[n].norm_squared().sqrt() < 1e-11, "{segment:?}");
-        }
-    }
 }

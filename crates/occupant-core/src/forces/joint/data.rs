@@ -1,12 +1,11 @@
-//! Joints: viscous dampers, stops and elastic springs, as data.
+//! Joints as data: viscous dampers, stops and elastic springs.
 //!
 //! Report: "The Viscous Damper" (Eqs 69–77), "Joint Stops" (Figs 9–11), "Potential Energy due to Spinal Elasticity"
-//! (Eqs 57–62). The force laws themselves stand in `forces::joint`.
+//! (Eqs 57–62).
 
 use std::ops::Index;
 
-use super::tree::Tree;
-pub use super::tree::{Joint, JointKind};
+use crate::body::{Joint, Tree};
 
 /// Damping that rises towards a limit of travel (Figs 9–11): from the joint's normal damping at `begin_rad` linearly to
 /// `damping_n_m_s` at `full_rad`, constant beyond, and only while the joint moves towards the limit.

@@ -1,0 +1,48 @@
+//! Events of joints.
+
+use super::{Happening, Notes};
+use occupant_core::body::Joint;
+use occupant_core::forces::joint::JointLaw;
+use occupant_core::model::Model;
+use occupant_core::motion::kinematics::Kinematics;
+use occupant_core::motion::layout::{BALL_JOINTS, HINGE_JOINTS};
+use occupant_core::motion::state::State;
+
+/// In words: `neck enters the range of its stop`.
+pub(super) fn words(model: &Model, joint: Joint, enters: bool) -> String {
+    let verb = if enters { "enters" } else { "leaves" };
+    format!("{} {verb} the range of its stop", model.body().tree[joint].name)
+}
+
+/// Which joints were last seen in the range of a stop.
+#[derive(Default)]
+pub(super) struct Lookout([Option<bool>; BALL_JOINTS.len() + HINGE_JOINTS.len()]);
+
+impl Lookout {
+    pub fn look<const N: usize>(&mut self, model: &Model, state: &State<f64>, notes: &mut Notes<N>) {
+        let system = model.system();
+        let k = Kinematics::new(&system.skeleton, state);
+        for (i, joint) in BALL_JOINTS.iter().chain(HINGE_JOINTS).copied().enumerate() {
+            let angle_rad = match i.checked_sub(BALL_JOINTS.len()) {
+                None => system.forces.joints.beta(i, &k),
+                Some(hinge) => state.hinge[hinge],
+            };
+            let inside = in_stop(&model.setup().joints[joint], angle_rad);
+            let before = self.0[i].replace(inside);
+            if before.is_some_and(|b| b != inside) {
+                notes.note(Happening::Stop { joint, enters: inside }, None);
+            }
+        }
+    }
+}
+
+/// Whether a joint is in the range of one of its stops.
+fn in_stop(law: &JointLaw, angle_rad: f64) -> bool {
+    match law {
+        JointLaw::Ball(ball) => ball.stop.is_some_and(|s| angle_rad > s.begin_rad),
+        JointLaw::Hinge(hinge) => {
+            hinge.lower_stop.is_some_and(|s| angle_rad < s.begin_rad)
+                || hinge.upper_stop.is_some_and(|s| angle_rad > s.begin_rad)
+        }
+    }
+}

@@ -1,0 +1,202 @@
+//! Where a motion is not differentiable: what begins, ends or changes its law along a run.
+//!
+//! The derivative of a run is that of the branches taken. Where a force only changes its slope (a contact begins, a spring
+//! unloads, a belt tightens) the derivative of the motion stays right and its own derivative jumps: the straight line
+//! holds for small changes only. Where a force jumps (the edge band of a bounded face begins or ends, a sphere rolls
+//! from one material onto another, a belt slips off the body) the derivative lacks the jump times the shift of its
+//! instant.
+//!
+//! Each kind of force element has its own events in a file of its own.
+
+mod belt;
+mod contact;
+mod joint;
+
+pub use belt::Belted;
+pub use contact::Touching;
+
+use crate::sensitivity::trouble::Trouble;
+use occupant_core::body::Joint;
+use occupant_core::forces::{Actions, History};
+use occupant_core::model::Model;
+use occupant_core::motion::dual::Dual;
+use occupant_core::motion::state::State;
+
+/// Events beyond this number are counted and not kept.
+const MOST: usize = 4096;
+
+/// What happens.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Happening {
+    /// To a sphere on a surface.
+    Contact {
+        /// Index of the sphere.
+        sphere: usize,
+        /// Index of the surface.
+        surface: usize,
+        /// What.
+        what: Touching,
+    },
+    /// To a belt.
+    Belt {
+        /// Its index.
+        belt: usize,
+        /// What.
+        what: Belted,
+    },
+    /// A joint enters the range of a stop, or leaves it.
+    Stop {
+        /// The joint.
+        joint: Joint,
+        /// Whether it enters.
+        enters: bool,
+    },
+}
+
+/// How a force changes at an event.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Change {
+    /// Its slope changes.
+    Kink,
+    /// It jumps.
+    Jump,
+}
+
+/// An event of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Event {
+    /// Time of the accepted step at which it was seen, s.
+    pub time_s: f64,
+    /// What.
+    pub happening: Happening,
+    /// How the force changes.
+    pub change: Change,
+    /// By how much a force jumps, N; 0 for a kink.
+    pub jump_n: f64,
+    /// How its instant shifts with each parameter, s per unit; not known for most events.
+    pub shift: Vec<f64>,
+}
+
+impl Happening {
+    /// In words, with the names of `model`, for which it was seen: `head begins to touch wheel`.
+    pub fn words(&self, model: &Model) -> String {
+        match *self {
+            Happening::Contact { sphere, surface, what } => what.words(model, sphere, surface),
+            Happening::Belt { belt, what } => what.words(model, belt),
+            Happening::Stop { joint, enters } => joint::words(model, joint, enters),
+        }
+    }
+}
+
+/// What one evaluation of a run in duals shows.
+pub(super) struct Scene<const N: usize> {
+    time_s: f64,
+    state: State<f64>,
+    /// What force elements do.
+    pub actions: Actions<Dual<N>>,
+}
+
+impl<const N: usize> Scene<N> {
+    /// Room for all that `model` can show.
+    pub fn new(model: &Model) -> Self {
+        let actions = Actions::with_room(&model.system().forces);
+        Scene { time_s: f64::NAN, state: model.start().state, actions }
+    }
+
+    /// Another one.
+    pub fn begin(&mut self, time_s: f64, state: &State<Dual<N>>) {
+        self.time_s = time_s;
+        self.state = state.zip(state, |x, _| x.value);
+        self.actions.clear();
+    }
+}
+
+/// Looks at a run and notes its events.
+pub(super) struct Lookout<const N: usize> {
+    contacts: contact::Lookout,
+    belts: belt::Lookout,
+    joints: joint::Lookout,
+    notes: Notes<N>,
+}
+
+/// The events of a run.
+struct Notes<const N: usize> {
+    time_s: f64,
+    list: Vec<(Event0, [f64; N])>,
+    /// How many were not kept.
+    dropped: u64,
+}
+
+/// An event without its shifts.
+type Event0 = (f64, Happening, Change, f64);
+
+impl<const N: usize> Notes<N> {
+    /// Notes an event, at which a force may jump.
+    fn note(&mut self, happening: Happening, jump_n: Option<f64>) {
+        self.note_shifting(happening, jump_n, [0.0; N]);
+    }
+
+    /// Notes an event whose instant is known to shift.
+    fn note_shifting(&mut self, happening: Happening, jump_n: Option<f64>, shift: [f64; N]) {
+        let (change, jump_n) = match jump_n {
+            // an edge beyond which an unloaded spring was, say
+            Some(jump_n) if jump_n > 0.0 => (Change::Jump, jump_n),
+            _ => (Change::Kink, 0.0),
+        };
+        if self.list.len() < MOST {
+            self.list.push(((self.time_s, happening, change, jump_n), shift));
+        } else {
+            self.dropped += 1;
+        }
+    }
+}
+
+impl<const N: usize> Lookout<N> {
+    /// Nothing seen yet of `model`.
+    pub fn new(model: &Model) -> Self {
+        Lookout {
+            contacts: contact::Lookout::new(model),
+            belts: belt::Lookout::new(model),
+            joints: joint::Lookout::default(),
+            notes: Notes { time_s: f64::NAN, list: Vec::with_capacity(MOST), dropped: 0 },
+        }
+    }
+
+    /// Compares what `scene` shows with what was seen before.
+    pub fn look(&mut self, model: &Model, scene: &Scene<N>, history: &History<Dual<N>>) {
+        let notes = &mut self.notes;
+        notes.time_s = scene.time_s;
+        self.contacts.look(model, &scene.actions.contacts, &history.memory.contacts, notes);
+        self.belts.look(&scene.actions.belts, notes);
+        self.joints.look(model, &scene.state, notes);
+    }
+
+    /// How many events were not kept.
+    pub fn dropped(&self) -> u64 {
+        self.notes.dropped
+    }
+
+    /// The events, with the shifts of the first `count` directions.
+    pub fn events(&self, count: usize) -> Vec<Event> {
+        let event = |((time_s, happening, change, jump_n), shift): &(Event0, [f64; N])| Event {
+            time_s: *time_s,
+            happening: *happening,
+            change: *change,
+            jump_n: *jump_n,
+            shift: shift[..count].to_vec(),
+        };
+        self.notes.list.iter().map(event).collect()
+    }
+}
+
+/// Adds the shifts that another pass over the same run has found.
+pub(super) fn join(events: &mut [Event], more: &[Event]) -> Result<(), Trouble> {
+    let same = events.len() == more.len() && events.iter().zip(more).all(|(a, b)| a.happening == b.happening);
+    if !same {
+        return Err(Trouble::Output("two passes over one run saw other events".to_owned()));
+    }
+    for (event, more) in events.iter_mut().zip(more) {
+        event.shift.extend_from_slice(&more.shift);
+    }
+    Ok(())
+}
