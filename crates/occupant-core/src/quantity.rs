@@ -277,6 +277,24 @@ impl<O: Owner> Quantity<O> {
     }
 }
 
+/// An energy of the ledger.
+#[derive(Debug)]
+pub struct Energy;
+
+impl Owner for Energy {
+    type At<'a> = f64;
+}
+
+/// An energy: the number of its field, its name, and what it is, in plots and in the file's metadata.
+pub const fn energy(
+    number: u32,
+    name: &'static str,
+    meaning: &'static str,
+    recorded: &'static str,
+) -> Quantity<Energy> {
+    Quantity::number(Unit::Joule, |energy_j| *energy_j).channel(name, meaning).field(number, name, recorded)
+}
+
 /// `m_s2` for m/s²; nothing for a plain number.
 fn suffix(unit: Unit) -> String {
     match unit {

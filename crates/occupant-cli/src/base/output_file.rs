@@ -36,58 +36,20 @@ pub(crate) struct PartialFile {
 }
 
 /// Why a results file cannot be made.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 pub(crate) enum FileProblem {
-    /// A file of that name is there.
+    #[error("{} exists; --force replaces it, -o gives another name", .path.display())]
     Exists { path: PathBuf },
-    /// A provisional file is there: of a run that was interrupted, or of one that still goes on.
+    /// A provisional file is there.
+    #[error("{} exists: a run that was interrupted or still goes on; --force replaces it, -o gives another name", .path.display())]
     PartialExists { path: PathBuf },
     /// Something that is no ordinary file has that name: a folder, a device.
+    #[error("{} is not an ordinary file; -o gives another name", .path.display())]
     NotAFile { path: PathBuf },
-    /// The file would replace one that the run reads.
+    #[error("{} is what the run reads and is not replaced; -o gives another name", .path.display())]
     IsInput { path: PathBuf },
-    /// The operating system refuses.
-    Io {
-        /// What was being done, e.g. `create`.
-        doing: &'static str,
-        path: PathBuf,
-        /// Its reason.
-        source: io::Error,
-    },
-}
-
-impl fmt::Display for FileProblem {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            FileProblem::Exists { path } => {
-                write!(f, "{} exists; --force replaces it, -o gives another name", path.display())
-            }
-            FileProblem::PartialExists { path } => write!(
-                f,
-                "{} exists: a run that was interrupted or still goes on; --force replaces it, -o gives another name",
-                path.display()
-            ),
-            FileProblem::NotAFile { path } => {
-                write!(f, "{} is not an ordinary file; -o gives another name", path.display())
-            }
-            FileProblem::IsInput { path } => {
-                write!(f, "{} is what the run reads and is not replaced; -o gives another name", path.display())
-            }
-            FileProblem::Io { doing, path, source } => write!(f, "cannot {doing} {}: {source}", path.display()),
-        }
-    }
-}
-
-impl std::error::Error for FileProblem {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            FileProblem::Io { source, .. } => Some(source),
-            FileProblem::Exists { .. }
-            | FileProblem::PartialExists { .. }
-            | FileProblem::NotAFile { .. }
-            | FileProblem::IsInput { .. } => None,
-        }
-    }
+    #[error("cannot {doing} {}: {source}", .path.display())]
+    Io { doing: &'static str, path: PathBuf, source: io::Error },
 }
 
 /// Refuses a target that is, under whatever name, a file that the run reads.

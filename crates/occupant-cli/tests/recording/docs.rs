@@ -23,7 +23,7 @@ fn every_topic_is_documented() {
 fn everything() -> Model {
     let mut setup = setup();
     setup.output.report_coordinates = true;
-    Model::new(setup).expect("a model").0
+    Model::new(setup).expect("a model")
 }
 
 #[test]

@@ -11,6 +11,7 @@ use crate::motion::scalar::Scalar;
 use crate::motion::state::{State, Work};
 use crate::motion::vector::V3;
 use crate::problem::Problems;
+use crate::quantity::{Energy, Quantity};
 
 /// A kind of force element: all elements of one kind in a model share a law, a place in the energy ledger, and the way in
 /// which they are checked, laid, remembered and compared.
@@ -124,27 +125,23 @@ impl Hints for () {
 }
 
 /// An energy that the elements of a kind store.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub struct StoredEnergy {
     /// Its place in the energy ledger.
     pub at: usize,
-    /// Its name in results.
-    pub name: &'static str,
-    /// What it is.
-    pub meaning: &'static str,
+    /// What it is called in results.
+    pub quantity: Quantity<Energy>,
     /// The work sum that also holds it, by place; none if it follows from the posture alone.
     pub held_by: Option<usize>,
 }
 
 /// A sum of work in [`Work::sums`].
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug)]
 pub struct WorkSum {
     /// Its place there and among the losses of the energy ledger.
     pub at: usize,
-    /// The loss's name in results.
-    pub name: &'static str,
-    /// What the loss is.
-    pub meaning: &'static str,
+    /// What the loss is called in results.
+    pub quantity: Quantity<Energy>,
 }
 
 /// Where the body and the frames are at one instant, and how they move.

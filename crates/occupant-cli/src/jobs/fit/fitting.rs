@@ -10,7 +10,7 @@ use occupant_study::{Bounds, Fit, FitChannel, FitTest, Parameter, Study, StudyTe
 use super::experiment::Experiment;
 use super::target::{Target, filter_of};
 use crate::base::names::file_name;
-use crate::files::measured::{self, MapArgument, Wanted, pairs};
+use crate::files::measured::{self, MapArgument, Pair, Wanted, pairs};
 use crate::files::scenario::format_of;
 use crate::files::signals::Recording;
 use crate::files::study_folder::manifest::{Manifest, Text};
@@ -70,6 +70,12 @@ struct Named {
     by: (NamedBy, String),
     /// Where it stands in the study; empty for one of the command line.
     at: String,
+}
+
+impl Named {
+    fn by_command_line(file: &Path, test: FitTest, at: String) -> Named {
+        Named { by: (NamedBy::CommandLineTest, file.display().to_string()), file: file.to_owned(), test, at }
+    }
 }
 
 impl Fitting {
@@ -200,12 +206,6 @@ impl Opening<'_> {
 
     /// The tests with their files: those of the study, and where it leaves files out those of the command line, in order.
     fn named(&mut self, fit: &Fit) -> Vec<Named> {
-        let of_command = |file: &PathBuf, test: FitTest, at: String| Named {
-            by: (NamedBy::CommandLineTest, file.display().to_string()),
-            file: file.clone(),
-            test,
-            at,
-        };
         let files = self.given.files;
         if fit.tests.is_empty() {
             if files.is_empty() {
@@ -213,7 +213,7 @@ impl Opening<'_> {
                 self.complain("", "no test to fit to".to_owned(), "a test", Some(hint));
             }
             let each = files.iter();
-            return each.map(|f| of_command(f, FitTest::default(), String::new())).collect();
+            return each.map(|f| Named::by_command_line(f, FitTest::default(), String::new())).collect();
         }
         let open = fit.tests.iter().filter(|t| t.file.is_none()).count();
         if open != files.len() {
@@ -236,10 +236,7 @@ impl Opening<'_> {
                     test: test.clone(),
                     at,
                 }),
-                None => {
-                    let next = files.next().map(|f| of_command(f, test.clone(), at));
-                    named.extend(next);
-                }
+                None => named.extend(files.next().map(|f| Named::by_command_line(f, test.clone(), at))),
             }
         }
         named
@@ -256,9 +253,8 @@ impl Opening<'_> {
                 continue;
             };
             let number = tests.len();
-            let found = self.targets(fit, &named, &recording, experiment);
-            for (name, target) in found {
-                met.insert(name);
+            for target in self.targets(fit, &named, &recording, experiment) {
+                met.insert(target.channel.name.clone());
                 self.experiments[experiment].add(number, target);
             }
             let stem = named.file.file_stem().unwrap_or_default().to_string_lossy();
@@ -277,16 +273,20 @@ impl Opening<'_> {
                 experiment,
             });
         }
-        let all_read = self.problems.is_empty();
-        for (i, channel) in fit.channels.iter().enumerate().filter(|_| all_read) {
-            if !met.contains(&channel.name) {
-                let found = format!("no test has a signal for `{}`", channel.name);
-                let hint = "say which column it is: map = [\"column[unit]=channel\"] of the test, or --map";
-                let at = format!("fit.channels[{i}].channel");
-                self.complain(&at, found, "a column of that name", Some(hint));
-            }
+        if self.problems.is_empty() {
+            self.refuse_unmet(fit, &met);
         }
         tests
+    }
+
+    /// Complains of channels that no test has a signal for.
+    fn refuse_unmet(&mut self, fit: &Fit, met: &BTreeSet<String>) {
+        for (i, channel) in fit.channels.iter().enumerate().filter(|(_, c)| !met.contains(&c.name)) {
+            let found = format!("no test has a signal for `{}`", channel.name);
+            let hint = "say which column it is: map = [\"column[unit]=channel\"] of the test, or --map";
+            let at = format!("fit.channels[{i}].channel");
+            self.complain(&at, found, "a column of that name", Some(hint));
+        }
     }
 
     /// The scenario that stands for a test: one that is there already, or a new one.
@@ -384,11 +384,33 @@ impl Opening<'_> {
         }
     }
 
-    /// The measured channels of a test, each with its name.
-    fn targets(&mut self, fit: &Fit, named: &Named, recording: &Recording, experiment: usize) -> Vec<(String, Target)> {
+    /// The measured channels of a test.
+    fn targets(&mut self, fit: &Fit, named: &Named, recording: &Recording, experiment: usize) -> Vec<Target> {
         let Some(wanted) = self.wanted(fit, experiment) else {
             return Vec::new();
         };
+        let run_s = self.experiments[experiment].run_s();
+        let window_s = [0, 1].map(|i| named.test.window_s[i].or(fit.window_s[i]));
+        let mut targets = Vec::new();
+        for pair in self.pairs(named, recording, &wanted) {
+            let (channel, of) = &wanted[pair.channel];
+            let weight = of.weight * named.test.weight;
+            let shifted = (pair, named.test.shift_s);
+            match Target::new(channel.clone(), filter_of(of.filter), weight, shifted, window_s, run_s, fit.misfit) {
+                Ok(target) => targets.push(target),
+                Err(reason) => {
+                    let found = format!("{} of {} cannot be fitted to: {reason}", channel.name, named.file.display());
+                    let expected = "a signal with values all through the window";
+                    let hint = "choose channels, `from`, `to` and `filter` that the test allows";
+                    self.complain(&named.at, found, expected, Some(hint));
+                }
+            }
+        }
+        targets
+    }
+
+    /// The signals of a test that are channels which count.
+    fn pairs(&mut self, named: &Named, recording: &Recording, wanted: &[(Channel, FitChannel)]) -> Vec<Pair> {
         let Some(maps) = self.maps(named) else {
             return Vec::new();
         };
@@ -403,34 +425,12 @@ impl Opening<'_> {
                 return Vec::new();
             }
         };
-        let file = named.file.display();
         if found.is_empty() {
-            let found = format!("no signal of {file} belongs to a channel that counts");
+            let found = format!("no signal of {} belongs to a channel that counts", named.file.display());
             let hint = "columns are named as channels are, or map = [\"column[unit]=channel\"]";
             self.complain(&named.at, found, "a signal to fit to", Some(hint));
         }
-        let run_s = self.experiments[experiment].run_s();
-        let either = |a: Option<f64>, b: Option<f64>| a.or(b);
-        let window_s = [0, 1].map(|i| either(named.test.window_s[i], fit.window_s[i]));
-        let mut targets = Vec::new();
-        for pair in found {
-            let (channel, of) = &wanted[pair.channel];
-            let name = channel.name.clone();
-            let weight = of.weight * named.test.weight;
-            let shifted = (pair, named.test.shift_s);
-            let filter = filter_of(of.filter);
-            let channel = channel.clone();
-            match Target::new(channel, filter, weight, shifted, window_s, run_s, fit.misfit) {
-                Ok(target) => targets.push((name, target)),
-                Err(reason) => {
-                    let found = format!("{name} of {file} cannot be fitted to: {reason}");
-                    let expected = "a signal with values all through the window";
-                    let hint = "choose channels, `from`, `to` and `filter` that the test allows";
-                    self.complain(&named.at, found, expected, Some(hint));
-                }
-            }
-        }
-        targets
+        found
     }
 
     /// The channels that count, in this scenario; none if the study names one that there is not.

@@ -1,8 +1,7 @@
 //! Items 5 to 7: forces on the contact spheres and the surfaces hit, points of application, belts; joint angles and the
 //! energy balance.
 
-use occupant_core::forces::{belt, contact, joint};
-use occupant_core::results::energy::EnergyLedger;
+use occupant_core::results::channel::matching;
 use occupant_core::results::sample::Sample;
 
 use super::case::Case;
@@ -150,24 +149,25 @@ fn joint_head(name: &str) -> String {
 }
 
 fn energy(pages: &mut Pages, units: &Units, s: &Sample<'_>) {
-    type Column = (&'static str, fn(&EnergyLedger) -> f64);
-    let columns: [Column; 10] = [
-        ("KINETIC", |e| e.kinetic_j),
-        ("KIN REL VEH", |e| e.kinetic_relative_j),
-        ("GRAVITY", |e| e.gravity_j),
-        ("SPINE", |e| e.stored_j[joint::STORED]),
-        ("LOST CONT", |e| e.lost_j[contact::PRESS]),
-        ("LOST FRICT", |e| e.lost_j[contact::FRICTION]),
-        ("LOST JOINTS", |e| e.lost_j[joint::DAMPING]),
-        ("LOST BELTS", |e| e.lost_j[belt::STRETCH]),
-        ("VEH WORK", |e| e.vehicle_work_j),
-        ("BALANCE", |e| e.balance_j),
+    let columns = [
+        ("KINETIC", "energy.kinetic"),
+        ("KIN REL VEH", "energy.kinetic_relative"),
+        ("GRAVITY", "energy.gravity"),
+        ("SPINE", "energy.spine"),
+        ("LOST CONT", "energy.lost_contacts"),
+        ("LOST FRICT", "energy.lost_friction"),
+        ("LOST JOINTS", "energy.lost_joints"),
+        ("LOST BELTS", "energy.lost_belts"),
+        ("VEH WORK", "energy.vehicle_work"),
+        ("BALANCE", "energy.balance"),
     ];
+    let energies = matching(s.model, "energy.*");
+    let energy_j = |name: &str| energies.iter().find(|c| c.name == name).map_or(f64::NAN, |c| c.value(s));
     let title = format!(
         "ENERGY ({}); THE BALANCE IS 0 FOR AN EXACT INTEGRATION; {} STEPS SO FAR",
         units.energy.name, s.effort.steps
     );
     let mut table = Table::new(title, &columns.map(|(head, _)| head));
-    table.row(columns.map(|(_, of)| units.energy.show(of(&s.energy))));
+    table.row(columns.map(|(_, name)| units.energy.show(energy_j(name))));
     table.write(pages);
 }

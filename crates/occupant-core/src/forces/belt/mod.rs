@@ -15,6 +15,7 @@ use crate::motion::frame::VEHICLE;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::v3;
 use crate::problem::Problems;
+use crate::quantity::energy;
 use law::{BeltAction, BeltHistory, BeltLaw};
 
 /// Place of the recoverable energy in the energy ledger.
@@ -74,9 +75,15 @@ impl Belt {
 pub struct Belts;
 
 impl Element for Belts {
-    const STORED: StoredEnergy =
-        StoredEnergy { at: STORED, name: "belts", meaning: "stored in belts", held_by: Some(STRETCH) };
-    const SUMS: &'static [WorkSum] = &[WorkSum { at: STRETCH, name: "lost_belts", meaning: "dissipated by belts" }];
+    const STORED: StoredEnergy = StoredEnergy {
+        at: STORED,
+        quantity: energy(7, "belts", "stored in belts", "recoverable, in belts"),
+        held_by: Some(STRETCH),
+    };
+    const SUMS: &'static [WorkSum] = &[WorkSum {
+        at: STRETCH,
+        quantity: energy(11, "lost_belts", "dissipated by belts", "dissipated by belts since the start"),
+    }];
     const NAMES: [&'static str; 2] = ["belt", "belts"];
 
     type Data<'a> = &'a [Belt];

@@ -21,6 +21,7 @@ use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkS
 use crate::forces::material::Material;
 use crate::motion::scalar::Scalar;
 use crate::problem::Problems;
+use crate::quantity::energy;
 use encounter::Sphere;
 use hints::{Looking, Near, Nearing};
 
@@ -51,11 +52,20 @@ pub struct ContactData<'a> {
 pub struct Contacts;
 
 impl Element for Contacts {
-    const STORED: StoredEnergy =
-        StoredEnergy { at: STORED, name: "contacts", meaning: "stored in contacts", held_by: Some(PRESS) };
+    const STORED: StoredEnergy = StoredEnergy {
+        at: STORED,
+        quantity: energy(6, "contacts", "stored in contacts", "recoverable, in contacts"),
+        held_by: Some(PRESS),
+    };
     const SUMS: &'static [WorkSum] = &[
-        WorkSum { at: PRESS, name: "lost_contacts", meaning: "dissipated by contacts" },
-        WorkSum { at: FRICTION, name: "lost_friction", meaning: "dissipated by friction" },
+        WorkSum {
+            at: PRESS,
+            quantity: energy(8, "lost_contacts", "dissipated by contacts", "dissipated by contacts since the start"),
+        },
+        WorkSum {
+            at: FRICTION,
+            quantity: energy(9, "lost_friction", "dissipated by friction", "dissipated by friction since the start"),
+        },
     ];
     const NAMES: [&'static str; 2] = ["pair", "pairs of spheres and surfaces"];
 

@@ -11,6 +11,7 @@ use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkS
 use crate::motion::layout::BALLS;
 use crate::motion::scalar::Scalar;
 use crate::problem::Problems;
+use crate::quantity::energy;
 
 /// Place of the springs' energy in the energy ledger.
 pub const STORED: usize = 0;
@@ -25,9 +26,20 @@ pub const OTHER_SPRINGS: Unlike = Unlike("other joints have springs");
 pub struct JointMoments;
 
 impl Element for JointMoments {
-    const STORED: StoredEnergy =
-        StoredEnergy { at: STORED, name: "spine", meaning: "stored in the joints' springs", held_by: None };
-    const SUMS: &'static [WorkSum] = &[WorkSum { at: DAMPING, name: "lost_joints", meaning: "dissipated by joints" }];
+    const STORED: StoredEnergy = StoredEnergy {
+        at: STORED,
+        quantity: energy(5, "spine", "stored in the joints' springs", "stored in joint springs"),
+        held_by: None,
+    };
+    const SUMS: &'static [WorkSum] = &[WorkSum {
+        at: DAMPING,
+        quantity: energy(
+            10,
+            "lost_joints",
+            "dissipated by joints",
+            "dissipated by joint dampers and stops since the start",
+        ),
+    }];
     const NAMES: [&'static str; 2] = ["joint", "joints"];
 
     type Data<'a> = &'a Joints;

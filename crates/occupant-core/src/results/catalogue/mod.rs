@@ -14,9 +14,11 @@ use std::fmt;
 use std::sync::Arc;
 
 use crate::forces::belt::results as belt;
+use crate::forces::{STORED, SUMS, StoredEnergy, WorkSum};
 use crate::model::Model;
-use crate::quantity::{Kind, Owner, Quantity, Value};
+use crate::quantity::{Energy, Kind, Owner, Quantity, Value};
 use crate::results::channel::{Channel, Component};
+use crate::results::energy::EnergyLedger;
 use crate::results::sample::Sample;
 
 pub use sphere::touch;
@@ -158,12 +160,31 @@ impl Catalogue {
             let place = Place { message: "JointLoad", topic, name: &channel, words: &words };
             all.add(&place, joint::LOAD, move |s| (s, joint));
         }
-        all.whole("EnergyLedger", "/energy", "energy", energy::ENERGIES, |s| s.energy);
+        all.energies();
         all.whole("SolverState", "/solver", "", energy::EFFORT, |s| s.effort);
         if model.setup().output.report_coordinates {
             all.whole("ReportCoordinates", "/occupant/report_coordinates", "", body::REPORT_COORDINATES, |s| s);
         }
         all
+    }
+
+    fn energies(&mut self) {
+        for (of, quantity) in energy::MOTION {
+            self.energy(quantity, move |ledger| of(ledger));
+        }
+        for StoredEnergy { at, quantity, .. } in STORED {
+            self.energy(quantity, move |ledger| ledger.stored_j[at]);
+        }
+        for WorkSum { at, quantity } in SUMS {
+            self.energy(quantity, move |ledger| ledger.lost_j[at]);
+        }
+        for (of, quantity) in energy::BALANCE {
+            self.energy(quantity, move |ledger| of(ledger));
+        }
+    }
+
+    fn energy(&mut self, quantity: Quantity<Energy>, of: impl Fn(&EnergyLedger) -> f64 + Send + Sync + Copy + 'static) {
+        self.whole("EnergyLedger", "/energy", "energy", &[quantity], move |s| of(&s.energy));
     }
 
     /// Adds a list of what a model has once.
