@@ -2,7 +2,7 @@
 
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use occupant_cli::mcap::scene::belts::course_m;
-use occupant_core::body::Segment;
+use occupant_core::body::tti12::TTI12;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use prost_reflect::DynamicMessage;
@@ -31,7 +31,7 @@ fn transforms_put_every_segment_where_it_is() {
         &model,
         Watch(|s: &Sample<'_>| {
             let end = |n| s.vehicle.point_to_space(s.end_points_m(n)[0].coords);
-            samples.push(Segment::ALL.map(end));
+            samples.push(TTI12.segments().map(end).collect::<Vec<_>>());
         }),
     );
     let frames = &read(&bytes)["/tf"];
@@ -45,10 +45,10 @@ fn transforms_put_every_segment_where_it_is() {
         let names = |t: &DynamicMessage| (text(t, "parent_frame_id"), text(t, "child_frame_id"));
         let vehicle = pose(&transforms[0]);
         assert_eq!(names(&transforms[0]), ("space".into(), "vehicle".into()));
-        for (segment, t) in Segment::ALL.iter().zip(&transforms[1..]) {
-            let own = format!("occupant/{}", segment.name());
+        for (segment, t) in TTI12.segments().zip(&transforms[1..]) {
+            let own = format!("occupant/{}", TTI12[segment].name);
             assert_eq!(names(t), ("vehicle".into(), own));
-            let p = model.body().segment(*segment);
+            let p = model.body().segment(segment);
             let local = Point3::new(0.0, 0.0, p.length_m - p.cg_from_lower_end_m);
             let end = vehicle * pose(t) * local;
             worst = worst.max((end.coords - ends[segment.index()]).norm());
@@ -134,7 +134,7 @@ fn belts_go_from_anchor_to_anchor_round_the_sphere() {
     let model = model();
     let (mut worst_end, mut worst_length) = (0.0_f64, 0.0_f64);
     let watch = Watch(|s: &Sample<'_>| {
-        for (belt, action) in model.setup().belts.iter().zip(s.belts) {
+        for (belt, action) in model.setup().belts.iter().zip(&s.actions.belts) {
             let radius = model.body().spheres[belt.sphere].radius_m;
             let centre = s.sphere_centre_m(belt.sphere);
             let course = course_m(belt, radius, centre, action);
@@ -180,7 +180,7 @@ fn arrows_are_the_forces() {
             let id = format!("{sphere}__{}", setup.surfaces[c.surface].name);
             (id, c.force_n)
         });
-        let belts = setup.belts.iter().zip(s.belts);
+        let belts = setup.belts.iter().zip(&s.actions.belts);
         let belts = belts.map(|(b, a)| (format!("belt__{}", b.name), a.force.to_vector()));
         samples.push(contacts.chain(belts).filter(|(_, f)| f.norm() >= 10.0).collect());
     });

@@ -4,8 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::{UnitQuaternion, Vector3};
 use occupant_cli::mcap::StoredRun;
-use occupant_core::body::Joint;
-use occupant_core::body::Segment;
+use occupant_core::body::tti12::*;
+use occupant_core::body::{Joint, Segment};
+use occupant_core::forces::{belt, contact, joint};
 use occupant_core::results::reaction::{femur_axial_n, reaction};
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
@@ -72,7 +73,7 @@ fn sphere(s: &Sample<'_>, sphere: usize) -> Fields {
 }
 
 fn belt(s: &Sample<'_>, belt: usize) -> Fields {
-    let action = &s.belts[belt];
+    let action = &s.actions.belts[belt];
     let force = action.force.to_vector();
     vec![
         ("time_s", vec![s.time_s]),
@@ -90,17 +91,17 @@ fn joints(s: &Sample<'_>) -> Fields {
     let angle = |joint| vec![s.joint_angle_rad(joint)];
     vec![
         ("time_s", vec![s.time_s]),
-        ("neck_rad", angle(Joint::Neck)),
-        ("right_shoulder_rad", angle(Joint::RightShoulder)),
-        ("left_shoulder_rad", angle(Joint::LeftShoulder)),
-        ("upper_back_rad", angle(Joint::UpperBack)),
-        ("left_elbow_rad", angle(Joint::LeftElbow)),
-        ("right_elbow_rad", angle(Joint::RightElbow)),
-        ("lower_back_rad", angle(Joint::LowerBack)),
-        ("right_hip_rad", angle(Joint::RightHip)),
-        ("left_hip_rad", angle(Joint::LeftHip)),
-        ("right_knee_rad", angle(Joint::RightKnee)),
-        ("left_knee_rad", angle(Joint::LeftKnee)),
+        ("neck_rad", angle(NECK)),
+        ("right_shoulder_rad", angle(RIGHT_SHOULDER)),
+        ("left_shoulder_rad", angle(LEFT_SHOULDER)),
+        ("upper_back_rad", angle(UPPER_BACK)),
+        ("left_elbow_rad", angle(LEFT_ELBOW)),
+        ("right_elbow_rad", angle(RIGHT_ELBOW)),
+        ("lower_back_rad", angle(LOWER_BACK)),
+        ("right_hip_rad", angle(RIGHT_HIP)),
+        ("left_hip_rad", angle(LEFT_HIP)),
+        ("right_knee_rad", angle(RIGHT_KNEE)),
+        ("left_knee_rad", angle(LEFT_KNEE)),
     ]
 }
 
@@ -110,15 +111,15 @@ fn joint_load(s: &Sample<'_>, joint: Joint) -> Fields {
 }
 
 fn instruments(s: &Sample<'_>) -> Fields {
-    let neck = reaction(s, Joint::Neck);
+    let neck = reaction(s, NECK);
     // J211 axes: right and down where the segment's are left and up
     let j211 = |v: Vector3<f64>| vec![v.x, -v.y, -v.z];
     vec![
         ("time_s", vec![s.time_s]),
         ("neck_force_j211_n", j211(neck.force_n)),
         ("neck_moment_j211_n_m", j211(neck.moment_n_m)),
-        ("right_femur_axial_n", vec![femur_axial_n(s, Segment::RightThigh)]),
-        ("left_femur_axial_n", vec![femur_axial_n(s, Segment::LeftThigh)]),
+        ("right_femur_axial_n", vec![femur_axial_n(s, RIGHT_THIGH)]),
+        ("left_femur_axial_n", vec![femur_axial_n(s, LEFT_THIGH)]),
     ]
 }
 
@@ -129,13 +130,13 @@ fn energy(s: &Sample<'_>) -> Fields {
         ("kinetic_j", vec![e.kinetic_j]),
         ("kinetic_relative_j", vec![e.kinetic_relative_j]),
         ("gravity_j", vec![e.gravity_j]),
-        ("spine_j", vec![e.spine_j]),
-        ("contacts_j", vec![e.contacts_j]),
-        ("belts_j", vec![e.belts_j]),
-        ("lost_contacts_j", vec![e.lost_contacts_j]),
-        ("lost_friction_j", vec![e.lost_friction_j]),
-        ("lost_joints_j", vec![e.lost_joints_j]),
-        ("lost_belts_j", vec![e.lost_belts_j]),
+        ("spine_j", vec![e.stored_j[joint::STORED]]),
+        ("contacts_j", vec![e.stored_j[contact::STORED]]),
+        ("belts_j", vec![e.stored_j[belt::STORED]]),
+        ("lost_contacts_j", vec![e.lost_j[contact::PRESS]]),
+        ("lost_friction_j", vec![e.lost_j[contact::FRICTION]]),
+        ("lost_joints_j", vec![e.lost_j[joint::DAMPING]]),
+        ("lost_belts_j", vec![e.lost_j[belt::STRETCH]]),
         ("vehicle_work_j", vec![e.vehicle_work_j]),
         ("balance_j", vec![e.balance_j]),
     ]
@@ -166,11 +167,11 @@ fn expected(s: &Sample<'_>) -> BTreeMap<String, Fields> {
         ("/solver".to_owned(), solver(s)),
         ("/occupant/report_coordinates".to_owned(), coordinates(s)),
     ]);
-    for n in Segment::ALL {
-        groups.insert(format!("/occupant/segment/{}", n.name()), segment(s, n));
+    for n in TTI12.segments() {
+        groups.insert(format!("/occupant/segment/{}", TTI12[n].name), segment(s, n));
     }
-    for joint in Joint::ALL {
-        let topic = format!("/occupant/joint/{}", joint.name());
+    for joint in TTI12.joints() {
+        let topic = format!("/occupant/joint/{}", TTI12[joint].name);
         groups.insert(topic, joint_load(s, joint));
     }
     for (i, own) in s.model.body().spheres.iter().enumerate() {

@@ -1,6 +1,7 @@
 use nalgebra::{SymmetricEigen, Vector3};
 
 use super::*;
+use crate::body::SEGMENTS;
 use crate::body::tti12::TTI12;
 use crate::motion::dynamics::{Wrench, solve};
 use crate::motion::frame::Moving;

@@ -6,8 +6,8 @@ use serde::{Deserialize, Serialize};
 use super::builder::Builder;
 use super::quantity::{NOT_NEGATIVE, si_or};
 use super::{Angle, Ratio, RotationalDamping, RotationalStiffness};
-use crate::forces::joint::{AngularSpring, BallJoint, HingeJoint, JointLaw, Joints, Stop};
 use crate::body::tti12::TTI12;
+use crate::forces::joint::{AngularSpring, BallJoint, HingeJoint, JointLaw, Joints, Stop};
 use crate::problem::Problem;
 use crate::scenario::text::with_key;
 

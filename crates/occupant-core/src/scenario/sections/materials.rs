@@ -5,8 +5,8 @@ use serde::{Deserialize, Serialize};
 
 use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, si_or};
 use super::{Length, Ratio, Scenario, Speed, Stiffness};
-use crate::forces::spring::BilinearSpring;
 use crate::forces::contact::material::{Material, Memory};
+use crate::forces::spring::BilinearSpring;
 
 /// A contact material: a bilinear spring that gives back part of its energy, and friction.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
