@@ -157,7 +157,7 @@ fn joints_store_and_dissipate_what_the_reference_says() {
         let energy = spine_energy(&system.joints, &q);
         let stored = core.joints.stored(&core.kinematics);
         worst = worst.max((stored - energy).abs() / energy);
-        for (i, (k, l)) in BALLS.into_iter().enumerate() {
+        for (i, (k, l)) in BALLS.iter().enumerate() {
             let expected = joint_angle(&q, k + 1, l + 1, system.joints.epsilon);
             worst = worst.max((core.joints.beta(i, &core.kinematics) - expected).abs());
         }

@@ -118,8 +118,11 @@ pub enum Take<O: Owner> {
     /// A list of indices.
     Indices(for<'a> fn(&O::At<'a>) -> Vec<u32>),
     /// Messages of the named type within the message.
-    Parts(&'static str, for<'a> fn(&O::At<'a>) -> Vec<Vec<(u32, Value)>>),
+    Parts(&'static str, for<'a> fn(&O::At<'a>) -> Vec<Fields>),
 }
+
+/// Fields of a message by number.
+pub type Fields = Vec<(u32, Value)>;
 
 /// What was taken.
 #[derive(Clone, Debug, PartialEq)]
@@ -138,8 +141,8 @@ pub enum Value {
     Numbers(Vec<f64>),
     /// A list of indices.
     Indices(Vec<u32>),
-    /// Messages within the message: fields by number.
-    Parts(Vec<Vec<(u32, Value)>>),
+    /// Messages within the message.
+    Parts(Vec<Fields>),
 }
 
 /// The type of a field.
@@ -304,6 +307,6 @@ fn suffix(unit: Unit) -> String {
 }
 
 /// Values of all fields of a list, by number.
-pub fn values<O: Owner>(list: &[Quantity<O>], at: &O::At<'_>) -> Vec<(u32, Value)> {
+pub fn values<O: Owner>(list: &[Quantity<O>], at: &O::At<'_>) -> Fields {
     list.iter().filter_map(|q| Some((q.field?.number, q.value(at)))).collect()
 }

@@ -104,7 +104,7 @@ pub(crate) struct Table<W: Write + Send> {
 }
 
 enum Writer<W: Write + Send> {
-    Csv(csv::Writer<W>),
+    Csv(Box<csv::Writer<W>>),
     Parquet(Box<SerializedFileWriter<W>>),
 }
 
@@ -120,7 +120,7 @@ impl<W: Write + Send> Table<W> {
             Form::Csv => {
                 let mut writer = csv::Writer::from_writer(to);
                 writer.write_record(columns.iter().map(|(name, _)| name.as_ref()))?;
-                Writer::Csv(writer)
+                Writer::Csv(Box::new(writer))
             }
             Form::Parquet => Writer::Parquet(Box::new(begin(to, columns, about).map_err(reason)?)),
         };

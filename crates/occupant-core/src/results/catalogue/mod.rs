@@ -170,7 +170,7 @@ impl Catalogue {
 
     fn energies(&mut self) {
         for (of, quantity) in energy::MOTION {
-            self.energy(quantity, move |ledger| of(ledger));
+            self.energy(quantity, of);
         }
         for StoredEnergy { at, quantity, .. } in STORED {
             self.energy(quantity, move |ledger| ledger.stored_j[at]);
@@ -179,7 +179,7 @@ impl Catalogue {
             self.energy(quantity, move |ledger| ledger.lost_j[at]);
         }
         for (of, quantity) in energy::BALANCE {
-            self.energy(quantity, move |ledger| of(ledger));
+            self.energy(quantity, of);
         }
     }
 
