@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 
 /// Crates with their rooms from the lowest to the highest.
 const ROOMS: [(&str, &[&str]); 4] = [
-    ("crash-measures", &["trig", "unit", "signal", "correlation", "measure", "injury"]),
+    ("crash-measures", &["trig", "nearest", "unit", "signal", "correlation", "measure", "injury"]),
     (
         "occupant-core",
         &[

@@ -54,7 +54,7 @@ fn iso_18571_scores_are_those_of_another_implementation() {
     scores(&answer, [0.885_605_9, 0.838_555_9, 0.85, 0.950_917_9, 0.95]);
     close(&answer["pairs"][0]["iso18571"]["lag_s"], 0.003, 1e-9);
     // a pair of files without headings
-    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../occupant-core/tests/data");
+    let data = Path::new(env!("CARGO_MANIFEST_DIR")).join("../crash-measures/tests/data");
     let [computed, reference] = ["computed", "reference"].map(|n| data.join(format!("iso18571_{n}.csv")));
     let answer = rated(here, &[computed.to_str().unwrap(), reference.to_str().unwrap()]);
     scores(&answer, [0.830_957_7, 0.652_890_7, 0.941_666_7, 0.950_654_0, 0.956_686_5]);
