@@ -1,11 +1,11 @@
 //! What can be wrong with a signal, with what was found and what was needed.
 
-use std::fmt;
 
 /// Why a signal cannot be used.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SignalError {
     /// Fewer samples than the operation needs.
+    #[error("{what} has {found} samples, at least {needed} are needed")]
     TooShort {
         /// The signal.
         what: &'static str,
@@ -15,6 +15,7 @@ pub enum SignalError {
         needed: usize,
     },
     /// The signal lasts less than the window or event looked for.
+    #[error("{what} lasts {found_s} s, at least {needed_s} s are needed")]
     TooBrief {
         /// The signal or window.
         what: &'static str,
@@ -24,6 +25,7 @@ pub enum SignalError {
         needed_s: f64,
     },
     /// A sample is NaN, infinite or beyond 1e100 in magnitude.
+    #[error("{what}: sample {index} is {found}, every sample must be a finite number within 1e100")]
     NotFinite {
         /// The signal.
         what: &'static str,
@@ -33,6 +35,7 @@ pub enum SignalError {
         found: f64,
     },
     /// Two signals that belong together differ in length.
+    #[error("{what} has {found} samples, expected {expected} like its companion")]
     LengthMismatch {
         /// The second signal.
         what: &'static str,
@@ -42,6 +45,7 @@ pub enum SignalError {
         expected: usize,
     },
     /// A parameter lies outside its admissible range.
+    #[error("{what} is {found}, expected {expected}")]
     OutOfRange {
         /// The parameter with its unit.
         what: &'static str,
@@ -51,6 +55,7 @@ pub enum SignalError {
         expected: &'static str,
     },
     /// Times do not increase.
+    #[error("time {index} is {found_s} s, it must be above the one before, {previous_s} s")]
     NotIncreasing {
         /// Index of the first time that is not above the one before.
         index: usize,
@@ -60,6 +65,7 @@ pub enum SignalError {
         previous_s: f64,
     },
     /// Times are not equally spaced: resample first.
+    #[error("time {index} is {found_s} s, a uniform grid has {expected_s} s there: resample first")]
     NotUniform {
         /// Index of the first time off the grid.
         index: usize,
@@ -69,6 +75,10 @@ pub enum SignalError {
         expected_s: f64,
     },
     /// A filter's corner is not below half the sample rate.
+    #[error(
+        "the filter's corner is {corner_hz} Hz, it must be below half the sample rate, {nyquist_hz} Hz: record with a shorter \
+         interval or use a lower class"
+    )]
     CornerAboveNyquist {
         /// Corner of one filter pass, Hz.
         corner_hz: f64,
@@ -76,11 +86,13 @@ pub enum SignalError {
         nyquist_hz: f64,
     },
     /// A signal that a ratio divides by is zero throughout (or has no variation).
+    #[error("{what} has no content to compare with: it never varies or is zero")]
     NoContent {
         /// The signal.
         what: &'static str,
     },
     /// A condition (an impact, a crossing) is never met within the signal.
+    #[error("{what}: the signal reaches {reached}, {needed} is needed")]
     NeverReached {
         /// The condition.
         what: &'static str,
@@ -91,39 +103,3 @@ pub enum SignalError {
     },
 }
 
-impl fmt::Display for SignalError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::TooShort { what, found, needed } => {
-                write!(f, "{what} has {found} samples, at least {needed} are needed")
-            }
-            Self::TooBrief { what, found_s, needed_s } => {
-                write!(f, "{what} lasts {found_s} s, at least {needed_s} s are needed")
-            }
-            Self::NotFinite { what, index, found } => {
-                write!(f, "{what}: sample {index} is {found}, every sample must be a finite number within 1e100")
-            }
-            Self::LengthMismatch { what, found, expected } => {
-                write!(f, "{what} has {found} samples, expected {expected} like its companion")
-            }
-            Self::OutOfRange { what, found, expected } => write!(f, "{what} is {found}, expected {expected}"),
-            Self::NotIncreasing { index, found_s, previous_s } => {
-                write!(f, "time {index} is {found_s} s, it must be above the one before, {previous_s} s")
-            }
-            Self::NotUniform { index, found_s, expected_s } => {
-                write!(f, "time {index} is {found_s} s, a uniform grid has {expected_s} s there: resample first")
-            }
-            Self::CornerAboveNyquist { corner_hz, nyquist_hz } => write!(
-                f,
-                "the filter's corner is {corner_hz} Hz, it must be below half the sample rate, {nyquist_hz} Hz: \
-                 record with a shorter interval or use a lower class"
-            ),
-            Self::NoContent { what } => write!(f, "{what} has no content to compare with: it never varies or is zero"),
-            Self::NeverReached { what, reached, needed } => {
-                write!(f, "{what}: the signal reaches {reached}, {needed} is needed")
-            }
-        }
-    }
-}
-
-impl std::error::Error for SignalError {}

@@ -1,7 +1,5 @@
 //! How a run ended: its outcome, first touches, and the errors that say when, where and why.
 
-use std::fmt;
-
 use crate::results::checkpoint::CheckpointError;
 use crate::results::recorder::RecorderError;
 use crate::results::sample::Effort;
@@ -48,9 +46,13 @@ pub struct FirstTouch {
 }
 
 /// The integration cannot go on.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum StepError {
     /// A component of the state is no longer a number.
+    #[error(
+        "at t = {time_s:.6} s, in a step of {step_s:.3e} s, the {component} is no longer a finite number; a smaller step or softer \
+         springs and dampers may help"
+    )]
     NotFinite {
         /// Start of the step, s.
         time_s: f64,
@@ -60,6 +62,10 @@ pub enum StepError {
         component: String,
     },
     /// The error control asks for a step below the smallest allowed.
+    #[error(
+        "at t = {time_s:.6} s the error control asks for a step of {step_s:.3e} s, below the smallest allowed, {min_step_s:.3e} s \
+         (error {error:.2} times the tolerance); a looser tolerance or a smaller `min_step` may help"
+    )]
     StepTooSmall {
         /// Time, s.
         time_s: f64,
@@ -72,25 +78,9 @@ pub enum StepError {
     },
 }
 
-impl fmt::Display for StepError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            StepError::NotFinite { time_s, step_s, component } => write!(
-                f,
-                "at t = {time_s:.6} s, in a step of {step_s:.3e} s, the {component} is no longer a finite number; a smaller step or softer springs and dampers may help"
-            ),
-            StepError::StepTooSmall { time_s, step_s, min_step_s, error } => write!(
-                f,
-                "at t = {time_s:.6} s the error control asks for a step of {step_s:.3e} s, below the smallest allowed, {min_step_s:.3e} s (error {error:.2} times the tolerance); a looser tolerance or a smaller `min_step` may help"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for StepError {}
-
 /// A run that could not be recorded.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
+#[error("recording failed at t = {time_s:.6} s: {source}")]
 pub struct RecordingFailed {
     /// Time, s.
     pub time_s: f64,
@@ -98,41 +88,13 @@ pub struct RecordingFailed {
     pub source: RecorderError,
 }
 
-impl fmt::Display for RecordingFailed {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "recording failed at t = {:.6} s: {}", self.time_s, self.source)
-    }
-}
-
-impl std::error::Error for RecordingFailed {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        Some(&*self.source)
-    }
-}
-
 /// Why a run could not be resumed, or not recorded.
-#[derive(Debug)]
+#[derive(Debug, thiserror::Error)]
 pub enum ResumeError {
     /// The checkpoint is none of the model's.
-    Refused(CheckpointError),
+    #[error("{0}")]
+    Refused(#[source] CheckpointError),
     /// The recorder failed.
+    #[error(transparent)]
     Recording(RecordingFailed),
-}
-
-impl fmt::Display for ResumeError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            ResumeError::Refused(error) => error.fmt(f),
-            ResumeError::Recording(error) => error.fmt(f),
-        }
-    }
-}
-
-impl std::error::Error for ResumeError {
-    fn source(&self) -> Option<&(dyn std::error::Error + 'static)> {
-        match self {
-            ResumeError::Refused(error) => Some(error),
-            ResumeError::Recording(error) => error.source(),
-        }
-    }
 }

@@ -5,19 +5,15 @@
 //! processor has their instructions; tests compare them with an array.
 
 #[cfg(target_arch = "x86_64")]
-mod avx2;
-#[cfg(target_arch = "x86_64")]
-mod avx512;
-#[cfg(test)]
-mod plain;
+mod processor;
 mod trig;
 
 use crate::motion::scalar::Scalar;
 
 #[cfg(test)]
-pub(crate) use plain::Plain;
+pub(crate) use tests::plain::Plain;
 #[cfg(target_arch = "x86_64")]
-pub(crate) use {avx2::Avx2, avx512::Avx512};
+pub(crate) use processor::{Avx2, Avx512};
 
 /// True if the processor can compute with [`Avx2`].
 #[cfg(target_arch = "x86_64")]

@@ -1,6 +1,5 @@
 //! Measures that may be left out, and why.
 
-use std::fmt;
 
 use crash_measures::signal::SignalError;
 
@@ -8,13 +7,16 @@ use crash_measures::signal::SignalError;
 pub type Measured<T> = Result<T, Missing>;
 
 /// Why a measure was left out.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Missing {
     /// It needs channels that the record does not have.
+    #[error("needs {}, which the record does not have", .0.join(" and "))]
     Channels(Vec<&'static str>),
     /// The signals do not allow it.
-    Signal(SignalError),
+    #[error("{0}")]
+    Signal(#[from] SignalError),
     /// The rates do not lead to an attitude: why not.
+    #[error("{0}")]
     Turning(String),
 }
 
@@ -22,24 +24,6 @@ impl Missing {
     /// Needs these channels.
     pub fn channels(names: &[&'static str]) -> Self {
         Missing::Channels(names.to_vec())
-    }
-}
-
-impl From<SignalError> for Missing {
-    fn from(error: SignalError) -> Self {
-        Missing::Signal(error)
-    }
-}
-
-impl fmt::Display for Missing {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Missing::Channels(names) => {
-                write!(f, "needs {}, which the record does not have", names.join(" and "))
-            }
-            Missing::Signal(error) => error.fmt(f),
-            Missing::Turning(reason) => f.write_str(reason),
-        }
     }
 }
 

@@ -1,6 +1,5 @@
 //! From a record to signals of the c.g.: even samples, filter, place of the sensors, gravity, first contact.
 
-use std::fmt;
 
 use nalgebra::Vector3;
 
@@ -39,11 +38,13 @@ pub struct Preparation {
 }
 
 /// Why a record cannot be used.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Unprepared {
     /// It has no channel.
+    #[error("there is no acceleration and no rate")]
     NoChannel,
     /// A channel, or the times ("t"), are wrong.
+    #[error("{name}: {error}")]
     Channel {
         /// Which.
         name: &'static str,
@@ -51,11 +52,18 @@ pub enum Unprepared {
         error: SignalError,
     },
     /// Sensors away from the c.g. need rates that are not there.
+    #[error(
+        "sensors away from the centre of gravity need all three rates, and {} {} not there",
+        missing.join(", "), if missing.len() == 1 { "is" } else { "are" }
+    )]
     OffsetNeedsRates {
         /// Which.
         missing: Vec<&'static str>,
     },
     /// First contact and end do not lie in the record, in this order.
+    #[error(
+        "the window from {start_s} s to {end_s} s does not lie in the record, which goes from {first_s} s to {last_s} s"
+    )]
     Window {
         /// First contact, s.
         start_s: f64,
@@ -67,28 +75,6 @@ pub enum Unprepared {
         last_s: f64,
     },
 }
-
-impl fmt::Display for Unprepared {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Unprepared::NoChannel => f.write_str("there is no acceleration and no rate"),
-            Unprepared::Channel { name, error } => write!(f, "{name}: {error}"),
-            Unprepared::OffsetNeedsRates { missing } => write!(
-                f,
-                "sensors away from the centre of gravity need all three rates, and {} {} not there",
-                missing.join(", "),
-                if missing.len() == 1 { "is" } else { "are" }
-            ),
-            Unprepared::Window { start_s, end_s, first_s, last_s } => write!(
-                f,
-                "the window from {start_s} s to {end_s} s does not lie in the record, which goes from {first_s} s to \
-                 {last_s} s"
-            ),
-        }
-    }
-}
-
-impl std::error::Error for Unprepared {}
 
 /// The six channels of a record, ax, ay, az, wx, wy, wz, evenly sampled.
 struct Channels {

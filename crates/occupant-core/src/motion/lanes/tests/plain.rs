@@ -1,9 +1,9 @@
-//! Lanes as an array: for every processor, and to test the others against.
+//! Lanes as an array, which every processor has: to test the others against.
 
 use std::array::from_fn;
 use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
 
-use super::{Lanes, trig};
+use crate::motion::lanes::{Lanes, trig};
 use crate::motion::scalar::Scalar;
 
 /// N numbers.

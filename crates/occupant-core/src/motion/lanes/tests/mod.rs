@@ -1,3 +1,5 @@
+pub(crate) mod plain;
+
 use super::*;
 use crash_measures::trig;
 
