@@ -177,10 +177,7 @@ impl Design {
                 dimensions.map(|d| Coordinate::Quantile(unit(of.seed, Purpose::MonteCarlo, index, d))).collect()
             }
             Design::Sobol { scramble, .. } => (0..k)
-                .map(|d| match scramble {
-                    true => of.sobol.scrambled(index, d, of.seed),
-                    false => of.sobol.plain(index, d),
-                })
+                .map(|d| if *scramble { of.sobol.scrambled(index, d, of.seed) } else { of.sobol.plain(index, d) })
                 .map(Coordinate::Quantile)
                 .collect(),
             Design::OneAtATime { tail } => low_and_high(index, *tail, of.laws),

@@ -111,17 +111,15 @@ impl Bounds {
 
     /// The value at a part of the way, 0 to 1.
     pub fn value(&self, u: f64) -> f64 {
-        match self.log {
-            true => log_between(self.from, self.to, u),
-            false => between(self.from, self.to, u),
-        }
+        if self.log { log_between(self.from, self.to, u) } else { between(self.from, self.to, u) }
     }
 
     /// The part of the way at which a value stands; beyond 0 or 1 for one outside.
     pub fn part(&self, value: f64) -> f64 {
-        match self.log {
-            true => (ln(value) - ln(self.from)) / (ln(self.to) - ln(self.from)),
-            false => (value - self.from) / (self.to - self.from),
+        if self.log {
+            (ln(value) - ln(self.from)) / (ln(self.to) - ln(self.from))
+        } else {
+            (value - self.from) / (self.to - self.from)
         }
     }
 }

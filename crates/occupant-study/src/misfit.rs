@@ -87,10 +87,7 @@ fn peak_and_time(measured: &[f64], computed: &[f64], dt_s: f64) -> f64 {
         vertex(values, best, ((PEAK_S / dt_s).round() as usize).max(1))
     };
     let largest = greatest(measured);
-    let sign = match measured.contains(&largest) {
-        true => 1.0,
-        false => -1.0,
-    };
+    let sign = if measured.contains(&largest) { 1.0 } else { -1.0 };
     let ((t_m, p_m), (t_c, p_c)) = (upward(measured, sign), upward(computed, sign));
     let peak = p_c / p_m - 1.0;
     let time = (t_c - t_m) / (measured.len() - 1) as f64;

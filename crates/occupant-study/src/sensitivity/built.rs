@@ -102,10 +102,7 @@ impl Built {
 /// Distance of two extrapolations of a slope as a part of the change that a change of `size` makes, or of the number.
 fn relative(slope: &Slope, value: f64, size: f64) -> f64 {
     let scale = (slope.value * size).abs().max(value.abs()).max(SMALL);
-    match scale.is_finite() {
-        true => slope.doubt * size / scale,
-        false => 0.0,
-    }
+    if scale.is_finite() { slope.doubt * size / scale } else { 0.0 }
 }
 
 impl Path {
