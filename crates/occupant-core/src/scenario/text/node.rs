@@ -165,6 +165,11 @@ impl Node {
         self.as_table().and_then(|t| t.get(key)).map(|e| &e.node)
     }
 
+    /// Whether it says that it is taken away: `remove = true`.
+    pub(crate) fn is_removed(&self) -> bool {
+        self.get("remove").is_some_and(|n| n.value == Value::Bool(true))
+    }
+
     /// The items, if it is a list.
     pub(crate) fn items(&self) -> &[Node] {
         match &self.value {
