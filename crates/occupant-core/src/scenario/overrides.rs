@@ -1,6 +1,6 @@
 //! `path.to.key=value`: changes to a scenario from a command line or a sweep, made before it is checked.
 
-use super::expand::RIVALS;
+use super::expand::rival;
 use super::text::{Entry, Node, Span, Step, Table, Value, child, follow, with_step};
 
 /// Whether a path can only be followed in the explicit form of a scenario: it has wildcards, or it leads into a list that
@@ -11,8 +11,8 @@ pub(super) fn needs_explicit(root: &Node, steps: &[Step]) -> bool {
 }
 
 /// Puts `value` at a path without wildcards. Of two keys that say the same thing in two ways, such as the `peak` and the
-/// `delta_v` of a pulse, the one that is put replaces the other. Tables on the way are made where they are missing; a list on the way that
-/// only the explicit form has (a preset's inertia, say) is copied from there first.
+/// `delta_v` of a pulse, the one that is put replaces the other. Tables on the way are made where they are missing; a list
+/// on the way that only the explicit form has (a preset's inertia, say) is copied from there first.
 ///
 /// # Errors
 /// The part of the path that leads nowhere.
@@ -29,9 +29,7 @@ pub(super) fn put(root: &mut Node, explicit: Option<&Node>, steps: &[Step], valu
             && table.get(key).is_none()
         {
             table.insert(blank(key, value.span, steps.get(i + 1), shadow));
-            for [_, rival] in RIVALS.iter().filter(|[given, _]| last && key == given) {
-                table.remove(rival);
-            }
+            rival(key).filter(|_| last).and_then(|rival| table.remove(rival));
         }
         let below = below_mut(node, step);
         node = below.ok_or_else(|| match step {

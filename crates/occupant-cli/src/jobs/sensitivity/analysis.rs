@@ -173,21 +173,18 @@ pub(crate) fn analyse(model: &Model, asked: &Asked<'_>) -> Result<Analysis, Fail
     let trajectory = follow(model, &mut built).map_err(|e| broke_off(&e))?;
     let dual_s = begun.elapsed().as_secs_f64();
     let values = plain_values(model, &trajectory, &asked.wish).map_err(|e| broke_off(&e))?;
-    let (mut all, mut finite, mut comparisons) = (Vec::new(), Vec::new(), Vec::new());
-    for (k, parameter) in asked.parameters.iter().enumerate() {
+    let changes: &[f64] = if asked.wish.figures.is_empty() { &[] } else { &CHANGES };
+    let finite = finite_changes(&asked.parameters, changes, &asked.wish.figures);
+    let (mut all, mut comparisons) = (Vec::new(), Vec::new());
+    for (k, (parameter, changes)) in asked.parameters.iter().zip(&finite).enumerate() {
         let found = derivatives(model, parameter, &trajectory, k, &asked.wish);
         let found = found.map_err(|e| broke_off(&e))?;
-        let changes = match asked.wish.figures.is_empty() {
-            true => Vec::new(),
-            false => finite_changes(parameter, &CHANGES, &asked.wish.figures),
-        };
         let one = |i: usize| {
             let value = values.figures[i];
-            compare(&found.figures[i], value, parameter.size, &changes, i)
+            compare(&found.figures[i], value, parameter.size, changes, i)
         };
         comparisons.push((0..asked.wish.figures.len()).map(one).collect());
         all.push(found);
-        finite.push(changes);
     }
     Ok(Analysis { values, trajectory, built, derivatives: all, finite, comparisons, cost_s: [plain_s, dual_s] })
 }

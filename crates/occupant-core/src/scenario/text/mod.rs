@@ -6,6 +6,7 @@ mod diagnostic;
 mod json;
 mod node;
 mod path;
+mod reader;
 mod source;
 mod toml;
 
