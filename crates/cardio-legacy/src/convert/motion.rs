@@ -2,7 +2,7 @@
 
 use super::compartment::passed_pair;
 use super::writer::{Writer, negated};
-use crate::cards::{BELTS, POSTURE, SEATS};
+use crate::cards::{BELTS, POSTURE, SEATS, uses};
 use crate::compartment::CompartmentLayout;
 
 pub(super) fn write(w: &mut Writer<'_>, layout: &CompartmentLayout) {
@@ -92,7 +92,7 @@ fn seating(w: &mut Writer<'_>, layout: &CompartmentLayout) {
 fn belts(w: &mut Writer<'_>) {
     let used = w.value("NOPBLT");
     for (number, name, sphere) in BELTS {
-        if w.deck.uses_belt(number) {
+        if uses(used, number) {
             belt(w, number, name, sphere);
             continue;
         }
