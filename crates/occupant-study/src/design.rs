@@ -188,9 +188,7 @@ impl Design {
 
     /// The signed change of the coordinate that the last step of a Morris trajectory changed.
     pub(super) fn morris_step(&self, index: u64, parameters: usize, seed: u64) -> Option<f64> {
-        let Design::Morris { levels, .. } = self else {
-            return None;
-        };
+        let Design::Morris { levels, .. } = self else { return None };
         let (trajectory, step) = morris::place(index, parameters);
         let path = Trajectory::new(trajectory, parameters, *levels, seed);
         let before = step.checked_sub(1)?;

@@ -33,26 +33,17 @@ impl Misfit {
             sum += weight * self.cost(part);
             weights += weight;
         }
-        match self {
-            Misfit::Iso18571 => sum / weights,
-            Misfit::Rms | Misfit::PeakAndTime => (sum / weights).sqrt(),
-        }
+        if self == Misfit::Iso18571 { sum / weights } else { (sum / weights).sqrt() }
     }
 
     /// What is smooth at its least value: the square of a root mean square.
     pub fn cost(self, misfit: f64) -> f64 {
-        match self {
-            Misfit::Iso18571 => misfit,
-            Misfit::Rms | Misfit::PeakAndTime => misfit * misfit,
-        }
+        if self == Misfit::Iso18571 { misfit } else { misfit * misfit }
     }
 
     /// The misfit of a cost.
     pub fn of_cost(self, cost: f64) -> f64 {
-        match self {
-            Misfit::Iso18571 => cost,
-            Misfit::Rms | Misfit::PeakAndTime => cost.max(0.0).sqrt(),
-        }
+        if self == Misfit::Iso18571 { cost } else { cost.max(0.0).sqrt() }
     }
 
     /// Its name in a study.

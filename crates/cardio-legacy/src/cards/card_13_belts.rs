@@ -17,9 +17,7 @@ pub(crate) fn uses(nopblt: f64, belt: u32) -> bool {
 
 /// Whether a field belongs to a belt that is not in use.
 pub(crate) fn is_of_unused(name: &str, nopblt: f64) -> bool {
-    let Some((variable, index)) = name.split_once('(') else {
-        return false;
-    };
+    let Some((variable, index)) = name.split_once('(') else { return false };
     let belt = if index.starts_with('1') { 1 } else { 2 };
     VARIABLES.contains(&variable) && !uses(nopblt, belt)
 }

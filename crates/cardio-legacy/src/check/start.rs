@@ -63,15 +63,11 @@ fn pairs(c: &Check<'_>) -> impl Iterator<Item = (u32, f64, f64)> {
 
 /// A pair whose surface is left out of the scenario changes nothing: the sphere cannot touch it anyway.
 fn check_surfaces_of_pairs(c: &mut Check<'_>) {
-    let Ok(layout) = CompartmentLayout::reconstruction() else {
-        return;
-    };
+    let Ok(layout) = CompartmentLayout::reconstruction() else { return };
     let missing = layout.left_out(c.deck);
     let pairs: Vec<_> = pairs(c).collect();
     for (card, _, surface) in pairs {
-        let Some(left_out) = missing.iter().find(|l| f64::from(l.number) == surface) else {
-            continue;
-        };
+        let Some(left_out) = missing.iter().find(|l| f64::from(l.number) == surface) else { continue };
         let (number, name, why) = (left_out.number, &left_out.name, left_out.why);
         let message = format!("the pair has no effect: surface {number}, {name}, {why} and is left out");
         let remedy = "remove the pair and correct NOCRD, or give the surface its area and stiffness";

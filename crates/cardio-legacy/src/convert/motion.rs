@@ -33,9 +33,7 @@ fn passed(w: &mut Writer<'_>, layout: &CompartmentLayout) {
     }
     let (mut text, mut before) = (String::new(), "");
     for pair in w.deck.passed_pairs() {
-        let Some((sphere, surface)) = passed_pair(w, layout, pair) else {
-            continue;
-        };
+        let Some((sphere, surface)) = passed_pair(w, layout, pair) else { continue };
         text.push_str(if sphere == before { " " } else { "\n    " });
         text.push_str(&format!("[\"{sphere}\", \"{surface}\"],"));
         before = sphere;
@@ -59,9 +57,7 @@ fn rows_of_coordinates(mut numbers: &[String]) -> String {
 
 fn seating(w: &mut Writer<'_>, layout: &CompartmentLayout) {
     let number = w.value("NOPTSP") as usize;
-    let Some(seat) = SEATS.get(number.wrapping_sub(1)) else {
-        return;
-    };
+    let Some(seat) = SEATS.get(number.wrapping_sub(1)) else { return };
     let surface = |number| layout.name_of(number).unwrap_or_default();
     let distance = w.bare("SWP");
     let (y, from, side) = if seat.is_left {

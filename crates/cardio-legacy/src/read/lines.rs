@@ -15,9 +15,7 @@ pub(super) fn read_cards(bytes: &[u8], sink: &mut Sink) -> Vec<PunchedCard> {
 }
 
 fn until_end_mark<'a>(bytes: &'a [u8], sink: &mut Sink) -> &'a [u8] {
-    let Some(end) = bytes.iter().position(|b| *b == END_MARK) else {
-        return bytes;
-    };
+    let Some(end) = bytes.iter().position(|b| *b == END_MARK) else { return bytes };
     if bytes[end..].iter().any(|b| !matches!(*b, END_MARK | b' ' | b'\r' | b'\n')) {
         let line = lines(&bytes[..end]).len().max(1);
         let message = "a DOS end-of-file mark (0x1a) stands in the file; what follows it is not read";

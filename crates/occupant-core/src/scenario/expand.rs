@@ -179,9 +179,7 @@ fn members<'a>(layers: &[Node], names: impl Iterator<Item = &'a str>) -> Vec<Ent
 }
 
 fn put(explicit: &mut Table, key: &str, layers: &[Node], members: Vec<Entry>) {
-    let Some(last) = layers.last() else {
-        return;
-    };
+    let Some(last) = layers.last() else { return };
     let mut table = Table::new();
     members.into_iter().for_each(|m| table.insert(m));
     explicit.insert(Entry {
@@ -193,9 +191,7 @@ fn put(explicit: &mut Table, key: &str, layers: &[Node], members: Vec<Entry>) {
 
 /// `over` laid over `under`: tables merge key by key, everything else is replaced.
 fn laid_over(under: Option<Entry>, over: Entry) -> Entry {
-    let Some(mut under) = under else {
-        return over;
-    };
+    let Some(mut under) = under else { return over };
     match (under.node.as_table_mut(), over.node.as_table()) {
         (Some(base), Some(table)) => {
             for entry in table.iter() {

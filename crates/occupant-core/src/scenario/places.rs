@@ -1,6 +1,6 @@
 //! The places that a path leads to in a scenario: what may stand there, and what does.
 //!
-//! A study asks this before it changes anything, so that a path that leads nowhere and a unit of the wrong kind are told
+//! A study asks this before it changes anything, so that a path that leads nowhere and a unit of the wrong kind are reported
 //! once and not by every run.
 
 use serde_json::Value as Json;
@@ -155,9 +155,7 @@ impl Draft {
     /// there, else that of the scenario's bare numbers. None where no quantity can stand.
     pub fn unit_at(&self, path: &str) -> Option<(String, f64)> {
         let place = self.places(path).ok()?.into_iter().next()?;
-        let Wanted::Quantity(kind) = place.wanted else {
-            return None;
-        };
+        let Wanted::Quantity(kind) = place.wanted else { return None };
         let unit = match &place.value {
             Some(Value::String(text)) => text[split_number(text)?.1..].trim_end().to_owned(),
             _ => kind.bare_unit(self.units()).to_owned(),

@@ -88,9 +88,7 @@ impl Binder<'_> {
 
     /// Warns of a number of points that Sobol's sequence does not fill.
     fn power_of_two(&mut self, design: &Design) {
-        let (Design::Sobol { samples, .. } | Design::Saltelli { samples, .. }) = design else {
-            return;
-        };
+        let (Design::Sobol { samples, .. } | Design::Saltelli { samples, .. }) = design else { return };
         if !samples.is_power_of_two() {
             let near = samples.checked_next_power_of_two().unwrap_or(*samples);
             let found = format!("{samples} points of Sobol's sequence, which is even only in powers of 2");

@@ -84,9 +84,7 @@ impl Binder<'_> {
 
     /// Whether there are numbers to multiply or to add to.
     pub(super) fn all_numbers(&mut self, places: &[Place], at: &str, apply: ApplyChoice) -> bool {
-        let Some(other) = places.iter().find(|p| p.si.is_none()) else {
-            return true;
-        };
+        let Some(other) = places.iter().find(|p| p.si.is_none()) else { return true };
         let word = match apply {
             ApplyChoice::Factor => "multiplied",
             _ => "added to",

@@ -126,9 +126,7 @@ fn walk<E>(chains: &mut [Chain], shape: &Shape, rise: f64, evaluate: &mut Evalua
         let mut slope = Vec::with_capacity(others.len());
         let mut lowest = chain.best.clone();
         for k in &others {
-            let (Some([down, up]), Some([a, b])) = (star.next(), lengths.next()) else {
-                continue;
-            };
+            let (Some([down, up]), Some([a, b])) = (star.next(), lengths.next()) else { continue };
             let span = (a + b).max(f64::MIN_POSITIVE);
             slope.push((up.value - down.value) / span * shape.lengths[shape.free[*k]] / rise);
             lowest = lowest.lower(down.clone()).lower(up.clone());

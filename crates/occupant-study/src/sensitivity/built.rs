@@ -229,9 +229,7 @@ pub(super) fn dual_frames<const N: usize>(
     let mut dual = plain.map(|frame| frame.zip(&frame, &still));
     let numbers = motion_numbers(&plain[VEHICLE]);
     for (k, built) in built.iter_mut().enumerate().take(N) {
-        let Some(path) = &mut built.path else {
-            continue;
-        };
+        let Some(path) = &mut built.path else { continue };
         let slopes = path.slopes(&numbers, t_s, middle_s);
         let mut places = slopes.iter();
         let vehicle = plain[VEHICLE];

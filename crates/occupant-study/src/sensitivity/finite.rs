@@ -132,9 +132,7 @@ fn verdict(finite: &[Finite], off: &[f64], all_still: bool) -> Verdict {
     let mut known: Vec<(f64, f64)> =
         finite.iter().zip(off).filter(|(_, off)| off.is_finite()).map(|(f, off)| (f.part, *off)).collect();
     known.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let Some(&(at, first)) = known.first() else {
-        return Verdict::Unchecked;
-    };
+    let Some(&(at, first)) = known.first() else { return Verdict::Unchecked };
     if all_still {
         return Verdict::NoInfluence;
     }

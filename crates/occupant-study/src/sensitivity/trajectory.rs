@@ -92,9 +92,7 @@ fn pass<const N: usize>(model: &Model, built: &mut [Built]) -> Result<Trajectory
         for (k, slopes) in slopes.iter_mut().enumerate() {
             slopes.push(Displacement::of(&tangent, k));
         }
-        let Some(target_s) = run.next_output_s(model) else {
-            break;
-        };
+        let Some(target_s) = run.next_output_s(model) else { break };
         run.advance_to(model, target_s).map_err(|e| failed(&e))?;
         let mut taken: Vec<Step> = run.taken.take().unwrap_or_default();
         for step in taken.drain(..) {

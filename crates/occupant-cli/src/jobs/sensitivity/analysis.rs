@@ -10,7 +10,7 @@ use occupant_core::results::summary::{Figure, Summarizer};
 use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Draft, Resolver};
 use occupant_study::sensitivity::finite::{CHANGES, Comparison, Finite, compare, finite_changes};
-use occupant_study::sensitivity::measures::{Derivatives, Values, Wish, chosen, derivatives, plain_values};
+use occupant_study::sensitivity::measures::{Derivatives, Request, Values, chosen, derivatives, plain_values};
 use occupant_study::sensitivity::{Built, Parameter, Trajectory, follow, parameter};
 
 use crate::base::failure::Failure;
@@ -18,7 +18,7 @@ use crate::base::failure::Failure;
 /// What is asked for, all of it there.
 pub(crate) struct Asked<'a> {
     pub(crate) parameters: Vec<Parameter<'a>>,
-    pub(crate) wish: Wish,
+    pub(crate) wish: Request,
     /// Units of the figures.
     pub(crate) units: Vec<&'static str>,
 }
@@ -94,7 +94,7 @@ pub(crate) fn ask<'a>(
         return Err(Failure::CouldNotRun(format!("{}\n\n{count}, nothing was computed", wrong.join("\n"))));
     }
     let unit = |name: &String| figures.iter().find(|f| f.name == *name).map_or("1", |f| f.unit);
-    Ok(Asked { parameters, units: names.iter().map(unit).collect(), wish: Wish { figures: names, channels } })
+    Ok(Asked { parameters, units: names.iter().map(unit).collect(), wish: Request { figures: names, channels } })
 }
 
 /// Lists with commas, several of them; a comma within double quotes belongs to a name.

@@ -10,9 +10,7 @@ use crate::scenario::text::{Entry, Node, Table, one_of, quoted};
 impl Checker<'_> {
     /// Keys that exclude or need each other.
     pub(super) fn groups(&mut self, view: &View, node: &Node, path: &str) {
-        let (Some(object), Some(table)) = (view.object_with_groups(), node.as_table()) else {
-            return;
-        };
+        let (Some(object), Some(table)) = (view.object_with_groups(), node.as_table()) else { return };
         self.exclusive_groups(object, node, table, path);
         for group in groups(object, "x-together") {
             let (given, absent): (Vec<&str>, Vec<&str>) = group.iter().partition(|k| table.get(k).is_some());

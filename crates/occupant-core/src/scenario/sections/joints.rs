@@ -95,11 +95,7 @@ pub(super) fn joints(b: &mut Builder, section: &JointsSection) -> Joints {
     let mut joints = Joints::free(&TTI12);
     for joint in TTI12.joints() {
         let row = &TTI12[joint];
-        let law = if row.is_hinge() {
-            JointLaw::from(hinge(b, row.name))
-        } else {
-            JointLaw::from(ball(b, row.name))
-        };
+        let law = if row.is_hinge() { JointLaw::from(hinge(b, row.name)) } else { JointLaw::from(ball(b, row.name)) };
         joints = joints.with(joint, law);
     }
     joints.with_epsilon(si_or(&section.epsilon, Joints::EPSILON))
@@ -119,9 +115,7 @@ pub(super) fn said_of(b: &Builder, name: &str) -> Option<JointSection> {
 fn report_undamped(b: &mut Builder) {
     let names = TTI12.joint_rows().iter().map(|row| row.name);
     let undamped: Vec<&str> = names.filter(|name| given(b, name).is_none()).collect();
-    let Some((first, others)) = undamped.split_first() else {
-        return;
-    };
+    let Some((first, others)) = undamped.split_first() else { return };
     let found = match others.len() {
         0 => format!("joint `{first}` has no damping"),
         n => format!("joint `{first}` and {n} more have no damping"),
@@ -132,9 +126,7 @@ fn report_undamped(b: &mut Builder) {
 }
 
 fn ball(b: &mut Builder, name: &str) -> BallJoint {
-    let Some(section) = given(b, name) else {
-        return BallJoint::default();
-    };
+    let Some(section) = given(b, name) else { return BallJoint::default() };
     let path = format!("joints.{name}");
     let expected = "`stop`, the limit of the angle between its segments";
     b.refuse_keys(&path, &["lower_stop", "upper_stop"], |key| format!("`{key}` of a ball joint"), expected);
@@ -154,9 +146,7 @@ fn ball(b: &mut Builder, name: &str) -> BallJoint {
 }
 
 fn hinge(b: &mut Builder, name: &str) -> HingeJoint {
-    let Some(section) = given(b, name) else {
-        return HingeJoint::default();
-    };
+    let Some(section) = given(b, name) else { return HingeJoint::default() };
     let path = format!("joints.{name}");
     let foreign = ["stop", "twist_damping", "stiffness", "rest_angle"];
     let expected = "`damping`, `lower_stop`, `upper_stop`: elbows and knees are hinges";

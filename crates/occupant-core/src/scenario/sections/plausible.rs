@@ -94,7 +94,8 @@ fn values(b: &Builder, setup: &Setup, path: &str) -> Vec<(String, f64)> {
     let of_place = |steps: Vec<Step>| {
         let above = follow(root, &steps[..steps.len() - 1])?;
         let node = child(above, steps.last()?)?;
-        let norm = node.si.into_iter().chain(node.items().iter().filter_map(|n| n.si)).map(|x| x * x).sum::<f64>().sqrt();
+        let norm =
+            node.si.into_iter().chain(node.items().iter().filter_map(|n| n.si)).map(|x| x * x).sum::<f64>().sqrt();
         (norm != 0.0 && !above.is_removed()).then(|| (to_text(&steps), norm))
     };
     match path {
@@ -107,9 +108,7 @@ fn values(b: &Builder, setup: &Setup, path: &str) -> Vec<(String, f64)> {
 /// One warning for all values of a kind that are out of the usual range, at the first of them.
 fn warn_unless(b: &mut Builder, values: Vec<(String, f64)>, usual: &Usual) {
     let mut unusual = values.into_iter().filter(|(_, v)| !usual.values.contains(v));
-    let Some((path, value)) = unusual.next() else {
-        return;
-    };
+    let Some((path, value)) = unusual.next() else { return };
     let more = match unusual.count() {
         0 => String::new(),
         n => format!(", and so are {n} more"),
@@ -139,9 +138,7 @@ fn check_posture_angles(b: &mut Builder, p: &PostureSection) {
 
 fn check_stop_angles(b: &mut Builder) {
     for joint in TTI12.joint_rows() {
-        let Some(section) = said_of(b, joint.name) else {
-            continue;
-        };
+        let Some(section) = said_of(b, joint.name) else { continue };
         let stops = [("stop", &section.stop), ("lower_stop", &section.lower_stop), ("upper_stop", &section.upper_stop)];
         for (key, stop) in stops {
             if stop.as_ref().is_some_and(|s| look_like_radians(&[&s.begin, &s.full])) {

@@ -181,9 +181,7 @@ fn facing(
 
 /// One message for all surfaces whose open side is not told.
 fn report_undecided(b: &mut Builder, paths: &[String]) {
-    let Some((first, others)) = paths.split_first() else {
-        return;
-    };
+    let Some((first, others)) = paths.split_first() else { return };
     let found = match others.len() {
         0 => format!("`{first}` does not say which side is open"),
         n => format!("`{first}` and {n} more do not say which side is open"),

@@ -47,7 +47,7 @@ impl Document {
         Ok(Document { sources, main, root })
     }
 
-    /// Reads bytes that should be UTF-8 text; the format is told by [`Format::of_text`] unless given.
+    /// Reads bytes that should be UTF-8 text; [`Format::of_text`] says the format unless it is given.
     ///
     /// # Errors
     /// The place of the first byte that is not UTF-8; else as [`Document::read`].
