@@ -48,9 +48,8 @@ pub(super) fn expand(sources: &mut Sources, root: &Node) -> Node {
     let sets = root.get("joint_sets").cloned();
     let joints = section(sources, root, "joints", |layers| joints(&layers, sets.as_ref()));
     if let Some(table) = explicit.as_table_mut() {
-        for entry in [body, joints].into_iter().flatten() {
-            table.insert(entry);
-        }
+        table
+            .extend([("body", body), ("joints", joints)].into_iter().filter_map(|(key, e)| Some((key.to_owned(), e?))));
     }
     explicit
 }
@@ -92,25 +91,25 @@ fn joints(layers: &[Node], sets: Option<&Node>) -> Table {
         ["all".to_owned()].into_iter().chain(both_sides(joint.name)).chain([joint.name.to_owned()]).collect()
     };
     for word in TTI12.joint_rows().iter().flat_map(words_of) {
-        explicit.remove(&word);
+        explicit.shift_remove(&word);
     }
     for joint in TTI12.joint_rows() {
-        let whole = |entry: &Entry| {
+        let whole = |word: &str, entry: &Entry| {
             let whole = with_set(entry, sets);
-            if entry.key == "all" { fitting(whole, joint) } else { whole }
+            if word == "all" { fitting(whole, joint) } else { whole }
         };
         if let Some(entry) = merged(layers, &words_of(joint), whole) {
-            explicit.insert(Entry { key: joint.name.to_owned(), ..entry });
+            explicit.insert(joint.name.to_owned(), entry);
         }
     }
     explicit
 }
 
 /// What the layers say under any of `words`, later words and layers laid over earlier ones.
-fn merged(layers: &[Node], words: &[String], whole: impl Fn(&Entry) -> Entry) -> Option<Entry> {
+fn merged(layers: &[Node], words: &[String], whole: impl Fn(&str, &Entry) -> Entry) -> Option<Entry> {
     let tables = layers.iter().filter_map(Node::as_table);
-    let entries = tables.flat_map(|table| words.iter().filter_map(|word| table.get(word)));
-    entries.fold(None, |merged, entry| Some(laid_over(merged, whole(entry))))
+    let entries = tables.flat_map(|table| words.iter().filter_map(|word| Some(whole(word, table.get(word)?))));
+    entries.fold(None, |merged, entry| Some(laid_over(merged, entry)))
 }
 
 /// What is said of all joints, without what this kind of joint cannot have.
@@ -122,7 +121,7 @@ fn fitting(mut entry: Entry, joint: &JointRow) -> Entry {
     };
     if let Some(table) = entry.node.as_table_mut() {
         for key in foreign {
-            table.remove(key);
+            table.shift_remove(*key);
         }
     }
     entry
@@ -137,7 +136,7 @@ fn with_set(entry: &Entry, sets: Option<&Node>) -> Entry {
         Some(set) => {
             let mut own = entry.clone();
             if let Some(table) = own.node.as_table_mut() {
-                table.remove("set");
+                table.shift_remove("set");
             }
             laid_over(Some(set.clone()), own)
         }
@@ -146,19 +145,15 @@ fn with_set(entry: &Entry, sets: Option<&Node>) -> Entry {
 
 /// All keys of the layers but `preset` and `except`; later layers win.
 fn plain_keys(layers: &[Node], except: &[&str]) -> Table {
-    let mut plain = Table::new();
-    for entry in layers.iter().filter_map(Node::as_table).flat_map(Table::iter) {
-        if entry.key != "preset" && !except.contains(&entry.key.as_str()) {
-            plain.insert(entry.clone());
-        }
-    }
-    plain
+    let all = layers.iter().filter_map(Node::as_table).flatten();
+    let plain = all.filter(|(key, _)| *key != "preset" && !except.contains(&key.as_str()));
+    plain.map(|(key, entry)| (key.clone(), entry.clone())).collect()
 }
 
 /// Names in the layers that are neither a pair's word nor among `known`, in order of appearance.
 fn other_names(layers: &[Node], known: &[&str]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
-    for Entry { key, .. } in layers.iter().filter_map(Node::as_table).flat_map(Table::iter) {
+    for key in layers.iter().filter_map(Node::as_table).flat_map(Table::keys) {
         let is_known = known.iter().any(|name| name == key || both_sides(name).as_ref() == Some(key));
         if !is_known && !names.contains(key) {
             names.push(key.clone());
@@ -168,25 +163,19 @@ fn other_names(layers: &[Node], known: &[&str]) -> Vec<String> {
 }
 
 /// One merged entry for each of `names` that any layer speaks of, itself or through its pair.
-fn members<'a>(layers: &[Node], names: impl Iterator<Item = &'a str>) -> Vec<Entry> {
+fn members<'a>(layers: &[Node], names: impl Iterator<Item = &'a str>) -> Table {
     names
         .filter_map(|name| {
             let words: Vec<String> = both_sides(name).into_iter().chain([name.to_owned()]).collect();
-            let entry = merged(layers, &words, Entry::clone)?;
-            Some(Entry { key: name.to_owned(), ..entry })
+            Some((name.to_owned(), merged(layers, &words, |_, entry| entry.clone())?))
         })
         .collect()
 }
 
-fn put(explicit: &mut Table, key: &str, layers: &[Node], members: Vec<Entry>) {
-    let Some(last) = layers.last() else { return };
-    let mut table = Table::new();
-    members.into_iter().for_each(|m| table.insert(m));
-    explicit.insert(Entry {
-        key: key.to_owned(),
-        key_span: last.span,
-        node: Node::new(last.span, Value::Table(table)),
-    });
+fn put(explicit: &mut Table, key: &str, layers: &[Node], members: Table) {
+    if let Some(Node { span, .. }) = layers.last() {
+        explicit.insert(key.to_owned(), Entry { key_span: *span, node: Node::new(*span, Value::Table(members)) });
+    }
 }
 
 /// `over` laid over `under`: tables merge key by key, everything else is replaced.
@@ -194,15 +183,13 @@ fn laid_over(under: Option<Entry>, over: Entry) -> Entry {
     let Some(mut under) = under else { return over };
     match (under.node.as_table_mut(), over.node.as_table()) {
         (Some(base), Some(table)) => {
-            for entry in table.iter() {
-                rival(&entry.key).and_then(|rival| base.remove(rival));
-                let below = base.get(&entry.key).cloned();
-                base.insert(laid_over(below, entry.clone()));
+            for (key, entry) in table {
+                rival(key).and_then(|rival| base.shift_remove(rival));
+                let below = base.get(key).cloned();
+                base.insert(key.clone(), laid_over(below, entry.clone()));
             }
             under.node.span = over.node.span;
-            under.key = over.key;
-            under.key_span = over.key_span;
-            under
+            Entry { key_span: over.key_span, ..under }
         }
         _ => over,
     }

@@ -28,8 +28,8 @@ pub(super) fn put(root: &mut Node, explicit: Option<&Node>, steps: &[Step], valu
         if let (Step::Key(key), Value::Table(table)) = (step, &mut node.value)
             && table.get(key).is_none()
         {
-            table.insert(blank(key, value.span, steps.get(i + 1), shadow));
-            rival(key).filter(|_| last).and_then(|rival| table.remove(rival));
+            table.insert(key.clone(), blank(value.span, steps.get(i + 1), shadow));
+            rival(key).filter(|_| last).and_then(|rival| table.shift_remove(rival));
         }
         let below = below_mut(node, step);
         node = below.ok_or_else(|| match step {
@@ -52,13 +52,13 @@ fn path_end(step: &Step) -> &str {
 }
 
 /// An entry to be filled: a copy of the explicit list if the path goes on into a list, else an empty table.
-fn blank(key: &str, span: Span, next: Option<&Step>, shadow: Option<&Node>) -> Entry {
+fn blank(span: Span, next: Option<&Step>, shadow: Option<&Node>) -> Entry {
     let copied = match (next, shadow.map(|s| &s.value)) {
         (Some(_), Some(Value::Array(items))) => Some(Value::Array(items.clone())),
         _ => None,
     };
     let node = Node::new(span, copied.unwrap_or(Value::Table(Table::new())));
-    Entry { key: key.to_owned(), key_span: span, node }
+    Entry { key_span: span, node }
 }
 
 fn below_mut<'a>(node: &'a mut Node, step: &Step) -> Option<&'a mut Node> {

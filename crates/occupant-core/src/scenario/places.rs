@@ -178,11 +178,8 @@ fn nowhere(explicit: &Node, path: &str, steps: &[Step]) -> Problem {
     };
     let good = (1..=steps.len()).take_while(|n| !reached(*n).is_empty()).last().unwrap_or(0);
     let beside = reached(good);
-    let mut names: Vec<&str> = beside
-        .iter()
-        .filter_map(|node| node.as_table())
-        .flat_map(|table| table.iter().map(|e| e.key.as_str()))
-        .collect();
+    let mut names: Vec<&str> =
+        beside.iter().filter_map(|node| node.as_table()).flat_map(|table| table.keys().map(String::as_str)).collect();
     names.sort_unstable();
     names.dedup();
     let hint = match steps.get(good) {
@@ -244,7 +241,7 @@ fn unknown(view: &View, node: Option<&Node>, steps: &[Step], at: usize) -> Probl
     };
     let mut names = view.keys();
     let own = node.and_then(Node::as_table);
-    names.extend(own.iter().flat_map(|t| t.iter()).map(|e| e.key.as_str()));
+    names.extend(own.into_iter().flat_map(|table| table.keys().map(String::as_str)));
     let hint = did_you_mean(key, &names, '`');
     names.sort_unstable();
     names.dedup();
@@ -258,7 +255,7 @@ fn collect(node: &Node, wanted: &Value, path: &mut Vec<Step>, found: &mut Vec<Ve
         found.push(path.clone());
     }
     let below: Vec<(Step, &Node)> = match &node.value {
-        Value::Table(table) => table.iter().map(|e| (Step::Key(e.key.clone()), &e.node)).collect(),
+        Value::Table(table) => table.iter().map(|(key, e)| (Step::Key(key.clone()), &e.node)).collect(),
         Value::Array(items) => items.iter().enumerate().map(|(i, n)| (Step::Index(i), n)).collect(),
         _ => Vec::new(),
     };

@@ -43,6 +43,6 @@ pub(in crate::scenario) fn references(explicit: &Node, spheres: &[&str]) -> Vec<
 /// The keys of a table, without those of things that are taken away.
 fn names_in<'n>(explicit: &'n Node, table: &str) -> Vec<&'n str> {
     let node = follow(explicit, &parse_path(table).unwrap_or_default());
-    let entries = node.and_then(Node::as_table).into_iter().flat_map(|t| t.iter());
-    entries.filter(|e| !e.node.is_removed()).map(|e| e.key.as_str()).collect()
+    let entries = node.and_then(Node::as_table).into_iter().flatten();
+    entries.filter(|(_, e)| !e.node.is_removed()).map(|(key, _)| key.as_str()).collect()
 }

@@ -1,7 +1,5 @@
 //! JSON text → [`Node`] tree, strictly by RFC 8259.
 
-use std::collections::HashSet;
-
 use jsonc_parser::ast::{Object, Value as Ast};
 use jsonc_parser::common::Ranged;
 use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
@@ -54,15 +52,14 @@ fn rejected(reader: &mut Reader, span: Span, found: &str, expected: &str) -> Nod
 
 fn read_object(reader: &mut Reader, object: Object<'_>) -> Value {
     let mut table = Table::new();
-    let mut seen = HashSet::new();
     for property in object.properties {
         let key_span = span(reader, &property.name);
         let key = property.name.into_string();
-        if !seen.insert(key.clone()) {
+        if table.contains_key(&key) {
             reader.reject(key_span, &format!("key `{key}` a second time"), "each key once");
             continue;
         }
-        table.push(Entry { key, key_span, node: read_node(reader, property.value) });
+        table.insert(key, Entry { key_span, node: read_node(reader, property.value) });
     }
     Value::Table(table)
 }

@@ -130,7 +130,7 @@ fn collect(node: &Node, rest: &[Step], path: &mut Vec<Step>, found: &mut Vec<Vec
         return;
     };
     let next: Vec<Step> = match (step, &node.value) {
-        (Step::Every, Value::Table(table)) => table.iter().map(|e| Step::Key(e.key.clone())).collect(),
+        (Step::Every, Value::Table(table)) => table.keys().cloned().map(Step::Key).collect(),
         (Step::Every, Value::Array(items)) => (0..items.len()).map(Step::Index).collect(),
         _ => vec![step.clone()],
     };

@@ -53,7 +53,7 @@ fn read_table(reader: &mut Reader, source: DeTable<'_>) -> Value {
         if span.start == span.end && matches!(value, DeValue::Table(_) | DeValue::Array(_)) {
             span = key_span;
         }
-        table.push(Entry { key: key.into_inner().into_owned(), key_span, node: read_node(reader, span, value) });
+        table.insert(key.into_inner().into_owned(), Entry { key_span, node: read_node(reader, span, value) });
     }
     Value::Table(table)
 }
@@ -96,7 +96,7 @@ mod tests {
     fn keeps_order_and_words() {
         let (sources, node) = read("z = 1\na = \"x\"\n[m.seat]\nk1 = 4.80\n[m.dash]\n");
         let node = node.unwrap();
-        let keys: Vec<_> = node.as_table().unwrap().iter().map(|e| &e.key).collect();
+        let keys: Vec<_> = node.as_table().unwrap().keys().collect();
         assert_eq!(keys, ["z", "a", "m"]);
         let k1 = node.get("m").unwrap().get("seat").unwrap().get("k1").unwrap();
         assert_eq!(sources.slice(k1.span), "4.80");
