@@ -50,7 +50,7 @@ impl Draft {
     /// # Errors
     /// A path that cannot be read, leads nowhere, or leads to a whole table or list.
     pub fn places(&self, path: &str) -> Result<Vec<Place>, Problem> {
-        let steps = parse_path(path).map_err(|found| misplaced(found, "a path such as belts.lap.slack", None))?;
+        let steps = parse_path(path).map_err(|found| misplaced(found, "a path such as belts.lap.slack"))?;
         let explicit = expand(&mut self.document.sources.clone(), &self.document.root);
         let found = targets(&explicit, &steps);
         if found.is_empty() {
@@ -107,16 +107,14 @@ impl Draft {
         let mut root = self.document.root.clone();
         let node = Node::new(root.span, mark.clone());
         put(&mut root, Some(explicit), steps, node)
-            .map_err(|found| misplaced(found, "a path that exists in the scenario", None))?;
+            .map_err(|found| misplaced(found, "a path that exists in the scenario"))?;
         let marked = expand(&mut self.document.sources.clone(), &root);
         let mut found = Vec::new();
         collect(&marked, &mark, &mut Vec::new(), &mut found);
         if found.is_empty() {
-            return Err(misplaced(
-                format!("`{}` changes nothing in this scenario", place.path),
-                "a path to something that counts",
-                Some("what is said of a single joint, segment or sphere wins over what is said of a group".into()),
-            ));
+            let found = format!("`{}` changes nothing in this scenario", place.path);
+            let hint = "what is said of a single joint, segment or sphere wins over what is said of a group";
+            return Err(misplaced(found, "a path to something that counts").with_hint(Some(hint)));
         }
         if found == [steps] {
             return Ok(vec![place]);
@@ -186,7 +184,7 @@ fn nowhere(explicit: &Node, path: &str, steps: &[Step]) -> Problem {
         Some(Step::Key(key)) => did_you_mean(key, &names, '`'),
         _ => None,
     };
-    misplaced(format!("`{path}` matches nothing in the base scenario"), "a path to at least one value", hint)
+    misplaced(format!("`{path}` matches nothing in the base scenario"), "a path to at least one value").with_hint(hint)
 }
 
 /// The case of a table with a `kind` that its own `kind` names; else the view itself.
@@ -198,8 +196,8 @@ fn at_hand(view: View, root: &'static Json, node: Option<&Node>) -> View {
 }
 
 /// Why a path leads to no value.
-fn misplaced(found: impl Into<String>, expected: impl Into<String>, hint: Option<String>) -> Problem {
-    Problem::error("", found, expected).with_hint(hint)
+fn misplaced(found: impl Into<String>, expected: impl Into<String>) -> Problem {
+    Problem::error("", found, expected)
 }
 
 fn wanted(view: &View) -> Option<Wanted> {
@@ -218,11 +216,8 @@ fn wanted(view: &View) -> Option<Wanted> {
 }
 
 fn no_value(steps: &[Step]) -> Problem {
-    misplaced(
-        format!("`{}` leads to a table or list, not to a single value", to_text(steps)),
-        "a path to numbers or names",
-        None,
-    )
+    let found = format!("`{}` leads to a table or list, not to a single value", to_text(steps));
+    misplaced(found, "a path to numbers or names")
 }
 
 /// The step of a path that leads nowhere, and what stands beside it.
@@ -237,7 +232,7 @@ fn unknown(view: &View, node: Option<&Node>, steps: &[Step], at: usize) -> Probl
             Some(_) => format!("{above} is no list"),
             None => format!("{above} is not in the base scenario"),
         };
-        return misplaced(found, "an index that exists, from 0", None);
+        return misplaced(found, "an index that exists, from 0");
     };
     let mut names = view.keys();
     let own = node.and_then(Node::as_table);
@@ -246,7 +241,7 @@ fn unknown(view: &View, node: Option<&Node>, steps: &[Step], at: usize) -> Probl
     names.sort_unstable();
     names.dedup();
     let expected = if names.is_empty() { "a shorter path".to_owned() } else { format!("one of {}", names.join(", ")) };
-    misplaced(format!("{above} has nothing named `{key}`"), expected, hint)
+    misplaced(format!("{above} has nothing named `{key}`"), expected).with_hint(hint)
 }
 
 /// The paths at which a value stands.

@@ -192,47 +192,36 @@ pub(super) fn pick(figures: &[Figure], names: &[String]) -> Vec<f64> {
 /// # Errors
 /// A name or a pattern that fits none; a figure that the run has not, or that has no derivative.
 pub fn chosen(figures: &[Figure], name: &str) -> Result<Vec<String>, Problem> {
-    let refuse =
-        |found: String, expected: &str, hint: Option<String>| Problem::error("", found, expected).with_hint(hint);
+    let refuse = |found: String, expected: &str| Problem::error("", found, expected);
     if name.contains('*') {
         let pieces: Vec<&str> = name.split('*').collect();
-        let fits = |f: &&Figure| matches(&f.name, &pieces);
-        let all: Vec<&Figure> = figures.iter().filter(fits).collect();
+        let all: Vec<&Figure> = figures.iter().filter(|f| matches(&f.name, &pieces)).collect();
         let usable = all.iter().filter(|f| f.value.is_some() && without_derivative(&f.name).is_none());
         let found: Vec<String> = usable.map(|f| f.name.clone()).collect();
         return match (found.is_empty(), all.is_empty()) {
             (false, _) => Ok(found),
-            (true, true) => Err(refuse(format!("no measure is called `{name}`"), "a measure of the run", None)),
-            (true, false) => Err(refuse(
-                format!("no measure called `{name}` has a value and a derivative in this run"),
-                "a measure that the run has",
-                None,
-            )),
+            (true, true) => Err(refuse(format!("no measure is called `{name}`"), "a measure of the run")),
+            (true, false) => {
+                let found = format!("no measure called `{name}` has a value and a derivative in this run");
+                Err(refuse(found, "a measure that the run has"))
+            }
         };
     }
     let Some(figure) = figures.iter().find(|f| f.name == name) else {
         let near = nearest(name, figures.iter().map(|f| f.name.as_str()));
-        return Err(refuse(
-            format!("no measure is called `{name}`"),
-            "a measure of the run, such as hic15, head.peak, belts.lap.peak",
-            near.map(|n| format!("did you mean `{n}`?")),
-        ));
+        let expected = "a measure of the run, such as hic15, head.peak, belts.lap.peak";
+        let problem = refuse(format!("no measure is called `{name}`"), expected);
+        return Err(problem.with_hint(near.map(|n| format!("did you mean `{n}`?"))));
     };
     if let Some(reason) = without_derivative(name) {
-        return Err(refuse(
-            format!("`{name}` has no derivative: {reason}"),
-            "a measure that changes with the motion",
-            None,
-        ));
+        let found = format!("`{name}` has no derivative: {reason}");
+        return Err(refuse(found, "a measure that changes with the motion"));
     }
-    match figure.value {
-        Some(_) => Ok(vec![name.to_owned()]),
-        None => Err(refuse(
-            format!("`{name}` has no value in this run: what it measures did not happen"),
-            "a measure that the run has",
-            None,
-        )),
+    if figure.value.is_none() {
+        let found = format!("`{name}` has no value in this run: what it measures did not happen");
+        return Err(refuse(found, "a measure that the run has"));
     }
+    Ok(vec![name.to_owned()])
 }
 
 /// Why a figure has no derivative here, if it has none.
