@@ -11,7 +11,7 @@ use super::expand::expand;
 use super::kind::{Kind, split_number};
 use super::overrides::put;
 use super::sections::schema;
-use super::text::{Node, Step, Value, child, did_you_mean, follow, parse_path, targets, to_text};
+use super::text::{Node, Step, Value, child, children, did_you_mean, follow, parse_path, targets, to_text};
 use crate::problem::Problem;
 use crash_measures::unit::parse;
 
@@ -249,12 +249,7 @@ fn collect(node: &Node, wanted: &Value, path: &mut Vec<Step>, found: &mut Vec<Ve
     if node.value == *wanted {
         found.push(path.clone());
     }
-    let below: Vec<(Step, &Node)> = match &node.value {
-        Value::Table(table) => table.iter().map(|(key, e)| (Step::Key(key.clone()), &e.node)).collect(),
-        Value::Array(items) => items.iter().enumerate().map(|(i, n)| (Step::Index(i), n)).collect(),
-        _ => Vec::new(),
-    };
-    for (step, node) in below {
+    for (step, node) in children(node) {
         path.push(step);
         collect(node, wanted, path, found);
         path.pop();

@@ -39,18 +39,23 @@ pub(crate) enum IntegratorSection {
         step: Time<POSITIVE>,
     },
     /// An embedded 3(2) pair that chooses its step.
-    Adaptive {
-        /// Relative tolerance of velocities; 3e-6 if absent.
-        relative: Option<Ratio<NOT_NEGATIVE>>,
-        /// Absolute tolerance of positions; 3e-7 m if absent.
-        absolute_length: Option<Length<POSITIVE>>,
-        /// Absolute tolerance of velocities; 3e-5 m/s if absent.
-        absolute_speed: Option<Speed<POSITIVE>>,
-        /// Smallest step, and the first; 1e-8 s if absent.
-        min_step: Option<Time<POSITIVE>>,
-        /// Largest step; 2 ms if absent.
-        max_step: Option<Time<POSITIVE>>,
-    },
+    Adaptive(AdaptiveSection),
+}
+
+/// Settings of "adaptive".
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct AdaptiveSection {
+    /// Relative tolerance of velocities; 3e-6 if absent.
+    pub(crate) relative: Option<Ratio<NOT_NEGATIVE>>,
+    /// Absolute tolerance of positions; 3e-7 m if absent.
+    pub(crate) absolute_length: Option<Length<POSITIVE>>,
+    /// Absolute tolerance of velocities; 3e-5 m/s if absent.
+    pub(crate) absolute_speed: Option<Speed<POSITIVE>>,
+    /// Smallest step, and the first; 1e-8 s if absent.
+    pub(crate) min_step: Option<Time<POSITIVE>>,
+    /// Largest step; 2 ms if absent.
+    pub(crate) max_step: Option<Time<POSITIVE>>,
 }
 
 /// Start, end and output interval.
@@ -73,14 +78,14 @@ pub(super) fn integrator(b: &mut Builder, s: &Scenario) -> Integrator {
     match (&s.integrator, &mut integrator) {
         (Some(IntegratorSection::Rk4 { step }), _) => return Integrator::Rk4 { step_s: step.si() },
         (
-            Some(IntegratorSection::Adaptive { relative: r, absolute_length, absolute_speed, min_step, max_step }),
+            Some(IntegratorSection::Adaptive(a)),
             Integrator::Adaptive { relative, absolute_m, absolute_m_s, min_step_s, max_step_s },
         ) => {
-            *relative = si_or(r, *relative);
-            *absolute_m = si_or(absolute_length, *absolute_m);
-            *absolute_m_s = si_or(absolute_speed, *absolute_m_s);
-            *min_step_s = si_or(min_step, *min_step_s);
-            *max_step_s = si_or(max_step, *max_step_s);
+            *relative = si_or(&a.relative, *relative);
+            *absolute_m = si_or(&a.absolute_length, *absolute_m);
+            *absolute_m_s = si_or(&a.absolute_speed, *absolute_m_s);
+            *min_step_s = si_or(&a.min_step, *min_step_s);
+            *max_step_s = si_or(&a.max_step, *max_step_s);
             if max_step_s < min_step_s {
                 let found = format!("a largest step of {max_step_s} s below the smallest, {min_step_s} s");
                 b.error("integrator.max_step", found, "min_step ≤ max_step");

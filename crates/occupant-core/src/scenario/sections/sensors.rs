@@ -13,7 +13,9 @@ use crate::model::setup::STANDARD_GRAVITY_M_S2;
 use crate::problem::Problem;
 use crate::scenario::kind;
 use crate::scenario::text::{Diagnostic, SourceId};
-use crate::vehicle::{AccelerationRecord, AfterEnd, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord};
+use crate::vehicle::{
+    AccelerationRecord, AfterEnd, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord,
+};
 use crash_measures::signal::ChannelClass;
 
 /// What sensors in the vehicle recorded, along its axes: x forward, y right, z down.

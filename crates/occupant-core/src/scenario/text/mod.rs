@@ -15,7 +15,7 @@ pub use diagnostic::{Diagnostic, Diagnostics};
 pub(crate) use node::{Entry, Node, Table};
 pub use node::{Format, Value};
 pub use path::{Step, parse as parse_path, with_key};
-pub(crate) use path::{child, follow, locate, targets, to_text, with_step};
+pub(crate) use path::{child, children, follow, locate, targets, to_text, with_step};
 pub(crate) use source::SourceId;
 pub use source::{Sources, Span};
 pub(crate) use toml::parse_value;
