@@ -23,7 +23,7 @@ use crate::vehicle::{
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub(crate) enum PathSection {
     /// The vehicle stands still.
-    Fixed(PoseSection),
+    Fixed(Box<PoseSection>),
     /// Straight travel, slowed by a deceleration pulse.
     Pulse(Box<PulseSection>),
     /// Places and angles at given times.

@@ -39,7 +39,7 @@ pub(crate) enum IntegratorSection {
         step: Time<POSITIVE>,
     },
     /// An embedded 3(2) pair that chooses its step.
-    Adaptive(AdaptiveSection),
+    Adaptive(Box<AdaptiveSection>),
 }
 
 /// Settings of "adaptive".
