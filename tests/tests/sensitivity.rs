@@ -9,7 +9,7 @@ use occupant_core::results::recorder::Watch;
 use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Draft, Format};
 use occupant_study::sensitivity::finite::{CHANGES, HOLDS, Verdict, compare, finite_changes};
-use occupant_study::sensitivity::measures::{Wish, derivatives, plain_values};
+use occupant_study::sensitivity::measures::{Request, derivatives, plain_values};
 use occupant_study::sensitivity::{Built, Parameter, Slope, Trajectory, Trouble, follow, parameter};
 use occupant_tests::cart::lap;
 use occupant_tests::measure::assert_below;
@@ -53,7 +53,7 @@ fn tumbling() -> Draft {
 fn all_channels(model: &Model, parameters: &[Parameter<'_>]) -> (Trajectory, Vec<Vec<Vec<Slope>>>) {
     let mut built: Vec<Built> = parameters.iter().map(|p| Built::new(model, p).unwrap()).collect();
     let trajectory = follow(model, &mut built).unwrap();
-    let wish = Wish { figures: Vec::new(), channels: channels(model) };
+    let wish = Request { figures: Vec::new(), channels: channels(model) };
     let each = parameters.iter().enumerate().map(|(k, p)| {
         let found = derivatives(model, p, &trajectory, k, &wish).unwrap();
         found.channels
@@ -385,14 +385,14 @@ fn after_contacts_the_derivative_is_what_small_finite_changes_do() {
         let mut built = parameters.each_ref().map(|p| Built::new(&model, p).unwrap());
         let trajectory = follow(&model, &mut built).unwrap();
         let figures = ["hic15", "head.peak", "chest.three_ms_contiguous", "contacts.pelvis.peak"];
-        let wish = Wish { figures: figures.map(str::to_owned).to_vec(), channels: Vec::new() };
+        let wish = Request { figures: figures.map(str::to_owned).to_vec(), channels: Vec::new() };
         let plain = plain_values(&model, &trajectory, &wish).unwrap();
         for (k, parameter) in parameters.iter().enumerate() {
             let found = derivatives(&model, parameter, &trajectory, k, &wish).unwrap();
-            let finite = finite_changes(parameter, &CHANGES, &wish.figures);
+            let finite = &finite_changes(std::slice::from_ref(parameter), &CHANGES, &wish.figures)[0];
             for (i, figure) in figures.iter().enumerate() {
                 let slope = found.figures[i];
-                let c = compare(&slope, plain.figures[i], parameter.size, &finite, i);
+                let c = compare(&slope, plain.figures[i], parameter.size, finite, i);
                 let what = format!("{figure} by {}, ±0.01 %", parameter.name);
                 // Measured: 3.4e-6 to 1.3e-2, in proportion to the change until a contact comes or goes.
                 assert_below(&what, c.off[0], 0.03);

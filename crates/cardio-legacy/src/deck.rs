@@ -2,7 +2,7 @@
 
 use std::collections::{BTreeMap, BTreeSet, HashMap};
 
-use crate::cards::{CardId, CardLayout, END_OF_NUMBERS, Field, Need, Repeat, need, series};
+use crate::cards::{CardId, CardLayout, END_OF_NUMBERS, Field, Need, Repeat, is_of_unused, need, series};
 
 /// A number of a card.
 #[derive(Debug, Clone, PartialEq)]
@@ -237,23 +237,14 @@ impl Deck {
         blank.map(|(name, ..)| name).collect()
     }
 
-    /// Whether the lap belt (1) or the torso belt (2) is in use.
-    pub(crate) fn uses_belt(&self, belt: u32) -> bool {
-        self.value("NOPBLT").is_some_and(|used| used == f64::from(belt) || used == 3.0)
+    /// Whether a field belongs to what a switch leaves out of use.
+    pub(crate) fn is_unused(&self, name: &str) -> bool {
+        is_of_unused(name, self.value("NOPBLT").unwrap_or(f64::NAN))
     }
 
-    /// Whether a field belongs to a belt that is not in use.
-    pub(crate) fn is_of_unused_belt(&self, name: &str) -> bool {
-        let Some((variable, index)) = name.split_once('(') else {
-            return false;
-        };
-        let belt = if index.starts_with('1') { 1 } else { 2 };
-        ["P1", "P2", "SK1", "SK2", "DELC", "SLACK", "BLTLEO"].contains(&variable) && !self.uses_belt(belt)
-    }
-
-    /// Whether a field belongs to a belt that is not in use, or gives way to another one.
+    /// Whether a field belongs to what a switch leaves out of use, or gives way to another one.
     pub(crate) fn has_no_effect(&self, name: &str) -> bool {
-        self.is_of_unused_belt(name) || (name.starts_with("SLACK(") && self.value("NPOS") == Some(1.0))
+        self.is_unused(name) || (name.starts_with("SLACK(") && self.value("NPOS") == Some(1.0))
     }
 
     /// Whether the switches make a series superfluous; the pairs of series 14 are kept in any case.

@@ -37,6 +37,7 @@ pub struct Diagnostic {
 /// How a problem is put together; reporting it adds the file and the severity.
 impl Diagnostic {
     pub(crate) fn new(rule: Rule, message: impl Into<String>) -> Self {
+        let [expected, remedy] = rule.expected_and_remedy().map(|text| text.map(str::to_owned));
         Self {
             severity: Severity::Error,
             rule,
@@ -47,8 +48,8 @@ impl Diagnostic {
             variable: None,
             raw: None,
             message: message.into(),
-            expected: None,
-            remedy: Some(rule.remedy()).filter(|remedy| !remedy.is_empty()).map(str::to_owned),
+            expected,
+            remedy,
         }
     }
 

@@ -70,9 +70,7 @@ pub enum FieldError {
 /// # Errors
 /// [`FieldError`] when the field is neither blank nor a number of FORTRAN IV.
 pub fn read_real(field: &[u8]) -> Result<Reading, FieldError> {
-    let Some(parts) = split(field)? else {
-        return Ok(blank());
-    };
+    let Some(parts) = split(field)? else { return Ok(blank()) };
     let mut surprises = parts.surprises.clone();
     let text = parts.as_rust();
     let value: f64 = text.parse().map_err(|_| FieldError::NoDigits)?;
@@ -152,9 +150,7 @@ impl Parts {
 
 /// Splits a field by the rules above; `None` when it is all blank.
 fn split(field: &[u8]) -> Result<Option<Parts>, FieldError> {
-    let Some(start) = field.iter().position(|b| *b != b' ') else {
-        return Ok(None);
-    };
+    let Some(start) = field.iter().position(|b| *b != b' ') else { return Ok(None) };
     let mut parts = Parts::default();
     let mut punched = false;
     let mut at = start;

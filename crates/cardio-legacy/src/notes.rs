@@ -68,9 +68,7 @@ pub(crate) fn to_notes(kept: &Kept) -> String {
 
 /// The kept values of a scenario's notes; empty if there are none.
 pub(crate) fn from_notes(notes: &str) -> Kept {
-    let Some((_, block)) = notes.split_once(MARKER) else {
-        return Kept::new();
-    };
+    let Some((_, block)) = notes.split_once(MARKER) else { return Kept::new() };
     let lines = block.lines().filter_map(|line| line.split_once(" = "));
     lines.map(|(name, value)| (name.trim().to_owned(), value.to_owned())).collect()
 }

@@ -62,9 +62,13 @@ impl Grade {
     }
 }
 
-/// The rules: what each says, its [`Grade`], its stable name, and how to mend what breaks it where that is always the same.
+/// The rules: what each says, its [`Grade`], its stable name, what it expects and how to mend what breaks it where that is
+/// always the same.
 macro_rules! rules {
-    ($($(#[$meaning:meta])* $rule:ident: $grade:ident, $name:literal $(, $remedy:literal)?;)*) => {
+    ($(
+        $(#[$meaning:meta])*
+        $rule:ident: $grade:ident, $name:literal $(, expects $expected:literal)? $(, remedy $remedy:literal)?;
+    )*) => {
         /// A rule of the cards; [`Rule::name`] is the stable name printed with every diagnostic.
         #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, PartialOrd, Ord)]
         pub enum Rule {
@@ -86,11 +90,12 @@ macro_rules! rules {
                 }
             }
 
-            /// How to mend what breaks the rule; empty where that depends on the case.
-            pub(crate) fn remedy(self) -> &'static str {
-                match self {
-                    $(Self::$rule => concat!($($remedy)?),)*
-                }
+            /// What is expected, and how to mend what breaks the rule; none where that depends on the case.
+            pub(crate) fn expected_and_remedy(self) -> [Option<&'static str>; 2] {
+                let [expected, remedy] = match self {
+                    $(Self::$rule => [concat!($($expected)?), concat!($($remedy)?)],)*
+                };
+                [expected, remedy].map(|text| Some(text).filter(|text| !text.is_empty()))
             }
         }
     };
@@ -99,45 +104,50 @@ macro_rules! rules {
 rules! {
     // The file and its lines.
     /// No card at all.
-    EmptyFile: Fatal, "empty-file";
+    EmptyFile: Fatal, "empty-file", expects "two title cards, series 3 to 16 and FINI";
     /// A tab, which has no column.
-    Tab: Repairable, "tab", "replace tabs by blanks; it was read as if tab stops stood every 8 columns";
+    Tab: Repairable, "tab", expects "blanks only, so that every character has its column",
+        remedy "replace tabs by blanks; it was read as if tab stops stood every 8 columns";
     /// Characters behind column 80.
-    LineTooLong: Doubtful, "line-too-long", "check that no field has slipped to the right, and cut the line";
+    LineTooLong: Doubtful, "line-too-long", expects "80 columns",
+        remedy "check that no field has slipped to the right, and cut the line";
     /// A control character.
     ControlCharacter: Doubtful, "control-character";
     /// Bytes that look like UTF-8; they are read as Latin-1, one byte a column.
-    LooksLikeUtf8: Doubtful, "looks-like-utf-8", "save the deck as Latin-1 (ISO 8859-1) or use plain ASCII";
+    LooksLikeUtf8: Doubtful, "looks-like-utf-8", expects "Latin-1, one byte a column",
+        remedy "save the deck as Latin-1 (ISO 8859-1) or use plain ASCII";
     /// Something behind the final card.
-    AfterFinalCard: Doubtful, "after-final-card", "remove an earlier FINI if a deck follows; remove the rest otherwise";
+    AfterFinalCard: Doubtful, "after-final-card", expects "FINI behind the last deck, and nothing more",
+        remedy "remove an earlier FINI if a deck follows; remove the rest otherwise";
     // The fields.
     /// Characters that are no number.
     NotANumber: Fatal, "not-a-number";
     /// A number beyond the range of the 360.
     OutOfRange: Fatal, "out-of-range",
-        "an exponent must end in the last column of the field, because blanks behind it are zeros";
+        remedy "an exponent must end in the last column of the field, because blanks behind it are zeros";
     /// Blanks between digits, read as zeros.
-    EmbeddedBlanks: Doubtful, "embedded-blanks", "close the gap, or punch the zeros";
+    EmbeddedBlanks: Doubtful, "embedded-blanks", remedy "close the gap, or punch the zeros";
     /// Blanks behind the last digit that became zeros of a number without a point.
     LeftJustified: Doubtful, "left-justified";
     /// An exponent without its letter.
-    BareExponent: Remark, "bare-exponent", "punch the E";
+    BareExponent: Remark, "bare-exponent", remedy "punch the E";
     /// A small exponent letter.
-    SmallLetter: Doubtful, "small-letter", "punch E or D";
+    SmallLetter: Doubtful, "small-letter", remedy "punch E or D";
     /// A number too near to zero for the 360.
-    Underflow: Doubtful, "underflow", "punch 0.";
+    Underflow: Doubtful, "underflow", remedy "punch 0.";
     /// Blank fields read as zero, counted once a deck.
     BlankIsZero: Remark, "blank-is-zero";
     /// Something in columns that the report leaves blank.
-    NotBlank: Doubtful, "not-blank", "look whether a number has slipped out of its columns, or remove it";
+    NotBlank: Doubtful, "not-blank", remedy "look whether a number has slipped out of its columns, or remove it";
     /// A number that has to be whole and is not, or counts nothing sensible.
     NotAWholeNumber: Fatal, "not-a-whole-number";
     /// A word other than those the report knows (STAN, NONE, FINI).
-    UnknownWord: Repairable, "unknown-word",
-        "punch the word in capitals from column 1; in lenient reading capitals do not matter, anything else is NONE";
+    UnknownWord: Repairable, "unknown-word", expects "STAN or NONE",
+        remedy "punch the word in capitals from column 1; in lenient reading capitals do not matter, anything else is NONE";
     // The order of the cards.
     /// The file ends inside a deck.
-    Truncated: Fatal, "truncated", "look for the missing end of the file";
+    Truncated: Fatal, "truncated", expects "the rest of the deck, a card 1000, a plot card and FINI",
+        remedy "look for the missing end of the file";
     /// A title card is missing.
     MissingTitle: Fatal, "missing-title";
     /// A card that starts no series where one must start.
@@ -147,16 +157,17 @@ rules! {
     /// The card number stands where the report's format I8 reads it.
     CardNumberByFormat: Remark, "card-number-by-format";
     /// A series has fewer cards than it needs.
-    SeriesTooShort: Fatal, "series-too-short", "add the missing cards";
+    SeriesTooShort: Fatal, "series-too-short", remedy "add the missing cards";
     /// The number of cards differs from the count on the series' first card.
-    CountDiffers: Repairable, "count-differs", "correct the count, or add or remove cards";
+    CountDiffers: Repairable, "count-differs", remedy "correct the count, or add or remove cards";
     /// A series comes twice.
-    SeriesTwice: Repairable, "series-twice",
-        "remove one of the two; in lenient reading the later one counts, as it did in the program";
+    SeriesTwice: Repairable, "series-twice", expects "each series once",
+        remedy "remove one of the two; in lenient reading the later one counts, as it did in the program";
     /// A series stands elsewhere than in the report's order.
-    OutOfOrder: Doubtful, "out-of-order", "sort the deck; the card number says which series it is, and so it was read";
+    OutOfOrder: Doubtful, "out-of-order", expects "the series in the order of their numbers",
+        remedy "sort the deck; the card number says which series it is, and so it was read";
     /// A series that the deck needs is not there.
-    SeriesMissing: Fatal, "series-missing", "add the cards, or punch the card number if they are there";
+    SeriesMissing: Fatal, "series-missing", remedy "add the cards, or punch the card number if they are there";
     /// A series that the deck does not need is there.
     SeriesUnused: Remark, "series-unused";
     /// A segment, surface or pair number outside its range.
@@ -164,13 +175,16 @@ rules! {
     /// The same segment, surface or pair twice.
     IndexTwice: Fatal, "index-twice";
     /// A segment or surface without its card.
-    IndexMissing: Fatal, "index-missing", "add the cards, or correct their numbers";
+    IndexMissing: Fatal, "index-missing", remedy "add the cards, or correct their numbers";
     /// The card 1000 that ends the numbers is missing.
-    NoTerminator: Repairable, "no-terminator", "add the card";
+    NoTerminator: Repairable, "no-terminator", expects "a card with 1000 in columns 77–80 before this one",
+        remedy "add the card";
     /// The plot card STAN or NONE is missing.
-    NoPlotCard: Repairable, "no-plot-card", "add the card; in lenient reading it is NONE";
+    NoPlotCard: Repairable, "no-plot-card", expects "STAN or NONE behind the card 1000",
+        remedy "add the card; in lenient reading it is NONE";
     /// The final card FINI is missing.
-    NoFinalCard: Doubtful, "no-final-card", "add a card FINI; look whether the file is complete";
+    NoFinalCard: Doubtful, "no-final-card", expects "FINI in columns 1–4 behind the last deck",
+        remedy "add a card FINI; look whether the file is complete";
     // What the numbers mean.
     /// A number outside what the quantity can be.
     Impossible: Fatal, "impossible";

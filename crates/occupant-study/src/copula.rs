@@ -14,7 +14,7 @@ const LEAST: f64 = f64::EPSILON / 2.0;
 /// Cholesky's factor of the correlation matrix of all parameters.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Copula {
-    /// Rows of L up to the diagonal; a row of one number for a parameter that hangs on none before it.
+    /// Rows of L up to the diagonal; a row of one number for a parameter that depends on none before it.
     rows: Vec<Vec<f64>>,
 }
 
@@ -55,7 +55,7 @@ impl Copula {
     pub(super) fn correlate(&self, u: &mut [f64]) {
         let z: Vec<f64> = u.iter().map(|u| normal::quantile(*u)).collect();
         for (i, row) in self.rows.iter().enumerate().take(u.len()) {
-            // a parameter that hangs on no other keeps its very bits
+            // a parameter that depends on no other keeps its very bits
             if row[..i].iter().any(|x| *x != 0.0) {
                 let score = row.iter().zip(&z).map(|(l, z)| l * z).sum();
                 u[i] = normal::cumulative(score).clamp(LEAST, 1.0 - LEAST);

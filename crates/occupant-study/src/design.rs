@@ -1,62 +1,97 @@
 //! Which samples a study has: for every index the coordinate of each parameter, computed from the index alone.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::law::{Law, Value};
 use super::morris::{self, Trajectory};
 use super::permutation::permute;
 use super::random::{Purpose, unit};
 use super::saltelli::{self, Block};
 use super::sobol::Sobol;
+use occupant_core::scenario::sections::{POSITIVE, Ratio};
 
 /// How the samples are chosen.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub enum Design {
     /// The scenario itself: one sample.
+    #[serde(skip)]
     Single,
-    /// Every value with every other. The last parameter changes fastest, as in nested loops in the order written.
+    /// Every value of every parameter with every value of all others. The last parameter changes fastest, as in nested
+    /// loops in the order written.
     FullFactorial,
-    /// Strata of equal probability, each used once.
+    /// Each parameter's range is cut into as many parts of equal probability as there are samples; each part is used
+    /// once.
     LatinHypercube {
-        /// How many.
+        /// How many samples.
+        #[schemars(extend("minimum" = 1))]
         samples: u64,
     },
-    /// Sobol's sequence from its first point.
+    /// Sobol's low-discrepancy sequence from its first point, scrambled.
     Sobol {
-        /// How many.
+        /// How many samples, best a power of 2.
+        #[schemars(extend("minimum" = 1))]
         samples: u64,
-        /// Whether the seed scrambles it.
+        /// Whether the sequence is scrambled by the seed; true if absent.
+        #[serde(default = "scrambled")]
         scramble: bool,
     },
     /// Independent random samples.
     MonteCarlo {
-        /// How many.
+        /// How many samples.
+        #[schemars(extend("minimum" = 1))]
         samples: u64,
     },
-    /// The base scenario, then each parameter alone at each of its levels, or low and high.
+    /// The base scenario, then each parameter alone at each of its values, or at its low and its high one.
     OneAtATime {
-        /// Where distributions without ends are cut.
-        tail: f64,
+        /// The part of a normal distribution that lies below its low and above its high value; 0.05 if absent.
+        #[serde(default = "usual_tail")]
+        tail: Ratio<POSITIVE>,
     },
-    /// Given samples, one list of values for each.
+    /// Samples from a CSV file, one row each.
     Table {
-        /// The lists, one value for each parameter.
+        /// CSV file beside the study; its first line names parameters or paths with their units, such as
+        /// `joints.neck.damping[in lbf s/rad],belts.lap.slack[mm]`.
+        file: String,
+        /// What the file says, one value for each parameter.
+        #[serde(skip)]
         rows: Vec<Vec<Value>>,
     },
-    /// Blocks for Sobol's indices.
+    /// Blocks for Sobol's sensitivity indices: A, A with one column of B for each parameter, B.
     Saltelli {
-        /// Points of A and of B.
+        /// How many points A and B have, best a power of 2. There are (k + 2) runs for each with k parameters, or 2k + 2.
+        #[schemars(extend("minimum" = 1))]
         samples: u64,
-        /// Whether B with one column of A is there, too.
+        /// Whether B with one column of A is run too, for interactions of two; false if absent.
+        #[serde(default)]
         second_order: bool,
     },
-    /// Trajectories for Morris's screening.
+    /// Trajectories for Morris's screening, along which one parameter changes at a time.
     Morris {
-        /// How many.
+        /// How many trajectories, of k + 1 runs each with k parameters.
+        #[schemars(extend("minimum" = 1))]
         trajectories: u64,
-        /// Levels of a range, even.
+        /// Into how many levels each range is cut, an even number; 4 if absent.
+        #[schemars(extend("minimum" = 2))]
+        #[serde(default = "usual_levels")]
         levels: u64,
-        /// Where distributions without ends are cut.
-        tail: f64,
+        /// The part of a normal distribution that lies below its low and above its high level; 0.05 if absent.
+        #[serde(default = "usual_tail")]
+        tail: Ratio<POSITIVE>,
     },
+}
+
+fn scrambled() -> bool {
+    true
+}
+
+fn usual_tail() -> Ratio<POSITIVE> {
+    Ratio::of_si(0.05)
+}
+
+fn usual_levels() -> u64 {
+    4
 }
 
 /// What a sample is in its design.
@@ -104,7 +139,7 @@ pub(super) enum Coordinate {
     Given(Value),
 }
 
-/// Everything that the coordinates of a sample hang on.
+/// Everything that the coordinates of a sample depend on.
 pub(super) struct Context<'a> {
     pub(super) seed: u64,
     pub(super) laws: &'a [&'a Law],
@@ -122,7 +157,7 @@ impl Design {
                 Some(*samples)
             }
             Design::OneAtATime { .. } => levels.iter().try_fold(1_u64, |n, l| n.checked_add(l.unwrap_or(2))),
-            Design::Table { rows } => Some(rows.len() as u64),
+            Design::Table { rows, .. } => Some(rows.len() as u64),
             Design::Saltelli { samples, second_order } => samples.checked_mul(saltelli::block_len(k, *second_order)),
             Design::Morris { trajectories, .. } => trajectories.checked_mul(k + 1),
         };
@@ -153,9 +188,7 @@ impl Design {
 
     /// The signed change of the coordinate that the last step of a Morris trajectory changed.
     pub(super) fn morris_step(&self, index: u64, parameters: usize, seed: u64) -> Option<f64> {
-        let Design::Morris { levels, .. } = self else {
-            return None;
-        };
+        let Design::Morris { levels, .. } = self else { return None };
         let (trajectory, step) = morris::place(index, parameters);
         let path = Trajectory::new(trajectory, parameters, *levels, seed);
         let before = step.checked_sub(1)?;
@@ -177,14 +210,11 @@ impl Design {
                 dimensions.map(|d| Coordinate::Quantile(unit(of.seed, Purpose::MonteCarlo, index, d))).collect()
             }
             Design::Sobol { scramble, .. } => (0..k)
-                .map(|d| match scramble {
-                    true => of.sobol.scrambled(index, d, of.seed),
-                    false => of.sobol.plain(index, d),
-                })
+                .map(|d| if *scramble { of.sobol.scrambled(index, d, of.seed) } else { of.sobol.plain(index, d) })
                 .map(Coordinate::Quantile)
                 .collect(),
-            Design::OneAtATime { tail } => low_and_high(index, *tail, of.laws),
-            Design::Table { rows } => {
+            Design::OneAtATime { tail } => low_and_high(index, tail.si(), of.laws),
+            Design::Table { rows, .. } => {
                 let row = usize::try_from(index).ok().and_then(|i| rows.get(i));
                 let row = row.cloned().unwrap_or_else(|| vec![Value::Base; k]);
                 row.into_iter().map(Coordinate::Given).collect()
@@ -199,7 +229,7 @@ impl Design {
             Design::Morris { levels, tail, .. } => {
                 let (trajectory, step) = morris::place(index, k);
                 let path = Trajectory::new(trajectory, k, *levels, of.seed);
-                (0..k).map(|d| Coordinate::Bounded(path.coordinate(d, step), *tail)).collect()
+                (0..k).map(|d| Coordinate::Bounded(path.coordinate(d, step), tail.si())).collect()
             }
         }
     }

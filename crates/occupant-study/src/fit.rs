@@ -1,13 +1,10 @@
 //! What a study says of a fit, in SI units: which tests, which channels, how far the search may go.
 
-use indexmap::IndexMap;
-
 use super::Study;
-use super::fit_section::{FilterChoice, Misfit};
+use super::fit_section::{FilterChoice, FitChannel, FitTest, Misfit};
 use super::law::{Law, Value, between, log_between};
 use super::parameter::{Assignment, Parameter};
 use crash_measures::trig::ln;
-use occupant_core::scenario::text::Value as Written;
 
 /// A fit as a study says it.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,57 +29,6 @@ pub struct Fit {
     pub tolerance: f64,
     /// Scores worse by no more than this are as good.
     pub near: Option<f64>,
-}
-
-/// A channel that counts.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FitChannel {
-    /// Its name.
-    pub name: String,
-    /// How much it counts.
-    pub weight: f64,
-    /// Its filter.
-    pub filter: FilterChoice,
-}
-
-/// A test and the scenario that stands for it.
-#[derive(Clone, Debug, PartialEq)]
-pub struct FitTest {
-    /// Its name, if it has one.
-    pub name: Option<String>,
-    /// The file, relative to the study.
-    pub file: Option<String>,
-    /// Its own scenario, relative to the study.
-    pub base: Option<String>,
-    /// What its scenario has besides.
-    pub set: IndexMap<String, Written>,
-    /// First and last time that count, s.
-    pub window_s: [Option<f64>; 2],
-    /// Added to its clock, s.
-    pub shift_s: f64,
-    /// How much it counts.
-    pub weight: f64,
-    /// Which column is which channel.
-    pub map: Vec<String>,
-    /// Position of the occupant in ISO-MME codes.
-    pub seat: char,
-}
-
-impl Default for FitTest {
-    /// A test of which the study says nothing.
-    fn default() -> Self {
-        FitTest {
-            name: None,
-            file: None,
-            base: None,
-            set: IndexMap::new(),
-            window_s: [None; 2],
-            shift_s: 0.0,
-            weight: 1.0,
-            map: Vec::new(),
-            seat: '1',
-        }
-    }
 }
 
 /// The ends between which a parameter is looked for, SI units.
@@ -111,17 +57,15 @@ impl Bounds {
 
     /// The value at a part of the way, 0 to 1.
     pub fn value(&self, u: f64) -> f64 {
-        match self.log {
-            true => log_between(self.from, self.to, u),
-            false => between(self.from, self.to, u),
-        }
+        if self.log { log_between(self.from, self.to, u) } else { between(self.from, self.to, u) }
     }
 
     /// The part of the way at which a value stands; beyond 0 or 1 for one outside.
     pub fn part(&self, value: f64) -> f64 {
-        match self.log {
-            true => (ln(value) - ln(self.from)) / (ln(self.to) - ln(self.from)),
-            false => (value - self.from) / (self.to - self.from),
+        if self.log {
+            (ln(value) - ln(self.from)) / (ln(self.to) - ln(self.from))
+        } else {
+            (value - self.from) / (self.to - self.from)
         }
     }
 }

@@ -21,10 +21,10 @@ pub struct FitSection {
     pub to: Option<Time>,
     /// The channels that count; all that the tests have if absent.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub channels: Vec<FitChannelSection>,
+    pub channels: Vec<FitChannel>,
     /// The tests; those of --to if absent.
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
-    pub tests: Vec<FitTestSection>,
+    pub tests: Vec<FitTest>,
     /// Evaluations of the global search, each a run of every experiment; 400 for each parameter if absent. Refinement and
     /// intervals come on top.
     #[schemars(extend("minimum" = 1))]
@@ -82,20 +82,21 @@ pub enum FilterChoice {
 /// A channel that counts.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct FitChannelSection {
+pub struct FitChannel {
     /// Its name, such as `upper_torso.acceleration.x`; `occupant export` lists them.
-    pub channel: String,
+    #[serde(rename = "channel")]
+    pub name: String,
     /// How much it counts; 1 if absent.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub weight: Option<f64>,
-    /// Its own filter.
+    /// Its own filter; that of the fit if absent.
     pub filter: Option<FilterChoice>,
 }
 
 /// A test, and the scenario that stands for it.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
-pub struct FitTestSection {
+pub struct FitTest {
     /// Its name in results; that of the file if absent.
     pub name: Option<String>,
     /// The measured signals, relative to this file: a text table (CSV) or an ISO-MME test; that of --to if absent.
@@ -119,4 +120,33 @@ pub struct FitTestSection {
     pub map: Vec<String>,
     /// Position of the occupant in ISO-MME codes, one character; "1" if absent.
     pub seat: Option<String>,
+}
+
+impl FitChannel {
+    /// How much it counts.
+    pub fn weight(&self) -> f64 {
+        self.weight.unwrap_or(1.0)
+    }
+}
+
+impl FitTest {
+    /// First and last time that count, s.
+    pub fn window_s(&self) -> [Option<f64>; 2] {
+        [&self.from, &self.to].map(|time| time.as_ref().map(Time::si))
+    }
+
+    /// Added to its clock, s.
+    pub fn shift_s(&self) -> f64 {
+        self.shift.as_ref().map_or(0.0, Time::si)
+    }
+
+    /// How much it counts.
+    pub fn weight(&self) -> f64 {
+        self.weight.unwrap_or(1.0)
+    }
+
+    /// Position of the occupant in ISO-MME codes; the first character of what is written.
+    pub fn seat(&self) -> char {
+        self.seat.as_deref().and_then(|seat| seat.chars().next()).unwrap_or('1')
+    }
 }

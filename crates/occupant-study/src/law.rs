@@ -149,27 +149,26 @@ pub(super) fn log_between(a: f64, b: f64, p: f64) -> f64 {
 fn grid_value(from: f64, to: f64, steps: u64, log: bool, i: u64) -> f64 {
     let last = steps.saturating_sub(1).max(1);
     let part = i.min(last) as f64 / last as f64;
-    match log {
-        true => log_between(from, to, part),
-        false => between(from, to, part),
-    }
+    if log { log_between(from, to, part) } else { between(from, to, part) }
 }
 
 /// μ + σ Φ⁻¹(Φ(a) + p(Φ(b) − Φ(a))), taken in the lower half, where Φ keeps its digits.
 fn truncated(mean: f64, sd: f64, [from, to]: [f64; 2], p: f64) -> f64 {
     let (a, b) = ((from - mean) / sd, (to - mean) / sd);
-    let z = match a > 0.0 {
-        true => -normal::quantile(between(normal::cumulative(-a), normal::cumulative(-b), p)),
-        false => normal::quantile(between(normal::cumulative(a), normal::cumulative(b), p)),
+    let z = if a > 0.0 {
+        -normal::quantile(between(normal::cumulative(-a), normal::cumulative(-b), p))
+    } else {
+        normal::quantile(between(normal::cumulative(a), normal::cumulative(b), p))
     };
     (mean + sd * z).clamp(from, to)
 }
 
 /// a + √(p(b − a)(c − a)) up to the mode c, b − √((1 − p)(b − a)(b − c)) beyond.
 fn triangular(a: f64, c: f64, b: f64, p: f64) -> f64 {
-    let x = match p * (b - a) < c - a {
-        true => a + (p * (b - a) * (c - a)).sqrt(),
-        false => b - ((1.0 - p) * (b - a) * (b - c)).sqrt(),
+    let x = if p * (b - a) < c - a {
+        a + (p * (b - a) * (c - a)).sqrt()
+    } else {
+        b - ((1.0 - p) * (b - a) * (b - c)).sqrt()
     };
     x.clamp(a, b)
 }

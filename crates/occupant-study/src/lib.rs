@@ -75,8 +75,8 @@ mod text;
 
 pub use design::{Design, Role};
 pub use ensemble::{Change, Ensemble, Perturbation, Tolerances};
-pub use fit::{Bounds, Fit, FitChannel, FitTest};
-pub use fit_section::{FilterChoice, FitSection, Misfit};
+pub use fit::{Bounds, Fit};
+pub use fit_section::{FilterChoice, FitChannel, FitSection, FitTest, Misfit};
 pub use keep::Keep;
 pub use law::{Law, Value};
 pub use parameter::{Assignment, Parameter, Target};

@@ -33,26 +33,17 @@ impl Misfit {
             sum += weight * self.cost(part);
             weights += weight;
         }
-        match self {
-            Misfit::Iso18571 => sum / weights,
-            Misfit::Rms | Misfit::PeakAndTime => (sum / weights).sqrt(),
-        }
+        if self == Misfit::Iso18571 { sum / weights } else { (sum / weights).sqrt() }
     }
 
     /// What is smooth at its least value: the square of a root mean square.
     pub fn cost(self, misfit: f64) -> f64 {
-        match self {
-            Misfit::Iso18571 => misfit,
-            Misfit::Rms | Misfit::PeakAndTime => misfit * misfit,
-        }
+        if self == Misfit::Iso18571 { misfit } else { misfit * misfit }
     }
 
     /// The misfit of a cost.
     pub fn of_cost(self, cost: f64) -> f64 {
-        match self {
-            Misfit::Iso18571 => cost,
-            Misfit::Rms | Misfit::PeakAndTime => cost.max(0.0).sqrt(),
-        }
+        if self == Misfit::Iso18571 { cost } else { cost.max(0.0).sqrt() }
     }
 
     /// Its name in a study.
@@ -87,10 +78,7 @@ fn peak_and_time(measured: &[f64], computed: &[f64], dt_s: f64) -> f64 {
         vertex(values, best, ((PEAK_S / dt_s).round() as usize).max(1))
     };
     let largest = greatest(measured);
-    let sign = match measured.contains(&largest) {
-        true => 1.0,
-        false => -1.0,
-    };
+    let sign = if measured.contains(&largest) { 1.0 } else { -1.0 };
     let ((t_m, p_m), (t_c, p_c)) = (upward(measured, sign), upward(computed, sign));
     let peak = p_c / p_m - 1.0;
     let time = (t_c - t_m) / (measured.len() - 1) as f64;

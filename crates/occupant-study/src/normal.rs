@@ -22,16 +22,10 @@ pub(super) fn quantile(p: f64) -> f64 {
     }
     let tail = if q < 0.0 { p } else { 1.0 - p };
     if tail <= 0.0 {
-        return match tail == 0.0 {
-            true => q.signum() * f64::INFINITY,
-            false => f64::NAN,
-        };
+        return if tail == 0.0 { q.signum() * f64::INFINITY } else { f64::NAN };
     }
     let r = (-ln(tail)).sqrt();
-    let z = match r <= 5.0 {
-        true => ratio(r - 1.6, &SHOULDER),
-        false => ratio(r - 5.0, &TAIL),
-    };
+    let z = if r <= 5.0 { ratio(r - 1.6, &SHOULDER) } else { ratio(r - 5.0, &TAIL) };
     if q < 0.0 { -z } else { z }
 }
 

@@ -38,10 +38,7 @@ impl Block {
 
 /// Runs for each point.
 pub(super) fn block_len(parameters: u64, second_order: bool) -> u64 {
-    match second_order {
-        true => 2 * parameters + 2,
-        false => parameters + 2,
-    }
+    if second_order { 2 * parameters + 2 } else { parameters + 2 }
 }
 
 /// The point of a sample, and which row of its block it is.

@@ -9,11 +9,12 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use serde_json::Value as Json;
 
+use super::design::Design;
 use super::fit_section::FitSection;
 use super::keep::KeepSection;
 use occupant_core::scenario::kind::UnitSystem;
 use occupant_core::scenario::schema_of;
-use occupant_core::scenario::sections::{Angle, FRACTION, Length, NOT_NEGATIVE, POSITIVE, Ratio};
+use occupant_core::scenario::sections::{Angle, FRACTION, Length, NOT_NEGATIVE, Ratio};
 use occupant_core::scenario::text::Value;
 
 /// The JSON Schema of a study file.
@@ -50,7 +51,7 @@ pub struct StudySection {
     #[serde(default, skip_serializing_if = "Vec::is_empty")]
     pub correlations: Vec<CorrelationSection>,
     /// How the samples are chosen.
-    pub design: Option<DesignSection>,
+    pub design: Option<Design>,
     /// Repeats every sample with small changes, to see which figures are stable.
     pub ensemble: Option<EnsembleSection>,
     /// What `occupant fit` makes the parameters reproduce; a sweep does not look at it.
@@ -146,61 +147,46 @@ pub enum ScaleChoice {
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub enum DistributionSection {
     /// Every value between two equally likely.
-    Uniform(BoundsSection),
+    Uniform {
+        /// Least value.
+        from: Value,
+        /// Greatest value.
+        to: Value,
+    },
     /// Every ratio between two values equally likely.
-    LogUniform(BoundsSection),
+    LogUniform {
+        /// Least value.
+        from: Value,
+        /// Greatest value.
+        to: Value,
+    },
     /// Gauss's bell.
-    Normal(NormalSection),
+    Normal {
+        /// Mean.
+        mean: Value,
+        /// Standard deviation.
+        sd: Value,
+    },
     /// Gauss's bell between two values.
-    TruncatedNormal(TruncatedNormalSection),
+    TruncatedNormal {
+        /// Mean before it is cut.
+        mean: Value,
+        /// Standard deviation before it is cut.
+        sd: Value,
+        /// Least value.
+        from: Value,
+        /// Greatest value.
+        to: Value,
+    },
     /// Straight lines up to the likeliest value and down again.
-    Triangular(TriangularSection),
-}
-
-/// Two ends.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct BoundsSection {
-    /// Least value.
-    pub from: Value,
-    /// Greatest value.
-    pub to: Value,
-}
-
-/// A normal distribution.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct NormalSection {
-    /// Mean.
-    pub mean: Value,
-    /// Standard deviation.
-    pub sd: Value,
-}
-
-/// A normal distribution of which only the part between two values counts.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct TruncatedNormalSection {
-    /// Mean before it is cut.
-    pub mean: Value,
-    /// Standard deviation before it is cut.
-    pub sd: Value,
-    /// Least value.
-    pub from: Value,
-    /// Greatest value.
-    pub to: Value,
-}
-
-/// A triangular distribution.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct TriangularSection {
-    /// Least value.
-    pub from: Value,
-    /// Likeliest value.
-    pub mode: Value,
-    /// Greatest value.
-    pub to: Value,
+    Triangular {
+        /// Least value.
+        from: Value,
+        /// Likeliest value.
+        mode: Value,
+        /// Greatest value.
+        to: Value,
+    },
 }
 
 /// A correlation between two parameters.
@@ -211,96 +197,6 @@ pub struct CorrelationSection {
     pub between: [String; 2],
     /// Spearman's rank correlation, from −1 to 1.
     pub rank: f64,
-}
-
-/// How the samples are chosen.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "kind", rename_all = "snake_case")]
-pub enum DesignSection {
-    /// Every value of every parameter with every value of all others.
-    FullFactorial(PlainSection),
-    /// Each parameter's range is cut into as many parts of equal probability as there are samples; each part is used
-    /// once.
-    LatinHypercube(SamplesSection),
-    /// Sobol's low-discrepancy sequence, scrambled.
-    Sobol(SobolSection),
-    /// Independent random samples.
-    MonteCarlo(SamplesSection),
-    /// The base scenario, then each parameter alone at each of its values, or at its low and its high one.
-    OneAtATime(TailSection),
-    /// Samples from a CSV file, one row each.
-    Table(TableSection),
-    /// Blocks for Sobol's sensitivity indices: A, A with one column of B for each parameter, B.
-    Saltelli(SaltelliSection),
-    /// Trajectories for Morris's screening, along which one parameter changes at a time.
-    Morris(MorrisSection),
-}
-
-/// A design without settings.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct PlainSection {}
-
-/// A design of a given size.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SamplesSection {
-    /// How many samples.
-    #[schemars(extend("minimum" = 1))]
-    pub samples: u64,
-}
-
-/// Sobol's sequence.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SobolSection {
-    /// How many samples, best a power of 2.
-    #[schemars(extend("minimum" = 1))]
-    pub samples: u64,
-    /// Whether the sequence is scrambled by the seed; true if absent.
-    pub scramble: Option<bool>,
-}
-
-/// One parameter at a time.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct TailSection {
-    /// The part of a normal distribution that lies below its low and above its high value; 0.05 if absent.
-    pub tail: Option<Ratio<POSITIVE>>,
-}
-
-/// A table of samples.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct TableSection {
-    /// CSV file beside the study; its first line names parameters or paths with their units, such as
-    /// `joints.neck.damping[in lbf s/rad],belts.lap.slack[mm]`.
-    pub file: String,
-}
-
-/// Blocks for Sobol's sensitivity indices.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct SaltelliSection {
-    /// How many points A and B have, best a power of 2. There are (k + 2) runs for each with k parameters, or 2k + 2.
-    #[schemars(extend("minimum" = 1))]
-    pub samples: u64,
-    /// Whether B with one column of A is run too, for interactions of two; false if absent.
-    pub second_order: Option<bool>,
-}
-
-/// Trajectories of Morris.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct MorrisSection {
-    /// How many trajectories, of k + 1 runs each with k parameters.
-    #[schemars(extend("minimum" = 1))]
-    pub trajectories: u64,
-    /// Into how many levels each range is cut, an even number; 4 if absent.
-    #[schemars(extend("minimum" = 2))]
-    pub levels: Option<u64>,
-    /// The part of a normal distribution that lies below its low and above its high level; 0.05 if absent.
-    pub tail: Option<Ratio<POSITIVE>>,
 }
 
 /// Small changes of every sample. A change is anywhere within plus and minus its tolerance, each place as likely.

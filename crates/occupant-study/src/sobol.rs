@@ -34,9 +34,7 @@ impl Sobol {
     /// A coordinate as a 52-bit integer; 0 for a dimension that was not asked for.
     pub(super) fn integer(&self, index: u64, dimension: usize) -> u64 {
         let gray = index ^ (index >> 1);
-        let Some(directions) = self.directions.get(dimension) else {
-            return 0;
-        };
+        let Some(directions) = self.directions.get(dimension) else { return 0 };
         let set = directions.iter().enumerate().filter(|(i, _)| gray >> i & 1 == 1);
         set.fold(0, |x, (_, v)| x ^ v)
     }

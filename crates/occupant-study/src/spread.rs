@@ -118,9 +118,10 @@ fn quantile_of_sorted(sorted: &[f64], p: f64) -> f64 {
     let below = place.floor() as usize;
     let above = (below + 1).min(sorted.len() - 1);
     let part = place - below as f64;
-    match part == 0.0 || sorted[below] == sorted[above] {
-        true => sorted[below],
-        false => sorted[below] * (1.0 - part) + sorted[above] * part,
+    if part == 0.0 || sorted[below] == sorted[above] {
+        sorted[below]
+    } else {
+        sorted[below] * (1.0 - part) + sorted[above] * part
     }
 }
 

@@ -21,7 +21,7 @@ impl StudyText {
         StudyText::of(Document::read(text, format, name)?)
     }
 
-    /// Reads bytes that should be UTF-8 text; the format is told by [`Format::of_text`] unless given.
+    /// Reads bytes that should be UTF-8 text; [`Format::of_text`] says the format unless it is given.
     ///
     /// # Errors
     /// The place of the first byte that is not UTF-8; else as [`StudyText::read`].

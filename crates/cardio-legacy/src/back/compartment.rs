@@ -80,9 +80,7 @@ fn read_material(back: &mut Back<'_>, material: &Material, number: u32) {
 }
 
 fn polygon(back: &mut Back<'_>, layout: &CompartmentLayout, surface: &Surface, number: u32) -> Option<Polygon> {
-    let Outline::Polygon(corners) = &surface.outline else {
-        return None;
-    };
+    let Outline::Polygon(corners) = &surface.outline else { return None };
     let (name, wanted) = (&surface.name, layout.corners_of(number));
     if wanted.len() != corners.len() {
         back.misfit(format!("surfaces.{name} has {} corners; on cards it has {}", corners.len(), wanted.len()));
@@ -124,9 +122,7 @@ fn fields_at(corner: &Corner, place: &Point3<f64>) -> [(String, String); 3] {
 
 /// Cards have no place for the wheel's; where it is not where a conversion puts it, that is lost.
 fn check_wheel(back: &mut Back<'_>, layout: &CompartmentLayout, surface: &Surface) {
-    let Outline::Disc { centre_m, axis, .. } = &surface.outline else {
-        return;
-    };
+    let Outline::Disc { centre_m, axis, .. } = &surface.outline else { return };
     let wheel = &layout.wheel;
     let inch = factor(unit_of("VCW"));
     let known = |name: &str| back.digits(&format!("{name}({})", wheel.point)).and_then(|d| d.parse::<f64>().ok());

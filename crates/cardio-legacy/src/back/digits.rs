@@ -20,9 +20,7 @@ pub(super) fn factor(unit: Unit) -> f64 {
 /// The digits of `si` in a card's unit, and the number as it fits into ten columns where that is not the same.
 pub(super) fn digits(si: f64, unit: Unit) -> (String, Option<String>) {
     let exact = shortest(si, factor(unit));
-    let Some(number) = Number::from_digits(&exact) else {
-        return ("0".to_owned(), None);
-    };
+    let Some(number) = Number::from_digits(&exact) else { return ("0".to_owned(), None) };
     let punched = punch_real(&number, WIDTH);
     match crate::fortran::read_real(format!("{punched:>WIDTH$}").as_bytes()) {
         Ok(read) if read.value == number.value => (exact, None),

@@ -15,10 +15,10 @@ pub(super) fn read(back: &mut Back<'_>) {
     let same = joints[LEFT_ELBOW] == joints[RIGHT_ELBOW] && joints[LEFT_KNEE] == joints[RIGHT_KNEE];
     back.misfit_if(!same, "elbows or knees that differ between left and right: cards have one of each");
     let balls = [NECK, LEFT_SHOULDER, UPPER_BACK, LOWER_BACK, LEFT_HIP].map(|joint| ball_of(&joints, joint));
-    for (card, joint) in JOINTS.iter().filter(|joint| !joint.is_hinge).zip(balls) {
+    for (card, joint) in JOINTS.iter().filter(|joint| !joint.is_hinge()).zip(balls) {
         ball(back, card, &joint);
     }
-    for (card, joint) in JOINTS.iter().filter(|joint| joint.is_hinge).zip([LEFT_ELBOW, LEFT_KNEE]) {
+    for (card, joint) in JOINTS.iter().filter(|joint| joint.is_hinge()).zip([LEFT_ELBOW, LEFT_KNEE]) {
         let joint = joints[joint].hinge().copied().unwrap_or_default();
         hinge(back, card, &joint);
     }

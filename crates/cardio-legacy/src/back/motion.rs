@@ -1,11 +1,15 @@
-//! Start of the occupant and belts → series 4 and 10, or 6, and 13.
+//! Start of the occupant and belts → series 4 and 10, or 6, and 13; the end of a run → series 6 and 14.
+
+use std::collections::BTreeSet;
 
 use occupant_core::body::tti12::{LOWER_BACK, UPPER_BACK};
 use occupant_core::forces::belt::{Belt, RestLength};
+use occupant_core::forces::contact::PASSED;
 use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating};
+use occupant_core::motion::report_coordinates::ReportCoordinates;
+use occupant_core::results::sample::Sample;
 
 use super::Back;
-use super::extension::coordinate_fields;
 use super::joints::ball_of;
 use crate::cards::{BELTS, POSTURE, SEATS};
 use crate::compartment::CompartmentLayout;
@@ -132,4 +136,78 @@ fn read_belt(back: &mut Back<'_>, belt: &Belt, number: u32, exact: bool) {
             back.misfit(format!("belts.{}: with an exact state cards take its length (BLTLEO)", belt.name))
         }
     }
+}
+
+/// Where a run ended, as far as cards can say it. They carry no greatest deformation, so an extension by cards is approximate.
+#[derive(Debug, Clone, PartialEq)]
+pub struct RunEnd {
+    /// Time, s.
+    pub time_s: f64,
+    /// The report's coordinates and their rates, SI.
+    pub coordinates: ReportCoordinates,
+    /// β₀ of the upper and the lower back joint, rad: the angles at which the spine's springs rest.
+    pub spine_rest_rad: [f64; 2],
+    /// L₀ of the lap and of the torso belt, m, where there is one.
+    pub belt_lengths_m: [Option<f64>; 2],
+    /// Pairs (sphere, surface) that have passed the surface's edge, by the report's numbers.
+    pub passed: Vec<(u32, u32)>,
+}
+
+impl RunEnd {
+    /// The end of a run from its last sample and β₀ of the two back joints, [`spine_rest`] of the first sample.
+    pub fn after(spine_rest_rad: [f64; 2], last: &Sample<'_>, layout: &CompartmentLayout) -> Self {
+        let model = last.model;
+        let loops_round =
+            |belt: &Belt, sphere: &str| model.body().spheres.get(belt.sphere).is_some_and(|s| s.name == sphere);
+        let length = |sphere: &str| {
+            let at = model.setup().belts.iter().position(|belt| loops_round(belt, sphere))?;
+            Some(model.system().forces.belts.get(at)?.rest_length)
+        };
+        Self {
+            time_s: last.time_s,
+            coordinates: last.report_coordinates(),
+            spine_rest_rad,
+            belt_lengths_m: BELTS.map(|(_, _, sphere)| length(sphere)),
+            passed: passed(last, layout),
+        }
+    }
+
+    /// What series 6 says of it: fields and SI numbers.
+    pub(super) fn fields(&self) -> impl Iterator<Item = (String, f64)> {
+        let springs = ["BETA4", "BETA7"].map(str::to_owned).into_iter().zip(self.spine_rest_rad);
+        let lengths = ["BLTLEO(1)", "BLTLEO(2)"].map(str::to_owned).into_iter().zip(self.belt_lengths_m);
+        let lengths = lengths.filter_map(|(name, length_m)| Some((name, length_m?)));
+        springs.chain(lengths).chain(coordinate_fields(&self.coordinates))
+    }
+}
+
+/// β₀ of the upper and the lower back joint: the scenario's, or the angles at the start.
+pub fn spine_rest(first: &Sample<'_>) -> [f64; 2] {
+    let joints = &first.model.setup().joints;
+    [UPPER_BACK, LOWER_BACK].map(|joint| {
+        ball_of(joints, joint).spring.and_then(|s| s.rest_rad).unwrap_or_else(|| first.joint_angle_rad(joint))
+    })
+}
+
+fn passed(sample: &Sample<'_>, layout: &CompartmentLayout) -> Vec<(u32, u32)> {
+    let contacts = &sample.model.system().forces.contacts;
+    let surfaces = &sample.model.setup().surfaces;
+    let mut pairs = BTreeSet::new();
+    for group in contacts.groups() {
+        for at in group.pairs.clone() {
+            let is_passed = sample.history.memory.contacts.get(at).is_some_and(|p| p.phase == PASSED);
+            let parts = contacts.pairs().get(at).map(|p| p.parts.as_slice()).unwrap_or_default();
+            for part in parts.iter().filter(|_| is_passed) {
+                let number = surfaces.get(part.surface).and_then(|s| layout.number_of(&s.name));
+                pairs.extend(number.and_then(|surface| Some((u32::try_from(group.sphere + 1).ok()?, surface))));
+            }
+        }
+    }
+    pairs.into_iter().collect()
+}
+
+/// The fields of the coordinates and of their rates.
+fn coordinate_fields(coordinates: &ReportCoordinates) -> impl Iterator<Item = (String, f64)> {
+    let pairs = (1..).zip(coordinates.q.into_iter().zip(coordinates.rates));
+    pairs.flat_map(|(n, (q, rate))| [(format!("Q0({n})"), q), (format!("QDO({n})"), rate)])
 }

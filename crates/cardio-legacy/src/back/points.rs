@@ -56,17 +56,13 @@ impl Search {
     /// Finds readings of the polygons from `at` on that agree with what is known.
     fn from(&mut self, polygons: &[Polygon], at: usize) -> bool {
         self.deepest = self.deepest.max(at);
-        let Some(polygon) = polygons.get(at) else {
-            return true;
-        };
+        let Some(polygon) = polygons.get(at) else { return true };
         for reading in &polygon.readings {
             if self.budget == 0 {
                 return false;
             }
             self.budget -= 1;
-            let Some(added) = self.add(reading) else {
-                continue;
-            };
+            let Some(added) = self.add(reading) else { continue };
             if self.from(polygons, at + 1) {
                 return true;
             }

@@ -3,10 +3,11 @@
 use std::f64::consts::PI;
 
 use super::field::{Field, INCH, INCH_PER_SECOND, RADIAN, RADIAN_PER_SECOND, field};
-use super::{BELTS, SeriesLayout};
+use super::{JOINTS, Joint, SeriesLayout};
 use crate::rule::Rule;
 
-pub(super) fn series() -> SeriesLayout {
+/// `lengths` stand on the first card behind the rest angles.
+pub(super) fn series(lengths: impl IntoIterator<Item = Field>) -> SeriesLayout {
     let is_place = |n: usize| n <= 3;
     let coordinate = |(n, meaning): (usize, String)| {
         let field = |unit| field(format!("Q0({n})"), unit, meaning);
@@ -16,25 +17,22 @@ pub(super) fn series() -> SeriesLayout {
         let unit = if is_place(n) { INCH_PER_SECOND } else { RADIAN_PER_SECOND };
         field(format!("QDO({n})"), unit, format!("rate of {meaning}"))
     };
-    let rest = [spine_angle("BETA4", "upper_back", "upper"), spine_angle("BETA7", "lower_back", "lower")];
+    let rest = JOINTS.iter().filter_map(rest_angle);
     SeriesLayout::new(6, "initial generalized coordinates and velocities (needed only if NPOS = 1)")
-        .first(6, "7F10.0,I10", rest.into_iter().chain(BELTS.map(|(number, name, _)| belt_length(number, name))))
+        .first(6, "7F10.0,I10", rest.chain(lengths))
         .then("8F10.0", (1..).zip(meanings()).map(coordinate))
         .then("8F10.0", (1..).zip(meanings()).map(rate))
 }
 
-fn spine_angle(variable: &str, joint: &str, torso: &str) -> Field {
-    field(variable, RADIAN, format!("initial angle between middle and {torso} torso"))
-        .key(format!("joints.{joint}.rest_angle"))
+/// β₀ of the spring of a back joint.
+fn rest_angle(joint: &Joint) -> Option<Field> {
+    let [_, variable] = joint.spring?;
+    let torso = joint.key.trim_end_matches("_back");
+    let angle = field(variable, RADIAN, format!("initial angle between middle and {torso} torso"))
+        .key(format!("joints.{}.rest_angle", joint.key))
         .wrong_if(Rule::Impossible, |v| !(0.0..=PI).contains(&v), "an angle between two axes")
-        .expected("0 to π, in radians", "divide degrees by 57.2958")
-}
-
-fn belt_length(number: u32, name: &str) -> Field {
-    field(format!("BLTLEO({number})"), INCH, format!("initial length of the {name} belt if in use"))
-        .key(format!("belts.{name}.length"))
-        .wrong_if(Rule::Impossible, |v| v <= 0.0, format!("the {name} belt is in use and has no initial length"))
-        .expected("a length in inches, if NPOS = 1", "punch the length, or switch the belt off by NOPBLT")
+        .expected("0 to π, in radians", "divide degrees by 57.2958");
+    Some(angle)
 }
 
 /// What the 31 coordinates are.

@@ -4,26 +4,36 @@ use super::SeriesLayout;
 use super::field::{Field, INCH_PER_SECOND_SQUARED, RADIAN, ROTARY_DAMPING, ROTARY_STIFFNESS, field};
 use crate::rule::Rule;
 
-/// A kind of joint: the letters with which its fields end (XJN damping, XJS damping at the full stop, AGN and AGS angles where
-/// the stop begins and is full), and its name in scenarios.
+/// A kind of joint.
 pub(crate) struct Joint {
+    /// With which its fields end: XJN damping, XJS damping at the full stop, AGN and AGS angles where the stop begins and is
+    /// full.
     pub letters: &'static str,
+    /// Its name in scenarios.
     pub key: &'static str,
+    /// What a reader calls it, with its article.
+    called: [&'static str; 2],
     /// Stiffness and rest angle of the spring, of the two joints that have one.
     pub spring: Option<[&'static str; 2]>,
-    /// Elbows and knees are hinges with two stops, indexed (1) and (2).
-    pub is_hinge: bool,
+    /// Elbows and knees are hinges with two stops, indexed (1) and (2): which way, and about where it is full.
+    hinge: Option<[[&'static str; 2]; 2]>,
+}
+
+const fn ball(letters: &'static str, key: &'static str, called: [&'static str; 2]) -> Joint {
+    Joint { letters, key, called, spring: None, hinge: None }
 }
 
 /// The joints in the order of the cards.
 pub(crate) const JOINTS: [Joint; 7] = [
-    Joint { letters: "N", key: "neck", spring: None, is_hinge: false },
-    Joint { letters: "S", key: "shoulders", spring: None, is_hinge: false },
-    Joint { letters: "UB", key: "upper_back", spring: Some(["SPJNT4", "BETA4"]), is_hinge: false },
-    Joint { letters: "LB", key: "lower_back", spring: Some(["SPJNT7", "BETA7"]), is_hinge: false },
-    Joint { letters: "H", key: "hips", spring: None, is_hinge: false },
-    Joint { letters: "E", key: "elbows", spring: None, is_hinge: true },
-    Joint { letters: "K", key: "knees", spring: None, is_hinge: true },
+    ball("N", "neck", ["the", "neck"]),
+    ball("S", "shoulders", ["a", "shoulder"]),
+    Joint { spring: Some(["SPJNT4", "BETA4"]), ..ball("UB", "upper_back", ["the", "upper back"]) },
+    Joint { spring: Some(["SPJNT7", "BETA7"]), ..ball("LB", "lower_back", ["the", "lower back"]) },
+    ball("H", "hips", ["a", "hip"]),
+    Joint {
+        hinge: Some([["closing", "−130°"], ["straightening", "−10°"]]), ..ball("E", "elbows", ["an", "elbow"])
+    },
+    Joint { hinge: Some([["straightening", "0°"], ["closing", "140°"]]), ..ball("K", "knees", ["a", "knee"]) },
 ];
 
 impl Joint {
@@ -37,81 +47,62 @@ impl Joint {
         format!("XJS{}", self.letters)
     }
 
+    /// Whether it is a hinge, with a lower and an upper stop.
+    pub(crate) fn is_hinge(&self) -> bool {
+        self.hinge.is_some()
+    }
+
     /// The fields of its stops, the lower one of a hinge first: angle where it begins, angle where it is full.
     pub(crate) fn stops(&self) -> Vec<[String; 2]> {
-        let sides: &[&str] = if self.is_hinge { &["(1)", "(2)"] } else { &[""] };
+        let sides: &[&str] = if self.is_hinge() { &["(1)", "(2)"] } else { &[""] };
         sides.iter().map(|side| ["AGN", "AGS"].map(|angle| format!("{angle}{}{side}", self.letters))).collect()
+    }
+
+    /// Its fields in the order of the cards, springs apart.
+    fn fields(&self) -> Vec<Field> {
+        let [article, name] = self.called;
+        let stops = self.stops();
+        let full: Vec<&str> = stops.iter().map(|[_, full]| full.as_str()).collect();
+        let normal = damping(self.damping(), format!("damping of {article} {name}"));
+        let at_stop = damping(self.full_damping(), format!("{name}: damping at {}", full.join(" and ")));
+        let angles = |which: usize| (0..stops.len()).map(move |side| (which, side));
+        let angle = |(which, side): (usize, usize)| {
+            let meaning = match (which, self.hinge) {
+                (0, None) => "angle where damping begins to grow".to_owned(),
+                (0, Some(ways)) => format!("angle where damping begins to grow when {}", ways[side][0]),
+                (_, None) => "angle of the full stop".to_owned(),
+                (_, Some(ways)) => format!("full stop when {}, about {}", ways[side][0], ways[side][1]),
+            };
+            let angle = field(&stops[side][which], RADIAN, format!("{name}: {meaning}")).radians();
+            if self.key == "elbows" && side == 0 { negative(angle) } else { angle }
+        };
+        let key = format!("joints.{}.damping", self.key);
+        [normal.key(key)].into_iter().chain(angles(1).map(angle)).chain([at_stop]).chain(angles(0).map(angle)).collect()
+    }
+
+    /// The stiffness of its spring, if it has one.
+    fn stiffness(&self) -> Option<Field> {
+        let [variable, _] = self.spring?;
+        let meaning = format!("stiffness of the spine's spring in {}", self.called.join(" "));
+        let stiffness = field(variable, ROTARY_STIFFNESS, meaning).not_negative("stiffness of a spring");
+        Some(stiffness.key(format!("joints.{}.stiffness", self.key)))
     }
 }
 
 pub(super) fn series() -> SeriesLayout {
-    let springs_and_gravity = [
-        spring("SPJNT4", "stiffness of the spine's spring in the upper back").key("joints.upper_back.stiffness"),
-        spring("SPJNT7", "stiffness of the spine's spring in the lower back").key("joints.lower_back.stiffness"),
-        gravity(),
-    ];
-    let mut fields = balls().into_iter().chain(hinges()).chain(springs_and_gravity);
+    let springs = JOINTS.iter().filter_map(Joint::stiffness);
+    let mut fields = JOINTS.iter().flat_map(Joint::fields).chain(springs).chain([gravity()]);
     SeriesLayout::new(11, "joints and gravity").first(11, "7F10.0,I10", fields.by_ref().take(7)).then("8F10.0", fields)
 }
 
-fn balls() -> [Field; 20] {
-    [
-        damping("XJNN", "damping of the neck").key("joints.neck.damping"),
-        angle("AGSN", "neck: angle of the full stop"),
-        damping("XJSN", "neck: damping at AGSN"),
-        angle("AGNN", "neck: angle where damping begins to grow"),
-        damping("XJNS", "damping of a shoulder").key("joints.shoulders.damping"),
-        angle("AGSS", "shoulder: angle of the full stop"),
-        damping("XJSS", "shoulder: damping at AGSS"),
-        angle("AGNS", "shoulder: angle where damping begins to grow"),
-        damping("XJNUB", "damping of the upper back").key("joints.upper_back.damping"),
-        angle("AGSUB", "upper back: angle of the full stop"),
-        damping("XJSUB", "upper back: damping at AGSUB"),
-        angle("AGNUB", "upper back: angle where damping begins to grow"),
-        damping("XJNLB", "damping of the lower back").key("joints.lower_back.damping"),
-        angle("AGSLB", "lower back: angle of the full stop"),
-        damping("XJSLB", "lower back: damping at AGSLB"),
-        angle("AGNLB", "lower back: angle where damping begins to grow"),
-        damping("XJNH", "damping of a hip").key("joints.hips.damping"),
-        angle("AGSH", "hip: angle of the full stop"),
-        damping("XJSH", "hip: damping at AGSH"),
-        angle("AGNH", "hip: angle where damping begins to grow"),
-    ]
-}
-
-fn hinges() -> [Field; 12] {
-    [
-        damping("XJNE", "damping of an elbow").key("joints.elbows.damping"),
-        negative(angle("AGSE(1)", "elbow: full stop when closing, about −130°")),
-        angle("AGSE(2)", "elbow: full stop when straightening, about −10°"),
-        damping("XJSE", "elbow: damping at AGSE(1) and AGSE(2)"),
-        negative(angle("AGNE(1)", "elbow: angle where damping begins to grow when closing")),
-        angle("AGNE(2)", "elbow: angle where damping begins to grow when straightening"),
-        damping("XJNK", "damping of a knee").key("joints.knees.damping"),
-        angle("AGSK(1)", "knee: full stop when straightening, about 0°"),
-        angle("AGSK(2)", "knee: full stop when closing, about 140°"),
-        damping("XJSK", "knee: damping at AGSK(1) and AGSK(2)"),
-        angle("AGNK(1)", "knee: angle where damping begins to grow when straightening"),
-        angle("AGNK(2)", "knee: angle where damping begins to grow when closing"),
-    ]
-}
-
-fn damping(variable: &str, meaning: &str) -> Field {
+fn damping(variable: String, meaning: String) -> Field {
     field(variable, ROTARY_DAMPING, meaning).not_negative("a damping takes energy away")
-}
-
-fn angle(variable: &str, meaning: &str) -> Field {
-    field(variable, RADIAN, meaning).radians()
 }
 
 fn negative(angle: Field) -> Field {
     angle
         .wrong_if(Rule::Unlikely, |v| v > 0.0, "elbows bend towards negative angles")
         .expected("about −130° in radians, −2.27", "look for a missing minus sign")
-}
-
-fn spring(variable: &str, meaning: &str) -> Field {
-    field(variable, ROTARY_STIFFNESS, meaning).not_negative("stiffness of a spring")
 }
 
 fn gravity() -> Field {

@@ -7,6 +7,32 @@ use crate::rule::Rule;
 /// Belts by their number on the cards: name, and the sphere round which they loop.
 pub(crate) const BELTS: [(u32, &str, &str); 2] = [(1, "lap", "pelvis"), (2, "torso", "chest")];
 
+/// Variables of a belt; the index that follows begins with its number.
+const VARIABLES: [&str; 7] = ["P1", "P2", "SK1", "SK2", "DELC", "SLACK", "BLTLEO"];
+
+/// Whether a value of NOPBLT puts a belt to use.
+pub(crate) fn uses(nopblt: f64, belt: u32) -> bool {
+    nopblt == f64::from(belt) || nopblt == 3.0
+}
+
+/// Whether a field belongs to a belt that is not in use.
+pub(crate) fn is_of_unused(name: &str, nopblt: f64) -> bool {
+    let Some((variable, index)) = name.split_once('(') else { return false };
+    let belt = if index.starts_with('1') { 1 } else { 2 };
+    VARIABLES.contains(&variable) && !uses(nopblt, belt)
+}
+
+/// The lengths of a run that goes on from an exact state, on card 6a.
+pub(super) fn initial_lengths() -> [Field; 2] {
+    BELTS.map(|(number, name, _)| {
+        let unknown = format!("the {name} belt is in use and has no initial length");
+        field(format!("BLTLEO({number})"), INCH, format!("initial length of the {name} belt if in use"))
+            .key(format!("belts.{name}.length"))
+            .wrong_if(Rule::Impossible, |v| v <= 0.0, unknown)
+            .expected("a length in inches, if NPOS = 1", "punch the length, or switch the belt off by NOPBLT")
+    })
+}
+
 pub(super) fn series() -> SeriesLayout {
     let used = field("NOPBLT", ONE, "1 lap belt, 2 torso belt, 3 both")
         .wrong_if(Rule::Impossible, |v| ![1.0, 2.0, 3.0].contains(&v), "this names no belt")
@@ -51,4 +77,84 @@ fn webbing((number, name, _): (u32, &str, &str)) -> [Field; 3] {
         field("SK2", "k2", STIFFNESS, "second slope").not_negative("second slope of the webbing"),
         field("DELC", "delta_b", INCH, &elbow).not_negative("elongation of the webbing"),
     ]
+}
+
+/// A doubt about numbers together: about which field, and what is said of it.
+pub(crate) struct Doubt {
+    pub rule: Rule,
+    pub name: String,
+    pub message: String,
+    pub expected: &'static str,
+    pub remedy: &'static str,
+}
+
+/// A field's value, not a number where there is none, and its digits.
+pub(crate) type Numbers<'a> = dyn Fn(&str) -> (f64, String) + 'a;
+
+/// What is doubted about the numbers of series 13 together.
+pub(crate) fn doubts_of_13(numbers: &Numbers<'_>) -> Vec<Doubt> {
+    let (nopblt, used) = numbers("NOPBLT");
+    let of_belt = |(belt, name, _)| {
+        let unused = || ignored(numbers, belt, name, &used).into_iter().collect();
+        if uses(nopblt, belt) { doubted_anchors(numbers, belt, name) } else { unused() }
+    };
+    let exact = numbers("NPOS").0 == 1.0;
+    let in_use = BELTS.into_iter().filter(|(belt, ..)| exact && uses(nopblt, *belt));
+    let slack = in_use.filter_map(|(belt, name, _)| ignored_slack(numbers, belt, name));
+    BELTS.into_iter().flat_map(of_belt).chain(slack).collect()
+}
+
+fn doubted_anchors(numbers: &Numbers<'_>, belt: u32, name: &str) -> Vec<Doubt> {
+    let ends = [1, 2].map(|end| [1, 2, 3].map(|axis| numbers(&format!("P{end}({belt},{axis})"))));
+    let places = ends.each_ref().map(|end| end.each_ref().map(|(value, _)| *value));
+    let same = (places[0] == places[1]).then(|| Doubt {
+        rule: Rule::Impossible,
+        name: format!("P1({belt},1)"),
+        message: format!("both anchors of the {name} belt lie at the same point"),
+        expected: "two points",
+        remedy: "punch both anchors in vehicle axes",
+    });
+    let width = numbers("VCW").0;
+    let outside =
+        (1..).zip(ends).filter(|(_, [_, (y, _), _])| y.abs() > 1.2 * width).map(|(end, [_, (_, digits), _])| {
+            let name = format!("P{end}({belt},2)");
+            Doubt {
+                rule: Rule::Unlikely,
+                message: format!("{name} = {digits}: the anchor lies outside the car"),
+                name,
+                expected: "within ±VCW",
+                remedy: "Y counts from the vehicle's centre line, to the right",
+            }
+        });
+    same.into_iter().chain(outside).collect()
+}
+
+/// Numbers of a belt that is not in use.
+fn ignored(numbers: &Numbers<'_>, belt: u32, name: &str, used: &str) -> Option<Doubt> {
+    let mut names: Vec<String> = ["SLACK", "SK1", "SK2", "DELC"].map(|n| format!("{n}({belt})")).to_vec();
+    names.extend((1..=3).flat_map(|axis| [format!("P1({belt},{axis})"), format!("P2({belt},{axis})")]));
+    Some(Doubt {
+        rule: Rule::Ignored,
+        name: names.into_iter().find(|name| is_punched(numbers, name))?,
+        message: format!("the {name} belt is not in use (NOPBLT = {used}); its numbers have no effect"),
+        expected: "blanks",
+        remedy: "leave them blank, or change NOPBLT",
+    })
+}
+
+fn ignored_slack(numbers: &Numbers<'_>, belt: u32, name: &str) -> Option<Doubt> {
+    let slack = format!("SLACK({belt})");
+    is_punched(numbers, &slack).then(|| Doubt {
+        rule: Rule::Ignored,
+        message: format!("{slack} has no effect: with NPOS = 1 the length of the {name} belt is BLTLEO({belt})"),
+        name: slack,
+        expected: "blank",
+        remedy: "add the slack to the length if it is not in it",
+    })
+}
+
+/// Whether a field holds a number other than zero.
+fn is_punched(numbers: &Numbers<'_>, name: &str) -> bool {
+    let (value, _) = numbers(name);
+    value != 0.0 && !value.is_nan()
 }

@@ -29,7 +29,7 @@ use std::sync::LazyLock;
 pub(crate) use card_03_times::{Need, need};
 pub(crate) use card_10_seating::{POSTURE, SEATS};
 pub(crate) use card_11_joints::{JOINTS, Joint};
-pub(crate) use card_13_belts::BELTS;
+pub(crate) use card_13_belts::{BELTS, doubts_of_13, is_of_unused, uses};
 pub(crate) use card_15_end::END_OF_NUMBERS;
 pub(crate) use field::NCARD;
 pub use field::{Field, Format, Unit};
@@ -43,7 +43,7 @@ pub static SERIES: LazyLock<Vec<SeriesLayout>> = LazyLock::new(|| {
         card_03_times::series(),
         card_04_velocity::series(),
         card_05_segments::series(),
-        card_06_exact_state::series(),
+        card_06_exact_state::series(card_13_belts::initial_lengths()),
         card_07_spheres::series(),
         card_08_compartment::series(),
         card_09_surfaces::series(),

@@ -102,7 +102,7 @@ fn check_joints(c: &mut Check<'_>) {
             .expected("more than the damping before the stop", "look whether the two have changed places");
         for (at, [begin, full]) in joint.stops().iter().enumerate() {
             // The lower stop of a hinge is met by a falling angle.
-            let falling = joint.is_hinge && at == 0;
+            let falling = joint.is_hinge() && at == 0;
             let (begins_at, full_at) = (c.value(begin), c.value(full));
             let wrong = if falling { begins_at < full_at } else { begins_at > full_at };
             let side = if falling { "above the angle of the full stop" } else { "below the angle of the full stop" };

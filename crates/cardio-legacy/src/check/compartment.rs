@@ -52,9 +52,7 @@ fn check_equality(c: &mut Check<'_>, names: &[&str]) {
 
 /// Surfaces without area, by the layout that conversion uses.
 fn check_extents(c: &mut Check<'_>) {
-    let Ok(layout) = CompartmentLayout::reconstruction() else {
-        return;
-    };
+    let Ok(layout) = CompartmentLayout::reconstruction() else { return };
     for face in layout.faces(c.deck).iter().filter(|face| face.corners.is_empty()) {
         let message = format!("surface {}, {}, has no area: its points in series 8 coincide", face.number, face.name);
         let remedy = "correct the points in series 8; the surface is left out otherwise";

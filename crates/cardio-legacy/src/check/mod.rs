@@ -85,7 +85,7 @@ impl Check<'_> {
     fn bounds(&mut self) {
         let cards = self.deck.cards().iter().filter(|card| !self.deck.is_superfluous(card.id.series));
         for (name, field, number) in cards.flat_map(|card| card.named()) {
-            if !field.bounds.is_empty() && !self.deck.is_of_unused_belt(&name) {
+            if !field.bounds.is_empty() && !self.deck.is_unused(&name) {
                 for bound in field.bounds.iter().filter(|bound| (bound.violated)(number.value)) {
                     self.wrong_if(!number.value.is_nan(), bound.rule, &name, &bound.message)
                         .expected(&bound.expected, bound.remedy);

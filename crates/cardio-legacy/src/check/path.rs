@@ -47,9 +47,7 @@ fn way(before: &[f64], after: &[f64]) -> f64 {
 }
 
 fn check_cover(c: &mut Check<'_>, stations: &[Vec<f64>]) {
-    let (Some(first), Some(last)) = (stations.first(), stations.last()) else {
-        return;
-    };
+    let (Some(first), Some(last)) = (stations.first(), stations.last()) else { return };
     let (start, end) = (c.value("T1"), c.value("TF"));
     let mut report = |name: &str, message: String| {
         c.problem(Rule::PathTooShort, name, message)

@@ -1,66 +1,27 @@
-//! The start of the occupant (series 10 or 6), the belts that hold it (13) and the pairs of an extension (14).
+//! The start of the occupant (series 10 or 6), what holds it (13) and the pairs of an extension (14).
 
 use std::f64::consts::PI;
 
 use super::Check;
-use crate::cards::{BELTS, POSTURE};
+use crate::cards::{POSTURE, doubts_of_13};
 use crate::compartment::CompartmentLayout;
 use crate::rule::Rule;
 
 pub(super) fn check(c: &mut Check<'_>) {
     if c.deck.has_series(13) {
-        for (belt, name, _) in BELTS {
-            if c.deck.uses_belt(belt) {
-                check_belt(c, belt, name);
-            } else {
-                note_ignored(c, belt, name);
-            }
+        let deck = c.deck;
+        let numbers = |name: &str| deck.number(name).map_or((f64::NAN, String::new()), |n| (n.value, n.digits.clone()));
+        for doubt in doubts_of_13(&numbers) {
+            c.problem(doubt.rule, doubt.name, doubt.message).expected(doubt.expected, doubt.remedy);
         }
     }
     if c.value("NPOS") == 1.0 {
-        BELTS.into_iter().for_each(|(belt, name, _)| note_slack(c, belt, name));
         check_surfaces_of_pairs(c);
     } else {
         check_posture(c);
         check_heels(c);
     }
     check_pairs(c);
-}
-
-fn check_belt(c: &mut Check<'_>, belt: u32, name: &str) {
-    let ends = [1, 2].map(|end| (end, [1, 2, 3].map(|axis| c.value(format!("P{end}({belt},{axis})")))));
-    if ends[0].1 == ends[1].1 {
-        let message = format!("both anchors of the {name} belt lie at the same point");
-        c.problem(Rule::Impossible, format!("P1({belt},1)"), message)
-            .expected("two points", "punch both anchors in vehicle axes");
-    }
-    let width = c.value("VCW");
-    for (end, point) in ends {
-        let outside = point[1].abs() > 1.2 * width;
-        c.wrong_if(outside, Rule::Unlikely, format!("P{end}({belt},2)"), "the anchor lies outside the car")
-            .expected("within ±VCW", "Y counts from the vehicle's centre line, to the right");
-    }
-}
-
-/// Numbers of a belt that is not in use.
-fn note_ignored(c: &mut Check<'_>, belt: u32, name: &str) {
-    let mut names: Vec<String> = ["SLACK", "SK1", "SK2", "DELC"].map(|n| format!("{n}({belt})")).to_vec();
-    names.extend((1..=3).flat_map(|axis| [format!("P1({belt},{axis})"), format!("P2({belt},{axis})")]));
-    let punched = names.into_iter().find(|n| c.value(n) != 0.0 && !c.value(n).is_nan());
-    if let Some(first) = punched {
-        let used = c.digits("NOPBLT");
-        let message = format!("the {name} belt is not in use (NOPBLT = {used}); its numbers have no effect");
-        c.problem(Rule::Ignored, first, message).expected("blanks", "leave them blank, or change NOPBLT");
-    }
-}
-
-fn note_slack(c: &mut Check<'_>, belt: u32, name: &str) {
-    let slack = format!("SLACK({belt})");
-    let value = c.value(&slack);
-    if c.deck.uses_belt(belt) && value != 0.0 && !value.is_nan() {
-        let message = format!("{slack} has no effect: with NPOS = 1 the length of the {name} belt is BLTLEO({belt})");
-        c.problem(Rule::Ignored, slack, message).expected("blank", "add the slack to the length if it is not in it");
-    }
 }
 
 fn check_posture(c: &mut Check<'_>) {
@@ -102,15 +63,11 @@ fn pairs(c: &Check<'_>) -> impl Iterator<Item = (u32, f64, f64)> {
 
 /// A pair whose surface is left out of the scenario changes nothing: the sphere cannot touch it anyway.
 fn check_surfaces_of_pairs(c: &mut Check<'_>) {
-    let Ok(layout) = CompartmentLayout::reconstruction() else {
-        return;
-    };
+    let Ok(layout) = CompartmentLayout::reconstruction() else { return };
     let missing = layout.left_out(c.deck);
     let pairs: Vec<_> = pairs(c).collect();
     for (card, _, surface) in pairs {
-        let Some(left_out) = missing.iter().find(|l| f64::from(l.number) == surface) else {
-            continue;
-        };
+        let Some(left_out) = missing.iter().find(|l| f64::from(l.number) == surface) else { continue };
         let (number, name, why) = (left_out.number, &left_out.name, left_out.why);
         let message = format!("the pair has no effect: surface {number}, {name}, {why} and is left out");
         let remedy = "remove the pair and correct NOCRD, or give the surface its area and stiffness";

@@ -7,7 +7,7 @@ pub(super) fn write(w: &mut Writer<'_>) {
     w.table("joints", "Series 11");
     for joint in &JOINTS {
         w.field(&joint.damping());
-        let keys: &[&str] = if joint.is_hinge { &["lower_stop", "upper_stop"] } else { &["stop"] };
+        let keys: &[&str] = if joint.is_hinge() { &["lower_stop", "upper_stop"] } else { &["stop"] };
         for (key, [begin, full]) in keys.iter().zip(joint.stops()) {
             stop(w, &format!("{}.{key}", joint.key), [&begin, &full, &joint.full_damping()]);
         }

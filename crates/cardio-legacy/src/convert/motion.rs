@@ -2,7 +2,7 @@
 
 use super::compartment::passed_pair;
 use super::writer::{Writer, negated};
-use crate::cards::{BELTS, POSTURE, SEATS};
+use crate::cards::{BELTS, POSTURE, SEATS, uses};
 use crate::compartment::CompartmentLayout;
 
 pub(super) fn write(w: &mut Writer<'_>, layout: &CompartmentLayout) {
@@ -33,9 +33,7 @@ fn passed(w: &mut Writer<'_>, layout: &CompartmentLayout) {
     }
     let (mut text, mut before) = (String::new(), "");
     for pair in w.deck.passed_pairs() {
-        let Some((sphere, surface)) = passed_pair(w, layout, pair) else {
-            continue;
-        };
+        let Some((sphere, surface)) = passed_pair(w, layout, pair) else { continue };
         text.push_str(if sphere == before { " " } else { "\n    " });
         text.push_str(&format!("[\"{sphere}\", \"{surface}\"],"));
         before = sphere;
@@ -59,9 +57,7 @@ fn rows_of_coordinates(mut numbers: &[String]) -> String {
 
 fn seating(w: &mut Writer<'_>, layout: &CompartmentLayout) {
     let number = w.value("NOPTSP") as usize;
-    let Some(seat) = SEATS.get(number.wrapping_sub(1)) else {
-        return;
-    };
+    let Some(seat) = SEATS.get(number.wrapping_sub(1)) else { return };
     let surface = |number| layout.name_of(number).unwrap_or_default();
     let distance = w.bare("SWP");
     let (y, from, side) = if seat.is_left {
@@ -92,7 +88,7 @@ fn seating(w: &mut Writer<'_>, layout: &CompartmentLayout) {
 fn belts(w: &mut Writer<'_>) {
     let used = w.value("NOPBLT");
     for (number, name, sphere) in BELTS {
-        if w.deck.uses_belt(number) {
+        if uses(used, number) {
             belt(w, number, name, sphere);
             continue;
         }

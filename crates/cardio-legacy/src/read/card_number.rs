@@ -35,9 +35,7 @@ impl CardNumber {
 /// Reads the card number of a card on which a series should begin.
 pub(super) fn card_number(card: &PunchedCard) -> CardNumber {
     let text = card.text_of(NCARD);
-    let Ok(reading) = read_integer(card.field(NCARD)) else {
-        return CardNumber::Other(text);
-    };
+    let Ok(reading) = read_integer(card.field(NCARD)) else { return CardNumber::Other(text) };
     if reading.blank {
         return CardNumber::Blank;
     }
@@ -68,9 +66,7 @@ fn with_number(value: f64) -> Option<&'static SeriesLayout> {
 /// Whether a card is beyond doubt the first one of a series: a known card number, right-justified, numbers or blanks in
 /// the fields before it and blanks in between. Used only to find the place again in a deck that has gone wrong.
 pub(super) fn looks_like_first_card(card: &PunchedCard) -> Option<&'static SeriesLayout> {
-    let CardNumber::Series(series) = card_number(card) else {
-        return None;
-    };
+    let CardNumber::Series(series) = card_number(card) else { return None };
     let layout = series.cards.first()?;
     fits(card, layout).then_some(series)
 }

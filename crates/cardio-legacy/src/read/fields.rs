@@ -132,9 +132,7 @@ fn check_free_columns(card: &PunchedCard, layout: &CardLayout, id: CardId, sink:
     for gap in gaps(layout) {
         let is_punched = |column: &u8| !card.is_blank_in(Columns::new(*column, *column));
         let mut punched = (gap.first..=gap.last).filter(is_punched);
-        let Some(first) = punched.next() else {
-            continue;
-        };
+        let Some(first) = punched.next() else { continue };
         let punched = Columns::new(first, punched.next_back().unwrap_or(first));
         let message = format!("`{}` stands where the card is blank; it is not read", card.text_of(punched));
         Diagnostic::new(Rule::NotBlank, message)

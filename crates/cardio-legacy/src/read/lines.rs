@@ -15,9 +15,7 @@ pub(super) fn read_cards(bytes: &[u8], sink: &mut Sink) -> Vec<PunchedCard> {
 }
 
 fn until_end_mark<'a>(bytes: &'a [u8], sink: &mut Sink) -> &'a [u8] {
-    let Some(end) = bytes.iter().position(|b| *b == END_MARK) else {
-        return bytes;
-    };
+    let Some(end) = bytes.iter().position(|b| *b == END_MARK) else { return bytes };
     if bytes[end..].iter().any(|b| !matches!(*b, END_MARK | b' ' | b'\r' | b'\n')) {
         let line = lines(&bytes[..end]).len().max(1);
         let message = "a DOS end-of-file mark (0x1a) stands in the file; what follows it is not read";
@@ -46,16 +44,13 @@ fn read_card(line: usize, bytes: &[u8], sink: &mut Sink) -> PunchedCard {
     let expanded = expand_tabs(bytes);
     let card = PunchedCard::new(line, &expanded);
     if bytes.contains(&b'\t') {
-        Diagnostic::new(Rule::Tab, "the line contains a tab, which has no columns")
-            .on(&card)
-            .expected("blanks only, so that every character has its column")
-            .report(sink);
+        Diagnostic::new(Rule::Tab, "the line contains a tab, which has no columns").on(&card).report(sink);
     }
     let behind = expanded.get(CARD_WIDTH..).unwrap_or_default();
     if let Some(last) = behind.iter().rposition(|b| *b != b' ') {
         let (column, text) = (CARD_WIDTH + last + 1, latin1(&behind[..=last]));
         let message = format!("columns 81–{column} are not part of a card: {text:?} is not read");
-        Diagnostic::new(Rule::LineTooLong, message).on(&card).expected("80 columns").report(sink);
+        Diagnostic::new(Rule::LineTooLong, message).on(&card).report(sink);
     }
     report_strange_bytes(bytes, &card, sink);
     card
@@ -72,7 +67,7 @@ fn report_strange_bytes(bytes: &[u8], card: &PunchedCard, sink: &mut Sink) {
     }
     if !bytes.is_ascii() && std::str::from_utf8(bytes).is_ok() {
         let message = "the line holds UTF-8 characters of several bytes; each byte was given a column";
-        Diagnostic::new(Rule::LooksLikeUtf8, message).on(card).expected("Latin-1, one byte a column").report(sink);
+        Diagnostic::new(Rule::LooksLikeUtf8, message).on(card).report(sink);
     }
 }
 

@@ -57,10 +57,7 @@ fn read_file(bytes: &[u8], sink: &mut Sink) -> Vec<Deck> {
         cards.pop();
     }
     if cards.is_empty() {
-        Diagnostic::new(Rule::EmptyFile, "the file holds no card")
-            .expected("two title cards, series 3 to 16 and FINI")
-            .remedy("give the name of a deck")
-            .report(sink);
+        Diagnostic::new(Rule::EmptyFile, "the file holds no card").remedy("give the name of a deck").report(sink);
     }
     let mut reader = Reader { cards: &cards, at: 0, sink };
     let mut decks = Vec::new();
@@ -77,10 +74,7 @@ fn read_file(bytes: &[u8], sink: &mut Sink) -> Vec<Deck> {
         decks.extend(deck.filter(|_| sound));
     }
     if let Some(last) = cards.last() {
-        Diagnostic::new(Rule::NoFinalCard, "the file ends without the final card")
-            .on(last)
-            .expected("FINI in columns 1–4 behind the last deck")
-            .report(sink);
+        Diagnostic::new(Rule::NoFinalCard, "the file ends without the final card").on(last).report(sink);
     }
     decks
 }
@@ -106,7 +100,6 @@ impl<'a> Reader<'a> {
         if self.at == 0 {
             Diagnostic::new(Rule::EmptyFile, "the first card is the final one: the file holds no deck")
                 .on(card)
-                .expected("two title cards, series 3 to 16 and FINI")
                 .remedy("change the first word of the title if the card is meant to be one")
                 .report(self.sink);
         }
@@ -116,7 +109,6 @@ impl<'a> Reader<'a> {
             Diagnostic::new(Rule::AfterFinalCard, "something stands behind the final card; it is not read")
                 .on(card)
                 .at(Columns::new(1, 80))
-                .expected("FINI behind the last deck, and nothing more")
                 .report(self.sink);
         }
     }

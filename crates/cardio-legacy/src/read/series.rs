@@ -127,9 +127,7 @@ impl SeriesReader<'_> {
     /// begins elsewhere, the cards that stand there do, and the difference is reported.
     fn cards_behind(&mut self, wanted: Option<usize>) -> usize {
         let standing = self.behind.iter().position(begins_something).unwrap_or(self.behind.len());
-        let Some(wanted) = wanted else {
-            return standing;
-        };
+        let Some(wanted) = wanted else { return standing };
         let fixed = self.series.cards_behind_first().is_some();
         let next = self.behind.get(wanted);
         let in_place = next.is_some_and(|card| series_by_number(card).is_some() || is_word(card));

@@ -73,9 +73,7 @@ pub fn seat(
     let lower_end = pelvis_m - lean * pelvis.centre_from_lower_end_m.coords;
     let hip = Vector3::new(lower_end.x, 0.0, lower_end.z);
     let legs = [&marks.legs.left, &marks.legs.right].map(|limb| leg(body, limb, hip, seating, problems));
-    let [Some(left), Some(right)] = legs else {
-        return None;
-    };
+    let [Some(left), Some(right)] = legs else { return None };
 
     let t1 = lower_end
         - along(seating.lean_rad[3]) * -length(marks.pelvis)

@@ -27,7 +27,7 @@ impl Draft {
         Document::read(text, format, name).map(|document| Draft { document })
     }
 
-    /// Reads bytes that should be UTF-8 text; the format is told by [`Format::of_text`] unless given.
+    /// Reads bytes that should be UTF-8 text; [`Format::of_text`] says the format unless it is given.
     ///
     /// # Errors
     /// The place of the first byte that is not UTF-8; else as [`Draft::read`].

@@ -7,51 +7,22 @@ use std::sync::OnceLock;
 
 use super::sections::schema;
 use super::text::{Document, Entry, Format, Node, Sources, Table, Value};
-use crate::body::tree::JointRow;
+use crate::body::tree::{JointRow, both_sides};
 use crate::body::tti12::TTI12;
 
-/// Pairs of segments: the word for both, left, right.
-const SEGMENT_PAIRS: [[&str; 3]; 4] = [
-    ["upper_arms", "left_upper_arm", "right_upper_arm"],
-    ["forearms", "left_forearm", "right_forearm"],
-    ["thighs", "left_thigh", "right_thigh"],
-    ["lower_legs", "left_lower_leg", "right_lower_leg"],
-];
-
-/// Pairs of spheres.
-const SPHERE_PAIRS: [[&str; 3]; 7] = [
-    ["shoulders", "left_shoulder", "right_shoulder"],
-    ["elbows", "left_elbow", "right_elbow"],
-    ["hands", "left_hand", "right_hand"],
-    ["thighs", "left_thigh", "right_thigh"],
-    ["knees", "left_knee", "right_knee"],
-    ["shins", "left_shin", "right_shin"],
-    ["feet", "left_foot", "right_foot"],
-];
-
-/// Pairs of joints.
-const JOINT_PAIRS: [[&str; 3]; 4] = [
-    ["shoulders", "left_shoulder", "right_shoulder"],
-    ["elbows", "left_elbow", "right_elbow"],
-    ["hips", "left_hip", "right_hip"],
-    ["knees", "left_knee", "right_knee"],
-];
-
 /// Two keys of which a later layer's one, or an override's, replaces an earlier layer's other.
-pub(super) const RIVALS: [[&str; 2]; 6] = [
-    ["mass", "weight"],
-    ["weight", "mass"],
-    ["peak", "delta_v"],
-    ["delta_v", "peak"],
-    ["slack", "length"],
-    ["length", "slack"],
-];
+const RIVALS: [[&str; 2]; 3] = [["mass", "weight"], ["peak", "delta_v"], ["slack", "length"]];
+
+/// The other key of two that say the same thing in two ways.
+pub(super) fn rival(key: &str) -> Option<&'static str> {
+    let both = RIVALS.iter().find(|both| both.contains(&key))?;
+    both.iter().copied().find(|other| *other != key)
+}
 
 /// The other key of two that say the same thing in two ways, as a path.
 pub fn rival_path(path: &str) -> Option<String> {
     let (above, key) = path.rsplit_once('.')?;
-    let found = RIVALS.iter().find(|[given, _]| *given == key);
-    found.map(|[_, rival]| format!("{above}.{rival}"))
+    Some(format!("{above}.{}", rival(key)?))
 }
 
 /// The preset with this name, a piece of scenario that comes with the program: read and checked once.
@@ -77,9 +48,8 @@ pub(super) fn expand(sources: &mut Sources, root: &Node) -> Node {
     let sets = root.get("joint_sets").cloned();
     let joints = section(sources, root, "joints", |layers| joints(&layers, sets.as_ref()));
     if let Some(table) = explicit.as_table_mut() {
-        for entry in [body, joints].into_iter().flatten() {
-            table.insert(entry);
-        }
+        table
+            .extend([("body", body), ("joints", joints)].into_iter().filter_map(|(key, e)| Some((key.to_owned(), e?))));
     }
     explicit
 }
@@ -103,51 +73,43 @@ fn preset_section(sources: &mut Sources, name: &str, key: &str) -> Option<Node> 
 
 fn body(layers: &[Node]) -> Table {
     let mut explicit = plain_keys(layers, &["segments", "spheres"]);
-    let parts = |key: &str| -> Vec<Node> {
-        let found = layers.iter().filter_map(|l| l.get(key).cloned());
-        found.collect()
-    };
+    let parts = |key: &str| -> Vec<Node> { layers.iter().filter_map(|l| l.get(key).cloned()).collect() };
     let segments = parts("segments");
     let names = TTI12.segment_rows().iter().map(|row| row.name);
-    put(&mut explicit, "segments", &segments, members(&segments, names, &SEGMENT_PAIRS));
+    put(&mut explicit, "segments", &segments, members(&segments, names));
     let spheres = parts("spheres");
     let standard = TTI12.sphere_names();
-    let others = other_names(&spheres, &SPHERE_PAIRS, &standard);
+    let others = other_names(&spheres, &standard);
     let names = standard.iter().copied().chain(others.iter().map(String::as_str));
-    put(&mut explicit, "spheres", &spheres, members(&spheres, names, &SPHERE_PAIRS));
+    put(&mut explicit, "spheres", &spheres, members(&spheres, names));
     explicit
 }
 
 fn joints(layers: &[Node], sets: Option<&Node>) -> Table {
     let mut explicit = plain_keys(layers, &[]);
-    let words = JOINT_PAIRS.iter().flatten().copied().chain(["all"]);
-    let named: Vec<&str> = words.chain(TTI12.joint_rows().iter().map(|row| row.name)).collect();
-    for word in &named {
-        explicit.remove(word);
+    let words_of = |joint: &JointRow| -> Vec<String> {
+        ["all".to_owned()].into_iter().chain(both_sides(joint.name)).chain([joint.name.to_owned()]).collect()
+    };
+    for word in TTI12.joint_rows().iter().flat_map(words_of) {
+        explicit.shift_remove(&word);
     }
     for joint in TTI12.joint_rows() {
-        let pair = JOINT_PAIRS.iter().find(|p| p.contains(&joint.name)).map(|p| p[0]);
-        let words = ["all"].into_iter().chain(pair).chain([joint.name]);
-        let whole = |entry: &Entry| {
+        let whole = |word: &str, entry: &Entry| {
             let whole = with_set(entry, sets);
-            if entry.key == "all" { fitting(whole, joint) } else { whole }
+            if word == "all" { fitting(whole, joint) } else { whole }
         };
-        if let Some(entry) = merged(layers, words, whole) {
-            explicit.insert(Entry { key: joint.name.to_owned(), ..entry });
+        if let Some(entry) = merged(layers, &words_of(joint), whole) {
+            explicit.insert(joint.name.to_owned(), entry);
         }
     }
     explicit
 }
 
 /// What the layers say under any of `words`, later words and layers laid over earlier ones.
-fn merged<'a>(
-    layers: &[Node],
-    words: impl Iterator<Item = &'a str> + Clone,
-    whole: impl Fn(&Entry) -> Entry,
-) -> Option<Entry> {
+fn merged(layers: &[Node], words: &[String], whole: impl Fn(&str, &Entry) -> Entry) -> Option<Entry> {
     let tables = layers.iter().filter_map(Node::as_table);
-    let entries = tables.flat_map(|table| words.clone().filter_map(|word| table.get(word)));
-    entries.fold(None, |merged, entry| Some(laid_over(merged, whole(entry))))
+    let entries = tables.flat_map(|table| words.iter().filter_map(|word| Some(whole(word, table.get(word)?))));
+    entries.fold(None, |merged, entry| Some(laid_over(merged, entry)))
 }
 
 /// What is said of all joints, without what this kind of joint cannot have.
@@ -159,7 +121,7 @@ fn fitting(mut entry: Entry, joint: &JointRow) -> Entry {
     };
     if let Some(table) = entry.node.as_table_mut() {
         for key in foreign {
-            table.remove(key);
+            table.shift_remove(*key);
         }
     }
     entry
@@ -174,7 +136,7 @@ fn with_set(entry: &Entry, sets: Option<&Node>) -> Entry {
         Some(set) => {
             let mut own = entry.clone();
             if let Some(table) = own.node.as_table_mut() {
-                table.remove("set");
+                table.shift_remove("set");
             }
             laid_over(Some(set.clone()), own)
         }
@@ -183,72 +145,51 @@ fn with_set(entry: &Entry, sets: Option<&Node>) -> Entry {
 
 /// All keys of the layers but `preset` and `except`; later layers win.
 fn plain_keys(layers: &[Node], except: &[&str]) -> Table {
-    let mut plain = Table::new();
-    for entry in layers.iter().filter_map(Node::as_table).flat_map(Table::iter) {
-        if entry.key != "preset" && !except.contains(&entry.key.as_str()) {
-            plain.insert(entry.clone());
-        }
-    }
-    plain
+    let all = layers.iter().filter_map(Node::as_table).flatten();
+    let plain = all.filter(|(key, _)| *key != "preset" && !except.contains(&key.as_str()));
+    plain.map(|(key, entry)| (key.clone(), entry.clone())).collect()
 }
 
 /// Names in the layers that are neither a pair's word nor among `known`, in order of appearance.
-fn other_names(layers: &[Node], pairs: &[[&str; 3]], known: &[&str]) -> Vec<String> {
+fn other_names(layers: &[Node], known: &[&str]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
-    for entry in layers.iter().filter_map(Node::as_table).flat_map(Table::iter) {
-        let key = entry.key.as_str();
-        let is_pair = pairs.iter().any(|p| p[0] == key);
-        if !is_pair && !known.contains(&key) && !names.iter().any(|n| n == key) {
-            names.push(key.to_owned());
+    for key in layers.iter().filter_map(Node::as_table).flat_map(Table::keys) {
+        let is_known = known.iter().any(|name| name == key || both_sides(name).as_ref() == Some(key));
+        if !is_known && !names.contains(key) {
+            names.push(key.clone());
         }
     }
     names
 }
 
 /// One merged entry for each of `names` that any layer speaks of, itself or through its pair.
-fn members<'a>(layers: &[Node], names: impl Iterator<Item = &'a str>, pairs: &[[&str; 3]]) -> Vec<Entry> {
+fn members<'a>(layers: &[Node], names: impl Iterator<Item = &'a str>) -> Table {
     names
         .filter_map(|name| {
-            let pair = pairs.iter().find(|p| p[1..].contains(&name)).map(|p| p[0]);
-            let entry = merged(layers, pair.into_iter().chain([name]), Entry::clone)?;
-            Some(Entry { key: name.to_owned(), ..entry })
+            let words: Vec<String> = both_sides(name).into_iter().chain([name.to_owned()]).collect();
+            Some((name.to_owned(), merged(layers, &words, |_, entry| entry.clone())?))
         })
         .collect()
 }
 
-fn put(explicit: &mut Table, key: &str, layers: &[Node], members: Vec<Entry>) {
-    let Some(last) = layers.last() else {
-        return;
-    };
-    let mut table = Table::new();
-    members.into_iter().for_each(|m| table.insert(m));
-    explicit.insert(Entry {
-        key: key.to_owned(),
-        key_span: last.span,
-        node: Node::new(last.span, Value::Table(table)),
-    });
+fn put(explicit: &mut Table, key: &str, layers: &[Node], members: Table) {
+    if let Some(Node { span, .. }) = layers.last() {
+        explicit.insert(key.to_owned(), Entry { key_span: *span, node: Node::new(*span, Value::Table(members)) });
+    }
 }
 
 /// `over` laid over `under`: tables merge key by key, everything else is replaced.
 fn laid_over(under: Option<Entry>, over: Entry) -> Entry {
-    let Some(mut under) = under else {
-        return over;
-    };
+    let Some(mut under) = under else { return over };
     match (under.node.as_table_mut(), over.node.as_table()) {
         (Some(base), Some(table)) => {
-            for entry in table.iter() {
-                for [given, rival] in RIVALS {
-                    if entry.key == given {
-                        base.remove(rival);
-                    }
-                }
-                let below = base.get(&entry.key).cloned();
-                base.insert(laid_over(below, entry.clone()));
+            for (key, entry) in table {
+                rival(key).and_then(|rival| base.shift_remove(rival));
+                let below = base.get(key).cloned();
+                base.insert(key.clone(), laid_over(below, entry.clone()));
             }
             under.node.span = over.node.span;
-            under.key = over.key;
-            under.key_span = over.key_span;
-            under
+            Entry { key_span: over.key_span, ..under }
         }
         _ => over,
     }

@@ -175,9 +175,7 @@ impl Kind {
     pub fn column_factor(&self, name: &str, unit: Option<&str>) -> Result<f64, UnitError> {
         let expected =
             format!("the unit of {} in brackets, such as `{name}[{}]`", self.noun, self.bare_unit(UnitSystem::Si));
-        let Some(unit) = unit else {
-            return Err(whole(name, format!("column `{name}` without a unit"), expected));
-        };
+        let Some(unit) = unit else { return Err(whole(name, format!("column `{name}` without a unit"), expected)) };
         match parse(unit, 0) {
             Ok(scale) if self.is_measured_in(scale) => Ok(scale.factor),
             Ok(_) => Err(whole(unit, format!("`{unit}` is not the unit of {}", self.noun), expected)),

@@ -134,9 +134,7 @@ fn read_path_table(
     scenario: &Scenario,
     resolver: Resolver,
 ) -> Result<Option<SourceId>, Diagnostics> {
-    let Some(file) = scenario.path.file() else {
-        return Ok(None);
-    };
+    let Some(file) = scenario.path.file() else { return Ok(None) };
     let bytes = resolver(file).map_err(|reason| {
         let found = format!("`{file}` cannot be read: {reason}");
         document.place(Problem::error("path.file", found, "a CSV file, its name relative to the scenario"))

@@ -1,6 +1,6 @@
 //! `path.to.key=value`: changes to a scenario from a command line or a sweep, made before it is checked.
 
-use super::expand::RIVALS;
+use super::expand::rival;
 use super::text::{Entry, Node, Span, Step, Table, Value, child, follow, with_step};
 
 /// Whether a path can only be followed in the explicit form of a scenario: it has wildcards, or it leads into a list that
@@ -11,8 +11,8 @@ pub(super) fn needs_explicit(root: &Node, steps: &[Step]) -> bool {
 }
 
 /// Puts `value` at a path without wildcards. Of two keys that say the same thing in two ways, such as the `peak` and the
-/// `delta_v` of a pulse, the one that is put replaces the other. Tables on the way are made where they are missing; a list on the way that
-/// only the explicit form has (a preset's inertia, say) is copied from there first.
+/// `delta_v` of a pulse, the one that is put replaces the other. Tables on the way are made where they are missing; a list
+/// on the way that only the explicit form has (a preset's inertia, say) is copied from there first.
 ///
 /// # Errors
 /// The part of the path that leads nowhere.
@@ -28,10 +28,8 @@ pub(super) fn put(root: &mut Node, explicit: Option<&Node>, steps: &[Step], valu
         if let (Step::Key(key), Value::Table(table)) = (step, &mut node.value)
             && table.get(key).is_none()
         {
-            table.insert(blank(key, value.span, steps.get(i + 1), shadow));
-            for [_, rival] in RIVALS.iter().filter(|[given, _]| last && key == given) {
-                table.remove(rival);
-            }
+            table.insert(key.clone(), blank(value.span, steps.get(i + 1), shadow));
+            rival(key).filter(|_| last).and_then(|rival| table.shift_remove(rival));
         }
         let below = below_mut(node, step);
         node = below.ok_or_else(|| match step {
@@ -54,13 +52,13 @@ fn path_end(step: &Step) -> &str {
 }
 
 /// An entry to be filled: a copy of the explicit list if the path goes on into a list, else an empty table.
-fn blank(key: &str, span: Span, next: Option<&Step>, shadow: Option<&Node>) -> Entry {
+fn blank(span: Span, next: Option<&Step>, shadow: Option<&Node>) -> Entry {
     let copied = match (next, shadow.map(|s| &s.value)) {
         (Some(_), Some(Value::Array(items))) => Some(Value::Array(items.clone())),
         _ => None,
     };
     let node = Node::new(span, copied.unwrap_or(Value::Table(Table::new())));
-    Entry { key: key.to_owned(), key_span: span, node }
+    Entry { key_span: span, node }
 }
 
 fn below_mut<'a>(node: &'a mut Node, step: &Step) -> Option<&'a mut Node> {

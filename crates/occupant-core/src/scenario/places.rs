@@ -1,6 +1,6 @@
 //! The places that a path leads to in a scenario: what may stand there, and what does.
 //!
-//! A study asks this before it changes anything, so that a path that leads nowhere and a unit of the wrong kind are told
+//! A study asks this before it changes anything, so that a path that leads nowhere and a unit of the wrong kind are reported
 //! once and not by every run.
 
 use serde_json::Value as Json;
@@ -11,7 +11,7 @@ use super::expand::expand;
 use super::kind::{Kind, split_number};
 use super::overrides::put;
 use super::sections::schema;
-use super::text::{Node, Step, Value, child, did_you_mean, follow, parse_path, targets, to_text};
+use super::text::{Node, Step, Value, child, children, did_you_mean, follow, parse_path, targets, to_text};
 use crate::problem::Problem;
 use crash_measures::unit::parse;
 
@@ -50,7 +50,7 @@ impl Draft {
     /// # Errors
     /// A path that cannot be read, leads nowhere, or leads to a whole table or list.
     pub fn places(&self, path: &str) -> Result<Vec<Place>, Problem> {
-        let steps = parse_path(path).map_err(|found| misplaced(found, "a path such as belts.lap.slack", None))?;
+        let steps = parse_path(path).map_err(|found| misplaced(found, "a path such as belts.lap.slack"))?;
         let explicit = expand(&mut self.document.sources.clone(), &self.document.root);
         let found = targets(&explicit, &steps);
         if found.is_empty() {
@@ -107,16 +107,14 @@ impl Draft {
         let mut root = self.document.root.clone();
         let node = Node::new(root.span, mark.clone());
         put(&mut root, Some(explicit), steps, node)
-            .map_err(|found| misplaced(found, "a path that exists in the scenario", None))?;
+            .map_err(|found| misplaced(found, "a path that exists in the scenario"))?;
         let marked = expand(&mut self.document.sources.clone(), &root);
         let mut found = Vec::new();
         collect(&marked, &mark, &mut Vec::new(), &mut found);
         if found.is_empty() {
-            return Err(misplaced(
-                format!("`{}` changes nothing in this scenario", place.path),
-                "a path to something that counts",
-                Some("what is said of a single joint, segment or sphere wins over what is said of a group".into()),
-            ));
+            let found = format!("`{}` changes nothing in this scenario", place.path);
+            let hint = "what is said of a single joint, segment or sphere wins over what is said of a group";
+            return Err(misplaced(found, "a path to something that counts").with_hint(Some(hint)));
         }
         if found == [steps] {
             return Ok(vec![place]);
@@ -155,9 +153,7 @@ impl Draft {
     /// there, else that of the scenario's bare numbers. None where no quantity can stand.
     pub fn unit_at(&self, path: &str) -> Option<(String, f64)> {
         let place = self.places(path).ok()?.into_iter().next()?;
-        let Wanted::Quantity(kind) = place.wanted else {
-            return None;
-        };
+        let Wanted::Quantity(kind) = place.wanted else { return None };
         let unit = match &place.value {
             Some(Value::String(text)) => text[split_number(text)?.1..].trim_end().to_owned(),
             _ => kind.bare_unit(self.units()).to_owned(),
@@ -180,18 +176,15 @@ fn nowhere(explicit: &Node, path: &str, steps: &[Step]) -> Problem {
     };
     let good = (1..=steps.len()).take_while(|n| !reached(*n).is_empty()).last().unwrap_or(0);
     let beside = reached(good);
-    let mut names: Vec<&str> = beside
-        .iter()
-        .filter_map(|node| node.as_table())
-        .flat_map(|table| table.iter().map(|e| e.key.as_str()))
-        .collect();
+    let mut names: Vec<&str> =
+        beside.iter().filter_map(|node| node.as_table()).flat_map(|table| table.keys().map(String::as_str)).collect();
     names.sort_unstable();
     names.dedup();
     let hint = match steps.get(good) {
         Some(Step::Key(key)) => did_you_mean(key, &names, '`'),
         _ => None,
     };
-    misplaced(format!("`{path}` matches nothing in the base scenario"), "a path to at least one value", hint)
+    misplaced(format!("`{path}` matches nothing in the base scenario"), "a path to at least one value").with_hint(hint)
 }
 
 /// The case of a table with a `kind` that its own `kind` names; else the view itself.
@@ -203,8 +196,8 @@ fn at_hand(view: View, root: &'static Json, node: Option<&Node>) -> View {
 }
 
 /// Why a path leads to no value.
-fn misplaced(found: impl Into<String>, expected: impl Into<String>, hint: Option<String>) -> Problem {
-    Problem::error("", found, expected).with_hint(hint)
+fn misplaced(found: impl Into<String>, expected: impl Into<String>) -> Problem {
+    Problem::error("", found, expected)
 }
 
 fn wanted(view: &View) -> Option<Wanted> {
@@ -223,11 +216,8 @@ fn wanted(view: &View) -> Option<Wanted> {
 }
 
 fn no_value(steps: &[Step]) -> Problem {
-    misplaced(
-        format!("`{}` leads to a table or list, not to a single value", to_text(steps)),
-        "a path to numbers or names",
-        None,
-    )
+    let found = format!("`{}` leads to a table or list, not to a single value", to_text(steps));
+    misplaced(found, "a path to numbers or names")
 }
 
 /// The step of a path that leads nowhere, and what stands beside it.
@@ -242,16 +232,16 @@ fn unknown(view: &View, node: Option<&Node>, steps: &[Step], at: usize) -> Probl
             Some(_) => format!("{above} is no list"),
             None => format!("{above} is not in the base scenario"),
         };
-        return misplaced(found, "an index that exists, from 0", None);
+        return misplaced(found, "an index that exists, from 0");
     };
     let mut names = view.keys();
     let own = node.and_then(Node::as_table);
-    names.extend(own.iter().flat_map(|t| t.iter()).map(|e| e.key.as_str()));
+    names.extend(own.into_iter().flat_map(|table| table.keys().map(String::as_str)));
     let hint = did_you_mean(key, &names, '`');
     names.sort_unstable();
     names.dedup();
     let expected = if names.is_empty() { "a shorter path".to_owned() } else { format!("one of {}", names.join(", ")) };
-    misplaced(format!("{above} has nothing named `{key}`"), expected, hint)
+    misplaced(format!("{above} has nothing named `{key}`"), expected).with_hint(hint)
 }
 
 /// The paths at which a value stands.
@@ -259,12 +249,7 @@ fn collect(node: &Node, wanted: &Value, path: &mut Vec<Step>, found: &mut Vec<Ve
     if node.value == *wanted {
         found.push(path.clone());
     }
-    let below: Vec<(Step, &Node)> = match &node.value {
-        Value::Table(table) => table.iter().map(|e| (Step::Key(e.key.clone()), &e.node)).collect(),
-        Value::Array(items) => items.iter().enumerate().map(|(i, n)| (Step::Index(i), n)).collect(),
-        _ => Vec::new(),
-    };
-    for (step, node) in below {
+    for (step, node) in children(node) {
         path.push(step);
         collect(node, wanted, path, found);
         path.pop();

@@ -18,6 +18,8 @@ mod record;
 mod strapdown;
 
 use nalgebra::Vector3;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::attitude::Attitude;
 use super::cursor::PathCursor;
@@ -29,15 +31,17 @@ use crash_measures::signal::ChannelClass;
 pub use record::{AccelerationRecord, DeltaVRecord, SensorRecord};
 use strapdown::{Piece, Start, integrate};
 
-/// What gravity does in recorded accelerations. Sensors feel specific force: at rest they read g upwards.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// What gravity does in recorded accelerations.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(rename = "RecordedGravity")]
 pub enum SensorGravity {
-    /// Specific force as felt: a level vehicle at rest reads −g on its z axis (down).
+    /// It is in them: a level vehicle at rest reads 1 g upwards.
     Included,
-    /// The reading at rest in the initial attitude was taken away from each channel, once and for all, as when sensors
-    /// are zeroed before a test.
+    /// The sensors were zeroed before the test, at rest in the initial attitude: they read 0 there, and gravity comes
+    /// in as the vehicle turns.
     Zeroed,
-    /// Accelerations of the sensor's place: gravity was taken away at every instant.
+    /// It was taken out of them at every instant: a vehicle at rest reads 0 in any attitude.
     Removed,
 }
 

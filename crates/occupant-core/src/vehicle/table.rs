@@ -1,6 +1,8 @@
 //! A vehicle path given by stations in time: the report's tabular record (its POSVEH), and the smooth one.
 
 use nalgebra::{Vector3, Vector6};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
 use super::attitude::Attitude;
 use super::cursor::PathCursor;
@@ -10,25 +12,29 @@ use super::spline::{Piece, linear_pieces, spline_pieces};
 use super::station::{Station, problems_of};
 use super::{TIME_SLACK, VehiclePose, VehicleState};
 
-/// How a table is read between its stations.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// How a table is read between its times.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(rename = "Interpolate")]
 pub enum Interpolation {
-    /// Straight lines in all six quantities, as in the report; the velocity jumps at every station.
+    /// Straight lines, as in the report; velocities jump at every time.
     Linear,
-    /// Natural cubic splines through all six quantities: velocity and acceleration are continuous. Ours.
+    /// Natural cubic splines.
     #[default]
     Spline,
 }
 
-/// What the vehicle does after the last station.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// What the vehicle does after the last time of a table.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+#[schemars(rename = "After")]
 pub enum AfterEnd {
-    /// A run that goes on past it is refused.
+    /// A run that goes on is refused.
     #[default]
     Error,
-    /// It goes on with its last velocity and angular velocity (constant in space).
+    /// It goes on with constant velocity.
     Coast,
-    /// It stands still at once.
+    /// It stands still.
     Hold,
 }
 

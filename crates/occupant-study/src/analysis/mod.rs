@@ -9,6 +9,8 @@ mod indices;
 mod regression;
 mod screening;
 
+use thiserror::Error;
+
 pub use indices::{SobolIndices, sobol_indices};
 pub use regression::{RankCorrelation, Regression, rank_correlation, ranks, regression};
 pub use screening::{Effect, screening};
@@ -37,9 +39,10 @@ impl Estimate {
 }
 
 /// Why an analysis cannot be made.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Error)]
 pub enum AnalysisError {
     /// Columns of different length.
+    #[error("a column of {found} rows beside one of {expected}")]
     Length {
         /// Rows found.
         found: usize,
@@ -47,6 +50,7 @@ pub enum AnalysisError {
         expected: usize,
     },
     /// Fewer complete rows than the analysis needs to say anything.
+    #[error("{found} complete rows; at least {needed} are needed")]
     TooFew {
         /// Complete rows.
         found: usize,
@@ -54,37 +58,15 @@ pub enum AnalysisError {
         needed: usize,
     },
     /// The figure, or a parameter, is the same in all rows.
+    #[error("{} is the same in all rows", parameter.map_or("the figure".to_owned(), |i| format!("parameter {}", i + 1)))]
     Constant {
         /// Index of the parameter; none for the figure.
         parameter: Option<usize>,
     },
     /// Parameters that depend on one another, so that no part can be given to each.
+    #[error("parameters that depend on one another cannot be told apart")]
     Dependent,
 }
-
-impl std::fmt::Display for AnalysisError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            AnalysisError::Length { found, expected } => {
-                write!(f, "a column of {found} rows beside one of {expected}")
-            }
-            AnalysisError::TooFew { found, needed } => {
-                write!(f, "{found} complete rows; at least {needed} are needed")
-            }
-            AnalysisError::Constant { parameter: None } => {
-                write!(f, "the figure is the same in all rows")
-            }
-            AnalysisError::Constant { parameter: Some(i) } => {
-                write!(f, "parameter {} is the same in all rows", i + 1)
-            }
-            AnalysisError::Dependent => {
-                write!(f, "parameters that depend on one another cannot be told apart")
-            }
-        }
-    }
-}
-
-impl std::error::Error for AnalysisError {}
 
 /// Rows in which every column has a finite number.
 fn complete_rows<'a>(columns: impl Iterator<Item = &'a [f64]> + Clone) -> Result<Vec<usize>, AnalysisError> {

@@ -61,10 +61,7 @@ pub fn rank_correlation(parameter: &[f64], figure: &[f64]) -> Result<RankCorrela
     let rho = rho.clamp(-1.0, 1.0);
     let half = 1.959_964 * ((1.0 + 0.5 * rho * rho) / (n - 3.0)).sqrt();
     let z = 0.5 * trig::ln((1.0 + rho) / (1.0 - rho));
-    let end = |z: f64| match z.is_infinite() {
-        true => z.signum(),
-        false => tanh(z),
-    };
+    let end = |z: f64| if z.is_infinite() { z.signum() } else { tanh(z) };
     Ok(RankCorrelation { rho: Estimate { value: rho, low: end(z - half), high: end(z + half) }, rows: rows.len() })
 }
 
@@ -98,10 +95,7 @@ pub fn regression(parameters: &[Vec<f64>], figure: &[f64], seed: u64) -> Result<
 
 fn enough<'a>(columns: impl Iterator<Item = &'a [f64]> + Clone, needed: usize) -> Result<Vec<usize>, AnalysisError> {
     let rows = complete_rows(columns)?;
-    match rows.len() >= needed {
-        true => Ok(rows),
-        false => Err(AnalysisError::TooFew { found: rows.len(), needed }),
-    }
+    if rows.len() >= needed { Ok(rows) } else { Err(AnalysisError::TooFew { found: rows.len(), needed }) }
 }
 
 /// Values less their mean over their standard deviation, and that deviation; none for a constant column.

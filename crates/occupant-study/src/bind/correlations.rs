@@ -46,7 +46,7 @@ impl Binder<'_> {
     pub(super) fn correlated(&mut self, parameters: &[Parameter], n: usize, side: usize) -> Option<usize> {
         let name = &self.text.section.correlations[n].between[side];
         let found = parameters.iter().position(|p| p.name == *name);
-        // a parameter that was left out as broken has been told of already
+        // a parameter that was left out as broken has been reported already
         if found.is_none() && parameters.len() == self.text.section.parameters.len() {
             let names: Vec<&str> = parameters.iter().map(|p| p.name.as_str()).collect();
             let at = format!("correlations[{n}].between[{side}]");

@@ -4,11 +4,9 @@ use super::{Binder, table};
 use crate::design::Design;
 use crate::ensemble::Ensemble;
 use crate::parameter::Parameter;
-use crate::section::DesignSection;
 use crate::sobol::MAX_DIMENSIONS;
 use occupant_core::problem::Problem;
 use occupant_core::scenario::Resolver;
-use occupant_core::scenario::sections::{POSITIVE, Ratio};
 
 impl Binder<'_> {
     /// The design of the study; columns of a table of samples may become parameters.
@@ -16,15 +14,15 @@ impl Binder<'_> {
         let section = &self.text.section;
         match &section.design {
             None => self.without_design(),
-            Some(DesignSection::Table(table)) => {
-                Design::Table { rows: table::rows(self, &table.file, parameters, resolver) }
+            Some(Design::Table { file, .. }) => {
+                Design::Table { file: file.clone(), rows: table::rows(self, file, parameters, resolver) }
             }
             Some(design) => {
                 if section.parameters.is_empty() {
                     let expected = "`[[parameters]]`";
                     self.error("design", "a design without parameters", expected, None);
                 }
-                chosen(design)
+                design.clone()
             }
         }
     }
@@ -82,17 +80,15 @@ impl Binder<'_> {
             self.error("design.levels", found, "an even number of levels, such as 4", None);
         }
         if let Design::Morris { tail, .. } | Design::OneAtATime { tail } = design
-            && *tail >= 0.5
+            && tail.si() >= 0.5
         {
-            self.error("design.tail", format!("a tail of {tail}"), "a part below 0.5", None);
+            self.error("design.tail", format!("a tail of {}", tail.si()), "a part below 0.5", None);
         }
     }
 
     /// Warns of a number of points that Sobol's sequence does not fill.
     fn power_of_two(&mut self, design: &Design) {
-        let (Design::Sobol { samples, .. } | Design::Saltelli { samples, .. }) = design else {
-            return;
-        };
+        let (Design::Sobol { samples, .. } | Design::Saltelli { samples, .. }) = design else { return };
         if !samples.is_power_of_two() {
             let near = samples.checked_next_power_of_two().unwrap_or(*samples);
             let found = format!("{samples} points of Sobol's sequence, which is even only in powers of 2");
@@ -100,26 +96,4 @@ impl Binder<'_> {
             self.report(Problem::warning("design.samples", found, "a power of 2").with_hint(Some(hint)));
         }
     }
-}
-
-/// What a design's section says, tables of samples apart.
-fn chosen(section: &DesignSection) -> Design {
-    match section {
-        DesignSection::FullFactorial(_) => Design::FullFactorial,
-        DesignSection::LatinHypercube(d) => Design::LatinHypercube { samples: d.samples },
-        DesignSection::MonteCarlo(d) => Design::MonteCarlo { samples: d.samples },
-        DesignSection::Sobol(d) => Design::Sobol { samples: d.samples, scramble: d.scramble.unwrap_or(true) },
-        DesignSection::OneAtATime(d) => Design::OneAtATime { tail: tail(&d.tail) },
-        DesignSection::Saltelli(d) => {
-            Design::Saltelli { samples: d.samples, second_order: d.second_order.unwrap_or(false) }
-        }
-        DesignSection::Morris(d) => {
-            Design::Morris { trajectories: d.trajectories, levels: d.levels.unwrap_or(4), tail: tail(&d.tail) }
-        }
-        DesignSection::Table(_) => Design::Table { rows: Vec::new() },
-    }
-}
-
-fn tail(written: &Option<Ratio<POSITIVE>>) -> f64 {
-    written.as_ref().map_or(0.05, Ratio::si)
 }

@@ -5,60 +5,38 @@ use super::law::{Quantities, kind_of};
 use super::parameters::paths_at;
 use crate::ensemble::{self, Change, Ensemble, Perturbation};
 use crate::parameter::{Parameter, Target};
-use crate::section::{ApplyChoice, EnsembleSection, PerturbationSection};
+use crate::section::{ApplyChoice, PerturbationSection};
 use occupant_core::scenario::Draft;
-use occupant_core::scenario::sections::{Angle, Length, Ratio};
 
 /// The ensemble of a study, if it has one. Without any tolerance it has the standard ones.
 pub(super) fn bind(binder: &mut Binder, base: &Draft, parameters: &[Parameter]) -> Option<Ensemble> {
     let section = binder.text.section.ensemble.as_ref()?;
-    let mut perturbations = tolerances(binder, base, parameters, section);
-    for (i, written) in section.perturbations.iter().enumerate() {
-        let at = format!("ensemble.perturbations[{i}]");
-        perturbations.extend(perturbation(binder, written, &at));
-    }
-    if !has_tolerances(section) {
+    let posture = section.posture.as_ref().map(|most| ensemble::posture(base, most.si()));
+    let place = section.place.as_ref().map(|most| ensemble::seat_place(base, most.si()));
+    let path = section.path.as_ref().map(|most| ensemble::path(base, parameters, most.si()));
+    let stiffness = section.stiffness.as_ref().map(|most| ensemble::stiffness(base, most.si()));
+    let groups = [
+        ("posture", posture, "a posture"),
+        ("place", place, "a posture"),
+        ("path", path, "a pulse with `peak` or `delta_v`"),
+        ("stiffness", stiffness, "materials or belts"),
+    ];
+    let says_nothing = section.perturbations.is_empty() && groups.iter().all(|(_, found, _)| found.is_none());
+    let mut perturbations = Vec::new();
+    if says_nothing {
         perturbations = ensemble::standard(base, parameters, &ensemble::Tolerances::default());
     }
-    Some(Ensemble { members: section.members, perturbations })
-}
-
-fn has_tolerances(section: &EnsembleSection) -> bool {
-    section.posture.is_some()
-        || section.place.is_some()
-        || section.path.is_some()
-        || section.stiffness.is_some()
-        || !section.perturbations.is_empty()
-}
-
-fn tolerances(
-    binder: &mut Binder,
-    base: &Draft,
-    parameters: &[Parameter],
-    section: &EnsembleSection,
-) -> Vec<Perturbation> {
-    let posture = section.posture.as_ref().map(Angle::si);
-    let place = section.place.as_ref().map(Length::si);
-    let path = section.path.as_ref().map(Ratio::si);
-    let stiffness = section.stiffness.as_ref().map(Ratio::si);
-    let groups = [
-        ("posture", posture.map(|most| ensemble::posture(base, most)), "a posture"),
-        ("place", place.map(|most| ensemble::seat_place(base, most)), "a posture"),
-        ("path", path.map(|most| ensemble::path(base, parameters, most)), "a pulse with `peak` or `delta_v`"),
-        ("stiffness", stiffness.map(|most| ensemble::stiffness(base, most)), "materials or belts"),
-    ];
-    let mut all = Vec::new();
     for (key, found, expected) in groups {
-        match found {
-            Some(found) if found.is_empty() => {
-                let words = format!("the base scenario has nothing that `{key}` could change");
-                binder.error(&format!("ensemble.{key}"), words, expected, None);
-            }
-            Some(found) => all.extend(found),
-            None => {}
+        if found.as_ref().is_some_and(Vec::is_empty) {
+            let words = format!("the base scenario has nothing that `{key}` could change");
+            binder.error(&format!("ensemble.{key}"), words, expected, None);
         }
+        perturbations.extend(found.into_iter().flatten());
     }
-    all
+    for (i, written) in section.perturbations.iter().enumerate() {
+        perturbations.extend(perturbation(binder, written, &format!("ensemble.perturbations[{i}]")));
+    }
+    Some(Ensemble { members: section.members, perturbations })
 }
 
 fn perturbation(binder: &mut Binder, section: &PerturbationSection, at: &str) -> Option<Perturbation> {

@@ -1,5 +1,5 @@
 //! Puts the ends of every parameter into the base scenario and looks whether it still stands, so that a stiffness below
-//! zero or two keys that exclude each other are told once, before the first run.
+//! zero or two keys that exclude each other are reported once, before the first run.
 
 use super::Binder;
 use crate::law::{Law, Value};
@@ -31,9 +31,7 @@ pub(super) fn check(binder: &mut Binder, base: &Draft, parameters: &[Parameter],
 }
 
 fn tell(binder: &mut Binder, at: &str, parameter: &Parameter, wrong: Diagnostics, rare: bool) {
-    let Some(first) = wrong.iter().next() else {
-        return;
-    };
+    let Some(first) = wrong.iter().next() else { return };
     let (name, words) = (&parameter.name, &first.problem);
     let found = format!("`{name}` spoils the scenario: {}", words.found);
     let problem = Problem::error(at, found, words.expected.clone());

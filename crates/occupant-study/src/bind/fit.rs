@@ -3,8 +3,8 @@
 use indexmap::IndexMap;
 
 use super::{Binder, Purpose};
-use crate::fit::{Bounds, Fit, FitChannel, FitTest};
-use crate::fit_section::{FitSection, FitTestSection};
+use crate::fit::{Bounds, Fit};
+use crate::fit_section::{FitChannel, FitSection, FitTest};
 use crate::{Parameter, Study, StudyText};
 use crash_measures::trig::ln;
 use occupant_core::problem::Problem;
@@ -23,7 +23,7 @@ impl StudyText {
     /// What the study says of a fit; what stands there for none is the same as an empty `[fit]`.
     ///
     /// # Errors
-    /// Everything that is wrong with it, as far as that can be told without tests and scenarios.
+    /// Everything that is wrong with it, as far as that can be seen without tests and scenarios.
     pub fn fit(&self) -> Result<Fit, Diagnostics> {
         let empty = FitSection::default();
         let section = self.section.fit.as_ref().unwrap_or(&empty);
@@ -34,22 +34,20 @@ impl StudyText {
             binder.error("", found, "`parameters` with ranges", Some(hint));
         }
         binder.limits_of(section);
-        let window_s = binder.window([&section.from, &section.to], "fit");
-        let channels = binder.fit_channels(section);
-        let tests = section
-            .tests
-            .iter()
-            .enumerate()
-            .map(|(i, test)| binder.fit_test(test, &format!("fit.tests[{i}]")))
-            .collect();
+        let window_s = [&section.from, &section.to].map(|time| time.as_ref().map(Time::si));
+        binder.check_window(window_s, "fit");
+        binder.check_channels(&section.channels);
+        for (i, test) in section.tests.iter().enumerate() {
+            binder.check_test(test, &format!("fit.tests[{i}]"));
+        }
         let n = self.section.parameters.len();
         // 4 + ⌊3 ln n⌋
         let wanted = 4 + (3.0 * ln(n.max(1) as f64)) as usize;
         let fit = Fit {
             misfit: section.objective.unwrap_or_default(),
             filter: section.filter.unwrap_or_default(),
-            channels,
-            tests,
+            channels: section.channels.clone(),
+            tests: section.tests.clone(),
             window_s,
             seed: self.section.seed.unwrap_or(0),
             budget: section.budget.unwrap_or(BUDGET * n.max(1) as u64),
@@ -114,7 +112,7 @@ impl Binder<'_> {
 
     /// Tells of parameters that have no ends between which to look.
     pub(super) fn have_ends(&mut self, parameters: &[Parameter]) {
-        // a broken parameter shifts the others, and has been told of
+        // a broken parameter shifts the others, and has been reported
         if parameters.len() != self.text.section.parameters.len() {
             return;
         }
@@ -128,66 +126,35 @@ impl Binder<'_> {
         }
     }
 
-    fn window(&mut self, times: [&Option<Time>; 2], at: &str) -> [Option<f64>; 2] {
-        let [from, to] = times.map(|t| t.as_ref().map(Time::si));
-        if let (Some(from_s), Some(to_s)) = (from, to)
-            && from_s >= to_s
-        {
-            let at = format!("{at}.to");
-            self.error(&at, "`to` is not after `from`", "`from` before `to`", None);
+    fn check_window(&mut self, [from_s, to_s]: [Option<f64>; 2], at: &str) {
+        if from_s.zip(to_s).is_some_and(|(from_s, to_s)| from_s >= to_s) {
+            self.error(&format!("{at}.to"), "`to` is not after `from`", "`from` before `to`", None);
         }
-        [from, to]
     }
 
-    fn fit_channels(&mut self, section: &FitSection) -> Vec<FitChannel> {
-        let mut channels: Vec<FitChannel> = Vec::new();
-        for (i, channel) in section.channels.iter().enumerate() {
+    fn check_channels(&mut self, channels: &[FitChannel]) {
+        for (i, channel) in channels.iter().enumerate() {
             let at = format!("fit.channels[{i}]");
-            if channels.iter().any(|c| c.name == channel.channel) {
-                let found = format!("the channel `{}` a second time", channel.channel);
+            if channels[..i].iter().any(|c| c.name == channel.name) {
+                let found = format!("the channel `{}` a second time", channel.name);
                 self.error(&format!("{at}.channel"), found, "each channel once", None);
             }
-            channels.push(FitChannel {
-                name: channel.channel.clone(),
-                weight: self.weight(channel.weight, &at),
-                filter: channel.filter.or(section.filter).unwrap_or_default(),
-            });
-        }
-        channels
-    }
-
-    fn fit_test(&mut self, test: &FitTestSection, at: &str) -> FitTest {
-        let seat = test.seat.as_deref().unwrap_or("1");
-        let mut letters = seat.chars();
-        let seat = match (letters.next(), letters.next()) {
-            (Some(letter), None) => letter,
-            _ => {
-                let found = format!("\"{seat}\" is no position");
-                let expected = "one character, such as \"1\" or \"3\"";
-                self.error(&format!("{at}.seat"), found, expected, None);
-                '1'
-            }
-        };
-        FitTest {
-            name: test.name.clone(),
-            file: test.file.clone(),
-            base: test.base.clone(),
-            set: test.set.clone(),
-            window_s: self.window([&test.from, &test.to], at),
-            shift_s: test.shift.as_ref().map_or(0.0, Time::si),
-            weight: self.weight(test.weight, at),
-            map: test.map.clone(),
-            seat,
+            self.check_weight(channel.weight(), &at);
         }
     }
 
-    fn weight(&mut self, weight: Option<f64>, at: &str) -> f64 {
-        let weight = weight.unwrap_or(1.0);
+    fn check_test(&mut self, test: &FitTest, at: &str) {
+        if let Some(seat) = test.seat.as_ref().filter(|seat| seat.chars().count() != 1) {
+            let expected = "one character, such as \"1\" or \"3\"";
+            self.error(&format!("{at}.seat"), format!("\"{seat}\" is no position"), expected, None);
+        }
+        self.check_window(test.window_s(), at);
+        self.check_weight(test.weight(), at);
+    }
+
+    fn check_weight(&mut self, weight: f64, at: &str) {
         if !(weight > 0.0 && weight.is_finite()) {
-            let found = format!("a weight of {weight}");
-            let at = format!("{at}.weight");
-            self.error(&at, found, "a number above zero", None);
+            self.error(&format!("{at}.weight"), format!("a weight of {weight}"), "a number above zero", None);
         }
-        weight
     }
 }

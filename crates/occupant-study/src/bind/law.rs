@@ -74,21 +74,21 @@ impl Quantities<'_> {
 
     fn distribution(&self, binder: &mut Binder, section: &DistributionSection, at: &str) -> Option<Law> {
         match section {
-            DistributionSection::Uniform(s) => {
-                let [from, to] = self.ends(binder, at, [&s.from, &s.to], false)?;
+            DistributionSection::Uniform { from, to } => {
+                let [from, to] = self.ends(binder, at, [from, to], false)?;
                 Some(Law::Uniform { from, to })
             }
-            DistributionSection::LogUniform(s) => {
-                let [from, to] = self.ends(binder, at, [&s.from, &s.to], true)?;
+            DistributionSection::LogUniform { from, to } => {
+                let [from, to] = self.ends(binder, at, [from, to], true)?;
                 Some(Law::LogUniform { from, to })
             }
-            DistributionSection::Normal(s) => {
-                let [mean, sd] = self.mean_and_sd(binder, &s.mean, &s.sd, at)?;
+            DistributionSection::Normal { mean, sd } => {
+                let [mean, sd] = self.mean_and_sd(binder, mean, sd, at)?;
                 Some(Law::Normal { mean, sd })
             }
-            DistributionSection::TruncatedNormal(s) => {
-                let ends = self.ends(binder, at, [&s.from, &s.to], false);
-                let [mean, sd] = self.mean_and_sd(binder, &s.mean, &s.sd, at)?;
+            DistributionSection::TruncatedNormal { mean, sd, from, to } => {
+                let ends = self.ends(binder, at, [from, to], false);
+                let [mean, sd] = self.mean_and_sd(binder, mean, sd, at)?;
                 let [from, to] = ends?;
                 // beyond that hardly anything of the bell is left between the ends
                 if (from - mean) / sd > 30.0 || (to - mean) / sd < -30.0 {
@@ -98,9 +98,9 @@ impl Quantities<'_> {
                 }
                 Some(Law::TruncatedNormal { mean, sd, from, to })
             }
-            DistributionSection::Triangular(s) => {
-                let ends = self.ends(binder, at, [&s.from, &s.to], false);
-                let mode = self.number(binder, &s.mode, &format!("{at}.mode"))?;
+            DistributionSection::Triangular { from, mode, to } => {
+                let ends = self.ends(binder, at, [from, to], false);
+                let mode = self.number(binder, mode, &format!("{at}.mode"))?;
                 let [from, to] = ends?;
                 if !(from..=to).contains(&mode) {
                     let expected = "a `mode` from `from` to `to`";

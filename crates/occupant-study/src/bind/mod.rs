@@ -1,4 +1,4 @@
-//! A study meets its base scenario: paths find their places, numbers their units, and everything that does not fit is told.
+//! A study meets its base scenario: paths find their places, numbers their units, and everything that does not fit is reported.
 
 mod correlations;
 mod design;
@@ -189,9 +189,7 @@ impl<'a> Binder<'a> {
     }
 
     fn keep(&mut self) -> Keep {
-        let Some(section) = &self.text.section.keep else {
-            return Keep::default();
-        };
+        let Some(section) = &self.text.section.keep else { return Keep::default() };
         Keep::read(section).unwrap_or_else(|found| {
             let expected = "\"all\", \"none\", a list of indices, or such as \"worst 5 by hic15\"";
             self.error("keep", found, expected, None);

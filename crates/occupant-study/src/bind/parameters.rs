@@ -2,9 +2,10 @@
 
 use super::law::{Quantities, kind_of};
 use super::{Binder, Purpose};
+use crate::design::Design;
 use crate::law::Law;
 use crate::parameter::{Parameter, Target, si_unit};
-use crate::section::{ApplyChoice, DesignSection, ParameterSection};
+use crate::section::{ApplyChoice, ParameterSection};
 use occupant_core::scenario::{Place, Wanted};
 
 impl Binder<'_> {
@@ -83,9 +84,7 @@ impl Binder<'_> {
 
     /// Whether there are numbers to multiply or to add to.
     pub(super) fn all_numbers(&mut self, places: &[Place], at: &str, apply: ApplyChoice) -> bool {
-        let Some(other) = places.iter().find(|p| p.si.is_none()) else {
-            return true;
-        };
+        let Some(other) = places.iter().find(|p| p.si.is_none()) else { return true };
         let word = match apply {
             ApplyChoice::Factor => "multiplied",
             _ => "added to",
@@ -107,7 +106,7 @@ impl Binder<'_> {
         wanted: &Wanted,
     ) -> Option<Law> {
         let by_table =
-            matches!(self.purpose, Purpose::Sweep) && matches!(self.text.section.design, Some(DesignSection::Table(_)));
+            matches!(self.purpose, Purpose::Sweep) && matches!(self.text.section.design, Some(Design::Table { .. }));
         let given = section.grid.is_some()
             || section.list.is_some()
             || section.range.is_some()

@@ -34,10 +34,7 @@ impl Side {
 /// bounds may walk on beyond a wall.
 pub fn fold(x: f64) -> f64 {
     let t = x.rem_euclid(2.0);
-    match t > 1.0 {
-        true => 2.0 - t,
-        false => t,
-    }
+    if t > 1.0 { 2.0 - t } else { t }
 }
 
 #[cfg(test)]

@@ -89,10 +89,7 @@ impl Constants {
         let effective_of = |w: &[f64]| {
             let sum: f64 = w.iter().sum();
             let squares: f64 = w.iter().map(|w| w * w).sum();
-            match squares > 0.0 {
-                true => sum * sum / squares,
-                false => 0.0,
-            }
+            if squares > 0.0 { sum * sum / squares } else { 0.0 }
         };
         let effective = effective_of(&raw[..parents]);
         let effective_negative = effective_of(&raw[parents..]);
@@ -109,10 +106,7 @@ impl Constants {
             .min((1.0 - c_one - c_rank) / (nf * c_rank));
         let positive: f64 = raw.iter().filter(|w| **w > 0.0).sum();
         let negative: f64 = -raw.iter().filter(|w| **w < 0.0).sum::<f64>();
-        let weights = raw.iter().map(|w| match *w >= 0.0 {
-            true => w / positive,
-            false => w * least.max(0.0) / negative,
-        });
+        let weights = raw.iter().map(|w| if *w >= 0.0 { w / positive } else { w * least.max(0.0) / negative });
         Constants {
             weights: weights.collect(),
             parents,
@@ -203,10 +197,7 @@ impl Cma {
         // h_σ stops the rank-one update after a long step
         let settled = 1.0 - (0..2 * self.generation).fold(1.0, |p, _| p * (1.0 - c.c_step));
         let calm = length / settled.sqrt() < (1.4 + 2.0 / (n as f64 + 1.0)) * c.chi;
-        let gain = match calm {
-            true => (c.c_path * (2.0 - c.c_path) * c.effective).sqrt(),
-            false => 0.0,
-        };
+        let gain = if calm { (c.c_path * (2.0 - c.c_path) * c.effective).sqrt() } else { 0.0 };
         for (p, y) in self.path.iter_mut().zip(&y) {
             *p = (1.0 - c.c_path) * *p + gain * y;
         }
@@ -224,9 +215,10 @@ impl Cma {
         let weights: Vec<f64> = steps
             .iter()
             .zip(&c.weights)
-            .map(|(y, w)| match *w >= 0.0 {
-                true => c.c_rank * w,
-                false => {
+            .map(|(y, w)| {
+                if *w >= 0.0 {
+                    c.c_rank * w
+                } else {
                     let z = norm(&self.whitened(y));
                     c.c_rank * w * n as f64 / (z * z).max(f64::MIN_POSITIVE)
                 }

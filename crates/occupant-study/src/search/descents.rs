@@ -5,7 +5,7 @@
 
 use super::bounds::fold;
 use super::cma::{Cma, Ending};
-use super::{Point, Stage, evaluated};
+use super::{Evaluate, Point, Stage, evaluated};
 use crate::random::{Purpose, unit};
 
 /// How to search.
@@ -52,10 +52,7 @@ const FIRST_STEP: f64 = 0.3;
 ///
 /// # Errors
 /// What `evaluate` reports.
-pub fn descend<E>(
-    how: &Descents,
-    evaluate: &mut impl FnMut(Stage, &[Vec<f64>]) -> Result<Vec<f64>, E>,
-) -> Result<Global, E> {
+pub fn descend<E>(how: &Descents, evaluate: &mut Evaluate<'_, E>) -> Result<Global, E> {
     let mut left = how.evaluations;
     let mut population = how.population.max(4);
     let mut descents: Vec<Descent> = Vec::new();
@@ -93,7 +90,7 @@ fn one<E>(
     population: usize,
     start: Vec<f64>,
     left: u64,
-    evaluate: &mut impl FnMut(Stage, &[Vec<f64>]) -> Result<Vec<f64>, E>,
+    evaluate: &mut Evaluate<'_, E>,
 ) -> Result<Descent, E> {
     let mut best = Point { at: start.clone(), value: f64::INFINITY };
     let mut cma = Cma::new(start, FIRST_STEP, population, how.seed, number as u64);

@@ -62,28 +62,25 @@ pub struct Point {
 impl Point {
     /// The lower of the two; of equals this one.
     fn lower(self, other: Point) -> Point {
-        match other.value < self.value {
-            true => other,
-            false => self,
-        }
+        if other.value < self.value { other } else { self }
     }
 }
 
 /// Eigenvalues and eigenvectors; those of the unit matrix for one that holds numbers that are none.
 fn eigen(matrix: DMatrix<f64>) -> SymmetricEigen<f64, Dyn> {
     let n = matrix.nrows();
-    match matrix.iter().all(|x| x.is_finite()) {
-        true => matrix.symmetric_eigen(),
-        false => DMatrix::identity(n, n).symmetric_eigen(),
+    if matrix.iter().all(|x| x.is_finite()) {
+        matrix.symmetric_eigen()
+    } else {
+        DMatrix::identity(n, n).symmetric_eigen()
     }
 }
 
+/// Gives the values of a batch of points in their order, or says why the search must stop.
+pub type Evaluate<'a, E> = dyn FnMut(Stage, &[Vec<f64>]) -> Result<Vec<f64>, E> + 'a;
+
 /// Values of points, kept with them.
-fn evaluated<E>(
-    stage: Stage,
-    points: Vec<Vec<f64>>,
-    evaluate: &mut impl FnMut(Stage, &[Vec<f64>]) -> Result<Vec<f64>, E>,
-) -> Result<Vec<Point>, E> {
+fn evaluated<E>(stage: Stage, points: Vec<Vec<f64>>, evaluate: &mut Evaluate<'_, E>) -> Result<Vec<Point>, E> {
     if points.is_empty() {
         return Ok(Vec::new());
     }

@@ -10,7 +10,7 @@ use nalgebra::DMatrix;
 use super::bounds::Side;
 use super::quadratic::lowest_step;
 use super::shape::Shape;
-use super::{Point, Reach, Stage, evaluated};
+use super::{Evaluate, Point, Reach, Stage, evaluated};
 
 /// An end of an interval.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,7 +65,7 @@ pub fn profile<E>(
     reaches: &[[Reach; 2]],
     shape: &Shape,
     rise: f64,
-    evaluate: &mut impl FnMut(Stage, &[Vec<f64>]) -> Result<Vec<f64>, E>,
+    evaluate: &mut Evaluate<'_, E>,
 ) -> Result<Profiles, E> {
     let mut chains: Vec<Chain> =
         (0..centre.at.len()).flat_map(|i| [0, 1].map(|s| Chain::new(i, s, centre, &reaches[i], shape))).collect();
@@ -84,11 +84,7 @@ pub fn profile<E>(
 }
 
 /// Sets every coordinate and lets the others follow as they did.
-fn begin<E>(
-    chains: &mut [Chain],
-    centre: &Point,
-    evaluate: &mut impl FnMut(Stage, &[Vec<f64>]) -> Result<Vec<f64>, E>,
-) -> Result<(), E> {
+fn begin<E>(chains: &mut [Chain], centre: &Point, evaluate: &mut Evaluate<'_, E>) -> Result<(), E> {
     let mut active: Vec<&mut Chain> = chains.iter_mut().filter(|c| !c.done).collect();
     let points = active.iter().map(|c| c.guess(centre)).collect();
     let points = evaluated(Stage::Profile, points, evaluate)?;
@@ -99,12 +95,7 @@ fn begin<E>(
 }
 
 /// One walk of the others of every chain.
-fn walk<E>(
-    chains: &mut [Chain],
-    shape: &Shape,
-    rise: f64,
-    evaluate: &mut impl FnMut(Stage, &[Vec<f64>]) -> Result<Vec<f64>, E>,
-) -> Result<(), E> {
+fn walk<E>(chains: &mut [Chain], shape: &Shape, rise: f64, evaluate: &mut Evaluate<'_, E>) -> Result<(), E> {
     let others = |c: &Chain| -> Vec<usize> {
         let free = 0..shape.free.len();
         free.filter(|k| shape.free[*k] != c.coordinate).collect()
@@ -135,9 +126,7 @@ fn walk<E>(
         let mut slope = Vec::with_capacity(others.len());
         let mut lowest = chain.best.clone();
         for k in &others {
-            let (Some([down, up]), Some([a, b])) = (star.next(), lengths.next()) else {
-                continue;
-            };
+            let (Some([down, up]), Some([a, b])) = (star.next(), lengths.next()) else { continue };
             let span = (a + b).max(f64::MIN_POSITIVE);
             slope.push((up.value - down.value) / span * shape.lengths[shape.free[*k]] / rise);
             lowest = lowest.lower(down.clone()).lower(up.clone());
@@ -233,9 +222,10 @@ impl Chain {
             self.done = true;
             return;
         }
-        match risen < 1.0 {
-            true => self.low = (t, risen.max(0.0)),
-            false => self.high = Some((t, risen)),
+        if risen < 1.0 {
+            self.low = (t, risen.max(0.0))
+        } else {
+            self.high = Some((t, risen))
         }
         self.end = Some(end);
         let guess = t / risen.max(1e-6).sqrt();
@@ -246,10 +236,7 @@ impl Chain {
                 let (a, b) = (below.sqrt(), above.sqrt());
                 // between the brackets the root of the rise is a straight line, unless the value stays flat up to the wall
                 // of another coordinate and rises only there
-                let part = match low > 0.0 && below < 0.05 {
-                    true => 0.5,
-                    false => ((1.0 - a) / (b - a)).clamp(0.1, 0.9),
-                };
+                let part = if low > 0.0 && below < 0.05 { 0.5 } else { ((1.0 - a) / (b - a)).clamp(0.1, 0.9) };
                 low + part * (high - low)
             }
         };

@@ -2,7 +2,7 @@
 
 use nalgebra::DMatrix;
 
-use super::{Point, Stage, eigen, evaluated};
+use super::{Evaluate, Point, Stage, eigen, evaluated};
 
 /// Slope and curvature over some of the coordinates, per part of the cube.
 #[derive(Clone, Debug)]
@@ -18,10 +18,12 @@ pub struct Bowl {
 /// The two offsets of a coordinate: one on each side, or both on one side of a wall.
 fn offsets(u: f64, length: f64) -> [f64; 2] {
     let (down, up) = (length.min(u), length.min(1.0 - u));
-    match () {
-        () if down >= 0.2 * up && up >= 0.2 * down => [-down, up],
-        () if up > down => [0.5 * up, up],
-        () => [-0.5 * down, -down],
+    if down >= 0.2 * up && up >= 0.2 * down {
+        [-down, up]
+    } else if up > down {
+        [0.5 * up, up]
+    } else {
+        [-0.5 * down, -down]
     }
 }
 
@@ -34,7 +36,7 @@ pub fn explore<E>(
     centre: &Point,
     lengths: &[f64],
     free: &[usize],
-    evaluate: &mut impl FnMut(Stage, &[Vec<f64>]) -> Result<Vec<f64>, E>,
+    evaluate: &mut Evaluate<'_, E>,
 ) -> Result<(Bowl, Vec<Point>), E> {
     let n = free.len();
     let offsets: Vec<[f64; 2]> = free.iter().map(|i| offsets(centre.at[*i], lengths[*i])).collect();

@@ -3,7 +3,7 @@
 //! What counts is the value met, never the bowl's promise: a point is taken only if it is lower.
 
 use super::quadratic::{explore, lowest_step};
-use super::{Point, Stage, evaluated};
+use super::{Evaluate, Point, Stage, evaluated};
 
 const ROUNDS: usize = 12;
 /// Points are this much closer after a round that gains little.
@@ -19,12 +19,7 @@ const PARTS: [f64; 4] = [0.3, 1.0, 1.7, 3.0];
 ///
 /// # Errors
 /// What `evaluate` reports.
-pub fn refine<E>(
-    centre: Point,
-    lengths: &[f64],
-    rise: f64,
-    evaluate: &mut impl FnMut(Stage, &[Vec<f64>]) -> Result<Vec<f64>, E>,
-) -> Result<Point, E> {
+pub fn refine<E>(centre: Point, lengths: &[f64], rise: f64, evaluate: &mut Evaluate<'_, E>) -> Result<Point, E> {
     let all: Vec<usize> = (0..centre.at.len()).collect();
     let mut best = centre;
     let mut scale = 1.0;

@@ -1,7 +1,7 @@
 //! How far each coordinate can go alone until the value has risen by a given amount.
 
 use super::bounds::Side;
-use super::{Point, Stage, evaluated};
+use super::{Evaluate, Point, Stage, evaluated};
 
 /// How far a coordinate can go.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -34,11 +34,7 @@ struct Chain {
 ///
 /// # Errors
 /// What `evaluate` reports.
-pub fn scan<E>(
-    centre: &Point,
-    rise: f64,
-    evaluate: &mut impl FnMut(Stage, &[Vec<f64>]) -> Result<Vec<f64>, E>,
-) -> Result<(Vec<[Reach; 2]>, Point), E> {
+pub fn scan<E>(centre: &Point, rise: f64, evaluate: &mut Evaluate<'_, E>) -> Result<(Vec<[Reach; 2]>, Point), E> {
     let mut chains: Vec<Chain> =
         (0..centre.at.len()).flat_map(|i| Side::BOTH.map(|side| Chain::new(i, side, centre))).collect();
     let mut lowest = centre.clone();
@@ -87,9 +83,10 @@ impl Chain {
         }
         // a bowl rises with the square
         let guess = t / rise.max(1e-6).sqrt();
-        match rise < 1.0 {
-            true => self.low = t,
-            false => self.high = Some(t),
+        if rise < 1.0 {
+            self.low = t
+        } else {
+            self.high = Some(t)
         }
         self.next = match self.high {
             None => guess.clamp(1.5 * t, 6.0 * t).min(self.room),

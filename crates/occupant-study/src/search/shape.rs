@@ -3,7 +3,7 @@
 use nalgebra::DMatrix;
 
 use super::quadratic::{Bowl, explore};
-use super::{Point, Reach, Stage, eigen};
+use super::{Evaluate, Point, Reach, Stage, eigen};
 
 /// The bowl at the least value, over the coordinates that are not held by a wall.
 #[derive(Clone, Debug)]
@@ -33,7 +33,7 @@ impl Shape {
         centre: &Point,
         reaches: &[[Reach; 2]],
         rise: f64,
-        evaluate: &mut impl FnMut(Stage, &[Vec<f64>]) -> Result<Vec<f64>, E>,
+        evaluate: &mut Evaluate<'_, E>,
     ) -> Result<(Shape, Point), E> {
         let lengths: Vec<f64> = reaches.iter().map(length).collect();
         let n = lengths.len();

@@ -16,7 +16,7 @@ use occupant_core::model::{Model, frames};
 use occupant_core::motion::dual::Dual;
 use occupant_core::motion::frame::Frames;
 use occupant_core::motion::frame::{Moving, VEHICLE};
-use occupant_core::motion::state::State;
+use occupant_core::motion::state::{NUMBERS, State};
 use occupant_core::vehicle::{PathCursor, VehiclePath};
 
 /// Step of the differences as a part of the parameter's size.
@@ -32,7 +32,7 @@ const MOTION: usize = 18;
 #[derive(Clone, Debug)]
 pub struct Built {
     system: Vec<f64>,
-    state: Vec<f64>,
+    state: [f64; NUMBERS],
     history: Vec<f64>,
     path: Option<Path>,
     /// Greatest distance of two extrapolations, as a part of the number or of its change.
@@ -70,7 +70,7 @@ impl Built {
             slopes.iter().map(|s| s.value).collect::<Vec<f64>>()
         };
         let system = slopes(&|m| system_numbers(m.system()));
-        let state = slopes(&|m| m.start().state.to_numbers().to_vec());
+        let state = slopes(&|m| m.start().state.to_numbers().to_vec()).try_into().unwrap_or([0.0; NUMBERS]);
         let history = slopes(&|m| remembered(&m.start().history.memory));
         let mut notes = Vec::new();
         if let Some(reason) = &family.one_sided {
@@ -102,10 +102,7 @@ impl Built {
 /// Distance of two extrapolations of a slope as a part of the change that a change of `size` makes, or of the number.
 fn relative(slope: &Slope, value: f64, size: f64) -> f64 {
     let scale = (slope.value * size).abs().max(value.abs()).max(SMALL);
-    match scale.is_finite() {
-        true => slope.doubt * size / scale,
-        false => 0.0,
-    }
+    if scale.is_finite() { slope.doubt * size / scale } else { 0.0 }
 }
 
 impl Path {
@@ -193,16 +190,10 @@ pub(super) fn dual_system<const N: usize>(model: &Model, built: &[Built]) -> Res
 
 /// The state at the start in duals.
 pub(super) fn dual_state<const N: usize>(model: &Model, built: &[Built]) -> State<Dual<N>> {
-    let slopes = |k: usize| {
-        let numbers = built.get(k).map_or_else(Vec::new, |b| b.state.clone());
-        let mut all = [0.0; occupant_core::motion::state::NUMBERS];
-        all.iter_mut().zip(numbers).for_each(|(to, from)| *to = from);
-        State::from_numbers(&all)
-    };
     let start = &model.start().state;
     let mut dual = start.zip(start, |x, _| Dual::new(x, [0.0; N]));
-    for k in 0..N {
-        dual = dual.zip(&slopes(k), |mut x, slope| {
+    for (k, built) in built.iter().enumerate().take(N) {
+        dual = dual.zip(&State::from_numbers(&built.state), |mut x, slope| {
             x.slopes[k] = slope;
             x
         });
@@ -232,9 +223,7 @@ pub(super) fn dual_frames<const N: usize>(
     let mut dual = plain.map(|frame| frame.zip(&frame, &still));
     let numbers = motion_numbers(&plain[VEHICLE]);
     for (k, built) in built.iter_mut().enumerate().take(N) {
-        let Some(path) = &mut built.path else {
-            continue;
-        };
+        let Some(path) = &mut built.path else { continue };
         let slopes = path.slopes(&numbers, t_s, middle_s);
         let mut places = slopes.iter();
         let vehicle = plain[VEHICLE];

@@ -2,6 +2,8 @@
 
 use std::ops::ControlFlow;
 
+use rayon::prelude::*;
+
 use super::ladder::Slope;
 use super::measures::pick;
 use super::parameter::Parameter;
@@ -64,26 +66,38 @@ pub struct Comparison {
     pub verdict: Verdict,
 }
 
-/// Runs the models beside the parameter's value; `figures` are the names wanted.
-pub fn finite_changes(parameter: &Parameter<'_>, parts: &[f64], figures: &[String]) -> Vec<Finite> {
-    let none = vec![f64::NAN; figures.len()];
-    let mut all: Vec<Finite> = parts
-        .iter()
-        .map(|part| Finite { part: *part, change: part * parameter.size, figures: [none.clone(), none.clone()] })
-        .collect();
-    let places = (0..parts.len()).flat_map(|i| [(i, 0), (i, 1)]);
-    let changes: Vec<f64> = all.iter().map(|f| f.change).collect();
-    let jobs = places.filter_map(|(i, side)| {
-        let change = if side == 0 { -changes[i] } else { changes[i] };
-        // a value that the scenario refuses has no run
-        let model = (parameter.model_at)(parameter.nominal + change).ok()?;
-        Some(Job { tag: (i, side), model, recorder: Summarizer::new() })
-    });
-    simulate_many(jobs, |ended: Ended<(usize, usize), Summarizer>| {
+/// Runs the models beside the values of the parameters, on all threads of rayon's pool; `figures` are the names asked for.
+/// By parameter, then by change; the same bits for any number of threads.
+pub fn finite_changes(parameters: &[Parameter<'_>], parts: &[f64], figures: &[String]) -> Vec<Vec<Finite>> {
+    let none = [vec![f64::NAN; figures.len()], vec![f64::NAN; figures.len()]];
+    let beside = |size: f64, part: f64| Finite { part, change: part * size, figures: none.clone() };
+    let mut all: Vec<Vec<Finite>> =
+        parameters.iter().map(|of| parts.iter().map(|part| beside(of.size, *part)).collect()).collect();
+    let mut jobs = Vec::new();
+    for (number, (parameter, finite)) in parameters.iter().zip(&all).enumerate() {
+        for (i, Finite { change, .. }) in finite.iter().enumerate() {
+            for (side, change) in [-change, *change].into_iter().enumerate() {
+                // a value that the scenario refuses has no run
+                let model = (parameter.model_at)(parameter.nominal + change).ok();
+                jobs.extend(model.map(|model| Job { tag: (number, i, side), model, recorder: Summarizer::new() }));
+            }
+        }
+    }
+    let on_a_thread = jobs.len().div_ceil(rayon::current_num_threads()).max(1);
+    let ran: Vec<_> = jobs.into_par_iter().chunks(on_a_thread).flat_map_iter(|jobs| run(jobs, figures)).collect();
+    for ((number, i, side), figures) in ran {
+        all[number][i].figures[side] = figures;
+    }
+    all
+}
+
+/// The figures of the runs that have completed.
+fn run<T>(jobs: Vec<Job<T, Summarizer>>, figures: &[String]) -> Vec<(T, Vec<f64>)> {
+    let mut all = Vec::with_capacity(jobs.len());
+    simulate_many(jobs, |ended: Ended<T, Summarizer>| {
         let completed = ended.outcome.is_ok_and(|o| Ending::of(&o) == Some(Ending::Completed));
         if let (true, Some(summary)) = (completed, ended.recorder.summary(None)) {
-            let (i, side) = ended.tag;
-            all[i].figures[side] = pick(&summary.figures(&ended.model), figures);
+            all.push((ended.tag, pick(&summary.figures(&ended.model), figures)));
         }
         ControlFlow::Continue(())
     });
@@ -118,9 +132,7 @@ fn verdict(finite: &[Finite], off: &[f64], all_still: bool) -> Verdict {
     let mut known: Vec<(f64, f64)> =
         finite.iter().zip(off).filter(|(_, off)| off.is_finite()).map(|(f, off)| (f.part, *off)).collect();
     known.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let Some(&(at, first)) = known.first() else {
-        return Verdict::Unchecked;
-    };
+    let Some(&(at, first)) = known.first() else { return Verdict::Unchecked };
     if all_still {
         return Verdict::NoInfluence;
     }

@@ -72,9 +72,10 @@ impl Ladder {
         };
         // the last digit over the shortest step; what does not change at all is beyond doubt
         let still = values.iter().all(|v| *v == at_base);
-        let rounding = match still && at_base == 0.0 || !at_base.is_finite() {
-            true => 0.0,
-            false => f64::EPSILON * (at_base / (p[p.len() - 1] - self.base)).abs(),
+        let rounding = if still && at_base == 0.0 || !at_base.is_finite() {
+            0.0
+        } else {
+            f64::EPSILON * (at_base / (p[p.len() - 1] - self.base)).abs()
         };
         Slope { value, doubt: (value - other).abs() + rounding }
     }

@@ -29,7 +29,7 @@ const LARGEST_PART: f64 = 1e-3;
 
 /// What the derivatives of a run are asked of.
 #[derive(Clone, Debug, Default)]
-pub struct Wish {
+pub struct Request {
     /// Names of figures, as [`occupant_core::results::summary::Summary::figures`] has them.
     pub figures: Vec<String>,
     /// Channels of the model.
@@ -39,7 +39,7 @@ pub struct Wish {
 /// Values of the figures and channels of a run.
 #[derive(Clone, Debug, Default)]
 pub struct Values {
-    /// In the order of [`Wish::figures`]; not a number where the run has none.
+    /// In the order of [`Request::figures`]; not a number where the run has none.
     pub figures: Vec<f64>,
     /// By channel, then by output.
     pub channels: Vec<Vec<f64>>,
@@ -48,7 +48,7 @@ pub struct Values {
 /// Derivatives of the figures and channels of a run by one parameter.
 #[derive(Clone, Debug)]
 pub struct Derivatives {
-    /// In the order of [`Wish::figures`]; not a number where the run has none.
+    /// In the order of [`Request::figures`]; not a number where the run has none.
     pub figures: Vec<Slope>,
     /// By channel, then by output.
     pub channels: Vec<Vec<Slope>>,
@@ -63,18 +63,18 @@ pub fn derivatives(
     parameter: &Parameter<'_>,
     trajectory: &Trajectory,
     k: usize,
-    wish: &Wish,
+    request: &Request,
 ) -> Result<Derivatives, Trouble> {
     let reach = trajectory.reach(k);
     if !reach.is_finite() {
         return Err(Trouble::Output(format!("the derivative by `{}` grows beyond all numbers", parameter.name)));
     }
-    let at_base = plain_values(model, trajectory, wish)?;
+    let at_base = plain_values(model, trajectory, request)?;
     let mut best: Option<Derivatives> = None;
     for farthest in FARTHEST {
         let step = (farthest / reach).min(LARGEST_PART * parameter.size);
         let family = Family::new(model, parameter, step)?;
-        let found = displaced(&family, parameter, trajectory, k, wish, &at_base)?;
+        let found = displaced(&family, parameter, trajectory, k, request, &at_base)?;
         match &mut best {
             None => best = Some(found),
             Some(best) => best.take_over(&found),
@@ -89,14 +89,14 @@ fn displaced(
     parameter: &Parameter<'_>,
     trajectory: &Trajectory,
     k: usize,
-    wish: &Wish,
+    request: &Request,
     at_base: &Values,
 ) -> Result<Derivatives, Trouble> {
     let ladder = &family.ladder;
     let models = family.models.iter().zip(&ladder.points);
     let around = models.map(|(model, point)| {
         let by = point - parameter.nominal;
-        values(model, trajectory, wish, |output| trajectory.displaced(k, output, by))
+        values(model, trajectory, request, |output| trajectory.displaced(k, output, by))
     });
     let around: Vec<Values> = around.collect::<Result<_, _>>()?;
     let slopes = |of: &dyn Fn(&Values) -> Vec<f64>| {
@@ -105,7 +105,7 @@ fn displaced(
     };
     Ok(Derivatives {
         figures: slopes(&|v| v.figures.clone()),
-        channels: (0..wish.channels.len()).map(|c| slopes(&|v| v.channels[c].clone())).collect(),
+        channels: (0..request.channels.len()).map(|c| slopes(&|v| v.channels[c].clone())).collect(),
     })
 }
 
@@ -127,18 +127,18 @@ impl Derivatives {
 ///
 /// # Errors
 /// An output that cannot be evaluated.
-pub fn plain_values(model: &Model, trajectory: &Trajectory, wish: &Wish) -> Result<Values, Trouble> {
-    values(model, trajectory, wish, |output| trajectory.checkpoints[output].clone())
+pub fn plain_values(model: &Model, trajectory: &Trajectory, request: &Request) -> Result<Values, Trouble> {
+    values(model, trajectory, request, |output| trajectory.checkpoints[output].clone())
 }
 
 /// Values of outputs of `model` that need not be those of its own run.
 fn values(
     model: &Model,
     trajectory: &Trajectory,
-    wish: &Wish,
+    request: &Request,
     output: impl Fn(usize) -> Checkpoint,
 ) -> Result<Values, Trouble> {
-    let mut recorder = (Summarizer::new(), Series::new(wish.channels.clone()));
+    let mut recorder = (Summarizer::new(), Series::new(request.channels.clone()));
     recorder.begin(model)?;
     let mut progress: Option<Progress> = None;
     for i in 0..trajectory.checkpoints.len() {
@@ -160,7 +160,7 @@ fn values(
     let (summarizer, series) = recorder;
     let summary = summarizer.summary(None);
     let figures = summary.map_or_else(Vec::new, |s| s.figures(model));
-    Ok(Values { figures: pick(&figures, &wish.figures), channels: series.values })
+    Ok(Values { figures: pick(&figures, &request.figures), channels: series.values })
 }
 
 /// The sums and extremes of a run that begins here.
@@ -192,47 +192,36 @@ pub(super) fn pick(figures: &[Figure], names: &[String]) -> Vec<f64> {
 /// # Errors
 /// A name or a pattern that fits none; a figure that the run has not, or that has no derivative.
 pub fn chosen(figures: &[Figure], name: &str) -> Result<Vec<String>, Problem> {
-    let refuse =
-        |found: String, expected: &str, hint: Option<String>| Problem::error("", found, expected).with_hint(hint);
+    let refuse = |found: String, expected: &str| Problem::error("", found, expected);
     if name.contains('*') {
         let pieces: Vec<&str> = name.split('*').collect();
-        let fits = |f: &&Figure| matches(&f.name, &pieces);
-        let all: Vec<&Figure> = figures.iter().filter(fits).collect();
+        let all: Vec<&Figure> = figures.iter().filter(|f| matches(&f.name, &pieces)).collect();
         let usable = all.iter().filter(|f| f.value.is_some() && without_derivative(&f.name).is_none());
         let found: Vec<String> = usable.map(|f| f.name.clone()).collect();
         return match (found.is_empty(), all.is_empty()) {
             (false, _) => Ok(found),
-            (true, true) => Err(refuse(format!("no measure is called `{name}`"), "a measure of the run", None)),
-            (true, false) => Err(refuse(
-                format!("no measure called `{name}` has a value and a derivative in this run"),
-                "a measure that the run has",
-                None,
-            )),
+            (true, true) => Err(refuse(format!("no measure is called `{name}`"), "a measure of the run")),
+            (true, false) => {
+                let found = format!("no measure called `{name}` has a value and a derivative in this run");
+                Err(refuse(found, "a measure that the run has"))
+            }
         };
     }
     let Some(figure) = figures.iter().find(|f| f.name == name) else {
         let near = nearest(name, figures.iter().map(|f| f.name.as_str()));
-        return Err(refuse(
-            format!("no measure is called `{name}`"),
-            "a measure of the run, such as hic15, head.peak, belts.lap.peak",
-            near.map(|n| format!("did you mean `{n}`?")),
-        ));
+        let expected = "a measure of the run, such as hic15, head.peak, belts.lap.peak";
+        let problem = refuse(format!("no measure is called `{name}`"), expected);
+        return Err(problem.with_hint(near.map(|n| format!("did you mean `{n}`?"))));
     };
     if let Some(reason) = without_derivative(name) {
-        return Err(refuse(
-            format!("`{name}` has no derivative: {reason}"),
-            "a measure that changes with the motion",
-            None,
-        ));
+        let found = format!("`{name}` has no derivative: {reason}");
+        return Err(refuse(found, "a measure that changes with the motion"));
     }
-    match figure.value {
-        Some(_) => Ok(vec![name.to_owned()]),
-        None => Err(refuse(
-            format!("`{name}` has no value in this run: what it measures did not happen"),
-            "a measure that the run has",
-            None,
-        )),
+    if figure.value.is_none() {
+        let found = format!("`{name}` has no value in this run: what it measures did not happen");
+        return Err(refuse(found, "a measure that the run has"));
     }
+    Ok(vec![name.to_owned()])
 }
 
 /// Why a figure has no derivative here, if it has none.

@@ -11,7 +11,7 @@
 //!
 //! Before and behind the motion stand closed functions: the constants that a model is built of ([`Built`]), and the
 //! figures and channels that are made of outputs ([`measures`]). Their slopes are extrapolated differences, and how far
-//! two extrapolations lie apart is told with each.
+//! two extrapolations lie apart is reported with each.
 //!
 //! A derivative says what an infinitely small change does. Contacts that begin and end, springs that unload, belts that
 //! tighten, stops of joints ([`events`]) limit how far that carries; finite changes, run in full ([`finite`]), say how far.

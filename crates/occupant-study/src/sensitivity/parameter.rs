@@ -1,4 +1,4 @@
-//! Numbers that a model hangs on, and the models around them.
+//! Numbers that a model depends on, and the models around them.
 
 use std::fmt;
 
@@ -9,7 +9,7 @@ use occupant_core::model::Model;
 /// Makes the model that belongs to a value of a parameter, or says in words why there is none.
 pub type ModelAt<'a> = dyn Fn(f64) -> Result<Model, String> + 'a;
 
-/// A number that a model hangs on.
+/// A number that a model depends on.
 pub struct Parameter<'a> {
     /// What it is called.
     pub name: String,
@@ -29,7 +29,7 @@ impl fmt::Debug for Parameter<'_> {
     }
 }
 
-/// The size of a change of a parameter: its own, or for 0 a tenth of a unit of length or angle and one of any other.
+/// The size of a change of a parameter: its own, or for 0 that of 0.1 in units of length and angle, 0.01 kg·m² and 1 in any other.
 pub fn size_of(nominal: f64, unit: &str) -> f64 {
     match (nominal == 0.0, unit) {
         (false, _) => nominal.abs(),

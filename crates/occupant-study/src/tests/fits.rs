@@ -53,11 +53,11 @@ fn times_are_in_seconds_and_channels_and_tests_as_written() {
     let fit = fit.fit().unwrap();
     assert_eq!((fit.misfit, fit.seed), (Misfit::Iso18571, 9));
     assert_eq!(fit.window_s, [Some(0.005), Some(0.1)]);
-    let filters: Vec<FilterChoice> = fit.channels.iter().map(|c| c.filter).collect();
+    let filters: Vec<FilterChoice> = fit.channels.iter().map(|c| c.filter.unwrap_or(fit.filter)).collect();
     assert_eq!(filters, [FilterChoice::Cfc60, FilterChoice::None]);
-    assert_eq!((fit.channels[0].weight, fit.channels[1].weight), (2.0, 1.0));
-    assert_eq!((fit.tests[0].shift_s, fit.tests[0].seat), (-0.002, '1'));
-    assert_eq!((fit.tests[1].weight, fit.tests[1].seat), (0.5, '3'));
+    assert_eq!((fit.channels[0].weight(), fit.channels[1].weight()), (2.0, 1.0));
+    assert_eq!((fit.tests[0].shift_s(), fit.tests[0].seat()), (-0.002, '1'));
+    assert_eq!((fit.tests[1].weight(), fit.tests[1].seat()), (0.5, '3'));
 }
 
 #[test]

@@ -73,10 +73,7 @@ fn a_study_with_one_piece_replaced_does_not_panic() {
     let wild = ["-1", "1e308", "9223372036854775807", "0", "\"\"", "\"1e308 lbf\"", "[]", "{}", "true", "nan"];
     let lines: Vec<&str> = STUDY.lines().collect();
     let with = |i: usize, line: String| {
-        let changed = lines.iter().enumerate().map(|(at, old)| match at == i {
-            true => line.as_str(),
-            false => *old,
-        });
+        let changed = lines.iter().enumerate().map(|(at, old)| if at == i { line.as_str() } else { *old });
         try_all(&changed.collect::<Vec<_>>().join("\n"), Format::Toml);
     };
     for (i, line) in lines.iter().enumerate() {

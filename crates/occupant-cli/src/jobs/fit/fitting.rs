@@ -390,13 +390,21 @@ impl Opening<'_> {
             return Vec::new();
         };
         let run_s = self.experiments[experiment].run_s();
-        let window_s = [0, 1].map(|i| named.test.window_s[i].or(fit.window_s[i]));
+        let window_s = [0, 1].map(|i| named.test.window_s()[i].or(fit.window_s[i]));
         let mut targets = Vec::new();
         for pair in self.pairs(named, recording, &wanted) {
             let (channel, of) = &wanted[pair.channel];
-            let weight = of.weight * named.test.weight;
-            let shifted = (pair, named.test.shift_s);
-            match Target::new(channel.clone(), filter_of(of.filter), weight, shifted, window_s, run_s, fit.misfit) {
+            let weight = of.weight() * named.test.weight();
+            let shifted = (pair, named.test.shift_s());
+            match Target::new(
+                channel.clone(),
+                filter_of(of.filter.unwrap_or(fit.filter)),
+                weight,
+                shifted,
+                window_s,
+                run_s,
+                fit.misfit,
+            ) {
                 Ok(target) => targets.push(target),
                 Err(reason) => {
                     let found = format!("{} of {} cannot be fitted to: {reason}", channel.name, named.file.display());
@@ -416,7 +424,7 @@ impl Opening<'_> {
         };
         let names: Vec<Wanted> = wanted.iter().map(|(c, _)| Wanted::from(c)).collect();
         let mut notes = Vec::new();
-        let found = pairs(recording, &names, &maps, named.test.seat, &mut notes);
+        let found = pairs(recording, &names, &maps, named.test.seat(), &mut notes);
         self.warnings.extend(notes.into_iter().map(|n| format!("note: {n}")));
         let found = match found {
             Ok(found) => found,
@@ -438,7 +446,7 @@ impl Opening<'_> {
         let model = self.experiments[experiment].model.clone();
         if fit.channels.is_empty() {
             let of = |channel: Channel| {
-                let like = FitChannel { name: channel.name.clone(), weight: 1.0, filter: fit.filter };
+                let like = FitChannel { name: channel.name.clone(), weight: None, filter: None };
                 (channel, like)
             };
             return Some(channels(&model).into_iter().map(of).collect());

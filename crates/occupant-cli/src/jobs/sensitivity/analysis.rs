@@ -10,7 +10,7 @@ use occupant_core::results::summary::{Figure, Summarizer};
 use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Draft, Resolver};
 use occupant_study::sensitivity::finite::{CHANGES, Comparison, Finite, compare, finite_changes};
-use occupant_study::sensitivity::measures::{Derivatives, Values, Wish, chosen, derivatives, plain_values};
+use occupant_study::sensitivity::measures::{Derivatives, Request, Values, chosen, derivatives, plain_values};
 use occupant_study::sensitivity::{Built, Parameter, Trajectory, follow, parameter};
 
 use crate::base::failure::Failure;
@@ -18,7 +18,7 @@ use crate::base::failure::Failure;
 /// What is asked for, all of it there.
 pub(crate) struct Asked<'a> {
     pub(crate) parameters: Vec<Parameter<'a>>,
-    pub(crate) wish: Wish,
+    pub(crate) wish: Request,
     /// Units of the figures.
     pub(crate) units: Vec<&'static str>,
 }
@@ -94,7 +94,7 @@ pub(crate) fn ask<'a>(
         return Err(Failure::CouldNotRun(format!("{}\n\n{count}, nothing was computed", wrong.join("\n"))));
     }
     let unit = |name: &String| figures.iter().find(|f| f.name == *name).map_or("1", |f| f.unit);
-    Ok(Asked { parameters, units: names.iter().map(unit).collect(), wish: Wish { figures: names, channels } })
+    Ok(Asked { parameters, units: names.iter().map(unit).collect(), wish: Request { figures: names, channels } })
 }
 
 /// Lists with commas, several of them; a comma within double quotes belongs to a name.
@@ -173,21 +173,18 @@ pub(crate) fn analyse(model: &Model, asked: &Asked<'_>) -> Result<Analysis, Fail
     let trajectory = follow(model, &mut built).map_err(|e| broke_off(&e))?;
     let dual_s = begun.elapsed().as_secs_f64();
     let values = plain_values(model, &trajectory, &asked.wish).map_err(|e| broke_off(&e))?;
-    let (mut all, mut finite, mut comparisons) = (Vec::new(), Vec::new(), Vec::new());
-    for (k, parameter) in asked.parameters.iter().enumerate() {
+    let changes: &[f64] = if asked.wish.figures.is_empty() { &[] } else { &CHANGES };
+    let finite = finite_changes(&asked.parameters, changes, &asked.wish.figures);
+    let (mut all, mut comparisons) = (Vec::new(), Vec::new());
+    for (k, (parameter, changes)) in asked.parameters.iter().zip(&finite).enumerate() {
         let found = derivatives(model, parameter, &trajectory, k, &asked.wish);
         let found = found.map_err(|e| broke_off(&e))?;
-        let changes = match asked.wish.figures.is_empty() {
-            true => Vec::new(),
-            false => finite_changes(parameter, &CHANGES, &asked.wish.figures),
-        };
         let one = |i: usize| {
             let value = values.figures[i];
-            compare(&found.figures[i], value, parameter.size, &changes, i)
+            compare(&found.figures[i], value, parameter.size, changes, i)
         };
         comparisons.push((0..asked.wish.figures.len()).map(one).collect());
         all.push(found);
-        finite.push(changes);
     }
     Ok(Analysis { values, trajectory, built, derivatives: all, finite, comparisons, cost_s: [plain_s, dual_s] })
 }

@@ -18,7 +18,7 @@ pub(crate) fn design(study: &Study) -> String {
         }
         Design::MonteCarlo { samples } => format!("Monte Carlo, {samples} independent samples"),
         Design::OneAtATime { .. } => "one parameter at a time, all others as in the base".to_owned(),
-        Design::Table { rows } => format!("a table of {} samples", rows.len()),
+        Design::Table { rows, .. } => format!("a table of {} samples", rows.len()),
         Design::Saltelli { samples, second_order } => format!(
             "Saltelli’s blocks for Sobol indices, {samples} points{}",
             if *second_order { ", second order included" } else { "" }

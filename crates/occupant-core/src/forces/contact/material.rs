@@ -1,14 +1,19 @@
 //! What a surface is made of.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::forces::spring::BilinearSpring;
 
-/// Whether a pair remembers its crush after it has opened.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// Whether crush is remembered.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(rename = "MemoryChoice")]
 pub enum Memory {
-    /// Δ_m is forgotten when the pair opens (padding that recovers).
+    /// Forgotten when contact ends: padding that recovers.
     #[default]
     Reset,
-    /// Δ_m is kept for that pair (crushed metal).
+    /// Kept for that sphere and surface: crushed metal.
     Retain,
 }
 

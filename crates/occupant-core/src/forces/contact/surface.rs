@@ -5,14 +5,18 @@
 
 use crash_measures::trig;
 use nalgebra::{Point3, Vector3};
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
 
-/// The frame a surface or an anchor is fixed to.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// What a surface is fixed to.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+#[schemars(rename = "FrameChoice")]
 pub enum Frame {
-    /// X_v forward, Y_v right, Z_v down, origin at the vehicle's centre of gravity.
+    /// The vehicle: x forward, y right, z down from its centre of gravity.
     #[default]
     Vehicle,
-    /// Space: X′ forward, Y′ left, Z′ up.
+    /// Space: x forward, y left, z up.
     Space,
 }
 

@@ -9,19 +9,26 @@
 //! any frictionless force on a sphere must. At A, with the rest of the contact force, it has the moment −U N̂×ê about the
 //! centre, which is work done on a turning segment that nothing stores. [`EdgeForce`] names both readings.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use crate::forces::contact::encounter::Approach;
 use crate::forces::contact::face::{Offset, Outline, V2};
 use crate::forces::spring::Spring;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
-/// Where the edge force of a bounded face acts on a sphere.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+/// Where the edge force acts.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[schemars(rename = "EdgeForceChoice")]
 pub enum EdgeForce {
-    /// At A = centre − r N̂ like the rest of the contact force: the specification's words.
+    /// At the point of contact, like the rest of the contact force.
+    // A = centre − r N̂, the specification's words
     #[default]
+    #[serde(rename = "contact_point")]
     AtContactPoint,
-    /// At the centre, where it is conservative.
+    /// At the sphere's centre, where the edge force conserves energy on a turning segment too.
+    #[serde(rename = "centre")]
     AtCentre,
 }
 

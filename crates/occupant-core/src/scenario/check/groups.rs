@@ -10,13 +10,11 @@ use crate::scenario::text::{Entry, Node, Table, one_of, quoted};
 impl Checker<'_> {
     /// Keys that exclude or need each other.
     pub(super) fn groups(&mut self, view: &View, node: &Node, path: &str) {
-        let (Some(object), Some(table)) = (view.object_with_groups(), node.as_table()) else {
-            return;
-        };
+        let (Some(object), Some(table)) = (view.object_with_groups(), node.as_table()) else { return };
         self.exclusive_groups(object, node, table, path);
         for group in groups(object, "x-together") {
-            let (given, absent): (Vec<&str>, Vec<&str>) = group.iter().partition(|k| table.get(k).is_some());
-            if let (Some(first), false) = (given.first().and_then(|k| table.get(k)), absent.is_empty()) {
+            let (given, absent): (Vec<&str>, Vec<&str>) = group.iter().partition(|k| table.contains_key(**k));
+            if let (Some(first), false) = (given.first().and_then(|k| table.get(*k)), absent.is_empty()) {
                 let found = format!("{} without {}", quoted(&given, '`'), quoted(&absent, '`'));
                 self.report(first.key_span, Problem::error(path, found, "both or neither"));
             }
@@ -26,8 +24,8 @@ impl Checker<'_> {
     fn exclusive_groups(&mut self, object: &Map<String, Json>, node: &Node, table: &Table, path: &str) {
         for (word, needed) in [("x-exactly-one", true), ("x-at-most-one", false)] {
             for group in groups(object, word) {
-                let mut given: Vec<&Entry> = group.iter().filter_map(|k| table.get(k)).collect();
-                given.sort_by_key(|e| e.key_span.start);
+                let mut given: Vec<(&str, &Entry)> = group.iter().filter_map(|k| Some((*k, table.get(*k)?))).collect();
+                given.sort_by_key(|(_, e)| e.key_span.start);
                 match given.as_slice() {
                     [] if needed => {
                         let found = match path {
@@ -37,8 +35,8 @@ impl Checker<'_> {
                         self.report_table(node, Problem::error(path, found, one_of(&group, '`')));
                     }
                     [] | [_] => {}
-                    [.., last] => {
-                        let keys: Vec<&str> = given.iter().map(|e| e.key.as_str()).collect();
+                    [.., (_, last)] => {
+                        let keys: Vec<&str> = given.iter().map(|(key, _)| *key).collect();
                         let found = format!("{} together", all_of(&keys));
                         self.report(last.key_span, Problem::error(path, found, "only one of them"));
                     }

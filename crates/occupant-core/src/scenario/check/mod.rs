@@ -14,9 +14,7 @@ pub use schema::schema_of;
 pub(super) use view::View;
 
 use super::kind::{Kind, UnitSystem};
-use super::text::{
-    Diagnostic, Diagnostics, Document, Entry, Node, Sources, Span, Value, did_you_mean, one_of, with_key,
-};
+use super::text::{Diagnostic, Diagnostics, Document, Node, Sources, Span, Value, did_you_mean, one_of, with_key};
 use crate::problem::Problem;
 
 impl Document {
@@ -190,11 +188,10 @@ impl Checker<'_> {
     }
 
     fn table(&mut self, view: &View, node: &mut Node, path: &str) {
-        for entry in node.as_table_mut().into_iter().flat_map(|t| t.iter_mut()) {
-            let path = with_key(path, &entry.key);
-            match view.property(self.root, &entry.key) {
-                Some(property) => self.node(&property, &mut entry.node, &path),
-                None => self.unknown_key(view, entry, &path),
+        for (key, entry) in node.as_table_mut().into_iter().flatten() {
+            match view.property(self.root, key) {
+                Some(property) => self.node(&property, &mut entry.node, &with_key(path, key)),
+                None => self.unknown_key(view, key, entry.key_span, path),
             }
         }
         for key in view.required() {
@@ -208,12 +205,10 @@ impl Checker<'_> {
         self.groups(view, node, path);
     }
 
-    fn unknown_key(&mut self, view: &View, entry: &Entry, path: &str) {
+    fn unknown_key(&mut self, view: &View, key: &str, span: Span, path: &str) {
         let keys = view.keys();
-        let parent = &path[..path.len() - with_key("", &entry.key).len()];
-        let found = format!("unknown key `{}`", entry.key);
-        let problem = Problem::error(parent.trim_end_matches('.'), found, one_of(&keys, '`'));
-        self.report(entry.key_span, problem.with_hint(did_you_mean(&entry.key, &keys, '`')));
+        let problem = Problem::error(path, format!("unknown key `{key}`"), one_of(&keys, '`'));
+        self.report(span, problem.with_hint(did_you_mean(key, &keys, '`')));
     }
 
     fn array(&mut self, view: &View, node: &mut Node, path: &str) {

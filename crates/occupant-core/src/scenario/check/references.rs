@@ -1,7 +1,7 @@
 //! Names that refer to other parts of a scenario.
 
 use crate::problem::Problem;
-use crate::scenario::text::{Node, Value, did_you_mean, follow, one_of, parse_path, targets, to_text};
+use crate::scenario::text::{Node, did_you_mean, follow, one_of, parse_path, targets, to_text};
 
 /// Where a name stands, what it names, and the table that has things of that kind.
 const REFERENCES: [(&str, &str, &str); 9] = [
@@ -43,7 +43,6 @@ pub(in crate::scenario) fn references(explicit: &Node, spheres: &[&str]) -> Vec<
 /// The keys of a table, without those of things that are taken away.
 fn names_in<'n>(explicit: &'n Node, table: &str) -> Vec<&'n str> {
     let node = follow(explicit, &parse_path(table).unwrap_or_default());
-    let entries = node.and_then(Node::as_table).into_iter().flat_map(|t| t.iter());
-    let stays = |node: &Node| node.get("remove").is_none_or(|n| n.value != Value::Bool(true));
-    entries.filter(|e| stays(&e.node)).map(|e| e.key.as_str()).collect()
+    let entries = node.and_then(Node::as_table).into_iter().flatten();
+    entries.filter(|(_, e)| !e.node.is_removed()).map(|(key, _)| key.as_str()).collect()
 }

@@ -126,13 +126,9 @@ impl View {
         match (self.type_name(), count("minItems"), count("maxItems")) {
             ("array", Some(least), Some(most)) if least == most => format!("a list of {least}"),
             ("array", Some(least), _) => format!("a list of at least {least}"),
-            ("array", ..) => "a list".to_owned(),
             ("string", ..) => "a text in quotes".to_owned(),
-            ("boolean", ..) => "true or false".to_owned(),
-            ("number", ..) => "a number".to_owned(),
-            ("integer", ..) => "a whole number".to_owned(),
             _ if self.is_open() => self.open_example().to_owned(),
-            _ => "a table".to_owned(),
+            _ => self.noun().to_owned(),
         }
     }
 

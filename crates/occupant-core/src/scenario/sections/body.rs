@@ -112,17 +112,11 @@ pub(crate) struct SphereSection {
 /// The body; `section` is explicit, `preset` is the one it came from.
 pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection) -> Body {
     let weighed_at_m_s2 = si_or(&section.weighed_at, STANDARD_GRAVITY_M_S2);
-    let none = Segments::default();
-    let sections = section.segments.as_ref().unwrap_or(&none);
     let tree = &TTI12;
-    let segment = |i: usize| {
-        let name = tree.segment_rows()[i].name;
-        segment(b, name, sections.of(name), weighed_at_m_s2)
-    };
     let mut body = Body {
         name: preset.unwrap_or("own").to_owned(),
         tree,
-        segments: std::array::from_fn(segment),
+        segments: std::array::from_fn(|i| segment(b, tree.segment_rows()[i].name, weighed_at_m_s2)),
         shoulder_half_width_m: b.needed("body", "shoulder_half_width", &section.shoulder_half_width),
         hip_half_width_m: b.needed("body", "hip_half_width", &section.hip_half_width),
         spheres: Vec::new(),
@@ -131,31 +125,9 @@ pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection)
     body
 }
 
-impl Segments {
-    /// What is said of one segment by its own name.
-    fn of(&self, name: &str) -> Option<&SegmentSection> {
-        let segment = match name {
-            "middle_torso" => &self.middle_torso,
-            "upper_torso" => &self.upper_torso,
-            "head" => &self.head,
-            "lower_torso" => &self.lower_torso,
-            "left_upper_arm" => &self.left_upper_arm,
-            "right_upper_arm" => &self.right_upper_arm,
-            "left_forearm" => &self.left_forearm,
-            "right_forearm" => &self.right_forearm,
-            "left_thigh" => &self.left_thigh,
-            "right_thigh" => &self.right_thigh,
-            "left_lower_leg" => &self.left_lower_leg,
-            "right_lower_leg" => &self.right_lower_leg,
-            _ => return None,
-        };
-        segment.as_ref()
-    }
-}
-
-fn segment(b: &mut Builder, name: &str, section: Option<&SegmentSection>, weighed_at_m_s2: f64) -> SegmentProperties {
+fn segment(b: &mut Builder, name: &str, weighed_at_m_s2: f64) -> SegmentProperties {
     let path = format!("body.segments.{name}");
-    let Some(section) = section else {
+    let Some(section) = b.section::<SegmentSection>(&path) else {
         let found = format!("the body has no segment `{name}`");
         let hint = "body.preset = \"male50\" gives a whole body to change";
         b.report(Problem::error(path, found, "all twelve segments").with_hint(Some(hint)));

@@ -1,5 +1,7 @@
 //! What every section needs to become plain data: the text it comes from, and a list for what is wrong with it.
 
+use serde::de::DeserializeOwned;
+
 use super::quantity::Quantity;
 use crate::problem::Problem;
 use crate::scenario::text::{Diagnostics, Document, follow, parse_path, with_key};
@@ -24,6 +26,12 @@ impl Builder<'_> {
             self.error(path, format!("`{path}` has no key `{key}`"), expected);
         }
         quantity.as_ref().map_or(f64::NAN, Quantity::si)
+    }
+
+    /// What the explicit scenario says at a path, which has passed the check; none if it says nothing.
+    pub(super) fn section<T: DeserializeOwned>(&self, path: &str) -> Option<T> {
+        let node = follow(&self.document.root, &parse_path(path).ok()?)?;
+        T::deserialize(node).ok()
     }
 
     /// Adds an error at each of `keys` that is written in the section at `path`.

@@ -55,27 +55,6 @@ pub(crate) struct JointsSection {
     pub(crate) right_knee: Option<JointSection>,
 }
 
-impl JointsSection {
-    /// What is said of one joint by its own name.
-    pub(super) fn of(&self, name: &str) -> Option<&JointSection> {
-        let joint = match name {
-            "neck" => &self.neck,
-            "right_shoulder" => &self.right_shoulder,
-            "left_shoulder" => &self.left_shoulder,
-            "upper_back" => &self.upper_back,
-            "left_elbow" => &self.left_elbow,
-            "right_elbow" => &self.right_elbow,
-            "lower_back" => &self.lower_back,
-            "right_hip" => &self.right_hip,
-            "left_hip" => &self.left_hip,
-            "right_knee" => &self.right_knee,
-            "left_knee" => &self.left_knee,
-            _ => return None,
-        };
-        joint.as_ref()
-    }
-}
-
 /// Properties of a joint.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -112,32 +91,31 @@ pub(crate) struct StopSection {
 
 /// The eleven joints; `section` is explicit.
 pub(super) fn joints(b: &mut Builder, section: &JointsSection) -> Joints {
-    report_undamped(b, section);
+    report_undamped(b);
     let mut joints = Joints::free(&TTI12);
     for joint in TTI12.joints() {
         let row = &TTI12[joint];
-        let law = if row.is_hinge() {
-            JointLaw::from(hinge(b, row.name, section))
-        } else {
-            JointLaw::from(ball(b, row.name, section))
-        };
+        let law = if row.is_hinge() { JointLaw::from(hinge(b, row.name)) } else { JointLaw::from(ball(b, row.name)) };
         joints = joints.with(joint, law);
     }
     joints.with_epsilon(si_or(&section.epsilon, Joints::EPSILON))
 }
 
 /// What is said of a joint; nothing where its damping is missing, which is reported for all joints at once.
-fn given<'s>(name: &str, joints: &'s JointsSection) -> Option<&'s JointSection> {
-    joints.of(name).filter(|section| section.damping.is_some())
+fn given(b: &Builder, name: &str) -> Option<JointSection> {
+    said_of(b, name).filter(|section| section.damping.is_some())
+}
+
+/// What is said of one joint by its own name.
+pub(super) fn said_of(b: &Builder, name: &str) -> Option<JointSection> {
+    b.section(&format!("joints.{name}"))
 }
 
 /// One message for all joints that nobody gave a damping.
-fn report_undamped(b: &mut Builder, section: &JointsSection) {
+fn report_undamped(b: &mut Builder) {
     let names = TTI12.joint_rows().iter().map(|row| row.name);
-    let undamped: Vec<&str> = names.filter(|name| given(name, section).is_none()).collect();
-    let Some((first, others)) = undamped.split_first() else {
-        return;
-    };
+    let undamped: Vec<&str> = names.filter(|name| given(b, name).is_none()).collect();
+    let Some((first, others)) = undamped.split_first() else { return };
     let found = match others.len() {
         0 => format!("joint `{first}` has no damping"),
         n => format!("joint `{first}` and {n} more have no damping"),
@@ -147,10 +125,8 @@ fn report_undamped(b: &mut Builder, section: &JointsSection) {
     b.report(Problem::error(format!("joints.{first}"), found, expected).with_hint(Some(hint)));
 }
 
-fn ball(b: &mut Builder, name: &str, joints: &JointsSection) -> BallJoint {
-    let Some(section) = given(name, joints) else {
-        return BallJoint::default();
-    };
+fn ball(b: &mut Builder, name: &str) -> BallJoint {
+    let Some(section) = given(b, name) else { return BallJoint::default() };
     let path = format!("joints.{name}");
     let expected = "`stop`, the limit of the angle between its segments";
     b.refuse_keys(&path, &["lower_stop", "upper_stop"], |key| format!("`{key}` of a ball joint"), expected);
@@ -169,10 +145,8 @@ fn ball(b: &mut Builder, name: &str, joints: &JointsSection) -> BallJoint {
     }
 }
 
-fn hinge(b: &mut Builder, name: &str, joints: &JointsSection) -> HingeJoint {
-    let Some(section) = given(name, joints) else {
-        return HingeJoint::default();
-    };
+fn hinge(b: &mut Builder, name: &str) -> HingeJoint {
+    let Some(section) = given(b, name) else { return HingeJoint::default() };
     let path = format!("joints.{name}");
     let foreign = ["stop", "twist_damping", "stiffness", "rest_angle"];
     let expected = "`damping`, `lower_stop`, `upper_stop`: elbows and knees are hinges";

@@ -28,17 +28,7 @@ pub(crate) struct MaterialSection {
     /// v_s, sliding speed at which friction reaches 71 % of its full value; 5 in/s if absent.
     pub(crate) friction_speed: Option<Speed<POSITIVE>>,
     /// Whether crush is remembered after contact has ended; "reset" if absent.
-    pub(crate) memory: Option<MemoryChoice>,
-}
-
-/// Whether crush is remembered.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum MemoryChoice {
-    /// Forgotten when contact ends: padding that recovers.
-    Reset,
-    /// Kept for that sphere and surface: crushed metal.
-    Retain,
+    pub(crate) memory: Option<Memory>,
 }
 
 /// All materials, in the order written.
@@ -51,11 +41,7 @@ fn material(name: &str, s: &MaterialSection) -> Material {
     let plain = Material::new(name, spring, s.friction.si());
     Material {
         friction_speed_m_s: si_or(&s.friction_speed, plain.friction_speed_m_s),
-        memory: match s.memory {
-            Some(MemoryChoice::Retain) => Memory::Retain,
-            Some(MemoryChoice::Reset) => Memory::Reset,
-            None => plain.memory,
-        },
+        memory: s.memory.unwrap_or(plain.memory),
         ..plain
     }
 }

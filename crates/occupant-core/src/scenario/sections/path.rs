@@ -23,7 +23,7 @@ use crate::vehicle::{
 #[serde(tag = "kind", rename_all = "snake_case")]
 pub(crate) enum PathSection {
     /// The vehicle stands still.
-    Fixed(PoseSection),
+    Fixed(Box<PoseSection>),
     /// Straight travel, slowed by a deceleration pulse.
     Pulse(Box<PulseSection>),
     /// Places and angles at given times.
@@ -59,31 +59,9 @@ pub(crate) struct TableSection {
     /// The table itself, one list for each time.
     pub(crate) rows: Option<Vec<Vec<f64>>>,
     /// How the table is read between its times; "spline" if absent.
-    pub(crate) interpolation: Option<Interpolate>,
+    pub(crate) interpolation: Option<Interpolation>,
     /// What the vehicle does after the last time; a run that goes on is refused if absent.
-    pub(crate) after: Option<After>,
-}
-
-/// How a table is read between its times.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum Interpolate {
-    /// Straight lines, as in the report; velocities jump at every time.
-    Linear,
-    /// Natural cubic splines.
-    Spline,
-}
-
-/// What the vehicle does after the last time of a table.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum After {
-    /// A run that goes on is refused.
-    Error,
-    /// It goes on with constant velocity.
-    Coast,
-    /// It stands still.
-    Hold,
+    pub(crate) after: Option<AfterEnd>,
 }
 
 /// Columns of a path table.
@@ -140,22 +118,8 @@ pub(super) fn pose(position: &Option<[Length; 3]>, [roll, pitch, yaw]: [&Option<
 fn table_path(b: &mut Builder, s: &TableSection, file: Option<SourceId>) -> Option<TablePath> {
     let table = numbers(b, file, &COLUMNS)?;
     let stations = table.rows.iter().map(|r| Station::new(r[0], [r[1], r[2], r[3]], [r[4], r[5], r[6]])).collect();
-    let interpolation = match s.interpolation {
-        Some(Interpolate::Linear) => Interpolation::Linear,
-        Some(Interpolate::Spline) => Interpolation::Spline,
-        None => Interpolation::default(),
-    };
-    let path = TablePath::new(stations, interpolation, after(s.after));
+    let path = TablePath::new(stations, s.interpolation.unwrap_or_default(), s.after.unwrap_or_default());
     path.map_err(|p| refuse(b, &p, Some(&table))).ok()
-}
-
-pub(super) fn after(word: Option<After>) -> AfterEnd {
-    match word {
-        Some(After::Coast) => AfterEnd::Coast,
-        Some(After::Hold) => AfterEnd::Hold,
-        Some(After::Error) => AfterEnd::Error,
-        None => AfterEnd::default(),
-    }
 }
 
 pub(super) fn numbers(b: &mut Builder, file: Option<SourceId>, columns: &[Column]) -> Option<NumberTable> {

@@ -105,12 +105,10 @@ fn velocity(p: &PostureSection) -> InitialVelocity {
     }
 }
 
-/// The exact state, with the pairs that have passed where they are told.
+/// The exact state, with the pairs that have passed where they are given.
 fn state_of(b: &mut Builder, s: &Scenario, state: &InitialStateSection, body: &Body) -> Option<InitialPosture> {
     let coordinates = Box::new(coordinates(b, state)?);
-    let Some(pairs) = &state.passed else {
-        return Some(InitialPosture::Coordinates(coordinates));
-    };
+    let Some(pairs) = &state.passed else { return Some(InitialPosture::Coordinates(coordinates)) };
     let mut passed = Vec::with_capacity(pairs.len());
     for (i, [sphere, surface]) in pairs.iter().enumerate() {
         let meeting = s.surfaces.get(surface).and_then(|f| f.spheres.as_ref());

@@ -53,6 +53,11 @@ impl<const KIND: usize, const RANGE: usize> Quantity<KIND, RANGE> {
     /// What it measures.
     pub(super) const KIND: &'static Kind = &KINDS[KIND];
 
+    /// A number in SI units, angles in radians, that nobody wrote.
+    pub fn of_si(si: f64) -> Self {
+        Quantity { written: Value::Float(si), si }
+    }
+
     /// The value in SI units, angles in radians; not a number in a tree that has not passed the check.
     pub fn si(&self) -> f64 {
         self.si

@@ -31,24 +31,19 @@ pub(crate) struct OutputSection {
 
 /// How the equations of motion are integrated.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "kind", rename_all = "snake_case")]
+#[serde(tag = "kind", rename_all = "snake_case", deny_unknown_fields)]
 pub(crate) enum IntegratorSection {
     /// The classical fourth-order Runge–Kutta method with a fixed step, as in the report.
-    Rk4(Rk4Section),
+    Rk4 {
+        /// Step.
+        step: Time<POSITIVE>,
+    },
     /// An embedded 3(2) pair that chooses its step.
-    Adaptive(AdaptiveSection),
-}
-
-/// Settings of "rk4".
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub(crate) struct Rk4Section {
-    /// Step.
-    pub(crate) step: Time<POSITIVE>,
+    Adaptive(Box<AdaptiveSection>),
 }
 
 /// Settings of "adaptive".
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AdaptiveSection {
     /// Relative tolerance of velocities; 3e-6 if absent.
@@ -79,25 +74,24 @@ pub(super) fn time(b: &mut Builder, s: &Scenario) -> TimeSpan {
 
 /// The integrator.
 pub(super) fn integrator(b: &mut Builder, s: &Scenario) -> Integrator {
-    match &s.integrator {
-        None => adaptive(b, &AdaptiveSection::default()),
-        Some(IntegratorSection::Rk4(rk4)) => Integrator::Rk4 { step_s: rk4.step.si() },
-        Some(IntegratorSection::Adaptive(a)) => adaptive(b, a),
-    }
-}
-
-fn adaptive(b: &mut Builder, a: &AdaptiveSection) -> Integrator {
     let mut integrator = Integrator::default();
-    if let Integrator::Adaptive { relative, absolute_m, absolute_m_s, min_step_s, max_step_s } = &mut integrator {
-        *min_step_s = si_or(&a.min_step, *min_step_s);
-        *max_step_s = si_or(&a.max_step, *max_step_s);
-        if max_step_s < min_step_s {
-            let found = format!("a largest step of {max_step_s} s below the smallest, {min_step_s} s");
-            b.error("integrator.max_step", found, "min_step ≤ max_step");
+    match (&s.integrator, &mut integrator) {
+        (Some(IntegratorSection::Rk4 { step }), _) => return Integrator::Rk4 { step_s: step.si() },
+        (
+            Some(IntegratorSection::Adaptive(a)),
+            Integrator::Adaptive { relative, absolute_m, absolute_m_s, min_step_s, max_step_s },
+        ) => {
+            *relative = si_or(&a.relative, *relative);
+            *absolute_m = si_or(&a.absolute_length, *absolute_m);
+            *absolute_m_s = si_or(&a.absolute_speed, *absolute_m_s);
+            *min_step_s = si_or(&a.min_step, *min_step_s);
+            *max_step_s = si_or(&a.max_step, *max_step_s);
+            if max_step_s < min_step_s {
+                let found = format!("a largest step of {max_step_s} s below the smallest, {min_step_s} s");
+                b.error("integrator.max_step", found, "min_step ≤ max_step");
+            }
         }
-        *relative = si_or(&a.relative, *relative);
-        *absolute_m = si_or(&a.absolute_length, *absolute_m);
-        *absolute_m_s = si_or(&a.absolute_speed, *absolute_m_s);
+        _ => {}
     }
     integrator
 }

@@ -6,14 +6,16 @@ use serde::{Deserialize, Serialize};
 
 use super::builder::Builder;
 use super::number_table::{Column, NumberTable, column};
-use super::path::{After, after, direction, numbers, pose, refuse};
+use super::path::{direction, numbers, pose, refuse};
 use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si};
 use super::{Angle, Length, Ratio, Speed, Time};
 use crate::model::setup::STANDARD_GRAVITY_M_S2;
 use crate::problem::Problem;
 use crate::scenario::kind;
 use crate::scenario::text::{Diagnostic, SourceId};
-use crate::vehicle::{AccelerationRecord, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord};
+use crate::vehicle::{
+    AccelerationRecord, AfterEnd, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord,
+};
 use crash_measures::signal::ChannelClass;
 
 /// What sensors in the vehicle recorded, along its axes: x forward, y right, z down.
@@ -35,7 +37,7 @@ pub(crate) struct SensorsSection {
     /// Direction of that speed [x, y, z], any length; where the vehicle heads if absent.
     pub(crate) direction: Option<[Ratio; 3]>,
     /// What gravity does in the accelerations. Must be given with them.
-    pub(crate) gravity: Option<RecordedGravity>,
+    pub(crate) gravity: Option<SensorGravity>,
     /// Which way the sensors' axes point; "z_down" if absent.
     pub(crate) axes: Option<SensorAxes>,
     /// Where the sensors stand, [x, y, z] from the vehicle's centre of gravity, forward, right, down; [0, 0, 0] if absent.
@@ -57,20 +59,7 @@ pub(crate) struct SensorsSection {
     /// Yaw when the path starts; 0 if absent.
     pub(crate) yaw: Option<Angle>,
     /// What the vehicle does after the last time; a run that goes on is refused if absent.
-    pub(crate) after: Option<After>,
-}
-
-/// What gravity does in recorded accelerations.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum RecordedGravity {
-    /// It is in them: a level vehicle at rest reads 1 g upwards.
-    Included,
-    /// The sensors were zeroed before the test, at rest in the initial attitude: they read 0 there, and gravity comes
-    /// in as the vehicle turns.
-    Zeroed,
-    /// It was taken out of them at every instant: a vehicle at rest reads 0 in any attitude.
-    Removed,
+    pub(crate) after: Option<AfterEnd>,
 }
 
 /// Which way the axes of sensors point.
@@ -131,11 +120,7 @@ pub(super) fn path(
         initial_speed_m_s: s.speed.si(),
         direction: direction(&s.direction),
         offset_m: Vector3::from(s.offset.as_ref().map_or([0.0; 3], all_si)),
-        gravity: match s.gravity {
-            Some(RecordedGravity::Included) => SensorGravity::Included,
-            Some(RecordedGravity::Zeroed) => SensorGravity::Zeroed,
-            Some(RecordedGravity::Removed) | None => SensorGravity::Removed,
-        },
+        gravity: s.gravity.unwrap_or(SensorGravity::Removed),
         gravity_m_s2: match gravity_m_s2 {
             0.0 => STANDARD_GRAVITY_M_S2,
             g => g,
@@ -143,7 +128,7 @@ pub(super) fn path(
         filter: s.filter.map(class),
         baseline_s: s.baseline.as_ref().map(Time::si),
         starts_at_s: s.start.as_ref().map(Time::si),
-        after: after(s.after),
+        after: s.after.unwrap_or_default(),
     });
     path.map_err(|p| refuse(b, &p, Some(&table))).ok()
 }

@@ -24,7 +24,7 @@ pub(crate) struct SurfaceSection {
     /// Name of its material in `materials`.
     pub(crate) material: String,
     /// What it is fixed to; "vehicle" if absent.
-    pub(crate) frame: Option<FrameChoice>,
+    pub(crate) frame: Option<Frame>,
     /// Corners [x, y, z] in order round a convex plane polygon.
     #[schemars(extend("minItems" = 3))]
     pub(crate) points: Option<Vec<[Length; 3]>>,
@@ -73,16 +73,6 @@ pub(crate) struct PlaneSection {
     pub(crate) normal: [Ratio; 3],
 }
 
-/// What a surface is fixed to.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "lowercase")]
-pub(crate) enum FrameChoice {
-    /// The vehicle: x forward, y right, z down from its centre of gravity.
-    Vehicle,
-    /// Space: x forward, y left, z up.
-    Space,
-}
-
 /// How the open side is told.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
@@ -96,26 +86,12 @@ pub(crate) enum FacingChoice {
 #[serde(deny_unknown_fields)]
 pub(crate) struct ContactSection {
     /// Where the in-plane force of a surface's edge acts on a sphere; "contact_point" if absent.
-    pub(crate) edge_force: Option<EdgeForceChoice>,
-}
-
-/// Where the edge force acts.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub(crate) enum EdgeForceChoice {
-    /// At the point of contact, like the rest of the contact force.
-    ContactPoint,
-    /// At the sphere's centre, where the edge force conserves energy on a turning segment too.
-    Centre,
+    pub(crate) edge_force: Option<EdgeForce>,
 }
 
 /// Where the edge force acts.
 pub(super) fn edge_force(s: &Scenario) -> EdgeForce {
-    match s.contact.as_ref().and_then(|c| c.edge_force) {
-        Some(EdgeForceChoice::Centre) => EdgeForce::AtCentre,
-        Some(EdgeForceChoice::ContactPoint) => EdgeForce::AtContactPoint,
-        None => EdgeForce::default(),
-    }
+    s.contact.as_ref().and_then(|c| c.edge_force).unwrap_or_default()
 }
 
 /// All surfaces, in the order written.
@@ -135,11 +111,7 @@ fn surface(
     undecided: &mut Vec<String>,
 ) -> Surface {
     let path = with_key("surfaces", name);
-    let frame = match section.frame {
-        Some(FrameChoice::Space) => Frame::Space,
-        Some(FrameChoice::Vehicle) => Frame::Vehicle,
-        None => Frame::default(),
-    };
+    let frame = section.frame.unwrap_or_default();
     let known = body.spheres.iter().map(|s| s.name.as_str());
     Surface {
         name: name.to_owned(),
@@ -209,9 +181,7 @@ fn facing(
 
 /// One message for all surfaces whose open side is not told.
 fn report_undecided(b: &mut Builder, paths: &[String]) {
-    let Some((first, others)) = paths.split_first() else {
-        return;
-    };
+    let Some((first, others)) = paths.split_first() else { return };
     let found = match others.len() {
         0 => format!("`{first}` does not say which side is open"),
         n => format!("`{first}` and {n} more do not say which side is open"),

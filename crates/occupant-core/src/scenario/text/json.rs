@@ -1,15 +1,13 @@
 //! JSON text → [`Node`] tree, strictly by RFC 8259.
 
-use std::collections::HashSet;
-
 use jsonc_parser::ast::{Object, Value as Ast};
 use jsonc_parser::common::Ranged;
 use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
 
-use super::diagnostic::{Diagnostic, Diagnostics};
+use super::diagnostic::Diagnostics;
 use super::node::{Entry, Node, Table, Value};
+use super::reader::Reader;
 use super::source::{SourceId, Sources, Span};
-use crate::problem::Problem;
 
 /// Nothing that goes beyond RFC 8259.
 const STRICT: ParseOptions = ParseOptions {
@@ -30,74 +28,57 @@ const STRICT: ParseOptions = ParseOptions {
 /// # Errors
 /// The first syntax error; keys that stand twice in one object; a root that is no object.
 pub fn parse(sources: &Sources, id: SourceId) -> Result<Node, Diagnostics> {
-    let mut reader = Reader { sources, id, problems: Diagnostics::new() };
-    let node = match parse_to_ast(sources.text(id), &CollectOptions::default(), &STRICT) {
+    let mut reader = Reader::new(sources, id);
+    let root = match parse_to_ast(sources.text(id), &CollectOptions::default(), &STRICT) {
         Ok(parsed) => match parsed.value {
-            Some(Ast::Object(object)) => reader.object(object),
-            _ => reader.reject(sources.start_of(id), "no JSON object", "{ \"title\": …, … }"),
+            Some(root @ Ast::Object(_)) => read_node(&mut reader, root),
+            _ => rejected(&mut reader, sources.start_of(id), "no JSON object", "{ \"title\": …, … }"),
         },
         Err(error) => {
-            let span = reader.span(&error.range());
-            reader.reject(span, &error.kind().to_string(), "valid JSON")
+            let span = span(&reader, &error.range());
+            rejected(&mut reader, span, &error.kind().to_string(), "valid JSON")
         }
     };
-    if reader.problems.is_empty() { Ok(node) } else { Err(reader.problems) }
+    reader.finish(root)
 }
 
-struct Reader<'a> {
-    sources: &'a Sources,
-    id: SourceId,
-    problems: Diagnostics,
+fn span(reader: &Reader, ranged: &impl Ranged) -> Span {
+    reader.span(ranged.start()..ranged.end())
 }
 
-impl Reader<'_> {
-    fn span(&self, ranged: &impl Ranged) -> Span {
-        Span { source: self.id, start: ranged.start(), end: ranged.end() }
-    }
+fn rejected(reader: &mut Reader, span: Span, found: &str, expected: &str) -> Node {
+    Node::new(span, reader.reject(span, found, expected))
+}
 
-    fn reject(&mut self, span: Span, found: &str, expected: &str) -> Node {
-        self.problems.push(Diagnostic::at(self.sources, span, Problem::error("", found, expected)));
-        Node::new(span, Value::Null)
-    }
-
-    fn object(&mut self, object: Object<'_>) -> Node {
-        let span = self.span(&object);
-        let mut table = Table::new();
-        let mut seen = HashSet::new();
-        for property in object.properties {
-            let key_span = self.span(&property.name);
-            let key = property.name.into_string();
-            if !seen.insert(key.clone()) {
-                let found = format!("key `{key}` a second time");
-                self.reject(key_span, &found, "each key once");
-                continue;
-            }
-            let node = self.node(property.value);
-            table.push(Entry { key, key_span, node });
+fn read_object(reader: &mut Reader, object: Object<'_>) -> Value {
+    let mut table = Table::new();
+    for property in object.properties {
+        let key_span = span(reader, &property.name);
+        let key = property.name.into_string();
+        if table.contains_key(&key) {
+            reader.reject(key_span, &format!("key `{key}` a second time"), "each key once");
+            continue;
         }
-        Node::new(span, Value::Table(table))
+        table.insert(key, Entry { key_span, node: read_node(reader, property.value) });
     }
+    Value::Table(table)
+}
 
-    fn node(&mut self, ast: Ast<'_>) -> Node {
-        let span = self.span(&ast);
-        let value = match ast {
-            Ast::Object(object) => return self.object(object),
-            Ast::Array(array) => Value::Array(array.elements.into_iter().map(|e| self.node(e)).collect()),
-            Ast::StringLit(text) => Value::String(text.value.into_owned()),
-            Ast::BooleanLit(b) => Value::Bool(b.value),
-            Ast::NullKeyword(_) => Value::Null,
-            Ast::NumberLit(number) => match number.value.parse::<i64>() {
-                Ok(i) => Value::Integer(i),
-                Err(_) => match number.value.parse::<f64>() {
-                    Ok(x) => Value::Float(x),
-                    Err(_) => {
-                        return self.reject(span, "a number that cannot be read", "a number");
-                    }
-                },
-            },
-        };
-        Node::new(span, value)
-    }
+fn read_node(reader: &mut Reader, ast: Ast<'_>) -> Node {
+    let span = span(reader, &ast);
+    let value = match ast {
+        Ast::Object(object) => read_object(reader, object),
+        Ast::Array(array) => Value::Array(array.elements.into_iter().map(|e| read_node(reader, e)).collect()),
+        Ast::StringLit(text) => Value::String(text.value.into_owned()),
+        Ast::BooleanLit(b) => Value::Bool(b.value),
+        Ast::NullKeyword(_) => Value::Null,
+        Ast::NumberLit(number) => match (number.value.parse(), number.value.parse()) {
+            (Ok(i), _) => Value::Integer(i),
+            (_, Ok(x)) => Value::Float(x),
+            _ => reader.reject(span, "a number that cannot be read", "a number"),
+        },
+    };
+    Node::new(span, value)
 }
 
 #[cfg(test)]

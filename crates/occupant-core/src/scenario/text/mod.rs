@@ -6,6 +6,7 @@ mod diagnostic;
 mod json;
 mod node;
 mod path;
+mod reader;
 mod source;
 mod toml;
 
@@ -14,7 +15,7 @@ pub use diagnostic::{Diagnostic, Diagnostics};
 pub(crate) use node::{Entry, Node, Table};
 pub use node::{Format, Value};
 pub use path::{Step, parse as parse_path, with_key};
-pub(crate) use path::{child, follow, locate, targets, to_text, with_step};
+pub(crate) use path::{child, children, follow, locate, targets, to_text, with_step};
 pub(crate) use source::SourceId;
 pub use source::{Sources, Span};
 pub(crate) use toml::parse_value;
@@ -46,7 +47,7 @@ impl Document {
         Ok(Document { sources, main, root })
     }
 
-    /// Reads bytes that should be UTF-8 text; the format is told by [`Format::of_text`] unless given.
+    /// Reads bytes that should be UTF-8 text; [`Format::of_text`] says the format unless it is given.
     ///
     /// # Errors
     /// The place of the first byte that is not UTF-8; else as [`Document::read`].

@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use indexmap::IndexMap;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::{Error, MapDeserializer, SeqDeserializer};
 use serde::de::{Deserializer, IntoDeserializer, Visitor};
@@ -60,15 +61,12 @@ pub enum Value {
     Table(Table),
 }
 
-/// Named values in the order in which they were written; names are unique.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct Table(Vec<Entry>);
+/// Named values in the order in which they were written.
+pub type Table = IndexMap<String, Entry>;
 
-/// A name and its value.
+/// A named value.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Entry {
-    /// The name.
-    pub key: String,
     /// Where the name stands.
     pub key_span: Span,
     /// The value.
@@ -106,7 +104,7 @@ impl Value {
             Value::String(text) => visitor.visit_borrowed_str(text),
             Value::Array(items) => visitor.visit_seq(SeqDeserializer::new(items.iter())),
             Value::Table(table) => {
-                visitor.visit_map(MapDeserializer::new(table.iter().map(|e| (e.key.as_str(), &e.node))))
+                visitor.visit_map(MapDeserializer::new(table.iter().map(|(key, entry)| (key.as_str(), &entry.node))))
             }
         }
     }
@@ -162,7 +160,12 @@ impl Node {
 
     /// The entry of a table with this key.
     pub(crate) fn get(&self, key: &str) -> Option<&Node> {
-        self.as_table().and_then(|t| t.get(key)).map(|e| &e.node)
+        self.as_table()?.get(key).map(|e| &e.node)
+    }
+
+    /// Whether it says that it is taken away: `remove = true`.
+    pub(crate) fn is_removed(&self) -> bool {
+        self.get("remove").is_some_and(|n| n.value == Value::Bool(true))
     }
 
     /// The items, if it is a list.
@@ -177,16 +180,11 @@ impl Node {
     pub(crate) fn moved_to(&self, source: SourceId) -> Node {
         let value = match &self.value {
             Value::Array(items) => Value::Array(items.iter().map(|item| item.moved_to(source)).collect()),
-            Value::Table(table) => Value::Table(Table(
-                table
-                    .iter()
-                    .map(|entry| Entry {
-                        key: entry.key.clone(),
-                        key_span: Span { source, ..entry.key_span },
-                        node: entry.node.moved_to(source),
-                    })
-                    .collect(),
-            )),
+            Value::Table(table) => {
+                let moved =
+                    |e: &Entry| Entry { key_span: Span { source, ..e.key_span }, node: e.node.moved_to(source) };
+                Value::Table(table.iter().map(|(key, entry)| (key.clone(), moved(entry))).collect())
+            }
             plain => plain.clone(),
         };
         Node { span: Span { source, ..self.span }, value, ..*self }
@@ -259,51 +257,5 @@ impl<'de> IntoDeserializer<'de> for Part<'de> {
 
     fn into_deserializer(self) -> Self {
         self
-    }
-}
-
-impl Table {
-    /// An empty table.
-    pub(crate) fn new() -> Self {
-        Table::default()
-    }
-
-    /// The entry with this key.
-    pub(crate) fn get(&self, key: &str) -> Option<&Entry> {
-        self.0.iter().find(|e| e.key == key)
-    }
-
-    /// The entry with this key.
-    pub(crate) fn get_mut(&mut self, key: &str) -> Option<&mut Entry> {
-        self.0.iter_mut().find(|e| e.key == key)
-    }
-
-    /// Adds an entry, or replaces the one with the same key in its place.
-    pub(crate) fn insert(&mut self, entry: Entry) {
-        match self.get_mut(&entry.key) {
-            Some(old) => *old = entry,
-            None => self.0.push(entry),
-        }
-    }
-
-    /// Takes an entry out.
-    pub(crate) fn remove(&mut self, key: &str) -> Option<Entry> {
-        let at = self.0.iter().position(|e| e.key == key)?;
-        Some(self.0.remove(at))
-    }
-
-    /// The entries in order.
-    pub(crate) fn iter(&self) -> std::slice::Iter<'_, Entry> {
-        self.0.iter()
-    }
-
-    /// The entries in order.
-    pub(crate) fn iter_mut(&mut self) -> std::slice::IterMut<'_, Entry> {
-        self.0.iter_mut()
-    }
-
-    /// Appends an entry whose key is known to be new; for the parsers.
-    pub(crate) fn push(&mut self, entry: Entry) {
-        self.0.push(entry);
     }
 }

@@ -129,17 +129,23 @@ fn collect(node: &Node, rest: &[Step], path: &mut Vec<Step>, found: &mut Vec<Vec
         found.push(path.clone());
         return;
     };
-    let next: Vec<Step> = match (step, &node.value) {
-        (Step::Every, Value::Table(table)) => table.iter().map(|e| Step::Key(e.key.clone())).collect(),
-        (Step::Every, Value::Array(items)) => (0..items.len()).map(Step::Index).collect(),
-        _ => vec![step.clone()],
+    let next = match step {
+        Step::Every => children(node),
+        _ => child(node, step).map(|below| (step.clone(), below)).into_iter().collect(),
     };
-    for step in next {
-        if let Some(below) = child(node, &step) {
-            path.push(step);
-            collect(below, rest, path, found);
-            path.pop();
-        }
+    for (step, below) in next {
+        path.push(step);
+        collect(below, rest, path, found);
+        path.pop();
+    }
+}
+
+/// All items of a node, with the steps that lead to them.
+pub(crate) fn children(node: &Node) -> Vec<(Step, &Node)> {
+    match &node.value {
+        Value::Table(table) => table.iter().map(|(key, entry)| (Step::Key(key.clone()), &entry.node)).collect(),
+        Value::Array(items) => items.iter().enumerate().map(|(i, item)| (Step::Index(i), item)).collect(),
+        _ => Vec::new(),
     }
 }
 

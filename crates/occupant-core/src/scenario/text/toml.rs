@@ -1,11 +1,12 @@
 //! TOML text → [`Node`] tree.
 
+use ::toml::Spanned;
 use ::toml::de::{DeTable, DeValue, Error};
 
-use super::diagnostic::{Diagnostic, Diagnostics};
+use super::diagnostic::Diagnostics;
 use super::node::{Entry, Node, Table, Value};
+use super::reader::Reader;
 use super::source::{SourceId, Sources, Span};
-use crate::problem::Problem;
 
 /// Reads a TOML document.
 ///
@@ -14,8 +15,8 @@ use crate::problem::Problem;
 pub fn parse(sources: &Sources, id: SourceId) -> Result<Node, Diagnostics> {
     let (table, errors) = DeTable::parse_recoverable(sources.text(id));
     let mut reader = Reader::new(sources, id);
-    reader.add(errors);
-    let root = Node::new(sources.start_of(id), reader.table(table.into_inner()));
+    report_all(&mut reader, errors);
+    let root = Node::new(sources.start_of(id), read_table(&mut reader, table.into_inner()));
     reader.finish(root)
 }
 
@@ -26,97 +27,58 @@ pub fn parse(sources: &Sources, id: SourceId) -> Result<Node, Diagnostics> {
 pub fn parse_value(sources: &Sources, id: SourceId) -> Result<Node, Diagnostics> {
     let (value, errors) = DeValue::parse_recoverable(sources.text(id));
     let mut reader = Reader::new(sources, id);
-    reader.add(errors);
+    report_all(&mut reader, errors);
     let span = reader.span(value.span());
-    let node = reader.node(span, value.into_inner());
+    let node = read_node(&mut reader, span, value.into_inner());
     reader.finish(node)
 }
 
-struct Reader<'a> {
-    sources: &'a Sources,
-    id: SourceId,
-    problems: Diagnostics,
+fn report_all(reader: &mut Reader, errors: Vec<Error>) {
+    for error in errors {
+        let span = error.span().map_or(reader.sources.start_of(reader.id), |range| reader.span(range));
+        // The parser says "found, expected a, b": split so that both sides show.
+        let message = error.message();
+        let (found, expected) = message.split_once(", expected ").unwrap_or((message, "valid TOML"));
+        reader.reject(span, found, expected);
+    }
 }
 
-impl<'a> Reader<'a> {
-    fn new(sources: &'a Sources, id: SourceId) -> Self {
-        Reader { sources, id, problems: Diagnostics::new() }
-    }
-
-    fn add(&mut self, errors: Vec<Error>) {
-        for error in errors {
-            let span = match error.span() {
-                Some(range) => self.span(range),
-                None => self.sources.start_of(self.id),
-            };
-            // The parser says "found, expected a, b": split so that both sides show.
-            let message = error.message();
-            let (found, expected) = match message.split_once(", expected ") {
-                Some((found, expected)) => (found, expected),
-                None => (message, "valid TOML"),
-            };
-            self.report(span, found, expected);
+fn read_table(reader: &mut Reader, source: DeTable<'_>) -> Value {
+    let mut table = Table::new();
+    for (key, value) in source {
+        let key_span = reader.span(key.span());
+        let mut span = reader.span(value.span());
+        let value = value.into_inner();
+        // A table that only dotted keys or sub-headers open has no words of its own.
+        if span.start == span.end && matches!(value, DeValue::Table(_) | DeValue::Array(_)) {
+            span = key_span;
         }
+        table.insert(key.into_inner().into_owned(), Entry { key_span, node: read_node(reader, span, value) });
     }
+    Value::Table(table)
+}
 
-    fn finish(self, node: Node) -> Result<Node, Diagnostics> {
-        if self.problems.is_empty() { Ok(node) } else { Err(self.problems) }
-    }
-
-    fn span(&self, range: std::ops::Range<usize>) -> Span {
-        Span { source: self.id, start: range.start, end: range.end }
-    }
-
-    fn table(&mut self, source: DeTable<'_>) -> Value {
-        let mut table = Table::new();
-        for (key, value) in source {
-            let key_span = self.span(key.span());
-            let mut span = self.span(value.span());
-            let value = value.into_inner();
-            // A table that only dotted keys or sub-headers open has no words of its own.
-            if span.start == span.end && matches!(value, DeValue::Table(_) | DeValue::Array(_)) {
-                span = key_span;
-            }
-            table.push(Entry { key: key.into_inner().into_owned(), key_span, node: self.node(span, value) });
-        }
-        Value::Table(table)
-    }
-
-    fn node(&mut self, span: Span, value: DeValue<'_>) -> Node {
-        let value = match value {
-            DeValue::String(text) => Value::String(text.into_owned()),
-            DeValue::Boolean(b) => Value::Bool(b),
-            DeValue::Table(table) => self.table(table),
-            DeValue::Array(items) => Value::Array(
-                items
-                    .into_iter()
-                    .map(|item| {
-                        let span = self.span(item.span());
-                        self.node(span, item.into_inner())
-                    })
-                    .collect(),
-            ),
-            DeValue::Integer(number) => match i64::from_str_radix(number.as_str(), number.radix()) {
-                Ok(i) => Value::Integer(i),
-                Err(_) => self.reject(span, "a whole number too large to read", "at most 64 bits"),
-            },
-            DeValue::Float(number) => match number.as_str().parse() {
-                Ok(x) => Value::Float(x),
-                Err(_) => self.reject(span, "a number that cannot be read", "a decimal number"),
-            },
-            DeValue::Datetime(_) => self.reject(span, "a date or time of day", "a text, in quotes, or a number"),
-        };
-        Node::new(span, value)
-    }
-
-    fn report(&mut self, span: Span, found: &str, expected: &str) {
-        self.problems.push(Diagnostic::at(self.sources, span, Problem::error("", found, expected)));
-    }
-
-    fn reject(&mut self, span: Span, found: &str, expected: &str) -> Value {
-        self.report(span, found, expected);
-        Value::Null
-    }
+fn read_node(reader: &mut Reader, span: Span, value: DeValue<'_>) -> Node {
+    let item = |item: Spanned<DeValue<'_>>| {
+        let span = reader.span(item.span());
+        read_node(reader, span, item.into_inner())
+    };
+    let value = match value {
+        DeValue::String(text) => Value::String(text.into_owned()),
+        DeValue::Boolean(b) => Value::Bool(b),
+        DeValue::Table(table) => read_table(reader, table),
+        DeValue::Array(items) => Value::Array(items.into_iter().map(item).collect()),
+        DeValue::Integer(number) => match i64::from_str_radix(number.as_str(), number.radix()) {
+            Ok(i) => Value::Integer(i),
+            Err(_) => reader.reject(span, "a whole number too large to read", "at most 64 bits"),
+        },
+        DeValue::Float(number) => match number.as_str().parse() {
+            Ok(x) => Value::Float(x),
+            Err(_) => reader.reject(span, "a number that cannot be read", "a decimal number"),
+        },
+        DeValue::Datetime(_) => reader.reject(span, "a date or time of day", "a text, in quotes, or a number"),
+    };
+    Node::new(span, value)
 }
 
 #[cfg(test)]
@@ -134,7 +96,7 @@ mod tests {
     fn keeps_order_and_words() {
         let (sources, node) = read("z = 1\na = \"x\"\n[m.seat]\nk1 = 4.80\n[m.dash]\n");
         let node = node.unwrap();
-        let keys: Vec<_> = node.as_table().unwrap().iter().map(|e| &e.key).collect();
+        let keys: Vec<_> = node.as_table().unwrap().keys().collect();
         assert_eq!(keys, ["z", "a", "m"]);
         let k1 = node.get("m").unwrap().get("seat").unwrap().get("k1").unwrap();
         assert_eq!(sources.slice(k1.span), "4.80");

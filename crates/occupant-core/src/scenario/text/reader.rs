@@ -1,0 +1,33 @@
+//! What the readers of TOML and JSON share: the text under reading and a list for what is wrong with it.
+
+use super::diagnostic::{Diagnostic, Diagnostics};
+use super::node::{Node, Value};
+use super::source::{SourceId, Sources, Span};
+use crate::problem::Problem;
+
+/// A text under reading.
+pub(super) struct Reader<'a> {
+    pub(super) sources: &'a Sources,
+    pub(super) id: SourceId,
+    problems: Diagnostics,
+}
+
+impl<'a> Reader<'a> {
+    pub(super) fn new(sources: &'a Sources, id: SourceId) -> Self {
+        Reader { sources, id, problems: Diagnostics::new() }
+    }
+
+    pub(super) fn finish(self, node: Node) -> Result<Node, Diagnostics> {
+        if self.problems.is_empty() { Ok(node) } else { Err(self.problems) }
+    }
+
+    pub(super) fn span(&self, range: std::ops::Range<usize>) -> Span {
+        Span { source: self.id, start: range.start, end: range.end }
+    }
+
+    /// Reports what stands at a place; what is read there is `null`.
+    pub(super) fn reject(&mut self, span: Span, found: &str, expected: &str) -> Value {
+        self.problems.push(Diagnostic::at(self.sources, span, Problem::error("", found, expected)));
+        Value::Null
+    }
+}
