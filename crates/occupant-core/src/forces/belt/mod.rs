@@ -3,13 +3,14 @@
 //! Report: "Lap and Torso Restraint Belts", Eqs 95–108, Figs 17 and 18.
 
 mod check;
+mod course;
 pub mod law;
-pub mod results;
+mod results;
 
 use nalgebra::Point3;
 
 use crate::body::Body;
-use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkSum};
+use crate::forces::element::{Element, HeldBy, Instant, Load, StoredEnergy, Unlike, WorkSum};
 use crate::forces::rate::Rate;
 use crate::forces::spring::BilinearSpring;
 use crate::motion::frame::VEHICLE;
@@ -17,7 +18,7 @@ use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::v3;
 use crate::problem::Problems;
-use crate::quantity::energy;
+use crate::quantity::{FieldWords, energy};
 use law::{BeltAction, BeltHistory, BeltLaw};
 
 /// Place of the recoverable energy in the energy ledger.
@@ -80,7 +81,10 @@ impl Element for Belts {
     const STORED: StoredEnergy = StoredEnergy {
         at: STORED,
         quantity: energy(7, "belts", "stored in belts", "recoverable, in belts"),
-        held_by: Some(STRETCH),
+        held_by: Some(HeldBy {
+            sum: STRETCH,
+            start: FieldWords { number: 22, stem: "start_belts_j", meaning: "stored in belts at the start of the run" },
+        }),
     };
     const SUMS: &'static [WorkSum] = &[WorkSum {
         at: STRETCH,
