@@ -157,6 +157,13 @@ pub struct HeldBy {
     pub start: FieldWords,
 }
 
+impl HeldBy {
+    /// The sum at a place, and the field of the energy at the start.
+    pub(crate) const fn sum(sum: usize, number: u32, stem: &'static str, meaning: &'static str) -> Option<Self> {
+        Some(HeldBy { sum, start: FieldWords { number, stem, meaning } })
+    }
+}
+
 /// A sum of work in [`Work::sums`].
 #[derive(Clone, Copy, Debug)]
 pub struct WorkSum {

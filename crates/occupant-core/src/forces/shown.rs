@@ -1,6 +1,5 @@
 //! What a kind of force element gives to results: its quantities, peaks, tables, events, and what pictures draw of it.
 
-use std::fmt;
 use std::marker::PhantomData;
 
 use nalgebra::{Point3, Vector3};
@@ -45,23 +44,19 @@ pub trait Reported: Element + 'static {
     /// Shows every force on a sphere but those of contacts, which have points and depths of their own.
     fn pulls(_shown: &Shown<'_, Self>, _show: &mut dyn FnMut(&Pull<'_>)) {}
 
-    /// What has happened to one of them between two looks.
-    fn event<S: Scalar>(_before: &Self::Action<S>, _now: &Self::Action<S>) -> Option<Event<S>> {
+    /// What has happened to one of them between two looks, in words that follow its name, and by how much its force jumps, N;
+    /// nothing where only a slope changes.
+    fn event<S: Scalar>(_before: &Self::Action<S>, _now: &Self::Action<S>) -> Option<(&'static str, Option<S>)> {
         None
     }
 }
 
 /// One element of a kind, as the owner of quantities.
+#[derive(Debug)]
 pub struct OneOf<E>(PhantomData<E>);
 
 impl<E: Reported> Owner for OneOf<E> {
     type At<'a> = &'a E::Action<f64>;
-}
-
-impl<E> fmt::Debug for OneOf<E> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("OneOf")
-    }
 }
 
 /// The elements of one kind at one output.
@@ -124,13 +119,4 @@ pub struct Tracked<A> {
     pub time: Option<Column>,
     /// Whether a peak below 0 counts as 0.
     pub at_least_zero: bool,
-}
-
-/// What happens to an element between two looks at it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Event<S> {
-    /// In words, after the element's name: `goes slack`.
-    pub verb: &'static str,
-    /// By how much its force jumps, N; none where only a slope changes.
-    pub jump_n: Option<S>,
 }

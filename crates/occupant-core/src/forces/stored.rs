@@ -10,7 +10,7 @@ pub trait Archive {
     /// What comes belongs to the start of the step that leads beyond the output.
     fn begin_step(&mut self) {}
 
-    /// Stored values do not fit each other.
+    /// The stored values cannot be, in words.
     fn refuse(&mut self, _why: &str) {}
 }
 

@@ -201,7 +201,7 @@ impl Checkpoint {
         let times_s = file.numbers(words(13, "first_touch_time_s", "its time"), times_s);
         let closing_m_s = file.numbers(words(14, "first_touch_closing_m_s", "its closing speed"), closing_m_s);
         if [surfaces.len(), times_s.len(), closing_m_s.len()] != [spheres.len(); 3] {
-            return file.refuse("first touches");
+            return file.refuse("lists of first touches that do not fit each other");
         }
         let touch = |(i, sphere): (usize, u32)| FirstTouch {
             sphere: sphere as usize,
@@ -227,7 +227,7 @@ impl Checkpoint {
             [start_s, end_s] => {
                 self.under_way = Some(StepStart { start_s, end_s, state: to_state(&state, file), memory });
             }
-            _ => file.refuse("times of a step"),
+            _ => file.refuse("other than two times of a step"),
         }
     }
 
@@ -291,7 +291,7 @@ fn check_finite(numbers: impl IntoIterator<Item = f64>) -> Result<(), Checkpoint
 
 fn to_state(numbers: &[f64], file: &mut dyn Archive) -> State<f64> {
     numbers.try_into().map(State::from_numbers).unwrap_or_else(|_| {
-        file.refuse("numbers of a state");
+        file.refuse("a state of another number of coordinates");
         State::zero()
     })
 }

@@ -2,15 +2,13 @@
 //!
 //! Pairs are numbered as the model numbers them; those in no list are open and have no greatest deformation.
 
-use std::collections::BTreeMap;
-
 use occupant_core::forces::stored::Archive;
 use occupant_core::quantity::{FieldWords, Kind, Value};
 use occupant_core::results::catalogue::{Field, Message};
 use occupant_core::results::checkpoint::Checkpoint;
 use occupant_core::results::sample::Sample;
 
-use super::wire::{self, Stored, Wire};
+use super::wire::{Rest, Wire};
 
 pub(super) const TOPIC: &str = "/checkpoint";
 
@@ -26,10 +24,13 @@ pub(super) fn write(wire: &mut Wire, sample: &Sample<'_>) {
     sample.checkpoint().keep(wire);
 }
 
-/// Reads the message back.
+/// Reads the message back. A field that the file does not have leaves what it would tell blank.
 pub(super) fn read(bytes: &[u8]) -> Result<Checkpoint, String> {
-    let mut reader = Reader { fields: wire::read(bytes)?, trouble: None };
+    let mut reader = Reader { rest: Rest(bytes), trouble: None };
     let checkpoint = Checkpoint::stored(&mut reader);
+    if !reader.rest.0.is_empty() {
+        reader.refuse("fields that this version does not know");
+    }
     reader.trouble.map_or(Ok(checkpoint), Err)
 }
 
@@ -67,21 +68,16 @@ impl Archive for Wire {
 }
 
 struct Reader<'a> {
-    fields: BTreeMap<u32, Stored<'a>>,
+    rest: Rest<'a>,
     trouble: Option<String>,
 }
 
 impl Archive for Reader<'_> {
     fn exchange(&mut self, words: FieldWords, value: &mut Value) {
-        if let Some(stored) = self.fields.get(&words.number) {
-            match stored.like(value) {
-                Some(stored) => *value = stored,
-                None => self.refuse(words.stem),
-            }
-        }
+        self.rest.value(words.number, value);
     }
 
     fn refuse(&mut self, why: &str) {
-        self.trouble.get_or_insert(format!("what a checkpoint says of {why} does not fit together"));
+        self.trouble.get_or_insert(format!("a checkpoint cannot be read: {why}"));
     }
 }

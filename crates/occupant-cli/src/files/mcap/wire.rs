@@ -4,8 +4,6 @@
 //! Fields are always written, also where they are zero: a file then holds every bit that was recorded (the usual writers
 //! leave zeros out, and −0 with them).
 
-use std::collections::BTreeMap;
-
 use nalgebra::{UnitQuaternion, Vector3};
 use occupant_core::quantity::Value;
 
@@ -150,68 +148,50 @@ impl Wire {
     }
 }
 
-/// The fields of a message by number.
-///
-/// # Errors
-/// Bytes that are no message.
-pub(crate) fn read(bytes: &[u8]) -> Result<BTreeMap<u32, Stored<'_>>, &'static str> {
-    let (mut rest, mut fields) = (bytes, BTreeMap::new());
-    while !rest.is_empty() {
-        let (number, field) = next_field(&mut rest).ok_or("a message is cut off or damaged")?;
-        fields.insert(number, field);
-    }
-    Ok(fields)
-}
+/// What is not read yet of a message whose fields were all written in one order.
+#[derive(Clone, Copy)]
+pub(crate) struct Rest<'a>(pub(crate) &'a [u8]);
 
-/// A field as it stands in the bytes.
-pub(crate) enum Stored<'a> {
-    Varint(u64),
-    Bytes(&'a [u8]),
-}
-
-impl Stored<'_> {
-    /// A value of the type of `other`.
-    pub(crate) fn like(&self, other: &Value) -> Option<Value> {
-        match (other, self) {
-            (Value::Count(_), Stored::Varint(count)) => Some(Value::Count(*count)),
-            (Value::Number(_), Stored::Bytes(bytes)) => {
-                Some(Value::Number(f64::from_le_bytes((*bytes).try_into().ok()?)))
-            }
-            (Value::Numbers(_), Stored::Bytes(bytes)) => {
-                let (numbers, odd) = bytes.as_chunks();
-                odd.is_empty().then(|| Value::Numbers(numbers.iter().copied().map(f64::from_le_bytes).collect()))
-            }
-            (Value::Indices(_), Stored::Bytes(bytes)) => {
-                let (indices, odd) = bytes.as_chunks();
-                odd.is_empty().then(|| Value::Indices(indices.iter().copied().map(u32::from_le_bytes).collect()))
-            }
-            _ => None,
+impl<'a> Rest<'a> {
+    /// Reads the next field into `value`, if it is `field` and of its type.
+    pub(crate) fn value(&mut self, field: u32, value: &mut Value) -> Option<()> {
+        let mut ahead = *self;
+        let wire_type = match value {
+            Value::Count(_) => VARINT,
+            Value::Number(_) => FIXED_64,
+            _ => LENGTH_DELIMITED,
+        };
+        if ahead.varint()? != u64::from(field << 3 | wire_type) {
+            return None;
         }
-    }
-}
-
-fn next_field<'a>(rest: &mut &'a [u8]) -> Option<(u32, Stored<'a>)> {
-    let key = u32::try_from(varint(rest)?).ok()?;
-    let size = match key & 7 {
-        VARINT => return Some((key >> 3, Stored::Varint(varint(rest)?))),
-        FIXED_64 => 8,
-        FIXED_32 => 4,
-        LENGTH_DELIMITED => usize::try_from(varint(rest)?).ok()?,
-        _ => return None,
-    };
-    Some((key >> 3, Stored::Bytes(rest.split_off(..size)?)))
-}
-
-fn varint(rest: &mut &[u8]) -> Option<u64> {
-    let mut value = 0;
-    for shift in (0..64).step_by(7) {
-        let byte = rest.split_off_first()?;
-        value |= u64::from(byte & 0x7f) << shift;
-        if *byte < 0x80 {
-            return Some(value);
+        match value {
+            Value::Count(count) => *count = ahead.varint()?,
+            Value::Number(number) => *number = f64::from_le_bytes(*ahead.0.split_off(..8)?.first_chunk()?),
+            Value::Numbers(list) => *list = ahead.list()?.iter().copied().map(f64::from_le_bytes).collect(),
+            Value::Indices(list) => *list = ahead.list()?.iter().copied().map(u32::from_le_bytes).collect(),
+            _ => return None,
         }
+        *self = ahead;
+        Some(())
     }
-    None
+
+    fn list<const N: usize>(&mut self) -> Option<&'a [[u8; N]]> {
+        let size = usize::try_from(self.varint()?).ok()?;
+        let (list, odd) = self.0.split_off(..size)?.as_chunks();
+        odd.is_empty().then_some(list)
+    }
+
+    fn varint(&mut self) -> Option<u64> {
+        let mut value = 0;
+        for shift in (0..64).step_by(7) {
+            let byte = self.0.split_off_first()?;
+            value |= u64::from(byte & 0x7f) << shift;
+            if *byte < 0x80 {
+                return Some(value);
+            }
+        }
+        None
+    }
 }
 
 #[cfg(test)]

@@ -18,7 +18,7 @@ use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::v3;
 use crate::problem::Problems;
-use crate::quantity::{FieldWords, energy};
+use crate::quantity::energy;
 use law::{BeltAction, BeltHistory, BeltLaw};
 
 /// Place of the recoverable energy in the energy ledger.
@@ -81,10 +81,7 @@ impl Element for Belts {
     const STORED: StoredEnergy = StoredEnergy {
         at: STORED,
         quantity: energy(7, "belts", "stored in belts", "recoverable, in belts"),
-        held_by: Some(HeldBy {
-            sum: STRETCH,
-            start: FieldWords { number: 22, stem: "start_belts_j", meaning: "stored in belts at the start of the run" },
-        }),
+        held_by: HeldBy::sum(STRETCH, 22, "start_belts_j", "stored in belts at the start of the run"),
     };
     const SUMS: &'static [WorkSum] = &[WorkSum {
         at: STRETCH,

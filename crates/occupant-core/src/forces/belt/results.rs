@@ -6,7 +6,7 @@ use super::course::course_m;
 use super::law::{BeltAction, BeltHistory, BeltLaw};
 use super::{Belt, Belts};
 use crate::forces::element::Element;
-use crate::forces::shown::{Event, Line, Named, OneOf, Pull, Reported, Shown, Tracked};
+use crate::forces::shown::{Line, Named, OneOf, Pull, Reported, Shown, Tracked};
 use crate::forces::stored::Archive;
 use crate::forces::table::{Cell, Column, Table};
 use crate::motion::scalar::Scalar;
@@ -72,7 +72,7 @@ impl Reported for Belts {
         let greatest = FieldWords { number: greatest, stem: "belt_greatest_elongation_m", meaning: "of each belt" };
         let greatest = file.numbers(greatest, past.iter().map(|belt| belt.greatest).collect());
         if normals.len() != 3 * greatest.len() {
-            return file.refuse("belts");
+            return file.refuse("lists of belts that do not fit each other");
         }
         let belts = normals.as_chunks().0.iter().zip(greatest);
         *past = belts.map(|(&[x, y, z], greatest)| BeltHistory { normal: v3(x, y, z), greatest }).collect();
@@ -118,12 +118,12 @@ impl Reported for Belts {
     }
 
     /// The force jumps only where a belt that pulls slips off the body.
-    fn event<S: Scalar>(before: &BeltAction<S>, now: &BeltAction<S>) -> Option<Event<S>> {
+    fn event<S: Scalar>(before: &BeltAction<S>, now: &BeltAction<S>) -> Option<(&'static str, Option<S>)> {
         let is_positive = |x: S| S::any(x.gt(S::zero()));
         match (is_positive(before.loop_force), is_positive(now.loop_force)) {
-            (false, true) => Some(Event { verb: "tightens", jump_n: None }),
-            (true, false) if is_positive(now.wrap) => Some(Event { verb: "goes slack", jump_n: None }),
-            (true, false) => Some(Event { verb: "slips off the body", jump_n: Some(before.loop_force) }),
+            (false, true) => Some(("tightens", None)),
+            (true, false) if is_positive(now.wrap) => Some(("goes slack", None)),
+            (true, false) => Some(("slips off the body", Some(before.loop_force))),
             _ => None,
         }
     }

@@ -23,7 +23,7 @@ use crate::forces::contact::surface::Surface;
 use crate::forces::element::{Element, HeldBy, Instant, Load, StoredEnergy, Unlike, WorkSum};
 use crate::motion::scalar::Scalar;
 use crate::problem::Problems;
-use crate::quantity::{FieldWords, energy};
+use crate::quantity::energy;
 use encounter::Sphere;
 use hints::{Looking, Near, Nearing};
 
@@ -57,14 +57,7 @@ impl Element for Contacts {
     const STORED: StoredEnergy = StoredEnergy {
         at: STORED,
         quantity: energy(6, "contacts", "stored in contacts", "recoverable, in contacts"),
-        held_by: Some(HeldBy {
-            sum: PRESS,
-            start: FieldWords {
-                number: 21,
-                stem: "start_contacts_j",
-                meaning: "stored in contacts at the start of the run",
-            },
-        }),
+        held_by: HeldBy::sum(PRESS, 21, "start_contacts_j", "stored in contacts at the start of the run"),
     };
     const SUMS: &'static [WorkSum] = &[
         WorkSum {

@@ -33,7 +33,7 @@ impl Reported for Contacts {
             || numbers.max().is_some_and(|i| u64::from(*i) >= count)
             || deformed.len() != greatest.len()
         {
-            return file.refuse("pairs");
+            return file.refuse("lists of pairs that do not fit each other");
         }
         *past = vec![PairHistory { phase: OPEN, greatest: 0.0 }; count as usize];
         passed.iter().for_each(|i| past[*i as usize].phase = PASSED);

@@ -16,7 +16,6 @@ pub use contact::Touching;
 
 use crate::sensitivity::trouble::Trouble;
 use occupant_core::body::Joint;
-use occupant_core::forces::shown::Event as ElementEvent;
 use occupant_core::forces::{Actions, History, Listed, Visitor, visit_kinds};
 use occupant_core::model::Model;
 use occupant_core::motion::dual::Dual;
@@ -168,7 +167,7 @@ impl<const N: usize> Visitor for Between<'_, N> {
     fn visit<E: Listed>(&mut self) {
         let both = E::actions(self.before).iter().zip(E::actions(self.now));
         for (element, (before, now)) in both.enumerate() {
-            if let Some(ElementEvent { verb, jump_n }) = E::event(before, now) {
+            if let Some((verb, jump_n)) = E::event(before, now) {
                 let happening = Happening::Element { of: E::NAMES[0], element, verb };
                 self.notes.note(happening, jump_n.map(|jump| jump.value));
             }
