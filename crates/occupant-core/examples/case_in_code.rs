@@ -14,9 +14,8 @@ use occupant_core::forces::contact::surface::{Frame, Outline, Surface};
 use occupant_core::forces::joint::Joints;
 use occupant_core::forces::spring::BilinearSpring;
 use occupant_core::model::Model;
-use occupant_core::model::builder::SetupBuilder;
 use occupant_core::model::seating::{InitialPosture, Seating};
-use occupant_core::model::setup::{Integrator, Setup};
+use occupant_core::model::setup::{Integrator, Setup, SetupBuilder};
 use occupant_core::results::summary::Summarizer;
 use occupant_core::run::simulate::simulate;
 use occupant_core::vehicle::{PulseDefinition, PulsePath, PulseShape, Strength, VehiclePath};
@@ -36,8 +35,9 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     let (head, chest) = (summary.accelerations.head, summary.accelerations.chest);
     println!("  head  {:4.1} g at {:5.1} ms", head.peak_g, 1e3 * head.peak_time_s);
     println!("  chest {:4.1} g at {:5.1} ms", chest.peak_g, 1e3 * chest.peak_time_s);
-    for belt in &summary.belts {
-        println!("  {} belt {:.1} kN", belt.belt, 1e-3 * belt.loop_force_n);
+    for belt in ["lap", "torso"] {
+        let force_n = summary.elements["belts"].number(belt, "loop_force_n").unwrap_or(0.0);
+        println!("  {belt} belt {:.1} kN", 1e-3 * force_n);
     }
     Ok(())
 }

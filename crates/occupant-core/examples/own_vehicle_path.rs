@@ -70,8 +70,11 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
     simulate(&Model::new(setup)?, &mut summarizer)?;
     let summary = summarizer.summary(None).ok_or("the run did not end")?;
     if let Some(head) = summary.head_excursion {
-        let (cm, ms) = (100.0 * head.forward_m, 1e3 * head.forward_time_s);
-        println!("  the head moves {cm:.0} cm forward (at {ms:.0} ms) and {:.0} cm to the left", 100.0 * head.left_m);
+        let (cm, ms) = (100.0 * head.forward.value, 1e3 * head.forward.time_s);
+        println!(
+            "  the head moves {cm:.0} cm forward (at {ms:.0} ms) and {:.0} cm to the left",
+            100.0 * head.left.value
+        );
     }
     println!("  its acceleration peaks at {:.0} g", summary.accelerations.head.peak_g);
     for contact in summary.contacts.iter().filter(|c| !c.at_start) {

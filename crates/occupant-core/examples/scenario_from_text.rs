@@ -43,8 +43,9 @@ fn print_peaks(summary: &Summary) {
     for (part, a) in parts {
         println!("  {part:7} peak {:5.1} g at {:5.1} ms", a.peak_g, 1e3 * a.peak_time_s);
     }
-    for belt in &summary.belts {
-        println!("  {} belt pulls up to {:.1} kN", belt.belt, 1e-3 * belt.loop_force_n);
+    for belt in ["lap", "torso"] {
+        let force_n = summary.elements["belts"].number(belt, "loop_force_n").unwrap_or(0.0);
+        println!("  {belt} belt pulls up to {:.1} kN", 1e-3 * force_n);
     }
     for contact in summary.contacts.iter().filter(|c| !c.at_start) {
         let (t_ms, speed) = (1e3 * contact.time_s, contact.closing_m_s);

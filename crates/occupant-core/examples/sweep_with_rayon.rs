@@ -15,7 +15,8 @@ pub(crate) fn main() -> Result<(), Failure> {
     println!("stop from   head   chest   lap belt   torso belt");
     for (mph, row) in speeds_mph.iter().zip(rows?) {
         let (head, chest) = (row.accelerations.head.peak_g, row.accelerations.chest.peak_g);
-        let [lap, torso] = [0, 1].map(|i| 1e-3 * row.belts[i].loop_force_n);
+        let force_n = |belt| row.elements["belts"].number(belt, "loop_force_n").unwrap_or(0.0);
+        let [lap, torso] = ["lap", "torso"].map(|belt| 1e-3 * force_n(belt));
         println!("{mph:5} mph {head:5.0} g {chest:5.0} g {lap:7.1} kN {torso:9.1} kN");
     }
     Ok(())

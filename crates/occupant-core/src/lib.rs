@@ -62,7 +62,7 @@
 //! use occupant_core::forces::contact::material::Material;
 //! use occupant_core::forces::joint::Joints;
 //! use occupant_core::forces::spring::BilinearSpring;
-//! use occupant_core::model::{Model, builder::SetupBuilder, seating::InitialPosture};
+//! use occupant_core::model::{Model, seating::InitialPosture, setup::SetupBuilder};
 //! use occupant_core::motion::report_coordinates::{DOF, ReportCoordinates};
 //! use occupant_core::results::summary::Summarizer;
 //! use occupant_core::run::simulate::simulate;
@@ -123,7 +123,7 @@
 //! | [`forces`] | surfaces and contact, belts, joints: their data, laws and memory |
 //! | [`motion`] | frames, state, kinematics, equations of motion, integrators; numbers as scalars, dual numbers and lanes |
 //! | [`kernel`] | the rate of change of the state: motion and forces put together |
-//! | [`model`] | [`model::setup`] and its [`model::builder`]; checks, seating, settling: everything before the first step |
+//! | [`model`] | [`model::setup`] and its builder; checks, seating, settling: everything before the first step |
 //! | [`run`] | steps, output times, many runs side by side ([`run::batch`]) |
 //! | [`results`] | samples, channels, reactions, energies, recorders, summaries, checkpoints to resume from |
 //! | [`diagnosis`] | what will be simulated and whether the step suits it, before a run |

@@ -1,7 +1,6 @@
 //! What a viewer draws: transforms, shapes, belts and forces.
 
 use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
-use occupant_cli::mcap::scene::belts::course_m;
 use occupant_core::body::tti12::TTI12;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
@@ -134,10 +133,10 @@ fn belts_go_from_anchor_to_anchor_round_the_sphere() {
     let model = model();
     let (mut worst_end, mut worst_length) = (0.0_f64, 0.0_f64);
     let watch = Watch(|s: &Sample<'_>| {
-        for (belt, action) in model.setup().belts.iter().zip(&s.actions.belts) {
+        for ((belt, action), line) in model.setup().belts.iter().zip(&s.actions.belts).zip(s.lines()) {
             let radius = model.body().spheres[belt.sphere].radius_m;
             let centre = s.sphere_centre_m(belt.sphere);
-            let course = course_m(belt, radius, centre, action);
+            let course = line.points_m;
             let last = course.len() - 1;
             assert_eq!((course[0], course[last]), (belt.anchors_m[0], belt.anchors_m[1]));
             for p in &course[1..last] {

@@ -10,9 +10,10 @@ use nalgebra::Vector3;
 use serde::Serialize;
 
 pub use crate::forces::rate::Rate;
+use crate::forces::table::Tables;
 pub use friction::{FrictionWatch, UnstableFriction};
 pub use rates::{RK4_STABILITY_LIMIT, SphereRate};
-pub use start::{BeltStart, ContactStart, SeatStart, SettleStart, SphereBehind};
+pub use start::{ContactStart, SeatStart, SettleStart, SphereBehind};
 
 use crate::body::Segment;
 use crate::model::Model;
@@ -43,11 +44,12 @@ pub struct Diagnosis {
     pub contacts: Vec<ContactStart>,
     /// Spheres that start behind a surface and do not feel it until they have come out.
     pub behind: Vec<SphereBehind>,
-    /// Belts.
-    pub belts: Vec<BeltStart>,
+    /// Force elements that have something to say of themselves.
+    #[serde(flatten)]
+    pub elements: Tables,
     /// Contact springs, by sphere.
     pub sphere_rates: Vec<SphereRate>,
-    /// Belt springs, joint dampers and joint springs.
+    /// Of all other force elements: springs and dampers.
     pub other_rates: Vec<Rate>,
     /// The fastest of all.
     pub fastest: Option<Rate>,
@@ -155,7 +157,7 @@ pub fn diagnose(model: &Model) -> Diagnosis {
         seat: start::seat(model),
         contacts: start.contacts,
         behind: start::behind(model, &mobility),
-        belts: start.belts,
+        elements: start.elements,
         sphere_rates,
         other_rates,
         fastest,

@@ -1,4 +1,4 @@
-//! Where things stand at the start: seat, contacts, belts.
+//! Where things stand at the start: seat, contacts, other force elements.
 
 use serde::Serialize;
 
@@ -9,6 +9,7 @@ use crate::forces::contact::face;
 use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::contact::surface::{Frame, Outline};
 use crate::forces::rate::Rate;
+use crate::forces::table::Tables;
 use crate::model::Model;
 use crate::model::seating::InitialPosture;
 use crate::motion::mobility::Mobility;
@@ -77,28 +78,11 @@ pub struct SphereBehind {
     pub behind_m: f64,
 }
 
-/// A belt at the start.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct BeltStart {
-    /// Name of the belt.
-    pub belt: String,
-    /// Name of the sphere that it loops round.
-    pub sphere: String,
-    /// Length on the body.
-    pub length_m: f64,
-    /// Unstretched length.
-    pub rest_length_m: f64,
-    /// Angle of the sphere that it wraps.
-    pub wrap_deg: f64,
-    /// Loop force.
-    pub loop_force_n: f64,
-}
-
 /// What the first sample of a run tells.
 #[derive(Default)]
 pub(super) struct Look {
     pub contacts: Vec<ContactStart>,
-    pub belts: Vec<BeltStart>,
+    pub elements: Tables,
     /// Of force elements.
     pub rates: Vec<Rate>,
 }
@@ -124,7 +108,7 @@ impl Recorder for First<'_> {
         let data = model.setup().forces(model.faces());
         self.look = Look {
             contacts: sample.contacts().map(|c| contact(sample, &c)).collect(),
-            belts: belts(sample),
+            elements: sample.start_tables(),
             rates: data.rates(model.body(), &at, sample.actions, self.mobility),
         };
         Ok(Flow::Stop)
@@ -139,23 +123,6 @@ fn contact(sample: &Sample<'_>, contact: &Contact) -> ContactStart {
         depth_m: contact.depth_m,
         normal_force_n: contact.normal_force_n,
     }
-}
-
-fn belts(sample: &Sample<'_>) -> Vec<BeltStart> {
-    let model = sample.model;
-    let setup = model.setup();
-    let laws = setup.belts.iter().zip(&model.system().forces.belts);
-    let belts = laws.zip(&sample.actions.belts);
-    belts
-        .map(|((belt, law), action)| BeltStart {
-            belt: belt.name.clone(),
-            sphere: setup.body.spheres[belt.sphere].name.clone(),
-            length_m: action.length,
-            rest_length_m: law.rest_length,
-            wrap_deg: action.wrap.to_degrees(),
-            loop_force_n: action.loop_force,
-        })
-        .collect()
 }
 
 /// The seating's figures, if the body was seated.

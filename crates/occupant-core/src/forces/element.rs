@@ -13,14 +13,14 @@ use crate::motion::scalar::Scalar;
 use crate::motion::state::{State, Work};
 use crate::motion::vector::V3;
 use crate::problem::Problems;
-use crate::quantity::{Energy, Quantity};
+use crate::quantity::{Energy, FieldWords, Quantity};
 
 /// A kind of force element: all elements of one kind in a model share a law, a place in the energy ledger, and the way in
 /// which they are checked, laid, remembered and compared.
 ///
 /// The type that implements it is only a name; the types of its law and memory stand beside it. A kind may use the body,
 /// its motion and the frames, and knows no other kind.
-pub trait Element {
+pub trait Element: Sized {
     /// Where the energy stands that the elements store.
     const STORED: StoredEnergy;
     /// The work sums that they add to.
@@ -144,8 +144,24 @@ pub struct StoredEnergy {
     pub at: usize,
     /// What it is called in results.
     pub quantity: Quantity<Energy>,
-    /// The work sum that also holds it, by place; none if it follows from the posture alone.
-    pub held_by: Option<usize>,
+    /// The work sum that also holds it; none if it follows from the posture alone.
+    pub held_by: Option<HeldBy>,
+}
+
+/// A work sum that holds a stored energy as well: what is dissipated is the sum less what is stored since the start.
+#[derive(Clone, Copy, Debug)]
+pub struct HeldBy {
+    /// Its place.
+    pub sum: usize,
+    /// The field in which a result file keeps the energy at the start of the run.
+    pub start: FieldWords,
+}
+
+impl HeldBy {
+    /// The sum at a place, and the field of the energy at the start.
+    pub(crate) const fn sum(sum: usize, number: u32, stem: &'static str, meaning: &'static str) -> Option<Self> {
+        Some(HeldBy { sum, start: FieldWords { number, stem, meaning } })
+    }
 }
 
 /// A sum of work in [`Work::sums`].

@@ -5,6 +5,8 @@ use super::contact::Contacts;
 use super::element::{Element, Hints as _, Instant, Load, Misfit, StoredEnergy, Unlike, WorkSum};
 use super::joint::JointMoments;
 use super::rate::Rate;
+use super::shown::Reported;
+use super::stored::Archive;
 use crate::body::Body;
 use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
@@ -73,6 +75,39 @@ macro_rules! kinds {
                     self.$kind.push(*action);
                 }
             )+
+        }
+
+        $(
+            impl Listed for $Kind {
+                fn data<'a>(all: &Data<'a>) -> Self::Data<'a> {
+                    all.$kind
+                }
+                fn law<S>(all: &Forces<S>) -> &Self::Law<S> {
+                    &all.$kind
+                }
+                fn actions<S>(all: &Actions<S>) -> &[Self::Action<S>] {
+                    &all.$kind
+                }
+            }
+        )+
+
+        /// Visits the kinds in the order in which their forces are added.
+        pub fn visit_kinds(visitor: &mut impl Visitor) {
+            $(visitor.visit::<$Kind>();)+
+        }
+
+        impl<S> Memory<S> {
+            /// That of no elements.
+            pub(crate) fn none() -> Self {
+                Memory { $($kind: Vec::new()),+ }
+            }
+        }
+
+        impl Memory<f64> {
+            /// Exchanges everything with a result file; see [`Reported::keep`].
+            pub(crate) fn keep(&mut self, like: Option<&Self>, file: &mut dyn Archive) {
+                $($Kind::keep(&mut self.$kind, like.map(|all| &all.$kind[..]), file);)+
+            }
         }
 
         impl<S> Actions<S> {
@@ -261,6 +296,22 @@ kinds! {
     contacts: Contacts,
     belts: Belts,
     joints: JointMoments,
+}
+
+/// A kind of the list, with its part of all that goes over all kinds.
+pub trait Listed: Reported {
+    /// What a setup says of it.
+    fn data<'a>(all: &Data<'a>) -> Self::Data<'a>;
+    /// Its law.
+    fn law<S>(all: &Forces<S>) -> &Self::Law<S>;
+    /// What it does.
+    fn actions<S>(all: &Actions<S>) -> &[Self::Action<S>];
+}
+
+/// What is done with every kind of the list.
+pub trait Visitor {
+    /// Does it with one.
+    fn visit<E: Listed>(&mut self);
 }
 
 /// Sees nothing.

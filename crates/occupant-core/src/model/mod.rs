@@ -1,6 +1,5 @@
 //! The model: a checked [`Setup`] with all that can be computed before the first step. Immutable, shared by all threads.
 
-pub mod builder;
 pub mod seat;
 pub mod seating;
 pub mod settle;

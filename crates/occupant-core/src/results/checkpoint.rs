@@ -3,9 +3,11 @@
 //!
 //! What follows from the scenario alone (β₀, L₀, the body at the start) is not in it: the model has it.
 
-use crate::forces::{History, Memory, Misfit};
+use crate::forces::stored::Archive;
+use crate::forces::{History, Memory, Misfit, STORED};
 use crate::model::Model;
 use crate::motion::state::State;
+use crate::quantity::FieldWords;
 use crate::results::energy::EnergyStart;
 use crate::results::outcome::FirstTouch;
 use crate::results::sample::Effort;
@@ -63,7 +65,7 @@ impl StepUnderWay<'_> {
 }
 
 /// Sums and extremes of a run so far.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Progress {
     /// Work of the integrator.
     pub effort: Effort,
@@ -77,6 +79,27 @@ pub struct Progress {
     pub greatest_kinetic_j: f64,
     /// Greatest energy imbalance among the outputs, J.
     pub greatest_imbalance_j: f64,
+}
+
+impl Progress {
+    #[rustfmt::skip]
+    fn keep(&mut self, file: &mut dyn Archive) {
+        file.count(words(15, "steps", "accepted steps so far"), &mut self.effort.steps);
+        file.count(words(16, "rejected", "rejected steps so far"), &mut self.effort.rejected);
+        file.count(words(17, "evaluations", "evaluations of the derivative so far"), &mut self.effort.evaluations);
+        file.number(words(18, "last_step_s", "last accepted step"), &mut self.effort.step_s);
+        file.number(words(19, "wanted_step_s", "step that the error control wants next"), &mut self.wanted_s);
+        let start = &mut self.energy_start;
+        file.number(words(20, "start_mechanical_j", "kinetic, gravity and spring energy at the start of the run"), &mut start.mechanical_j);
+        for energy in STORED {
+            if let Some(held) = energy.held_by {
+                file.number(held.start, &mut start.stored_j[energy.at]);
+            }
+        }
+        file.number(words(23, "greatest_kinetic_j", "greatest kinetic energy relative to the vehicle so far"), &mut self.greatest_kinetic_j);
+        file.number(words(24, "greatest_imbalance_j", "greatest energy imbalance so far"), &mut self.greatest_imbalance_j);
+        file.number(words(25, "step_error", "error of the last accepted step in units of the tolerance"), &mut self.step_error);
+    }
 }
 
 /// A checkpoint that is none of a model's.
@@ -124,7 +147,90 @@ fn other_time(index: usize, found_s: f64, expected_s: Option<f64>) -> String {
     }
 }
 
+/// How `state` is written.
+const STATE: &str = "75 numbers in space axes, SI: T1; w, x, y, z of the 8 free segments (middle_torso, upper_torso, head, \
+lower_torso, left_upper_arm, right_upper_arm, left_thigh, right_thigh); 4 hinges (left_forearm, right_forearm, left_lower_leg, \
+right_lower_leg); velocity of T1; angular velocities of the 8; hinge rates; work of contacts, friction, joints, belts, vehicle";
+
+const STEP: &str =
+    "start and end of the step in which the output lies, if it goes on beyond it; the columns below tell its start";
+
+const fn words(number: u32, stem: &'static str, meaning: &'static str) -> FieldWords {
+    FieldWords { number, stem, meaning }
+}
+
 impl Checkpoint {
+    /// A checkpoint of what `file` gives back; what it does not have stays blank.
+    pub fn stored(file: &mut dyn Archive) -> Self {
+        let mut checkpoint = Checkpoint {
+            index: 0,
+            time_s: 0.0,
+            state: State::zero(),
+            memory: Memory::none(),
+            first_touches: Vec::new(),
+            progress: Progress::default(),
+            under_way: None,
+        };
+        checkpoint.keep(file);
+        checkpoint
+    }
+
+    /// Exchanges everything with a result file.
+    pub fn keep(&mut self, file: &mut dyn Archive) {
+        let mut index = self.index as u64;
+        file.number(words(1, "time_s", "time of the scenario"), &mut self.time_s);
+        file.count(words(2, "output", "number of the output, from 0"), &mut index);
+        self.index = index as usize;
+        let state = file.numbers(words(3, "state", STATE), self.state.to_numbers().to_vec());
+        self.state = to_state(&state, file);
+        self.memory.keep(None, file);
+        self.keep_touches(file);
+        self.progress.keep(file);
+        self.keep_step(file);
+    }
+
+    fn keep_touches(&mut self, file: &mut dyn Archive) {
+        let touches = &self.first_touches;
+        let spheres = touches.iter().map(|touch| touch.sphere as u32).collect();
+        let surfaces = touches.iter().map(|touch| touch.surface as u32).collect();
+        let times_s = touches.iter().map(|touch| touch.time_s).collect();
+        let closing_m_s = touches.iter().map(|touch| touch.closing_m_s).collect();
+        let meaning = "index of the sphere of each first touch so far";
+        let spheres = file.indices(words(11, "first_touch_sphere", meaning), spheres);
+        let surfaces = file.indices(words(12, "first_touch_surface", "index of its surface"), surfaces);
+        let times_s = file.numbers(words(13, "first_touch_time_s", "its time"), times_s);
+        let closing_m_s = file.numbers(words(14, "first_touch_closing_m_s", "its closing speed"), closing_m_s);
+        if [surfaces.len(), times_s.len(), closing_m_s.len()] != [spheres.len(); 3] {
+            return file.refuse("lists of first touches that do not fit each other");
+        }
+        let touch = |(i, sphere): (usize, u32)| FirstTouch {
+            sphere: sphere as usize,
+            surface: surfaces[i] as usize,
+            time_s: times_s[i],
+            closing_m_s: closing_m_s[i],
+        };
+        self.first_touches = spheres.into_iter().enumerate().map(touch).collect();
+    }
+
+    fn keep_step(&mut self, file: &mut dyn Archive) {
+        let step = self.under_way.take();
+        let (times_s, state, mut memory) = match step {
+            Some(step) => (vec![step.start_s, step.end_s], step.state.to_numbers().to_vec(), step.memory),
+            None => (Vec::new(), Vec::new(), Memory::none()),
+        };
+        let times_s = file.numbers(words(26, "step_times_s", STEP), times_s);
+        file.begin_step();
+        let state = file.numbers(words(27, "state", STATE), state);
+        memory.keep(Some(&self.memory), file);
+        match times_s[..] {
+            [] => {}
+            [start_s, end_s] => {
+                self.under_way = Some(StepStart { start_s, end_s, state: to_state(&state, file), memory });
+            }
+            _ => file.refuse("other than two times of a step"),
+        }
+    }
+
     /// Whether a run of `model` can go on from here.
     ///
     /// # Errors
@@ -181,4 +287,11 @@ fn check_histories(memory: &Memory<f64>, state: &State<f64>) -> Result<(), Check
 fn check_finite(numbers: impl IntoIterator<Item = f64>) -> Result<(), CheckpointError> {
     let are_finite = numbers.into_iter().all(f64::is_finite);
     are_finite.then_some(()).ok_or(CheckpointError::Memory(Misfit::NotFinite))
+}
+
+fn to_state(numbers: &[f64], file: &mut dyn Archive) -> State<f64> {
+    numbers.try_into().map(State::from_numbers).unwrap_or_else(|_| {
+        file.refuse("a state of another number of coordinates");
+        State::zero()
+    })
 }

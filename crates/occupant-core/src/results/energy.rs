@@ -4,7 +4,7 @@
 //! weights. With W_v the work of the moving vehicle on the occupant, kinetic + gravity + what is stored without a work
 //! sum + Σ work sums − W_v stays what it was at the start.
 
-use crate::forces::{KINDS, STORED, StoredEnergy};
+use crate::forces::{HeldBy, KINDS, STORED, StoredEnergy};
 use crate::motion::frame::Moving;
 use crate::motion::kinematics::Kinematics;
 use crate::motion::skeleton::Skeleton;
@@ -59,7 +59,7 @@ impl EnergyLedger {
             balance_j: 0.0,
         };
         for energy in STORED {
-            if let Some(sum) = energy.held_by {
+            if let Some(HeldBy { sum, .. }) = energy.held_by {
                 ledger.lost_j[sum] = work.sums[sum] + start.stored_j[energy.at] - stored_j[energy.at];
             }
         }

@@ -9,7 +9,7 @@
 //! τ = Iα + ω × Iω + r × M (a + g Z′) − T + Σ (τ_distal + c × f_distal)
 //! ```
 //!
-//! F and T are contacts and belts. The moment of a ball joint is that of its damper, stop and spring, for it constrains none;
+//! F and T are the loads of contacts and all other force elements but joints. The moment of a ball joint is that of its damper, stop and spring, for it constrains none;
 //! a hinge adds the two constraint moments across its axis.
 
 use nalgebra::Vector3;
@@ -49,7 +49,7 @@ fn in_axes(sample: &Sample<'_>, distal: Segment, load: Wrench<f64>) -> Reaction 
     Reaction { force_n: axes.into_frame(load.force).to_vector(), moment_n_m: axes.into_frame(load.moment).to_vector() }
 }
 
-/// Loads of contacts and belts, from which reactions follow.
+/// Loads of force elements, from which reactions follow.
 struct Loads<'s, 'a> {
     sample: &'s Sample<'a>,
     /// Moments of dampers, stops and springs, which the evaluation counts among the loads.
@@ -98,7 +98,7 @@ impl<'s, 'a> Loads<'s, 'a> {
 }
 
 /// Axial force in a thigh at its knee end, tension positive as a load cell in the femur reports it, N: what the shank, the
-/// contact spheres at that end and belts on them pull along the thigh. The thigh's own mass beyond a load cell in its middle
+/// contact spheres at that end and elements on them pull along the thigh. The thigh's own mass beyond a load cell in its middle
 /// is not taken off.
 ///
 /// Spheres in the distal half of the thigh count as at the knee.
@@ -113,8 +113,8 @@ pub fn femur_axial_n(sample: &Sample<'_>, thigh: Segment) -> f64 {
         let sphere = &body.spheres[*s];
         sphere.segment == thigh && sphere.centre_from_lower_end_m.z < half_m
     };
-    let pushed: Vector3<f64> =
-        (0..body.spheres.len()).filter(at_knee).map(|s| sample.sphere_force_n(s) + sample.sphere_belt_force_n(s)).sum();
+    let of_sphere = |s| sample.sphere_force_n(s) + sample.sphere_pull_n(s, None);
+    let pushed: Vector3<f64> = (0..body.spheres.len()).filter(at_knee).map(of_sphere).sum();
     let pushed = V3::of(&sample.vehicle.vector_to_space(pushed));
     // Z of a thigh points from the knee to the hip: a force at the knee against it pulls
     -(pushed - carried).dot(k.axes[thigh.index()].z)

@@ -53,7 +53,7 @@ pub struct Sample<'a> {
     pub vehicle_pose: VehiclePose,
     /// Derived motion, loads and accelerations.
     pub evaluation: &'a Evaluation<f64>,
-    /// What force elements do: pairs that exert a force, belts and ball joints in the model's order.
+    /// What force elements do, each kind in the model's order.
     pub actions: &'a Actions<f64>,
     /// Energies.
     pub energy: EnergyLedger,
@@ -159,7 +159,7 @@ impl<'a> Sample<'a> {
         self.actions.contacts.iter().map(move |t| sample.contact(t))
     }
 
-    /// Sum of contact and friction forces on a sphere, vehicle axes, N; belts apart (item 5).
+    /// Sum of contact and friction forces on a sphere, vehicle axes, N; other elements apart (item 5).
     pub fn sphere_force_n(&self, sphere: usize) -> Vector3<f64> {
         let own = self.actions.contacts.iter().filter(|t| t.sphere == sphere);
         own.map(|t| self.contact(t).force_n).sum()
@@ -171,11 +171,15 @@ impl<'a> Sample<'a> {
         own.map(|t| t.depth).fold(0.0, f64::max)
     }
 
-    /// Force of belts on a sphere, vehicle axes, N.
-    pub fn sphere_belt_force_n(&self, sphere: usize) -> Vector3<f64> {
-        let laws = &self.model.system().forces.belts;
-        let own = laws.iter().zip(&self.actions.belts).filter(|(law, _)| law.sphere == sphere);
-        own.map(|(_, action)| action.force.to_vector()).sum()
+    /// Force of all elements but contacts on a sphere, or of those called `of` alone, vehicle axes, N.
+    pub fn sphere_pull_n(&self, sphere: usize, of: Option<&str>) -> Vector3<f64> {
+        let mut sum_n = Vector3::zeros();
+        self.pulls(&mut |pull| {
+            if pull.sphere == sphere && of.is_none_or(|of| pull.of == of) {
+                sum_n += pull.force_n;
+            }
+        });
+        sum_n
     }
 
     /// Centre of a sphere, vehicle axes, m.

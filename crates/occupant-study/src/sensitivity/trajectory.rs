@@ -99,7 +99,7 @@ fn pass<const N: usize>(model: &Model, built: &mut [Built]) -> Result<Trajectory
         for step in taken.drain(..) {
             let stop_s = breaks_s.iter().copied().find(|&b| b > step.start_s);
             tangent.step(step, stop_s.unwrap_or(f64::INFINITY), &mut scene);
-            lookout.look(model, &scene, tangent.latest());
+            lookout.look(model, &mut scene, tangent.latest());
         }
         run.taken = Some(taken);
     }

@@ -2,6 +2,8 @@
 
 use occupant_core::diagnosis::{Diagnosis, Rate, SeatStart};
 
+use super::elements;
+use super::summary::Marks;
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, Table, facts, plain};
 
@@ -12,9 +14,7 @@ pub(crate) fn check_text(d: &Diagnosis) -> String {
         parts.push(seating(seat));
     }
     parts.push(contacts(d));
-    if !d.belts.is_empty() {
-        parts.push(belts(d));
-    }
+    parts.extend(elements::texts(&d.elements, &Marks::none()));
     parts.push(sphere_rates(d));
     if !d.other_rates.is_empty() {
         parts.push(other_rates(d));
@@ -106,28 +106,6 @@ fn contacts(d: &Diagnosis) -> String {
             c.surface.clone(),
             format!("{:.2}", c.depth_m * 1e3),
             format!("{:.1}", c.normal_force_n),
-        ]);
-    }
-    table.text()
-}
-
-fn belts(d: &Diagnosis) -> String {
-    let mut table = Table::new(&[
-        ("belt", Left),
-        ("round", Left),
-        ("length, m", Right),
-        ("unstretched, m", Right),
-        ("wrap, °", Right),
-        ("loop force, N", Right),
-    ]);
-    for b in &d.belts {
-        table.row([
-            b.belt.clone(),
-            b.sphere.clone(),
-            format!("{:.4}", b.length_m),
-            format!("{:.4}", b.rest_length_m),
-            format!("{:.1}", b.wrap_deg),
-            format!("{:.1}", b.loop_force_n),
         ]);
     }
     table.text()

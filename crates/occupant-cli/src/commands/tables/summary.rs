@@ -2,9 +2,11 @@
 
 use std::collections::BTreeSet;
 
-use occupant_core::results::summary::{Acceleration, ContactBegin, FirstContact, Level, RunStatus, Summary, word};
+use occupant_core::results::summary::{
+    Acceleration, ContactBegin, FirstContact, Level, Peak, RunStatus, Summary, word,
+};
 
-use super::measures;
+use super::{elements, measures};
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, Table, facts, number, plain};
 use crate::jobs::run::recording::Written;
@@ -38,12 +40,10 @@ impl Marks {
     }
 }
 
-/// The table: title, accelerations, belts, first contacts, and how far to trust the run.
+/// The table: title, accelerations, force elements, first contacts, and how far to trust the run.
 pub(crate) fn summary_table(summary: &Summary, written: &Written, marks: &Marks) -> String {
     let mut parts = vec![title(summary), accelerations(summary, marks)];
-    if !summary.belts.is_empty() {
-        parts.push(belts(summary, marks));
-    }
+    parts.extend(elements::texts(&summary.elements, marks));
     if !summary.first_contacts.is_empty() {
         parts.push(first_contacts(summary, marks));
     }
@@ -97,28 +97,6 @@ fn acceleration(name: &str, part: &Acceleration, marks: &Marks) -> [String; 6] {
         held.map_or(NONE.to_owned(), |l| format!("{}–{}", ms(l.from_s), ms(l.to_s))),
         mark("three_ms_cumulative", level(total)),
     ]
-}
-
-fn belts(summary: &Summary, marks: &Marks) -> String {
-    let mut table = Table::new(&[
-        ("belt", Left),
-        ("loop force, N", Right),
-        ("at, ms", Right),
-        ("stretch, mm", Right),
-        ("force on body, N", Right),
-    ]);
-    for belt in &summary.belts {
-        let name = word(&belt.belt);
-        let mark = |figure: &str, text| marks.put(&format!("belts.{name}.{figure}"), text);
-        table.row([
-            belt.belt.clone(),
-            mark("peak", number(belt.loop_force_n, 0)),
-            mark("peak_time", belt.time_s.map_or(NONE.to_owned(), ms)),
-            mark("stretch", number(belt.elongation_m * 1e3, 1)),
-            mark("body_peak", number(belt.body_force_n, 0)),
-        ]);
-    }
-    table.text()
 }
 
 fn first_contacts(summary: &Summary, marks: &Marks) -> String {
@@ -180,17 +158,17 @@ fn touch(contact: &ContactBegin) -> [String; 3] {
 fn trust(summary: &Summary, written: &Written, marks: &Marks) -> String {
     let mut lines = Vec::new();
     if let Some(e) = &summary.head_excursion {
-        let mm = |way: &str, distance_m: f64| {
-            let text = format!("{way} {} mm", number(distance_m * 1e3, 0));
+        let mm = |way: &str, peak: Peak| {
+            let text = format!("{way} {} mm", number(peak.value * 1e3, 0));
             let marked = marks.put(&format!("head_excursion.{way}"), text);
             marked.trim_end().to_owned()
         };
         let ways = [
-            format!("{} at {} ms", mm("forward", e.forward_m), ms(e.forward_time_s)),
-            mm("up", e.up_m),
-            mm("down", e.down_m),
-            mm("left", e.left_m),
-            mm("right", e.right_m),
+            format!("{} at {} ms", mm("forward", e.forward), ms(e.forward.time_s)),
+            mm("up", e.up),
+            mm("down", e.down),
+            mm("left", e.left),
+            mm("right", e.right),
         ];
         lines.push(("head excursion", ways.join(", ")));
     }
@@ -224,6 +202,6 @@ fn integration(summary: &Summary) -> String {
 }
 
 /// Seconds as milliseconds.
-fn ms(time_s: f64) -> String {
+pub(super) fn ms(time_s: f64) -> String {
     format!("{:.1}", time_s * 1e3)
 }

@@ -73,7 +73,7 @@ impl Schemas {
         let fields = message.fields.iter().map(|f| described(f.number, &f.name, f.kind));
         let described = descriptor::set(&file(message.name, fields), &self.library);
         let schema = writer.add_schema(&full, PROTOBUF, &described)?;
-        let meaning = |field: &Field| (field.name.clone(), field.meaning.to_owned());
+        let meaning = |field: &Field| (field.name.clone(), field.meaning.clone().into_owned());
         let metadata: BTreeMap<String, String> = message.fields.iter().map(meaning).collect();
         let id = writer.add_channel(schema, &message.topic, PROTOBUF, &metadata)?;
         Ok(Channel { id, sequence: 0 })

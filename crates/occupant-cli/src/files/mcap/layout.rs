@@ -68,7 +68,7 @@ fn scene() -> Value {
             topics::COMPARTMENT_SCENE: {"visible": true},
             topics::BODY_SCENE: {"visible": true},
             topics::SPHERES_SCENE: {"visible": false},
-            topics::BELTS_SCENE: {"visible": true},
+            topics::LINES_SCENE: {"visible": true},
             topics::FORCES_SCENE: {"visible": true},
             topics::LABELS_SCENE: {"visible": false},
         },

@@ -19,7 +19,7 @@ use super::log::Names;
 use super::press::Press;
 use super::transforms::FrameNames;
 use super::wire::Wire;
-use super::{about, layout, log, messages, scene, topics, transforms};
+use super::{about, checkpoint, layout, log, messages, scene, topics, transforms};
 
 /// How a run is written.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -68,7 +68,7 @@ struct Tracks {
     names: Names,
     messages: Vec<(Message, Channel)>,
     transforms: Channel,
-    belts: Channel,
+    lines: Channel,
     forces: Channel,
     log: Channel,
 }
@@ -175,7 +175,7 @@ impl Tracks {
             names: Names::of(model),
             messages: with_channels,
             transforms: add(topics::TRANSFORMS, FRAME_TRANSFORMS)?,
-            belts: add(topics::BELTS_SCENE, SCENE_UPDATE)?,
+            lines: add(topics::LINES_SCENE, SCENE_UPDATE)?,
             forces: add(topics::FORCES_SCENE, SCENE_UPDATE)?,
             log: add(topics::LOG, LOG)?,
         })
@@ -191,7 +191,12 @@ impl Tracks {
         for (message, channel) in &mut self.messages {
             wire.clear();
             for field in &message.fields {
-                wire.value(field.number, &field.source.value(sample));
+                if let Some(source) = &field.source {
+                    wire.value(field.number, &source.value(sample));
+                }
+            }
+            if message.topic == checkpoint::TOPIC {
+                checkpoint::write(wire, sample);
             }
             press.write(channel.next(ns), wire.bytes());
         }
@@ -209,8 +214,8 @@ impl Tracks {
         transforms::write(wire, ns, sample, &self.frames);
         press.write(self.transforms.next(ns), wire.bytes());
         wire.clear();
-        scene::belts::write(wire, ns, sample);
-        press.write(self.belts.next(ns), wire.bytes());
+        scene::lines::write(wire, ns, sample);
+        press.write(self.lines.next(ns), wire.bytes());
         wire.clear();
         scene::forces::write(wire, ns, sample, m_per_n);
         press.write(self.forces.next(ns), wire.bytes());

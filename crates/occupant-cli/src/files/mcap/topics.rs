@@ -12,9 +12,9 @@ pub(crate) const COMPARTMENT_SCENE: &str = "/scene/compartment";
 pub(crate) const BODY_SCENE: &str = "/scene/body";
 /// Contact spheres, written once; the transforms move them.
 pub(crate) const SPHERES_SCENE: &str = "/scene/spheres";
-/// Belts, every frame.
-pub(crate) const BELTS_SCENE: &str = "/scene/belts";
-/// Contact and belt forces, every frame.
+/// Lines of force elements, every frame.
+pub(crate) const LINES_SCENE: &str = "/scene/belts";
+/// Forces on the body, every frame.
 pub(crate) const FORCES_SCENE: &str = "/scene/forces";
 /// Names and open sides of the surfaces, written once.
 pub(crate) const LABELS_SCENE: &str = "/scene/labels";

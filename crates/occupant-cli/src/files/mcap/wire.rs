@@ -1,4 +1,5 @@
-//! The protobuf wire format, written straight into one buffer that is used again for every message.
+//! The protobuf wire format, written straight into one buffer that is used again for every message, and read back as far
+//! as a run needs it to resume.
 //!
 //! Fields are always written, also where they are zero: a file then holds every bit that was recorded (the usual writers
 //! leave zeros out, and −0 with them).
@@ -144,6 +145,52 @@ impl Wire {
             value >>= 7;
         }
         self.bytes.push(value as u8);
+    }
+}
+
+/// What is not read yet of a message whose fields were all written in one order.
+#[derive(Clone, Copy)]
+pub(crate) struct Rest<'a>(pub(crate) &'a [u8]);
+
+impl<'a> Rest<'a> {
+    /// Reads the next field into `value`, if it is `field` and of its type.
+    pub(crate) fn value(&mut self, field: u32, value: &mut Value) -> Option<()> {
+        let mut ahead = *self;
+        let wire_type = match value {
+            Value::Count(_) => VARINT,
+            Value::Number(_) => FIXED_64,
+            _ => LENGTH_DELIMITED,
+        };
+        if ahead.varint()? != u64::from(field << 3 | wire_type) {
+            return None;
+        }
+        match value {
+            Value::Count(count) => *count = ahead.varint()?,
+            Value::Number(number) => *number = f64::from_le_bytes(*ahead.0.split_off(..8)?.first_chunk()?),
+            Value::Numbers(list) => *list = ahead.list()?.iter().copied().map(f64::from_le_bytes).collect(),
+            Value::Indices(list) => *list = ahead.list()?.iter().copied().map(u32::from_le_bytes).collect(),
+            _ => return None,
+        }
+        *self = ahead;
+        Some(())
+    }
+
+    fn list<const N: usize>(&mut self) -> Option<&'a [[u8; N]]> {
+        let size = usize::try_from(self.varint()?).ok()?;
+        let (list, odd) = self.0.split_off(..size)?.as_chunks();
+        odd.is_empty().then_some(list)
+    }
+
+    fn varint(&mut self) -> Option<u64> {
+        let mut value = 0;
+        for shift in (0..64).step_by(7) {
+            let byte = self.0.split_off_first()?;
+            value |= u64::from(byte & 0x7f) << shift;
+            if *byte < 0x80 {
+                return Some(value);
+            }
+        }
+        None
     }
 }
 

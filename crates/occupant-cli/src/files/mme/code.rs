@@ -29,8 +29,8 @@ pub(crate) struct Code([u8; 16]);
 pub(crate) struct Place {
     /// Main and fine locations 1 and 2, eight characters.
     pub(crate) location: &'static str,
-    /// Fine location 3 of a belt; that of the dummy if absent.
-    pub(crate) belt: Option<&'static str>,
+    /// Fine location 3 of webbing; that of the dummy if absent.
+    pub(crate) webbing: Option<&'static str>,
     /// Physical dimension.
     pub(crate) dimension: &'static str,
     pub(crate) direction: char,
@@ -62,7 +62,7 @@ impl Code {
         let position = if place.of_vehicle { '0' } else { seat };
         let third = match place.of_vehicle {
             true => "00",
-            false => place.belt.unwrap_or(dummy),
+            false => place.webbing.unwrap_or(dummy),
         };
         let filter = class.map_or('0', ChannelClass::mme_letter);
         format!("1{position}{}{third}{}{}{filter}", place.location, place.dimension, place.direction).parse().ok()
@@ -76,7 +76,7 @@ impl Code {
     pub(crate) fn sign_for(&self, channel: &str, seat: char) -> Option<f64> {
         if let Some(rest) = channel.strip_prefix("belt.") {
             let name = rest.strip_suffix(".force")?;
-            let points = belt_points(name)?;
+            let points = webbing_points(name)?;
             let fits = self.part(2, 6) == "SEBE"
                 && self.part(12, 14) == "FO"
                 && points.contains(&self.part(10, 12))
@@ -109,8 +109,8 @@ pub(crate) fn place_of(model: &Model, channel: &Channel) -> Option<Place> {
         return place_of_name(&channel.name);
     };
     let name = rest.strip_suffix(".force")?;
-    let belt = model.setup().belts.iter().find(|b| b.name == name)?;
-    let segment = model.body().spheres.get(belt.sphere).map(|s| s.segment);
+    let round = model.named("belt").into_iter().find(|one| one.name == name)?.sphere;
+    let segment = model.body().spheres.get(round).map(|s| s.segment);
     let (segment, marks) = (segment?, model.body().tree.landmarks());
     let point = match segment {
         _ if segment == marks.pelvis => "B6",
@@ -119,7 +119,7 @@ pub(crate) fn place_of(model: &Model, channel: &Channel) -> Option<Place> {
     };
     Some(Place {
         location: "SEBE0000",
-        belt: Some(point),
+        webbing: Some(point),
         dimension: "FO",
         direction: '0',
         of_vehicle: false,
@@ -127,8 +127,8 @@ pub(crate) fn place_of(model: &Model, channel: &Channel) -> Option<Place> {
     })
 }
 
-/// Points of a belt (fine location 3) that a belt of this name may mean.
-fn belt_points(name: &str) -> Option<[&'static str; 2]> {
+/// Points of webbing (fine location 3) that a belt of this name may mean.
+fn webbing_points(name: &str) -> Option<[&'static str; 2]> {
     let has = |words: &[&str]| words.iter().any(|w| name.contains(w));
     match () {
         () if has(&["lap", "pelvis"]) => Some(["B5", "B6"]),
@@ -169,7 +169,7 @@ fn place_of_name(name: &str) -> Option<Place> {
         (true, 'Y' | 'Z') => -1.0,
         _ => 1.0,
     };
-    Some(Place { location, belt: None, dimension, direction, of_vehicle, sign })
+    Some(Place { location, webbing: None, dimension, direction, of_vehicle, sign })
 }
 
 #[cfg(test)]

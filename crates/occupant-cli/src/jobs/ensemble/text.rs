@@ -221,8 +221,7 @@ pub(crate) fn of_study(found: &Ensembles) -> String {
 }
 
 fn is_shown(name: &str) -> bool {
-    let belt = name.starts_with("belts.") && name.ends_with(".peak");
-    belt || ALWAYS.contains(&name)
+    (name.starts_with("belts.") && name.ends_with(".peak")) || ALWAYS.contains(&name)
 }
 
 fn first_sample(found: &Ensembles) -> String {

@@ -8,10 +8,10 @@ use serde::Serialize;
 use super::array::Array;
 use super::curves::Plot;
 use super::measures::Measure;
-use super::motion::{Belt, Contacts, Motion};
+use super::motion::{Contacts, Motion, MovingLine};
 use super::{curves, measures, provenance};
 use crate::base::failure::Failure;
-use crate::files::mcap::scene::compartment::corners_m;
+use crate::files::mcap::scene::compartment::{corners_m, square_m};
 use crate::files::results::Results;
 use crate::pictures::body::{Lump, PATCH_M, Part, Tone, parts, sphere_centre_m};
 
@@ -46,7 +46,8 @@ pub(crate) struct Run {
     parts: Vec<PartData>,
     spheres: Vec<SphereData>,
     surfaces: Vec<SurfaceData>,
-    belts: Vec<Belt>,
+    #[serde(rename = "belts")]
+    lines: Vec<MovingLine>,
     poses: Array,
     vehicle: Array,
     contacts: Contacts,
@@ -103,7 +104,7 @@ impl Run {
     /// None for a file that was opened.
     pub(crate) fn of(results: &Results) -> Result<Self, Failure> {
         let model = &results.model;
-        let mut motion = Motion::of(model);
+        let mut motion = Motion::new();
         let mut series = curves::series(model);
         results.replay(Both(&mut motion, &mut series))?;
         let summary = results.summary()?;
@@ -119,7 +120,7 @@ impl Run {
             parts: parts(model.body()).iter().map(PartData::of).collect(),
             spheres: spheres(results),
             surfaces: surfaces(results),
-            belts: motion.belts(model),
+            lines: motion.lines(),
             poses: motion.poses(),
             vehicle: motion.vehicle(),
             contacts: motion.contacts(),
@@ -152,13 +153,13 @@ impl PartData {
 
 fn spheres(results: &Results) -> Vec<SphereData> {
     let body = results.model.body();
-    let data = |(i, s): (usize, &occupant_core::body::ContactSphere)| SphereData {
+    let data = |s: &occupant_core::body::ContactSphere| SphereData {
         name: s.name.clone(),
         segment: s.segment.index(),
-        centre: sphere_centre_m(body, i).into(),
+        centre: sphere_centre_m(body, s).into(),
         radius: s.radius_m,
     };
-    body.spheres.iter().enumerate().map(data).collect()
+    body.spheres.iter().map(data).collect()
 }
 
 fn surfaces(results: &Results) -> Vec<SurfaceData> {
@@ -174,7 +175,8 @@ fn surfaces(results: &Results) -> Vec<SurfaceData> {
         let turned = |v: [f64; 3]| [0, 1, 2].map(|i| turn[i] * v[i]);
         let follows = !bounded && face.frame == Frame::Space;
         let foot = face.normal * face.offset_m;
-        let corners = corners_m(face).into_iter();
+        // a patch that follows the vehicle moves along the plane from its foot below the origin
+        let corners = if follows { square_m(face, foot.into(), PATCH_M) } else { corners_m(face) };
         SurfaceData {
             name: surface.name.clone(),
             frame: match face.frame {
@@ -183,20 +185,9 @@ fn surfaces(results: &Results) -> Vec<SurfaceData> {
             },
             bounded,
             material: surface.material,
-            // a patch that follows the vehicle moves along the plane from its foot below the origin
-            corners: match follows {
-                true => patch(face, foot).into_iter().map(turned).collect(),
-                false => corners.map(|p| turned(p.into())).collect(),
-            },
+            corners: corners.into_iter().map(|p| turned(p.into())).collect(),
             normal: turned(face.normal.into()),
         }
     })
     .collect()
-}
-
-/// A square of the plane about a point of it.
-fn patch(face: &occupant_core::forces::contact::flat_face::FlatFace, about: nalgebra::Vector3<f64>) -> Vec<[f64; 3]> {
-    let (u, v) = face.plane_axes();
-    let half = PATCH_M;
-    [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)].map(|(a, b)| (about + (u * a + v * b) * half).into()).to_vec()
 }

@@ -2,8 +2,9 @@
 
 use crash_measures::injury;
 use crash_measures::unit::Unit;
+use occupant_core::forces::table::{Holds, Table};
 use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
-use occupant_core::results::summary::Summary;
+use occupant_core::results::summary::{Peak, Summary};
 use serde::Serialize;
 
 /// A row of the table.
@@ -91,11 +92,7 @@ fn scale(unit: Unit) -> (&'static str, f64) {
 }
 
 fn add_loads(rows: &mut Vec<Measure>, summary: &Summary) {
-    for belt in &summary.belts {
-        let name = format!("Belt {}, loop force", belt.belt);
-        let force_kn = Some(belt.loop_force_n / 1e3);
-        rows.push(Measure::new("Loads", name, force_kn, "kN", belt.time_s));
-    }
+    rows.extend(summary.elements.values().flat_map(element_rows));
     for sphere in &summary.sphere_forces {
         let name = format!("{} against {}", sphere.sphere, sphere.surface);
         let force_kn = Some(sphere.force_n / 1e3);
@@ -104,19 +101,26 @@ fn add_loads(rows: &mut Vec<Measure>, summary: &Summary) {
     }
 }
 
+/// Peak forces of force elements whose times are known: `Belt lap, loop force`.
+fn element_rows(table: &Table) -> impl Iterator<Item = Measure> {
+    let of = table.columns[0].heading;
+    let of = of[..1].to_uppercase() + &of[1..];
+    let peaks = table.columns.windows(2).filter(|both| both[1].holds == Holds::Time);
+    let all = peaks.flat_map(|peak| table.rows.iter().map(move |row| (peak, row)));
+    all.map(move |(peak, row)| {
+        let what = peak[0].heading.split(',').next().unwrap_or_default();
+        let name = format!("{of} {}, {what}", row[0].text().unwrap_or_default());
+        let force_kn = row[peak[0].key].number().map(|force_n| force_n / 1e3);
+        Measure::new("Loads", name, force_kn, "kN", row[peak[1].key].number())
+    })
+}
+
 fn add_excursion(rows: &mut Vec<Measure>, summary: &Summary) {
     let Some(e) = &summary.head_excursion else {
         return;
     };
-    for (way, by_m, time_s) in [
-        ("forward", e.forward_m, e.forward_time_s),
-        ("rearward", e.rearward_m, e.rearward_time_s),
-        ("left", e.left_m, e.left_time_s),
-        ("right", e.right_m, e.right_time_s),
-        ("up", e.up_m, e.up_time_s),
-        ("down", e.down_m, e.down_time_s),
-    ] {
+    for (way, Peak { value, time_s }) in e.ways() {
         let group = "Head excursion in the vehicle";
-        rows.push(Measure::new(group, way, Some(by_m * 1e3), "mm", Some(time_s)));
+        rows.push(Measure::new(group, way, Some(value * 1e3), "mm", Some(time_s)));
     }
 }

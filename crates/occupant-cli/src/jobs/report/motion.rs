@@ -1,35 +1,40 @@
-//! The motion, output by output: poses, belts, contacts.
+//! The motion, output by output: poses, lines of force elements, contacts.
 
 use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
-use occupant_core::model::Model;
 use occupant_core::results::sample::{Contact, Sample};
 use occupant_core::vehicle::FrameMotion;
 use serde::Serialize;
 
 use super::array::Array;
-use crate::files::mcap::scene::belts::course_m;
 
-/// Points of a belt at every output.
-const BELT_POINTS: usize = 20;
+/// Points of a line at every output.
+const LINE_POINTS: usize = 20;
 
 /// Gathers what moves.
 #[derive(Debug)]
 pub(crate) struct Motion {
     poses: Vec<f64>,
     vehicle: Vec<f64>,
-    courses: Vec<Vec<f64>>,
-    forces: Vec<Vec<f64>>,
+    lines: Vec<Course>,
     contacts: Vec<Contact>,
     starts: Vec<usize>,
 }
 
-/// A belt; points x, y, z, `count` of them an output, vehicle axes, m.
+/// A line of a force element at all outputs.
+#[derive(Debug, Default)]
+struct Course {
+    name: String,
+    points: Vec<f64>,
+    forces: Vec<f64>,
+}
+
+/// The same as the page has it; points x, y, z, `count` of them an output, vehicle axes, m.
 #[derive(Debug, Serialize)]
-pub(crate) struct Belt {
+pub(crate) struct MovingLine {
     name: String,
     count: usize,
     points: Array,
-    /// F_L, N.
+    /// N.
     force: Array,
 }
 
@@ -44,16 +49,8 @@ pub(crate) struct Contacts {
 }
 
 impl Motion {
-    pub(crate) fn of(model: &Model) -> Self {
-        let belts = model.setup().belts.len();
-        Motion {
-            poses: Vec::new(),
-            vehicle: Vec::new(),
-            courses: vec![Vec::new(); belts],
-            forces: vec![Vec::new(); belts],
-            contacts: Vec::new(),
-            starts: vec![0],
-        }
+    pub(crate) fn new() -> Self {
+        Motion { poses: Vec::new(), vehicle: Vec::new(), lines: Vec::new(), contacts: Vec::new(), starts: vec![0] }
     }
 
     pub(crate) fn add(&mut self, sample: &Sample<'_>) {
@@ -62,13 +59,12 @@ impl Motion {
             push_pose(&mut self.poses, sample.cg_m(segment).coords, &turn);
         }
         self.add_vehicle(sample.vehicle);
-        let setup = sample.model.setup();
-        for (i, (belt, action)) in setup.belts.iter().zip(&sample.actions.belts).enumerate() {
-            let radius_m = setup.body.spheres[belt.sphere].radius_m;
-            let centre = sample.sphere_centre_m(belt.sphere);
-            let course = evenly(&course_m(belt, radius_m, centre, action));
-            self.courses[i].extend(course.iter().flat_map(|p| [p.x, p.y, p.z]));
-            self.forces[i].push(action.loop_force);
+        let lines = sample.lines();
+        self.lines.resize_with(lines.len(), Course::default);
+        for (course, line) in self.lines.iter_mut().zip(lines) {
+            course.points.extend(evenly(&line.points_m).iter().flat_map(|p| [p.x, p.y, p.z]));
+            course.forces.push(line.force_n);
+            course.name = line.name;
         }
         self.contacts.extend(sample.contacts());
         self.starts.push(self.contacts.len());
@@ -92,15 +88,14 @@ impl Motion {
         Array::float32(self.vehicle.iter().copied())
     }
 
-    pub(crate) fn belts(&self, model: &Model) -> Vec<Belt> {
-        let all = model.setup().belts.iter().enumerate();
-        all.map(|(i, belt)| Belt {
-            name: belt.name.clone(),
-            count: BELT_POINTS,
-            points: Array::float32(self.courses[i].iter().copied()),
-            force: Array::float32(self.forces[i].iter().copied()),
-        })
-        .collect()
+    pub(crate) fn lines(&self) -> Vec<MovingLine> {
+        let line = |course: &Course| MovingLine {
+            name: course.name.clone(),
+            count: LINE_POINTS,
+            points: Array::float32(course.points.iter().copied()),
+            force: Array::float32(course.forces.iter().copied()),
+        };
+        self.lines.iter().map(line).collect()
     }
 
     pub(crate) fn contacts(&self) -> Contacts {
@@ -128,9 +123,9 @@ fn evenly(course: &[Point3<f64>]) -> Vec<Point3<f64>> {
         _ => course,
     };
     let (Some(first), Some(last)) = (course.first(), course.last()) else {
-        return vec![Point3::origin(); BELT_POINTS];
+        return vec![Point3::origin(); LINE_POINTS];
     };
-    let count = BELT_POINTS - 2;
+    let count = LINE_POINTS - 2;
     let mut points = vec![*first];
     for i in 0..count {
         let at = (inner.len() - 1) as f64 * i as f64 / (count - 1) as f64;
@@ -151,7 +146,7 @@ mod tests {
         let line = |n: usize| -> Vec<_> { (0..n).map(|i| Point3::new(i as f64, 0.0, 0.0)).collect() };
         for n in [2, 4, 5, 30] {
             let points = evenly(&line(n));
-            assert_eq!(points.len(), BELT_POINTS);
+            assert_eq!(points.len(), LINE_POINTS);
             assert_eq!((points[0].x, points[19].x), (0.0, (n - 1) as f64));
             assert!(points.windows(2).all(|w| w[0].x <= w[1].x), "{n}");
         }

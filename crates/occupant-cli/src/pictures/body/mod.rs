@@ -8,10 +8,11 @@
 mod snapshot;
 
 use nalgebra::Vector3;
-use occupant_core::body::tree::Landmarks;
 use occupant_core::body::{Body, Segment, SegmentProperties};
 
 pub(crate) use snapshot::{PATCH_M, Snapshot};
+
+pub(crate) use crate::files::mcap::scene::body::{Tone, sphere_centre_m};
 
 /// Drawn width of the trunk over that of equal inertia.
 const SLIM: f64 = 0.85;
@@ -31,17 +32,6 @@ pub(crate) struct Lump {
     pub(crate) centre_m: Vector3<f64>,
     /// Half axes.
     pub(crate) half_m: Vector3<f64>,
-}
-
-/// What a part wears.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Tone {
-    /// Head, forearms.
-    Skin,
-    /// Upper trunk, upper arms.
-    Shirt,
-    /// Lower trunk, legs.
-    Trousers,
 }
 
 /// The convex hull of two ellipsoids.
@@ -65,29 +55,18 @@ pub(crate) fn parts(body: &Body) -> Vec<Part> {
             _ if segment == marks.pelvis => lower_torso(body, segment),
             _ => limb(body, segment),
         };
-        let tone = tone(marks, segment);
+        let tone = Tone::of(marks, segment);
         ends.into_iter().map(move |ends| Part { segment, tone, ends })
     };
     body.tree.segments().flat_map(of_segment).collect()
 }
 
-/// Centre of a sphere from its segment's centre of gravity, segment axes, m.
-pub(crate) fn sphere_centre_m(body: &Body, sphere: usize) -> Vector3<f64> {
-    let s = &body.spheres[sphere];
-    let cg = body.segment(s.segment).cg_from_lower_end_m;
-    s.centre_from_lower_end_m.coords - Vector3::z() * cg
-}
-
 /// Neck, head and a nose that tells where it looks. Without a sphere the head is as wide as its inertia says.
 fn head(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
     let p = body.segment(segment);
-    let own = (0..body.spheres.len()).filter(|&s| body.spheres[s].segment == segment);
-    let largest = own.max_by(|&a, &b| {
-        let radius = |s: usize| body.spheres[s].radius_m;
-        radius(a).total_cmp(&radius(b))
-    });
-    let (centre, radius) = match largest {
-        Some(s) => (sphere_centre_m(body, s), body.spheres[s].radius_m),
+    let own = body.spheres.iter().filter(|sphere| sphere.segment == segment);
+    let (centre, radius) = match own.max_by(|a, b| a.radius_m.total_cmp(&b.radius_m)) {
+        Some(sphere) => (sphere_centre_m(body, sphere), sphere.radius_m),
         None => {
             let radius = mean_radius(p).min(0.5 * p.length_m);
             let height = p.length_m - radius - p.cg_from_lower_end_m;
@@ -181,15 +160,4 @@ fn mean_radius(p: &SegmentProperties) -> f64 {
 
 fn ball(centre_m: Vector3<f64>, radius_m: f64) -> Lump {
     Lump { centre_m, half_m: Vector3::repeat(radius_m) }
-}
-
-fn tone(marks: &Landmarks, segment: Segment) -> Tone {
-    let arms = &marks.arms;
-    if [marks.head, arms.left.lower, arms.right.lower].contains(&segment) {
-        Tone::Skin
-    } else if [marks.middle, marks.chest, arms.left.upper, arms.right.upper].contains(&segment) {
-        Tone::Shirt
-    } else {
-        Tone::Trousers
-    }
 }

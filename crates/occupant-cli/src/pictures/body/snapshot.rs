@@ -3,16 +3,16 @@
 use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 use occupant_core::forces::contact::flat_face::FlatFace;
 use occupant_core::forces::contact::surface::{Frame, Outline};
+use occupant_core::forces::shown::Line;
 use occupant_core::results::sample::{Contact, Sample};
 use occupant_core::vehicle::FrameMotion;
 
-use crate::files::mcap::scene::belts::course_m;
-use crate::files::mcap::scene::compartment::corners_m;
+use crate::files::mcap::scene::compartment::{corners_m, square_m};
 
 /// Half side of the square that stands for an unbounded plane, m.
 pub(crate) const PATCH_M: f64 = 3.0;
 
-/// The body, the belts and the contacts at one output.
+/// The body, the contacts and other force elements at one output.
 #[derive(Clone, Debug)]
 pub(crate) struct Snapshot {
     pub(crate) time_s: f64,
@@ -20,20 +20,12 @@ pub(crate) struct Snapshot {
     pub(crate) poses: Vec<Isometry3<f64>>,
     /// Centres of the spheres, m.
     pub(crate) spheres_m: Vec<Point3<f64>>,
-    /// Belts, in the setup's order.
-    pub(crate) belts: Vec<BeltCourse>,
+    /// Lines of force elements.
+    pub(crate) lines: Vec<Line>,
     /// Touching pairs.
     pub(crate) contacts: Vec<Contact>,
     /// Motion of the vehicle in space.
     pub(crate) vehicle: FrameMotion,
-}
-
-/// A belt from anchor to anchor.
-#[derive(Clone, Debug)]
-pub(crate) struct BeltCourse {
-    pub(crate) points_m: Vec<Point3<f64>>,
-    /// F_L, N.
-    pub(crate) force_n: f64,
 }
 
 impl Snapshot {
@@ -43,17 +35,11 @@ impl Snapshot {
             Isometry3::from_parts(at, sample.orientation(segment))
         };
         let body = sample.model.body();
-        let belts = sample.model.setup().belts.iter().zip(&sample.actions.belts);
-        let course = |(belt, action): (&occupant_core::forces::belt::Belt, _)| {
-            let radius = body.spheres[belt.sphere].radius_m;
-            let centre = sample.sphere_centre_m(belt.sphere);
-            course_m(belt, radius, centre, action)
-        };
         Snapshot {
             time_s: sample.time_s,
             poses: body.tree.segments().map(pose).collect(),
             spheres_m: (0..body.spheres.len()).map(|s| sample.sphere_centre_m(s)).collect(),
-            belts: belts.map(|both| BeltCourse { points_m: course(both), force_n: both.1.loop_force }).collect(),
+            lines: sample.lines(),
             contacts: sample.contacts().collect(),
             vehicle: *sample.vehicle,
         }
@@ -81,9 +67,6 @@ impl Snapshot {
         };
         let height = face.normal.dot(&origin) - face.offset_m;
         let foot = origin - face.normal * height;
-        let (u, v) = face.plane_axes();
-        [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)]
-            .map(|(a, b)| Point3::from(foot + (u * a + v * b) * PATCH_M))
-            .to_vec()
+        square_m(face, foot.into(), PATCH_M)
     }
 }

@@ -37,8 +37,8 @@ pub(crate) fn draw(svg: &mut Svg, layout: &Layout, pen: &Pen<'_>) {
         let label = format!("contact force on the body, {} kN", force_n / 1e3);
         row.force(force_n * per_n, &label);
     }
-    let belts = pen.strip.moments.iter().flat_map(|m| &m.belts);
-    let (taut, slack): (Vec<_>, Vec<_>) = belts.partition(|b| b.force_n > 0.0);
+    let lines = pen.strip.moments.iter().flat_map(|m| &m.lines);
+    let (taut, slack): (Vec<_>, Vec<_>) = lines.partition(|line| line.force_n > 0.0);
     for (found, color, label) in [(!taut.is_empty(), TAUT, "belt under load"), (!slack.is_empty(), SLACK, "slack belt")]
     {
         if found {

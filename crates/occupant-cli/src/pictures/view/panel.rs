@@ -1,7 +1,7 @@
 //! One panel: the body in the compartment at one moment from one side.
 //!
 //! Painted from the back to the front: surfaces behind the body, the body's parts by depth, then what must never be
-//! hidden: belts, surfaces before the body (as dashed outlines), contacts.
+//! hidden: lines of force elements, surfaces before the body (as dashed outlines), contacts.
 
 use nalgebra::Point3;
 use occupant_core::forces::contact::flat_face::FlatFace;
@@ -16,9 +16,9 @@ use crate::pictures::svg::{Svg, number};
 const EDGE_ON: f64 = 0.02;
 /// Colours of the drawing.
 pub(crate) const SURFACE: &str = "#5b6770";
-/// A belt that pulls.
+/// A line that pulls.
 pub(crate) const TAUT: &str = "#c2410c";
-/// A belt that does not.
+/// A line that does not.
 pub(crate) const SLACK: &str = "#8a8a8a";
 /// Contact points and forces.
 pub(crate) const CONTACT: &str = "#be123c";
@@ -68,7 +68,7 @@ pub(crate) fn draw(svg: &mut Svg, pen: &Pen<'_>, moment: &Snapshot, view: View, 
     }
     draw_body(svg, &place, pen, moment);
     draw_spheres(svg, &place, pen, moment);
-    draw_belts(svg, &place, moment);
+    draw_lines(svg, &place, moment);
     for face in &before {
         draw_surface(svg, &place, moment, face, true);
     }
@@ -154,14 +154,14 @@ fn draw_spheres(svg: &mut Svg, place: &Place, pen: &Pen<'_>, moment: &Snapshot) 
     svg.end();
 }
 
-fn draw_belts(svg: &mut Svg, place: &Place, moment: &Snapshot) {
-    for belt in &moment.belts {
-        let points = place.all(&belt.points_m);
-        let color = if belt.force_n > 0.0 { TAUT } else { SLACK };
-        let line = format!(
+fn draw_lines(svg: &mut Svg, place: &Place, moment: &Snapshot) {
+    for line in &moment.lines {
+        let points = place.all(&line.points_m);
+        let color = if line.force_n > 0.0 { TAUT } else { SLACK };
+        let style = format!(
             "fill=\"none\" stroke=\"{color}\" stroke-width=\"1.8\" stroke-opacity=\"0.9\" stroke-linejoin=\"round\""
         );
-        svg.polyline(&points, &line);
+        svg.polyline(&points, &style);
         for end in [points.first(), points.last()].into_iter().flatten() {
             svg.circle(*end, 2.2, &format!("fill=\"{color}\""));
         }

@@ -1,4 +1,4 @@
-//! The part of the world that all panels of one view show: the body at all moments, its belts, and the surfaces near it.
+//! The part of the world that all panels of one view show: the body at all moments, the lines of force elements, and the surfaces near it.
 
 use nalgebra::{Point3, Vector3};
 use occupant_core::forces::contact::surface::{Frame, Outline};
@@ -57,7 +57,7 @@ impl Window {
                 self.add(&(pose * Point3::from(lump.centre_m)));
             }
         }
-        for point in moment.belts.iter().flat_map(|b| &b.points_m) {
+        for point in moment.lines.iter().flat_map(|line| &line.points_m) {
             self.add(point);
         }
     }

@@ -3,13 +3,14 @@
 //! Report: "Lap and Torso Restraint Belts", Eqs 95–108, Figs 17 and 18.
 
 mod check;
+mod course;
 pub mod law;
-pub mod results;
+mod results;
 
 use nalgebra::Point3;
 
 use crate::body::Body;
-use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkSum};
+use crate::forces::element::{Element, HeldBy, Instant, Load, StoredEnergy, Unlike, WorkSum};
 use crate::forces::rate::Rate;
 use crate::forces::spring::BilinearSpring;
 use crate::motion::frame::VEHICLE;
@@ -80,7 +81,7 @@ impl Element for Belts {
     const STORED: StoredEnergy = StoredEnergy {
         at: STORED,
         quantity: energy(7, "belts", "stored in belts", "recoverable, in belts"),
-        held_by: Some(STRETCH),
+        held_by: HeldBy::sum(STRETCH, 22, "start_belts_j", "stored in belts at the start of the run"),
     };
     const SUMS: &'static [WorkSum] = &[WorkSum {
         at: STRETCH,

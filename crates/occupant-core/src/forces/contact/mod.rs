@@ -7,6 +7,7 @@ pub mod face;
 pub mod flat_face;
 mod hints;
 pub mod material;
+mod results;
 pub mod surface;
 mod system;
 mod zip;
@@ -19,7 +20,7 @@ use crate::body::Body;
 use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::contact::material::Material;
 use crate::forces::contact::surface::Surface;
-use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkSum};
+use crate::forces::element::{Element, HeldBy, Instant, Load, StoredEnergy, Unlike, WorkSum};
 use crate::motion::scalar::Scalar;
 use crate::problem::Problems;
 use crate::quantity::energy;
@@ -56,7 +57,7 @@ impl Element for Contacts {
     const STORED: StoredEnergy = StoredEnergy {
         at: STORED,
         quantity: energy(6, "contacts", "stored in contacts", "recoverable, in contacts"),
-        held_by: Some(PRESS),
+        held_by: HeldBy::sum(PRESS, 21, "start_contacts_j", "stored in contacts at the start of the run"),
     };
     const SUMS: &'static [WorkSum] = &[
         WorkSum {

@@ -11,6 +11,7 @@ pub use law::*;
 use crate::body::Body;
 use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkSum};
 use crate::forces::rate::Rate;
+use crate::forces::shown::Reported;
 use crate::motion::layout::BALLS;
 use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
@@ -118,3 +119,5 @@ impl Element for JointMoments {
         actions.iter().map(|ball| ball.stored).sum()
     }
 }
+
+impl Reported for JointMoments {}

@@ -9,12 +9,12 @@ mod joint;
 mod sphere;
 mod vehicle;
 
+use std::borrow::Cow;
 use std::collections::BTreeSet;
 use std::fmt;
 use std::sync::Arc;
 
-use crate::forces::belt::results as belt;
-use crate::forces::{STORED, SUMS, StoredEnergy, WorkSum};
+use crate::forces::{Listed, STORED, SUMS, StoredEnergy, Visitor, WorkSum, visit_kinds};
 use crate::model::Model;
 use crate::quantity::{Energy, Kind, Owner, Quantity, Value};
 use crate::results::channel::{Channel, Component};
@@ -72,19 +72,22 @@ pub struct Field {
     /// Quantity, axes, unit.
     pub name: String,
     /// What it is.
-    pub meaning: &'static str,
+    pub meaning: Cow<'static, str>,
     /// Its type.
     pub kind: Kind,
-    /// Where it comes from.
-    pub source: Source,
+    /// Where it comes from; none in a message that is written as a whole.
+    pub source: Option<Source>,
 }
+
+/// Where message types of force elements stand in [`ORDER`].
+const ELEMENTS: &str = "";
 
 /// Message types in the order in which a file has them.
 const ORDER: [&str; 10] = [
     "VehicleMotion",
     "SegmentState",
     "SphereLoad",
-    "BeltState",
+    ELEMENTS,
     "JointAngles",
     "JointLoad",
     "Instruments",
@@ -101,11 +104,31 @@ pub(super) fn channels(model: &Model) -> Vec<Channel> {
 /// All messages of a model that have results at every output, in the order in which a file has them.
 pub fn messages(model: &Model) -> Vec<Message> {
     let mut messages = Catalogue::of(model).messages;
-    messages.sort_by_key(|m| ORDER.iter().position(|name| *name == m.name));
+    let place = |of: &str| ORDER.iter().position(|name| *name == of);
+    messages.sort_by_key(|m| place(m.name).or(place(ELEMENTS)));
     for message in &mut messages {
         message.fields.sort_by_key(|f| f.number);
     }
     messages
+}
+
+/// Adds the quantities of force elements.
+struct Elements<'a> {
+    model: &'a Model,
+    all: &'a mut Catalogue,
+}
+
+impl Visitor for Elements<'_> {
+    fn visit<E: Listed>(&mut self) {
+        let [of, _] = E::NAMES;
+        let data = self.model.setup().forces(self.model.faces());
+        let names = E::named(E::data(&data)).into_iter().map(|one| one.name);
+        for (i, (name, topic)) in named(&format!("/{of}"), names).into_iter().enumerate() {
+            let (channel, words) = (format!("{of}.{name}"), format!("{of} {name}"));
+            let place = Place { message: E::MESSAGE, topic, name: &channel, words: &words };
+            self.all.add(&place, E::QUANTITIES, move |s| &E::actions(s.actions)[i]);
+        }
+    }
 }
 
 /// What quantities of a list belong to in a model.
@@ -144,12 +167,7 @@ impl Catalogue {
             let place = Place { message: "SphereLoad", topic, name: &channel, words: &words };
             all.add(&place, sphere::QUANTITIES, move |s| (s, i));
         }
-        let names = model.setup().belts.iter().map(|b| b.name.as_str());
-        for (i, (name, topic)) in named("/belt", names).into_iter().enumerate() {
-            let (channel, words) = (format!("belt.{name}"), format!("belt {name}"));
-            let place = Place { message: "BeltState", topic, name: &channel, words: &words };
-            all.add(&place, belt::QUANTITIES, move |s| s.actions.belts[i]);
-        }
+        visit_kinds(&mut Elements { model, all: &mut all });
         for joint in tree.joints() {
             let name = tree[joint].name;
             let (channel, words) = (format!("joint.{name}"), name.replace('_', " "));
@@ -236,20 +254,15 @@ impl Catalogue {
         let fields = fields(quantity, source);
         match self.messages.iter_mut().find(|m| m.topic == place.topic) {
             Some(message) => message.fields.extend(fields),
-            None => self.messages.push(Message {
-                name: place.message,
-                topic: place.topic.clone(),
-                fields: [time()].into_iter().chain(fields).collect(),
-            }),
+            None => self.messages.push(Message::of(place.message, &place.topic, fields)),
         }
     }
 }
 
 impl Message {
     /// A message of what a model has once.
-    pub fn of(name: &'static str, topic: &str, list: &[Quantity<Run>]) -> Self {
-        let own = list.iter().flat_map(|&quantity| fields(&quantity, Source::new(move |s| quantity.value(&s))));
-        Message { name, topic: topic.to_owned(), fields: [time()].into_iter().chain(own).collect() }
+    fn of(name: &'static str, topic: &str, fields: impl IntoIterator<Item = Field>) -> Self {
+        Message { name, topic: topic.to_owned(), fields: [time()].into_iter().chain(fields).collect() }
     }
 }
 
@@ -258,16 +271,16 @@ fn fields<O: Owner>(quantity: &Quantity<O>, source: Source) -> impl Iterator<Ite
     let own = quantity.field.map(|words| Field {
         number: words.number,
         name: quantity.field_name(words.stem),
-        meaning: words.meaning,
+        meaning: words.meaning.into(),
         kind: quantity.kind(),
-        source: source.clone(),
+        source: Some(source.clone()),
     });
     let resultant = quantity.resultant.map(|words| Field {
         number: words.number,
         name: quantity.resultant_name(words.stem),
-        meaning: words.meaning,
+        meaning: words.meaning.into(),
         kind: Kind::Number,
-        source: Source::new(move |sample| Value::Number(Component::Resultant.of(&source.value(sample)))),
+        source: Some(Source::new(move |sample| Value::Number(Component::Resultant.of(&source.value(sample))))),
     });
     own.into_iter().chain(resultant)
 }
@@ -277,9 +290,9 @@ fn time() -> Field {
     Field {
         number: 1,
         name: "time_s".to_owned(),
-        meaning: "time of the scenario",
+        meaning: "time of the scenario".into(),
         kind: Kind::Number,
-        source: Source::new(|s| Value::Number(s.time_s)),
+        source: Some(Source::new(|s| Value::Number(s.time_s))),
     }
 }
 

@@ -3,12 +3,13 @@
 use crash_measures::unit::Unit::{self, Joule, Metre, MetrePerSecond, MetrePerSecondSquared, Newton, One, Second};
 
 use super::{Acceleration, Excursion, FirstContact, Level, Summary};
+use crate::forces::table::{Cell, Table};
 use crate::model::Model;
 
 /// One measure of a run.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Figure {
-    /// Dotted name without blanks, e.g. `head.peak`. Characters of a belt's or sphere's name that are neither letters,
+    /// Dotted name without blanks, e.g. `head.peak`. Characters of an element's or sphere's name that are neither letters,
     /// digits, `_` nor `-` stand as `_`.
     pub name: String,
     /// Unit, `1` for a plain number.
@@ -18,15 +19,15 @@ pub struct Figure {
 }
 
 impl Summary {
-    /// Every measure of this summary of a run of `model`. The names and their order depend only on which belts and spheres
-    /// the model has, so that they are the same for all runs of a study.
+    /// Every measure of this summary of a run of `model`. The names and their order depend only on which force elements
+    /// and spheres the model has, so that they are the same for all runs of a study.
     pub fn figures(&self, model: &Model) -> Vec<Figure> {
         let mut list = List::default();
         let a = &self.accelerations;
         for (part, readings) in [("head", &a.head), ("chest", &a.chest), ("pelvis", &a.pelvis)] {
             list.acceleration(part, readings);
         }
-        self.list_belts(&mut list);
+        self.list_elements(&mut list);
         self.list_contacts(&mut list, model);
         if model.body().sphere("head").is_some() {
             list.excursion(self.head_excursion.as_ref());
@@ -48,13 +49,16 @@ impl Summary {
         list.figures
     }
 
-    fn list_belts(&self, list: &mut List) {
-        for belt in &self.belts {
-            let name = format!("belts.{}", word(&belt.belt));
-            list.add(format!("{name}.peak"), Newton, belt.loop_force_n);
-            list.add(format!("{name}.peak_time"), Second, belt.time_s);
-            list.add(format!("{name}.stretch"), Metre, belt.elongation_m);
-            list.add(format!("{name}.body_peak"), Newton, belt.body_force_n);
+    fn list_elements(&self, list: &mut List) {
+        for (of, Table { columns, rows }) in &self.elements {
+            for row in rows {
+                let name = row.values().next().and_then(Cell::text).unwrap_or_default();
+                for (column, cell) in columns.iter().zip(row.values()) {
+                    if let Some((measure, unit)) = column.measure {
+                        list.add(format!("{of}.{}.{measure}", word(name)), unit, cell.number());
+                    }
+                }
+            }
         }
     }
 
@@ -109,25 +113,15 @@ impl List {
         self.add(format!("{part}.three_ms_cumulative"), MetrePerSecondSquared, total);
     }
 
-    fn excursion(&mut self, found: Option<&Excursion>) {
-        type Way = (&'static str, fn(&Excursion) -> (f64, f64));
-        let ways: [Way; 6] = [
-            ("forward", |e| (e.forward_m, e.forward_time_s)),
-            ("rearward", |e| (e.rearward_m, e.rearward_time_s)),
-            ("left", |e| (e.left_m, e.left_time_s)),
-            ("right", |e| (e.right_m, e.right_time_s)),
-            ("up", |e| (e.up_m, e.up_time_s)),
-            ("down", |e| (e.down_m, e.down_time_s)),
-        ];
-        for (way, of) in ways {
-            let (distance_m, time_s) = found.map(of).unzip();
-            self.add(format!("head_excursion.{way}"), Metre, distance_m);
-            self.add(format!("head_excursion.{way}_time"), Second, time_s);
+    fn excursion(&mut self, of: Option<&Excursion>) {
+        for (way, peak) in of.copied().unwrap_or(Excursion::NONE).ways() {
+            self.add(format!("head_excursion.{way}"), Metre, peak.value);
+            self.add(format!("head_excursion.{way}_time"), Second, peak.time_s);
         }
     }
 }
 
-/// A name of a belt or sphere as one word of a dotted name.
+/// A name of an element or sphere as one word of a dotted name.
 pub fn word(name: &str) -> String {
     let plain = |c: char| if c.is_alphanumeric() || c == '_' || c == '-' { c } else { '_' };
     name.chars().map(plain).collect()

@@ -3,6 +3,8 @@
 //! A [`Summarizer`] is a [`crate::results::recorder::Recorder`]; it looks at every output and keeps little. Peaks and levels are those of the
 //! output times, straight lines between them: an output interval of 1 ms or less does them justice. Nothing is filtered.
 
+mod elements;
+mod excursion;
 mod figures;
 mod peak;
 mod summarizer;
@@ -11,6 +13,9 @@ use serde::Serialize;
 
 use crash_measures::injury::Measure;
 
+use crate::forces::table::Tables;
+
+pub use excursion::Excursion;
 pub use figures::{Figure, word};
 pub use peak::Peak;
 pub use summarizer::Summarizer;
@@ -32,8 +37,9 @@ pub struct Summary {
     pub end_s: f64,
     /// Accelerometer readings at the centres of gravity.
     pub accelerations: Accelerations,
-    /// Belts, in the scenario's order.
-    pub belts: Vec<BeltPeak>,
+    /// Peaks of force elements.
+    #[serde(flatten)]
+    pub elements: Tables,
     /// First contacts of head, chest and knees after the start.
     pub first_contacts: Vec<FirstContact>,
     /// Every first touch of a sphere with a surface, in the order in which they happened.
@@ -101,21 +107,6 @@ pub struct Level {
     pub to_s: f64,
 }
 
-/// The greatest load of a belt.
-#[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct BeltPeak {
-    /// Name of the belt.
-    pub belt: String,
-    /// Greatest loop force.
-    pub loop_force_n: f64,
-    /// Its time; absent if the belt never pulled.
-    pub time_s: Option<f64>,
-    /// Greatest elongation; negative if the belt stayed slack.
-    pub elongation_m: f64,
-    /// Greatest force on the body.
-    pub body_force_n: f64,
-}
-
 /// The first contact of a part of the body after the start of the run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FirstContact {
@@ -140,7 +131,7 @@ pub struct ContactBegin {
     pub at_start: bool,
 }
 
-/// The greatest contact force on a sphere: normal, edge and friction forces of all surfaces together; belts apart.
+/// The greatest contact force on a sphere: normal, edge and friction forces of all surfaces together; other elements apart.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpherePeak {
     /// Name of the sphere.
@@ -155,35 +146,6 @@ pub struct SpherePeak {
     pub penetration_m: f64,
     /// Its time.
     pub penetration_time_s: f64,
-}
-
-/// Greatest displacements of the centre of the head sphere from its place at the start, vehicle axes; never negative.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Excursion {
-    /// Along X_v.
-    pub forward_m: f64,
-    /// When.
-    pub forward_time_s: f64,
-    /// Against X_v.
-    pub rearward_m: f64,
-    /// When.
-    pub rearward_time_s: f64,
-    /// Against Y_v.
-    pub left_m: f64,
-    /// When.
-    pub left_time_s: f64,
-    /// Along Y_v.
-    pub right_m: f64,
-    /// When.
-    pub right_time_s: f64,
-    /// Against Z_v.
-    pub up_m: f64,
-    /// When.
-    pub up_time_s: f64,
-    /// Along Z_v.
-    pub down_m: f64,
-    /// When.
-    pub down_time_s: f64,
 }
 
 /// Whether the energies add up.

@@ -2,9 +2,10 @@
 
 use nalgebra::{Point3, Vector3};
 
+use super::elements::ElementPeaks;
 use super::{
-    Acceleration, Accelerations, BeltPeak, ContactBegin, EnergyCheck, Excursion, FirstContact, Level, Peak, RunStatus,
-    Solver, SpherePeak, Summary,
+    Acceleration, Accelerations, ContactBegin, EnergyCheck, Excursion, FirstContact, Level, Peak, RunStatus, Solver,
+    SpherePeak, Summary,
 };
 use crate::model::Model;
 use crate::model::setup::{Integrator, STANDARD_GRAVITY_M_S2, TimeSpan};
@@ -27,28 +28,20 @@ pub struct Summarizer {
     outputs: usize,
     /// Of head, chest and pelvis.
     accelerations: [Option<Peak>; 3],
-    belts: Vec<BeltTrack>,
+    elements: ElementPeaks,
     spheres: Vec<SphereTrack>,
     signals: Signals,
     head_start: Option<Point3<f64>>,
-    /// Greatest displacements along +X, +Y, +Z, −X, −Y, −Z.
-    excursion: [Option<Peak>; 6],
+    /// Of the head.
+    excursion: Option<Excursion>,
     outcome: Option<Outcome>,
 }
 
 #[derive(Clone, Debug, Default)]
 struct Names {
     title: String,
-    belts: Vec<String>,
     spheres: Vec<String>,
     surfaces: Vec<String>,
-}
-
-#[derive(Clone, Copy, Debug)]
-struct BeltTrack {
-    loop_force: Peak,
-    elongation: Peak,
-    body_force: Peak,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -80,11 +73,11 @@ impl Summarizer {
             reached_s: outcome.time_s,
             end_s: time.end_s,
             accelerations: Accelerations { head, chest, pelvis },
-            belts: self.belts(),
+            elements: self.elements.tables(),
             first_contacts: self.first_contacts(&contacts),
             contacts,
             sphere_forces: self.sphere_forces(),
-            head_excursion: self.excursion(),
+            head_excursion: self.excursion,
             measures: readings.measures(),
             energy: EnergyCheck {
                 balance_error: outcome.balance_error,
@@ -124,19 +117,6 @@ impl Summarizer {
         }
     }
 
-    fn belts(&self) -> Vec<BeltPeak> {
-        let named = self.names.belts.iter().zip(&self.belts);
-        named
-            .map(|(belt, track)| BeltPeak {
-                belt: belt.clone(),
-                loop_force_n: track.loop_force.value.max(0.0),
-                time_s: (track.loop_force.value > 0.0).then_some(track.loop_force.time_s),
-                elongation_m: track.elongation.value,
-                body_force_n: track.body_force.value.max(0.0),
-            })
-            .collect()
-    }
-
     fn contacts(&self, outcome: &Outcome, start_s: f64) -> Vec<ContactBegin> {
         let contact = |t: &FirstTouch| ContactBegin {
             sphere: self.names.spheres[t.sphere].clone(),
@@ -172,26 +152,6 @@ impl Summarizer {
             .collect()
     }
 
-    fn excursion(&self) -> Option<Excursion> {
-        let [x, y, z, back, left, up] = self.excursion;
-        let (forward, rearward, right) = (x?, back?, y?);
-        let (left, down, up) = (left?, z?, up?);
-        Some(Excursion {
-            forward_m: forward.value,
-            forward_time_s: forward.time_s,
-            rearward_m: rearward.value,
-            rearward_time_s: rearward.time_s,
-            left_m: left.value,
-            left_time_s: left.time_s,
-            right_m: right.value,
-            right_time_s: right.time_s,
-            up_m: up.value,
-            up_time_s: up.time_s,
-            down_m: down.value,
-            down_time_s: down.time_s,
-        })
-    }
-
     fn see_accelerations(&mut self, sample: &Sample<'_>) {
         let marks = sample.model.body().tree.landmarks();
         for (peak, segment) in self.accelerations.iter_mut().zip([marks.head, marks.chest, marks.pelvis]) {
@@ -221,24 +181,17 @@ impl Summarizer {
         }
     }
 
-    fn see_belts(&mut self, sample: &Sample<'_>) {
-        for (track, action) in self.belts.iter_mut().zip(&sample.actions.belts) {
-            let t = sample.time_s;
-            track.loop_force.see(action.loop_force, t);
-            track.elongation.see(action.elongation, t);
-            track.body_force.see(action.force.norm_squared().sqrt(), t);
-        }
-    }
-
     fn see_head(&mut self, sample: &Sample<'_>) {
         let Some(head) = self.head else {
             return;
         };
         let place = sample.sphere_centre_m(head);
         let moved = place - *self.head_start.get_or_insert(place);
-        let ways = [moved.x, moved.y, moved.z, -moved.x, -moved.y, -moved.z];
-        for (peak, way) in self.excursion.iter_mut().zip(ways) {
-            peak.get_or_insert(Peak::NONE).see(way, sample.time_s);
+        let Excursion { forward, rearward, left, right, up, down } = self.excursion.get_or_insert(Excursion::NONE);
+        let axes = [[forward, rearward], [right, left], [down, up]];
+        for ([along, against], moved) in axes.into_iter().zip([moved.x, moved.y, moved.z]) {
+            along.see(moved, sample.time_s);
+            against.see(-moved, sample.time_s);
         }
     }
 }
@@ -248,11 +201,9 @@ impl Recorder for Summarizer {
         let setup = model.setup();
         let names = Names {
             title: setup.title.clone(),
-            belts: setup.belts.iter().map(|b| b.name.clone()).collect(),
             spheres: setup.body.spheres.iter().map(|s| s.name.clone()).collect(),
             surfaces: setup.surfaces.iter().map(|s| s.name.clone()).collect(),
         };
-        let belt = BeltTrack { loop_force: Peak::NONE, elongation: Peak::NONE, body_force: Peak::NONE };
         let sphere = SphereTrack { force: Peak::NONE, penetration: Peak::NONE, surface: 0 };
         *self = Summarizer {
             signals: begun(model)?,
@@ -262,7 +213,7 @@ impl Recorder for Summarizer {
             },
             time: Some(setup.time),
             head: setup.body.sphere("head"),
-            belts: vec![belt; names.belts.len()],
+            elements: ElementPeaks::new(model),
             spheres: vec![sphere; names.spheres.len()],
             names,
             ..Summarizer::default()
@@ -274,7 +225,7 @@ impl Recorder for Summarizer {
         self.outputs += 1;
         self.see_accelerations(sample);
         self.see_contacts(sample);
-        self.see_belts(sample);
+        self.elements.see(sample);
         self.see_head(sample);
         self.signals.record(sample)?;
         Ok(Flow::Continue)

@@ -6,18 +6,17 @@
 //! from one material onto another, a belt slips off the body) the derivative lacks the jump times the shift of its
 //! instant.
 //!
-//! Each kind of force element has its own events in a file of its own.
+//! A kind of force element tells its events itself ([`occupant_core::forces::shown::Reported::event`]); those of contacts and joints, which need more than
+//! two looks at one element, have files of their own.
 
-mod belt;
 mod contact;
 mod joint;
 
-pub use belt::Belted;
 pub use contact::Touching;
 
 use crate::sensitivity::trouble::Trouble;
 use occupant_core::body::Joint;
-use occupant_core::forces::{Actions, History};
+use occupant_core::forces::{Actions, History, Listed, Visitor, visit_kinds};
 use occupant_core::model::Model;
 use occupant_core::motion::dual::Dual;
 use occupant_core::motion::state::State;
@@ -37,12 +36,14 @@ pub enum Happening {
         /// What.
         what: Touching,
     },
-    /// To a belt.
-    Belt {
+    /// To another force element.
+    Element {
+        /// What such an element is called.
+        of: &'static str,
         /// Its index.
-        belt: usize,
-        /// What.
-        what: Belted,
+        element: usize,
+        /// What, in words: `goes slack`.
+        verb: &'static str,
     },
     /// A joint enters the range of a stop, or leaves it.
     Stop {
@@ -82,7 +83,10 @@ impl Happening {
     pub fn words(&self, model: &Model) -> String {
         match *self {
             Happening::Contact { sphere, surface, what } => what.words(model, sphere, surface),
-            Happening::Belt { belt, what } => what.words(model, belt),
+            Happening::Element { of, element, verb } => {
+                let name = model.named(of).get(element).map_or("?", |one| one.name);
+                format!("{of} {name} {verb}")
+            }
             Happening::Stop { joint, enters } => joint::words(model, joint, enters),
         }
     }
@@ -114,7 +118,8 @@ impl<const N: usize> Scene<N> {
 /// Looks at a run and notes its events.
 pub(super) struct Lookout<const N: usize> {
     contacts: contact::Lookout,
-    belts: belt::Lookout,
+    /// What force elements did at the last look.
+    before: Actions<Dual<N>>,
     joints: joint::Lookout,
     notes: Notes<N>,
 }
@@ -151,24 +156,44 @@ impl<const N: usize> Notes<N> {
     }
 }
 
+/// Two looks, one after the other.
+struct Between<'a, const N: usize> {
+    before: &'a Actions<Dual<N>>,
+    now: &'a Actions<Dual<N>>,
+    notes: &'a mut Notes<N>,
+}
+
+impl<const N: usize> Visitor for Between<'_, N> {
+    fn visit<E: Listed>(&mut self) {
+        let both = E::actions(self.before).iter().zip(E::actions(self.now));
+        for (element, (before, now)) in both.enumerate() {
+            if let Some((verb, jump_n)) = E::event(before, now) {
+                let happening = Happening::Element { of: E::NAMES[0], element, verb };
+                self.notes.note(happening, jump_n.map(|jump| jump.value));
+            }
+        }
+    }
+}
+
 impl<const N: usize> Lookout<N> {
     /// Nothing seen yet of `model`.
     pub fn new(model: &Model) -> Self {
         Lookout {
             contacts: contact::Lookout::new(model),
-            belts: belt::Lookout::new(model),
+            before: Actions::with_room(&model.system().forces),
             joints: joint::Lookout::default(),
             notes: Notes { time_s: f64::NAN, list: Vec::with_capacity(MOST), dropped: 0 },
         }
     }
 
     /// Compares what `scene` shows with what was seen before.
-    pub fn look(&mut self, model: &Model, scene: &Scene<N>, history: &History<Dual<N>>) {
+    pub fn look(&mut self, model: &Model, scene: &mut Scene<N>, history: &History<Dual<N>>) {
         let notes = &mut self.notes;
         notes.time_s = scene.time_s;
         self.contacts.look(model, &scene.actions.contacts, &history.memory.contacts, notes);
-        self.belts.look(&scene.actions.belts, notes);
+        visit_kinds(&mut Between { before: &self.before, now: &scene.actions, notes });
         self.joints.look(model, &scene.state, notes);
+        std::mem::swap(&mut self.before, &mut scene.actions);
     }
 
     /// How many events were not kept.

@@ -9,7 +9,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{UnitQuaternion, Vector3};
 use occupant_core::body::tree::Landmarks;
-use occupant_core::body::{Body, Segment};
+use occupant_core::body::{Body, ContactSphere, Segment};
 
 use super::primitive::{cylinder, ellipsoid};
 use super::{Color, entity};
@@ -39,7 +39,7 @@ pub(crate) fn write(wire: &mut Wire, body: &Body, frames: &FrameNames) {
 /// Contact spheres, one entity for each.
 pub(crate) fn write_spheres(wire: &mut Wire, body: &Body, frames: &FrameNames) {
     for sphere in &body.spheres {
-        let centre = sphere_centre_m(body, sphere.segment, sphere.centre_from_lower_end_m.coords);
+        let centre = sphere_centre_m(body, sphere);
         let size = Vector3::repeat(2.0 * sphere.radius_m);
         entity(wire, 0, frames.of(sphere.segment), &sphere.name, |w| {
             ellipsoid(w, centre, size, SPHERE);
@@ -50,7 +50,7 @@ pub(crate) fn write_spheres(wire: &mut Wire, body: &Body, frames: &FrameNames) {
 fn write_segment(wire: &mut Wire, body: &Body, segment: Segment) {
     let p = body.segment(segment);
     let marks = body.tree.landmarks();
-    let color = color(marks, segment);
+    let color = Tone::of(marks, segment).color();
     let length = if segment == marks.head { NECK_LENGTH * p.length_m } else { p.length_m };
     let (lower, upper) = (-p.cg_from_lower_end_m, length - p.cg_from_lower_end_m);
     let (a, b) = half_axes_m(body, segment);
@@ -62,7 +62,7 @@ fn write_segment(wire: &mut Wire, body: &Body, segment: Segment) {
     ellipsoid(wire, Vector3::z() * upper, cap, color);
     if segment == marks.head {
         for s in body.spheres.iter().filter(|s| s.segment == segment) {
-            let centre = sphere_centre_m(body, segment, s.centre_from_lower_end_m.coords);
+            let centre = sphere_centre_m(body, s);
             ellipsoid(wire, centre, Vector3::repeat(2.0 * s.radius_m), SKIN);
         }
     } else if segment == marks.chest {
@@ -94,17 +94,40 @@ fn half_axes_m(body: &Body, segment: Segment) -> (f64, f64) {
     (axis(i.z - i.x + i.y), axis(i.z + i.x - i.y))
 }
 
-fn sphere_centre_m(body: &Body, segment: Segment, from_lower_end_m: Vector3<f64>) -> Vector3<f64> {
-    from_lower_end_m - Vector3::z() * body.segment(segment).cg_from_lower_end_m
+/// Centre of a sphere from its segment's centre of gravity, segment axes, m.
+pub(crate) fn sphere_centre_m(body: &Body, sphere: &ContactSphere) -> Vector3<f64> {
+    let cg = body.segment(sphere.segment).cg_from_lower_end_m;
+    sphere.centre_from_lower_end_m.coords - Vector3::z() * cg
 }
 
-fn color(marks: &Landmarks, segment: Segment) -> Color {
-    let arms = &marks.arms;
-    if [marks.head, arms.left.lower, arms.right.lower].contains(&segment) {
-        SKIN
-    } else if [marks.middle, marks.chest, arms.left.upper, arms.right.upper].contains(&segment) {
-        SHIRT
-    } else {
-        TROUSERS
+/// What a part of the body wears.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Tone {
+    /// Head, forearms.
+    Skin,
+    /// Upper trunk, upper arms.
+    Shirt,
+    /// Lower trunk, legs.
+    Trousers,
+}
+
+impl Tone {
+    pub(crate) fn of(marks: &Landmarks, segment: Segment) -> Self {
+        let arms = &marks.arms;
+        if [marks.head, arms.left.lower, arms.right.lower].contains(&segment) {
+            Tone::Skin
+        } else if [marks.middle, marks.chest, arms.left.upper, arms.right.upper].contains(&segment) {
+            Tone::Shirt
+        } else {
+            Tone::Trousers
+        }
+    }
+
+    fn color(self) -> Color {
+        match self {
+            Tone::Skin => SKIN,
+            Tone::Shirt => SHIRT,
+            Tone::Trousers => TROUSERS,
+        }
     }
 }

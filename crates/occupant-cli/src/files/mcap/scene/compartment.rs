@@ -63,8 +63,12 @@ pub(crate) fn corners_m(face: &FlatFace) -> Vec<Point3<f64>> {
             };
             (0..DISC_CORNERS).map(corner).collect()
         }
-        Outline::Unbounded { point_m, .. } => [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)]
-            .map(|(a, b)| point_m + (u * a + v * b) * PATCH_M)
-            .to_vec(),
+        Outline::Unbounded { point_m, .. } => square_m(face, *point_m, PATCH_M),
     }
+}
+
+/// A square of the plane about a point of it, for a plane without bounds.
+pub(crate) fn square_m(face: &FlatFace, about_m: Point3<f64>, half_m: f64) -> Vec<Point3<f64>> {
+    let (u, v) = face.plane_axes();
+    [(1.0, 1.0), (-1.0, 1.0), (-1.0, -1.0), (1.0, -1.0)].map(|(a, b)| about_m + (u * a + v * b) * half_m).to_vec()
 }

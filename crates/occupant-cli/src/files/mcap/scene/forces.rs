@@ -1,5 +1,6 @@
-//! Forces on the occupant as arrows: contacts where they act, belts at the centres of their spheres.
+//! Forces on the occupant as arrows, where they act.
 
+use nalgebra::{Point3, Vector3};
 use occupant_core::results::sample::Sample;
 
 use super::primitive::arrow;
@@ -11,34 +12,24 @@ use crate::files::mcap::wire::Wire;
 const SHORTEST_M: f64 = 1e-3;
 const DIAMETER_M: f64 = 0.015;
 const CONTACT: Color = Color(0.90, 0.15, 0.15, 1.0);
-const BELT: Color = Color(0.95, 0.55, 0.10, 1.0);
+const OTHER: Color = Color(0.95, 0.55, 0.10, 1.0);
 
 /// A message with one entity for each force, vehicle axes, drawn with `m_per_n`.
 pub(crate) fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>, m_per_n: f64) {
     let setup = sample.model.setup();
+    let show = |w: &mut Wire, id: &dyn Fn() -> String, point_m: Point3<f64>, force_n: Vector3<f64>, color| {
+        let drawn = force_n * m_per_n;
+        if drawn.norm() >= SHORTEST_M {
+            entity(w, ns, VEHICLE_FRAME, &id(), |w| arrow(w, point_m.coords, drawn, DIAMETER_M, color));
+        }
+    };
     replace(wire, ns, |w| {
         for contact in sample.contacts() {
-            let drawn = contact.force_n * m_per_n;
-            if drawn.norm() < SHORTEST_M {
-                continue;
-            }
-            let sphere = &setup.body.spheres[contact.sphere].name;
-            let surface = &setup.surfaces[contact.surface].name;
-            let id = format!("{sphere}__{surface}");
-            entity(w, ns, VEHICLE_FRAME, &id, |w| {
-                arrow(w, contact.point_m.coords, drawn, DIAMETER_M, CONTACT);
-            });
+            let (sphere, surface) = (&setup.body.spheres[contact.sphere].name, &setup.surfaces[contact.surface].name);
+            show(w, &|| format!("{sphere}__{surface}"), contact.point_m, contact.force_n, CONTACT);
         }
-        for (belt, action) in setup.belts.iter().zip(&sample.actions.belts) {
-            let drawn = action.force.to_vector() * m_per_n;
-            if drawn.norm() < SHORTEST_M {
-                continue;
-            }
-            let centre = sample.sphere_centre_m(belt.sphere);
-            let id = format!("belt__{}", belt.name);
-            entity(w, ns, VEHICLE_FRAME, &id, |w| {
-                arrow(w, centre.coords, drawn, DIAMETER_M, BELT);
-            });
-        }
+        sample.pulls(&mut |pull| {
+            show(w, &|| format!("{}__{}", pull.of, pull.name), pull.point_m, pull.force_n, OTHER);
+        });
     });
 }

@@ -3,11 +3,11 @@
 //! What does not change shape is written once, locked to its frame, and moved by the transforms. What changes is replaced
 //! whole in every message, so that a viewer that jumps in time and reads only the last message shows the right thing.
 
-pub mod belts;
 pub(crate) mod body;
 pub(crate) mod compartment;
 pub(crate) mod forces;
 pub(crate) mod labels;
+pub(crate) mod lines;
 mod primitive;
 
 use super::wire::Wire;

@@ -1,0 +1,36 @@
+//! Tables of force elements, a row for each element of a kind.
+
+use occupant_core::forces::table::{Cell, Column, Holds, Table as Elements, Tables};
+use occupant_core::results::summary::word;
+
+use super::summary::{Marks, ms};
+use crate::base::text_table::Align::{Left, Right};
+use crate::base::text_table::{NONE, Table, number};
+
+/// A text for each kind of which there are any.
+pub(crate) fn texts(tables: &Tables, marks: &Marks) -> impl Iterator<Item = String> {
+    tables.iter().filter(|(_, elements)| !elements.rows.is_empty()).map(|(of, elements)| text(of, elements, marks))
+}
+
+fn text(of: &str, Elements { columns, rows }: &Elements, marks: &Marks) -> String {
+    let head = columns.iter().map(|column| (column.heading, if column.holds == Holds::Text { Left } else { Right }));
+    let mut table = Table::new(&head.collect::<Vec<_>>());
+    for row in rows {
+        let name = word(row.values().next().and_then(Cell::text).unwrap_or_default());
+        let mark = |(column, cell): (&Column, &Cell)| match column.measure {
+            Some((measure, _)) => marks.put(&format!("{of}.{name}.{measure}"), printed(column, cell)),
+            None => printed(column, cell),
+        };
+        table.row(columns.iter().zip(row.values()).map(mark));
+    }
+    table.text()
+}
+
+fn printed(column: &Column, cell: &Cell) -> String {
+    match (cell, column.holds) {
+        (Cell::Text(text), _) => text.clone(),
+        (Cell::Number(None), _) => NONE.to_owned(),
+        (Cell::Number(Some(time_s)), Holds::Time) => ms(*time_s),
+        (Cell::Number(Some(value)), _) => number(value * column.scale, column.decimals),
+    }
+}

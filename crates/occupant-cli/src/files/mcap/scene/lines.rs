@@ -1,0 +1,24 @@
+//! Lines of force elements, such as webbing.
+
+use occupant_core::results::sample::Sample;
+
+use super::primitive::{Closing, line};
+use super::{Color, entity, replace};
+use crate::files::mcap::topics::VEHICLE_FRAME;
+use crate::files::mcap::wire::Wire;
+
+const WIDTH_M: f64 = 0.025;
+const TAUT: Color = Color(0.85, 0.25, 0.15, 1.0);
+const SLACK: Color = Color(0.45, 0.45, 0.45, 1.0);
+
+/// A message with one entity for each line, vehicle axes.
+pub(crate) fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>) {
+    replace(wire, ns, |w| {
+        for drawn in sample.lines() {
+            let color = if drawn.force_n > 0.0 { TAUT } else { SLACK };
+            entity(w, ns, VEHICLE_FRAME, &drawn.name, |w| {
+                line(w, Closing::Open, &drawn.points_m, WIDTH_M, color);
+            });
+        }
+    });
+}

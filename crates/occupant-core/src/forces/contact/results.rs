@@ -1,0 +1,43 @@
+//! How result files keep what pairs of a sphere and a face remember: the few that are not open and whole, by their numbers.
+
+use super::{Contacts, OPEN, PASSED, PairHistory, TOUCHING};
+use crate::forces::shown::Reported;
+use crate::forces::stored::Archive;
+use crate::quantity::FieldWords;
+
+/// A file that has more pairs than this is none of ours.
+const MOST_PAIRS: u64 = 1 << 20;
+
+impl Reported for Contacts {
+    fn keep(past: &mut Vec<PairHistory<f64>>, like: Option<&[PairHistory<f64>]>, file: &mut dyn Archive) {
+        let words = |at_output, at_step, stem, meaning| {
+            let number = if like.is_some() { at_step } else { at_output };
+            FieldWords { number, stem, meaning }
+        };
+        let mut count = like.unwrap_or(past).len() as u64;
+        if like.is_none() {
+            file.count(words(4, 4, "pairs", "how many pairs of a sphere and a face there are"), &mut count);
+        }
+        let which = |is: fn(&PairHistory<f64>) -> bool| {
+            (0..).zip(past.iter()).filter(|(_, pair)| is(pair)).map(|(i, _)| i).collect::<Vec<u32>>()
+        };
+        let [passed, touching, deformed] =
+            [which(|p| p.phase == PASSED), which(|p| p.phase == TOUCHING), which(|p| p.greatest != 0.0)];
+        let greatest = deformed.iter().map(|i| past[*i as usize].greatest).collect();
+        let passed = file.indices(words(5, 28, "passed", "pairs whose sphere went round the edge"), passed);
+        let touching = file.indices(words(6, 29, "touching", "pairs that touch"), touching);
+        let deformed = file.indices(words(7, 30, "deformed", "pairs that remember a deformation"), deformed);
+        let greatest = file.numbers(words(8, 31, "greatest_deformation_m", "of each pair in `deformed`"), greatest);
+        let numbers = passed.iter().chain(&touching).chain(&deformed);
+        if count > MOST_PAIRS
+            || numbers.max().is_some_and(|i| u64::from(*i) >= count)
+            || deformed.len() != greatest.len()
+        {
+            return file.refuse("lists of pairs that do not fit each other");
+        }
+        *past = vec![PairHistory { phase: OPEN, greatest: 0.0 }; count as usize];
+        passed.iter().for_each(|i| past[*i as usize].phase = PASSED);
+        touching.iter().for_each(|i| past[*i as usize].phase = TOUCHING);
+        deformed.iter().zip(greatest).for_each(|(i, greatest)| past[*i as usize].greatest = greatest);
+    }
+}

@@ -1,0 +1,122 @@
+//! What a kind of force element gives to results: its quantities, peaks, tables, events, and what pictures draw of it.
+
+use std::marker::PhantomData;
+
+use nalgebra::{Point3, Vector3};
+
+use super::element::Element;
+use super::stored::Archive;
+use super::table::{Column, Table};
+use crate::body::Body;
+use crate::motion::scalar::Scalar;
+use crate::quantity::{Owner, Quantity};
+
+/// A kind of force element in results. Result files, summaries, tables, studies, pictures and sensitivities know a kind by
+/// this alone.
+///
+/// A kind whose elements have names has an action for each at every output, in the order of the names.
+pub trait Reported: Element + 'static {
+    /// Message type of one of them in the result file; its topic is that of the word for one and the element's name.
+    const MESSAGE: &'static str = "";
+    /// Fields of that message and time histories of one of them.
+    const QUANTITIES: &'static [Quantity<OneOf<Self>>] = &[];
+    /// The numbers of one of them whose peaks a run's summary tells.
+    const PEAKS: &'static [Tracked<Self::Action<f64>>] = &[];
+
+    /// Exchanges what they remember with a result file; at the start of a step `like` is what they remember at the output.
+    fn keep(_past: &mut Vec<Self::Past<f64>>, _like: Option<&[Self::Past<f64>]>, _file: &mut dyn Archive) {}
+
+    /// Names of the elements and the spheres that they act on.
+    fn named<'a>(_data: Self::Data<'a>) -> Vec<Named<'a>> {
+        Vec::new()
+    }
+
+    /// What there is to know of them at the start of a run.
+    fn start_table(_shown: &Shown<'_, Self>) -> Option<Table> {
+        None
+    }
+
+    /// Lines that pictures draw.
+    fn lines(_shown: &Shown<'_, Self>) -> Vec<Line> {
+        Vec::new()
+    }
+
+    /// Shows every force on a sphere but those of contacts, which have points and depths of their own.
+    fn pulls(_shown: &Shown<'_, Self>, _show: &mut dyn FnMut(&Pull<'_>)) {}
+
+    /// What has happened to one of them between two looks, in words that follow its name, and by how much its force jumps, N;
+    /// nothing where only a slope changes.
+    fn event<S: Scalar>(_before: &Self::Action<S>, _now: &Self::Action<S>) -> Option<(&'static str, Option<S>)> {
+        None
+    }
+}
+
+/// One element of a kind, as the owner of quantities.
+#[derive(Debug)]
+pub struct OneOf<E>(PhantomData<E>);
+
+impl<E: Reported> Owner for OneOf<E> {
+    type At<'a> = &'a E::Action<f64>;
+}
+
+/// The elements of one kind at one output.
+pub struct Shown<'a, E: Element + ?Sized> {
+    /// What the setup says of them.
+    pub data: E::Data<'a>,
+    /// Their law.
+    pub law: &'a E::Law<f64>,
+    /// What they do.
+    pub actions: &'a [E::Action<f64>],
+    /// The body.
+    pub body: &'a Body,
+    /// Centre of a sphere, vehicle axes, m.
+    pub centre_m: &'a dyn Fn(usize) -> Point3<f64>,
+}
+
+/// A single element.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Named<'a> {
+    /// Its name.
+    pub name: &'a str,
+    /// Index of the sphere that it acts on.
+    pub sphere: usize,
+}
+
+/// A line that pictures draw for an element.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Line {
+    /// Name of the element.
+    pub name: String,
+    /// Its points, vehicle axes, m.
+    pub points_m: Vec<Point3<f64>>,
+    /// Force along it, N.
+    pub force_n: f64,
+}
+
+/// The force of an element on a sphere.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Pull<'a> {
+    /// What the element is called: [`Element::NAMES`].
+    pub of: &'static str,
+    /// Name of the element.
+    pub name: &'a str,
+    /// Index of the sphere.
+    pub sphere: usize,
+    /// Where it acts, vehicle axes, m.
+    pub point_m: Point3<f64>,
+    /// Vehicle axes, N.
+    pub force_n: Vector3<f64>,
+}
+
+/// A number whose greatest value in a run is kept.
+#[derive(Clone, Copy, Debug)]
+pub struct Tracked<A> {
+    /// Where it comes from.
+    pub of: fn(&A) -> f64,
+    /// Column of the peak.
+    pub column: Column,
+    /// Column of its time, which is absent where the peak is not above 0.
+    pub time: Option<Column>,
+    /// Whether a peak below 0 counts as 0.
+    pub at_least_zero: bool,
+}

@@ -1,0 +1,49 @@
+//! How what a run carries on goes to a result file and comes back: said once for both ways.
+
+use crate::quantity::{FieldWords, Value};
+
+/// A message of a result file that takes values up or gives them back, field by field.
+pub trait Archive {
+    /// Takes `value` up, or replaces it by the stored one, if there is one.
+    fn exchange(&mut self, words: FieldWords, value: &mut Value);
+
+    /// What comes belongs to the start of the step that leads beyond the output.
+    fn begin_step(&mut self) {}
+
+    /// The stored values cannot be, in words.
+    fn refuse(&mut self, _why: &str) {}
+}
+
+impl dyn Archive + '_ {
+    /// Exchanges a number.
+    pub fn number(&mut self, words: FieldWords, number: &mut f64) {
+        let mut value = Value::Number(*number);
+        self.exchange(words, &mut value);
+        if let Value::Number(stored) = value {
+            *number = stored;
+        }
+    }
+
+    /// Exchanges a whole number.
+    pub fn count(&mut self, words: FieldWords, count: &mut u64) {
+        let mut value = Value::Count(*count);
+        self.exchange(words, &mut value);
+        if let Value::Count(stored) = value {
+            *count = stored;
+        }
+    }
+
+    /// Exchanges a list of numbers.
+    pub fn numbers(&mut self, words: FieldWords, list: Vec<f64>) -> Vec<f64> {
+        let mut value = Value::Numbers(list);
+        self.exchange(words, &mut value);
+        if let Value::Numbers(stored) = value { stored } else { Vec::new() }
+    }
+
+    /// Exchanges a list of indices.
+    pub fn indices(&mut self, words: FieldWords, list: Vec<u32>) -> Vec<u32> {
+        let mut value = Value::Indices(list);
+        self.exchange(words, &mut value);
+        if let Value::Indices(stored) = value { stored } else { Vec::new() }
+    }
+}

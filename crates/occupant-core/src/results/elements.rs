@@ -1,0 +1,87 @@
+//! Force elements in results, kind by kind: what they draw, pull and tell at an output.
+
+use crate::forces::shown::{Line, Named, Pull, Shown};
+use crate::forces::table::Tables;
+use crate::forces::{Listed, Visitor, visit_kinds};
+use crate::model::Model;
+use crate::results::sample::Sample;
+
+impl Sample<'_> {
+    /// The elements of one kind.
+    fn show<E: Listed, T>(&self, of: impl FnOnce(&Shown<'_, E>) -> T) -> T {
+        let model = self.model;
+        of(&Shown {
+            data: E::data(&model.setup().forces(model.faces())),
+            law: E::law(&model.system().forces),
+            actions: E::actions(self.actions),
+            body: model.body(),
+            centre_m: &|sphere| self.sphere_centre_m(sphere),
+        })
+    }
+
+    /// Lines that pictures draw for force elements.
+    pub fn lines(&self) -> Vec<Line> {
+        let mut list = Lines(self, Vec::new());
+        visit_kinds(&mut list);
+        list.1
+    }
+
+    /// Shows every force on a sphere but those of contacts.
+    pub fn pulls(&self, show: &mut dyn FnMut(&Pull<'_>)) {
+        visit_kinds(&mut Pulls(self, show));
+    }
+
+    /// What there is to know of force elements at the start of a run.
+    pub fn start_tables(&self) -> Tables {
+        let mut list = StartTables(self, Tables::new());
+        visit_kinds(&mut list);
+        list.1
+    }
+}
+
+impl Model {
+    /// The elements of the kind of which one is called `of`, in the scenario's order.
+    pub fn named(&self, of: &str) -> Vec<Named<'_>> {
+        let mut list = Names { model: self, of, list: Vec::new() };
+        visit_kinds(&mut list);
+        list.list
+    }
+}
+
+struct Lines<'s, 'a>(&'s Sample<'a>, Vec<Line>);
+
+impl Visitor for Lines<'_, '_> {
+    fn visit<E: Listed>(&mut self) {
+        self.1.extend(self.0.show(E::lines));
+    }
+}
+
+struct Pulls<'s, 'a, 'f>(&'s Sample<'a>, &'f mut dyn FnMut(&Pull<'_>));
+
+impl Visitor for Pulls<'_, '_, '_> {
+    fn visit<E: Listed>(&mut self) {
+        self.0.show(|shown| E::pulls(shown, self.1));
+    }
+}
+
+struct StartTables<'s, 'a>(&'s Sample<'a>, Tables);
+
+impl Visitor for StartTables<'_, '_> {
+    fn visit<E: Listed>(&mut self) {
+        self.1.extend(self.0.show(E::start_table).map(|table| (E::NAMES[1], table)));
+    }
+}
+
+struct Names<'m, 'o> {
+    model: &'m Model,
+    of: &'o str,
+    list: Vec<Named<'m>>,
+}
+
+impl Visitor for Names<'_, '_> {
+    fn visit<E: Listed>(&mut self) {
+        if E::NAMES[0] == self.of {
+            self.list = E::named(E::data(&self.model.setup().forces(self.model.faces())));
+        }
+    }
+}

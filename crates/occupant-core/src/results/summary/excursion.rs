@@ -1,0 +1,48 @@
+//! How far the head went.
+
+use serde::ser::{Serialize, SerializeMap, Serializer};
+
+use super::Peak;
+
+/// Greatest displacements of the centre of the head sphere from its place at the start, vehicle axes, m; never negative.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Excursion {
+    /// Along X_v.
+    pub forward: Peak,
+    /// Against X_v.
+    pub rearward: Peak,
+    /// Against Y_v.
+    pub left: Peak,
+    /// Along Y_v.
+    pub right: Peak,
+    /// Against Z_v.
+    pub up: Peak,
+    /// Along Z_v.
+    pub down: Peak,
+}
+
+impl Excursion {
+    /// Nothing seen yet.
+    pub(super) const NONE: Excursion = {
+        let none = Peak::NONE;
+        Excursion { forward: none, rearward: none, left: none, right: none, up: none, down: none }
+    };
+
+    /// All by name.
+    pub fn ways(&self) -> [(&'static str, Peak); 6] {
+        let Excursion { forward, rearward, left, right, up, down } = *self;
+        [("forward", forward), ("rearward", rearward), ("left", left), ("right", right), ("up", up), ("down", down)]
+    }
+}
+
+/// As `forward_m`, `forward_time_s` and so on.
+impl Serialize for Excursion {
+    fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
+        let mut map = serializer.serialize_map(None)?;
+        for (way, peak) in self.ways() {
+            map.serialize_entry(&format!("{way}_m"), &peak.value)?;
+            map.serialize_entry(&format!("{way}_time_s"), &peak.time_s)?;
+        }
+        map.end()
+    }
+}
