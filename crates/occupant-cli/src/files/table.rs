@@ -11,6 +11,7 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
+use serde::{Deserialize, Serialize};
 
 use crate::base::failure::Failure;
 use crate::base::names::program;
@@ -31,8 +32,9 @@ pub(crate) enum Kind {
     MaybeText,
 }
 
-/// A value.
-#[derive(Clone, Debug, PartialEq)]
+/// A value; in JSON nothing, a number or a text.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
 pub(crate) enum Cell {
     Absent,
     Number(f64),
