@@ -4,7 +4,7 @@
 //! sweep, each other line is a [`Row`]. What a killed process or a full disk has left of its last row has no line end and
 //! is not read; the sample is computed again.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
 use std::io::{self, Write};
 use std::ops::Range;
@@ -249,23 +249,22 @@ impl Journal {
     /// # Errors
     /// As [`Journal::each_row`].
     pub(crate) fn rows(&self, range: Range<u64>) -> Result<Vec<Row>, Problem> {
-        let mut found: Vec<Option<(Row, &Path)>> = Vec::new();
-        found.resize_with((range.end - range.start) as usize, || None);
+        let mut found: BTreeMap<u64, (Row, &Path)> = BTreeMap::new();
         let overlapping = |p: &&Piece| p.samples.start < range.end && range.start < p.samples.end;
         for piece in self.pieces.iter().filter(overlapping) {
             for row in self.piece(&piece.path)?.0.into_iter().filter(|row| range.contains(&row.index)) {
                 let index = row.index;
-                match &mut found[(index - range.start) as usize] {
+                match found.get(&index) {
                     Some((there, first)) if !there.agrees(&row) => {
                         let (first, second) = (first.to_path_buf(), piece.path.clone());
                         return Err(Problem::Disagree { index, first, second });
                     }
                     Some(_) => {}
-                    empty => *empty = Some((row, &piece.path)),
+                    None => _ = found.insert(index, (row, &piece.path)),
                 }
             }
         }
-        Ok(found.into_iter().flatten().map(|(row, _)| row).collect())
+        Ok(found.into_values().map(|(row, _)| row).collect())
     }
 }
 
