@@ -65,9 +65,10 @@ fn nothing(svg: &mut Svg, figure: &Figure, [left, top]: [f64; 2], [width, height
 impl Page {
     fn new(figure: &Figure, [x, y]: [[f64; 2]; 2], [left, top]: [f64; 2], [width, height]: [f64; 2]) -> Self {
         let inner_height = height - TICK - LABEL - 16.0;
-        let y = match figure.y.words.is_empty() {
-            true => Scale::new(y, ((inner_height / 36.0) as usize).clamp(2, 8)),
-            false => Scale::of_words(short_words(&figure.y.words, WORDS * width), true),
+        let y = if figure.y.words.is_empty() {
+            Scale::new(y, ((inner_height / 36.0) as usize).clamp(2, 8))
+        } else {
+            Scale::of_words(short_words(&figure.y.words, WORDS * width), true)
         };
         let margin = EDGE + LABEL + 8.0 + widest(&y) + TICK_MARK + 3.0;
         let room = width - margin - EDGE;
@@ -162,10 +163,7 @@ fn across(figure: &Figure, range: [f64; 2], room: f64) -> Scale {
         return Scale::of_words(short_words(words, each), false);
     }
     let time = figure.x.unit == "ms";
-    let scale = |count| match time {
-        true => Scale::inside(range, count),
-        false => Scale::new(range, count),
-    };
+    let scale = |count| if time { Scale::inside(range, count) } else { Scale::new(range, count) };
     let fits = |s: &Scale| s.ticks.len() as f64 * (widest(s) + 12.0) <= room;
     (2..=8).rev().map(scale).find(fits).unwrap_or_else(|| scale(1))
 }

@@ -31,10 +31,7 @@ impl Scale {
     /// A scale for the axis across: the range as it is, ticks inside it.
     pub(crate) fn inside([low, high]: [f64; 2], count: usize) -> Self {
         let size = low.abs().max(high.abs());
-        let [low, high] = match high - low > SMALLEST.max(1e-12 * size) {
-            true => [low, high],
-            false => opened(low, high),
-        };
+        let [low, high] = if high - low > SMALLEST.max(1e-12 * size) { [low, high] } else { opened(low, high) };
         let step = round_step((high - low) / count.max(1) as f64);
         let first = (low / step - 1e-6).ceil();
         let last = (high / step + 1e-6).floor();
@@ -49,16 +46,7 @@ impl Scale {
     pub(crate) fn of_words(words: Vec<String>, downward: bool) -> Self {
         let ticks: Vec<f64> = (0..words.len()).map(|i| i as f64).collect();
         let beyond = words.len().max(1) as f64 - 0.5;
-        Scale {
-            range: match downward {
-                true => [beyond, -0.5],
-                false => [-0.5, beyond],
-            },
-            ticks,
-            exponent: 0,
-            decimals: 0,
-            words,
-        }
+        Scale { range: if downward { [beyond, -0.5] } else { [-0.5, beyond] }, ticks, exponent: 0, decimals: 0, words }
     }
 
     /// Whether words stand at its ticks.
