@@ -41,7 +41,7 @@ pub(crate) enum FileProblem {
     #[error("{} exists; --force replaces it, -o gives another name", .path.display())]
     Exists { path: PathBuf },
     /// A provisional file is there.
-    #[error("{} exists: a run that was interrupted or still goes on; --force replaces it, -o gives another name", .path.display())]
+    #[error("{} exists: a run that was interrupted or is still at work; --force replaces it, -o gives another name", .path.display())]
     PartialExists { path: PathBuf },
     /// Something that is no ordinary file has that name: a folder, a device.
     #[error("{} is not an ordinary file; -o gives another name", .path.display())]
@@ -142,7 +142,7 @@ impl PartialFile {
         Ok(target)
     }
 
-    /// Leaves the file under its provisional name, safe against a loss of power, and tells the name.
+    /// Leaves the file under its provisional name, safe against a loss of power, and gives that name.
     ///
     /// # Errors
     /// The operating system refuses.

@@ -111,7 +111,7 @@ impl Results {
         notes
     }
 
-    /// Shows every output to `recorder`, which is told of the begin of the run but not of its end.
+    /// Shows every output to `recorder`, which learns of the begin of the run but not of its end.
     ///
     /// # Errors
     /// What the recorder reports.

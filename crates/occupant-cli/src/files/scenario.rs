@@ -91,7 +91,7 @@ pub(crate) fn stored(file: &Path, run: &StoredRun) -> Result<Loaded, Failure> {
         .map_err(|problems| Failure::plain(format!("the scenario in {name} cannot be read:\n{problems}")))
 }
 
-/// The format that the file name tells, if it does.
+/// The format that the ending of the file name stands for, if any.
 pub(crate) fn format_of(path: &Path) -> Option<Format> {
     match ending(path).as_str() {
         "toml" => Some(Format::Toml),

@@ -1,4 +1,4 @@
-//! The kind of a picture file, told by its ending.
+//! The kind of a picture file, by its ending.
 
 use std::path::Path;
 

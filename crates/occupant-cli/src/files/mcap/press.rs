@@ -1,4 +1,4 @@
-//! Where messages go: to a thread that compresses and writes them while the run goes on.
+//! Where messages go: to a thread that compresses and writes them while the run is at work.
 //!
 //! The thread does with the writer, in the same order, what would have been done without it, so the file has the same
 //! bytes. Its errors come back with the next chunk, at the latest when the writer is called home. If no thread can be had,

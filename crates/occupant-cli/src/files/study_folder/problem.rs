@@ -46,7 +46,7 @@ impl Problem {
         move |source| Problem::File(FileProblem::Io { doing, path, source })
     }
 
-    /// How to go on, where there is something to say.
+    /// How to mend it, where that can be said.
     pub(crate) fn help(&self) -> Option<&'static str> {
         match self {
             Problem::Exists { .. } | Problem::NotOurs { .. } => Some("name a new folder, or an empty one"),
@@ -56,7 +56,7 @@ impl Problem {
             Problem::Damaged { .. } => Some("remove the file: its samples are computed again by the same sweep"),
             Problem::Busy { .. } => Some("wait for it, or name another folder"),
             Problem::Incomplete { .. } => {
-                Some("give the same command of `occupant sweep` again: it goes on from what is there")
+                Some("give the same command of `occupant sweep` again: it resumes with what is there")
             }
             Problem::Disagree { .. } => Some(
                 "the results were computed by programs or machines that do not agree; compute them anew with --restart",

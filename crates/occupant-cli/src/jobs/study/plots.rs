@@ -198,7 +198,7 @@ fn entries(label: &str, colour: &'static str, all: impl Iterator<Item = Entry>, 
         let y = |e: &Entry| e.at as f64 + lower;
         let whisker = |e: &Entry| [[e.interval[0], y(e)], [e.interval[1], y(e)], [f64::NAN; 2]];
         curves.push(Curve::new("", Style::line(colour, 1.6), entries.iter().flat_map(whisker).collect()));
-        // what a rule marks stays told apart by its shape
+        // the two kinds of numbers keep their shapes where a rule marks them
         let size = if lower < 0.0 { 7.5 } else { 5.0 };
         let dots = entries.iter().map(|e| [e.value, y(e)]).collect();
         curves.push(Curve::new(label, Style::dots(colour, size), dots));

@@ -78,7 +78,7 @@ pub(crate) fn sphere_centre_m(body: &Body, sphere: usize) -> Vector3<f64> {
     s.centre_from_lower_end_m.coords - Vector3::z() * cg
 }
 
-/// Neck, head and a nose that tells where it looks. Without a sphere the head is as wide as its inertia says.
+/// Neck, head and a nose that shows where it looks. Without a sphere the head is as wide as its inertia says.
 fn head(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
     let p = body.segment(segment);
     let own = (0..body.spheres.len()).filter(|&s| body.spheres[s].segment == segment);

@@ -98,7 +98,7 @@ pub(crate) struct Material<'a> {
 /// The figure of a wish.
 ///
 /// # Errors
-/// Channels of different units, a limit in another unit, more curves than can be told apart.
+/// Channels of different units, a limit in another unit, more curves than can be distinguished.
 pub(crate) fn figure(wish: &Wish, material: &Material<'_>) -> Result<Figure, String> {
     let unit = common_unit(wish, material.runs)?;
     let shown = plotted(unit, material.units);
@@ -120,7 +120,7 @@ pub(crate) fn figure(wish: &Wish, material: &Material<'_>) -> Result<Figure, Str
     }
     if curves.len() > Style::DISTINCT {
         return Err(format!(
-            "{} curves in the plot {}: at most {} can be told apart",
+            "{} curves in the plot {}: at most {} can be distinguished",
             curves.len(),
             wish.title,
             Style::DISTINCT
@@ -176,7 +176,7 @@ fn common_unit(wish: &Wish, runs: &[RunCurves]) -> Result<Unit, String> {
     }
 }
 
-/// What tells this curve from the others of its figure.
+/// What distinguishes this curve from the others of its figure.
 fn label(entry: &Entry, run: &RunCurves, wish: &Wish, material: &Material<'_>) -> String {
     let measured = material.overlays.iter().any(|o| wish.entries.iter().any(|e| e.channel == o.channel));
     match (run.label.as_str(), wish.entries.len()) {

@@ -48,13 +48,6 @@ impl Axis {
     }
 }
 
-impl Figure {
-    /// Curves alone, over the axes across and upward.
-    pub(crate) fn new(title: &str, [x, y]: [Axis; 2], curves: Vec<Curve>) -> Self {
-        Figure { title: title.to_owned(), x, y, curves, limits: Vec::new(), empty: "nothing to draw".to_owned() }
-    }
-}
-
 /// A curve: points in the units of the axes, a gap where a number is not finite.
 #[derive(Clone, Debug)]
 pub(crate) struct Curve {
@@ -176,6 +169,11 @@ pub(crate) fn drawable(value: f64) -> bool {
 }
 
 impl Figure {
+    /// Curves alone, over the axes across and upward.
+    pub(crate) fn new(title: &str, [x, y]: [Axis; 2], curves: Vec<Curve>) -> Self {
+        Figure { title: title.to_owned(), x, y, curves, limits: Vec::new(), empty: "nothing to draw".to_owned() }
+    }
+
     /// Least and greatest of X and of Y, limits included; none without a point.
     pub(crate) fn extent(&self) -> Option<[[f64; 2]; 2]> {
         let points = self.curves.iter().flat_map(|c| &c.points);
