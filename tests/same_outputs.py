@@ -22,8 +22,7 @@ need is run as well. --keep leaves all products in DIR/old and DIR/new, which mu
 Ignored is only what differs between two runs of one program, or with its version or that of a library:
 
 - wall times in tables, in JSON and in the columns `wall_time_s`; lines of progress of sweeps and fits;
-- `results.parquet` and `history.parquet`, which hold wall times, except where both binaries make them of the same journal;
-- journals of sweeps and fits, which hold wall times under checksums; but NEW must read those of OLD (cases `…-old`);
+- `results.parquet` and `history.parquet`, and the journals of sweeps and fits, which hold wall times;
 - the program's version; the library named in Parquet files; of MCAP files the library and, where that differs, index,
   checksums and compression of the chunks.
 
@@ -53,7 +52,7 @@ MOST_LINES = 6  # of differences of one case
 
 CALLS = tomllib.loads((ROOT / "tests/same_outputs.toml").read_text())
 BEGINS_WITH = CALLS["begins_with"]
-TIMED = {"results.parquet", "history.parquet"}  # hold wall times; the same where both binaries make them of one journal
+TIMED = {"results.parquet", "history.parquet", "journal"}  # hold wall times
 
 
 # --- What is run ------------------------------------------------------------------------------------------------------
@@ -135,15 +134,14 @@ def produce(binary: str, side: Path, case: Case) -> dict[str, bytes]:
     folder = side / case.group / case.name
     folder.mkdir(parents=True)
     if source := BEGINS_WITH.get(case.name):
-        shutil.copytree(side.parent / "old" / case.group / source / "out", folder / "out")
+        shutil.copytree(side / case.group / source / "out", folder / "out")
     environment = {k: v for k, v in os.environ.items() if not k.startswith(("OCCUPANT_", "SLURM_"))}
     ended = subprocess.run([binary, *case.call], cwd=folder, env=environment, capture_output=True, timeout=LIMIT_S)
     made = {"exit code": str(ended.returncode).encode(), "standard output": ended.stdout, "standard error": ended.stderr}
     written = folder.parent / "sweep/out/bands" if case.name == "bands" else folder
-    left_out = {"journal"} if case.name in ("merge-old", "continue-old") else {"journal", *TIMED}
     for path in sorted(p for p in written.rglob("*") if p.is_file()):
         name = path.relative_to(written)
-        if left_out.isdisjoint(name.parts):
+        if TIMED.isdisjoint(name.parts):
             made[str(name)] = path.read_bytes()
     return made
 

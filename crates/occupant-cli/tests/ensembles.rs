@@ -223,7 +223,7 @@ fn members_part_when_chest_and_head_strike_the_wheel() {
     assert_eq!(&bytes("b.parquet")[..4], b"PAR1");
     assert_eq!(&bytes("b.png")[1..4], b"PNG");
     let svg = String::from_utf8(bytes("b.svg")).unwrap();
-    assert!(svg.contains("belt.lap.force, N") && svg.contains("90 % of the members"));
+    assert!(svg.contains(">belt.lap.force</text>") && svg.contains("90 % of the members"));
     assert!(!svg.contains("NaN"));
 }
 

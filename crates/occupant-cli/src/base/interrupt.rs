@@ -50,9 +50,6 @@ impl Interrupt {
 
 impl Recorder for Interrupt {
     fn record(&mut self, _sample: &Sample<'_>) -> Result<Flow, RecorderError> {
-        Ok(match self.asked.load(Ordering::Relaxed) {
-            true => Flow::Stop,
-            false => Flow::Continue,
-        })
+        Ok(if self.asked.load(Ordering::Relaxed) { Flow::Stop } else { Flow::Continue })
     }
 }

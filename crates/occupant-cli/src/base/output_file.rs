@@ -4,7 +4,7 @@
 
 use std::ffi::OsString;
 use std::fmt;
-use std::fs::{self, File, OpenOptions};
+use std::fs::{self, File};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
@@ -41,7 +41,7 @@ pub(crate) enum FileProblem {
     #[error("{} exists; --force replaces it, -o gives another name", .path.display())]
     Exists { path: PathBuf },
     /// A provisional file is there.
-    #[error("{} exists: a run that was interrupted or still goes on; --force replaces it, -o gives another name", .path.display())]
+    #[error("{} exists: a run that was interrupted or is still at work; --force replaces it, -o gives another name", .path.display())]
     PartialExists { path: PathBuf },
     /// Something that is no ordinary file has that name: a folder, a device.
     #[error("{} is not an ordinary file; -o gives another name", .path.display())]
@@ -79,10 +79,14 @@ fn refuse_irregular(target: &Path) -> Result<(), FileProblem> {
     }
 }
 
-fn remove_if_there(partial: &Path) -> Result<(), FileProblem> {
-    match fs::remove_file(partial) {
+/// Removes a file, for which `doing` is the word.
+///
+/// # Errors
+/// The operating system refuses.
+pub(crate) fn remove_if_there(path: &Path, doing: &'static str) -> Result<(), FileProblem> {
+    match fs::remove_file(path) {
         Err(source) if source.kind() != io::ErrorKind::NotFound => {
-            Err(FileProblem::Io { doing: "replace", path: partial.to_owned(), source })
+            Err(FileProblem::Io { doing, path: path.to_owned(), source })
         }
         _ => Ok(()),
     }
@@ -95,21 +99,15 @@ impl PartialFile {
     /// A file is there and may not be replaced; the operating system refuses.
     pub(crate) fn create(target: &Path, existing: Existing) -> Result<Self, FileProblem> {
         let partial = partial_path(target);
-        let mut options = OpenOptions::new();
-        options.write(true);
         match existing {
-            Existing::Keep => {
-                refuse_existing(target)?;
-                options.create_new(true)
-            }
+            Existing::Keep => refuse_existing(target)?,
             Existing::Replace => {
                 refuse_irregular(target)?;
                 // a run that still writes the old one keeps it, without its name
-                remove_if_there(&partial)?;
-                options.create_new(true)
+                remove_if_there(&partial, "replace")?;
             }
-        };
-        let file = options.open(&partial).map_err(|source| {
+        }
+        let file = File::create_new(&partial).map_err(|source| {
             let path = partial.clone();
             match source.kind() {
                 io::ErrorKind::AlreadyExists => FileProblem::PartialExists { path },
@@ -144,7 +142,7 @@ impl PartialFile {
         Ok(target)
     }
 
-    /// Leaves the file under its provisional name, safe against a loss of power, and tells the name.
+    /// Leaves the file under its provisional name, safe against a loss of power, and gives that name.
     ///
     /// # Errors
     /// The operating system refuses.

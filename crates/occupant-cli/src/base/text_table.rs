@@ -59,10 +59,7 @@ impl Table {
 
 /// A number with so many decimals; one that no column holds, with an exponent.
 pub(crate) fn number(value: f64, decimals: usize) -> String {
-    match value.abs() < 1e6 {
-        true => format!("{value:.decimals$}"),
-        false => format!("{value:.2e}"),
-    }
+    if value.abs() < 1e6 { format!("{value:.decimals$}") } else { format!("{value:.2e}") }
 }
 
 /// Two columns of words without a head: a name and what there is to say of it.

@@ -17,7 +17,7 @@ use crate::files::measured::{self, MapArgument, Wanted, pairs};
 use crate::files::results::Results;
 use crate::pictures::Format;
 use crate::pictures::plot::{
-    Entry, Figure, LimitArgument, Material, Overlay, RunCurves, Sheet, Wish, figures, sheet, standard,
+    Entry, Figure, LimitArgument, Material, Overlay, RunCurves, Sheet, Wish, figure, sheet, standard,
 };
 
 /// Draw time histories of one or more runs as SVG or PNG
@@ -139,9 +139,10 @@ pub(crate) fn plot(args: &Args) -> Result<Done, Failure> {
         units: args.units,
         window_s,
     };
-    let figures = figures(&wishes, &material).map_err(|reason| {
-        Failure::with_help(reason, "give other channels a plot of their own with another --channel")
-    })?;
+    let figures =
+        wishes.iter().map(|wish| figure(wish, &material)).collect::<Result<Vec<_>, _>>().map_err(|reason| {
+            Failure::with_help(reason, "give other channels a plot of their own with another --channel")
+        })?;
     let words = words(args, &runs);
     match &args.each {
         Some(folder) => write_each(args, folder, kind, &words, &figures),

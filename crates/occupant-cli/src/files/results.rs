@@ -79,10 +79,14 @@ impl Results {
         self.status() == RunStatus::Completed
     }
 
+    /// An entry of what the file says of the run's end.
+    fn said(&self, key: &str) -> Option<&str> {
+        self.result.as_ref()?.get(key).map(String::as_str)
+    }
+
     /// How the run ended; one that was cut off counts as interrupted.
     pub(crate) fn status(&self) -> RunStatus {
-        let status = self.result.as_ref().and_then(|r| r.get("status"));
-        match status.map(String::as_str) {
+        match self.said("status") {
             Some("completed") => RunStatus::Completed,
             Some("failed") => RunStatus::Failed,
             _ => RunStatus::Interrupted,
@@ -94,8 +98,7 @@ impl Results {
         let name = self.path.display();
         let mut notes = Vec::new();
         if !self.is_complete() {
-            let reason = self.result.as_ref().and_then(|r| r.get("reason"));
-            let reason = reason.map_or("it was cut off", String::as_str);
+            let reason = self.said("reason").unwrap_or("it was cut off");
             notes.push(format!("{name} holds a run that did not complete: {reason}"));
         }
         let theirs = self.run.get("program").map_or("?", String::as_str);
@@ -108,7 +111,7 @@ impl Results {
         notes
     }
 
-    /// Shows every output to `recorder`, which is told of the begin of the run but not of its end.
+    /// Shows every output to `recorder`, which learns of the begin of the run but not of its end.
     ///
     /// # Errors
     /// What the recorder reports.
@@ -153,8 +156,7 @@ impl Results {
         let mut summary = summary.ok_or_else(|| refused("the run left no summary"))?;
         summary.status = self.status();
         if !self.is_complete() {
-            let reason = self.result.as_ref().and_then(|r| r.get("reason").cloned());
-            summary.reason = Some(reason.unwrap_or_else(|| "the run was cut off".to_owned()));
+            summary.reason = Some(self.said("reason").unwrap_or("the run was cut off").to_owned());
         }
         Ok(summary)
     }
@@ -170,10 +172,7 @@ impl Results {
             effort: progress.effort,
             first_touches: last.first_touches.clone(),
             greatest_kinetic_j: greatest_j,
-            balance_error: match greatest_j > 0.0 {
-                true => progress.greatest_imbalance_j / greatest_j,
-                false => 0.0,
-            },
+            balance_error: if greatest_j > 0.0 { progress.greatest_imbalance_j / greatest_j } else { 0.0 },
         }
     }
 }

@@ -10,7 +10,7 @@ use occupant_core::scenario::{Diagnostics, Draft, Format, Loaded};
 use super::mcap::StoredRun;
 use super::mcap::about::RESOLVED;
 use crate::base::failure::Failure;
-use crate::base::names::file_name;
+use crate::base::names::{ending, file_name};
 
 /// Which scenario, and what is changed in it.
 #[derive(Clone, Debug, Args)]
@@ -91,10 +91,9 @@ pub(crate) fn stored(file: &Path, run: &StoredRun) -> Result<Loaded, Failure> {
         .map_err(|problems| Failure::plain(format!("the scenario in {name} cannot be read:\n{problems}")))
 }
 
-/// The format that the file name tells, if it does.
+/// The format that the ending of the file name stands for, if any.
 pub(crate) fn format_of(path: &Path) -> Option<Format> {
-    let extension = path.extension()?.to_str()?.to_ascii_lowercase();
-    match extension.as_str() {
+    match ending(path).as_str() {
         "toml" => Some(Format::Toml),
         "json" => Some(Format::Json),
         _ => None,

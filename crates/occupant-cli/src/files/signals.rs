@@ -2,8 +2,7 @@
 
 use std::path::PathBuf;
 
-use crash_measures::unit::Scale;
-use crash_measures::unit::parse;
+use crash_measures::unit::{Dimension, Scale, parse};
 
 use super::mme::Code;
 
@@ -43,4 +42,10 @@ pub(crate) fn scale_of(unit: &str) -> Option<Scale> {
         "-" | "1" | "–" => Some(Scale { dimension: Default::default(), factor: 1.0 }),
         unit => parse(unit, 0).ok(),
     }
+}
+
+/// Seconds in one of a unit as written; none if it is no unit of time.
+pub(crate) fn seconds_in(unit: &str) -> Option<f64> {
+    let scale = parse(unit, 0).ok()?;
+    (scale.dimension == Dimension::new(0, 0, 1, 0)).then_some(scale.factor)
 }

@@ -5,15 +5,16 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use parquet::basic::{Compression, LogicalType, Repetition, Type as Physical};
-use parquet::data_type::{ByteArray, ByteArrayType, DoubleType, Int64Type};
+use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Type};
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
-use parquet::file::writer::{SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
+use serde::{Deserialize, Serialize};
 
 use crate::base::failure::Failure;
-use crate::base::names::program;
+use crate::base::names::{ending, program};
 use crate::base::output_file::{Existing, PartialFile};
 
 /// So many values are held at a time, but never fewer or more rows than these.
@@ -31,8 +32,9 @@ pub(crate) enum Kind {
     MaybeText,
 }
 
-/// A value.
-#[derive(Clone, Debug, PartialEq)]
+/// A value; in JSON nothing, a number or a text.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(untagged)]
 pub(crate) enum Cell {
     Absent,
     Number(f64),
@@ -88,7 +90,7 @@ pub(crate) enum Form {
 impl Form {
     /// The form that the file's ending asks for.
     pub(crate) fn of(path: &Path) -> Option<Form> {
-        match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
+        match ending(path).as_str() {
             "csv" => Some(Form::Csv),
             "parquet" => Some(Form::Parquet),
             _ => None,
@@ -208,36 +210,26 @@ fn write_column<'a, W: Write + Send>(
     let no_column = || ParquetError::General("a column too many".to_owned());
     let mut column = group.next_column()?.ok_or_else(no_column)?;
     match kind {
-        Kind::Count => {
-            let values: Vec<i64> = cells.map(|c| c.number().unwrap_or(0.0) as i64).collect();
-            column.typed::<Int64Type>().write_batch(&values, None, None)?;
-        }
-        Kind::Number => {
-            let values: Vec<f64> = cells.map(|c| c.number().unwrap_or(f64::NAN)).collect();
-            column.typed::<DoubleType>().write_batch(&values, None, None)?;
-        }
-        Kind::MaybeNumber => {
-            let (values, levels) = present(cells.map(Cell::number));
-            column.typed::<DoubleType>().write_batch(&values, Some(&levels), None)?;
-        }
-        Kind::Text => {
-            let values: Vec<ByteArray> =
-                cells.map(|c| c.bytes().unwrap_or_else(|| ByteArray::from(Vec::new()))).collect();
-            column.typed::<ByteArrayType>().write_batch(&values, None, None)?;
-        }
-        Kind::MaybeText => {
-            let (values, levels) = present(cells.map(Cell::bytes));
-            column.typed::<ByteArrayType>().write_batch(&values, Some(&levels), None)?;
-        }
-    }
+        Kind::Count => put::<Int64Type>(&mut column, cells.map(|c| c.number().map(|x| x as i64)), Some(0)),
+        Kind::Number => put::<DoubleType>(&mut column, cells.map(Cell::number), Some(f64::NAN)),
+        Kind::MaybeNumber => put::<DoubleType>(&mut column, cells.map(Cell::number), None),
+        Kind::Text => put::<ByteArrayType>(&mut column, cells.map(Cell::bytes), Some(ByteArray::from(Vec::new()))),
+        Kind::MaybeText => put::<ByteArrayType>(&mut column, cells.map(Cell::bytes), None),
+    }?;
     column.close()
 }
 
-/// The values that are there, and for each row 1 if it has one.
-fn present<T>(values: impl Iterator<Item = Option<T>>) -> (Vec<T>, Vec<i16>) {
-    let all: Vec<Option<T>> = values.collect();
-    let levels = all.iter().map(|value| i16::from(value.is_some())).collect();
-    (all.into_iter().flatten().collect(), levels)
+/// Writes values; what stands for one that is absent, in a column that may not lack any.
+fn put<T: DataType>(
+    column: &mut SerializedColumnWriter<'_>,
+    values: impl Iterator<Item = Option<T::T>>,
+    absent: Option<T::T>,
+) -> Result<usize, ParquetError> {
+    let all: Vec<Option<T::T>> = values.map(|value| value.or_else(|| absent.clone())).collect();
+    // 1 for each value that is there
+    let levels: Vec<i16> = all.iter().map(|value| value.is_some().into()).collect();
+    let there: Vec<T::T> = all.into_iter().flatten().collect();
+    column.typed::<T>().write_batch(&there, absent.is_none().then_some(&levels[..]), None)
 }
 
 fn reason(error: ParquetError) -> io::Error {

@@ -14,18 +14,13 @@ pub(crate) struct Trouble {
     hint: Option<String>,
 }
 
-/// Problems of one file that are told at once; the rest is counted.
-const MOST_TOLD: usize = 10;
+/// Problems of one file that are named at once; the rest is counted.
+const MOST: usize = 10;
 
 impl Trouble {
     /// In a line (from 1) of a file.
     pub(crate) fn at(path: &Path, line: usize, found: impl Into<String>, expected: impl Into<String>) -> Self {
-        Trouble {
-            place: format!("{}:{line}", path.display()),
-            found: found.into(),
-            expected: expected.into(),
-            hint: None,
-        }
+        Trouble { place: format!("{}:{line}", path.display()), ..Trouble::of(path, found, expected) }
     }
 
     /// In a file as a whole.
@@ -38,10 +33,11 @@ impl Trouble {
         self.hint = Some(hint.into());
         self
     }
+}
 
-    /// As the end of a command.
-    pub(crate) fn failure(self) -> Failure {
-        failure(&[self])
+impl From<Trouble> for Failure {
+    fn from(trouble: Trouble) -> Self {
+        failure(&[trouble])
     }
 }
 
@@ -57,10 +53,10 @@ impl fmt::Display for Trouble {
 
 /// All problems as the end of a command.
 pub(crate) fn failure(problems: &[Trouble]) -> Failure {
-    let told = problems.iter().take(MOST_TOLD).map(Trouble::to_string);
-    let mut text = told.collect::<Vec<_>>().join("\n\n");
-    if problems.len() > MOST_TOLD {
-        text.push_str(&format!("\n\nand {} more", problems.len() - MOST_TOLD));
+    let shown = problems.iter().take(MOST).map(Trouble::to_string);
+    let mut text = shown.collect::<Vec<_>>().join("\n\n");
+    if problems.len() > MOST {
+        text.push_str(&format!("\n\nand {} more", problems.len() - MOST));
     }
     Failure::CouldNotRun(text)
 }

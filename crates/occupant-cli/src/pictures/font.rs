@@ -1,14 +1,13 @@
 //! The fonts of all pictures: DejaVu Sans, regular and bold, cut down to European scripts and the signs of mathematics.
 
-use skrifa::instance::{LocationRef, Size};
-use skrifa::{FontRef, MetadataProvider};
+use std::fmt::Write as _;
+
+use ttf_parser::{Face, GlyphId, OutlineBuilder};
 
 /// What a picture's `font-family` says: ours first, then what a browser has.
 pub(crate) const FAMILY: &str = "DejaVu Sans, Verdana, Arial, sans-serif";
-/// The family's name in the font files.
-pub(crate) const NAME: &str = "DejaVu Sans";
-pub(crate) const REGULAR: &[u8] = include_bytes!("../../assets/fonts/DejaVuSans.ttf");
-pub(crate) const BOLD: &[u8] = include_bytes!("../../assets/fonts/DejaVuSans-Bold.ttf");
+const REGULAR: &[u8] = include_bytes!("../../assets/fonts/DejaVuSans.ttf");
+const BOLD: &[u8] = include_bytes!("../../assets/fonts/DejaVuSans-Bold.ttf");
 
 /// Weight of a text.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -18,23 +17,95 @@ pub(crate) enum Weight {
     Bold,
 }
 
+impl Weight {
+    fn face(self) -> Option<Face<'static>> {
+        let file = match self {
+            Weight::Regular => REGULAR,
+            Weight::Bold => BOLD,
+        };
+        Face::parse(file, 0).ok()
+    }
+}
+
 /// Width of a text of this font size, both in user units, without kerning; unknown letters count as wide ones.
 pub(crate) fn width(text: &str, size: f64, weight: Weight) -> f64 {
-    let file = match weight {
-        Weight::Regular => REGULAR,
-        Weight::Bold => BOLD,
+    let Some(face) = weight.face() else {
+        return size * text.chars().count() as f64;
     };
-    let widest = size * text.chars().count() as f64;
-    let Ok(font) = FontRef::new(file) else {
-        return widest;
-    };
-    let letters = font.charmap();
-    let metrics = font.glyph_metrics(Size::new(size as f32), LocationRef::default());
-    let advance = |letter| {
-        let glyph = letters.map(letter)?;
-        metrics.advance_width(glyph).map(f64::from)
-    };
+    let advance = |letter| Some(scaled(face.glyph_hor_advance(face.glyph_index(letter)?)?, size, face.units_per_em()));
     text.chars().map(|c| advance(c).unwrap_or(size)).sum()
+}
+
+/// A length of font units at a font size, in fixed point (16.16) as FreeType scales advances.
+fn scaled(units: u16, size: f64, units_per_em: u16) -> f64 {
+    let em = u64::from(units_per_em);
+    let size_26_6 = (size as f32 * 64.0) as u64;
+    let scale_16_16 = ((size_26_6 << 16) + em / 2) / em;
+    f64::from(((u64::from(units) * scale_16_16 + 32) / 64) as f32 / 65536.0)
+}
+
+/// A text as outlines.
+pub(crate) struct Outline {
+    /// Data of an SVG path; the text begins at 0 on its base line.
+    pub(crate) path: String,
+    /// Where the next letter would begin.
+    pub(crate) width: f64,
+}
+
+/// The outlines of a text's letters one after the other, from left to right, without kerning; a letter that the font lacks
+/// shows as its empty box.
+pub(crate) fn outline(text: &str, size: f64, weight: Weight) -> Outline {
+    let mut pen = Pen { path: String::new(), x: 0.0, scale: 0.0 };
+    if let Some(face) = weight.face() {
+        pen.scale = size / f64::from(face.units_per_em());
+        for letter in text.chars() {
+            let glyph = face.glyph_index(letter).unwrap_or(GlyphId(0));
+            face.outline_glyph(glyph, &mut pen);
+            pen.x += pen.scale * f64::from(face.glyph_hor_advance(glyph).unwrap_or(0));
+        }
+    }
+    Outline { path: pen.path, width: pen.x }
+}
+
+/// Writes outlines in font units (y up) as path data.
+struct Pen {
+    path: String,
+    /// Where the present letter begins.
+    x: f64,
+    /// User units a font unit.
+    scale: f64,
+}
+
+impl Pen {
+    fn put(&mut self, command: char, points: &[(f32, f32)]) {
+        self.path.push(command);
+        for (x, y) in points {
+            let (x, y) = (self.x + self.scale * f64::from(*x), -self.scale * f64::from(*y));
+            let _ = write!(self.path, "{x:.3} {y:.3} ");
+        }
+    }
+}
+
+impl OutlineBuilder for Pen {
+    fn move_to(&mut self, x: f32, y: f32) {
+        self.put('M', &[(x, y)]);
+    }
+
+    fn line_to(&mut self, x: f32, y: f32) {
+        self.put('L', &[(x, y)]);
+    }
+
+    fn quad_to(&mut self, x1: f32, y1: f32, x: f32, y: f32) {
+        self.put('Q', &[(x1, y1), (x, y)]);
+    }
+
+    fn curve_to(&mut self, x1: f32, y1: f32, x2: f32, y2: f32, x: f32, y: f32) {
+        self.put('C', &[(x1, y1), (x2, y2), (x, y)]);
+    }
+
+    fn close(&mut self) {
+        self.path.push('Z');
+    }
 }
 
 #[cfg(test)]
@@ -54,10 +125,10 @@ mod tests {
     #[test]
     fn the_signs_that_units_need_are_there() {
         for file in [REGULAR, BOLD] {
-            let font = FontRef::new(file).unwrap();
+            let face = Face::parse(file, 0).unwrap();
             for sign in "°²³·×−–…µΔΣΩαβγ′√≤≥≈±→←↑↓ÄÖÜäöüßéñçłščЖя✓".chars()
             {
-                assert!(font.charmap().map(sign).is_some(), "{sign}");
+                assert!(face.glyph_index(sign).is_some(), "{sign}");
             }
         }
     }

@@ -1,8 +1,9 @@
-//! The kind of a picture file, told by its ending.
+//! The kind of a picture file, by its ending.
 
 use std::path::Path;
 
 use super::png::{PngError, png};
+use crate::base::names::ending;
 
 /// Kinds of picture files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -16,8 +17,7 @@ pub(crate) enum Format {
 impl Format {
     /// The kind that the file's ending asks for; none for another ending.
     pub(crate) fn of(path: &Path) -> Option<Self> {
-        let ending = path.extension()?.to_str()?;
-        match ending.to_ascii_lowercase().as_str() {
+        match ending(path).as_str() {
             "svg" => Some(Format::Svg),
             "png" => Some(Format::Png),
             _ => None,

@@ -1,22 +1,31 @@
 //! SVG to PNG with our own fonts, on a white ground.
+//!
+//! A text becomes the outlines of its letters before the drawing is rendered: nothing is needed that shapes text, and
+//! no font of the machine is looked at.
 
-use std::fmt;
-use std::sync::Arc;
+use std::ops::Range;
 
 use resvg::tiny_skia::{Color, Pixmap, Transform};
-use resvg::usvg::{Options, Tree, fontdb};
+use resvg::usvg::roxmltree::{Document, Node};
+use resvg::usvg::{Options, Tree};
 
-use super::font;
+use super::font::{self, Weight};
+use super::svg::escape;
 
 /// Most pixels of a picture: one more would need over 1 GB.
 const MOST_PIXELS: f64 = 250e6;
 
 /// Why a drawing cannot become a PNG.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub(crate) enum PngError {
     /// The SVG cannot be read, in the reader's words.
+    #[error("the drawing is no SVG that can be rendered: {0}")]
     Svg(String),
     /// It has too many pixels, or none.
+    #[error(
+        "the picture would have {width:.0} × {height:.0} pixels; at least 1 and at most {MOST_PIXELS:.0} in all can be \
+         made"
+    )]
     Size {
         /// Width in pixels.
         width: f64,
@@ -24,35 +33,16 @@ pub(crate) enum PngError {
         height: f64,
     },
     /// The encoder refuses, in its words.
+    #[error("the picture cannot be written as PNG: {0}")]
     Encoding(String),
 }
-
-impl fmt::Display for PngError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            PngError::Svg(reason) => {
-                write!(f, "the drawing is no SVG that can be rendered: {reason}")
-            }
-            PngError::Size { width, height } => write!(
-                f,
-                "the picture would have {width:.0} × {height:.0} pixels; at least 1 and at most {MOST_PIXELS:.0} in \
-                 all can be made"
-            ),
-            PngError::Encoding(reason) => {
-                write!(f, "the picture cannot be written as PNG: {reason}")
-            }
-        }
-    }
-}
-
-impl std::error::Error for PngError {}
 
 /// Renders a drawing with `pixels` pixels a user unit.
 ///
 /// # Errors
 /// Text that is no SVG; a picture without or with too many pixels.
 pub(crate) fn png(svg: &str, pixels: f64) -> Result<Vec<u8>, PngError> {
-    let tree = Tree::from_str(svg, &options()).map_err(|e| PngError::Svg(e.to_string()))?;
+    let tree = Tree::from_str(&with_outlines(svg)?, &Options::default()).map_err(|e| PngError::Svg(e.to_string()))?;
     let size = tree.size();
     let width = (f64::from(size.width()) * pixels).round();
     let height = (f64::from(size.height()) * pixels).round();
@@ -67,15 +57,41 @@ pub(crate) fn png(svg: &str, pixels: f64) -> Result<Vec<u8>, PngError> {
     pixmap.encode_png().map_err(|e| PngError::Encoding(e.to_string()))
 }
 
-/// Reads nothing but the text: no system fonts, and our font for every family.
-fn options() -> Options<'static> {
-    let mut fonts = fontdb::Database::new();
-    fonts.load_font_data(font::REGULAR.to_vec());
-    fonts.load_font_data(font::BOLD.to_vec());
-    fonts.set_sans_serif_family(font::NAME);
-    fonts.set_serif_family(font::NAME);
-    fonts.set_monospace_family(font::NAME);
-    Options { font_family: font::NAME.to_owned(), fontdb: Arc::new(fonts), ..Options::default() }
+/// The drawing with a path of outlines in place of each text.
+fn with_outlines(svg: &str) -> Result<String, PngError> {
+    let document = Document::parse(svg).map_err(|e| PngError::Svg(e.to_string()))?;
+    let mut out = String::with_capacity(2 * svg.len());
+    let mut rest = 0;
+    for text in document.descendants().filter(|n| n.has_tag_name("text")) {
+        let Range { start, end } = text.range();
+        out.push_str(&svg[rest..start]);
+        out.push_str(&as_path(text));
+        rest = end;
+    }
+    out.push_str(&svg[rest..]);
+    Ok(out)
+}
+
+/// The path that shows a text. What says how it is painted is passed on; size, weight and anchor may stand at a group.
+fn as_path(text: Node<'_, '_>) -> String {
+    let inherited = |name| text.ancestors().find_map(|n| n.attribute(name));
+    let size = inherited("font-size").and_then(|s| s.parse().ok()).unwrap_or(12.0);
+    let weight = if inherited("font-weight") == Some("bold") { Weight::Bold } else { Weight::Regular };
+    let words: Vec<&str> = text.text().unwrap_or_default().split(' ').filter(|w| !w.is_empty()).collect();
+    let outline = font::outline(&words.join(" "), size, weight);
+    let before = match inherited("text-anchor") {
+        Some("middle") => outline.width / 2.0,
+        Some("end") => outline.width,
+        _ => 0.0,
+    };
+    let place = |name| text.attribute(name).and_then(|x| x.parse::<f64>().ok()).unwrap_or(0.0);
+    let (x, y) = (place("x") - before, place("y"));
+    let turned = text.attribute("transform").unwrap_or_default();
+    let mut path = format!("<path transform=\"{} translate({x} {y})\" d=\"{}\"", escape(turned), outline.path);
+    for a in text.attributes().filter(|a| !["x", "y", "transform"].contains(&a.name())) {
+        path += &format!(" {}=\"{}\"", a.name(), escape(a.value()));
+    }
+    path + "/>"
 }
 
 #[cfg(test)]
@@ -112,6 +128,36 @@ mod tests {
             // 391 pixels
             assert!((300..500).contains(&ink), "{family}: {ink}");
         }
+    }
+
+    /// Left, right, top and bottom of what is dark.
+    fn extent(body: &str) -> [u32; 4] {
+        let svg = format!(r#"<svg xmlns="http://www.w3.org/2000/svg" width="200" height="200">{body}</svg>"#);
+        let picture = pixels(&svg);
+        let places = (0..picture.height()).flat_map(|y| (0..picture.width()).map(move |x| (x, y)));
+        let all = places.filter(|(x, y)| picture.pixel(*x, *y).unwrap().red() < 128);
+        all.fold([u32::MAX, 0, u32::MAX, 0], |[l, r, t, b], (x, y)| [l.min(x), r.max(x), t.min(y), b.max(y)])
+    }
+
+    /// `H` of DejaVu Sans: 1540 of 2048 units wide, its stems from 201 to 1339, 1493 high; two pixels a unit here.
+    #[test]
+    fn letters_stand_where_the_text_says() {
+        let near = |body: &str, place: [f64; 4]| {
+            let found = extent(body).map(f64::from);
+            let off = found.iter().zip(place).map(|(a, b)| (a - 2.0 * b).abs());
+            assert!(off.fold(0.0, f64::max) <= 1.5, "{body}: {found:?}, 2 × {place:?}");
+        };
+        let em = |units: f64| units / 2048.0 * 40.0;
+        let (left, right, top) = (em(201.0), em(1339.0), em(1493.0));
+        let text = |more: &str| format!(r#"<text x="100" y="100" font-size="40" {more}> H </text>"#);
+        near(&text(""), [100.0 + left, 100.0 + right, 100.0 - top, 100.0]);
+        let half = em(1540.0) / 2.0;
+        near(&text(r#"text-anchor="middle""#), [100.0 + left - half, 100.0 + right - half, 100.0 - top, 100.0]);
+        near(&text(r#"text-anchor="end""#), [100.0 - right, 100.0 - left, 100.0 - top, 100.0]);
+        near(&text(r#"transform="rotate(-90 100 100)""#), [100.0 - top, 100.0, 100.0 - right, 100.0 - left]);
+        // of the group: bold is wider
+        let bold = extent(&format!(r#"<g font-weight="bold">{}</g>"#, text("")));
+        assert!(bold[1] > extent(&text(""))[1]);
     }
 
     #[test]

@@ -9,7 +9,7 @@ use std::time::{Duration, Instant};
 
 use super::{STUDY, done, folder_with, occupant, rows};
 
-/// How often each sample stands in the journal, by the frames of its pieces.
+/// How often each sample stands in the journal, by the whole lines of its pieces.
 fn computed(out: &Path) -> BTreeMap<u64, u32> {
     let mut times = BTreeMap::new();
     let Ok(pieces) = fs::read_dir(out.join("journal")) else {
@@ -20,17 +20,10 @@ fn computed(out: &Path) -> BTreeMap<u64, u32> {
         if path.extension().is_none_or(|e| e != "rows") {
             continue;
         }
-        let bytes = fs::read(path).unwrap();
-        let head = "occupant rows 1\n".len() + 65;
-        let mut rest = bytes.get(head..).unwrap_or_default();
-        while let Some((length, after)) = rest.split_first_chunk::<4>() {
-            let end = 4 + u32::from_le_bytes(*length) as usize;
-            if after.len() < end {
-                break;
-            }
-            let index = u64::from_le_bytes(after[4..12].try_into().unwrap());
-            *times.entry(index).or_default() += 1;
-            rest = &after[end..];
+        let text = fs::read_to_string(path).unwrap();
+        for line in text.split_inclusive('\n').skip(1).filter(|line| line.ends_with('\n')) {
+            let row: serde_json::Value = serde_json::from_str(line).unwrap();
+            *times.entry(row["index"].as_u64().unwrap()).or_default() += 1;
         }
     }
     times

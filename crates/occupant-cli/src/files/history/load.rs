@@ -117,21 +117,17 @@ fn filtered_channel(
 /// The interval of the outputs. The last output stands at the run's end, which need not be a whole interval after the one
 /// before; it is then left out.
 fn even(series: &mut Series, notes: &mut Vec<String>) -> Result<f64, String> {
-    match uniform_interval(&series.time_s) {
-        Ok(dt_s) => Ok(dt_s),
-        Err(error) => {
-            let last = series.time_s.len().saturating_sub(1);
-            let dt_s = uniform_interval(&series.time_s[..last]);
-            let dt_s = dt_s.map_err(|_| format!("it cannot be filtered: {error}"))?;
-            notes.push(format!(
-                "the last output, at {} s, is no whole interval after the one before and is left out",
-                series.time_s[last]
-            ));
-            series.time_s.truncate(last);
-            series.values.iter_mut().for_each(|v| v.truncate(last));
-            Ok(dt_s)
-        }
-    }
+    uniform_interval(&series.time_s).or_else(|error| {
+        let last = series.time_s.len().saturating_sub(1);
+        let dt_s = uniform_interval(&series.time_s[..last]).map_err(|_| format!("it cannot be filtered: {error}"))?;
+        notes.push(format!(
+            "the last output, at {} s, is no whole interval after the one before and is left out",
+            series.time_s[last]
+        ));
+        series.time_s.truncate(last);
+        series.values.iter_mut().for_each(|v| v.truncate(last));
+        Ok(dt_s)
+    })
 }
 
 fn too_coarse(results: &Results, channel: &str, reason: &str) -> Failure {

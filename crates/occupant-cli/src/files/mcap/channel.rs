@@ -6,11 +6,10 @@ use std::io::{Seek, Write};
 use mcap::records::MessageHeader;
 use mcap::{McapResult, Writer};
 use occupant_core::quantity::Kind;
-use occupant_core::results::catalogue::{Field, Message, touch};
-use prost_types::FileDescriptorProto;
+use occupant_core::results::catalogue::{Message, touch};
+use prost_types::{FieldDescriptorProto, FileDescriptorProto};
 
-use super::descriptor::{self, many, one};
-use super::foxglove;
+use super::{descriptor, foxglove};
 
 const PROTOBUF: &str = "protobuf";
 /// Package of our own messages.
@@ -40,8 +39,8 @@ impl Default for Schemas {
     /// Foxglove's types and our own within messages.
     fn default() -> Self {
         let mut library = foxglove::library();
-        let fields = touch();
-        library.push(file("Touch", fields.iter().map(|(number, name, kind)| described(*number, name, *kind))));
+        let fields = touch().into_iter().map(|(number, name, kind)| described(number, &name, kind));
+        library.push(descriptor::file(PACKAGE, "Touch", fields.collect(), None));
         Schemas { library }
     }
 }
@@ -61,40 +60,43 @@ impl Schemas {
         topic: &str,
         name: &str,
     ) -> McapResult<Channel> {
-        let full = format!("foxglove.{name}");
-        let schema = writer.add_schema(&full, PROTOBUF, &self.foxglove(name))?;
-        let id = writer.add_channel(schema, topic, PROTOBUF, &BTreeMap::new())?;
-        Ok(Channel { id, sequence: 0 })
+        add(writer, topic, &format!("foxglove.{name}"), &self.foxglove(name), &BTreeMap::new())
     }
 
     /// A channel of a message of the catalogue; its metadata say what each field means.
     pub(crate) fn add(&self, writer: &mut Writer<impl Write + Seek>, message: &Message) -> McapResult<Channel> {
-        let full = format!("{PACKAGE}.{}", message.name);
         let fields = message.fields.iter().map(|f| described(f.number, &f.name, f.kind));
-        let described = descriptor::set(&file(message.name, fields), &self.library);
-        let schema = writer.add_schema(&full, PROTOBUF, &described)?;
-        let meaning = |field: &Field| (field.name.clone(), field.meaning.clone().into_owned());
-        let metadata: BTreeMap<String, String> = message.fields.iter().map(meaning).collect();
-        let id = writer.add_channel(schema, &message.topic, PROTOBUF, &metadata)?;
-        Ok(Channel { id, sequence: 0 })
+        let schema = descriptor::set(&descriptor::file(PACKAGE, message.name, fields.collect(), None), &self.library);
+        let meanings = message.fields.iter().map(|f| (f.name.clone(), f.meaning.clone().into_owned())).collect();
+        add(writer, &message.topic, &format!("{PACKAGE}.{}", message.name), &schema, &meanings)
     }
 }
 
-/// The file that declares one of our messages.
-fn file<'a>(name: &str, fields: impl Iterator<Item = descriptor::Field<'a>>) -> FileDescriptorProto {
-    descriptor::file(PACKAGE, name, &fields.collect::<Vec<_>>(), None)
+fn add(
+    writer: &mut Writer<impl Write + Seek>,
+    topic: &str,
+    message: &str,
+    schema: &[u8],
+    metadata: &BTreeMap<String, String>,
+) -> McapResult<Channel> {
+    let schema = writer.add_schema(message, PROTOBUF, schema)?;
+    Ok(Channel { id: writer.add_channel(schema, topic, PROTOBUF, metadata)?, sequence: 0 })
 }
 
-fn described(number: u32, name: &str, kind: Kind) -> descriptor::Field<'_> {
-    use descriptor::Kind::{Count, Index, Message, Number, Text};
-    match kind {
-        Kind::Number => one(number, name, Number),
-        Kind::Count => one(number, name, Count),
-        Kind::Text => one(number, name, Text),
-        Kind::Vector => one(number, name, Message("foxglove.Vector3")),
-        Kind::Rotation => one(number, name, Message("foxglove.Quaternion")),
-        Kind::Numbers => many(number, name, Number),
-        Kind::Indices => many(number, name, Index),
-        Kind::Parts(message) => many(number, name, Message(message)),
-    }
+fn described(number: u32, name: &str, kind: Kind) -> FieldDescriptorProto {
+    let parts;
+    let words = match kind {
+        Kind::Number => "double",
+        Kind::Count => "uint64",
+        Kind::Text => "string",
+        Kind::Vector => "foxglove.Vector3",
+        Kind::Rotation => "foxglove.Quaternion",
+        Kind::Numbers => "repeated double",
+        Kind::Indices => "repeated fixed32",
+        Kind::Parts(message) => {
+            parts = format!("repeated {message}");
+            &parts
+        }
+    };
+    descriptor::field(number, name, words)
 }

@@ -1,12 +1,12 @@
-//! Where messages go: to a thread that compresses and writes them while the run goes on.
+//! Where messages go: to a thread that compresses and writes them while the run is at work.
 //!
 //! The thread does with the writer, in the same order, what would have been done without it, so the file has the same
 //! bytes. Its errors come back with the next chunk, at the latest when the writer is called home. If no thread can be had,
 //! everything is done at once.
 
 use std::io::{Seek, Write};
-use std::panic::resume_unwind;
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::mpsc::{SyncSender, sync_channel};
+use std::sync::{Arc, Mutex};
 use std::thread::{Builder, JoinHandle};
 
 use mcap::records::MessageHeader;
@@ -15,30 +15,23 @@ use mcap::{McapResult, Writer};
 /// Chunks that may wait to be written; then the run waits.
 const WAITING: usize = 2;
 
-/// The writer of a file, here or on a thread of its own.
+/// The writer of a file, and what is on its way to it.
 pub(crate) struct Press<W: Write + Seek + Send + 'static> {
-    place: Place<W>,
+    writer: Shared<W>,
+    /// Has the writer locked as long as it is there.
+    thread: Option<Thread>,
     /// What has not been handed over.
     batch: Batch,
 }
 
-enum Place<W: Write + Seek> {
-    Here(Box<Writer<W>>),
-    Away(Away<W>),
-    /// While it changes its place.
-    Nowhere,
-}
+/// The writer of a file; none once the target was taken back.
+type Shared<W> = Arc<Mutex<Option<Writer<W>>>>;
 
-/// A writer on its thread.
-struct Away<W: Write + Seek> {
+/// A thread that writes batches until none can come any more, or one fails.
+struct Thread {
     batches: SyncSender<Batch>,
-    /// Batches that were written, to be used again.
-    written: Receiver<Batch>,
-    thread: JoinHandle<Returned<W>>,
+    handle: JoinHandle<McapResult<()>>,
 }
-
-/// What the thread gives back: the writer, if it was handed one, and how the writing went.
-type Returned<W> = (Option<Box<Writer<W>>>, McapResult<()>);
 
 /// Messages in a row.
 #[derive(Default)]
@@ -51,16 +44,15 @@ struct Batch {
 }
 
 impl<W: Write + Seek + Send + 'static> Press<W> {
-    /// With the writer here.
+    /// Without a thread so far.
     pub(crate) fn new(writer: Writer<W>) -> Self {
-        Press { place: Place::Here(Box::new(writer)), batch: Batch::default() }
+        Press { writer: Arc::new(Mutex::new(Some(writer))), thread: None, batch: Batch::default() }
     }
 
     /// Takes the next message.
     pub(crate) fn write(&mut self, header: MessageHeader, bytes: &[u8]) {
         self.batch.bytes.extend_from_slice(bytes);
-        let end = self.batch.bytes.len();
-        self.batch.messages.push((header, end));
+        self.batch.messages.push((header, self.batch.bytes.len()));
     }
 
     /// Ends the chunk and hands it over.
@@ -69,7 +61,9 @@ impl<W: Write + Seek + Send + 'static> Press<W> {
     /// What the target reported since the last chunk.
     pub(crate) fn end_chunk(&mut self) -> McapResult<()> {
         self.batch.ends_chunk = true;
-        self.go_away();
+        if self.thread.is_none() {
+            self.thread = Thread::begin(&self.writer);
+        }
         self.hand_over()
     }
 
@@ -79,121 +73,77 @@ impl<W: Write + Seek + Send + 'static> Press<W> {
     /// What the target reported.
     pub(crate) fn home(&mut self) -> McapResult<&mut Writer<W>> {
         let handed_over = self.hand_over();
-        let came_home = self.come_home();
-        handed_over.and(came_home)?;
-        match &mut self.place {
-            Place::Here(writer) => Ok(writer),
-            Place::Away(_) | Place::Nowhere => Err(lost()),
-        }
+        let written = self.wait();
+        handed_over.and(written)?;
+        self.own()?.as_mut().ok_or_else(lost)
     }
 
     /// The target; what was not yet handed to it is cut off.
     ///
     /// # Errors
-    /// None is left, because the thread of the writer could not take it over.
+    /// None is left, because the thread broke off.
     pub(crate) fn into_inner(mut self) -> McapResult<W> {
         // an error was reported with the chunk that it was about, or the run's end would have called the writer home
-        let _ = self.come_home();
-        match std::mem::replace(&mut self.place, Place::Nowhere) {
-            Place::Here(writer) => Ok(writer.into_inner()),
-            Place::Away(_) | Place::Nowhere => Err(lost()),
-        }
+        let _ = self.wait();
+        self.own()?.take().map(Writer::into_inner).ok_or_else(lost)
     }
 
-    /// Writes the batch, or gives it to the thread.
+    /// Gives the batch to the thread, or writes it.
     fn hand_over(&mut self) -> McapResult<()> {
-        match &mut self.place {
-            Place::Here(writer) => self.batch.write(writer),
-            Place::Away(away) => {
-                let next = away.written.try_recv().unwrap_or_default();
-                let batch = std::mem::replace(&mut self.batch, next);
-                match away.batches.send(batch) {
-                    Ok(()) => Ok(()),
-                    // the thread has ended: it says why
-                    Err(_) => self.come_home(),
-                }
-            }
-            Place::Nowhere => Err(lost()),
+        let batch = std::mem::take(&mut self.batch);
+        match &self.thread {
+            // a thread that has ended says why
+            Some(thread) => thread.batches.send(batch).or_else(|_| self.wait()),
+            None => batch.write(self.own()?),
         }
     }
 
-    /// Puts the writer on a thread, if there is one to be had.
-    fn go_away(&mut self) {
-        let Place::Here(_) = self.place else { return };
-        let (give, take) = sync_channel::<Box<Writer<W>>>(1);
-        let (batches, coming) = sync_channel::<Batch>(WAITING);
-        let (done, written) = sync_channel::<Batch>(WAITING + 1);
-        let work = move || {
-            let Ok(mut writer) = take.recv() else {
-                return (None, Ok(()));
-            };
-            for mut batch in coming {
-                if let Err(error) = batch.write(&mut writer) {
-                    return (Some(writer), Err(error));
-                }
-                // a full list or nobody there: then the batch is not used again
-                let _ = done.try_send(batch);
-            }
-            (Some(writer), Ok(()))
+    /// Waits until the thread has written everything and ends it.
+    fn wait(&mut self) -> McapResult<()> {
+        let Some(Thread { batches, handle }) = self.thread.take() else {
+            return Ok(());
         };
-        let Ok(thread) = Builder::new().name("mcap".to_owned()).spawn(work) else {
-            return;
-        };
-        let place = std::mem::replace(&mut self.place, Place::Nowhere);
-        if let Place::Here(writer) = place {
-            self.place = match give.send(writer) {
-                Ok(()) => Place::Away(Away { batches, written, thread }),
-                Err(back) => Place::Here(back.0),
-            };
-        }
+        drop(batches);
+        handle.join().unwrap_or_else(|_broke_off| Err(lost()))
     }
 
-    /// Waits until the thread has written everything and brings the writer back.
-    fn come_home(&mut self) -> McapResult<()> {
-        let away = match std::mem::replace(&mut self.place, Place::Nowhere) {
-            Place::Away(away) => away,
-            place => {
-                self.place = place;
-                return Ok(());
-            }
-        };
-        drop(away.batches);
-        // as if it had happened here
-        let (writer, result) = away.thread.join().unwrap_or_else(|panic| resume_unwind(panic));
-        self.place = writer.map_or(Place::Nowhere, Place::Here);
-        result
+    /// The writer's place, while no thread has it.
+    fn own(&mut self) -> McapResult<&mut Option<Writer<W>>> {
+        let alone = Arc::get_mut(&mut self.writer).and_then(|writer| writer.get_mut().ok());
+        alone.ok_or_else(lost)
     }
 }
 
 impl<W: Write + Seek + Send + 'static> Drop for Press<W> {
     /// What was taken is written, as a writer does that is dropped; nobody is left to hear of an error.
     fn drop(&mut self) {
-        let mut rest = std::mem::take(&mut self.batch);
-        match std::mem::replace(&mut self.place, Place::Nowhere) {
-            Place::Here(mut writer) => _ = rest.write(&mut writer),
-            Place::Away(away) => {
-                _ = away.batches.send(rest);
-                drop(away.batches);
-                _ = away.thread.join();
-            }
-            Place::Nowhere => {}
-        }
+        let _ = self.home();
+    }
+}
+
+impl Thread {
+    /// None if no thread can be had.
+    fn begin<W: Write + Seek + Send + 'static>(writer: &Shared<W>) -> Option<Thread> {
+        let writer = Arc::clone(writer);
+        let (batches, coming) = sync_channel::<Batch>(WAITING);
+        let work = move || {
+            let mut writer = writer.lock().map_err(|_| lost())?;
+            coming.into_iter().try_for_each(|batch| batch.write(&mut writer))
+        };
+        let handle = Builder::new().name("mcap".to_owned()).spawn(work).ok()?;
+        Some(Thread { batches, handle })
     }
 }
 
 impl Batch {
-    /// Writes the messages and forgets them.
-    fn write<W: Write + Seek>(&mut self, writer: &mut Writer<W>) -> McapResult<()> {
+    fn write<W: Write + Seek>(self, writer: &mut Option<Writer<W>>) -> McapResult<()> {
+        let writer = writer.as_mut().ok_or_else(lost)?;
         let mut start = 0;
-        for (header, end) in self.messages.drain(..) {
+        for (header, end) in self.messages {
             writer.write_to_known_channel(&header, &self.bytes[start..end])?;
             start = end;
         }
-        self.bytes.clear();
-        match std::mem::take(&mut self.ends_chunk) {
-            true => writer.flush(),
-            false => Ok(()),
-        }
+        if self.ends_chunk { writer.flush() } else { Ok(()) }
     }
 }
 

@@ -56,11 +56,7 @@ impl Wire {
 
     /// A packed `repeated double`.
     pub(crate) fn numbers(&mut self, field: u32, values: &[f64]) {
-        self.key(field, LENGTH_DELIMITED);
-        self.varint(8 * values.len() as u64);
-        for value in values {
-            self.bytes.extend_from_slice(&value.to_le_bytes());
-        }
+        self.packed(field, values.iter().map(|value| value.to_le_bytes()));
     }
 
     /// A `fixed32`.
@@ -71,11 +67,13 @@ impl Wire {
 
     /// A packed `repeated fixed32`.
     pub(crate) fn indices(&mut self, field: u32, values: &[u32]) {
+        self.packed(field, values.iter().map(|value| value.to_le_bytes()));
+    }
+
+    fn packed<const N: usize>(&mut self, field: u32, values: impl ExactSizeIterator<Item = [u8; N]>) {
         self.key(field, LENGTH_DELIMITED);
-        self.varint(4 * values.len() as u64);
-        for value in values {
-            self.bytes.extend_from_slice(&value.to_le_bytes());
-        }
+        self.varint((N * values.len()) as u64);
+        values.for_each(|value| self.bytes.extend_from_slice(&value));
     }
 
     /// A `uint64`, or an enum's number.
@@ -110,21 +108,20 @@ impl Wire {
 
     /// A `foxglove.Vector3` or `foxglove.Point3`.
     pub(crate) fn vector(&mut self, field: u32, v: &Vector3<f64>) {
-        self.key(field, LENGTH_DELIMITED);
-        self.varint(27);
-        self.number(1, v.x);
-        self.number(2, v.y);
-        self.number(3, v.z);
+        self.components(field, &[v.x, v.y, v.z]);
     }
 
     /// A `foxglove.Quaternion`.
     pub(crate) fn rotation(&mut self, field: u32, q: &UnitQuaternion<f64>) {
+        self.components(field, &[q.i, q.j, q.k, q.w]);
+    }
+
+    /// A message of doubles.
+    fn components(&mut self, field: u32, values: &[f64]) {
         self.key(field, LENGTH_DELIMITED);
-        self.varint(36);
-        self.number(1, q.i);
-        self.number(2, q.j);
-        self.number(3, q.k);
-        self.number(4, q.w);
+        // a byte of key and eight of number each
+        self.varint(9 * values.len() as u64);
+        (1..).zip(values).for_each(|(field, value)| self.number(field, *value));
     }
 
     /// A `google.protobuf.Timestamp` or `google.protobuf.Duration` of `ns` nanoseconds.

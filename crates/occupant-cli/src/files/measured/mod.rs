@@ -11,14 +11,14 @@ use super::mme;
 use super::signals::Recording;
 use super::trouble::Trouble;
 use crate::base::failure::Failure;
+use crate::base::names::ending;
 use crate::base::sha256::sha256;
 
 pub(crate) use pair::{MapArgument, Pair, Wanted, pairs};
 
 /// Whether a file or folder is read as measured signals, not as the results of a run.
 pub(crate) fn is_recording(path: &Path) -> bool {
-    let extension = path.extension().unwrap_or_default();
-    !extension.eq_ignore_ascii_case("mcap")
+    ending(path) != "mcap"
 }
 
 /// Reads a text table (.csv, .txt, .tsv) or an ISO-MME test (its folder, or the .mme file in it).
@@ -26,8 +26,7 @@ pub(crate) fn is_recording(path: &Path) -> bool {
 /// # Errors
 /// A file that cannot be read, or what is wrong in it, with file, line, what was found and what was expected.
 pub(crate) fn read(path: &Path) -> Result<Recording, Failure> {
-    let extension = path.extension().unwrap_or_default();
-    if path.is_dir() || extension.eq_ignore_ascii_case("mme") {
+    if path.is_dir() || ending(path) == "mme" {
         return mme::read(path);
     }
     let bytes = std::fs::read(path).map_err(|e| Failure::plain(format!("{} cannot be read: {e}", path.display())))?;
@@ -36,7 +35,6 @@ pub(crate) fn read(path: &Path) -> Result<Recording, Failure> {
         let line = 1 + bytes[..at].iter().filter(|b| **b == b'\n').count();
         Trouble::at(path, line, "bytes that are no UTF-8 text", "a text table")
             .hint("a run of this program has the ending .mcap, an ISO-MME test .mme")
-            .failure()
     })?;
     table::read(path, &text, sha256(&bytes))
 }

@@ -149,44 +149,31 @@ fn signal_for<'a>(
     maps: &'a [MapArgument],
     seat: char,
 ) -> Result<Option<Match<'a>>, Failure> {
+    let file = recording.path.display();
     if let Some(map) = maps.iter().find(|m| m.channel == wanted.name) {
-        let named: Vec<&Signal> = recording.signals.iter().filter(|s| s.name == map.column).collect();
-        return match named.as_slice() {
-            [signal] => Ok(Some((signal, Some(map), map.sign))),
-            [] => Err(Failure::with_help(
-                format!("--map: {} has no column `{}`", recording.path.display(), map.column),
+        let mut named = recording.signals.iter().filter(|s| s.name == map.column);
+        return match (named.next(), named.next()) {
+            (Some(signal), None) => Ok(Some((signal, Some(map), map.sign))),
+            (None, _) => Err(Failure::with_help(
+                format!("--map: {file} has no column `{}`", map.column),
                 &format!("it has {}", names(&recording.signals)),
             )),
-            _ => Err(Failure::plain(format!(
-                "--map: {} has more than one column `{}`",
-                recording.path.display(),
-                map.column
-            ))),
+            _ => Err(Failure::plain(format!("--map: {file} has more than one column `{}`", map.column))),
         };
     }
-    let mut fitting: Vec<Match<'a>> = Vec::new();
-    for signal in &recording.signals {
-        if signal.name == wanted.name {
-            return Ok(Some((signal, None, 1.0)));
-        }
-        let sign = signal.code.as_ref().and_then(|c| c.sign_for(&wanted.name, seat));
-        if let Some(sign) = sign {
-            fitting.push((signal, None, sign));
-        }
+    if let Some(signal) = recording.signals.iter().find(|s| s.name == wanted.name) {
+        return Ok(Some((signal, None, 1.0)));
     }
+    let sign = |s: &Signal| s.code.as_ref().and_then(|c| c.sign_for(&wanted.name, seat));
+    let fitting: Vec<Match<'a>> = recording.signals.iter().filter_map(|s| Some((s, None, sign(s)?))).collect();
     match fitting.as_slice() {
         [] => Ok(None),
         [one] => Ok(Some(*one)),
-        several => {
-            let codes: Vec<&str> = several.iter().map(|(s, ..)| s.name.as_str()).collect();
+        [(first, ..), ..] => {
+            let codes: Vec<&str> = fitting.iter().map(|(s, ..)| s.name.as_str()).collect();
             Err(Failure::with_help(
-                format!(
-                    "{} has more than one signal for {}: {}",
-                    recording.path.display(),
-                    wanted.name,
-                    codes.join(", ")
-                ),
-                &format!("choose with --map {}={}", codes[0], wanted.name),
+                format!("{file} has more than one signal for {}: {}", wanted.name, codes.join(", ")),
+                &format!("choose with --map {}={}", first.name, wanted.name),
             ))
         }
     }

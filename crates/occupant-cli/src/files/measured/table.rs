@@ -2,22 +2,21 @@
 //!
 //! Commas, semicolons, tabs or blanks between cells (with semicolons a comma is a decimal point); lines that start with `#`
 //! are comments. Units may also stand in a line of their own below the headings. Without headings the first column is the
-//! time in seconds. An empty cell, `NaN` or `NOVALUE` is a missing value.
+//! time in seconds. An empty cell, `NaN` or `NOVALUE` is a missing value. A cell may stand in double quotes (RFC 4180).
 
 use std::path::Path;
 
 use crash_measures::unit::parse;
+use csv::{ReaderBuilder, StringRecord, Trim};
 
 use crate::base::failure::Failure;
-use crate::files::signals::{Recording, Signal, scale_of};
+use crate::files::signals::{Recording, Signal, scale_of, seconds_in};
 use crate::files::trouble::{Trouble, failure};
 
-/// What stands between cells.
-#[derive(Clone, Copy, Debug, PartialEq)]
-enum Separator {
-    Sign(char),
-    Blanks,
-}
+/// Stands for any number of blanks between cells.
+const BLANKS: char = ' ';
+/// Round units in a line of their own.
+const BRACKETS: [char; 4] = ['[', ']', '(', ')'];
 
 #[derive(Clone, Debug, Default)]
 struct Heading {
@@ -26,22 +25,18 @@ struct Heading {
     line: usize,
 }
 
+/// A line of a table: its number in the file, from 1, and its cells.
+type Line = (usize, StringRecord);
+
 /// Reads a table.
 ///
 /// # Errors
 /// What is wrong with it.
 pub(crate) fn read(path: &Path, text: &str, sha256: String) -> Result<Recording, Failure> {
-    let lines: Vec<(usize, &str)> = text
-        .trim_start_matches('\u{feff}')
-        .lines()
-        .enumerate()
-        .map(|(i, line)| (i + 1, line.trim_end()))
-        .filter(|(_, line)| !line.trim().is_empty() && !line.trim_start().starts_with('#'))
-        .collect();
-    let Some(&(_, first)) = lines.first() else {
-        return Err(Trouble::of(path, "an empty table", "headings and numbers").failure());
-    };
-    let separator = separator_of(first);
+    let (lines, separator) = lines(text.trim_start_matches('\u{feff}'));
+    if lines.is_empty() {
+        return Err(Trouble::of(path, "an empty table", "headings and numbers").into());
+    }
     let mut notes = Vec::new();
     let (headings, used) = headings(&lines, separator);
     let time = time_column(&headings);
@@ -49,94 +44,72 @@ pub(crate) fn read(path: &Path, text: &str, sha256: String) -> Result<Recording,
     let time_factor = reader.time_factor(time, used > 0, &mut notes);
     let columns = reader.columns(&lines[used..]);
     let time_s: Vec<f64> = columns.get(time).map(|c| c.iter().map(|t| t * time_factor).collect()).unwrap_or_default();
-    let numbers: Vec<usize> = lines[used..].iter().map(|(n, _)| *n).collect();
-    reader.check_times(&time_s, &numbers);
+    reader.check_times(&time_s, &lines[used..]);
     if !reader.problems.is_empty() {
         return Err(failure(&reader.problems));
     }
     let signals = reader.signals(columns, time, &time_s);
     if signals.is_empty() {
         let found = "a table with one column";
-        return Err(Trouble::of(path, found, "a column of times and one of values").failure());
+        return Err(Trouble::of(path, found, "a column of times and one of values").into());
     }
     Ok(Recording { path: path.to_owned(), sha256, signals, notes })
 }
 
-fn separator_of(line: &str) -> Separator {
-    for sign in [';', '\t', ','] {
-        if line.contains(sign) {
-            return Separator::Sign(sign);
-        }
-    }
-    Separator::Blanks
+/// The lines that are neither blank nor comments, and what stands between their cells.
+fn lines(text: &str) -> (Vec<Line>, char) {
+    let is_comment = |line: &str| matches!(line.trim_start().chars().next(), None | Some('#'));
+    let lines: Vec<(usize, &str)> = (1..).zip(text.lines()).filter(|(_, line)| !is_comment(line)).collect();
+    let used = |sign: &char| lines.first().is_some_and(|(_, line)| line.trim_end().contains(*sign));
+    let separator = [';', '\t', ','].into_iter().find(used).unwrap_or(BLANKS);
+    let plain = lines.iter().map(|(_, line)| match separator {
+        BLANKS => line.split_whitespace().collect::<Vec<_>>().join(" ") + "\n",
+        _ => format!("{}\n", line.trim_end()),
+    });
+    let plain: String = plain.collect();
+    let mut reader = ReaderBuilder::new();
+    reader.has_headers(false).flexible(true).delimiter(separator as u8).trim(Trim::All);
+    let records = reader.from_reader(plain.as_bytes()).into_records().flatten();
+    let numbered = records.filter_map(|record| {
+        let at = record.position()?.line() as usize - 1;
+        Some((lines.get(at)?.0, record))
+    });
+    (numbered.collect(), separator)
 }
 
-/// Cells of a line, trimmed, quotes taken off.
-fn cells(line: &str, separator: Separator) -> Vec<String> {
-    match separator {
-        Separator::Blanks => line.split_whitespace().map(str::to_owned).collect(),
-        Separator::Sign(sign) => split_quoted(line, sign),
-    }
-}
-
-/// Cells between `sign`; a cell may stand in double quotes, doubled inside (RFC 4180).
-fn split_quoted(line: &str, sign: char) -> Vec<String> {
-    let mut cells = vec![String::new()];
-    let mut quoted = false;
-    let mut rest = line.chars().peekable();
-    while let Some(c) = rest.next() {
-        let Some(cell) = cells.last_mut() else { break };
-        match c {
-            '"' if quoted && rest.peek() == Some(&'"') => {
-                rest.next();
-                cell.push('"');
-            }
-            '"' if quoted || cell.trim().is_empty() => quoted = !quoted,
-            c if c == sign && !quoted => cells.push(String::new()),
-            c => cell.push(c),
-        }
-    }
-    cells.iter().map(|c| c.trim().to_owned()).collect()
-}
-
-fn number(cell: &str, separator: Separator) -> Option<f64> {
+fn number(cell: &str, separator: char) -> Option<f64> {
     if matches!(cell.to_ascii_lowercase().as_str(), "" | "nan" | "novalue") {
         return Some(f64::NAN);
     }
     let number = match separator {
-        Separator::Sign(';') => cell.replace(',', ".").parse::<f64>(),
+        ';' => cell.replace(',', ".").parse::<f64>(),
         _ => cell.parse::<f64>(),
     };
     number.ok().filter(|n| n.is_finite())
 }
 
 /// Headings, and how many lines they take.
-fn headings(lines: &[(usize, &str)], separator: Separator) -> (Vec<Heading>, usize) {
-    let (line, first) = lines[0];
-    let first = cells(first, separator);
-    let is_number = |c: &String| !c.is_empty() && number(c, separator).is_some();
+fn headings(lines: &[Line], separator: char) -> (Vec<Heading>, usize) {
+    let is_number = |cell: &str| !cell.is_empty() && number(cell, separator).is_some();
+    let (line, first) = &lines[0];
     if first.iter().any(is_number) {
-        let plain = |i: usize| Heading { name: (i + 1).to_string(), unit: None, line };
+        let plain = |i: usize| Heading { name: (i + 1).to_string(), unit: None, line: *line };
         return ((0..first.len()).map(plain).collect(), 0);
     }
-    let heading = |cell: &String| {
+    let heading = |cell: &str| {
         let (name, unit) = name_and_unit(cell);
-        Heading { name: name.to_owned(), unit: unit.map(str::to_owned), line }
+        Heading { name: name.to_owned(), unit: unit.map(str::to_owned), line: *line }
     };
     let mut headings: Vec<Heading> = first.iter().map(heading).collect();
-    let Some((line, second)) = lines.get(1).copied() else {
+    let is_unit = |cell: &str| matches!(cell, "" | "-") || parse(cell.trim_matches(BRACKETS), 0).is_ok();
+    let units = |(_, second): &&Line| !second.iter().any(is_number) && second.iter().all(is_unit);
+    let Some((line, units)) = lines.get(1).filter(units) else {
         return (headings, 1);
     };
-    let second = cells(second, separator);
-    let is_unit = |c: &String| c.is_empty() || c == "-" || parse(c.trim_matches(['[', ']', '(', ')']), 0).is_ok();
-    if second.iter().any(is_number) || !second.iter().all(is_unit) {
-        return (headings, 1);
-    }
-    for (heading, unit) in headings.iter_mut().zip(&second) {
-        let unit = unit.trim_matches(['[', ']', '(', ')']);
+    for (heading, unit) in headings.iter_mut().zip(units) {
+        let unit = unit.trim_matches(BRACKETS);
         if !unit.is_empty() && heading.unit.is_none() {
-            heading.unit = Some(unit.to_owned());
-            heading.line = line;
+            (heading.unit, heading.line) = (Some(unit.to_owned()), *line);
         }
     }
     (headings, 2)
@@ -162,7 +135,7 @@ fn time_column(headings: &[Heading]) -> usize {
 
 struct Reader<'a> {
     path: &'a Path,
-    separator: Separator,
+    separator: char,
     headings: Vec<Heading>,
     problems: Vec<Trouble>,
 }
@@ -173,45 +146,36 @@ impl Reader<'_> {
             return 1.0;
         };
         let Some(unit) = &heading.unit else {
-            if has_headings && heading.name.ends_with("_s") {
-                return 1.0;
+            if !(has_headings && heading.name.ends_with("_s")) {
+                notes.push(format!("{} gives no unit for the time: taken as seconds", self.path.display()));
             }
-            notes.push(format!("{} gives no unit for the time: taken as seconds", self.path.display()));
             return 1.0;
         };
-        let second = crash_measures::unit::Dimension::new(0, 0, 1, 0);
-        match parse(unit, 0) {
-            Ok(scale) if scale.dimension == second => scale.factor,
-            _ => {
-                let found = format!("`{unit}` as the unit of the time column `{}`", heading.name);
-                let trouble = Trouble::at(self.path, heading.line, found, "a unit of time, such as s or ms");
-                self.problems.push(trouble.hint("the time is the column called `t` or `time`, or the first"));
-                1.0
-            }
-        }
+        seconds_in(unit).unwrap_or_else(|| {
+            let found = format!("`{unit}` as the unit of the time column `{}`", heading.name);
+            let trouble = Trouble::at(self.path, heading.line, found, "a unit of time, such as s or ms");
+            self.problems.push(trouble.hint("the time is the column called `t` or `time`, or the first"));
+            1.0
+        })
     }
 
     /// Numbers column by column, as far as lines are right.
-    fn columns(&mut self, lines: &[(usize, &str)]) -> Vec<Vec<f64>> {
+    fn columns(&mut self, lines: &[Line]) -> Vec<Vec<f64>> {
         let mut columns = vec![Vec::with_capacity(lines.len()); self.headings.len()];
-        for &(line, text) in lines {
-            let mut cells = cells(text, self.separator);
+        for (line, cells) in lines {
             // a separator at the line's end opens no cell
-            if cells.len() == columns.len() + 1 && cells.last().is_some_and(String::is_empty) {
-                cells.pop();
-            }
-            if cells.len() != columns.len() {
+            let more = usize::from(cells.len() == columns.len() + 1 && cells.iter().next_back() == Some(""));
+            if cells.len() != columns.len() + more {
                 let expected = format!("{}, one for each column", columns.len());
                 let found = format!("{} cells", cells.len());
-                self.problems.push(Trouble::at(self.path, line, found, expected));
+                self.problems.push(Trouble::at(self.path, *line, found, expected));
                 columns.iter_mut().for_each(|c| c.push(f64::NAN));
                 continue;
             }
-            for (column, cell) in columns.iter_mut().zip(&cells) {
+            for (column, cell) in columns.iter_mut().zip(cells) {
                 let value = number(cell, self.separator);
                 if value.is_none() {
-                    let found = format!("`{cell}`");
-                    self.problems.push(Trouble::at(self.path, line, found, "a number"));
+                    self.problems.push(Trouble::at(self.path, *line, format!("`{cell}`"), "a number"));
                 }
                 column.push(value.unwrap_or(f64::NAN));
             }
@@ -219,7 +183,7 @@ impl Reader<'_> {
         columns
     }
 
-    fn check_times(&mut self, time_s: &[f64], lines: &[usize]) {
+    fn check_times(&mut self, time_s: &[f64], lines: &[Line]) {
         if !self.problems.is_empty() {
             return;
         }
@@ -227,14 +191,13 @@ impl Reader<'_> {
             let trouble = Trouble::of(self.path, "headings without numbers", "a line for each time");
             self.problems.push(trouble);
         }
-        for (i, t) in time_s.iter().enumerate() {
-            let line = lines.get(i).copied().unwrap_or_default();
+        for (i, (t, (line, _))) in time_s.iter().zip(lines).enumerate() {
             let found = match i.checked_sub(1).map(|before| time_s[before]) {
                 _ if t.is_nan() => "a line without its time".to_owned(),
                 Some(before) if *t <= before => format!("time {t} s after {before} s"),
                 _ => continue,
             };
-            self.problems.push(Trouble::at(self.path, line, found, "times that increase"));
+            self.problems.push(Trouble::at(self.path, *line, found, "times that increase"));
         }
     }
 

@@ -7,7 +7,7 @@ use super::code::Code;
 use super::header::{Header, entry, text_of};
 use crate::base::failure::Failure;
 use crate::base::sha256::sha256;
-use crate::files::signals::{Recording, Signal, scale_of};
+use crate::files::signals::{Recording, Signal, scale_of, seconds_in};
 use crate::files::trouble::Trouble;
 
 /// Reads a test by its folder or its .mme file.
@@ -15,10 +15,7 @@ use crate::files::trouble::Trouble;
 /// # Errors
 /// Files that are missing or cannot be read, and what is wrong in them.
 pub(crate) fn read(path: &Path) -> Result<Recording, Failure> {
-    let mme = match path.is_dir() {
-        true => the_mme_in(path)?,
-        false => path.to_owned(),
-    };
+    let mme = if path.is_dir() { the_mme_in(path)? } else { path.to_owned() };
     // the test's file itself holds nothing that signals need
     fs::read(&mme).map_err(|e| Failure::plain(format!("{} cannot be read: {e}", mme.display())))?;
     let files = channel_files(&mme)?;
@@ -27,12 +24,12 @@ pub(crate) fn read(path: &Path) -> Result<Recording, Failure> {
     for file in files {
         let bytes = fs::read(&file).map_err(|e| Failure::plain(format!("{} cannot be read: {e}", file.display())))?;
         all_bytes.extend_from_slice(&bytes);
-        channels.push(RawChannel::read(file, &text_of(bytes)).map_err(Trouble::failure)?);
+        channels.push(RawChannel::read(file, &text_of(bytes))?);
     }
     let mut notes = Vec::new();
     let mut signals = Vec::with_capacity(channels.len());
     for channel in &channels {
-        let time_s = channel.times(&channels).map_err(Trouble::failure)?;
+        let time_s = channel.times(&channels)?;
         signals.push(channel.signal(time_s, &mut notes));
     }
     Ok(Recording { path: path.to_owned(), sha256: sha256(&all_bytes), signals, notes })
@@ -41,10 +38,7 @@ pub(crate) fn read(path: &Path) -> Result<Recording, Failure> {
 fn entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
     let refused = |e| Failure::plain(format!("{} cannot be read: {e}", folder.display()));
     let listed = fs::read_dir(folder).map_err(refused)?;
-    let mut paths = Vec::new();
-    for found in listed {
-        paths.push(found.map_err(refused)?.path());
-    }
+    let mut paths = listed.map(|found| Ok(found.map_err(refused)?.path())).collect::<Result<Vec<_>, Failure>>()?;
     paths.sort();
     Ok(paths)
 }
@@ -54,9 +48,9 @@ fn the_mme_in(folder: &Path) -> Result<PathBuf, Failure> {
     let mut found: Vec<PathBuf> = entries(folder)?.into_iter().filter(is_mme).collect();
     match (found.len(), found.pop()) {
         (1, Some(one)) => Ok(one),
-        (0, _) => Err(Trouble::of(folder, "a folder without a .mme file", "an ISO-MME test").failure()),
+        (0, _) => Err(Trouble::of(folder, "a folder without a .mme file", "an ISO-MME test").into()),
         (n, _) => {
-            Err(Trouble::of(folder, format!("{n} .mme files"), "one test").hint("name the .mme file itself").failure())
+            Err(Trouble::of(folder, format!("{n} .mme files"), "one test").hint("name the .mme file itself").into())
         }
     }
 }
@@ -68,7 +62,7 @@ fn channel_files(mme: &Path) -> Result<Vec<PathBuf>, Failure> {
     let is_channel = |p: &PathBuf| p.is_dir() && p.file_name().is_some_and(|n| n.eq_ignore_ascii_case("channel"));
     let Some(inside) = entries(folder)?.into_iter().find(is_channel) else {
         let found = "no folder Channel beside the .mme file";
-        return Err(Trouble::of(mme, found, "the test's channels in Channel/").failure());
+        return Err(Trouble::of(mme, found, "the test's channels in Channel/").into());
     };
     let stem = mme.file_stem().unwrap_or_default();
     let own = |p: &PathBuf| {
@@ -77,13 +71,11 @@ fn channel_files(mme: &Path) -> Result<Vec<PathBuf>, Failure> {
         numbered && p.file_stem().is_some_and(|s| s.eq_ignore_ascii_case(stem))
     };
     let files: Vec<PathBuf> = entries(&inside)?.into_iter().filter(own).collect();
-    match files.is_empty() {
-        true => {
-            let found = format!("no channel files {}.001 …", stem.to_string_lossy());
-            Err(Trouble::of(&inside, found, "one file for each channel").failure())
-        }
-        false => Ok(files),
+    if files.is_empty() {
+        let found = format!("no channel files {}.001 …", stem.to_string_lossy());
+        return Err(Trouble::of(&inside, found, "one file for each channel").into());
     }
+    Ok(files)
 }
 
 struct RawChannel {
@@ -102,13 +94,11 @@ impl RawChannel {
             if line.is_empty() {
                 continue;
             }
-            if channel.values.is_empty()
-                && let Some((name, value)) = entry(line)
-            {
-                channel.header.push(name, value, number);
-                continue;
-            }
             if channel.values.is_empty() {
+                if let Some((name, value)) = entry(line) {
+                    channel.header.push(name, value, number);
+                    continue;
+                }
                 channel.first_line = number;
             }
             channel.values.push(channel.value(line, number)?);
@@ -133,16 +123,12 @@ impl RawChannel {
         let Some((count, line)) = self.header.get("Number of samples") else {
             return Ok(());
         };
-        match count.parse::<usize>() {
-            Ok(n) if n == found => Ok(()),
-            Ok(n) => Err(Trouble::at(
-                &self.path,
-                line,
-                format!("{found} values after a header that says {n}"),
-                "as many values as the header says",
-            )),
-            Err(_) => Err(Trouble::at(&self.path, line, format!("`{count}`"), "a number of samples")),
-        }
+        let (wrong, expected) = match count.parse::<usize>() {
+            Ok(n) if n == found => return Ok(()),
+            Ok(n) => (format!("{found} values after a header that says {n}"), "as many values as the header says"),
+            Err(_) => (format!("`{count}`"), "a number of samples"),
+        };
+        Err(Trouble::at(&self.path, line, wrong, expected))
     }
 
     /// A number of the header.
@@ -150,13 +136,9 @@ impl RawChannel {
         let Some((text, line)) = self.header.get(name) else {
             return Ok(None);
         };
-        match text.parse::<f64>() {
-            Ok(value) if value.is_finite() => Ok(Some(value)),
-            _ => {
-                let found = format!("`{text}` as {name}");
-                Err(Trouble::at(&self.path, line, found, "a number"))
-            }
-        }
+        let number = text.parse::<f64>().ok().filter(|value| value.is_finite());
+        let wrong = || Trouble::at(&self.path, line, format!("`{text}` as {name}"), "a number");
+        number.map(Some).ok_or_else(wrong)
     }
 
     fn name(&self) -> String {
@@ -182,15 +164,10 @@ impl RawChannel {
             let found = format!("the reference channel `{name}`, which the test does not hold");
             return Err(Trouble::at(&self.path, line, found, "the code of a channel of times"));
         };
-        let unit = times.header.get("Unit").and_then(|(u, _)| scale_of(u));
-        let seconds = crash_measures::unit::Dimension::new(0, 0, 1, 0);
-        let factor = match unit {
-            Some(scale) if scale.dimension == seconds => scale.factor,
-            _ => {
-                let found = format!("`{name}` as times of this channel, but not in a unit of time");
-                return Err(Trouble::at(&self.path, line, found, "a channel in s or ms"));
-            }
-        };
+        let factor = times.header.get("Unit").and_then(|(unit, _)| seconds_in(unit)).ok_or_else(|| {
+            let found = format!("`{name}` as times of this channel, but not in a unit of time");
+            Trouble::at(&self.path, line, found, "a channel in s or ms")
+        })?;
         if times.values.len() != self.values.len() {
             let found = format!("{} values at {} times", self.values.len(), times.values.len());
             return Err(Trouble::at(&self.path, line, found, "as many times as values"));

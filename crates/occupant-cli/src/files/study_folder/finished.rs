@@ -1,37 +1,27 @@
-//! Which samples of a study are finished: one bit each.
+//! Which samples of a study are finished.
 
 use std::ops::Range;
 
 /// A set of samples.
 #[derive(Clone, Debug)]
-pub(crate) struct Finished {
-    bits: Vec<u64>,
-    samples: u64,
-}
+pub(crate) struct Finished(Vec<bool>);
 
 impl Finished {
     /// None of `samples`.
     pub(crate) fn none(samples: u64) -> Self {
-        Finished { bits: vec![0; samples.div_ceil(64) as usize], samples }
+        Finished(vec![false; samples as usize])
     }
 
-    /// Adds a sample; false if it was there or is none of the study.
-    pub(crate) fn add(&mut self, index: u64) -> bool {
-        let Some(word) = self.bits.get_mut((index / 64) as usize) else {
-            return false;
-        };
-        let bit = 1 << (index % 64);
-        let new = *word & bit == 0 && index < self.samples;
-        if new {
-            *word |= bit;
+    /// Adds a sample, if it is one of the study.
+    pub(crate) fn add(&mut self, index: u64) {
+        if let Some(finished) = self.0.get_mut(index as usize) {
+            *finished = true;
         }
-        new
     }
 
     /// Whether a sample is finished.
     pub(crate) fn has(&self, index: u64) -> bool {
-        let word = self.bits.get((index / 64) as usize);
-        word.is_some_and(|w| w & (1 << (index % 64)) != 0)
+        self.0.get(index as usize).is_some_and(|finished| *finished)
     }
 
     /// How many of a range are finished.
@@ -73,10 +63,10 @@ mod tests {
     fn gaps_are_what_was_not_added() {
         let mut finished = Finished::none(200);
         for index in (0..200).filter(|i| !(60..70).contains(i) && *i != 199) {
-            assert!(finished.add(index));
-            assert!(!finished.add(index));
+            finished.add(index);
         }
-        assert!(!finished.add(200) && !finished.add(1 << 40) && !finished.has(1 << 40));
+        finished.add(1 << 40);
+        assert!(!finished.has(1 << 40));
         assert_eq!(finished.gaps(0..200), [60..70, 199..200]);
         assert_eq!(finished.gaps(0..65), vec![60..65]);
         assert_eq!(finished.count(0..200), 189);

@@ -10,43 +10,25 @@
 //! ```
 
 use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
 use super::manifest::{Manifest, Text};
 use super::problem::Problem;
 use super::shard::Shard;
+use crate::base::output_file::{partial_path, remove_if_there};
 
-/// The names of everything that a sweep writes, its manifest aside.
 const LOCK: &str = "sweep.lock";
 const INPUTS: &str = "inputs";
 const JOURNAL: &str = "journal";
 const RUNS: &str = "runs";
-const TABLES: [&str; 10] = [
-    "results.parquet",
-    "results.partial.parquet",
-    "results.csv",
-    "results.partial.csv",
-    "columns.csv",
-    "columns.partial.csv",
-    "ensemble.parquet",
-    "ensemble.partial.parquet",
-    "ensemble.csv",
-    "ensemble.partial.csv",
-];
-
-/// What a fit writes besides: files, and folders with files of one ending.
-const FIT_RESULTS: [&str; 8] = [
-    "fit.json",
-    "fit.partial.json",
-    "fitted.toml",
-    "fitted.partial.toml",
-    "history.parquet",
-    "history.partial.parquet",
-    "history.csv",
-    "history.partial.csv",
-];
-const FITTED: &str = "fitted";
-const PLOTS: &str = "plots";
+/// The tables that a sweep writes.
+const TABLES: [&str; 5] = ["results.parquet", "results.csv", "columns.csv", "ensemble.parquet", "ensemble.csv"];
+/// What a fit writes.
+const FIT_RESULTS: [&str; 4] = ["fit.json", "fitted.toml", "history.parquet", "history.csv"];
+/// Folders of a sweep or of a fit, and how the names of the files in them end.
+const SWEEP_FOLDERS: [(&str, &str); 1] = [(RUNS, ".mcap")];
+const FIT_FOLDERS: [(&str, &str); 2] = [("fitted", ".toml"), ("plots", ".svg")];
 
 /// What a folder holds the results of.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,11 +45,10 @@ impl Holds {
         }
     }
 
-    /// The manifest and its provisional name.
-    fn manifest(self) -> [&'static str; 2] {
+    fn manifest(self) -> &'static str {
         match self {
-            Holds::Sweep => ["sweep.json", "sweep.partial.json"],
-            Holds::Fit => ["search.json", "search.partial.json"],
+            Holds::Sweep => "sweep.json",
+            Holds::Fit => "search.json",
         }
     }
 }
@@ -100,7 +81,7 @@ impl Folder {
     }
 
     fn manifest_path(&self) -> PathBuf {
-        self.path.join(self.holds.manifest()[0])
+        self.path.join(self.holds.manifest())
     }
 
     pub(crate) fn path(&self) -> &Path {
@@ -113,17 +94,17 @@ impl Folder {
 
     /// The table.
     pub(crate) fn parquet(&self) -> PathBuf {
-        self.path.join(TABLES[0])
+        self.path.join("results.parquet")
     }
 
     /// The table as CSV.
     pub(crate) fn csv(&self) -> PathBuf {
-        self.path.join(TABLES[2])
+        self.path.join("results.csv")
     }
 
     /// Names and units of the columns, beside the CSV table.
     pub(crate) fn columns(&self) -> PathBuf {
-        self.path.join(TABLES[4])
+        self.path.join("columns.csv")
     }
 
     /// The folder of the kept runs.
@@ -153,7 +134,7 @@ impl Folder {
         let path = self.manifest_path();
         let bytes = match fs::read(&path) {
             Ok(bytes) => bytes,
-            Err(error) if error.kind() == std::io::ErrorKind::NotFound => return Ok(None),
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             Err(error) => return Err(Problem::io("read", &path)(error)),
         };
         let read = serde_json::from_slice(&bytes);
@@ -212,12 +193,17 @@ impl Folder {
         if self.manifest()?.as_ref() == Some(manifest) {
             return Ok(());
         }
-        let others = [RUNS, self.holds.manifest()[0]];
-        let mut results = TABLES.iter().chain(&others);
-        match results.find(|name| self.path.join(name).exists()) {
-            Some(name) => Err(Problem::Exists { path: self.path.join(name) }),
+        let mut results = self.files(&TABLES).into_iter().chain([self.runs(), self.manifest_path()]);
+        match results.find(|path| path.exists()) {
+            Some(path) => Err(Problem::Exists { path }),
             None => Ok(()),
         }
+    }
+
+    /// Files of these names, and their provisional ones.
+    fn files(&self, names: &[&str]) -> Vec<PathBuf> {
+        let named = names.iter().map(|name| self.path.join(name));
+        named.flat_map(|path| [path.clone(), partial_path(&path)]).collect()
     }
 
     fn busy(&self, doing: String) -> Problem {
@@ -249,13 +235,12 @@ impl Folder {
         if self.manifest_path().exists() {
             return Ok(());
         }
-        let ours = [LOCK, INPUTS, JOURNAL];
-        for name in names_in(&self.path)? {
-            if !ours.contains(&name.as_str()) && name != self.holds.manifest()[1] {
-                return Err(Problem::NotOurs { folder: self.path.clone(), holds: self.holds });
-            }
+        let begun = partial_path(&self.manifest_path());
+        let ours = |name: &String| [LOCK, INPUTS, JOURNAL].contains(&name.as_str()) || begun.ends_with(name);
+        if names_in(&self.path)?.iter().all(ours) {
+            return Ok(());
         }
-        Ok(())
+        Err(Problem::NotOurs { folder: self.path.clone(), holds: self.holds })
     }
 
     /// Processes that share the study in another way would compute the same samples.
@@ -299,28 +284,27 @@ impl Folder {
         let bytes = manifest
             .to_bytes()
             .map_err(|error| Problem::Damaged { path: path.clone(), found: format!("cannot be written: {error}") })?;
-        let partial = self.path.join(self.holds.manifest()[1]);
+        let partial = partial_path(&path);
         write_whole(&partial, &bytes)?;
         fs::rename(&partial, &path).map_err(Problem::io("rename to", &path))
     }
 
     /// Removes tables that were not completed.
     pub(crate) fn remove_partial_tables(&self) {
-        for name in TABLES.iter().filter(|name| name.contains(".partial.")) {
+        for name in TABLES {
             // one that cannot be removed is replaced by the next table
-            let _stays = fs::remove_file(self.path.join(name));
+            let _stays = fs::remove_file(partial_path(&self.path.join(name)));
         }
     }
 
     /// Removes what a sweep has written, and nothing else.
     fn clear(&self) -> Result<(), Problem> {
         let (results, folders): (&[&str], &[(&str, &str)]) = match self.holds {
-            Holds::Sweep => (&TABLES, &[(RUNS, ".mcap")]),
-            Holds::Fit => (&FIT_RESULTS, &[(FITTED, ".toml"), (PLOTS, ".svg")]),
+            Holds::Sweep => (&TABLES, &SWEEP_FOLDERS),
+            Holds::Fit => (&FIT_RESULTS, &FIT_FOLDERS),
         };
-        let mut files: Vec<PathBuf> = results.iter().map(|name| self.path.join(name)).collect();
-        let always = [(JOURNAL, ".rows"), (INPUTS, "")];
-        for (folder, ending) in always.iter().chain(folders) {
+        let mut files = self.files(results);
+        for (folder, ending) in [(JOURNAL, ".rows"), (INPUTS, "")].iter().chain(folders) {
             let folder = self.path.join(folder);
             if folder.exists() {
                 let names = names_in(&folder)?;
@@ -330,15 +314,7 @@ impl Folder {
         }
         // the manifest goes last: without it the rest would be nobody's
         files.push(self.manifest_path());
-        for file in files {
-            match fs::remove_file(&file) {
-                Err(error) if error.kind() != std::io::ErrorKind::NotFound => {
-                    return Err(Problem::io("remove", &file)(error));
-                }
-                _ => {}
-            }
-        }
-        Ok(())
+        Ok(files.iter().try_for_each(|file| remove_if_there(file, "remove"))?)
     }
 }
 
@@ -347,15 +323,11 @@ impl Folder {
 /// # Errors
 /// The operating system refuses.
 pub(crate) fn names_in(folder: &Path) -> Result<Vec<String>, Problem> {
-    let read = || -> std::io::Result<Vec<String>> {
-        let mut names = Vec::new();
-        for entry in fs::read_dir(folder)? {
-            names.push(entry?.file_name().to_string_lossy().into_owned());
-        }
-        names.sort();
-        Ok(names)
-    };
-    read().map_err(Problem::io("read", folder))
+    let name = |entry: io::Result<fs::DirEntry>| Ok(entry?.file_name().to_string_lossy().into_owned());
+    let names: io::Result<Vec<String>> = fs::read_dir(folder).and_then(|entries| entries.map(name).collect());
+    let mut names = names.map_err(Problem::io("read", folder))?;
+    names.sort();
+    Ok(names)
 }
 
 fn open_lock(path: &Path) -> Result<File, Problem> {
@@ -365,10 +337,9 @@ fn open_lock(path: &Path) -> Result<File, Problem> {
 }
 
 fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Problem> {
-    let write = || -> std::io::Result<()> {
-        let mut file = File::create(path)?;
-        std::io::Write::write_all(&mut file, bytes)?;
+    let written = File::create(path).and_then(|mut file| {
+        file.write_all(bytes)?;
         file.sync_all()
-    };
-    write().map_err(Problem::io("write", path))
+    });
+    written.map_err(Problem::io("write", path))
 }

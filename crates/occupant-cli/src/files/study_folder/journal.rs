@@ -1,14 +1,20 @@
 //! The journal: every finished sample, in pieces that are only ever appended to.
+//!
+//! A piece holds rows of one process in the order in which they were finished, as JSON Lines: the first line says of which
+//! sweep, each other line is a [`Row`]. What a killed process or a full disk has left of its last row has no line end and
+//! is not read; the sample is computed again.
 
-use std::collections::BTreeSet;
-use std::fs;
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::{self, File};
+use std::io::{self, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use serde::{Deserialize, Serialize};
+
 use super::finished::Finished;
 use super::folder::{Folder, names_in};
-use super::piece::{NotOurs, PieceWriter, frames};
 use super::problem::Problem;
 use super::row::Row;
 use super::shard::Shard;
@@ -19,6 +25,17 @@ const SYNC_EVERY: Duration = Duration::from_secs(10);
 /// So many samples are read at a time.
 const AT_ONCE: u64 = 2048;
 
+/// A piece is closed after so many rows or bytes.
+const ROWS: usize = 1024;
+const BYTES: usize = 4 << 20;
+
+/// First line of a piece.
+#[derive(Serialize, Deserialize)]
+struct Head {
+    /// SHA-256 of the manifest.
+    rows_of: String,
+}
+
 /// Appends the rows of one process.
 #[derive(Debug)]
 pub(crate) struct JournalWriter {
@@ -27,8 +44,32 @@ pub(crate) struct JournalWriter {
     shard: Shard,
     /// Number of the next piece.
     next: u64,
-    open: Option<(PathBuf, PieceWriter)>,
+    open: Option<OpenPiece>,
     synced: Instant,
+}
+
+#[derive(Debug)]
+struct OpenPiece {
+    path: PathBuf,
+    file: File,
+    rows: usize,
+    bytes: usize,
+}
+
+impl OpenPiece {
+    /// Appends a line in one write.
+    fn append(&mut self, line: &impl Serialize) -> io::Result<()> {
+        let mut bytes = serde_json::to_vec(line)?;
+        bytes.push(b'\n');
+        self.file.write_all(&bytes)?;
+        self.rows += 1;
+        self.bytes += bytes.len();
+        Ok(())
+    }
+
+    fn sync(&self) -> Result<(), Problem> {
+        self.file.sync_data().map_err(Problem::io("write", &self.path))
+    }
 }
 
 impl JournalWriter {
@@ -58,21 +99,18 @@ impl JournalWriter {
     /// # Errors
     /// The operating system refuses, e.g. because the disk is full; all rows before stand.
     pub(crate) fn append(&mut self, row: &Row) -> Result<(), Problem> {
-        let (path, mut piece) = match self.open.take() {
+        let mut piece = match self.open.take() {
             Some(open) => open,
             None => self.begin_piece()?,
         };
         // after a failed write the piece stays closed: nothing may follow a part of a row
-        piece.append(row).map_err(Problem::io("write", &path))?;
-        if piece.is_full() {
-            piece.sync().map_err(Problem::io("write", &path))?;
-            return Ok(());
-        }
-        if self.synced.elapsed() > SYNC_EVERY {
-            piece.sync().map_err(Problem::io("write", &path))?;
+        piece.append(row).map_err(Problem::io("write", &piece.path))?;
+        let full = piece.rows > ROWS || piece.bytes >= BYTES;
+        if full || self.synced.elapsed() > SYNC_EVERY {
+            piece.sync()?;
             self.synced = Instant::now();
         }
-        self.open = Some((path, piece));
+        self.open = (!full).then_some(piece);
         Ok(())
     }
 
@@ -81,18 +119,18 @@ impl JournalWriter {
     /// # Errors
     /// The operating system refuses.
     pub(crate) fn close(self) -> Result<(), Problem> {
-        match &self.open {
-            Some((path, piece)) => piece.sync().map_err(Problem::io("write", path)),
-            None => Ok(()),
-        }
+        self.open.map_or(Ok(()), |piece| piece.sync())
     }
 
-    fn begin_piece(&mut self) -> Result<(PathBuf, PieceWriter), Problem> {
-        let name = format!("{}.{:06}.rows", self.shard.file_stem(), self.next);
-        let path = self.folder.join(name);
-        let piece = PieceWriter::create(&path, &self.manifest_sha256);
+    fn begin_piece(&mut self) -> Result<OpenPiece, Problem> {
+        let path = self.folder.join(format!("{}.{:06}.rows", self.shard.file_stem(), self.next));
         self.next += 1;
-        Ok((path.clone(), piece.map_err(Problem::io("create", &path))?))
+        let begin = || {
+            let mut piece = OpenPiece { file: File::create_new(&path)?, path: path.clone(), rows: 0, bytes: 0 };
+            piece.append(&Head { rows_of: self.manifest_sha256.clone() })?;
+            Ok(piece)
+        };
+        begin().map_err(Problem::io("create", &path))
     }
 }
 
@@ -136,7 +174,7 @@ impl Journal {
             for name in names_in(&folder)? {
                 journal.begun.extend(Shard::of_file(&name));
                 if name.ends_with(".rows") {
-                    journal.look_through(folder.join(name), samples)?;
+                    journal.look_through(folder.join(name))?;
                 }
             }
         }
@@ -144,24 +182,37 @@ impl Journal {
         Ok(journal)
     }
 
-    fn look_through(&mut self, path: PathBuf, samples: u64) -> Result<(), Problem> {
-        let bytes = fs::read(&path).map_err(Problem::io("read", &path))?;
-        let frames = frames(&bytes, &self.manifest_sha256).map_err(|e| not_ours(&path, e))?;
-        let mut range: Option<Range<u64>> = None;
-        for row in frames {
-            let index = Row::index_of(row).filter(|i| *i < samples);
-            let index = index.ok_or_else(|| no_row(&path))?;
-            self.finished.add(index);
-            range = Some(match range {
-                Some(r) => r.start.min(index)..r.end.max(index + 1),
-                None => index..index + 1,
-            });
-        }
-        self.torn += usize::from(frames.torn() > 0);
-        if let Some(samples) = range {
-            self.pieces.push(Piece { path, samples });
+    fn look_through(&mut self, path: PathBuf) -> Result<(), Problem> {
+        let (rows, torn) = self.piece(&path)?;
+        self.torn += usize::from(torn);
+        let indices = || rows.iter().map(|row| row.index);
+        indices().for_each(|index| self.finished.add(index));
+        if let (Some(least), Some(greatest)) = (indices().min(), indices().max()) {
+            self.pieces.push(Piece { path, samples: least..greatest + 1 });
         }
         Ok(())
+    }
+
+    /// The rows of a piece, and whether one was cut off.
+    fn piece(&self, path: &Path) -> Result<(Vec<Row>, bool), Problem> {
+        let damaged = |found: &str| Problem::Damaged { path: path.to_owned(), found: found.to_owned() };
+        let bytes = fs::read(path).map_err(Problem::io("read", path))?;
+        let end = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);
+        let mut lines = bytes[..end].split_inclusive(|byte| *byte == b'\n');
+        let torn = end < bytes.len();
+        let Some(head) = lines.next() else {
+            return Ok((Vec::new(), torn));
+        };
+        match serde_json::from_slice::<Head>(head) {
+            Err(_) => return Err(damaged("is no piece of a journal")),
+            Ok(head) if head.rows_of != self.manifest_sha256 => {
+                return Err(damaged("is a piece of another sweep's journal"));
+            }
+            Ok(_) => {}
+        }
+        let row = |line| serde_json::from_slice(line).ok().filter(|row: &Row| row.index < self.samples);
+        let rows: Option<Vec<Row>> = lines.map(row).collect();
+        Ok((rows.ok_or_else(|| damaged("holds a row that is none of this sweep"))?, torn))
     }
 
     /// The shards that lack samples and how many, as far as the files tell into how many shards the study was cut.
@@ -198,42 +249,75 @@ impl Journal {
     /// # Errors
     /// As [`Journal::each_row`].
     pub(crate) fn rows(&self, range: Range<u64>) -> Result<Vec<Row>, Problem> {
-        let mut found: Vec<Option<(Row, &Path)>> = Vec::new();
-        found.resize_with((range.end - range.start) as usize, || None);
+        let mut found: BTreeMap<u64, (Row, &Path)> = BTreeMap::new();
         let overlapping = |p: &&Piece| p.samples.start < range.end && range.start < p.samples.end;
         for piece in self.pieces.iter().filter(overlapping) {
-            let path = &piece.path;
-            let bytes = fs::read(path).map_err(Problem::io("read", path))?;
-            let frames = frames(&bytes, &self.manifest_sha256).map_err(|e| not_ours(path, e))?;
-            for bytes in frames {
-                let index = Row::index_of(bytes).filter(|i| range.contains(i));
-                let Some(index) = index else {
-                    continue;
-                };
-                let row = Row::decode(bytes).ok_or_else(|| no_row(path))?;
-                match &mut found[(index - range.start) as usize] {
+            for row in self.piece(&piece.path)?.0.into_iter().filter(|row| range.contains(&row.index)) {
+                let index = row.index;
+                match found.get(&index) {
                     Some((there, first)) if !there.agrees(&row) => {
-                        return Err(Problem::Disagree { index, first: first.to_path_buf(), second: path.clone() });
+                        let (first, second) = (first.to_path_buf(), piece.path.clone());
+                        return Err(Problem::Disagree { index, first, second });
                     }
                     Some(_) => {}
-                    empty => *empty = Some((row, path)),
+                    None => _ = found.insert(index, (row, &piece.path)),
                 }
             }
         }
-        Ok(found.into_iter().flatten().map(|(row, _)| row).collect())
+        Ok(found.into_values().map(|(row, _)| row).collect())
     }
 }
 
-fn not_ours(path: &Path, found: NotOurs) -> Problem {
-    Problem::Damaged {
-        path: path.to_owned(),
-        found: match found {
-            NotOurs::NoPiece => "is no piece of a journal".to_owned(),
-            NotOurs::OtherSweep => "is a piece of another sweep's journal".to_owned(),
-        },
-    }
-}
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::files::study_folder::row::tests::row;
 
-fn no_row(path: &Path) -> Problem {
-    Problem::Damaged { path: path.to_owned(), found: "holds a row that is none of this sweep".to_owned() }
+    const SHA: &str = "0123456789abcdef0123456789abcdef0123456789abcdef0123456789abcdef";
+
+    /// A folder whose journal is one piece of four rows, and the piece.
+    fn journal() -> (tempfile::TempDir, Folder, PathBuf) {
+        let there = tempfile::tempdir().unwrap();
+        let folder = Folder::at(there.path());
+        fs::create_dir(folder.journal()).unwrap();
+        let mut writer = JournalWriter::new(&folder, SHA, Shard::WHOLE).unwrap();
+        (0..4).for_each(|i| writer.append(&row(i)).unwrap());
+        writer.close().unwrap();
+        let piece = folder.journal().join("shard-0001-of-0001.000000.rows");
+        (there, folder, piece)
+    }
+
+    fn read(folder: &Folder, sha256: &str) -> Result<Journal, String> {
+        Journal::read(std::slice::from_ref(folder), sha256, 4).map_err(|e| e.to_string())
+    }
+
+    #[test]
+    fn cut_off_anywhere_a_piece_holds_the_rows_before() {
+        let (_there, folder, piece) = journal();
+        let bytes = fs::read(&piece).unwrap();
+        let mut seen = 0;
+        for end in 0..bytes.len() {
+            fs::write(&piece, &bytes[..end]).unwrap();
+            let found = read(&folder, SHA).unwrap();
+            let rows = found.rows(0..4).unwrap();
+            let expected: Vec<Row> = (0..rows.len() as u64).map(row).collect();
+            assert_eq!(rows, expected);
+            assert!(rows.len() >= seen && rows.len() < 4);
+            seen = rows.len();
+            let boundary = end == 0 || bytes[end - 1] == b'\n';
+            assert_eq!(found.torn == 0, boundary, "{end}");
+        }
+        assert_eq!(seen, 3);
+    }
+
+    #[test]
+    fn a_damaged_row_and_what_is_no_piece_are_refused() {
+        let (_there, folder, piece) = journal();
+        assert!(read(&folder, &SHA.replace('0', "f")).unwrap_err().contains("another sweep's"));
+        let text = fs::read_to_string(&piece).unwrap();
+        fs::write(&piece, text.replacen("\"index\":1", "\"index\":9", 1)).unwrap();
+        assert!(read(&folder, SHA).unwrap_err().contains("none of this sweep"));
+        fs::write(&piece, "occupant rows 1\nhello\n").unwrap();
+        assert!(read(&folder, SHA).unwrap_err().contains("no piece of a journal"));
+    }
 }

@@ -108,14 +108,11 @@ impl Manifest {
             some => some.join(", "),
         };
         differ("--set", listed(&self.overrides), listed(&here.overrides));
-        for (i, there) in self.texts.iter().enumerate() {
-            match here.texts.get(i) {
-                None => found.push(format!("{}: there, not here", there.name)),
-                Some(ours) if ours.sha256 != there.sha256 => {
-                    found.push(text_difference(&ours.name, text_there(there), text_here(ours)));
-                }
-                Some(_) => {}
-            }
+        for (there, ours) in self.texts.iter().zip(&here.texts).filter(|(there, ours)| there.sha256 != ours.sha256) {
+            found.push(text_difference(&ours.name, text_there(there), text_here(ours)));
+        }
+        for there in self.texts.iter().skip(here.texts.len()) {
+            found.push(format!("{}: there, not here", there.name));
         }
         for ours in here.texts.iter().skip(self.texts.len()) {
             found.push(format!("{}: here, not there", ours.name));
@@ -133,21 +130,15 @@ fn text_difference(name: &str, there: Option<Vec<u8>>, here: Option<Vec<u8>>) ->
         return format!("{name}: another text");
     };
     let (there, here) = (String::from_utf8_lossy(&there), String::from_utf8_lossy(&here));
-    let (mut a, mut b) = (there.lines(), here.lines());
-    for line in 1.. {
-        match (a.next(), b.next()) {
-            (None, None) => break,
-            (a, b) if a == b => {}
-            (a, b) => {
-                let shown = |line: Option<&str>| match line {
-                    Some(text) => format!("`{}`", text.trim().chars().take(60).collect::<String>()),
-                    None => "the end".to_owned(),
-                };
-                return format!("{name}, line {line}: {} → {}", shown(a), shown(b));
-            }
-        }
+    let same = there.lines().zip(here.lines()).take_while(|(there, here)| there == here).count();
+    let shown = |text: &str| match text.lines().nth(same) {
+        Some(line) => format!("`{}`", line.trim().chars().take(60).collect::<String>()),
+        None => "the end".to_owned(),
+    };
+    if [&there, &here].iter().all(|text| text.lines().count() == same) {
+        return format!("{name}: other line ends");
     }
-    format!("{name}: other line ends")
+    format!("{name}, line {}: {} → {}", same + 1, shown(&there), shown(&here))
 }
 
 #[cfg(test)]

@@ -1,13 +1,12 @@
 //! The folder of a sweep or a fit: manifest, copies of what was read, the journal of finished runs, the tables made of it.
 //!
 //! Runs nothing: jobs hand rows in and read them back. What a folder holds stands in [`folder`], what a piece of the journal
-//! is in [`piece`].
+//! is in [`journal`].
 
 pub(crate) mod finished;
 pub(crate) mod folder;
 pub(crate) mod journal;
 pub(crate) mod manifest;
-mod piece;
 pub(crate) mod problem;
 pub(crate) mod row;
 pub(crate) mod shard;

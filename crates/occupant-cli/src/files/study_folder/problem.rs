@@ -8,6 +8,7 @@ use super::finished::ranges_text;
 use super::folder::Holds;
 use super::shard::Shard;
 use crate::base::failure::Failure;
+use crate::base::output_file::FileProblem;
 
 /// So many ranges or shards are named.
 const SHOWN: usize = 20;
@@ -15,8 +16,8 @@ const SHOWN: usize = 20;
 /// What can go wrong with a folder of results.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Problem {
-    #[error("cannot {doing} {}: {source}", .path.display())]
-    Io { doing: &'static str, path: PathBuf, source: io::Error },
+    #[error(transparent)]
+    File(#[from] FileProblem),
     #[error("{} exists and is not of this sweep", .path.display())]
     Exists { path: PathBuf },
     /// There are files, but none of ours.
@@ -42,10 +43,10 @@ impl Problem {
     /// What the operating system said while something was done to a file.
     pub(crate) fn io(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Problem {
         let path = path.to_owned();
-        move |source| Problem::Io { doing, path, source }
+        move |source| Problem::File(FileProblem::Io { doing, path, source })
     }
 
-    /// How to go on, where there is something to say.
+    /// How to mend it, where that can be said.
     pub(crate) fn help(&self) -> Option<&'static str> {
         match self {
             Problem::Exists { .. } | Problem::NotOurs { .. } => Some("name a new folder, or an empty one"),
@@ -55,12 +56,12 @@ impl Problem {
             Problem::Damaged { .. } => Some("remove the file: its samples are computed again by the same sweep"),
             Problem::Busy { .. } => Some("wait for it, or name another folder"),
             Problem::Incomplete { .. } => {
-                Some("give the same command of `occupant sweep` again: it goes on from what is there")
+                Some("give the same command of `occupant sweep` again: it resumes with what is there")
             }
             Problem::Disagree { .. } => Some(
                 "the results were computed by programs or machines that do not agree; compute them anew with --restart",
             ),
-            Problem::Io { .. } => None,
+            Problem::File(_) => None,
         }
     }
 }
@@ -83,7 +84,9 @@ impl From<Problem> for Failure {
         let help = problem.help().map(|h| format!("\n = help: {h}")).unwrap_or_default();
         let message = format!("error: {problem}{help}");
         match problem {
-            Problem::Io { doing: "write", .. } | Problem::Incomplete { .. } => Failure::BrokeOff(message),
+            Problem::File(FileProblem::Io { doing: "write", .. }) | Problem::Incomplete { .. } => {
+                Failure::BrokeOff(message)
+            }
             _ => Failure::CouldNotRun(message),
         }
     }

@@ -36,11 +36,11 @@ impl Shard {
         }
     }
 
-    /// The shard that the environment tells, and by which variable: `OCCUPANT_SHARD`, or else the Slurm job array that the
+    /// The shard that the environment names, and by which variable: `OCCUPANT_SHARD`, or else the Slurm job array that the
     /// process is a task of.
     ///
     /// # Errors
-    /// Variables that tell no shard.
+    /// Variables that name no shard.
     pub(crate) fn from_environment(
         get: impl Fn(&str) -> Option<String>,
     ) -> Result<Option<(Shard, &'static str)>, String> {

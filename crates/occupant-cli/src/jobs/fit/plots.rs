@@ -6,7 +6,7 @@ use super::experiment::{Experiment, in_group};
 use super::fitting::Fitting;
 use super::target::Target;
 use crate::files::history::{Filter, Histories, UnitChoice};
-use crate::pictures::plot::{Entry, Figure, Material, Overlay, RunCurves, Sheet, Wish, figures, sheet};
+use crate::pictures::plot::{self, Entry, Figure, Material, Overlay, RunCurves, Sheet, Wish, sheet};
 
 /// Runs of an experiment before and after.
 pub(crate) struct Pair {
@@ -35,24 +35,18 @@ type Groups = Vec<(Filter, Histories)>;
 
 fn figures_of(experiment: &Experiment, test: usize, file: &str, runs: &Pair) -> Result<Vec<Figure>, String> {
     let after = experiment.histories(&runs.after)?;
-    let before = match &runs.before {
-        Some(series) => Some(experiment.histories(series)?),
-        None => None,
-    };
+    let before = runs.before.as_ref().map(|series| experiment.histories(series)).transpose()?;
     let own = experiment.targets.iter().filter(|(t, _)| *t == test);
     own.map(|(_, target)| figure(target, file, before.as_ref(), &after)).collect()
 }
 
 fn figure(target: &Target, file: &str, before: Option<&Groups>, after: &Groups) -> Result<Figure, String> {
-    let curves = |label: &str, groups: &Groups| {
-        in_group(groups, target.filter)
-            .map(|histories| RunCurves { label: label.to_owned(), histories: histories.clone() })
-    };
-    let mut runs = Vec::new();
-    if let Some(before) = before {
-        runs.push(curves("before", before)?);
-    }
-    runs.push(curves("fitted", after)?);
+    let shown = [before.map(|groups| ("before", groups)), Some(("fitted", after))].into_iter().flatten();
+    let runs = shown.map(|(label, groups)| {
+        let histories = in_group(groups, target.filter)?.clone();
+        Ok(RunCurves { label: label.to_owned(), histories })
+    });
+    let runs = runs.collect::<Result<Vec<_>, String>>()?;
     let overlay = Overlay {
         channel: target.channel.name.clone(),
         file: file.rsplit(['/', '\\']).next().unwrap_or(file).to_owned(),
@@ -72,6 +66,5 @@ fn figure(target: &Target, file: &str, before: Option<&Groups>, after: &Groups) 
         units: UnitChoice::Si,
         window_s: target.window_s,
     };
-    let drawn = figures(std::slice::from_ref(&wish), &material)?;
-    drawn.into_iter().next().ok_or_else(|| "no figure".to_owned())
+    plot::figure(&wish, &material)
 }

@@ -48,86 +48,58 @@ impl Entry {
 
 /// Rank correlations and regression coefficients with their intervals.
 pub(crate) fn linear(samples: &Samples, analysis: &Analysis) -> String {
-    let names = names(samples, &analysis.order);
     let place = |parameter: usize| analysis.order.iter().position(|p| *p == parameter);
-    let mut ranks = Vec::new();
-    for (i, rank) in analysis.linear.ranks.iter().enumerate() {
-        if let (Ok(found), Some(at)) = (rank, place(i)) {
-            ranks.push(Entry::of(at, &found.rho, 1.0, caution::rank(found)));
-        }
-    }
-    let mut coefficients = Vec::new();
-    if let Ok((which, found)) = &analysis.linear.regression {
-        for (i, estimate) in which.iter().zip(&found.coefficients) {
-            if let Some(at) = place(*i) {
-                coefficients.push(Entry::of(at, estimate, 1.0, caution::regression(found)));
-            }
-        }
-    }
+    let ranks = analysis.linear.ranks.iter().enumerate().filter_map(|(i, rank)| {
+        let rank = rank.as_ref().ok()?;
+        Some(Entry::of(place(i)?, &rank.rho, 1.0, caution::rank(rank)))
+    });
     let mut curves = entries("rank correlation", BLUE, ranks, -0.14);
-    curves.extend(entries("regression coefficient", ORANGE, coefficients, 0.14));
-    words_figure(
-        &title("Rank correlation and regression", samples, analysis),
-        Axis { includes: Some([-1.0, 1.0]), ..Axis::of("95 % intervals", "") },
-        names,
-        curves,
-    )
+    if let Ok((which, regression)) = &analysis.linear.regression {
+        let coefficients = which
+            .iter()
+            .zip(&regression.coefficients)
+            .filter_map(|(i, estimate)| Some(Entry::of(place(*i)?, estimate, 1.0, caution::regression(regression))));
+        curves.extend(entries("regression coefficient", ORANGE, coefficients, 0.14));
+    }
+    let x = Axis { includes: Some([-1.0, 1.0]), ..Axis::of("95 % intervals", "") };
+    words_figure("Rank correlation and regression", samples, analysis, x, curves)
 }
 
 /// First-order and total indices with their intervals.
-pub(crate) fn sobol(samples: &Samples, analysis: &Analysis, found: &SobolIndices) -> String {
-    let of = |estimates: &[Estimate]| -> Vec<Entry> {
-        let all = analysis.order.iter().enumerate();
-        all.filter_map(|(at, i)| {
+pub(crate) fn sobol(samples: &Samples, analysis: &Analysis, indices: &SobolIndices) -> String {
+    let of = |label: &str, colour: &'static str, estimates: &[Estimate], lower: f64| {
+        let shown = analysis.order.iter().enumerate().filter_map(|(at, i)| {
             let estimate = estimates.get(*i)?;
-            Some(Entry::of(at, estimate, 1.0, caution::index(estimate, found)))
-        })
-        .collect()
+            Some(Entry::of(at, estimate, 1.0, caution::index(estimate, indices)))
+        });
+        entries(label, colour, shown, lower)
     };
-    let mut curves = entries("first order", BLUE, of(&found.first), -0.14);
-    curves.extend(entries("total", ORANGE, of(&found.total), 0.14));
-    words_figure(
-        &title("Sobol indices", samples, analysis),
-        Axis { includes: Some([0.0, 1.0]), ..Axis::of("part of the variance, 95 % intervals", "") },
-        names(samples, &analysis.order),
-        curves,
-    )
+    let curves = [of("first order", BLUE, &indices.first, -0.14), of("total", ORANGE, &indices.total, 0.14)].concat();
+    let x = Axis { includes: Some([0.0, 1.0]), ..Axis::of("part of the variance, 95 % intervals", "") };
+    words_figure("Sobol indices", samples, analysis, x, curves)
 }
 
 /// μ* with its interval, and σ.
-pub(crate) fn morris(samples: &Samples, analysis: &Analysis, found: &[Effect]) -> String {
+pub(crate) fn morris(samples: &Samples, analysis: &Analysis, effects: &[Effect]) -> String {
     let response = &samples.responses[analysis.response];
     let (per, unit) = shown_unit(&response.unit);
-    let all = || analysis.order.iter().enumerate();
-    let magnitude = |(at, i): (usize, &usize)| {
-        let effect = found.get(*i)?;
-        Some(Entry::of(at, &effect.mean_magnitude, per, caution::effect(effect)))
-    };
-    let mut curves = entries("μ*, mean magnitude", BLUE, all().filter_map(magnitude).collect(), -0.14);
-    let sigma = |(at, i): (usize, &usize)| Some([found.get(*i)?.deviation / per, at as f64 + 0.14]);
-    curves.push(Curve {
-        label: "σ, deviation".to_owned(),
-        style: Style::dots(ORANGE, 7.0),
-        points: all().filter_map(sigma).collect(),
-    });
-    words_figure(
-        &title("Elementary effects over the whole range", samples, analysis),
-        Axis { includes: Some([0.0, 0.0]), ..Axis::of(&response.name, unit) },
-        names(samples, &analysis.order),
-        curves,
-    )
+    let all = || analysis.order.iter().enumerate().filter_map(|(at, i)| Some((at, effects.get(*i)?)));
+    let magnitudes = all().map(|(at, effect)| Entry::of(at, &effect.mean_magnitude, per, caution::effect(effect)));
+    let mut curves = entries("μ*, mean magnitude", BLUE, magnitudes, -0.14);
+    let deviations = all().map(|(at, effect)| [effect.deviation / per, at as f64 + 0.14]);
+    curves.push(Curve::new("σ, deviation", Style::dots(ORANGE, 7.0), deviations.collect()));
+    let x = Axis { includes: Some([0.0, 0.0]), ..Axis::of(&response.name, unit) };
+    words_figure("Elementary effects over the whole range", samples, analysis, x, curves)
 }
 
 /// What each parameter alone does.
-pub(crate) fn tornado(samples: &Samples, analysis: &Analysis, found: &[Reach]) -> String {
+pub(crate) fn tornado(samples: &Samples, analysis: &Analysis, reaches: &[Reach]) -> String {
     let response = &samples.responses[analysis.response];
     let (per, unit) = shown_unit(&response.unit);
-    let names = names(samples, &analysis.order);
-    let shown = names.len();
-    let mut bars = Vec::new();
-    let (mut at_least, mut at_greatest) = (Vec::new(), Vec::new());
+    let shown = names(samples, analysis).len();
+    let (mut bars, mut at_least, mut at_greatest) = (Vec::new(), Vec::new(), Vec::new());
     for (at, i) in analysis.order.iter().take(shown).enumerate() {
-        let Some(reach) = found.get(*i) else {
+        let Some(reach) = reaches.get(*i) else {
             continue;
         };
         let y = at as f64;
@@ -138,33 +110,25 @@ pub(crate) fn tornado(samples: &Samples, analysis: &Analysis, found: &[Reach]) -
             at_greatest.push([greatest / per, y]);
         }
     }
-    let nominal = found.first().map_or(f64::NAN, |r| r.nominal / per);
-    let curve = |label: &str, style: Style, points: Vec<[f64; 2]>| Curve { label: label.to_owned(), style, points };
+    let nominal = reaches.first().map_or(f64::NAN, |r| r.nominal / per);
     let curves = vec![
-        curve("range", Style::line(PALE, 12.0), bars),
-        curve("base", Style::line("#222222", 1.2), vec![[nominal, -0.5], [nominal, shown as f64 - 0.5]]),
-        curve("at the least value", Style::dots(BLUE, 7.0), at_least),
-        curve("at the greatest", Style::dots(ORANGE, 7.0), at_greatest),
+        Curve::new("range", Style::line(PALE, 12.0), bars),
+        Curve::new("base", Style::line("#222222", 1.2), vec![[nominal, -0.5], [nominal, shown as f64 - 0.5]]),
+        Curve::new("at the least value", Style::dots(BLUE, 7.0), at_least),
+        Curve::new("at the greatest", Style::dots(ORANGE, 7.0), at_greatest),
     ];
-    words_figure(&title("One parameter at a time", samples, analysis), Axis::of(&response.name, unit), names, curves)
+    words_figure("One parameter at a time", samples, analysis, Axis::of(&response.name, unit), curves)
 }
 
 /// A response over a parameter.
 pub(crate) fn scatter(input: &Input, response: &Response) -> String {
-    let (across, up) = (axis_of(input), axis_of_response(response));
     let every = input.values.len().div_ceil(MOST_DOTS).max(1);
     let pairs = input.values.iter().zip(&response.values).step_by(every);
     let per = [per(input), shown_unit(&response.unit).0];
     let points: Vec<[f64; 2]> = pairs.map(|(x, y)| [x / per[0], y / per[1]]).collect();
-    let figure = Figure {
-        title: input.name.clone(),
-        x: across,
-        y: up,
-        curves: vec![Curve { label: String::new(), style: Style::dots(BLUE, diameter(points.len())), points }],
-        limits: Vec::new(),
-        empty: "no sample has a value".to_owned(),
-    };
-    inline(&figure, SIZE)
+    let curve = Curve::new("", Style::dots(BLUE, diameter(points.len())), points);
+    let up = Axis::of(&response.name, shown_unit(&response.unit).1);
+    dots_figure(&input.name, [axis_of(input), up], vec![curve])
 }
 
 /// Two parameters, each sample coloured by the fifth that its response lies in.
@@ -189,38 +153,21 @@ pub(crate) fn map(across: &Input, up: &Input, response: &Response, fifths: &[f64
         format!("above {} {unit}", bound(3)).trim_end().to_owned(),
     ];
     let count = response.values.len() / every;
-    let fifth = |((points, label), colour): ((Vec<[f64; 2]>, String), &'static str)| Curve {
-        label,
-        style: Style::dots(colour, diameter(count) + 1.0),
-        points,
-    };
-    let curves = points.into_iter().zip(labels).zip(FIFTHS).map(fifth);
-    let figure = Figure {
-        title: format!("{} over two parameters", response.name),
-        x: axis_of(across),
-        y: axis_of(up),
-        curves: curves.collect(),
-        limits: Vec::new(),
-        empty: "no sample has a value".to_owned(),
-    };
-    inline(&figure, SIZE)
-}
-
-fn title(what: &str, samples: &Samples, analysis: &Analysis) -> String {
-    format!("{what}: {}", samples.responses[analysis.response].name)
+    let style = |colour| Style::dots(colour, diameter(count) + 1.0);
+    let curves = points.into_iter().zip(labels).zip(FIFTHS);
+    let curves = curves.map(|((points, label), colour)| Curve::new(label, style(colour), points));
+    let title = format!("{} over two parameters", response.name);
+    dots_figure(&title, [axis_of(across), axis_of(up)], curves.collect())
 }
 
 /// Names of the parameters that are drawn.
-fn names(samples: &Samples, order: &[usize]) -> Vec<String> {
-    let names = order.iter().map(|i| samples.inputs[*i].name.clone());
+fn names(samples: &Samples, analysis: &Analysis) -> Vec<String> {
+    let names = analysis.order.iter().map(|i| samples.inputs[*i].name.clone());
     names.take(MOST_WORDS).collect()
 }
 
 fn per(input: &Input) -> f64 {
-    match input.is_number() {
-        true => shown_unit(&input.unit).0,
-        false => 1.0,
-    }
+    if input.is_number() { shown_unit(&input.unit).0 } else { 1.0 }
 }
 
 fn axis_of(input: &Input) -> Axis {
@@ -228,10 +175,6 @@ fn axis_of(input: &Input) -> Axis {
         Some(words) if !words.is_empty() => Axis::of_words(&input.name, words.clone()),
         _ => Axis::of(&input.name, shown_unit(&input.unit).1),
     }
-}
-
-fn axis_of_response(response: &Response) -> Axis {
-    Axis::of(&response.name, shown_unit(&response.unit).1)
 }
 
 /// Dots that many others do not hide.
@@ -245,9 +188,8 @@ fn diameter(count: usize) -> f64 {
 }
 
 /// Whiskers and dots of one kind of number, what a rule marks in grey.
-fn entries(label: &str, colour: &'static str, all: Vec<Entry>, lower: f64) -> Vec<Curve> {
-    let shown = all.into_iter().filter(|e| e.at < MOST_WORDS);
-    let (marked, sure): (Vec<Entry>, Vec<Entry>) = shown.partition(|e| e.marked);
+fn entries(label: &str, colour: &'static str, all: impl Iterator<Item = Entry>, lower: f64) -> Vec<Curve> {
+    let (marked, sure): (Vec<Entry>, Vec<Entry>) = all.filter(|e| e.at < MOST_WORDS).partition(|e| e.marked);
     let mut curves = Vec::new();
     for (entries, label, colour) in [(sure, label.to_owned(), colour), (marked, format!("{label}, marked"), GREY)] {
         if entries.is_empty() {
@@ -255,31 +197,25 @@ fn entries(label: &str, colour: &'static str, all: Vec<Entry>, lower: f64) -> Ve
         }
         let y = |e: &Entry| e.at as f64 + lower;
         let whisker = |e: &Entry| [[e.interval[0], y(e)], [e.interval[1], y(e)], [f64::NAN; 2]];
-        curves.push(Curve {
-            label: String::new(),
-            style: Style::line(colour, 1.6),
-            points: entries.iter().flat_map(whisker).collect(),
-        });
-        // what a rule marks stays told apart by its shape
+        curves.push(Curve::new("", Style::line(colour, 1.6), entries.iter().flat_map(whisker).collect()));
+        // the two kinds of numbers keep their shapes where a rule marks them
         let size = if lower < 0.0 { 7.5 } else { 5.0 };
-        curves.push(Curve {
-            label,
-            style: Style::dots(colour, size),
-            points: entries.iter().map(|e| [e.value, y(e)]).collect(),
-        });
+        let dots = entries.iter().map(|e| [e.value, y(e)]).collect();
+        curves.push(Curve::new(label, Style::dots(colour, size), dots));
     }
     curves
 }
 
-fn words_figure(title: &str, x: Axis, words: Vec<String>, curves: Vec<Curve>) -> String {
+/// A plot of the parameters in the order of the analysis, by name.
+fn words_figure(what: &str, samples: &Samples, analysis: &Analysis, x: Axis, curves: Vec<Curve>) -> String {
+    let words = names(samples, analysis);
     let height = HEAD + EACH * words.len().max(2) as f64;
-    let figure = Figure {
-        title: title.to_owned(),
-        x,
-        y: Axis::of_words("", words),
-        curves,
-        limits: Vec::new(),
-        empty: "nothing to draw".to_owned(),
-    };
-    inline(&figure, [1.1 * SIZE[0], height])
+    let title = format!("{what}: {}", samples.responses[analysis.response].name);
+    inline(&Figure::new(&title, [x, Axis::of_words("", words)], curves), [1.1 * SIZE[0], height])
+}
+
+/// A plot with a dot for each sample.
+fn dots_figure(title: &str, axes: [Axis; 2], curves: Vec<Curve>) -> String {
+    let empty = "no sample has a value".to_owned();
+    inline(&Figure { empty, ..Figure::new(title, axes, curves) }, SIZE)
 }

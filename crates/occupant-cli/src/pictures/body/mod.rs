@@ -61,7 +61,7 @@ pub(crate) fn parts(body: &Body) -> Vec<Part> {
     body.tree.segments().flat_map(of_segment).collect()
 }
 
-/// Neck, head and a nose that tells where it looks. Without a sphere the head is as wide as its inertia says.
+/// Neck, head and a nose that shows where it looks. Without a sphere the head is as wide as its inertia says.
 fn head(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
     let p = body.segment(segment);
     let own = body.spheres.iter().filter(|sphere| sphere.segment == segment);
@@ -87,24 +87,19 @@ fn head(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
 /// The chest and the bar that carries the shoulders.
 fn upper_torso(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
     let p = body.segment(segment);
-    let upper = p.length_m - p.cg_from_lower_end_m;
     let shoulder = limb_radius(body, body.tree.landmarks().arms.left.upper);
-    let bar = |side: f64| {
-        let place = Vector3::new(0.0, side * body.shoulder_half_width_m, upper);
-        ball(place, shoulder)
-    };
-    vec![trunk(body, segment), [bar(1.0), bar(-1.0)]]
+    vec![trunk(body, segment), bar(body.shoulder_half_width_m, p.length_m - p.cg_from_lower_end_m, shoulder)]
 }
 
 /// The pelvis and the bar that carries the hips.
 fn lower_torso(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
-    let p = body.segment(segment);
     let hip = 0.9 * limb_radius(body, body.tree.landmarks().legs.left.upper);
-    let bar = |side: f64| {
-        let place = Vector3::new(0.0, side * body.hip_half_width_m, -p.cg_from_lower_end_m);
-        ball(place, hip)
-    };
-    vec![trunk(body, segment), [bar(1.0), bar(-1.0)]]
+    vec![trunk(body, segment), bar(body.hip_half_width_m, -body.segment(segment).cg_from_lower_end_m, hip)]
+}
+
+/// A capsule from the left to the right at a height over the centre of gravity.
+fn bar(half_width_m: f64, height_m: f64, radius_m: f64) -> [Lump; 2] {
+    [half_width_m, -half_width_m].map(|y| ball(Vector3::new(0.0, y, height_m), radius_m))
 }
 
 /// The elliptic column of a segment of the trunk, rounded at its ends.

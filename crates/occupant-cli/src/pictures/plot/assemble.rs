@@ -46,26 +46,18 @@ impl FromStr for LimitArgument {
         let expected = "expected CHANNEL=LEVEL, such as 'head.acceleration.resultant=80 g'";
         let (channel, level) = text.split_once('=').ok_or(expected)?;
         let level = level.trim();
-        let sign = |c: char| c.is_ascii_digit() || matches!(c, '.' | '+' | '-');
-        // an exponent such as 1e3 belongs to the number
-        let mut end = level.find(|c| !sign(c)).unwrap_or(level.len());
-        if level[end..].starts_with(['e', 'E']) {
-            let digits = level[end + 1..].find(|c| !sign(c)).unwrap_or(level.len() - end - 1);
-            if digits > 0 {
-                end += 1 + digits;
-            }
-        }
-        let value: f64 = level[..end].parse().map_err(|_| expected.to_owned())?;
-        let unit = level[end..].trim();
-        if let Some(wrong) = (!unit.is_empty() && scale_of(unit).is_none()).then_some(unit) {
+        let places = (0..=level.len()).rev().filter(|at| level.is_char_boundary(*at));
+        // the longest beginning that is a number, so that an exponent belongs to it
+        let split = places.map(|at| level.split_at(at)).find_map(|(number, unit)| {
+            let number = number.trim_end().parse::<f64>().ok().filter(|x| x.is_finite())?;
+            Some((number, unit.trim()))
+        });
+        let (value, unit) = split.ok_or(expected)?;
+        let unit = (!unit.is_empty()).then(|| unit.to_owned());
+        if let Some(wrong) = unit.as_ref().filter(|unit| scale_of(unit).is_none()) {
             return Err(format!("`{wrong}` is no unit; {expected}"));
         }
-        Ok(LimitArgument {
-            channel: channel.trim().to_owned(),
-            text: level.to_owned(),
-            value,
-            unit: (!unit.is_empty()).then(|| unit.to_owned()),
-        })
+        Ok(LimitArgument { channel: channel.trim().to_owned(), text: level.to_owned(), value, unit })
     }
 }
 
@@ -103,15 +95,11 @@ pub(crate) struct Material<'a> {
     pub(crate) window_s: [f64; 2],
 }
 
-/// One figure for each wish.
+/// The figure of a wish.
 ///
 /// # Errors
-/// Channels of different units in a figure, a limit in another unit.
-pub(crate) fn figures(wishes: &[Wish], material: &Material<'_>) -> Result<Vec<Figure>, String> {
-    wishes.iter().map(|w| figure(w, material)).collect()
-}
-
-fn figure(wish: &Wish, material: &Material<'_>) -> Result<Figure, String> {
+/// Channels of different units, a limit in another unit, more curves than can be distinguished.
+pub(crate) fn figure(wish: &Wish, material: &Material<'_>) -> Result<Figure, String> {
     let unit = common_unit(wish, material.runs)?;
     let shown = plotted(unit, material.units);
     let mut curves = Vec::new();
@@ -126,16 +114,13 @@ fn figure(wish: &Wish, material: &Material<'_>) -> Result<Figure, String> {
                 (runs, channels) if runs <= Style::COLOURS && channels <= Style::DASHES => Style::of(r, e),
                 _ => Style::of(curves.len(), 0),
             };
-            curves.push(Curve {
-                label: label(entry, run, wish, material),
-                style,
-                points: points(run, column, shown, material),
-            });
+            let points = points(run, column, shown, material);
+            curves.push(Curve::new(label(entry, run, wish, material), style, points));
         }
     }
     if curves.len() > Style::DISTINCT {
         return Err(format!(
-            "{} curves in the plot {}: at most {} can be told apart",
+            "{} curves in the plot {}: at most {} can be distinguished",
             curves.len(),
             wish.title,
             Style::DISTINCT
@@ -145,26 +130,17 @@ fn figure(wish: &Wish, material: &Material<'_>) -> Result<Figure, String> {
         let measured = material.overlays.iter().filter(|o| o.channel == entry.channel);
         curves.extend(measured.map(|o| overlay(o, entry, e, wish, shown, material)));
     }
-    let mut limits = Vec::new();
-    for limit in material.limits {
-        if wish.entries.iter().any(|e| e.channel == limit.channel) {
-            limits.push(Limit {
-                label: match wish.entries.len() {
-                    1 => format!("limit {}", limit.text),
-                    _ => format!("limit of {}: {}", limit.channel, limit.text),
-                },
-                level: limit.level(unit, shown)?,
-            });
-        }
-    }
-    Ok(Figure {
-        title: wish.title.clone(),
-        x: x_axis(material),
-        y: Axis::of(&wish.axis, symbol(shown)),
-        curves,
-        limits,
-        empty: wish.empty.clone(),
-    })
+    let limits = material.limits.iter().filter(|limit| wish.entries.iter().any(|e| e.channel == limit.channel));
+    let limits = limits.map(|limit| {
+        let label = match wish.entries.len() {
+            1 => format!("limit {}", limit.text),
+            _ => format!("limit of {}: {}", limit.channel, limit.text),
+        };
+        Ok(Limit { label, level: limit.level(unit, shown)? })
+    });
+    let axes = [x_axis(material), Axis::of(&wish.axis, symbol(shown))];
+    let limits = limits.collect::<Result<_, String>>()?;
+    Ok(Figure { limits, empty: wish.empty.clone(), ..Figure::new(&wish.title, axes, curves) })
 }
 
 /// A plain number has no symbol.
@@ -184,27 +160,23 @@ fn channel_of<'a>(runs: &'a [RunCurves], name: &str) -> Option<&'a Channel> {
 }
 
 fn common_unit(wish: &Wish, runs: &[RunCurves]) -> Result<Unit, String> {
-    let mut found: Option<(&str, Unit)> = None;
-    for entry in &wish.entries {
-        let Some(channel) = channel_of(runs, &entry.channel) else {
-            continue;
-        };
-        match found {
-            Some((first, unit)) if unit != channel.unit => {
-                return Err(format!(
-                    "{first} is in {}, but {} in {}: one plot has one axis",
-                    unit.symbol(),
-                    channel.name,
-                    channel.unit.symbol()
-                ));
-            }
-            _ => found = Some((&entry.channel, channel.unit)),
-        }
+    let mut channels = wish.entries.iter().filter_map(|entry| channel_of(runs, &entry.channel));
+    let Some(first) = channels.next() else {
+        return Ok(Unit::One);
+    };
+    match channels.find(|other| other.unit != first.unit) {
+        None => Ok(first.unit),
+        Some(other) => Err(format!(
+            "{} is in {}, but {} in {}: one plot has one axis",
+            first.name,
+            first.unit.symbol(),
+            other.name,
+            other.unit.symbol()
+        )),
     }
-    Ok(found.map_or(Unit::One, |(_, unit)| unit))
 }
 
-/// What tells this curve from the others of its figure.
+/// What distinguishes this curve from the others of its figure.
 fn label(entry: &Entry, run: &RunCurves, wish: &Wish, material: &Material<'_>) -> String {
     let measured = material.overlays.iter().any(|o| wish.entries.iter().any(|e| e.channel == o.channel));
     match (run.label.as_str(), wish.entries.len()) {
@@ -241,15 +213,8 @@ fn overlay(overlay: &Overlay, entry: &Entry, dash: usize, wish: &Wish, shown: Sh
         1 => format!("test: {} ({})", pair.signal, overlay.file),
         _ => format!("test: {}, {} ({})", entry.label, pair.signal, overlay.file),
     };
-    let inside = pair.time_s.iter().zip(&pair.values);
-    Curve {
-        label,
-        style: Style::measured(dash),
-        points: inside
-            .filter(|(t, _)| in_window(**t, material.window_s))
-            .map(|(t, v)| [t * 1e3, v / shown.si])
-            .collect(),
-    }
+    let inside = pair.time_s.iter().zip(&pair.values).filter(|(t, _)| in_window(**t, material.window_s));
+    Curve::new(label, Style::measured(dash), inside.map(|(t, v)| [t * 1e3, v / shown.si]).collect())
 }
 
 fn x_axis(material: &Material<'_>) -> Axis {

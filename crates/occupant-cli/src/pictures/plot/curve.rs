@@ -11,22 +11,11 @@ pub(crate) fn strokes(
     columns: usize,
     to_page: impl Fn([f64; 2]) -> [f64; 2],
 ) -> Vec<Vec<[f64; 2]>> {
-    let mut strokes: Vec<Vec<[f64; 2]>> = vec![Vec::new()];
-    for point in points {
-        if drawable(point[0]) && drawable(point[1]) {
-            if let Some(stroke) = strokes.last_mut() {
-                stroke.push(to_page(*point));
-            }
-        } else if strokes.last().is_some_and(|s| !s.is_empty()) {
-            strokes.push(Vec::new());
-        }
-    }
-    strokes.retain(|s| !s.is_empty());
+    let gap = |point: &[f64; 2]| !point.iter().all(|x| drawable(*x));
+    let parts = points.split(gap).filter(|part| !part.is_empty());
+    let strokes = parts.map(|part| part.iter().map(|point| to_page(*point)).collect::<Vec<_>>());
     let dense = points.len() > 8 * columns;
-    match dense {
-        true => strokes.iter().map(|s| thinned(s, columns)).collect(),
-        false => strokes,
-    }
+    strokes.map(|stroke| if dense { thinned(&stroke, columns) } else { stroke }).collect()
 }
 
 /// First, least, greatest and last of each half unit across; a line that turns back stays as it is.

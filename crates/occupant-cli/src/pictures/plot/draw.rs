@@ -1,7 +1,7 @@
 //! One figure in a rectangle.
 
 use super::curve::strokes;
-use super::figure::{Figure, LIMIT, Mark, drawable};
+use super::figure::{Curve, Figure, LIMIT, Mark, drawable};
 use super::legend::{Legend, shortened};
 use super::scale::Scale;
 use crate::pictures::font::Weight;
@@ -65,9 +65,10 @@ fn nothing(svg: &mut Svg, figure: &Figure, [left, top]: [f64; 2], [width, height
 impl Page {
     fn new(figure: &Figure, [x, y]: [[f64; 2]; 2], [left, top]: [f64; 2], [width, height]: [f64; 2]) -> Self {
         let inner_height = height - TICK - LABEL - 16.0;
-        let y = match figure.y.words.is_empty() {
-            true => Scale::new(y, ((inner_height / 36.0) as usize).clamp(2, 8)),
-            false => Scale::of_words(short_words(&figure.y.words, WORDS * width), true),
+        let y = if figure.y.words.is_empty() {
+            Scale::new(y, ((inner_height / 36.0) as usize).clamp(2, 8))
+        } else {
+            Scale::of_words(short_words(&figure.y.words, WORDS * width), true)
         };
         let margin = EDGE + LABEL + 8.0 + widest(&y) + TICK_MARK + 3.0;
         let room = width - margin - EDGE;
@@ -120,22 +121,24 @@ impl Page {
         }
         for curve in &figure.curves {
             let look = curve.style.attributes();
-            if curve.style.mark == Mark::Dots {
-                let drawn = curve.points.iter();
-                let drawn = drawn.filter(|[x, y]| drawable(*x) && drawable(*y));
-                let centres: Vec<[f64; 2]> = drawn.map(|p| self.place(*p)).collect();
-                svg.dots(&centres, &look);
-                continue;
+            let placed = || -> Vec<[f64; 2]> {
+                let drawn = curve.points.iter().filter(|[x, y]| drawable(*x) && drawable(*y));
+                drawn.map(|p| self.place(*p)).collect()
+            };
+            match curve.style.mark {
+                Mark::Dots => svg.dots(&placed(), &look),
+                Mark::Area => svg.polygon(&placed(), &look),
+                Mark::Line => self.line(svg, curve, &look),
             }
-            let columns = (2.0 * self.size[0]) as usize;
-            for stroke in strokes(&curve.points, columns, |p| self.place(p)) {
-                match stroke.as_slice() {
-                    [alone] => {
-                        let fill = format!("fill=\"{}\"", curve.style.colour);
-                        svg.circle(*alone, 2.2, &fill);
-                    }
-                    line => svg.polyline(line, &look),
-                }
+        }
+    }
+
+    fn line(&self, svg: &mut Svg, curve: &Curve, look: &str) {
+        let columns = (2.0 * self.size[0]) as usize;
+        for stroke in strokes(&curve.points, columns, |p| self.place(p)) {
+            match stroke.as_slice() {
+                [alone] => svg.circle(*alone, 2.2, &format!("fill=\"{}\"", curve.style.colour)),
+                line => svg.polyline(line, look),
             }
         }
     }
@@ -143,10 +146,7 @@ impl Page {
 
 /// The line of a tick across the figure.
 fn grid(scale: &Scale, tick: f64) -> &'static str {
-    match tick == 0.0 && !scale.has_words() {
-        true => ZERO,
-        false => GRID,
-    }
+    if tick == 0.0 && !scale.has_words() { ZERO } else { GRID }
 }
 
 /// Words of an axis that fit into a width.
@@ -163,10 +163,7 @@ fn across(figure: &Figure, range: [f64; 2], room: f64) -> Scale {
         return Scale::of_words(short_words(words, each), false);
     }
     let time = figure.x.unit == "ms";
-    let scale = |count| match time {
-        true => Scale::inside(range, count),
-        false => Scale::new(range, count),
-    };
+    let scale = |count| if time { Scale::inside(range, count) } else { Scale::new(range, count) };
     let fits = |s: &Scale| s.ticks.len() as f64 * (widest(s) + 12.0) <= room;
     (2..=8).rev().map(scale).find(fits).unwrap_or_else(|| scale(1))
 }
@@ -183,10 +180,9 @@ fn labelled(name: &str, unit: &str, exponent: i32) -> String {
         0 => String::new(),
         exponent => format!("10{} ", raised(exponent)),
     };
-    match unit {
-        "" => format!("{name}, {power}").trim_end_matches([',', ' ']).to_owned(),
-        unit => format!("{name}, {power}{unit}"),
-    }
+    let unit = format!("{power}{unit}");
+    let parts = [name, unit.trim_end()];
+    parts.into_iter().filter(|part| !part.is_empty()).collect::<Vec<_>>().join(", ")
 }
 
 fn raised(exponent: i32) -> String {
@@ -210,6 +206,7 @@ mod tests {
         assert_eq!(labelled("force", "N", 0), "force, N");
         assert_eq!(labelled("ratio", "", -6), "ratio, 10⁻⁶");
         assert_eq!(labelled("ratio", "", 0), "ratio");
+        assert_eq!(labelled("", "N", 0), "N");
         assert_eq!(raised(-105), "⁻¹⁰⁵");
     }
 }

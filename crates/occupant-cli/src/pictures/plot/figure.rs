@@ -59,6 +59,12 @@ pub(crate) struct Curve {
     pub(crate) points: Vec<[f64; 2]>,
 }
 
+impl Curve {
+    pub(crate) fn new(label: impl Into<String>, style: Style, points: Vec<[f64; 2]>) -> Self {
+        Curve { label: label.into(), style, points }
+    }
+}
+
 /// How a curve is drawn.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Style {
@@ -67,7 +73,7 @@ pub(crate) struct Style {
     pub(crate) dash: &'static str,
     /// Width of the line, or of a dot.
     pub(crate) width: f64,
-    /// Line or dots.
+    /// Line, dots or area.
     pub(crate) mark: Mark,
 }
 
@@ -78,6 +84,8 @@ pub(crate) enum Mark {
     #[default]
     Line,
     Dots,
+    /// They go round an area.
+    Area,
 }
 
 /// A level that should not be passed.
@@ -126,14 +134,21 @@ impl Style {
         Style { mark: Mark::Dots, ..Style::line(colour, diameter) }
     }
 
+    pub(crate) fn area(colour: &'static str) -> Self {
+        Style { mark: Mark::Area, ..Style::line(colour, 0.0) }
+    }
+
     /// As attributes of SVG.
     pub(crate) fn attributes(&self) -> String {
+        if self.mark == Mark::Area {
+            return format!("fill=\"{}\" fill-opacity=\"0.7\" stroke=\"none\"", self.colour);
+        }
         let dash = match self.dash {
             "" => String::new(),
             dash => format!(" stroke-dasharray=\"{dash}\""),
         };
         let ends = match self.mark {
-            Mark::Line => "",
+            Mark::Line | Mark::Area => "",
             Mark::Dots => " stroke-linecap=\"round\"",
         };
         format!(
@@ -154,6 +169,11 @@ pub(crate) fn drawable(value: f64) -> bool {
 }
 
 impl Figure {
+    /// Curves alone, over the axes across and upward.
+    pub(crate) fn new(title: &str, [x, y]: [Axis; 2], curves: Vec<Curve>) -> Self {
+        Figure { title: title.to_owned(), x, y, curves, limits: Vec::new(), empty: "nothing to draw".to_owned() }
+    }
+
     /// Least and greatest of X and of Y, limits included; none without a point.
     pub(crate) fn extent(&self) -> Option<[[f64; 2]; 2]> {
         let points = self.curves.iter().flat_map(|c| &c.points);

@@ -62,6 +62,7 @@ impl Legend {
             match entry.style.mark {
                 Mark::Line => svg.segment([x, y], [x + SAMPLE, y], &look),
                 Mark::Dots => svg.dots(&[[x + 0.5 * SAMPLE, y]], &look),
+                Mark::Area => svg.rect(x, y - 4.0, SAMPLE, 8.0, &look),
             }
             let style = Text { size: SIZE, ..Text::default() };
             svg.text([x + SAMPLE + GAP, y + 0.36 * SIZE], &entry.label, &style);
@@ -91,16 +92,8 @@ mod tests {
     use crate::pictures::plot::figure::{Axis, Curve};
 
     fn figure(labels: &[&str]) -> Figure {
-        let axis = Axis::of("", "");
-        let curve = |l: &&str| Curve { label: (*l).to_owned(), style: Style::of(0, 0), points: Vec::new() };
-        Figure {
-            title: String::new(),
-            x: axis.clone(),
-            y: axis,
-            curves: labels.iter().map(curve).collect(),
-            limits: Vec::new(),
-            empty: String::new(),
-        }
+        let curve = |l: &&str| Curve::new(*l, Style::of(0, 0), Vec::new());
+        Figure::new("", [Axis::of("", ""), Axis::of("", "")], labels.iter().map(curve).collect())
     }
 
     #[test]

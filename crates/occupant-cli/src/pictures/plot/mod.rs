@@ -12,7 +12,7 @@ mod scale;
 mod sheet;
 mod standard;
 
-pub(crate) use assemble::{LimitArgument, Material, Overlay, RunCurves, figures};
+pub(crate) use assemble::{LimitArgument, Material, Overlay, RunCurves, figure};
 pub(crate) use figure::{Axis, Curve, Figure, Style};
 pub(crate) use sheet::{Sheet, inline, sheet};
 pub(crate) use standard::{Entry, Wish, standard};

@@ -24,41 +24,24 @@ impl Scale {
         // multiples of the step, counted, so that ticks carry no sums of rounding errors
         let first = (low / step + 1e-9).floor();
         let last = (high / step - 1e-9).ceil().max(first + 1.0);
-        let ticks: Vec<f64> = (0..=(last - first) as usize).map(|i| (first + i as f64) * step).collect();
-        Self::of_ticks(ticks, step)
+        Self::counted(first, last, step)
     }
 
     /// A scale for the axis across: the range as it is, ticks inside it.
     pub(crate) fn inside([low, high]: [f64; 2], count: usize) -> Self {
         let size = low.abs().max(high.abs());
-        let [low, high] = match high - low > SMALLEST.max(1e-12 * size) {
-            true => [low, high],
-            false => opened(low, high),
-        };
+        let [low, high] = if high - low > SMALLEST.max(1e-12 * size) { [low, high] } else { opened(low, high) };
         let step = round_step((high - low) / count.max(1) as f64);
         let first = (low / step - 1e-6).ceil();
         let last = (high / step + 1e-6).floor();
-        let count = (last - first + 1.0).max(0.0) as usize;
-        let ticks = (0..count).map(|i| (first + i as f64) * step).collect();
-        let mut scale = Self::of_ticks(ticks, step);
-        scale.range = [low, high];
-        scale
+        Scale { range: [low, high], ..Self::counted(first, last, step) }
     }
 
     /// A scale of words at 0, 1, 2, …; `downward` if the first is to stand at its end.
     pub(crate) fn of_words(words: Vec<String>, downward: bool) -> Self {
         let ticks: Vec<f64> = (0..words.len()).map(|i| i as f64).collect();
         let beyond = words.len().max(1) as f64 - 0.5;
-        Scale {
-            range: match downward {
-                true => [beyond, -0.5],
-                false => [-0.5, beyond],
-            },
-            ticks,
-            exponent: 0,
-            decimals: 0,
-            words,
-        }
+        Scale { range: if downward { [beyond, -0.5] } else { [-0.5, beyond] }, ticks, exponent: 0, decimals: 0, words }
     }
 
     /// Whether words stand at its ticks.
@@ -66,7 +49,10 @@ impl Scale {
         !self.words.is_empty()
     }
 
-    fn of_ticks(ticks: Vec<f64>, step: f64) -> Self {
+    /// Ticks at the multiples of a step from the first to the last.
+    fn counted(first: f64, last: f64, step: f64) -> Self {
+        let count = (last - first + 1.0).max(0.0) as usize;
+        let ticks: Vec<f64> = (0..count).map(|i| (first + i as f64) * step).collect();
         let greatest = ticks.iter().fold(0.0_f64, |m, t| m.max(t.abs()));
         let exponent = match greatest {
             g if g >= 1e5 || (g < 1e-2 && g > 0.0) => 3 * (g.log10() / 3.0).floor() as i32,
@@ -107,7 +93,7 @@ impl Scale {
     }
 }
 
-/// Smallest size that is told from zero.
+/// Smallest size that counts as different from zero.
 const SMALLEST: f64 = 1e-290;
 
 /// A range with an extent, zero included if it is near.
