@@ -1,5 +1,7 @@
 //! How a command ends: what it came to, or why it could not do its work. Each end has its exit code.
 
+use std::path::Path;
+
 use occupant_study::engine::Unrecorded;
 
 /// A command that ran to its end.
@@ -24,6 +26,15 @@ impl Failure {
     /// Could not run, in the words of every message: what is wrong, and how to mend it.
     pub(crate) fn with_help(found: impl Into<String>, help: &str) -> Self {
         Failure::CouldNotRun(format!("error: {}\n = help: {help}", found.into()))
+    }
+
+    /// Could not run: the ending of an output names no kind of file that it can be.
+    pub(crate) fn ending(output: &Path, endings: &str) -> Self {
+        let name = output.display();
+        Failure::with_help(
+            format!("-o {name}: the ending names no format"),
+            &format!("use a name that ends with {endings}"),
+        )
     }
 
     /// The same, and what was done before.

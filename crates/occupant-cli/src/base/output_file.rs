@@ -3,7 +3,6 @@
 //! The provisional name keeps the ending, so that viewers open what an interrupted run has left.
 
 use std::ffi::OsString;
-use std::fmt;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -50,6 +49,12 @@ pub(crate) enum FileProblem {
     IsInput { path: PathBuf },
     #[error("cannot {doing} {}: {source}", .path.display())]
     Io { doing: &'static str, path: PathBuf, source: io::Error },
+}
+
+impl From<FileProblem> for Failure {
+    fn from(problem: FileProblem) -> Self {
+        Failure::plain(problem.to_string())
+    }
 }
 
 /// Refuses a target that is, under whatever name, a file that the run reads.
@@ -182,12 +187,9 @@ impl Seek for PartialFile {
 /// # Errors
 /// A file is there and may not be replaced; the operating system refuses.
 pub(crate) fn publish(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Failure> {
-    let existing = Existing::by(force);
-    let refused = |e: &dyn fmt::Display| Failure::plain(e.to_string());
-    let mut file = PartialFile::create(path, existing).map_err(|e| refused(&e))?;
-    let written = file.write_all(bytes);
-    written.map_err(|e| Failure::plain(format!("{} cannot be written: {e}", path.display())))?;
-    file.publish().map_err(|e| refused(&e))?;
+    let mut file = PartialFile::create(path, Existing::by(force))?;
+    file.write_all(bytes).map_err(|e| Failure::BrokeOff(format!("error: cannot write {}: {e}", path.display())))?;
+    file.publish()?;
     Ok(())
 }
 

@@ -21,6 +21,11 @@ pub(crate) fn say(text: &str) {
     let _nobody_listens = writeln!(stderr().lock(), "{text}");
 }
 
+/// Says what to know of a result.
+pub(crate) fn note(text: &String) {
+    say(&format!("note: {text}"));
+}
+
 /// A value as JSON text for people and programs, with a line end.
 pub(crate) fn json(value: &impl serde::Serialize) -> Result<String, Failure> {
     let mut text = serde_json::to_string_pretty(value)

@@ -1,7 +1,6 @@
 //! `occupant convert`: card deck → scenario, scenario → card deck.
 
-use std::fs::{self, OpenOptions};
-use std::io::{ErrorKind, Write};
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use cardio_legacy::{
@@ -11,7 +10,10 @@ use clap::ArgGroup;
 use occupant_core::scenario::{Draft, Format, Loaded};
 
 use crate::base::failure::{Done, Failure};
+use crate::base::names::file_name;
+use crate::base::output_file::{publish, refuse_input};
 use crate::base::talk::{print, say};
+use crate::files::scenario::format_of;
 use crate::jobs::extend::{extend, extend_run};
 
 /// Convert a card deck of 1970 to a scenario, or a scenario to a card deck
@@ -85,14 +87,6 @@ pub(crate) fn convert(args: &Args) -> Result<Done, Failure> {
     }
 }
 
-fn format_of(path: &Path) -> Option<Format> {
-    match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
-        "toml" => Some(Format::Toml),
-        "json" => Some(Format::Json),
-        _ => None,
-    }
-}
-
 fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     fs::read(path).map_err(|error| Failure::plain(format!("{} cannot be read: {error}", path.display())))
 }
@@ -117,7 +111,7 @@ fn decks_to_scenarios(args: &Args, bytes: &[u8], layout: Option<CompartmentLayou
         let output =
             args.output.as_deref().map(|file| if decks.len() > 1 { numbered(file, at + 1) } else { file.to_owned() });
         let options = ConvertOptions {
-            deck_name: name_of(&args.input),
+            deck_name: file_name(&args.input),
             path: path_source(args, output.as_deref())?,
             compartment: layout.clone(),
         };
@@ -130,7 +124,7 @@ fn decks_to_scenarios(args: &Args, bytes: &[u8], layout: Option<CompartmentLayou
         deliver(args, output.as_deref(), &text)?;
         reports.push_str(&format!("{}: {}\n{}\n", args.input.display(), deck.titles()[0], conversion.report));
     }
-    tell(args, &reports)
+    report(args, &reports)
 }
 
 /// The decks of a file; what is wrong with them is said.
@@ -165,7 +159,7 @@ fn path_source(args: &Args, output: Option<&Path>) -> Result<Option<PathSource>,
     }
     let folder = |path: &Path| path.parent().map(Path::to_owned).unwrap_or_default();
     if output.is_some_and(|output| folder(output) == folder(file)) {
-        return Ok(Some(PathSource::Csv { name: name_of(file), text }));
+        return Ok(Some(PathSource::Csv { name: file_name(file), text }));
     }
     let mut lines = text.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
     let header = lines.next().unwrap_or_default().trim_start_matches('\u{feff}').to_owned();
@@ -175,10 +169,6 @@ fn path_source(args: &Args, output: Option<&Path>) -> Result<Option<PathSource>,
     }
     let rows: String = lines.map(|line| format!("{line}\n")).collect();
     Ok(Some(PathSource::Columns { columns: split(&header), text: rows }))
-}
-
-fn name_of(path: &Path) -> String {
-    path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
 }
 
 /// `case.toml` → `case-2.toml`.
@@ -220,7 +210,7 @@ fn deliver_deck(args: &Args, cards: FromScenario) -> Result<Done, Failure> {
     let FromScenario { deck, remarks } = cards;
     deliver(args, args.output.as_deref(), &write_file(&[deck]))?;
     let remarks: String = remarks.iter().map(|remark| format!("  - {remark}\n")).collect();
-    tell(args, &format!("{}: on cards\n{remarks}", args.input.display()))
+    report(args, &format!("{}: on cards\n{remarks}", args.input.display()))
 }
 
 fn load(path: &Path, bytes: &[u8], format: Format) -> Result<Loaded, Failure> {
@@ -233,36 +223,26 @@ fn load(path: &Path, bytes: &[u8], format: Format) -> Result<Loaded, Failure> {
 
 fn deliver(args: &Args, output: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
     match output {
-        Some(file) => write(file, bytes, args.force),
+        Some(file) => write(args, file, bytes),
         None => print(&String::from_utf8_lossy(bytes)),
     }
 }
 
-/// Writes a file; one that exists is left alone unless it may be replaced.
-fn write(file: &Path, bytes: &[u8], force: bool) -> Result<(), Failure> {
-    let mut options = OpenOptions::new();
-    options.write(true);
-    match force {
-        true => options.create(true).truncate(true),
-        false => options.create_new(true),
-    };
-    let name = file.display();
-    options.open(file).and_then(|mut target| target.write_all(bytes)).map_err(|error| match error.kind() {
-        ErrorKind::AlreadyExists => Failure::with_help(
-            format!("{name} exists, and it was left alone"),
-            "choose another name, or replace it with --force",
-        ),
-        _ => Failure::plain(format!("{name} cannot be written: {error}")),
-    })
+/// Writes a file; one that exists is left alone unless it may be replaced, and what is read always is.
+fn write(args: &Args, file: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    for input in [Some(&args.input), args.path.as_ref(), args.compartment.as_ref()].into_iter().flatten() {
+        refuse_input(file, input)?;
+    }
+    publish(file, args.force, bytes)
 }
 
 /// Says the report, and writes it where it was asked for.
-fn tell(args: &Args, report: &str) -> Result<Done, Failure> {
+fn report(args: &Args, text: &str) -> Result<Done, Failure> {
     if !args.quiet {
-        say(report.trim_end());
+        say(text.trim_end());
     }
     if let Some(file) = &args.report {
-        write(file, report.as_bytes(), args.force)?;
+        write(args, file, text.as_bytes())?;
     }
     Ok(Done::Well)
 }

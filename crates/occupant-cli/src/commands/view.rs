@@ -2,12 +2,11 @@
 
 use std::path::PathBuf;
 
-use occupant_core::scenario::kind::{KINDS, TIME, UnitSystem};
-use occupant_core::scenario::text::Value;
-
+use super::flags::history::seconds;
 use crate::base::failure::{Done, Failure};
+use crate::base::names::file_name;
 use crate::base::output_file::{publish, refuse_input};
-use crate::base::talk::say;
+use crate::base::talk::note;
 use crate::files::results::Results;
 use crate::pictures::Format;
 use crate::pictures::body::Snapshot;
@@ -42,8 +41,8 @@ pub(crate) struct Args {
 
     /// Times, such as "0,40,80 ms" or "0.5 s"; a time without a unit takes that of the next one, else it is in seconds.
     /// The nearest output is drawn, and its time written above. Every 40 ms if absent, less often in a long run
-    #[arg(long, value_name = "TIMES", allow_hyphen_values = true)]
-    times: Option<String>,
+    #[arg(long, value_name = "TIMES", allow_hyphen_values = true, value_parser = times)]
+    times: Option<Times>,
 
     /// Views, in order
     #[arg(
@@ -57,19 +56,11 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn view(args: &Args) -> Result<Done, Failure> {
-    let format = Format::of(&args.output).ok_or_else(|| {
-        Failure::with_help(
-            format!("{} has not the ending of a picture", args.output.display()),
-            "give a name that ends with .svg or .png",
-        )
-    })?;
-    let wanted = args.times.as_deref().map(times).transpose()?;
-    refuse_input(&args.output, &args.run).map_err(|e| Failure::plain(e.to_string()))?;
+    let format = Format::of_output(&args.output)?;
+    refuse_input(&args.output, &args.run)?;
     let results = Results::open(&args.run)?;
-    for note in results.notes() {
-        say(&note);
-    }
-    let outputs = outputs(&results, wanted)?;
+    results.notes().iter().for_each(note);
+    let outputs = outputs(&results, args.times.as_ref())?;
     let strip = Strip {
         model: &results.model,
         moments: moments(&results, &outputs)?,
@@ -82,47 +73,35 @@ pub(crate) fn view(args: &Args) -> Result<Done, Failure> {
     Ok(Done::Well)
 }
 
-/// Times of a list, s.
-fn times(list: &str) -> Result<Vec<f64>, Failure> {
-    let wrong = |entry: &str, expected: &str| {
-        Failure::with_help(
-            format!("--times {list}: `{entry}` is not a time; expected {expected}"),
-            "give times such as --times '0,40,80 ms'",
-        )
-    };
-    let mut unit = "s".to_owned();
-    let mut found = Vec::new();
+/// Times, s.
+#[derive(Clone, Debug)]
+struct Times(Vec<f64>);
+
+/// Reads a list, from its end on, as a time without a unit takes that of the next one.
+fn times(list: &str) -> Result<Times, String> {
+    let mut unit = "s";
+    let mut times = Vec::new();
     for entry in list.rsplit(',').map(str::trim) {
         let digits = entry.trim_end_matches(|c: char| c.is_alphabetic() || c == 'µ');
         let own = entry[digits.len()..].trim();
-        if !own.is_empty() && digits.trim().parse::<f64>().is_ok() {
-            unit = own.to_owned();
+        let number = digits.trim();
+        if !own.is_empty() && number.parse::<f64>().is_ok() {
+            unit = own;
         }
-        let text = match digits.trim().parse::<f64>() {
-            Ok(number) => format!("{number} {unit}"),
-            Err(_) => return Err(wrong(entry, "a number and a unit")),
-        };
-        match KINDS[TIME].si(&Value::String(text), UnitSystem::Si) {
-            Ok(seconds) if seconds.is_finite() => found.push(seconds),
-            Ok(_) => return Err(wrong(entry, "a finite time")),
-            Err(error) => return Err(wrong(entry, &error.expected)),
-        }
+        times.push(seconds(&format!("{number} {unit}")).map_err(|reason| format!("`{entry}` is {reason}"))?);
     }
-    if found.len() > MOST {
-        return Err(Failure::plain(format!(
-            "--times asks for {} pictures; at most {MOST} fit on a sheet",
-            found.len()
-        )));
+    if times.len() > MOST {
+        return Err(format!("{} pictures; at most {MOST} fit on a sheet", times.len()));
     }
-    found.reverse();
-    Ok(found)
+    times.reverse();
+    Ok(Times(times))
 }
 
 /// Indices of the outputs to draw, in order.
-fn outputs(results: &Results, wanted: Option<Vec<f64>>) -> Result<Vec<usize>, Failure> {
+fn outputs(results: &Results, wanted: Option<&Times>) -> Result<Vec<usize>, Failure> {
     let at: Vec<f64> = results.checkpoints.iter().map(|c| c.time_s).collect();
     let (first, last) = (at[0], at[at.len() - 1]);
-    let wanted = wanted.unwrap_or_else(|| regular(first, last));
+    let wanted = wanted.map_or_else(|| regular(first, last), |times| times.0.clone());
     let half_interval = 0.5 * results.model.setup().time.output_s * (1.0 + 1e-9);
     let nearest = |time: f64| {
         if time < first - half_interval || time > last + half_interval {
@@ -180,13 +159,13 @@ fn distinct(views: &[View]) -> Vec<View> {
 
 /// The small print: file, its hash, program.
 fn origin(results: &Results) -> String {
-    let name = results.path.file_name().unwrap_or_default();
+    let name = file_name(&results.path);
     let program = results.run.get("program").map_or("-", String::as_str);
     let state = match results.is_complete() {
         true => "",
         false => ", a run that did not complete",
     };
-    format!("{} (SHA-256 {}…), run by {program}{state}", name.to_string_lossy(), &results.sha256[..12])
+    format!("{name} (SHA-256 {}…), run by {program}{state}", &results.sha256[..12])
 }
 
 #[cfg(test)]
@@ -196,7 +175,7 @@ mod tests {
     #[test]
     fn a_time_takes_the_unit_of_the_next() {
         let close = |list, expected: &[f64]| {
-            let found = times(list).unwrap();
+            let found = times(list).unwrap().0;
             assert_eq!(found.len(), expected.len(), "{list}");
             for (a, b) in found.iter().zip(expected) {
                 assert!((a - b).abs() < 1e-12, "{list}: {found:?}");

@@ -16,6 +16,7 @@ use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{RunStatus, Summarizer, Summary};
 use occupant_core::run::simulate::replay;
 use occupant_core::scenario::Loaded;
+use occupant_study::ending::{Balance, Ending};
 
 use super::mcap::StoredRun;
 use super::scenario::stored;
@@ -89,13 +90,31 @@ impl Results {
         }
     }
 
+    /// What the run came to, by the one rule; none if it was stopped on its way.
+    pub(crate) fn ending(&self) -> Option<Ending> {
+        match self.status() {
+            RunStatus::Completed => Ending::of(&self.outcome()),
+            RunStatus::Failed => Some(Ending::Failed(self.reason().unwrap_or_default())),
+            RunStatus::Interrupted => None,
+        }
+    }
+
+    /// How well the run kept its energy, up to its last output.
+    pub(crate) fn balance(&self) -> Balance {
+        Balance::of(self.outcome().balance_error)
+    }
+
+    /// Why a run that did not complete ended.
+    fn reason(&self) -> Option<String> {
+        self.result.as_ref().and_then(|r| r.get("reason").cloned())
+    }
+
     /// What a user should know before trusting the results, in words.
     pub(crate) fn notes(&self) -> Vec<String> {
         let name = self.path.display();
         let mut notes = Vec::new();
         if !self.is_complete() {
-            let reason = self.result.as_ref().and_then(|r| r.get("reason"));
-            let reason = reason.map_or("it was cut off", String::as_str);
+            let reason = self.reason().unwrap_or_else(|| "it was cut off".to_owned());
             notes.push(format!("{name} holds a run that did not complete: {reason}"));
         }
         let theirs = self.run.get("program").map_or("?", String::as_str);
@@ -153,8 +172,7 @@ impl Results {
         let mut summary = summary.ok_or_else(|| refused("the run left no summary"))?;
         summary.status = self.status();
         if !self.is_complete() {
-            let reason = self.result.as_ref().and_then(|r| r.get("reason").cloned());
-            summary.reason = Some(reason.unwrap_or_else(|| "the run was cut off".to_owned()));
+            summary.reason = Some(self.reason().unwrap_or_else(|| "the run was cut off".to_owned()));
         }
         Ok(summary)
     }

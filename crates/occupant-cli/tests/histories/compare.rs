@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::{coarse, column, fine, refused, well};
+use super::{coarse, column, fine, refused, well};
 
 /// Writes t[s],a and a function at 10 kHz.
 fn signal(folder: &Path, name: &str, samples: usize, value: impl Fn(f64) -> f64) {
