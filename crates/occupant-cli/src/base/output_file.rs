@@ -3,6 +3,7 @@
 //! The provisional name keeps the ending, so that viewers open what an interrupted run has left.
 
 use std::ffi::OsString;
+use std::fmt;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -40,7 +41,7 @@ pub(crate) enum FileProblem {
     #[error("{} exists; --force replaces it, -o gives another name", .path.display())]
     Exists { path: PathBuf },
     /// A provisional file is there.
-    #[error("{} exists: a run that was interrupted or still goes on; --force replaces it, -o gives another name", .path.display())]
+    #[error("{} exists: a run that was interrupted or is still running; --force replaces it, -o gives another name", .path.display())]
     PartialExists { path: PathBuf },
     /// Something that is no ordinary file has that name: a folder, a device.
     #[error("{} is not an ordinary file; -o gives another name", .path.display())]
@@ -149,7 +150,7 @@ impl PartialFile {
         Ok(target)
     }
 
-    /// Leaves the file under its provisional name, safe against a loss of power, and tells the name.
+    /// Leaves the file under its provisional name, safe against a loss of power, and gives the name.
     ///
     /// # Errors
     /// The operating system refuses.
@@ -187,9 +188,12 @@ impl Seek for PartialFile {
 /// # Errors
 /// A file is there and may not be replaced; the operating system refuses.
 pub(crate) fn publish(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Failure> {
-    let mut file = PartialFile::create(path, Existing::by(force))?;
-    file.write_all(bytes).map_err(|e| Failure::BrokeOff(format!("error: cannot write {}: {e}", path.display())))?;
-    file.publish()?;
+    let existing = Existing::by(force);
+    let refused = |e: &dyn fmt::Display| Failure::plain(e.to_string());
+    let mut file = PartialFile::create(path, existing).map_err(|e| refused(&e))?;
+    let written = file.write_all(bytes);
+    written.map_err(|e| Failure::plain(format!("{} cannot be written: {e}", path.display())))?;
+    file.publish().map_err(|e| refused(&e))?;
     Ok(())
 }
 

@@ -54,15 +54,9 @@ pub(crate) fn compare(args: &Args) -> Result<Done, Failure> {
         filter: args.treatment.words(),
     })?;
     comparison.notes.iter().for_each(note);
-    match args.json {
-        true => print(&json(&comparison)?)?,
-        false => print(&comparison.text())?,
-    }
+    print(&if args.json { json(&comparison)? } else { comparison.text() })?;
     for reason in &comparison.worthless {
         say(&format!("error: {reason}: its ratings mean nothing"));
     }
-    Ok(match comparison.worthless.is_empty() {
-        true => Done::Well,
-        false => Done::Unwell,
-    })
+    Ok(if comparison.worthless.is_empty() { Done::Well } else { Done::Unwell })
 }

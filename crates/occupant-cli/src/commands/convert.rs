@@ -13,14 +13,14 @@ use crate::base::failure::{Done, Failure};
 use crate::base::names::file_name;
 use crate::base::output_file::{publish, refuse_input};
 use crate::base::talk::{print, say};
-use crate::files::scenario::format_of;
+use crate::files::scenario::{files_beside, format_of};
 use crate::jobs::extend::{extend, extend_run};
 
 /// Convert a card deck of 1970 to a scenario, or a scenario to a card deck
 ///
-/// A file named .toml or .json is a scenario and becomes a deck; .mcap is a run, of which --extend makes the deck that goes
-/// on from its end; any other is a deck and becomes a scenario. Diagnostics and
-/// the conversion's report go to standard error, the result to -o or to standard output.
+/// A file named .toml or .json is a scenario and becomes a deck; .mcap is a run, of which --extend makes the deck that
+/// continues it; any other is a deck and becomes a scenario. Diagnostics and the conversion's report go to standard error,
+/// the result to -o or to standard output.
 #[derive(Debug, clap::Args)]
 #[command(group = ArgGroup::new("strictness").args(["strict", "lenient"]))]
 pub(crate) struct Args {
@@ -36,7 +36,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
 
-    /// Refuse a deck for whatever is doubtful in it
+    /// Refuse a deck for anything doubtful in it
     #[arg(long)]
     strict: bool,
 
@@ -74,15 +74,15 @@ pub(crate) struct Args {
     quiet: bool,
 }
 
-/// Converts in the direction that the input's name tells.
+/// Converts in the direction that the ending of the input gives.
 pub(crate) fn convert(args: &Args) -> Result<Done, Failure> {
     let bytes = read(&args.input)?;
     let layout = args.compartment.as_deref().map(compartment).transpose()?;
     if args.input.extension().is_some_and(|e| e.eq_ignore_ascii_case("mcap")) {
-        return run_to_deck(args, &bytes, layout.as_ref());
+        return deliver_deck(args, run_to_deck(args, &bytes, layout.as_ref())?);
     }
     match format_of(&args.input) {
-        Some(format) => scenario_to_deck(args, &bytes, format, layout.as_ref()),
+        Some(format) => deliver_deck(args, scenario_to_deck(args, &bytes, format, layout.as_ref())?),
         None => decks_to_scenarios(args, &bytes, layout),
     }
 }
@@ -178,16 +178,15 @@ fn numbered(file: &Path, number: usize) -> PathBuf {
     file.with_file_name(format!("{stem}-{number}{extension}"))
 }
 
-/// The deck that goes on from a results file.
-fn run_to_deck(args: &Args, bytes: &[u8], layout: Option<&CompartmentLayout>) -> Result<Done, Failure> {
+/// The deck that continues the run of a results file.
+fn run_to_deck(args: &Args, bytes: &[u8], layout: Option<&CompartmentLayout>) -> Result<FromScenario, Failure> {
     let Some(final_s) = args.extend else {
         return Err(Failure::with_help(
-            format!("{} is a run, and a deck of its scenario would not go on from it", args.input.display()),
+            format!("{} is a run, and a deck of its scenario would not continue it", args.input.display()),
             "give the time to which the deck extends the run: --extend TIME",
         ));
     };
-    let cards = extend_run(&args.input, bytes, layout, final_s)?;
-    deliver_deck(args, cards)
+    extend_run(&args.input, bytes, layout, final_s)
 }
 
 fn scenario_to_deck(
@@ -195,17 +194,15 @@ fn scenario_to_deck(
     bytes: &[u8],
     format: Format,
     layout: Option<&CompartmentLayout>,
-) -> Result<Done, Failure> {
+) -> Result<FromScenario, Failure> {
     if args.extend.is_some() {
         return Err(Failure::plain("--extend takes a deck"));
     }
     let loaded = load(&args.input, bytes, format)?;
-    let cards = Deck::from_scenario(&loaded, layout)
-        .map_err(|error| Failure::CouldNotRun(format!("error: {}: {error}", args.input.display())))?;
-    deliver_deck(args, cards)
+    Deck::from_scenario(&loaded, layout).map_err(|error| Failure::plain(format!("{}: {error}", args.input.display())))
 }
 
-/// Writes a deck, and says what there is to say of it.
+/// Writes a deck, and says its remarks.
 fn deliver_deck(args: &Args, cards: FromScenario) -> Result<Done, Failure> {
     let FromScenario { deck, remarks } = cards;
     deliver(args, args.output.as_deref(), &write_file(&[deck]))?;
@@ -214,10 +211,8 @@ fn deliver_deck(args: &Args, cards: FromScenario) -> Result<Done, Failure> {
 }
 
 fn load(path: &Path, bytes: &[u8], format: Format) -> Result<Loaded, Failure> {
-    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    let resolver = move |file: &str| fs::read(folder.join(file)).map_err(|error| error.to_string());
     let name = path.display().to_string();
-    let loaded = Draft::read_bytes(bytes, Some(format), &name).and_then(|draft| draft.load(&resolver));
+    let loaded = Draft::read_bytes(bytes, Some(format), &name).and_then(|draft| draft.load(&files_beside(path)));
     loaded.map_err(|problems| Failure::CouldNotRun(format!("{problems}\n\n{name}: nothing was converted")))
 }
 

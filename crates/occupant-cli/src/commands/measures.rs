@@ -96,10 +96,7 @@ pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
         print(&text(&results, &options, &measures))?;
     }
     let exceeded = measures.iter().any(|m| m.limits.iter().any(|l| !l.passed));
-    Ok(match exceeded && args.strict {
-        true => Done::Unwell,
-        false => Done::Well,
-    })
+    Ok(if exceeded && args.strict { Done::Unwell } else { Done::Well })
 }
 
 fn options(args: &Args) -> Options {

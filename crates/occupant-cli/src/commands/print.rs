@@ -1,6 +1,5 @@
 //! `occupant print`.
 
-use std::fs;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
@@ -9,7 +8,7 @@ use super::flags::history::interval;
 use crate::base::failure::{Done, Failure};
 use crate::base::output_file::{publish, refuse_input};
 use crate::base::talk::{print, say};
-use crate::jobs::print::{Case, Units, printout};
+use crate::jobs::print::{Case, INCH_POUND, SI, Units, printout};
 
 /// Print a run as paged text, as the report's program did
 ///
@@ -50,17 +49,10 @@ enum UnitsChoice {
 
 pub(crate) fn print_run(args: &Args) -> Result<Done, Failure> {
     let name = args.run.display();
-    let bytes = fs::read(&args.run).map_err(|error| Failure::plain(format!("{name} cannot be read: {error}")))?;
-    let refused = |reason| {
-        Failure::with_help(
-            format!("{name} cannot be printed: {reason}"),
-            "give a file that `occupant run` of this version has written",
-        )
-    };
-    let case = Case::read(&bytes).map_err(refused)?;
+    let case = Case::read(&args.run)?;
     let units: &Units = match args.units {
-        Some(UnitsChoice::Si) => &crate::jobs::print::SI,
-        Some(UnitsChoice::InchPound) => &crate::jobs::print::INCH_POUND,
+        Some(UnitsChoice::Si) => &SI,
+        Some(UnitsChoice::InchPound) => &INCH_POUND,
         None => case.units(),
     };
     let text = printout(&case, units, args.every).map_err(|e| Failure::plain(format!("{name}: {e}")))?;

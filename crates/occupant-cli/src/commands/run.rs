@@ -25,10 +25,10 @@ use crate::jobs::run::{Simulated, run as simulate};
 
 /// Simulate the occupant and write what happened
 ///
-/// Writes an MCAP file (by default SCENARIO.mcap in the present folder) and ends with a short table. While the run goes
-/// on, and if it does not complete, the file is called SCENARIO.partial.mcap. With --resume it goes on from what another
-/// run has left, with the same states as one run to the new end, and writes SCENARIO.resumed.mcap. With --ensemble it is
-/// run many times with small changes, and the table says which of its figures are stable.
+/// Writes an MCAP file (by default SCENARIO.mcap in the present folder) and ends with a short table. Until the run is
+/// complete the file is called SCENARIO.partial.mcap. With --resume the run starts where another one ended, with the same
+/// states as one run to the new end, and writes SCENARIO.resumed.mcap. With --ensemble it is run many times with small
+/// changes, and the table says which of its results are stable.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -42,7 +42,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TIME")]
     until: Option<String>,
 
-    /// Go on from the last checkpoint of this file, of a run of the same scenario that ended, was interrupted or killed
+    /// Resume the last checkpoint of this file, of a run of the same scenario that ended, was interrupted or killed
     #[arg(long, value_name = "FILE.mcap")]
     resume: Option<PathBuf>,
 
@@ -72,7 +72,7 @@ struct Answer<'a> {
     program: String,
     scenario: String,
     overrides: &'a [String],
-    /// What it goes on from; absent without `--resume`.
+    /// What it resumes; absent without `--resume`.
     #[serde(skip_serializing_if = "Option::is_none")]
     resumed: Option<Resumed>,
     /// The file written; absent with `--no-mcap`.

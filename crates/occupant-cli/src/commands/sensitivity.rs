@@ -1,6 +1,6 @@
 //! `occupant sensitivity`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use crate::base::failure::{Done, Failure};
 use crate::base::names::file_name;
@@ -8,15 +8,15 @@ use crate::base::output_file::Existing;
 use crate::base::sha256::sha256;
 use crate::base::talk::{self, print, say};
 use crate::files::history::UnitChoice;
-use crate::files::scenario::{ScenarioArgs, draft, open_draft};
+use crate::files::scenario::{ScenarioArgs, draft, files_beside, open_draft};
 use crate::files::table::Form;
 use crate::jobs::export::TableFiles;
 use crate::jobs::sensitivity::{Words, about, analyse, answer, ask, histories, text};
 
 /// How measures and channels change with numbers of the scenario
 ///
-/// The derivative of the run is computed exactly, in dual numbers, not by differences of runs; it is then held against
-/// runs in which the number is changed by up to 1 %, and what limits it (contacts that begin, friction that reverses,
+/// The derivative of the run is computed exactly, in dual numbers, not by differences of runs; it is then compared
+/// with runs in which the number is changed by up to 1 %, and what limits it (contacts that begin, friction that reverses,
 /// belts that go slack) is listed. All numbers are SI, angles in radians. A path to several numbers, such as
 /// joints.*.damping, is a factor on all of them.
 #[derive(Debug, clap::Args)]
@@ -43,7 +43,7 @@ pub(crate) struct Args {
     #[arg(short, long, value_name = "FILE", requires = "channels")]
     output: Option<PathBuf>,
 
-    /// Print all that was found as JSON
+    /// Print all results as JSON
     #[arg(long)]
     json: bool,
 
@@ -61,8 +61,7 @@ pub(crate) fn sensitivity(args: &Args) -> Result<Done, Failure> {
         say(&format!("{}\n", opened.warnings));
     }
     let scenario = &args.scenario.scenario;
-    let folder = scenario.parent().unwrap_or(Path::new(""));
-    let resolver = |file: &str| std::fs::read(folder.join(file)).map_err(|error| error.to_string());
+    let resolver = files_beside(scenario);
     let words = Words { to: &args.to, of: &args.of, channels: &args.channels };
     // names that are taken are refused before the work
     let begin = |(path, form): (&PathBuf, Form)| TableFiles::begin(path, form, scenario, Existing::by(args.force));

@@ -14,7 +14,7 @@ use crate::pictures::view::{Strip, View, draw};
 
 /// Pixels of a PNG for each unit of the drawing.
 const PIXELS: f64 = 2.0;
-/// Interval of the pictures where nobody asks for another, ms.
+/// Interval of the pictures without `--times`, ms.
 const EVERY_MS: f64 = 40.0;
 /// Without `--times`, no more pictures than this.
 const MOST_BY_DEFAULT: usize = 12;
@@ -31,7 +31,7 @@ pub(crate) struct Args {
     #[arg(value_name = "RUN.mcap")]
     run: PathBuf,
 
-    /// The picture; its ending tells the kind: .svg or .png
+    /// The picture: NAME.svg or NAME.png
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
 
@@ -61,14 +61,15 @@ pub(crate) fn view(args: &Args) -> Result<Done, Failure> {
     let results = Results::open(&args.run)?;
     results.notes().iter().for_each(note);
     let outputs = outputs(&results, args.times.as_ref())?;
-    let strip = Strip {
-        model: &results.model,
-        moments: moments(&results, &outputs)?,
-        views: distinct(&args.views),
-        origin: origin(&results),
-    };
-    let bytes =
-        format.encode(&draw(&strip), PIXELS).map_err(|e| Failure::with_help(e.to_string(), "draw fewer times"))?;
+    let mut views: Vec<View> = Vec::new();
+    for view in &args.views {
+        if !views.contains(view) {
+            views.push(*view);
+        }
+    }
+    let strip = Strip { model: &results.model, moments: moments(&results, &outputs)?, views, origin: origin(&results) };
+    let bytes = format.encode(&draw(&strip), PIXELS);
+    let bytes = bytes.map_err(|e| Failure::with_help(e.to_string(), "draw fewer times"))?;
     publish(&args.output, args.force, &bytes)?;
     Ok(Done::Well)
 }
@@ -118,7 +119,7 @@ fn outputs(results: &Results, wanted: Option<&Times>) -> Result<Vec<usize>, Fail
     wanted.into_iter().map(nearest).collect()
 }
 
-/// Every 40 ms, or every 80, 200, 400, ... in a long run.
+/// Every 40 ms, or every 80, 200, 400, … in a long run.
 fn regular(first_s: f64, last_s: f64) -> Vec<f64> {
     let span_ms = (last_s - first_s) * 1e3;
     let mut every_ms = EVERY_MS;
@@ -147,24 +148,11 @@ fn moments(results: &Results, outputs: &[usize]) -> Result<Vec<Snapshot>, Failur
     Ok(outputs.iter().filter_map(find).map(|s| s.1.clone()).collect())
 }
 
-fn distinct(views: &[View]) -> Vec<View> {
-    let mut found = Vec::new();
-    for view in views {
-        if !found.contains(view) {
-            found.push(*view);
-        }
-    }
-    found
-}
-
 /// The small print: file, its hash, program.
 fn origin(results: &Results) -> String {
     let name = file_name(&results.path);
     let program = results.run.get("program").map_or("-", String::as_str);
-    let state = match results.is_complete() {
-        true => "",
-        false => ", a run that did not complete",
-    };
+    let state = if results.is_complete() { "" } else { ", a run that did not complete" };
     format!("{name} (SHA-256 {}…), run by {program}{state}", &results.sha256[..12])
 }
 

@@ -80,10 +80,14 @@ impl Results {
         self.status() == RunStatus::Completed
     }
 
+    /// An entry of what the file says of the run's end.
+    fn said(&self, key: &str) -> Option<&str> {
+        self.result.as_ref()?.get(key).map(String::as_str)
+    }
+
     /// How the run ended; one that was cut off counts as interrupted.
     pub(crate) fn status(&self) -> RunStatus {
-        let status = self.result.as_ref().and_then(|r| r.get("status"));
-        match status.map(String::as_str) {
+        match self.said("status") {
             Some("completed") => RunStatus::Completed,
             Some("failed") => RunStatus::Failed,
             _ => RunStatus::Interrupted,
@@ -94,7 +98,9 @@ impl Results {
     pub(crate) fn ending(&self) -> Option<Ending> {
         match self.status() {
             RunStatus::Completed => Ending::of(&self.outcome()),
-            RunStatus::Failed => Some(Ending::Failed(self.reason().unwrap_or_default())),
+            RunStatus::Failed => {
+                Some(Ending::Failed(self.said("reason").unwrap_or("the integration failed").to_owned()))
+            }
             RunStatus::Interrupted => None,
         }
     }
@@ -104,17 +110,12 @@ impl Results {
         Balance::of(self.outcome().balance_error)
     }
 
-    /// Why a run that did not complete ended.
-    fn reason(&self) -> Option<String> {
-        self.result.as_ref().and_then(|r| r.get("reason").cloned())
-    }
-
     /// What a user should know before trusting the results, in words.
     pub(crate) fn notes(&self) -> Vec<String> {
         let name = self.path.display();
         let mut notes = Vec::new();
         if !self.is_complete() {
-            let reason = self.reason().unwrap_or_else(|| "it was cut off".to_owned());
+            let reason = self.said("reason").unwrap_or("it was cut off");
             notes.push(format!("{name} holds a run that did not complete: {reason}"));
         }
         let theirs = self.run.get("program").map_or("?", String::as_str);
@@ -172,7 +173,7 @@ impl Results {
         let mut summary = summary.ok_or_else(|| refused("the run left no summary"))?;
         summary.status = self.status();
         if !self.is_complete() {
-            summary.reason = Some(self.reason().unwrap_or_else(|| "the run was cut off".to_owned()));
+            summary.reason = Some(self.said("reason").unwrap_or("the run was cut off").to_owned());
         }
         Ok(summary)
     }

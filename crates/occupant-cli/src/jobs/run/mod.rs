@@ -31,7 +31,7 @@ pub(crate) struct Simulated {
 /// Computes a run, from its start or from where another ended, with the histories of `channels`.
 ///
 /// # Errors
-/// A file that cannot be written; a checkpoint that is none of the scenario's.
+/// A file that cannot be written; a checkpoint of another scenario.
 pub(crate) fn run(
     opened: &Opened,
     from: Option<&Resumption>,

@@ -157,14 +157,12 @@ fn same_scenario(file: &Path, stored: &StoredRun, opened: &Opened) -> Result<(),
         if more > 0 {
             lines.push_str(&format!("\n   and {more} more"));
         }
+        let count = match found.len() {
+            1 => "one difference".to_owned(),
+            n => format!("{n} differences"),
+        };
         return Err(Failure::with_help(
-            format!(
-                "{name} is of another scenario: {} (there → here){lines}",
-                match found.len() {
-                    1 => "one difference".to_owned(),
-                    n => format!("{n} differences"),
-                }
-            ),
+            format!("{name} is of another scenario: {count} (there → here){lines}"),
             "resume with the same scenario and the same --set, or run from the start",
         ));
     }
