@@ -56,7 +56,7 @@ pub(crate) fn compare(args: &Args) -> Result<Done, Failure> {
     comparison.notes.iter().for_each(note);
     print(&if args.json { json(&comparison)? } else { comparison.text() })?;
     for reason in &comparison.worthless {
-        say(&format!("error: {reason}: its ratings mean nothing"));
+        say(&format!("error: the ratings mean nothing: {reason}"));
     }
     Ok(if comparison.worthless.is_empty() { Done::Well } else { Done::Unwell })
 }
