@@ -1,11 +1,9 @@
 //! Any bytes: never a panic, and never a deck without a word about what was changed.
 
-mod support;
-
+use crate::support::{DECKS, bytes};
 use cardio_legacy::{ConvertOptions, Deck, ParseOptions, Strictness};
 use occupant_core::scenario::Format;
 use occupant_core::scenario::Scenario;
-use support::{DECKS, bytes};
 
 /// A small generator (xorshift64*), so that a finding can be repeated from its seed.
 struct Random(u64);

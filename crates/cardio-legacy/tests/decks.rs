@@ -1,9 +1,7 @@
 //! The decks of the repository: read without a doubt, written and read again.
 
-mod support;
-
+use crate::support::{DECKS, bytes, driver, lines, parse, parse_as, rules};
 use cardio_legacy::{Deck, ParseOptions, Plot, Rule, Severity, Strictness, write_file};
-use support::{DECKS, bytes, driver, lines, parse, parse_as, rules};
 
 fn only_deck(name: &str) -> Deck {
     let (decks, diagnostics) =

@@ -1,11 +1,9 @@
 //! Deck → scenario → deck with odd numbers in every field, and with cards cut short: a deck that converts comes back.
 
-mod support;
-
+use crate::support::{DECKS, lines, path, punch};
 use cardio_legacy::{ConvertOptions, Deck, ParseOptions, PathSource, Strictness};
 use occupant_core::scenario::Format;
 use occupant_core::scenario::Scenario;
-use support::{DECKS, lines, path, punch};
 
 /// Ten columns at the edges of what F10.0 holds and of what a scenario tells apart.
 const ODD: [&str; 16] = [

@@ -1,7 +1,6 @@
 //! Decks as scenarios: the committed texts are in step, they run, and the way back gives the same deck.
 
-mod support;
-
+use crate::support::{DECKS, bytes, path};
 use cardio_legacy::{
     CompartmentLayout, ConversionError, ConvertOptions, Deck, NoDeck, ParseOptions, PathSource, RunEnd, Strictness,
     spine_rest, write_file,
@@ -12,7 +11,6 @@ use occupant_core::results::recorder::Watch;
 use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::Format;
 use occupant_core::scenario::{Loaded, Scenario};
-use support::{DECKS, bytes, path};
 
 fn deck(name: &str) -> Deck {
     let (decks, diagnostics) = Deck::parse(bytes(name), &ParseOptions::default());

@@ -1,9 +1,7 @@
 //! Wrong decks, one fault each: what is found, where, and how gravely.
 
-mod support;
-
+use crate::support::{driver, first_card, lines, parse, parse_as, punch, rules};
 use cardio_legacy::{Diagnostic, Diagnostics, Rule, Severity, Strictness};
-use support::{driver, first_card, lines, parse, parse_as, punch, rules};
 
 /// The errors of a deck, as (rule, line, variable).
 fn errors(text: &str) -> Vec<(Rule, usize, String)> {

@@ -339,7 +339,7 @@ fn files_that_cannot_be_printed_are_refused_in_words() {
     let bytes = empty.into_inner().into_inner();
     fs::write(folder.path().join("other.mcap"), bytes).expect("written");
     refused(&["other.mcap"], "no result of `occupant run`");
-    refused(&["deck.dat", "--every", "3 kg"], "not a print interval");
+    refused(&["deck.dat", "--every", "3 kg"], "not a time");
     refused(&["deck.dat", "--every", "-1"], "--every");
 }
 

@@ -1,7 +1,5 @@
 //! Decks for the tests: those of `scenarios/decks`, read and cut to pieces.
 
-#![allow(dead_code, reason = "each test binary uses a part of it")]
-
 use std::path::PathBuf;
 
 use cardio_legacy::{Deck, Diagnostics, ParseOptions, Rule, Severity, Strictness};

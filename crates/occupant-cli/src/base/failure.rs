@@ -1,4 +1,6 @@
-//! How a command ends: what it came to, or why it could not do its work. Each end has its exit code.
+//! How a command ends: done, or why it could not do its work. Each end has its exit code.
+
+use std::path::Path;
 
 use occupant_study::engine::Unrecorded;
 
@@ -7,7 +9,7 @@ use occupant_study::engine::Unrecorded;
 pub(crate) enum Done {
     /// All is well: exit code 0.
     Well,
-    /// It ran, and what it found is not well: exit code 1. What it is has been said.
+    /// It ran, and a check failed: exit code 1. The message has been written.
     Unwell,
 }
 
@@ -21,9 +23,18 @@ pub enum Failure {
 }
 
 impl Failure {
-    /// Could not run, in the words of every message: what is wrong, and how to mend it.
+    /// Could not run, in the form of every message: what is wrong, and how to mend it.
     pub(crate) fn with_help(found: impl Into<String>, help: &str) -> Self {
         Failure::CouldNotRun(format!("error: {}\n = help: {help}", found.into()))
+    }
+
+    /// Could not run: the ending of an output names no kind of file that it can be.
+    pub(crate) fn ending(output: &Path, endings: &str) -> Self {
+        let name = output.display();
+        Failure::with_help(
+            format!("-o {name}: the ending names no format"),
+            &format!("use a name that ends with {endings}"),
+        )
     }
 
     /// The same, and what was done before.

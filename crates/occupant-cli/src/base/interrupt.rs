@@ -1,4 +1,4 @@
-//! Ctrl-C and the polite signals end a run at its next output; a second one ends it at once.
+//! Ctrl-C and the signals that ask a run to end stop it at its next output; a second one ends it at once.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};

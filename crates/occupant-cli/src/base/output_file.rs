@@ -41,7 +41,7 @@ pub(crate) enum FileProblem {
     #[error("{} exists; --force replaces it, -o gives another name", .path.display())]
     Exists { path: PathBuf },
     /// A provisional file is there.
-    #[error("{} exists: a run that was interrupted or is still at work; --force replaces it, -o gives another name", .path.display())]
+    #[error("{} exists: a run that was interrupted or is still running; --force replaces it, -o gives another name", .path.display())]
     PartialExists { path: PathBuf },
     /// Something that is no ordinary file has that name: a folder, a device.
     #[error("{} is not an ordinary file; -o gives another name", .path.display())]
@@ -50,6 +50,12 @@ pub(crate) enum FileProblem {
     IsInput { path: PathBuf },
     #[error("cannot {doing} {}: {source}", .path.display())]
     Io { doing: &'static str, path: PathBuf, source: io::Error },
+}
+
+impl From<FileProblem> for Failure {
+    fn from(problem: FileProblem) -> Self {
+        Failure::plain(problem.to_string())
+    }
 }
 
 /// Refuses a target that is, under whatever name, a file that the run reads.
@@ -142,7 +148,7 @@ impl PartialFile {
         Ok(target)
     }
 
-    /// Leaves the file under its provisional name, safe against a loss of power, and gives that name.
+    /// Leaves the file under its provisional name, safe against a loss of power, and gives the name.
     ///
     /// # Errors
     /// The operating system refuses.

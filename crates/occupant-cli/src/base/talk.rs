@@ -16,9 +16,14 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Says something to the person at the terminal. Whether anybody listens does not matter.
+/// Writes a message to standard error. That it cannot be written is no failure.
 pub(crate) fn say(text: &str) {
-    let _nobody_listens = writeln!(stderr().lock(), "{text}");
+    let _unwritten = writeln!(stderr().lock(), "{text}");
+}
+
+/// Says what to know of a result.
+pub(crate) fn note(text: &String) {
+    say(&format!("note: {text}"));
 }
 
 /// A value as JSON text for people and programs, with a line end.

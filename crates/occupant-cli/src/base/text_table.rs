@@ -62,7 +62,7 @@ pub(crate) fn number(value: f64, decimals: usize) -> String {
     if value.abs() < 1e6 { format!("{value:.decimals$}") } else { format!("{value:.2e}") }
 }
 
-/// Two columns of words without a head: a name and what there is to say of it.
+/// Two columns of words without a head: a name and its description.
 pub(crate) fn facts(facts: &[(&str, String)]) -> String {
     let width = facts.iter().map(|(name, _)| name.chars().count()).max();
     let width = width.unwrap_or(0);

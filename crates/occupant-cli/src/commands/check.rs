@@ -15,7 +15,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     scenario: ScenarioArgs,
 
-    /// Print the figures as JSON instead of tables
+    /// Print JSON instead of tables
     #[arg(long)]
     json: bool,
 

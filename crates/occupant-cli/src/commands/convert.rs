@@ -1,7 +1,6 @@
 //! `occupant convert`: card deck → scenario, scenario → card deck.
 
-use std::fs::{self, OpenOptions};
-use std::io::{ErrorKind, Write};
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use cardio_legacy::{
@@ -11,14 +10,17 @@ use clap::ArgGroup;
 use occupant_core::scenario::{Draft, Format, Loaded};
 
 use crate::base::failure::{Done, Failure};
+use crate::base::names::file_name;
+use crate::base::output_file::{publish, refuse_input};
 use crate::base::talk::{print, say};
+use crate::files::scenario::{files_beside, format_of};
 use crate::jobs::extend::{extend, extend_run};
 
 /// Convert a card deck of 1970 to a scenario, or a scenario to a card deck
 ///
-/// A file named .toml or .json is a scenario and becomes a deck; .mcap is a run, of which --extend makes the deck that goes
-/// on from its end; any other is a deck and becomes a scenario. Diagnostics and
-/// the conversion's report go to standard error, the result to -o or to standard output.
+/// A file named .toml or .json is a scenario and becomes a deck; .mcap is a run, of which --extend makes the deck that
+/// continues it; any other is a deck and becomes a scenario. Diagnostics and the conversion's report go to standard error,
+/// the result to -o or to standard output.
 #[derive(Debug, clap::Args)]
 #[command(group = ArgGroup::new("strictness").args(["strict", "lenient"]))]
 pub(crate) struct Args {
@@ -34,7 +36,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
 
-    /// Refuse a deck for whatever is doubtful in it
+    /// Refuse a deck for anything doubtful in it
     #[arg(long)]
     strict: bool,
 
@@ -72,24 +74,16 @@ pub(crate) struct Args {
     quiet: bool,
 }
 
-/// Converts in the direction that the input's name tells.
+/// Converts in the direction that the ending of the input gives.
 pub(crate) fn convert(args: &Args) -> Result<Done, Failure> {
     let bytes = read(&args.input)?;
     let layout = args.compartment.as_deref().map(compartment).transpose()?;
     if args.input.extension().is_some_and(|e| e.eq_ignore_ascii_case("mcap")) {
-        return run_to_deck(args, &bytes, layout.as_ref());
+        return deliver_deck(args, run_to_deck(args, &bytes, layout.as_ref())?);
     }
     match format_of(&args.input) {
-        Some(format) => scenario_to_deck(args, &bytes, format, layout.as_ref()),
+        Some(format) => deliver_deck(args, scenario_to_deck(args, &bytes, format, layout.as_ref())?),
         None => decks_to_scenarios(args, &bytes, layout),
-    }
-}
-
-fn format_of(path: &Path) -> Option<Format> {
-    match path.extension()?.to_str()?.to_ascii_lowercase().as_str() {
-        "toml" => Some(Format::Toml),
-        "json" => Some(Format::Json),
-        _ => None,
     }
 }
 
@@ -117,7 +111,7 @@ fn decks_to_scenarios(args: &Args, bytes: &[u8], layout: Option<CompartmentLayou
         let output =
             args.output.as_deref().map(|file| if decks.len() > 1 { numbered(file, at + 1) } else { file.to_owned() });
         let options = ConvertOptions {
-            deck_name: name_of(&args.input),
+            deck_name: file_name(&args.input),
             path: path_source(args, output.as_deref())?,
             compartment: layout.clone(),
         };
@@ -130,7 +124,7 @@ fn decks_to_scenarios(args: &Args, bytes: &[u8], layout: Option<CompartmentLayou
         deliver(args, output.as_deref(), &text)?;
         reports.push_str(&format!("{}: {}\n{}\n", args.input.display(), deck.titles()[0], conversion.report));
     }
-    tell(args, &reports)
+    report(args, &reports)
 }
 
 /// The decks of a file; what is wrong with them is said.
@@ -165,7 +159,7 @@ fn path_source(args: &Args, output: Option<&Path>) -> Result<Option<PathSource>,
     }
     let folder = |path: &Path| path.parent().map(Path::to_owned).unwrap_or_default();
     if output.is_some_and(|output| folder(output) == folder(file)) {
-        return Ok(Some(PathSource::Csv { name: name_of(file), text }));
+        return Ok(Some(PathSource::Csv { name: file_name(file), text }));
     }
     let mut lines = text.lines().filter(|line| !line.trim().is_empty() && !line.starts_with('#'));
     let header = lines.next().unwrap_or_default().trim_start_matches('\u{feff}').to_owned();
@@ -177,10 +171,6 @@ fn path_source(args: &Args, output: Option<&Path>) -> Result<Option<PathSource>,
     Ok(Some(PathSource::Columns { columns: split(&header), text: rows }))
 }
 
-fn name_of(path: &Path) -> String {
-    path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default()
-}
-
 /// `case.toml` → `case-2.toml`.
 fn numbered(file: &Path, number: usize) -> PathBuf {
     let stem = file.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
@@ -188,16 +178,15 @@ fn numbered(file: &Path, number: usize) -> PathBuf {
     file.with_file_name(format!("{stem}-{number}{extension}"))
 }
 
-/// The deck that goes on from a results file.
-fn run_to_deck(args: &Args, bytes: &[u8], layout: Option<&CompartmentLayout>) -> Result<Done, Failure> {
+/// The deck that continues the run of a results file.
+fn run_to_deck(args: &Args, bytes: &[u8], layout: Option<&CompartmentLayout>) -> Result<FromScenario, Failure> {
     let Some(final_s) = args.extend else {
         return Err(Failure::with_help(
-            format!("{} is a run, and a deck of its scenario would not go on from it", args.input.display()),
+            format!("{} is a run, and a deck of its scenario would not continue it", args.input.display()),
             "give the time to which the deck extends the run: --extend TIME",
         ));
     };
-    let cards = extend_run(&args.input, bytes, layout, final_s)?;
-    deliver_deck(args, cards)
+    extend_run(&args.input, bytes, layout, final_s)
 }
 
 fn scenario_to_deck(
@@ -205,64 +194,50 @@ fn scenario_to_deck(
     bytes: &[u8],
     format: Format,
     layout: Option<&CompartmentLayout>,
-) -> Result<Done, Failure> {
+) -> Result<FromScenario, Failure> {
     if args.extend.is_some() {
         return Err(Failure::plain("--extend takes a deck"));
     }
     let loaded = load(&args.input, bytes, format)?;
-    let cards = Deck::from_scenario(&loaded, layout)
-        .map_err(|error| Failure::CouldNotRun(format!("error: {}: {error}", args.input.display())))?;
-    deliver_deck(args, cards)
+    Deck::from_scenario(&loaded, layout).map_err(|error| Failure::plain(format!("{}: {error}", args.input.display())))
 }
 
-/// Writes a deck, and says what there is to say of it.
+/// Writes a deck, and says its remarks.
 fn deliver_deck(args: &Args, cards: FromScenario) -> Result<Done, Failure> {
     let FromScenario { deck, remarks } = cards;
     deliver(args, args.output.as_deref(), &write_file(&[deck]))?;
     let remarks: String = remarks.iter().map(|remark| format!("  - {remark}\n")).collect();
-    tell(args, &format!("{}: on cards\n{remarks}", args.input.display()))
+    report(args, &format!("{}: on cards\n{remarks}", args.input.display()))
 }
 
 fn load(path: &Path, bytes: &[u8], format: Format) -> Result<Loaded, Failure> {
-    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    let resolver = move |file: &str| fs::read(folder.join(file)).map_err(|error| error.to_string());
     let name = path.display().to_string();
-    let loaded = Draft::read_bytes(bytes, Some(format), &name).and_then(|draft| draft.load(&resolver));
+    let loaded = Draft::read_bytes(bytes, Some(format), &name).and_then(|draft| draft.load(&files_beside(path)));
     loaded.map_err(|problems| Failure::CouldNotRun(format!("{problems}\n\n{name}: nothing was converted")))
 }
 
 fn deliver(args: &Args, output: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
     match output {
-        Some(file) => write(file, bytes, args.force),
+        Some(file) => write(args, file, bytes),
         None => print(&String::from_utf8_lossy(bytes)),
     }
 }
 
-/// Writes a file; one that exists is left alone unless it may be replaced.
-fn write(file: &Path, bytes: &[u8], force: bool) -> Result<(), Failure> {
-    let mut options = OpenOptions::new();
-    options.write(true);
-    match force {
-        true => options.create(true).truncate(true),
-        false => options.create_new(true),
-    };
-    let name = file.display();
-    options.open(file).and_then(|mut target| target.write_all(bytes)).map_err(|error| match error.kind() {
-        ErrorKind::AlreadyExists => Failure::with_help(
-            format!("{name} exists, and it was left alone"),
-            "choose another name, or replace it with --force",
-        ),
-        _ => Failure::plain(format!("{name} cannot be written: {error}")),
-    })
+/// Writes a file; one that exists is left alone unless it may be replaced, and what is read always is.
+fn write(args: &Args, file: &Path, bytes: &[u8]) -> Result<(), Failure> {
+    for input in [Some(&args.input), args.path.as_ref(), args.compartment.as_ref()].into_iter().flatten() {
+        refuse_input(file, input)?;
+    }
+    publish(file, args.force, bytes)
 }
 
 /// Says the report, and writes it where it was asked for.
-fn tell(args: &Args, report: &str) -> Result<Done, Failure> {
+fn report(args: &Args, text: &str) -> Result<Done, Failure> {
     if !args.quiet {
-        say(report.trim_end());
+        say(text.trim_end());
     }
     if let Some(file) = &args.report {
-        write(file, report.as_bytes(), args.force)?;
+        write(args, file, text.as_bytes())?;
     }
     Ok(Done::Well)
 }

@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use super::tables::measures::{long, remarks, risks};
 use crate::base::failure::{Done, Failure};
-use crate::base::talk::{self, print, say};
+use crate::base::talk::{self, note, print};
 use crate::base::text_table::plain;
 use crate::files::results::Results;
 
@@ -92,16 +92,11 @@ pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
             notes,
         })?)?;
     } else {
-        for note in notes {
-            say(&format!("note: {note}"));
-        }
+        notes.iter().for_each(note);
         print(&text(&results, &options, &measures))?;
     }
     let exceeded = measures.iter().any(|m| m.limits.iter().any(|l| !l.passed));
-    Ok(match exceeded && args.strict {
-        true => Done::Unwell,
-        false => Done::Well,
-    })
+    Ok(if exceeded && args.strict { Done::Unwell } else { Done::Well })
 }
 
 fn options(args: &Args) -> Options {

@@ -1,10 +1,9 @@
 //! `occupant new`.
 
-use std::fs::OpenOptions;
-use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
 
 use crate::base::failure::{Done, Failure};
+use crate::base::output_file::publish;
 use crate::base::talk::say;
 
 /// The scenario that `occupant new` writes.
@@ -39,23 +38,9 @@ pub(crate) fn new(args: &Args) -> Result<Done, Failure> {
             "give it a name that ends with .toml",
         ));
     }
-    let mut options = OpenOptions::new();
-    options.write(true);
-    match args.force {
-        true => options.create(true).truncate(true),
-        false => options.create_new(true),
-    };
-    let written = options.open(&file).and_then(|mut target| target.write_all(STARTER.as_bytes()));
-    match written {
-        Ok(()) if args.quiet => Ok(Done::Well),
-        Ok(()) => {
-            say(&format!("wrote {name}\nnext: occupant check {name}\n      occupant run {name}"));
-            Ok(Done::Well)
-        }
-        Err(error) if error.kind() == ErrorKind::AlreadyExists => Err(Failure::with_help(
-            format!("{name} exists, and it was left alone"),
-            "choose another name, or replace it with --force",
-        )),
-        Err(error) => Err(Failure::plain(format!("{name} cannot be written: {error}"))),
+    publish(&file, args.force, STARTER.as_bytes())?;
+    if !args.quiet {
+        say(&format!("wrote {name}\nnext: occupant check {name}\n      occupant run {name}"));
     }
+    Ok(Done::Well)
 }

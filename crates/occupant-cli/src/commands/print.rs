@@ -1,14 +1,14 @@
 //! `occupant print`.
 
-use std::fs;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use occupant_core::scenario::kind::{KINDS, TIME};
 
+use super::flags::history::interval;
 use crate::base::failure::{Done, Failure};
+use crate::base::output_file::{publish, refuse_input};
 use crate::base::talk::{print, say};
-use crate::jobs::print::{Case, Units, printout};
+use crate::jobs::print::{Case, INCH_POUND, SI, Units, printout};
 
 /// Print a run as paged text, as the report's program did
 ///
@@ -29,8 +29,8 @@ pub(crate) struct Args {
     force: bool,
 
     /// Print interval (DTPRNT), such as "10 ms" or 0.01; every recorded output if absent
-    #[arg(long, value_name = "TIME", allow_hyphen_values = true)]
-    every: Option<String>,
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = interval)]
+    every: Option<f64>,
 
     /// Units; those of the scenario if absent
     #[arg(long, value_name = "SYSTEM")]
@@ -48,60 +48,23 @@ enum UnitsChoice {
 }
 
 pub(crate) fn print_run(args: &Args) -> Result<Done, Failure> {
-    let every_s = args.every.as_deref().map(interval).transpose()?;
     let name = args.run.display();
-    let bytes = fs::read(&args.run).map_err(|error| Failure::plain(format!("{name} cannot be read: {error}")))?;
-    let refused = |reason| {
-        Failure::with_help(
-            format!("{name} cannot be printed: {reason}"),
-            "give a file that `occupant run` of this version has written",
-        )
-    };
-    let case = Case::read(&bytes).map_err(refused)?;
+    let case = Case::read(&args.run)?;
     let units: &Units = match args.units {
-        Some(UnitsChoice::Si) => &crate::jobs::print::SI,
-        Some(UnitsChoice::InchPound) => &crate::jobs::print::INCH_POUND,
+        Some(UnitsChoice::Si) => &SI,
+        Some(UnitsChoice::InchPound) => &INCH_POUND,
         None => case.units(),
     };
-    let text = printout(&case, units, every_s).map_err(|e| Failure::plain(format!("{name}: {e}")))?;
-    write(args, &text)?;
+    let text = printout(&case, units, args.every).map_err(|e| Failure::plain(format!("{name}: {e}")))?;
+    match &args.output {
+        Some(path) => {
+            refuse_input(path, &args.run)?;
+            publish(path, args.force, text.as_bytes())?;
+        }
+        None => print(&text)?,
+    }
     if !case.is_complete() {
         say(&format!("{name} is partial; the last page says so"));
     }
     Ok(Done::Well)
-}
-
-/// A time with its unit; a bare number is in seconds.
-fn interval(text: &str) -> Result<f64, Failure> {
-    let seconds = KINDS[TIME].read(text).map_err(|error| error.expected);
-    let wrong = |expected: &str| {
-        Failure::with_help(
-            format!("--every {text}: not a print interval; expected {expected}"),
-            "give a time above zero, such as --every '10 ms'",
-        )
-    };
-    match seconds {
-        Ok(seconds) if seconds > 0.0 && seconds.is_finite() => Ok(seconds),
-        Ok(_) => Err(wrong("a time above zero")),
-        Err(expected) => Err(wrong(&expected)),
-    }
-}
-
-fn write(args: &Args, text: &str) -> Result<(), Failure> {
-    let Some(path) = &args.output else {
-        return print(text);
-    };
-    let mut options = fs::OpenOptions::new();
-    options.write(true);
-    match args.force {
-        true => options.create(true).truncate(true),
-        false => options.create_new(true),
-    };
-    let written = options.open(path).and_then(|mut file| std::io::Write::write_all(&mut file, text.as_bytes()));
-    written.map_err(|error| match error.kind() {
-        std::io::ErrorKind::AlreadyExists => {
-            Failure::with_help(format!("{} exists", path.display()), "--force replaces it, -o gives another name")
-        }
-        _ => Failure::plain(format!("{} cannot be written: {error}", path.display())),
-    })
 }

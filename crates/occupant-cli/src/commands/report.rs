@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::base::failure::{Done, Failure};
 use crate::base::output_file::{publish, refuse_input};
-use crate::base::talk::say;
+use crate::base::talk::note;
 use crate::files::results::Results;
 use crate::jobs::report::page;
 
@@ -33,19 +33,14 @@ pub(crate) struct Args {
 pub(crate) fn report(args: &Args) -> Result<Done, Failure> {
     let ending = args.output.extension().and_then(|e| e.to_str());
     if !ending.is_some_and(|e| e.eq_ignore_ascii_case("html") || e.eq_ignore_ascii_case("htm")) {
-        return Err(Failure::with_help(
-            format!("{} has not the ending of a page", args.output.display()),
-            "give a name that ends with .html",
-        ));
+        return Err(Failure::ending(&args.output, ".html"));
     }
-    for input in [Some(&args.run), args.against.as_ref()].into_iter().flatten() {
-        refuse_input(&args.output, input).map_err(|e| Failure::plain(e.to_string()))?;
+    for input in std::iter::once(&args.run).chain(&args.against) {
+        refuse_input(&args.output, input)?;
     }
     let run = Results::open(&args.run)?;
     let against = args.against.as_deref().map(Results::open).transpose()?;
-    for note in [Some(&run), against.as_ref()].into_iter().flatten().flat_map(Results::notes) {
-        say(&note);
-    }
+    std::iter::once(&run).chain(&against).flat_map(Results::notes).for_each(|text| note(&text));
     publish(&args.output, args.force, page(&run, against.as_ref())?.as_bytes())?;
     Ok(Done::Well)
 }

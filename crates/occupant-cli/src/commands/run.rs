@@ -1,13 +1,9 @@
 //! `occupant run`.
 
 use std::path::{Path, PathBuf};
-use std::time::Instant;
 
-use occupant_core::diagnosis::{FrictionWatch, UnstableFriction};
-use occupant_core::results::channel::Series;
-use occupant_core::results::outcome::{ResumeError, Status};
-use occupant_core::results::summary::{RunStatus, Summarizer, Summary};
-use occupant_core::run::simulate::{resume, simulate};
+use occupant_core::diagnosis::UnstableFriction;
+use occupant_core::results::summary::{RunStatus, Summary};
 use occupant_core::scenario::Diagnostics;
 use occupant_study::ending::Balance;
 use serde::Serialize;
@@ -18,21 +14,21 @@ use crate::base::failure::{Done, Failure};
 use crate::base::interrupt::Interrupt;
 use crate::base::names::program;
 use crate::base::output_file::Existing;
-use crate::base::progress::Progress;
-use crate::base::talk::{self, say};
+use crate::base::talk::{json, print, say};
 use crate::files::scenario::{self, Opened, ScenarioArgs};
 use crate::jobs::ensemble::beside_run::Ran;
 use crate::jobs::ensemble::report::Description;
 use crate::jobs::ensemble::text::text as ensemble_text;
 use crate::jobs::run::recording::{Recording, Written};
-use crate::jobs::run::resume::{Resumed, Resumption, Retold};
+use crate::jobs::run::resume::{Resumed, Resumption};
+use crate::jobs::run::{Simulated, run as simulate};
 
 /// Simulate the occupant and write what happened
 ///
-/// Writes an MCAP file (by default SCENARIO.mcap in the present folder) and ends with a short table. While the run goes
-/// on, and if it does not complete, the file is called SCENARIO.partial.mcap. With --resume it goes on from what another
-/// run has left, with the same states as one run to the new end, and writes SCENARIO.resumed.mcap. With --ensemble it is
-/// run many times with small changes, and the table says which of its figures are stable.
+/// Writes an MCAP file (by default SCENARIO.mcap in the present folder) and ends with a short table. Until the run is
+/// complete the file is called SCENARIO.partial.mcap. With --resume the run starts where another one ended, with the same
+/// states as one run to the new end, and writes SCENARIO.resumed.mcap. With --ensemble it is run many times with small
+/// changes, and the table says which of its results are stable.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     #[command(flatten)]
@@ -46,7 +42,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TIME")]
     until: Option<String>,
 
-    /// Go on from the last checkpoint of this file, of a run of the same scenario that ended, was interrupted or killed
+    /// Resume the last checkpoint of this file, of a run of the same scenario that ended, was interrupted or killed
     #[arg(long, value_name = "FILE.mcap")]
     resume: Option<PathBuf>,
 
@@ -76,7 +72,7 @@ struct Answer<'a> {
     program: String,
     scenario: String,
     overrides: &'a [String],
-    /// What it goes on from; absent without `--resume`.
+    /// What it resumes; absent without `--resume`.
     #[serde(skip_serializing_if = "Option::is_none")]
     resumed: Option<Resumed>,
     /// The file written; absent with `--no-mcap`.
@@ -95,81 +91,47 @@ pub(crate) fn run(args: &Args) -> Result<Done, Failure> {
     let (bytes, draft) = scenario::draft(&chosen)?;
     let opened = scenario::open_draft(&chosen, bytes, draft.clone())?;
     let existing = Existing::by(args.force);
-    let ensemble = (args.ensemble).wanted(&draft, &opened, &chosen.scenario, existing)?;
-    let from = args.resume.as_deref();
-    let from = from.map(|f| Resumption::find(f, &opened)).transpose()?;
+    let ensemble = args.ensemble.wanted(&draft, &opened, &chosen.scenario, existing)?;
+    let from = args.resume.as_deref().map(|file| Resumption::find(file, &opened)).transpose()?;
     if !args.quiet && !opened.warnings.is_empty() {
         say(&format!("{}\n", opened.warnings));
     }
-    let mut recording = match output_name(args)? {
+    let recording = match output_name(args)? {
         Some(name) => Recording::begin(&name, existing, &chosen, &opened, from.as_ref())?,
         None => Recording::none(),
     };
     if let (Some(from), false) = (&from, args.quiet) {
         from.announce();
     }
-    let mut summarizer = Summarizer::new();
-    let mut friction = FrictionWatch::new();
-    let followed = ensemble.as_ref().map(|e| e.channels.clone());
-    let mut histories = Series::new(followed.unwrap_or_default());
+    let channels = ensemble.as_ref().map(|e| e.channels.clone()).unwrap_or_default();
     let interrupt = Interrupt::listen();
-    let watchers = (interrupt.clone(), Progress::new(args.quiet));
-    let told = Retold {
-        earlier: from.as_ref().map(|f| f.earlier.clone()).unwrap_or_default(),
-        to: (&mut summarizer, &mut friction),
-    };
-    let recorders = (watchers, (told, (&mut histories, &mut recording)));
-    let began = Instant::now();
-    let ended = match &from {
-        Some(from) => resume(&opened.model, &from.checkpoint, recorders),
-        None => simulate(&opened.model, recorders).map_err(ResumeError::Recording),
-    };
-    let outcome = ended.map_err(|error| {
-        let left = recording.left();
-        Failure::BrokeOff(format!("error: {error}{left}"))
-    })?;
-    let wall_time_s = began.elapsed().as_secs_f64();
-    let completed = outcome.status == Status::Completed;
-    let written = recording.close(completed)?;
-    let summary = summarizer.summary(Some(wall_time_s));
-    let summary = summary.ok_or_else(|| Failure::plain("the run left no summary"))?;
-    let energy = Balance::of(summary.energy.balance_error);
-    let ran = match ensemble {
-        Some(wanted) if completed && energy != Balance::Lost => {
-            let left = written.left();
-            let ran = wanted.run(&opened, &summary, histories, &interrupt, args.quiet);
-            Some(ran.map_err(|failure| failure.with_done(&left))?)
+    let mut run = simulate(&opened, from.as_ref(), recording, channels, &interrupt, args.quiet)?;
+    let balance = Balance::of(run.summary.energy.balance_error);
+    let ensemble = match ensemble {
+        Some(wanted) if run.completed && balance != Balance::Lost => {
+            let histories = std::mem::take(&mut run.histories);
+            let ran = wanted.run(&opened, &run.summary, histories, &interrupt, args.quiet);
+            Some(ran.map_err(|failure| failure.with_done(&run.written.left()))?)
         }
         _ => None,
     };
-    let answer = Answer {
-        program: program(),
-        scenario: chosen.scenario.display().to_string(),
-        overrides: &chosen.overrides,
-        resumed: from.as_ref().map(Resumption::describe),
-        file: written.name(),
-        summary: &summary,
-        unstable_friction: friction.found(&opened.model),
-        ensemble: ran.as_ref().map(|r| r.report.describe(r.files.clone())),
-        warnings: Vec::new(),
-    };
-    tell(args, &opened, answer, &friction, &written, ran.as_ref())?;
-    if !args.quiet || energy == Balance::Lost {
-        tell_balance(energy, &summary);
+    show(args, &chosen, &opened, from.as_ref(), &run, ensemble.as_ref())?;
+    if !args.quiet || balance == Balance::Lost {
+        say_balance(balance, &run.summary);
     }
-    match completed {
-        true if energy == Balance::Lost => Ok(Done::Unwell),
+    match run.completed {
+        true if balance == Balance::Lost => Ok(Done::Unwell),
         true => Ok(Done::Well),
-        false => Err(Failure::BrokeOff(broke_off(&summary, &written))),
+        false => Err(Failure::BrokeOff(broke_off(&run))),
     }
 }
 
-fn tell_balance(balance: Balance, summary: &Summary) {
+fn say_balance(balance: Balance, summary: &Summary) {
     let percent = 100.0 * summary.energy.balance_error.abs();
     let (word, means) = match balance {
         Balance::Kept => return,
-        Balance::Doubtful => ("warning", "the figures are doubtful"),
-        Balance::Lost => ("error", "the figures mean nothing"),
+        Balance::Doubtful => ("warning", "the results are doubtful"),
+        Balance::Lost => ("error", "the results mean nothing"),
     };
     say(&format!(
         "{word}: the energy balance is off by {percent:.1} %: {means}\n = help: a smaller step or tolerance; `occupant check` shows the fastest time scale"
@@ -204,49 +166,53 @@ fn output_name(args: &Args) -> Result<Option<PathBuf>, Failure> {
 }
 
 /// Prints the results, and what to know of them.
-fn tell(
+fn show(
     args: &Args,
+    chosen: &ScenarioArgs,
     opened: &Opened,
-    mut answer: Answer<'_>,
-    friction: &FrictionWatch,
-    written: &Written,
-    ran: Option<&Ran>,
+    from: Option<&Resumption>,
+    run: &Simulated,
+    ensemble: Option<&Ran>,
 ) -> Result<(), Failure> {
     // the forces of a run that has failed say nothing about its friction
-    let unstable = match answer.summary.status {
+    let unstable = match run.summary.status {
         RunStatus::Failed => Diagnostics::new(),
-        _ => opened.loaded.diagnose(&friction.warnings(&opened.model)),
+        _ => opened.loaded.diagnose(&run.friction.warnings(&opened.model)),
     };
     if !args.quiet && !unstable.is_empty() {
         say(&format!("{unstable}\n"));
     }
     if args.json {
-        let warnings = opened.warnings.iter().chain(unstable.iter());
-        answer.warnings = warnings.map(ToString::to_string).collect();
-        return talk::print(&talk::json(&answer)?);
+        return print(&json(&Answer {
+            program: program(),
+            scenario: chosen.scenario.display().to_string(),
+            overrides: &chosen.overrides,
+            resumed: from.map(Resumption::describe),
+            file: run.written.name(),
+            summary: &run.summary,
+            unstable_friction: run.friction.found(&opened.model),
+            ensemble: ensemble.map(|e| e.report.describe(e.files.clone())),
+            warnings: opened.warnings.iter().chain(unstable.iter()).map(ToString::to_string).collect(),
+        })?);
     }
     if args.quiet {
         return Ok(());
     }
-    let Some(ran) = ran else {
-        return talk::print(&summary_table(answer.summary, written, &Marks::none()));
+    let Some(ensemble) = ensemble else {
+        return print(&summary_table(&run.summary, &run.written, &Marks::none()));
     };
-    let marks = Marks::of(ran.report.unstable());
-    let summary = summary_table(answer.summary, written, &marks);
-    let files: String = ran.files.iter().map(|f| format!("written   {f}\n")).collect();
-    talk::print(&format!("{summary}\n{}{files}", ensemble_text(&ran.report)))
+    let summary = summary_table(&run.summary, &run.written, &Marks::of(ensemble.report.unstable()));
+    let files: String = ensemble.files.iter().map(|f| format!("written   {f}\n")).collect();
+    print(&format!("{summary}\n{}{files}", ensemble_text(&ensemble.report)))
 }
 
-fn broke_off(summary: &Summary, written: &Written) -> String {
+fn broke_off(run: &Simulated) -> String {
+    let summary = &run.summary;
     let reason = summary.reason.as_deref().unwrap_or("it did not complete");
-    let reached = format!(
-        "{:.1} ms of {:.1} ms",
-        (summary.reached_s - summary.start_s) * 1e3,
-        (summary.end_s - summary.start_s) * 1e3
-    );
-    let file = match written {
+    let [reached_ms, end_ms] = [summary.reached_s, summary.end_s].map(|t| (t - summary.start_s) * 1e3);
+    let file = match &run.written {
         Written::Partial(path) => format!("; these are in {}, which says that it is partial", path.display()),
         _ => String::new(),
     };
-    format!("error: the run was not completed: {reason}\n = done: {reached}{file}")
+    format!("error: the run was not completed: {reason}\n = done: {reached_ms:.1} ms of {end_ms:.1} ms{file}")
 }

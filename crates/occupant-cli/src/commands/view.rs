@@ -2,12 +2,11 @@
 
 use std::path::PathBuf;
 
-use occupant_core::scenario::kind::{KINDS, TIME, UnitSystem};
-use occupant_core::scenario::text::Value;
-
+use super::flags::history::seconds;
 use crate::base::failure::{Done, Failure};
+use crate::base::names::file_name;
 use crate::base::output_file::{publish, refuse_input};
-use crate::base::talk::say;
+use crate::base::talk::note;
 use crate::files::results::Results;
 use crate::pictures::Format;
 use crate::pictures::body::Snapshot;
@@ -15,7 +14,7 @@ use crate::pictures::view::{Strip, View, draw};
 
 /// Pixels of a PNG for each unit of the drawing.
 const PIXELS: f64 = 2.0;
-/// Interval of the pictures where nobody asks for another, ms.
+/// Interval of the pictures without `--times`, ms.
 const EVERY_MS: f64 = 40.0;
 /// Without `--times`, no more pictures than this.
 const MOST_BY_DEFAULT: usize = 12;
@@ -32,7 +31,7 @@ pub(crate) struct Args {
     #[arg(value_name = "RUN.mcap")]
     run: PathBuf,
 
-    /// The picture; its ending tells the kind: .svg or .png
+    /// The picture: NAME.svg or NAME.png
     #[arg(short, long, value_name = "FILE")]
     output: PathBuf,
 
@@ -42,8 +41,8 @@ pub(crate) struct Args {
 
     /// Times, such as "0,40,80 ms" or "0.5 s"; a time without a unit takes that of the next one, else it is in seconds.
     /// The nearest output is drawn, and its time written above. Every 40 ms if absent, less often in a long run
-    #[arg(long, value_name = "TIMES", allow_hyphen_values = true)]
-    times: Option<String>,
+    #[arg(long, value_name = "TIMES", allow_hyphen_values = true, value_parser = times)]
+    times: Option<Times>,
 
     /// Views, in order
     #[arg(
@@ -57,72 +56,53 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn view(args: &Args) -> Result<Done, Failure> {
-    let format = Format::of(&args.output).ok_or_else(|| {
-        Failure::with_help(
-            format!("{} has not the ending of a picture", args.output.display()),
-            "give a name that ends with .svg or .png",
-        )
-    })?;
-    let wanted = args.times.as_deref().map(times).transpose()?;
-    refuse_input(&args.output, &args.run).map_err(|e| Failure::plain(e.to_string()))?;
+    let format = Format::of_output(&args.output)?;
+    refuse_input(&args.output, &args.run)?;
     let results = Results::open(&args.run)?;
-    for note in results.notes() {
-        say(&note);
+    results.notes().iter().for_each(note);
+    let outputs = outputs(&results, args.times.as_ref())?;
+    let mut views: Vec<View> = Vec::new();
+    for view in &args.views {
+        if !views.contains(view) {
+            views.push(*view);
+        }
     }
-    let outputs = outputs(&results, wanted)?;
-    let strip = Strip {
-        model: &results.model,
-        moments: moments(&results, &outputs)?,
-        views: distinct(&args.views),
-        origin: origin(&results),
-    };
-    let bytes =
-        format.encode(&draw(&strip), PIXELS).map_err(|e| Failure::with_help(e.to_string(), "draw fewer times"))?;
+    let strip = Strip { model: &results.model, moments: moments(&results, &outputs)?, views, origin: origin(&results) };
+    let bytes = format.encode(&draw(&strip), PIXELS);
+    let bytes = bytes.map_err(|e| Failure::with_help(e.to_string(), "draw fewer times"))?;
     publish(&args.output, args.force, &bytes)?;
     Ok(Done::Well)
 }
 
-/// Times of a list, s.
-fn times(list: &str) -> Result<Vec<f64>, Failure> {
-    let wrong = |entry: &str, expected: &str| {
-        Failure::with_help(
-            format!("--times {list}: `{entry}` is not a time; expected {expected}"),
-            "give times such as --times '0,40,80 ms'",
-        )
-    };
-    let mut unit = "s".to_owned();
-    let mut found = Vec::new();
+/// Times, s.
+#[derive(Clone, Debug)]
+struct Times(Vec<f64>);
+
+/// Reads a list, from its end on, as a time without a unit takes that of the next one.
+fn times(list: &str) -> Result<Times, String> {
+    let mut unit = "s";
+    let mut times = Vec::new();
     for entry in list.rsplit(',').map(str::trim) {
         let digits = entry.trim_end_matches(|c: char| c.is_alphabetic() || c == 'µ');
         let own = entry[digits.len()..].trim();
-        if !own.is_empty() && digits.trim().parse::<f64>().is_ok() {
-            unit = own.to_owned();
+        let number = digits.trim();
+        if !own.is_empty() && number.parse::<f64>().is_ok() {
+            unit = own;
         }
-        let text = match digits.trim().parse::<f64>() {
-            Ok(number) => format!("{number} {unit}"),
-            Err(_) => return Err(wrong(entry, "a number and a unit")),
-        };
-        match KINDS[TIME].si(&Value::String(text), UnitSystem::Si) {
-            Ok(seconds) if seconds.is_finite() => found.push(seconds),
-            Ok(_) => return Err(wrong(entry, "a finite time")),
-            Err(error) => return Err(wrong(entry, &error.expected)),
-        }
+        times.push(seconds(&format!("{number} {unit}")).map_err(|reason| format!("`{entry}` is {reason}"))?);
     }
-    if found.len() > MOST {
-        return Err(Failure::plain(format!(
-            "--times asks for {} pictures; at most {MOST} fit on a sheet",
-            found.len()
-        )));
+    if times.len() > MOST {
+        return Err(format!("{} pictures; at most {MOST} fit on a sheet", times.len()));
     }
-    found.reverse();
-    Ok(found)
+    times.reverse();
+    Ok(Times(times))
 }
 
 /// Indices of the outputs to draw, in order.
-fn outputs(results: &Results, wanted: Option<Vec<f64>>) -> Result<Vec<usize>, Failure> {
+fn outputs(results: &Results, wanted: Option<&Times>) -> Result<Vec<usize>, Failure> {
     let at: Vec<f64> = results.checkpoints.iter().map(|c| c.time_s).collect();
     let (first, last) = (at[0], at[at.len() - 1]);
-    let wanted = wanted.unwrap_or_else(|| regular(first, last));
+    let wanted = wanted.map_or_else(|| regular(first, last), |times| times.0.clone());
     let half_interval = 0.5 * results.model.setup().time.output_s * (1.0 + 1e-9);
     let nearest = |time: f64| {
         if time < first - half_interval || time > last + half_interval {
@@ -139,7 +119,7 @@ fn outputs(results: &Results, wanted: Option<Vec<f64>>) -> Result<Vec<usize>, Fa
     wanted.into_iter().map(nearest).collect()
 }
 
-/// Every 40 ms, or every 80, 200, 400, ... in a long run.
+/// Every 40 ms, or every 80, 200, 400, … in a long run.
 fn regular(first_s: f64, last_s: f64) -> Vec<f64> {
     let span_ms = (last_s - first_s) * 1e3;
     let mut every_ms = EVERY_MS;
@@ -168,25 +148,12 @@ fn moments(results: &Results, outputs: &[usize]) -> Result<Vec<Snapshot>, Failur
     Ok(outputs.iter().filter_map(find).map(|s| s.1.clone()).collect())
 }
 
-fn distinct(views: &[View]) -> Vec<View> {
-    let mut found = Vec::new();
-    for view in views {
-        if !found.contains(view) {
-            found.push(*view);
-        }
-    }
-    found
-}
-
 /// The small print: file, its hash, program.
 fn origin(results: &Results) -> String {
-    let name = results.path.file_name().unwrap_or_default();
+    let name = file_name(&results.path);
     let program = results.run.get("program").map_or("-", String::as_str);
-    let state = match results.is_complete() {
-        true => "",
-        false => ", a run that did not complete",
-    };
-    format!("{} (SHA-256 {}…), run by {program}{state}", name.to_string_lossy(), &results.sha256[..12])
+    let state = if results.is_complete() { "" } else { ", a run that did not complete" };
+    format!("{name} (SHA-256 {}…), run by {program}{state}", &results.sha256[..12])
 }
 
 #[cfg(test)]
@@ -196,7 +163,7 @@ mod tests {
     #[test]
     fn a_time_takes_the_unit_of_the_next() {
         let close = |list, expected: &[f64]| {
-            let found = times(list).unwrap();
+            let found = times(list).unwrap().0;
             assert_eq!(found.len(), expected.len(), "{list}");
             for (a, b) in found.iter().zip(expected) {
                 assert!((a - b).abs() < 1e-12, "{list}: {found:?}");

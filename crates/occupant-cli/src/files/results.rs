@@ -16,6 +16,7 @@ use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{RunStatus, Summarizer, Summary};
 use occupant_core::run::simulate::replay;
 use occupant_core::scenario::Loaded;
+use occupant_study::ending::{Balance, Ending};
 
 use super::mcap::StoredRun;
 use super::scenario::stored;
@@ -91,6 +92,22 @@ impl Results {
             Some("failed") => RunStatus::Failed,
             _ => RunStatus::Interrupted,
         }
+    }
+
+    /// What the run came to, by the one rule; none if it was stopped on its way.
+    pub(crate) fn ending(&self) -> Option<Ending> {
+        match self.status() {
+            RunStatus::Completed => Ending::of(&self.outcome()),
+            RunStatus::Failed => {
+                Some(Ending::Failed(self.said("reason").unwrap_or("the integration failed").to_owned()))
+            }
+            RunStatus::Interrupted => None,
+        }
+    }
+
+    /// How well the run kept its energy, up to its last output.
+    pub(crate) fn balance(&self) -> Balance {
+        Balance::of(self.outcome().balance_error)
     }
 
     /// What a user should know before trusting the results, in words.

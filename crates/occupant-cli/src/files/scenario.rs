@@ -67,11 +67,15 @@ pub(crate) fn draft(args: &ScenarioArgs) -> Result<(Vec<u8>, Draft), Failure> {
 pub(crate) fn open_draft(args: &ScenarioArgs, bytes: Vec<u8>, draft: Draft) -> Result<Opened, Failure> {
     let name = args.scenario.display().to_string();
     let refuse = |problems: Diagnostics| refused(&name, &problems);
-    let folder = args.scenario.parent().unwrap_or(Path::new("")).to_owned();
-    let resolver = move |file: &str| std::fs::read(folder.join(file)).map_err(|error| error.to_string());
-    let loaded = draft.load(&resolver).map_err(refuse)?;
+    let loaded = draft.load(&files_beside(&args.scenario)).map_err(refuse)?;
     let (model, warnings) = loaded.model().map_err(refuse)?;
     Ok(Opened { bytes, loaded, model, warnings })
+}
+
+/// Reads the files that a scenario names, from the folder that it stands in.
+pub(crate) fn files_beside(scenario: &Path) -> impl Fn(&str) -> Result<Vec<u8>, String> {
+    let folder = scenario.parent().unwrap_or(Path::new("")).to_owned();
+    move |file| std::fs::read(folder.join(file)).map_err(|error| error.to_string())
 }
 
 /// The scenario that a results file was made from, all that was changed in it included.

@@ -96,6 +96,14 @@ impl Form {
             _ => None,
         }
     }
+
+    /// The form of the table asked for.
+    ///
+    /// # Errors
+    /// Another ending.
+    pub(crate) fn of_output(path: &Path) -> Result<Form, Failure> {
+        Form::of(path).ok_or_else(|| Failure::ending(path, ".csv or .parquet"))
+    }
 }
 
 /// A table on its way to `W`.

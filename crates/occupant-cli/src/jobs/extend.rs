@@ -1,4 +1,4 @@
-//! The procedure of 1970 for longer runs: run a deck to its end, then punch the deck that goes on from there.
+//! The procedure of 1970 for longer runs: run a deck to its end, then punch the deck that continues it.
 
 use std::path::Path;
 
@@ -17,7 +17,7 @@ use crate::base::talk::say;
 use crate::files::mcap::StoredRun;
 use crate::files::scenario;
 
-/// Runs a deck's scenario and gives the file of the deck that goes on from there.
+/// Runs a deck's scenario and gives the file of the deck that continues it.
 ///
 /// # Errors
 /// A scenario that is refused, a run that does not reach its end, a time before that end.
@@ -28,10 +28,7 @@ pub(crate) fn extend(
     final_s: f64,
     quiet: bool,
 ) -> Result<Vec<u8>, Failure> {
-    let layout = match &options.compartment {
-        Some(layout) => layout.clone(),
-        None => CompartmentLayout::reconstruction().map_err(Failure::plain)?,
-    };
+    let layout = layout_or_ours(options.compartment.as_ref())?;
     let beside = match &options.path {
         Some(PathSource::Csv { text, .. }) => text.clone(),
         _ => String::new(),
@@ -49,7 +46,7 @@ pub(crate) fn extend(
     Ok(write_file(&[deck.extended(&end, final_s)]))
 }
 
-/// The deck that goes on from the last checkpoint of a results file, and what there is to say of it.
+/// The deck that continues from the last checkpoint of a results file, with remarks.
 ///
 /// # Errors
 /// A file without checkpoint or scenario, a scenario that does not fit on cards, a time before the file's end.
@@ -68,10 +65,7 @@ pub(crate) fn extend_run(
     let (model, _) = loaded.model().map_err(|problems| Failure::CouldNotRun(problems.to_string()))?;
     let cards = Deck::from_scenario(&loaded, layout);
     let mut cards = cards.map_err(|e| Failure::CouldNotRun(format!("error: {name}: {e}")))?;
-    let layout = match layout {
-        Some(layout) => layout.clone(),
-        None => CompartmentLayout::reconstruction().map_err(Failure::plain)?,
-    };
+    let layout = layout_or_ours(layout)?;
     let broke = |error: &dyn std::error::Error| Failure::BrokeOff(format!("error: {name}: {error}"));
     let mut first = First(None);
     simulate(&model, &mut first).map_err(|e| broke(&e))?;
@@ -82,10 +76,15 @@ pub(crate) fn extend_run(
     let end = end.ok_or_else(|| Failure::plain(format!("{name} holds no checkpoint")))?;
     cards.deck = cards.deck.extended(&end, final_s);
     cards.remarks.push(format!(
-        "goes on from t = {} s; cards carry no greatest deformations, so the extension is approximate, `occupant run --resume` is exact",
+        "continues from t = {} s; cards carry no greatest deformations, so the extension is approximate, `occupant run --resume` is exact",
         end.time_s
     ));
     Ok(cards)
+}
+
+/// The compartment given, else the built-in reconstruction.
+fn layout_or_ours(given: Option<&CompartmentLayout>) -> Result<CompartmentLayout, Failure> {
+    given.cloned().map_or_else(|| CompartmentLayout::reconstruction().map_err(Failure::plain), Ok)
 }
 
 /// Looks at the first output alone, for β₀ of the spine.

@@ -4,8 +4,10 @@
 
 pub(crate) mod compare;
 pub(crate) mod ensemble;
+pub(crate) mod export;
 pub(crate) mod extend;
 pub(crate) mod fit;
+pub(crate) mod plot;
 pub(crate) mod print;
 pub(crate) mod report;
 pub(crate) mod risk;

@@ -3,14 +3,15 @@
 use std::path::Path;
 
 use super::png::{PngError, png};
+use crate::base::failure::Failure;
 use crate::base::names::ending;
 
 /// Kinds of picture files.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Format {
-    /// Scalable vector graphics.
+    /// Scalable vector graphics
     Svg,
-    /// Pixels.
+    /// Pixels
     Png,
 }
 
@@ -21,6 +22,22 @@ impl Format {
             "svg" => Some(Format::Svg),
             "png" => Some(Format::Png),
             _ => None,
+        }
+    }
+
+    /// The kind of the picture asked for.
+    ///
+    /// # Errors
+    /// Another ending.
+    pub(crate) fn of_output(path: &Path) -> Result<Self, Failure> {
+        Format::of(path).ok_or_else(|| Failure::ending(path, ".svg or .png"))
+    }
+
+    /// The ending of such a file.
+    pub(crate) const fn ending(self) -> &'static str {
+        match self {
+            Format::Svg => "svg",
+            Format::Png => "png",
         }
     }
 

@@ -6,7 +6,7 @@ use std::path::Path;
 
 use serde_json::Value;
 
-use crate::{coarse, column, fine, refused, well};
+use super::{answer, coarse, column, err, fine, refused, well};
 
 /// Writes t[s],a and a function at 10 kHz.
 fn signal(folder: &Path, name: &str, samples: usize, value: impl Fn(f64) -> f64) {
@@ -169,4 +169,26 @@ fn broken_tests_are_refused_with_their_lines() {
     std::fs::write(folder.path().join("T.mme"), "Title :x\n").unwrap();
     let said = refused(folder.path(), &["compare", run, "T.mme"]);
     assert!(said.contains("no folder Channel"), "{said}");
+}
+
+#[test]
+fn ratings_of_a_run_without_results_mean_nothing() {
+    let folder = tempfile::tempdir().unwrap();
+    let here = folder.path();
+    std::fs::write(here.join("short.toml"), include_str!("../recording/short.toml")).unwrap();
+    // springs that are too stiff for the step: the energy balance is off by 38 %, or the integration fails
+    for (stiffness, file, expected) in [
+        ("materials.*.k1=2e7", "off.mcap", "its energy balance is off by"),
+        ("materials.*.k1=1e8", "failed.partial.mcap", "no longer a finite number"),
+    ] {
+        let name = file.replace(".partial", "");
+        let step = "integrator={kind=\"rk4\", step=\"1 ms\"}";
+        let ran = answer(here, &["run", "short.toml", "-q", "-o", &name, "--set", stiffness, "--set", step]);
+        assert_eq!(ran.status.code(), Some(1), "{}", err(&ran));
+        let output = answer(here, &["compare", file, file, "--channel", "vehicle.acceleration.x"]);
+        let said = err(&output);
+        assert_eq!(output.status.code(), Some(1), "{said}");
+        assert!(said.contains(expected) && said.contains("the ratings mean nothing"), "{said}");
+        assert!(String::from_utf8(output.stdout).unwrap().contains("compared"), "{said}");
+    }
 }

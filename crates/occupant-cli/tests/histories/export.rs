@@ -5,7 +5,7 @@ use std::fs::File;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::RowAccessor;
 
-use crate::{coarse, column, fine, refused, table, text, well};
+use super::{coarse, column, fine, refused, table, text, well};
 
 #[test]
 fn a_table_has_all_channels_and_says_what_they_are() {
@@ -103,7 +103,7 @@ fn an_iso_mme_test_has_codes_units_and_j211_signs() {
     let run = fine();
     let run = run.to_str().unwrap();
     let all = ["export", run, "-o", "T1.mme", "--filter", "CFC180"];
-    let said = crate::err(&well(folder.path(), &all));
+    let said = super::err(&well(folder.path(), &all));
     assert!(said.contains("T1.mme") && said.contains("no code for"), "{said}");
     let words = ["export", run, "-o", "t.csv", "--filter", "CFC180", "--channels", "head.acceleration.*"];
     well(folder.path(), &words);
@@ -150,7 +150,7 @@ fn a_class_that_the_outputs_are_too_coarse_for_is_refused() {
     assert!(!folder.path().join("a.csv").exists());
     // the outputs end off the grid: the last one cannot be filtered with the others
     let words = ["export", run, "-o", "a.csv", "--filter", "CFC60", "--channels", "belt.*.force"];
-    let said = crate::err(&well(folder.path(), &words));
+    let said = super::err(&well(folder.path(), &words));
     assert!(said.contains("0.0295 s") && said.contains("left out"), "{said}");
 }
 

@@ -1,6 +1,6 @@
 //! `occupant plot`.
 
-use crate::{coarse, fine, refused, text, well};
+use super::{coarse, fine, refused, text, well};
 
 const TITLES: [&str; 14] = [
     "Head acceleration X, ahead",

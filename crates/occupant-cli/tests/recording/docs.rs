@@ -4,7 +4,7 @@ use occupant_cli::mcap::messages;
 use occupant_core::model::Model;
 use occupant_core::results::catalogue::touch;
 
-use crate::support::{model, read, record, setup};
+use super::support::{model, read, record, setup};
 
 const DOCS: &str = include_str!("../../docs/mcap.md");
 

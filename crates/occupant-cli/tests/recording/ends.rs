@@ -13,7 +13,7 @@ use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::simulate;
 
-use crate::support::{SCENARIO, field, model, read, record, recorder, recorder_into, setup, text};
+use super::support::{SCENARIO, field, model, read, record, recorder, recorder_into, setup, text};
 
 /// Stops the run, or breaks it, at an output.
 struct Halt {

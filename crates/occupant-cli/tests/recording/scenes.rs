@@ -6,7 +6,7 @@ use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use prost_reflect::DynamicMessage;
 
-use crate::support::{components, field, model, numbers, part, parts, read, record, text};
+use super::support::{components, field, model, numbers, part, parts, read, record, text};
 
 fn point(message: &DynamicMessage) -> Point3<f64> {
     let n = components(message);

@@ -12,7 +12,7 @@ use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use prost_reflect::{DynamicMessage, ReflectMessage};
 
-use crate::support::{Read, field, model, numbers, parts, read, record, text};
+use super::support::{Read, field, model, numbers, parts, read, record, text};
 
 /// Field names with the numbers expected.
 type Fields = Vec<(&'static str, Vec<f64>)>;

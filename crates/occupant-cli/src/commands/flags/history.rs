@@ -1,9 +1,9 @@
-//! Flags that exports, plots and comparisons share: filter and coefficients.
+//! Flags that exports, plots, comparisons and prints share: times, filter and coefficients, signals of a test.
 
 use occupant_core::scenario::kind::{KINDS, TIME};
 
-use crate::base::failure::Failure;
 use crate::files::history::{Family, Filter, Treatment};
+use crate::files::measured::MapArgument;
 
 /// What is done to time histories.
 #[derive(Clone, Copy, Debug, clap::Args)]
@@ -18,21 +18,9 @@ pub(crate) struct HistoryArgs {
 }
 
 impl HistoryArgs {
-    /// With an interval in words.
-    ///
-    /// # Errors
-    /// An interval that is none.
-    pub(crate) fn treatment(self, interval: Option<&str>) -> Result<Treatment, Failure> {
-        let interval_s = interval.map(|text| time("--interval", text)).transpose()?;
-        if let (Some(text), Some(seconds)) = (interval, interval_s)
-            && seconds <= 0.0
-        {
-            return Err(Failure::with_help(
-                format!("--interval {text}: not an interval of samples; expected a time above zero"),
-                "give a time such as '1 ms'",
-            ));
-        }
-        Ok(Treatment { filter: self.filter, family: self.coefficients, interval_s })
+    /// With an interval of samples, s; that of the outputs if absent.
+    pub(crate) const fn treatment(self, interval_s: Option<f64>) -> Treatment {
+        Treatment { filter: self.filter, family: self.coefficients, interval_s }
     }
 
     /// Name of the coefficients.
@@ -52,21 +40,56 @@ impl HistoryArgs {
     }
 }
 
+/// The part of the time that is shown or compared, s.
+#[derive(Clone, Copy, Debug, clap::Args)]
+pub(crate) struct WindowArgs {
+    /// First time, such as '20 ms'
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = seconds)]
+    pub(crate) from: Option<f64>,
+
+    /// Last time
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, value_parser = seconds)]
+    pub(crate) to: Option<f64>,
+}
+
+/// How the signals of a test belong to channels and their time.
+#[derive(Clone, Debug, clap::Args)]
+pub(crate) struct TestArgs {
+    /// Which column of the test is which channel: 'column=channel', 'column[unit]=channel', 'column=-channel' for opposite
+    /// signs
+    #[arg(long, value_name = "MAP")]
+    pub(crate) map: Vec<MapArgument>,
+
+    /// Position of the occupant in the test's ISO-MME codes
+    #[arg(long, value_name = "CODE", default_value = "1", value_parser = code_letter)]
+    pub(crate) seat: char,
+
+    /// Time added to the test's clock
+    #[arg(long, value_name = "TIME", allow_hyphen_values = true, default_value = "0", value_parser = seconds)]
+    pub(crate) shift: f64,
+}
+
 /// A time in words, s; a bare number is in seconds.
 ///
 /// # Errors
 /// What is no time.
-pub(crate) fn time(flag: &str, text: &str) -> Result<f64, Failure> {
-    let wrong = |expected: &str| {
-        Failure::with_help(
-            format!("{flag} {text}: not a time; expected {expected}"),
-            "give a number with its unit, such as '80 ms'",
-        )
-    };
+pub(crate) fn seconds(text: &str) -> Result<f64, String> {
+    let wrong = |expected: &str| format!("not a time; expected {expected}, such as '80 ms'");
     match KINDS[TIME].read(text) {
         Ok(seconds) if seconds.is_finite() => Ok(seconds),
         Ok(_) => Err(wrong("a finite time")),
         Err(error) => Err(wrong(&error.expected)),
+    }
+}
+
+/// A time between samples or prints in words, s.
+///
+/// # Errors
+/// What is no time above zero.
+pub(crate) fn interval(text: &str) -> Result<f64, String> {
+    match seconds(text)? {
+        seconds if seconds > 0.0 => Ok(seconds),
+        _ => Err("not an interval; expected a time above zero, such as '1 ms'".to_owned()),
     }
 }
 

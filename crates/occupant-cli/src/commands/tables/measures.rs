@@ -48,39 +48,23 @@ fn table<'m>(measures: impl Iterator<Item = &'m Measure>, marks: &Marks) -> Stri
         ("", Left),
     ]);
     for m in measures {
-        let mut limits = m.limits.iter();
-        let [limit, of, margin, verdict] = verdict(m, limits.next());
-        table.row([
-            m.label.to_owned(),
-            marks.put(m.figure.unwrap_or(m.name), m.value.map_or(NONE.to_owned(), |v| shown(m, v))),
-            unit(m).to_owned(),
-            at(m),
-            limit,
-            of,
-            margin,
-            verdict,
-        ]);
-        for more in limits {
-            let [limit, of, margin, verdict] = self::verdict(m, Some(more));
-            let blank = String::new;
-            table.row([blank(), blank(), blank(), blank(), limit, of, margin, verdict]);
+        let value = m.value.map_or(NONE.to_owned(), |v| shown(m, v));
+        let mut left = [m.label.to_owned(), marks.put(m.figure.unwrap_or(m.name), value), unit(m).to_owned(), at(m)];
+        for i in 0..m.limits.len().max(1) {
+            let right = m.limits.get(i).map(|limit| verdict(m, limit)).unwrap_or_default();
+            table.row(left.into_iter().chain(right));
+            left = Default::default();
         }
     }
     table.text()
 }
 
-fn verdict(m: &Measure, limit: Option<&Judgement>) -> [String; 4] {
-    let Some(limit) = limit else {
-        return std::array::from_fn(|_| String::new());
-    };
+fn verdict(m: &Measure, limit: &Judgement) -> [String; 4] {
     [
         shown(m, limit.most),
         limit.rule.to_owned(),
         format!("{:+.0} %", 100.0 * limit.relative_margin),
-        match limit.passed {
-            true => "met".to_owned(),
-            false => "EXCEEDED".to_owned(),
-        },
+        if limit.passed { "met" } else { "EXCEEDED" }.to_owned(),
     ]
 }
 

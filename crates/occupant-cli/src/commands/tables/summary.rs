@@ -11,7 +11,7 @@ use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, Table, facts, number, plain};
 use crate::jobs::run::recording::Written;
 
-/// Figures that an ensemble has found not to be stable: they carry a star.
+/// Results that are not stable in an ensemble: they carry a star.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Marks(Option<BTreeSet<String>>);
 

@@ -44,6 +44,19 @@ pub(crate) struct ColumnAbout {
     pub(crate) meaning: String,
 }
 
+impl ColumnAbout {
+    /// The first column of every table.
+    pub(crate) fn time() -> Self {
+        ColumnAbout {
+            name: "time".to_owned(),
+            unit: "s".to_owned(),
+            frame: "none",
+            filter: "none".to_owned(),
+            meaning: "time of the run".to_owned(),
+        }
+    }
+}
+
 impl About {
     /// Of these histories; `filter` in words.
     pub(crate) fn new(
@@ -53,13 +66,6 @@ impl About {
         filter: String,
         coefficients: Option<&'static str>,
     ) -> Self {
-        let time = ColumnAbout {
-            name: "time".to_owned(),
-            unit: "s".to_owned(),
-            frame: "none",
-            filter: "none".to_owned(),
-            meaning: "time of the run".to_owned(),
-        };
         let of = |c: &Column| ColumnAbout {
             name: c.channel.name.clone(),
             unit: shown(c.channel.unit, units).ascii.to_owned(),
@@ -77,7 +83,7 @@ impl About {
             filter,
             filter_coefficients: coefficients,
             notes: histories.notes.clone(),
-            columns: std::iter::once(time).chain(histories.columns.iter().map(of)).collect(),
+            columns: std::iter::once(ColumnAbout::time()).chain(histories.columns.iter().map(of)).collect(),
         }
     }
 }

@@ -1,4 +1,4 @@
-//! Reading a result file back as far as a run can go on from it: what it says of itself, its documents, its checkpoints.
+//! Reading a result file back as far as a run can resume it: what it says of itself, its documents, its checkpoints.
 
 use std::collections::BTreeMap;
 

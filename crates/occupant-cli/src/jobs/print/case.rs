@@ -1,15 +1,19 @@
 //! What is printed: the recorded run, and the model rebuilt from the scenario that travels with it.
 
+use std::path::Path;
+
 use occupant_core::forces::contact::{PASSED, PairHistory};
 use occupant_core::model::Model;
+use occupant_core::scenario::Loaded;
 use occupant_core::scenario::kind::UnitSystem;
-use occupant_core::scenario::{Draft, Loaded};
 
 use cardio_legacy::CompartmentLayout;
 
 use super::unit::{INCH_POUND, SI, Units};
+use crate::base::failure::Failure;
 use crate::files::mcap::StoredRun;
 use crate::files::mcap::about::RUN;
+use crate::files::scenario::stored;
 
 /// A run to print.
 pub(crate) struct Case {
@@ -32,14 +36,24 @@ impl Case {
     /// # Errors
     /// A file that `occupant run` has not written, that lacks its scenario or a table that it names, or whose scenario or
     /// checkpoints this program refuses.
-    pub(crate) fn read(bytes: &[u8]) -> Result<Self, String> {
-        let file = StoredRun::read(bytes)?;
+    pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
+        let name = path.display();
+        let bytes = std::fs::read(path).map_err(|error| Failure::plain(format!("{name} cannot be read: {error}")))?;
+        let refused = |reason: String| {
+            Failure::with_help(
+                format!("{name} cannot be printed: {reason}"),
+                "give a file that `occupant run` of this version has written",
+            )
+        };
+        let file = StoredRun::read(&bytes).map_err(refused)?;
         if file.run.is_empty() {
-            return Err(format!("it is an MCAP file without the record `{RUN}`: no result of `occupant run`"));
+            let found = format!("it is an MCAP file without the record `{RUN}`: no result of `occupant run`");
+            return Err(refused(found));
         }
-        let loaded = load(&file)?;
-        let (model, warnings) = loaded.model().map_err(|d| format!("the scenario in the file is refused:\n{d}"))?;
-        file.checkpoints.iter().try_for_each(|c| c.check(&model)).map_err(|e| e.to_string())?;
+        let loaded = stored(path, &file)?;
+        let (model, warnings) =
+            loaded.model().map_err(|d| refused(format!("the scenario in the file is refused:\n{d}")))?;
+        file.checkpoints.iter().try_for_each(|c| c.check(&model)).map_err(|e| refused(e.to_string()))?;
         let report = report_numbers(&model);
         let in_order = || (1..=model.setup().surfaces.len()).collect();
         Ok(Case {
@@ -106,22 +120,4 @@ fn report_numbers(model: &Model) -> Option<Vec<usize>> {
     let number = |name: &str| layout.number_of(name).and_then(|n| usize::try_from(n).ok());
     let surfaces = &model.setup().surfaces;
     surfaces.iter().map(|s| number(&s.name)).collect()
-}
-
-/// The scenario as it was run: the resolved one, else the one that was read.
-fn load(file: &StoredRun) -> Result<Loaded, String> {
-    let read = file.run.get("scenario").map(String::as_str);
-    let resolved = ["resolved.toml"].into_iter().chain(read);
-    let found = resolved.filter_map(|name| Some((name, file.attachments.get(name)?)));
-    let (name, content) =
-        { found }.next().ok_or("the file holds no scenario, so nothing can be said of its numbers")?;
-    let resolver = |name: &str| {
-        let base = name.rsplit(['/', '\\']).next().unwrap_or(name);
-        let table = file.attachments.get(base);
-        let missing = || "it is not attached to the results".to_owned();
-        table.cloned().ok_or_else(missing)
-    };
-    Draft::read_bytes(content, None, name)
-        .and_then(|draft| draft.load(&resolver))
-        .map_err(|d| format!("the scenario in the file is refused:\n{d}"))
 }

@@ -93,8 +93,7 @@ fn spine_rest_rad(case: &Case) -> [f64; 2] {
 
 /// A list of pairs, two to a line.
 pub(crate) fn pairs(pages: &mut Pages, case: &Case, title: &str, passed: &[(usize, usize)]) {
-    let head = ["J", "<SPHERE", "<K  SURFACE"];
-    let mut table = Table::new(title, &[head, head].concat());
+    let mut table = Table::new(title, &["J | <SPHERE | <K  SURFACE"; 2].join("|"));
     for row in passed.chunks(2) {
         let pair = |&(sphere, surface): &(usize, usize)| {
             let name = case.model.body().spheres.get(sphere).map(|s| s.name.clone());

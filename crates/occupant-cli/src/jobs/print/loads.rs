@@ -28,19 +28,7 @@ fn forces(case: &Case, units: &Units, s: &Sample<'_>) -> Table {
             "5. FORCE ON EACH CONTACT SPHERE, VEHICLE COORDINATES, BELTS APART, AND SURFACES HIT ({}, {}, {})",
             units.force.name, units.length.name, units.speed.name
         ),
-        &[
-            "NO",
-            "<SPHERE",
-            "FORCE X",
-            "FORCE Y",
-            "FORCE Z",
-            "RESULTANT",
-            "<SURFACE HIT",
-            "DEPTH",
-            "NORMAL",
-            "FRICTION",
-            "SLIP",
-        ],
+        "NO | <SPHERE | FORCE X | FORCE Y | FORCE Z | RESULTANT | <SURFACE HIT | DEPTH | NORMAL | FRICTION | SLIP",
     );
     for (i, sphere) in s.model.body().spheres.iter().enumerate() {
         let force_n = s.sphere_force_n(i);
@@ -73,7 +61,7 @@ fn application_points(units: &Units, s: &Sample<'_>) -> Table {
             "6. POINT OF APPLICATION OF THE CONTACT FORCE FROM THE CENTER OF THE SPHERE, SEGMENT COORDINATES ({})",
             units.length.name
         ),
-        &["NO", "<SPHERE", "X", "Y", "Z"],
+        "NO | <SPHERE | X | Y | Z",
     );
     for name in APPLICATION {
         let Some(i) = s.model.body().sphere(name) else {
@@ -95,18 +83,7 @@ fn belts(pages: &mut Pages, units: &Units, s: &Sample<'_>) {
             "7. RESTRAINING FORCES OF BELTS, VEHICLE COORDINATES ({}, {}); WRAP (DEG) 0 OR LESS: OFF THE BODY",
             units.force.name, units.length.name
         ),
-        &[
-            "<BELT",
-            "<ROUND",
-            "LOOP FORCE",
-            "FORCE X",
-            "FORCE Y",
-            "FORCE Z",
-            "RESULTANT",
-            "ELONGATION",
-            "LENGTH",
-            "WRAP",
-        ],
+        "<BELT | <ROUND | LOOP FORCE | FORCE X | FORCE Y | FORCE Z | RESULTANT | ELONGATION | LENGTH | WRAP",
     );
     for (belt, action) in s.model.setup().belts.iter().zip(&s.actions.belts) {
         let round = s.model.body().spheres.get(belt.sphere);
@@ -135,9 +112,8 @@ fn belts(pages: &mut Pages, units: &Units, s: &Sample<'_>) {
 fn joints(pages: &mut Pages, s: &Sample<'_>) {
     let tree = s.model.body().tree;
     let heads: Vec<String> = tree.joint_rows().iter().map(|row| joint_head(row.name)).collect();
-    let heads: Vec<&str> = heads.iter().map(String::as_str).collect();
     let title = "JOINT ANGLES (DEG): BETA OF BALL JOINTS, ALPHA OF ELBOWS AND KNEES";
-    let mut table = Table::new(title, &heads);
+    let mut table = Table::new(title, &heads.join("|"));
     table.row(tree.joints().map(|j| DEGREE.show(s.joint_angle_rad(j))));
     table.write(pages);
 }
@@ -167,7 +143,7 @@ fn energy(pages: &mut Pages, units: &Units, s: &Sample<'_>) {
         "ENERGY ({}); THE BALANCE IS 0 FOR AN EXACT INTEGRATION; {} STEPS SO FAR",
         units.energy.name, s.effort.steps
     );
-    let mut table = Table::new(title, &columns.map(|(head, _)| head));
+    let mut table = Table::new(title, &columns.map(|(head, _)| head).join("|"));
     table.row(columns.map(|(_, name)| units.energy.show(energy_j(name))));
     table.write(pages);
 }

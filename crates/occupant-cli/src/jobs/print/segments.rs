@@ -22,10 +22,7 @@ pub(crate) fn label(body: &Body, segment: Segment) -> [String; 2] {
 fn end_points(s: &Sample<'_>, units: &Units) -> Table {
     let mut table = Table::new(
         format!("1. END POINTS AND C.G. OF SEGMENTS, VEHICLE COORDINATES ({})", units.length.name),
-        &[
-            "NO", "<SEGMENT", "UPPER X", "UPPER Y", "UPPER Z", "LOWER X", "LOWER Y", "LOWER Z", "C.G. X", "C.G. Y",
-            "C.G. Z",
-        ],
+        "NO | <SEGMENT | UPPER X | UPPER Y | UPPER Z | LOWER X | LOWER Y | LOWER Z | C.G. X | C.G. Y | C.G. Z",
     );
     for segment in s.model.body().tree.segments() {
         let [upper, lower] = s.end_points_m(segment);
@@ -41,7 +38,7 @@ fn accelerations(s: &Sample<'_>, units: &Units) -> Table {
             "2. ACCELERATION OF C.G., SEGMENT COORDINATES: TOTAL ({}), AND LESS GRAVITY AS AN ACCELEROMETER READS IT (G)",
             units.acceleration.name
         ),
-        &["NO", "<SEGMENT", "TOTAL X", "TOTAL Y", "TOTAL Z", "RESULTANT", "READS X", "READS Y", "READS Z", "RESULTANT"],
+        "NO | <SEGMENT | TOTAL X | TOTAL Y | TOTAL Z | RESULTANT | READS X | READS Y | READS Z | RESULTANT",
     );
     for segment in s.model.body().tree.segments() {
         let total = s.cg_acceleration_m_s2(segment);
@@ -60,7 +57,7 @@ fn accelerations(s: &Sample<'_>, units: &Units) -> Table {
 fn turning(s: &Sample<'_>) -> Table {
     let mut table = Table::new(
         "3, 4. ANGULAR ACCELERATION (RAD/S2) AND ANGULAR VELOCITY (RAD/S), SEGMENT COORDINATES",
-        &["NO", "<SEGMENT", "ACC X", "ACC Y", "ACC Z", "VEL X", "VEL Y", "VEL Z"],
+        "NO | <SEGMENT | ACC X | ACC Y | ACC Z | VEL X | VEL Y | VEL Z",
     );
     for segment in s.model.body().tree.segments() {
         let acceleration = RAD_S2.vector(s.angular_acceleration_rad_s2(segment));

@@ -17,13 +17,13 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    /// A table; the heads of columns of words begin with `<`.
-    pub(crate) fn new(title: impl Into<String>, head: &[&str]) -> Self {
-        let plain = |h: &&str| h.trim_start_matches('<').to_owned();
+    /// A table; its head is the heads of the columns with `|` between, those of columns of words begin with `<`.
+    pub(crate) fn new(title: impl Into<String>, head: &str) -> Self {
+        let heads = || head.split('|').map(str::trim);
         Table {
             title: title.into(),
-            words: head.iter().map(|h| h.starts_with('<')).collect(),
-            rows: vec![head.iter().map(plain).collect()],
+            words: heads().map(|h| h.starts_with('<')).collect(),
+            rows: vec![heads().map(|h| h.trim_start_matches('<').to_owned()).collect()],
         }
     }
 
@@ -80,7 +80,7 @@ mod tests {
 
     #[test]
     fn names_give_way_to_numbers() {
-        let mut table = Table::new("T", &["<NAME", "X"]);
+        let mut table = Table::new("T", "<NAME | X");
         table.row(["n".repeat(200), "12345.678".to_owned()]);
         let widths = table.widths();
         assert_eq!(widths, [COLUMNS - GAP - 9, 9]);

@@ -12,7 +12,7 @@ pub(crate) fn write(pages: &mut Pages, units: &Units, s: &Sample<'_>) {
         "VEHICLE: POSITION ({}) FORWARD, RIGHT, DOWN; ATTITUDE (DEG) ROLL, PITCH, YAW; THE REST IN VEHICLE COORDINATES",
         units.length.name
     );
-    let mut table = Table::new(title, &["<", "X", "Y", "Z", "<", "X", "Y", "Z"]);
+    let mut table = Table::new(title, "< | X | Y | Z | < | X | Y | Z");
     let attitude = &s.vehicle_pose.attitude;
     let angles = DEGREE.vector([attitude.roll_rad, attitude.pitch_rad, attitude.yaw_rad]);
     let along = |v| s.vehicle.vector_to_frame(v);

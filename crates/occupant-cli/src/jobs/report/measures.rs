@@ -1,4 +1,4 @@
-//! The table of measures: injury measures against limits, then what the run's summary tells.
+//! The table of measures: injury measures against limits, then the run's summary.
 
 use crash_measures::injury;
 use crash_measures::unit::Unit;

@@ -20,7 +20,7 @@ pub(crate) use data::Report;
 /// The page for a run, or for a run and another to compare it with.
 ///
 /// # Errors
-/// None for files that were opened, but the words of whatever refuses.
+/// None for files that were opened.
 pub(crate) fn page(run: &Results, against: Option<&Results>) -> Result<String, Failure> {
     let mut runs = vec![data::Run::of(run)?];
     if let Some(other) = against {

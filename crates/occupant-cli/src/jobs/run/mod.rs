@@ -1,5 +1,61 @@
-//! One run: the file that it writes, and the file that it resumes. The integration itself is the core's.
+//! One run: the file that it writes, the file that it resumes, and who watches it. The integration itself is the core's.
 
 mod difference;
 pub(crate) mod recording;
 pub(crate) mod resume;
+
+use std::time::Instant;
+
+use occupant_core::diagnosis::FrictionWatch;
+use occupant_core::results::channel::{Channel, Series};
+use occupant_core::results::outcome::{ResumeError, Status};
+use occupant_core::results::summary::{Summarizer, Summary};
+use occupant_core::run::simulate::{resume, simulate};
+
+use crate::base::failure::Failure;
+use crate::base::interrupt::Interrupt;
+use crate::base::progress::Progress;
+use crate::files::scenario::Opened;
+use recording::{Recording, Written};
+use resume::{Resumption, WithEarlier};
+
+/// A run that was computed, and its file closed.
+pub(crate) struct Simulated {
+    pub(crate) completed: bool,
+    pub(crate) summary: Summary,
+    pub(crate) friction: FrictionWatch,
+    pub(crate) histories: Series,
+    pub(crate) written: Written,
+}
+
+/// Computes a run, from its start or from where another ended, with the histories of `channels`.
+///
+/// # Errors
+/// A file that cannot be written; a checkpoint of another scenario.
+pub(crate) fn run(
+    opened: &Opened,
+    from: Option<&Resumption>,
+    mut recording: Recording,
+    channels: Vec<Channel>,
+    interrupt: &Interrupt,
+    quiet: bool,
+) -> Result<Simulated, Failure> {
+    let (mut summarizer, mut friction) = (Summarizer::new(), FrictionWatch::new());
+    let mut histories = Series::new(channels);
+    let whole = WithEarlier {
+        earlier: from.map(|f| f.earlier.clone()).unwrap_or_default(),
+        recorder: (&mut summarizer, &mut friction),
+    };
+    let recorders = ((interrupt.clone(), Progress::new(quiet)), (whole, (&mut histories, &mut recording)));
+    let began = Instant::now();
+    let ended = match from {
+        Some(from) => resume(&opened.model, &from.checkpoint, recorders),
+        None => simulate(&opened.model, recorders).map_err(ResumeError::Recording),
+    };
+    let outcome = ended.map_err(|error| Failure::BrokeOff(format!("error: {error}{}", recording.left())))?;
+    let wall_time_s = began.elapsed().as_secs_f64();
+    let completed = outcome.status == Status::Completed;
+    let written = recording.close(completed)?;
+    let summary = summarizer.summary(Some(wall_time_s)).ok_or_else(|| Failure::plain("the run left no summary"))?;
+    Ok(Simulated { completed, summary, friction, histories, written })
+}

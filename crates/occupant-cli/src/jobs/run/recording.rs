@@ -11,7 +11,7 @@ use occupant_core::results::sample::Sample;
 use super::resume::Resumption;
 use crate::base::failure::Failure;
 use crate::base::names::{file_name, program};
-use crate::base::output_file::{Existing, FileProblem, PartialFile, partial_path, refuse_input};
+use crate::base::output_file::{Existing, PartialFile, partial_path, refuse_input};
 use crate::files::mcap::about::RESOLVED;
 use crate::files::mcap::{About, Document, McapOptions, McapRecorder};
 use crate::files::scenario::{Opened, ScenarioArgs};
@@ -30,7 +30,7 @@ pub(crate) enum Written {
     /// None was asked for.
     Nothing,
     Complete(PathBuf),
-    /// The run did not complete; this is what there is.
+    /// The run did not complete; the file holds its outputs so far.
     Partial(PathBuf),
 }
 
@@ -42,10 +42,8 @@ impl Written {
             Written::Complete(path) | Written::Partial(path) => Some(path.display().to_string()),
         }
     }
-}
 
-impl Written {
-    /// Words about what there is, for messages of what came after it.
+    /// Where the run is, for messages of what failed after it.
     pub(crate) fn left(&self) -> String {
         match self.name() {
             Some(name) => format!("the run itself is in {name}"),
@@ -62,7 +60,7 @@ impl Recording {
     /// Begins the file.
     ///
     /// # Errors
-    /// A file that exists, without `force`; the file that is being resumed; whatever the file system says.
+    /// A file that exists, without `force`; the file that is being resumed; an error of the file system.
     pub(crate) fn begin(
         name: &Path,
         existing: Existing,
@@ -75,61 +73,47 @@ impl Recording {
             from.keep_from(name, &partial_path(name))?;
             about.notes.extend(from.notes());
         }
-        refuse_input(name, &args.scenario).map_err(|e| refused(&e))?;
+        refuse_input(name, &args.scenario)?;
         if let Some((table, _)) = opened.loaded.table() {
             let folder = args.scenario.parent().unwrap_or(Path::new(""));
-            refuse_input(name, &folder.join(table)).map_err(|e| refused(&e))?;
+            refuse_input(name, &folder.join(table))?;
         }
-        let file = PartialFile::create(name, existing).map_err(|e| refused(&e))?;
+        let file = PartialFile::create(name, existing)?;
         let partial = file.partial_path().to_owned();
         let recorder = McapRecorder::new(file, about, McapOptions::default());
         let recorder = recorder.map_err(|e| Failure::plain(format!("{} cannot be written: {e}", partial.display())))?;
         let recorder = match opened.loaded.table() {
-            Some((name, text)) => recorder.with_table(Document {
-                name: file_name(Path::new(name)),
-                media_type: "text/csv".to_owned(),
-                content: text.as_bytes().to_vec(),
-            }),
+            Some((name, text)) => {
+                recorder.with_table(document(&file_name(Path::new(name)), "text/csv", text.as_bytes().to_vec()))
+            }
             None => recorder,
         };
         Ok(Recording(Some(Open { partial, recorder })))
     }
 
-    /// Words about what a run that broke off left behind.
+    /// Where the outputs of a run that broke off are.
     pub(crate) fn left(&self) -> String {
-        match &self.0 {
-            Some(open) => format!("\n = done: what was written before is in {}", open.partial.display()),
-            None => String::new(),
-        }
+        let partial = self.0.iter().map(|open| open.partial.display());
+        partial.map(|partial| format!("\n = done: what was written before is in {partial}")).collect()
     }
 
     /// Closes the file; it gets its name only if the run is complete.
     ///
     /// # Errors
-    /// Whatever the file system says.
+    /// An error of the file system.
     pub(crate) fn close(self, completed: bool) -> Result<Written, Failure> {
         let Some(open) = self.0 else {
             return Ok(Written::Nothing);
         };
+        let partial = open.partial.display();
         let file = open.recorder.into_inner();
-        let file = file.map_err(|e| {
-            let partial = open.partial.display();
-            Failure::BrokeOff(format!("error: {partial} cannot be closed: {e}"))
-        })?;
+        let file = file.map_err(|e| Failure::BrokeOff(format!("error: {partial} cannot be closed: {e}")))?;
         let closed = match completed {
             true => file.publish().map(Written::Complete),
             false => file.keep().map(Written::Partial),
         };
-        closed.map_err(|problem| {
-            let partial = open.partial.display();
-            Failure::BrokeOff(format!("error: {problem}\n = done: the run is in {partial}"))
-        })
+        closed.map_err(|e| Failure::BrokeOff(format!("error: {e}\n = done: the run is in {partial}")))
     }
-}
-
-/// A file that cannot be begun.
-fn refused(problem: &FileProblem) -> Failure {
-    Failure::plain(problem.to_string())
 }
 
 impl Recorder for Recording {
@@ -157,7 +141,6 @@ impl Recorder for Recording {
 
 /// What the file says of where it comes from. Nothing in it depends on the day or the machine.
 fn about(args: &ScenarioArgs, opened: &Opened) -> Result<About, Failure> {
-    let name = file_name(&args.scenario);
     let resolved = opened.loaded.explicit().to_toml();
     let resolved = resolved.map_err(|e| Failure::plain(format!("the scenario cannot be written down: {e}")))?;
     let media_type = match args.scenario.extension() {
@@ -170,12 +153,12 @@ fn about(args: &ScenarioArgs, opened: &Opened) -> Result<About, Failure> {
     }
     Ok(About {
         program: program(),
-        scenario: Document { name, media_type: media_type.to_owned(), content: opened.bytes.clone() },
-        resolved: Some(Document {
-            name: RESOLVED.to_owned(),
-            media_type: "application/toml".to_owned(),
-            content: resolved.into_bytes(),
-        }),
+        scenario: document(&file_name(&args.scenario), media_type, opened.bytes.clone()),
+        resolved: Some(document(RESOLVED, "application/toml", resolved.into_bytes())),
         notes,
     })
+}
+
+fn document(name: &str, media_type: &str, content: Vec<u8>) -> Document {
+    Document { name: name.to_owned(), media_type: media_type.to_owned(), content }
 }

@@ -1,4 +1,4 @@
-//! `occupant run --resume`: which checkpoint of which file a run goes on from, and whether it may.
+//! `occupant run --resume`: which checkpoint of which file a run resumes, and whether it may.
 
 use std::collections::BTreeMap;
 use std::fs;
@@ -23,9 +23,9 @@ use crate::files::scenario::{self, Opened};
 /// Differences of scenarios that a message shows; more are counted.
 const SHOWN: usize = 8;
 
-/// What a run goes on from.
+/// What a run resumes.
 pub(crate) struct Resumption {
-    /// The output it goes on from.
+    /// The output at which it starts.
     pub(crate) checkpoint: Checkpoint,
     /// The outputs of the file before that.
     pub(crate) earlier: Vec<Checkpoint>,
@@ -82,7 +82,7 @@ impl Resumption {
         .into()
     }
 
-    /// Says where the run goes on, and what the summary leaves out.
+    /// Says where the run is resumed, and what the summary leaves out.
     pub(crate) fn announce(&self) {
         let (file, at_s) = (self.file.display(), self.checkpoint.time_s);
         say(&format!("resumed {file} at t = {at_s} s"));
@@ -157,14 +157,12 @@ fn same_scenario(file: &Path, stored: &StoredRun, opened: &Opened) -> Result<(),
         if more > 0 {
             lines.push_str(&format!("\n   and {more} more"));
         }
+        let count = match found.len() {
+            1 => "one difference".to_owned(),
+            n => format!("{n} differences"),
+        };
         return Err(Failure::with_help(
-            format!(
-                "{name} is of another scenario: {} (there → here){lines}",
-                match found.len() {
-                    1 => "one difference".to_owned(),
-                    n => format!("{n} differences"),
-                }
-            ),
+            format!("{name} is of another scenario: {count} (there → here){lines}"),
             "resume with the same scenario and the same --set, or run from the start",
         ));
     }
@@ -178,27 +176,26 @@ fn same_scenario(file: &Path, stored: &StoredRun, opened: &Opened) -> Result<(),
     Ok(())
 }
 
-/// Recorders that first see again what an earlier run has recorded.
-pub(crate) struct Retold<R> {
+/// A recorder that sees the outputs of the earlier run first.
+pub(crate) struct WithEarlier<R> {
     pub(crate) earlier: Vec<Checkpoint>,
-    /// Who sees them.
-    pub(crate) to: R,
+    pub(crate) recorder: R,
 }
 
-impl<R: Recorder> Recorder for Retold<R> {
+impl<R: Recorder> Recorder for WithEarlier<R> {
     fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
-        self.to.begin(model)?;
+        self.recorder.begin(model)?;
         for checkpoint in &self.earlier {
-            replay(model, checkpoint, &mut self.to)?;
+            replay(model, checkpoint, &mut self.recorder)?;
         }
         Ok(())
     }
 
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
-        self.to.record(sample)
+        self.recorder.record(sample)
     }
 
     fn end(&mut self, outcome: &Outcome) -> Result<(), RecorderError> {
-        self.to.end(outcome)
+        self.recorder.end(outcome)
     }
 }

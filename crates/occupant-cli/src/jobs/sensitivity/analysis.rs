@@ -1,10 +1,10 @@
 //! The work of `occupant sensitivity`.
 
+use std::collections::HashSet;
 use std::time::Instant;
 
 use occupant_core::model::Model;
 use occupant_core::problem::Problem;
-use occupant_core::results::channel::{Channel, find, matching};
 use occupant_core::results::outcome::Status;
 use occupant_core::results::summary::{Figure, Summarizer};
 use occupant_core::run::simulate::simulate;
@@ -14,8 +14,9 @@ use occupant_study::sensitivity::measures::{Derivatives, Request, Values, chosen
 use occupant_study::sensitivity::{Built, Parameter, Trajectory, follow, parameter};
 
 use crate::base::failure::Failure;
+use crate::files::history::choose;
 
-/// What is asked for, all of it there.
+/// What is asked for, each name known.
 pub(crate) struct Asked<'a> {
     pub(crate) parameters: Vec<Parameter<'a>>,
     pub(crate) wish: Request,
@@ -23,7 +24,7 @@ pub(crate) struct Asked<'a> {
     pub(crate) units: Vec<&'static str>,
 }
 
-/// What came of it.
+/// The plain run, the run in dual numbers and the finite changes.
 pub(crate) struct Analysis {
     /// The plain run's values.
     pub(crate) values: Values,
@@ -57,35 +58,16 @@ pub(crate) fn ask<'a>(
     words: &Words<'_>,
 ) -> Result<Asked<'a>, Failure> {
     let mut wrong: Vec<String> = Vec::new();
-    let mut parameters: Vec<Parameter<'a>> = Vec::new();
-    for path in split(words.of) {
-        if parameters.iter().any(|p| p.name == path) {
-            continue;
-        }
-        match parameter(draft, &path, resolver) {
-            Ok(parameter) => parameters.push(parameter),
-            Err(misplaced) => wrong.push(told("--of", &misplaced)),
-        }
-    }
-    let mut channels: Vec<Channel> = Vec::new();
-    for name in split(words.channels) {
-        match fitting(model, &name) {
-            Ok(found) => channels.extend(found),
-            Err(found) => wrong.push(found),
-        }
-    }
-    let mut seen = std::collections::HashSet::new();
-    channels.retain(|c| seen.insert(c.name.clone()));
+    let parameters = gather(words.of, &mut wrong, |path| {
+        parameter(draft, path, resolver).map(|one| vec![one]).map_err(|p| described("--of", &p))
+    });
+    let channels = gather(words.channels, &mut wrong, |name| {
+        choose(model, &[name.to_owned()])
+            .map_err(|refused| refused.words().replacen("error: ", "error: --channels: ", 1))
+    });
     let figures = figures(model)?;
-    let mut names: Vec<String> = Vec::new();
-    for name in split(words.to) {
-        match chosen(&figures, &name) {
-            Ok(found) => names.extend(found),
-            Err(misplaced) => wrong.push(told("--to", &misplaced)),
-        }
-    }
-    let mut seen = std::collections::HashSet::new();
-    names.retain(|n| seen.insert(n.clone()));
+    let names =
+        gather(words.to, &mut wrong, |name| chosen(&figures, name).map_err(|problem| described("--to", &problem)));
     if !wrong.is_empty() {
         let count = match wrong.len() {
             1 => "1 error".to_owned(),
@@ -93,8 +75,30 @@ pub(crate) fn ask<'a>(
         };
         return Err(Failure::CouldNotRun(format!("{}\n\n{count}, nothing was computed", wrong.join("\n"))));
     }
+    let parameters = distinct(parameters, |p| &p.name);
+    let channels = distinct(channels, |c| &c.name);
+    let names = distinct(names, |n| n);
     let unit = |name: &String| figures.iter().find(|f| f.name == *name).map_or("1", |f| f.unit);
     Ok(Asked { parameters, units: names.iter().map(unit).collect(), wish: Request { figures: names, channels } })
+}
+
+/// What the items of lists name; what is wrong with an item goes to `wrong`.
+fn gather<T>(lists: &[String], wrong: &mut Vec<String>, named: impl Fn(&str) -> Result<Vec<T>, String>) -> Vec<T> {
+    let mut all = Vec::new();
+    for item in split(lists) {
+        match named(&item) {
+            Ok(more) => all.extend(more),
+            Err(message) => wrong.push(message),
+        }
+    }
+    all
+}
+
+/// The first of each name.
+fn distinct<T>(mut items: Vec<T>, name: impl Fn(&T) -> &String) -> Vec<T> {
+    let mut seen = HashSet::new();
+    items.retain(|item| seen.insert(name(item).clone()));
+    items
 }
 
 /// Lists with commas, several of them; a comma within double quotes belongs to a name.
@@ -111,30 +115,9 @@ fn split(lists: &[String]) -> Vec<String> {
     items
 }
 
-fn told(flag: &str, misplaced: &Problem) -> String {
-    let mut text = format!("error: {flag}: {}\n = expected: {}", misplaced.found, misplaced.expected);
-    if let Some(hint) = &misplaced.hint {
-        text.push_str(&format!("\n = help: {hint}"));
-    }
-    text
-}
-
-fn fitting(model: &Model, name: &str) -> Result<Vec<Channel>, String> {
-    let unknown = |hint: Option<String>| {
-        let help = hint.map_or_else(
-            || "names are such as head.acceleration.x, belt.lap.force; `*` stands for anything".to_owned(),
-            |nearest| format!("did you mean `{nearest}`?"),
-        );
-        format!("error: --channels: no channel is called `{name}`\n = help: {help}")
-    };
-    if name.contains('*') {
-        let found = matching(model, name);
-        return match found.is_empty() {
-            true => Err(unknown(None)),
-            false => Ok(found),
-        };
-    }
-    find(model, name).map(|c| vec![c]).map_err(unknown)
+fn described(flag: &str, problem: &Problem) -> String {
+    let hint = problem.hint.iter().map(|hint| format!("\n = help: {hint}")).collect::<String>();
+    format!("error: {flag}: {}\n = expected: {}{hint}", problem.found, problem.expected)
 }
 
 /// The figures of the plain run.
@@ -154,8 +137,7 @@ fn figures(model: &Model) -> Result<Vec<Figure>, Failure> {
 /// # Errors
 /// Every parameter that has none; a run that cannot be followed.
 pub(crate) fn analyse(model: &Model, asked: &Asked<'_>) -> Result<Analysis, Failure> {
-    let mut built = Vec::with_capacity(asked.parameters.len());
-    let mut wrong = Vec::new();
+    let (mut built, mut wrong) = (Vec::new(), Vec::new());
     for parameter in &asked.parameters {
         match Built::new(model, parameter) {
             Ok(one) => built.push(one),

@@ -25,34 +25,23 @@ pub(crate) fn histories(asked: &Asked<'_>, found: &Analysis) -> Histories {
 }
 
 /// What the columns are; `source` is the scenario's name and SHA-256.
-pub(crate) fn about(model: &Model, asked: &Asked<'_>, found: &Analysis, [source, sha256]: [&str; 2]) -> About {
-    let mut columns = vec![ColumnAbout {
-        name: "time".to_owned(),
-        unit: "s".to_owned(),
-        frame: "none",
-        filter: "none".to_owned(),
-        meaning: "time of the run".to_owned(),
-    }];
+pub(crate) fn about(model: &Model, asked: &Asked<'_>, analysis: &Analysis, [source, sha256]: [&str; 2]) -> About {
+    let mut columns = vec![ColumnAbout::time()];
     for channel in &asked.wish.channels {
         let unit = shown(channel.unit, UnitChoice::Si).ascii;
-        let column = |name: String, unit: String, meaning: String| ColumnAbout {
-            name,
-            unit,
-            frame: channel.axes.name(),
-            filter: "none".to_owned(),
-            meaning,
+        let column = |name: String, unit: String, meaning: String| {
+            let (frame, filter) = (channel.axes.name(), "none".to_owned());
+            ColumnAbout { name, unit, frame, filter, meaning }
         };
         columns.push(column(channel.name.clone(), unit.to_owned(), channel.meaning.clone()));
-        for parameter in &asked.parameters {
-            columns.push(column(
-                format!("d({})/d({})", channel.name, parameter.name),
-                ascii(&per(unit, &parameter.unit)),
-                format!("derivative of {} by {}", channel.name, parameter.name),
-            ));
-        }
+        columns.extend(asked.parameters.iter().map(|parameter| {
+            let name = format!("d({})/d({})", channel.name, parameter.name);
+            let meaning = format!("derivative of {} by {}", channel.name, parameter.name);
+            column(name, ascii(&per(unit, &parameter.unit)), meaning)
+        }));
     }
-    let events = found.trajectory.events.len();
-    let mut notes: Vec<String> = found.built.iter().flat_map(|b| b.notes.clone()).collect();
+    let events = analysis.trajectory.events.len();
+    let mut notes: Vec<String> = analysis.built.iter().flat_map(|b| b.notes.clone()).collect();
     notes
         .push(format!("derivatives at fixed times, in SI units; {events} places of the run where they are not smooth"));
     About {

@@ -1,4 +1,4 @@
-//! Derivatives of a scenario's run: what was asked, what came of it, how it is told. Writes no file.
+//! Derivatives of a scenario's run: the request, the analysis, its words, JSON and histories. Writes no file.
 
 mod analysis;
 mod answer;
@@ -6,7 +6,7 @@ mod history;
 mod text;
 mod units;
 
-pub(crate) use analysis::{Analysis, Asked, Words, analyse, ask};
-pub(crate) use answer::Answer;
+pub(crate) use analysis::{Words, analyse, ask};
+pub(crate) use answer::answer;
 pub(crate) use history::{about, histories};
 pub(crate) use text::text;

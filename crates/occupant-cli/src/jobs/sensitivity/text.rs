@@ -8,10 +8,10 @@ use super::analysis::{Analysis, Asked, relative};
 use super::units::per;
 use crate::base::text_table::{Align, NONE, Table, facts};
 
-/// Distance of two extrapolations of the vehicle's motion that is told as a kink.
+/// Distance of two extrapolations of the vehicle's motion that counts as a kink.
 const KINK: f64 = 1e-2;
-/// Events told one by one.
-const TOLD: usize = 30;
+/// Events listed one by one.
+const LISTED: usize = 30;
 
 /// The whole answer.
 pub(crate) fn text(model: &Model, asked: &Asked<'_>, found: &Analysis) -> String {
@@ -119,21 +119,15 @@ fn with_unit(value: f64, unit: &str) -> String {
 
 /// Five digits.
 fn number(value: f64) -> String {
-    match value == 0.0 || (1e-3..1e6).contains(&value.abs()) {
-        true => {
-            let digits = match value.abs() {
-                x if x >= 1e4 => 0,
-                x if x >= 1e3 => 1,
-                x if x >= 1e2 => 2,
-                x if x >= 1e1 => 3,
-                x if x >= 1.0 || x == 0.0 => 4,
-                x if x >= 0.1 => 5,
-                x if x >= 0.01 => 6,
-                _ => 7,
-            };
-            format!("{value:.digits$}")
+    /// Least sizes that take 0, 1, 2, … decimals.
+    const LEAST: [f64; 7] = [1e4, 1e3, 1e2, 1e1, 1.0, 0.1, 0.01];
+    match value.abs() {
+        0.0 => format!("{value:.4}"),
+        size if (1e-3..1e6).contains(&size) => {
+            let decimals = LEAST.iter().position(|least| size >= *least).unwrap_or(LEAST.len());
+            format!("{value:.decimals$}")
         }
-        false => format!("{value:.4e}"),
+        _ => format!("{value:.4e}"),
     }
 }
 
@@ -144,9 +138,7 @@ fn words(verdict: &Verdict, of_zero: bool) -> String {
         false => percent(part),
     };
     match *verdict {
-        Verdict::Holds { off, up_to } => {
-            format!("within {} up to ±{}", percent(off), part(up_to))
-        }
+        Verdict::Holds { off, up_to } => format!("within {} up to ±{}", percent(off), part(up_to)),
         Verdict::NoInfluence => "no influence".to_owned(),
         Verdict::NotReliable { off, at } => format!("not to be relied upon: {} off at ±{}", percent(off), part(at)),
         Verdict::Unchecked => "not checked: no run beside it".to_owned(),
@@ -160,55 +152,44 @@ fn percent(part: f64) -> String {
         x if x >= 1000.0 => "> 1000 %".to_owned(),
         x if x >= 10.0 => format!("{x:.0} %"),
         x if x >= 0.995 => format!("{x:.1} %").replace(".0 %", " %"),
-        x if x >= 0.0095 => {
-            let text = format!("{x:.2}");
-            format!("{} %", text.trim_end_matches('0').trim_end_matches('.'))
-        }
+        x if x >= 0.0095 => format!("{} %", format!("{x:.2}").trim_end_matches('0').trim_end_matches('.')),
         _ => format!("{value:.0e} %"),
     }
 }
 
+/// What only bends a force: counted, not listed, with its words in that line.
+const MINOR: [(Touching, &str); 4] = [
+    (Touching::Unloads, "springs of contacts unload"),
+    (Touching::Reloads, "load again"),
+    (Touching::Stiffens, "reach their second slope"),
+    (Touching::SlipsBack, "friction reverses"),
+];
+
 /// Jumps and what begins or ends, one by one; what only bends a force, by number.
 fn events(model: &Model, events: &[Event]) -> String {
-    let is_told = |e: &&Event| {
-        let minor = matches!(
-            e.happening,
-            Happening::Contact {
-                what: Touching::Unloads | Touching::Reloads | Touching::Stiffens | Touching::SlipsBack,
-                ..
-            }
-        );
-        e.change == Change::Jump || !minor
-    };
+    let is =
+        |event: &Event, minor: Touching| matches!(event.happening, Happening::Contact { what, .. } if what == minor);
+    let is_listed = |e: &&Event| e.change == Change::Jump || MINOR.iter().all(|(minor, _)| !is(e, *minor));
     let jumps = events.iter().filter(|e| e.change == Change::Jump).count();
     let mut text = format!(
         "{} places where the motion is not smooth: {jumps} where a force jumps, {} where it bends\n",
         events.len(),
         events.len() - jumps
     );
-    let told: Vec<&Event> = events.iter().filter(is_told).collect();
-    for event in told.iter().take(TOLD) {
+    let listed: Vec<&Event> = events.iter().filter(is_listed).collect();
+    for event in listed.iter().take(LISTED) {
         let jump = match event.change {
             Change::Jump => format!(": a force jumps by {:.0} N", event.jump_n),
             Change::Kink => String::new(),
         };
-        let words = event.happening.words(model);
-        text.push_str(&format!("{:9.2} ms  {words}{jump}\n", event.time_s * 1e3));
+        text.push_str(&format!("{:9.2} ms  {}{jump}\n", event.time_s * 1e3, event.happening.words(model)));
     }
-    if told.len() > TOLD {
-        text.push_str(&format!("and {} more of these\n", told.len() - TOLD));
+    if listed.len() > LISTED {
+        text.push_str(&format!("and {} more of these\n", listed.len() - LISTED));
     }
-    let count = |what: Touching| {
-        let fits = |e: &&Event| matches!(e.happening, Happening::Contact { what: w, .. } if w == what);
-        events.iter().filter(fits).count()
-    };
-    text.push_str(&format!(
-        "besides: springs of contacts unload {} times, load again {} times, reach their second slope {} times; friction reverses {} times\n",
-        count(Touching::Unloads),
-        count(Touching::Reloads),
-        count(Touching::Stiffens),
-        count(Touching::SlipsBack)
-    ));
+    let [unload, reload, stiffen, reverse] =
+        MINOR.map(|(minor, words)| format!("{words} {} times", events.iter().filter(|e| is(e, minor)).count()));
+    text.push_str(&format!("besides: {unload}, {reload}, {stiffen}; {reverse}\n"));
     if jumps > 0 {
         text.push_str(
             "Where a force jumps the derivative lacks the jump times the shift of its instant; the finite changes have it.\n",
@@ -222,9 +203,9 @@ mod tests {
     use super::*;
 
     #[test]
-    fn parts_are_told_as_per_cent() {
-        let told: Vec<String> = [1e-4, 1e-3, 0.01, 0.0123, 0.2, 30.0].map(percent).into();
-        assert_eq!(told, ["0.01 %", "0.1 %", "1 %", "1.2 %", "20 %", "> 1000 %"]);
+    fn parts_are_shown_as_per_cent() {
+        let shown: Vec<String> = [1e-4, 1e-3, 0.01, 0.0123, 0.2, 30.0].map(percent).into();
+        assert_eq!(shown, ["0.01 %", "0.1 %", "1 %", "1.2 %", "20 %", "> 1000 %"]);
         assert_eq!(number(-0.001234567), "-0.0012346");
         assert_eq!(number(1234567.0), "1.2346e6");
     }

@@ -12,22 +12,7 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units) {
     let (k, l) = (units.stiffness, units.length);
     let mut table = Table::new(
         format!("BELTS ({}, {}); ANCHORS IN VEHICLE COORDINATES", k.name, l.name),
-        &[
-            "<BELT",
-            "<ROUND",
-            "ANCHOR 1 X",
-            "Y",
-            "Z",
-            "ANCHOR 2 X",
-            "Y",
-            "Z",
-            "K1",
-            "K2",
-            "BREAK AT",
-            "RET 1",
-            "RET 2",
-            "<LENGTH",
-        ],
+        "<BELT | <ROUND | ANCHOR 1 X | Y | Z | ANCHOR 2 X | Y | Z | K1 | K2 | BREAK AT | RET 1 | RET 2 | <LENGTH",
     );
     for belt in &case.model.setup().belts {
         let w = &belt.webbing;

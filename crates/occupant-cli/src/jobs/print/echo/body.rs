@@ -14,7 +14,7 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units) {
     let (l, m, i) = (units.length, units.mass, units.inertia);
     let mut table = Table::new(
         format!("BODY {name}: SEGMENTS ({}, {}, {})", l.name, m.name, i.name),
-        &["NO", "<SEGMENT", "LENGTH", "MASS", "C.G. FROM LOWER END", "IX", "IY", "IZ"],
+        "NO | <SEGMENT | LENGTH | MASS | C.G. FROM LOWER END | IX | IY | IZ",
     );
     for segment in body.tree.segments() {
         let p = body.segment(segment);
@@ -39,7 +39,7 @@ fn spheres(case: &Case, units: &Units) -> Table {
     let l = units.length;
     let mut table = Table::new(
         format!("CONTACT SPHERES ({}); CENTERS IN SEGMENT COORDINATES FROM THE SEGMENT'S LOWER END", l.name),
-        &["NO", "<SPHERE", "<ON SEGMENT", "RADIUS", "X", "Y", "Z"],
+        "NO | <SPHERE | <ON SEGMENT | RADIUS | X | Y | Z",
     );
     for (i, sphere) in case.model.body().spheres.iter().enumerate() {
         let first = [

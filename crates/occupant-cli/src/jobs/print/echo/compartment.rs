@@ -21,7 +21,7 @@ fn materials(case: &Case, units: &Units) -> Table {
     let (k, l, v) = (units.stiffness, units.length, units.speed);
     let mut table = Table::new(
         format!("MATERIALS ({}, {}, {})", k.name, l.name, v.name),
-        &["<MATERIAL", "K1", "K2", "BREAK AT", "RETURNED 1", "RETURNED 2", "FRICTION", "FULL FROM", "<AFTER OPENING"],
+        "<MATERIAL | K1 | K2 | BREAK AT | RETURNED 1 | RETURNED 2 | FRICTION | FULL FROM | <AFTER OPENING",
     );
     for material in &case.model.setup().materials {
         let s = &material.spring;
@@ -51,7 +51,7 @@ fn surfaces(case: &Case) -> Table {
     };
     let mut table = Table::new(
         format!("SURFACES ({numbers}); NORMALS TOWARDS THE OPEN SIDE"),
-        &["<NO SURFACE", "<FIXED TO", "<MATERIAL", "NORMAL X", "Y", "Z", "<SPHERES"],
+        "<NO SURFACE | <FIXED TO | <MATERIAL | NORMAL X | Y | Z | <SPHERES",
     );
     let setup = case.model.setup();
     for (i, (surface, face)) in setup.surfaces.iter().zip(case.model.faces()).enumerate() {
@@ -75,7 +75,7 @@ fn surfaces(case: &Case) -> Table {
 fn outlines(case: &Case, units: &Units) -> Table {
     let mut table = Table::new(
         format!("OUTLINES OF THE SURFACES ({}), CORNERS COUNTER-CLOCKWISE SEEN FROM THE OPEN SIDE", units.length.name),
-        &["<NO SURFACE", "<", "X", "Y", "Z"],
+        "<NO SURFACE | < | X | Y | Z",
     );
     for (i, face) in case.model.faces().iter().enumerate() {
         for (k, (what, point)) in points(face, units).into_iter().enumerate() {

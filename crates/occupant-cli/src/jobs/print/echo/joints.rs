@@ -19,7 +19,7 @@ fn balls(joints: &Joints, units: &Units) -> Table {
     let (d, k) = (units.joint_damping, units.joint_stiffness);
     let mut table = Table::new(
         format!("BALL JOINTS ({}, DEG, {}); EPSILON OF BETA {}", d.name, k.name, joints.epsilon),
-        &["NO", "<JOINT", "DAMPING", "TWIST", "STOP FROM", "TO", "DAMPING", "SPRING", "<REST"],
+        "NO | <JOINT | DAMPING | TWIST | STOP FROM | TO | DAMPING | SPRING | <REST",
     );
     for (joint, law) in joints.iter() {
         let Some(ball) = law.ball() else {
@@ -42,7 +42,7 @@ fn hinges(joints: &Joints, units: &Units) -> Table {
     let d = units.joint_damping;
     let mut table = Table::new(
         format!("HINGES ({}, DEG)", d.name),
-        &["NO", "<JOINT", "DAMPING", "LOWER STOP FROM", "TO", "DAMPING", "UPPER STOP FROM", "TO", "DAMPING"],
+        "NO | <JOINT | DAMPING | LOWER STOP FROM | TO | DAMPING | UPPER STOP FROM | TO | DAMPING",
     );
     for (joint, law) in joints.iter() {
         let Some(hinge) = law.hinge() else {

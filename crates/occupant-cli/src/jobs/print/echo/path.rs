@@ -58,7 +58,7 @@ fn pulse(pages: &mut Pages, path: &PulsePath, units: &Units) {
         ));
     }
     if let PulseShape::Tabulated { points } = &d.shape {
-        let mut table = Table::new("DECELERATION OVER TIME FROM THE START OF THE PULSE", &["SEC", "G"]);
+        let mut table = Table::new("DECELERATION OVER TIME FROM THE START OF THE PULSE", "SEC | G");
         for point in points {
             table.row([format!("{:.6}", point.time_s), G.show(point.deceleration_m_s2)]);
         }
@@ -114,7 +114,7 @@ fn stations(pages: &mut Pages, path: &TablePath, units: &Units) {
             path.stations().len(),
             units.length.name
         ),
-        &["SEC", "X FORWARD", "Y RIGHT", "Z DOWN", "ROLL", "PITCH", "YAW"],
+        "SEC | X FORWARD | Y RIGHT | Z DOWN | ROLL | PITCH | YAW",
     );
     for station in path.stations() {
         let a = &station.pose.attitude;

@@ -111,8 +111,7 @@ fn came_to_rest(pages: &mut Pages, units: &Units, settled: &Settled) {
 pub(crate) fn coordinates(pages: &mut Pages, units: &Units, title: &str, at: &ReportCoordinates) {
     let l = units.length;
     let title = format!("{title}: Q(1) TO Q(3) ({}), THE REST (RAD), AND RATES (PER SEC)", l.name);
-    let head = ["NO", "Q", "RATE"];
-    let mut table = Table::new(title, &[head, head, head, head].concat());
+    let mut table = Table::new(title, &["NO | Q | RATE"; 4].join("|"));
     let rows = DOF.div_ceil(4);
     for row in 0..rows {
         let cell = |i: usize| {

@@ -44,11 +44,9 @@ pub(crate) fn write(pages: &mut Pages, path: &SensorPath, units: &Units) {
 /// The samples as they were read: accelerations in g, rates in deg/s, velocity changes in the printout's unit.
 fn record(pages: &mut Pages, record: &SensorRecord, units: &Units) {
     let channels = record.channels();
-    let head: Vec<String> =
-        std::iter::once("SEC".to_owned()).chain(channels.iter().map(|(name, _)| name.to_uppercase())).collect();
-    let head: Vec<&str> = head.iter().map(String::as_str).collect();
+    let names: String = channels.iter().map(|(name, _)| format!(" | {}", name.to_uppercase())).collect();
     let title = format!("{} SAMPLES AS READ (A IN G, W IN DEG/SEC, DV IN {})", record.time_s().len(), units.speed.name);
-    let mut table = Table::new(title, &head);
+    let mut table = Table::new(title, &format!("SEC{names}"));
     for (i, time_s) in record.time_s().iter().enumerate() {
         let cells = channels.iter().map(|(name, samples)| match name.as_bytes() {
             [b'a', ..] => G.show(samples[i]),

@@ -3,6 +3,7 @@
 use crash_measures::correlation::{CoraSettings, Iso18571Grade, anova, cora, iso18571, sprague_geers};
 use crash_measures::signal::{Interpolant, Interpolation, whole_steps};
 use serde::Serialize;
+use serde_json::{Map, Value, json};
 
 /// The rate at which all metrics are computed, that of ISO/TS 18571.
 pub(crate) const RATE_HZ: f64 = 10_000.0;
@@ -36,77 +37,57 @@ pub(crate) struct Window {
 #[derive(Clone, Debug, Serialize)]
 pub(crate) struct Rating {
     /// First time compared, s.
-    pub(crate) from_s: f64,
+    from_s: f64,
     /// Last time compared, s.
-    pub(crate) to_s: f64,
+    to_s: f64,
     /// Samples compared.
-    pub(crate) samples: usize,
+    samples: usize,
     /// At this rate, 1/s, by straight lines between samples.
     rate_hz: f64,
-    /// ISO/TS 18571.
-    pub(crate) iso18571: Option<Iso>,
-    pub(crate) cora: Option<CoraScores>,
-    /// Sprague–Geers.
-    pub(crate) sprague_geers: Option<Mpc>,
-    pub(crate) anova: Option<Residuals>,
+    /// The scores of each metric under its key, null where it cannot be computed.
+    #[serde(flatten)]
+    scores: Map<String, Value>,
     /// Why a rating is missing.
-    pub(crate) problems: Vec<String>,
+    problems: Vec<String>,
+    /// Name and scores of each metric in words.
+    #[serde(skip)]
+    words: Vec<(&'static str, String)>,
 }
 
-/// Scores of ISO/TS 18571, 0 to 1.
-#[derive(Clone, Debug, Serialize)]
-pub(crate) struct Iso {
-    /// R.
-    pub(crate) overall: f64,
-    pub(crate) grade: &'static str,
-    /// Z.
-    pub(crate) corridor: f64,
-    /// EP.
-    pub(crate) phase: f64,
-    /// EM.
-    pub(crate) magnitude: f64,
-    /// ES.
-    pub(crate) slope: f64,
-    /// By how much the computed history is late, s.
-    pub(crate) lag_s: f64,
+impl Rating {
+    /// A name and its words, line by line; `filter` is what was done to both sides.
+    pub(crate) fn lines(&self, filter: &str) -> Vec<(&'static str, String)> {
+        let span = format!("{:.1} to {:.1} ms", self.from_s * 1e3, self.to_s * 1e3);
+        let mut lines = vec![("compared", format!("{span}, {} samples, filter {filter}", self.samples))];
+        lines.extend(self.words.iter().cloned());
+        lines.extend(self.problems.iter().map(|p| ("not rated", p.clone())));
+        lines
+    }
 }
 
-/// Scores of CORA, 0 to 1.
-#[derive(Clone, Debug, Serialize)]
-pub(crate) struct CoraScores {
-    pub(crate) overall: f64,
-    pub(crate) corridor: f64,
-    pub(crate) cross_correlation: f64,
-    /// Its shape.
-    pub(crate) progression: f64,
-    pub(crate) size: f64,
-    pub(crate) phase: f64,
-    /// Interval of evaluation, s.
-    pub(crate) interval_s: [f64; 2],
+/// Both histories on the common grid.
+struct Sampled {
+    measured: Vec<f64>,
+    computed: Vec<f64>,
+    from_s: f64,
+    to_s: f64,
 }
 
-/// Errors of Sprague and Geers.
-#[derive(Clone, Debug, Serialize)]
-pub(crate) struct Mpc {
-    /// M, positive where the computed history is larger.
-    pub(crate) magnitude: f64,
-    /// P.
-    pub(crate) phase: f64,
-    /// C.
-    pub(crate) combined: f64,
-    /// All within 40 %.
-    pub(crate) within_40_percent: bool,
-}
+/// What a metric gives: for programs, and in words.
+type Scores = Result<(Value, String), String>;
 
-/// Residuals over the measured peak.
-#[derive(Clone, Debug, Serialize)]
-pub(crate) struct Residuals {
-    /// Mean, positive where the measured signal is larger.
-    pub(crate) mean: f64,
-    pub(crate) standard_deviation: f64,
-    /// Mean within 5 %, deviation within 35 %.
-    pub(crate) within_5_and_35_percent: bool,
-}
+/// A metric: its key in JSON, its name, its scores.
+type Metric = (&'static str, &'static str, fn(&Sampled) -> Scores);
+
+const METRICS: [Metric; 4] = [
+    ("iso18571", "ISO/TS 18571", rate_iso18571),
+    ("cora", "CORA", rate_cora),
+    ("sprague_geers", "Sprague–Geers", rate_sprague_geers),
+    ("anova", "ANOVA", rate_anova),
+];
+
+/// Time between samples, s.
+const DT_S: f64 = 1.0 / RATE_HZ;
 
 /// Rates a computed against a measured history, both filtered already.
 ///
@@ -122,70 +103,109 @@ pub(crate) fn rate(computed: Track<'_>, measured: Track<'_>, window: Window) -> 
             to_s - from_s
         ));
     }
-    let samples = whole_steps(to_s - from_s, 1.0 / RATE_HZ) + 1;
-    let reference = sampled(measured, from_s, to_s, samples, "the measured signal")?;
-    let computed = sampled(computed, from_s, to_s, samples, "the computed history")?;
-    let dt_s = 1.0 / RATE_HZ;
-    let mut problems = Vec::new();
-    let mut note = |name: &str, error: String| problems.push(format!("{name}: {error}"));
-    let iso = iso18571(&reference, &computed, dt_s).map_err(|e| note("ISO/TS 18571", e.to_string())).ok();
-    let cora = match to_s - from_s <= LONGEST_CORA_S {
-        true => {
-            cora(&reference, &computed, dt_s, &CoraSettings::default()).map_err(|e| note("CORA", e.to_string())).ok()
-        }
-        false => {
-            let longest = format!("longer than {LONGEST_CORA_S} s: cut to the event");
-            note("CORA", longest);
-            None
-        }
-    };
-    let mpc = sprague_geers(&reference, &computed).map_err(|e| note("Sprague–Geers", e.to_string())).ok();
-    let residuals = anova(&reference, &computed).map_err(|e| note("ANOVA", e.to_string())).ok();
-    Ok(Rating {
+    let samples = whole_steps(to_s - from_s, DT_S) + 1;
+    let sampled = Sampled {
+        measured: sampled(measured, from_s, to_s, samples, "the measured signal")?,
+        computed: sampled(computed, from_s, to_s, samples, "the computed history")?,
         from_s,
-        to_s: from_s + (samples - 1) as f64 * dt_s,
-        samples,
-        rate_hz: RATE_HZ,
-        iso18571: iso.map(|r| Iso {
-            overall: r.overall,
-            grade: grade(r.grade()),
-            corridor: r.corridor,
-            phase: r.phase,
-            magnitude: r.magnitude,
-            slope: r.slope,
-            lag_s: r.lag_s,
-        }),
-        cora: cora.map(|r| CoraScores {
-            overall: r.overall,
-            corridor: r.corridor,
-            cross_correlation: r.cross_correlation,
-            progression: r.progression,
-            size: r.size,
-            phase: r.phase,
-            interval_s: r.interval_s.map(|t| t + from_s),
-        }),
-        sprague_geers: mpc.map(|r| Mpc {
-            magnitude: r.magnitude,
-            phase: r.phase,
-            combined: r.combined,
-            within_40_percent: r.accepted(),
-        }),
-        anova: residuals.map(|r| Residuals {
-            mean: r.mean,
-            standard_deviation: r.standard_deviation,
-            within_5_and_35_percent: r.accepted(),
-        }),
-        problems,
-    })
+        to_s,
+    };
+    let (mut scores, mut words, mut problems) = (Map::new(), Vec::new(), Vec::new());
+    for (key, name, metric) in METRICS {
+        let score = match metric(&sampled) {
+            Ok((score, text)) => {
+                words.push((name, text));
+                score
+            }
+            Err(reason) => {
+                problems.push(format!("{name}: {reason}"));
+                Value::Null
+            }
+        };
+        scores.insert(key.to_owned(), score);
+    }
+    let to_s = from_s + (samples - 1) as f64 * DT_S;
+    Ok(Rating { from_s, to_s, samples, rate_hz: RATE_HZ, scores, problems, words })
 }
 
-const fn grade(grade: Iso18571Grade) -> &'static str {
-    match grade {
+/// Scores from 0 to 1, and by how much the computed history is late.
+fn rate_iso18571(pair: &Sampled) -> Scores {
+    let r = iso18571(&pair.measured, &pair.computed, DT_S).map_err(|e| e.to_string())?;
+    let grade = match r.grade() {
         Iso18571Grade::Excellent => "excellent",
         Iso18571Grade::Good => "good",
         Iso18571Grade::Fair => "fair",
         Iso18571Grade::Poor => "poor",
+    };
+    let lag = match r.lag_s {
+        0.0 => "not shifted".to_owned(),
+        lag if lag > 0.0 => format!("computed {:.1} ms late", lag * 1e3),
+        lag => format!("computed {:.1} ms early", -lag * 1e3),
+    };
+    let words = format!(
+        "{:.3} {grade}: corridor {:.3}, phase {:.3}, magnitude {:.3}, slope {:.3}; {lag}",
+        r.overall, r.corridor, r.phase, r.magnitude, r.slope
+    );
+    let score = json!({
+        "overall": r.overall, "grade": grade, "corridor": r.corridor, "phase": r.phase, "magnitude": r.magnitude,
+        "slope": r.slope, "lag_s": r.lag_s,
+    });
+    Ok((score, words))
+}
+
+/// Scores from 0 to 1, and the interval of evaluation.
+fn rate_cora(pair: &Sampled) -> Scores {
+    if pair.to_s - pair.from_s > LONGEST_CORA_S {
+        return Err(format!("longer than {LONGEST_CORA_S} s: cut to the event"));
     }
+    let r = cora(&pair.measured, &pair.computed, DT_S, &CoraSettings::default()).map_err(|e| e.to_string())?;
+    let interval_s = r.interval_s.map(|t| t + pair.from_s);
+    let words = format!(
+        "{:.3}: corridor {:.3}, cross-correlation {:.3} (progression {:.3}, size {:.3}, phase {:.3}); {:.1} to {:.1} ms",
+        r.overall,
+        r.corridor,
+        r.cross_correlation,
+        r.progression,
+        r.size,
+        r.phase,
+        interval_s[0] * 1e3,
+        interval_s[1] * 1e3
+    );
+    let score = json!({
+        "overall": r.overall, "corridor": r.corridor, "cross_correlation": r.cross_correlation,
+        "progression": r.progression, "size": r.size, "phase": r.phase, "interval_s": interval_s,
+    });
+    Ok((score, words))
+}
+
+/// Errors M, P and C; M is positive where the computed history is larger.
+fn rate_sprague_geers(pair: &Sampled) -> Scores {
+    let r = sprague_geers(&pair.measured, &pair.computed).map_err(|e| e.to_string())?;
+    let [magnitude, phase, combined] = [r.magnitude, r.phase, r.combined].map(signed_percent);
+    let verdict = if r.accepted() { "all within 40 %" } else { "not all within 40 %" };
+    let score = json!({
+        "magnitude": r.magnitude, "phase": r.phase, "combined": r.combined, "within_40_percent": r.accepted(),
+    });
+    Ok((score, format!("magnitude {magnitude}, phase {phase}, combined {combined}; {verdict}")))
+}
+
+/// Residuals over the measured peak; the mean is positive where the measured signal is larger.
+fn rate_anova(pair: &Sampled) -> Scores {
+    let r = anova(&pair.measured, &pair.computed).map_err(|e| e.to_string())?;
+    let verdict = if r.accepted() { "within" } else { "not within" };
+    let words = format!(
+        "mean residual {}, standard deviation {:.1} %; {verdict} 5 % and 35 %",
+        signed_percent(r.mean),
+        100.0 * r.standard_deviation
+    );
+    let score = json!({
+        "mean": r.mean, "standard_deviation": r.standard_deviation, "within_5_and_35_percent": r.accepted(),
+    });
+    Ok((score, words))
+}
+
+fn signed_percent(part: f64) -> String {
+    format!("{:+.1} %", 100.0 * part)
 }
 
 /// First and last time that both have and the window lets.
@@ -207,7 +227,7 @@ pub(crate) fn overlap(a: Track<'_>, b: Track<'_>, window: Window) -> Result<[f64
                 (None, None) => String::new(),
                 (from, to) => format!(
                     ", the window {} to {}",
-                    from.map_or("the begin".to_owned(), |t| format!("{t} s")),
+                    from.map_or("the start".to_owned(), |t| format!("{t} s")),
                     to.map_or("the end".to_owned(), |t| format!("{t} s"))
                 ),
             }
@@ -263,7 +283,7 @@ mod tests {
         theirs.0.iter_mut().for_each(|t| *t += 7.5);
         let window = Window { shift_s: -7.5, ..Window::default() };
         let found = rate(track(&ours), track(&theirs), window).unwrap();
-        let r = found.iso18571.unwrap().overall;
+        let r = found.scores["iso18571"]["overall"].as_f64().unwrap();
         assert!((r - 1.0).abs() < 1e-9, "{r}");
         assert!(rate(track(&ours), track(&theirs), Window::default()).unwrap_err().contains("no common time"));
     }
@@ -284,6 +304,6 @@ mod tests {
         let zero = grid(0.1, 1e-3, |_| 0.0);
         let found = rate(track(&ours), track(&zero), Window::default()).unwrap();
         assert_eq!(found.problems.len(), 4);
-        assert!(found.iso18571.is_none() && found.anova.is_none());
+        assert!(found.scores["iso18571"].is_null() && found.scores["anova"].is_null());
     }
 }

@@ -1,0 +1,143 @@
+//! How well a run follows a test, or another run: its channels rated against the signals that belong to them.
+
+mod couples;
+mod rating;
+
+use std::path::Path;
+
+use occupant_study::ending::Balance;
+use serde::Serialize;
+
+use crate::base::failure::Failure;
+use crate::base::names::{file_name, program};
+use crate::base::text_table::facts;
+use crate::files::history::{Treatment, class_name};
+use crate::files::measured::MapArgument;
+use crate::files::results::Results;
+use couples::{Couple, couples};
+use rating::{Rating, rate};
+
+pub(crate) use rating::{RATE_HZ, Track, Window, overlap, sampled};
+
+/// What is compared, and how.
+pub(crate) struct Request<'a> {
+    pub(crate) computed: &'a Path,
+    pub(crate) measured: &'a Path,
+    /// Names and patterns; all that both have if empty.
+    pub(crate) channels: &'a [String],
+    pub(crate) map: &'a [MapArgument],
+    /// Position of the occupant in ISO-MME codes.
+    pub(crate) seat: char,
+    pub(crate) window: Window,
+    pub(crate) treatment: Treatment,
+    /// The filter in words.
+    pub(crate) filter: String,
+}
+
+/// The ratings, as `--json` prints them.
+#[derive(Serialize)]
+pub(crate) struct Comparison {
+    program: String,
+    computed: Source,
+    measured: Source,
+    filter: String,
+    shift_s: f64,
+    pairs: Vec<RatedPair>,
+    pub(crate) notes: Vec<String>,
+    /// Why the results of a run that is compared mean nothing, by run.
+    #[serde(skip)]
+    pub(crate) worthless: Vec<String>,
+}
+
+#[derive(Serialize)]
+struct Source {
+    file: String,
+    sha256: String,
+}
+
+#[derive(Serialize)]
+struct RatedPair {
+    channel: String,
+    signal: String,
+    filter: String,
+    #[serde(flatten)]
+    rating: Rating,
+}
+
+/// What was seen on the way to the ratings.
+#[derive(Default)]
+struct Remarks {
+    notes: Vec<String>,
+    worthless: Vec<String>,
+}
+
+impl Remarks {
+    /// By the one rule of what a run came to: one that failed or is out of balance has no results.
+    fn judge(&mut self, run: &Results) {
+        let name = run.path.display();
+        if let Some(reason) = run.ending().and_then(|ending| ending.reason()) {
+            self.worthless.push(format!("{name}: {reason}"));
+        } else if run.balance() == Balance::Doubtful {
+            self.notes.push(format!("{name}: its energy balance is off by more than 1 %: the ratings are doubtful"));
+        }
+    }
+}
+
+/// Rates all pairs.
+///
+/// # Errors
+/// Files that cannot be read, no signal in common, a pair without a common time.
+pub(crate) fn compare(request: &Request<'_>) -> Result<Comparison, Failure> {
+    let mut remarks = Remarks::default();
+    let (couples, sha256) = couples(request, &mut remarks)?;
+    if couples.is_empty() {
+        return Err(nothing_common(request));
+    }
+    let rated = |couple: Couple| {
+        let ours = Track { time_s: &couple.time_s, values: &couple.values };
+        let theirs = Track { time_s: &couple.measured.time_s, values: &couple.measured.values };
+        let rating = rate(ours, theirs, request.window)
+            .map_err(|reason| Failure::plain(format!("{} cannot be compared: {reason}", couple.channel)))?;
+        let filter = class_name(couple.class);
+        Ok(RatedPair { channel: couple.channel, signal: couple.measured.signal, filter, rating })
+    };
+    let pairs = couples.into_iter().map(rated).collect::<Result<_, Failure>>()?;
+    let [computed, measured] = sha256;
+    let source = |path: &Path, sha256| Source { file: file_name(path), sha256 };
+    Ok(Comparison {
+        program: program(),
+        computed: source(request.computed, computed),
+        measured: source(request.measured, measured),
+        filter: request.filter.clone(),
+        shift_s: request.window.shift_s,
+        pairs,
+        notes: remarks.notes,
+        worthless: remarks.worthless,
+    })
+}
+
+fn nothing_common(request: &Request<'_>) -> Failure {
+    let (computed, measured) = (request.computed.display(), request.measured.display());
+    Failure::with_help(
+        format!("no signal of {measured} belongs to a channel of {computed}"),
+        "say which column is which channel: --map 'column[unit]=head.acceleration.x'; for another seat of an ISO-MME test --seat",
+    )
+}
+
+impl Comparison {
+    /// The ratings in words.
+    pub(crate) fn text(&self) -> String {
+        let mut text = format!(
+            "{} against {}; shift {} ms; all ratings at {} kHz\n",
+            self.computed.file,
+            self.measured.file,
+            self.shift_s * 1e3,
+            RATE_HZ / 1e3
+        );
+        for pair in &self.pairs {
+            let lines = facts(&pair.rating.lines(&pair.filter));
+            text.push_str(&format!("\n{} against {}\n{lines}", pair.channel, pair.signal));
+        }
+        text
+    }
+}

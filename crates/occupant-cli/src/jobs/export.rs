@@ -1,0 +1,154 @@
+//! Histories written to disk: a table with what describes it, or the folder of an ISO-MME test.
+
+use std::fs;
+use std::io::Write;
+use std::path::{Path, PathBuf};
+
+use crate::base::failure::Failure;
+use crate::base::names::file_name;
+use crate::base::output_file::{Existing, PartialFile, refuse_input};
+use crate::base::talk::json;
+use crate::files::export::{About, metadata, table};
+use crate::files::history::{Histories, UnitChoice};
+use crate::files::table::Form;
+
+/// The files of a table under their provisional names: all names are taken before one is written.
+pub(crate) struct TableFiles {
+    path: PathBuf,
+    form: Form,
+    table: PartialFile,
+    /// What describes a CSV table, `NAME.csv-metadata.json`.
+    beside: Option<PartialFile>,
+}
+
+impl TableFiles {
+    /// Begins the files of a table that is made from `input`.
+    ///
+    /// # Errors
+    /// A name that is taken and may not be replaced, or that of the input.
+    pub(crate) fn begin(path: &Path, form: Form, input: &Path, existing: Existing) -> Result<Self, Failure> {
+        let create = |path: &Path| {
+            refuse_input(path, input)?;
+            PartialFile::create(path, existing)
+        };
+        let table = create(path)?;
+        let beside = match form {
+            Form::Parquet => Ok(None),
+            Form::Csv => create(&beside(path)).map(Some),
+        };
+        match beside {
+            Ok(beside) => Ok(TableFiles { path: path.to_owned(), form, table, beside }),
+            Err(problem) => {
+                remove_provisional(&table);
+                Err(problem.into())
+            }
+        }
+    }
+
+    /// Takes the provisional files away.
+    pub(crate) fn discard(&self) {
+        [Some(&self.table), self.beside.as_ref()].into_iter().flatten().for_each(remove_provisional);
+    }
+
+    /// Writes the table, and gives the files their names.
+    ///
+    /// # Errors
+    /// What the writer or the file system refuses.
+    pub(crate) fn write(mut self, histories: &Histories, about: &About, units: UnitChoice) -> Result<(), Failure> {
+        let bytes = match table(histories, about, units, self.form) {
+            Ok(bytes) => bytes,
+            Err(error) => {
+                self.discard();
+                return Err(Failure::plain(format!("{} cannot be made: {error}", self.path.display())));
+            }
+        };
+        self.table.write_all(&bytes).map_err(|e| unwritten(&self.path, &e))?;
+        if let Some(file) = &mut self.beside {
+            let description = json(&metadata(about, &file_name(&self.path)))?;
+            file.write_all(description.as_bytes()).map_err(|e| unwritten(file.partial_path(), &e))?;
+        }
+        for file in std::iter::once(self.table).chain(self.beside) {
+            file.publish()?;
+        }
+        Ok(())
+    }
+}
+
+fn remove_provisional(file: &PartialFile) {
+    let _it_may_stay = fs::remove_file(file.partial_path());
+}
+
+fn unwritten(path: &Path, error: &std::io::Error) -> Failure {
+    Failure::BrokeOff(format!("error: cannot write {}: {error}", path.display()))
+}
+
+/// `out.csv` → `out.csv-metadata.json`.
+fn beside(table: &Path) -> PathBuf {
+    let mut name = table.file_name().unwrap_or_default().to_owned();
+    name.push("-metadata.json");
+    table.with_file_name(name)
+}
+
+/// Writes the files of an ISO-MME test into a provisional folder, which gets its name when all are there.
+///
+/// # Errors
+/// A folder that exists and may not be replaced or holds something else; what the file system refuses.
+pub(crate) fn publish_folder(
+    folder: &Path,
+    test: &str,
+    files: &[(PathBuf, String)],
+    force: bool,
+) -> Result<(), Failure> {
+    let mut partial = folder.as_os_str().to_owned();
+    partial.push(".partial");
+    let partial = PathBuf::from(partial);
+    let is_there = |path: &Path| fs::symlink_metadata(path).is_ok();
+    if is_there(folder) {
+        refuse_other_folder(folder, test, force)?;
+    }
+    match (is_there(&partial), force) {
+        (false, _) => {}
+        (true, true) => remove(&partial)?,
+        (true, false) => {
+            return Err(Failure::with_help(
+                format!("{} exists, of an export that was interrupted", partial.display()),
+                "--force replaces it, -o gives another name",
+            ));
+        }
+    }
+    for (name, text) in files {
+        let path = partial.join(name);
+        let parent = path.parent().unwrap_or(&partial);
+        fs::create_dir_all(parent).map_err(|e| unwritten(parent, &e))?;
+        let mut file = fs::File::create_new(&path).map_err(|e| unwritten(&path, &e))?;
+        let written = file.write_all(text.as_bytes()).and_then(|()| file.sync_all());
+        written.map_err(|e| unwritten(&path, &e))?;
+    }
+    if is_there(folder) {
+        remove(folder)?;
+    }
+    fs::rename(&partial, folder).map_err(|e| unwritten(folder, &e))
+}
+
+/// A folder that stands there is replaced only if asked, and only if it is a test of the same name and nothing else.
+fn refuse_other_folder(folder: &Path, test: &str, force: bool) -> Result<(), Failure> {
+    let name = folder.display();
+    if !force {
+        return Err(Failure::with_help(format!("{name} exists"), "--force replaces it, -o gives another name"));
+    }
+    let unreadable = |e: std::io::Error| Failure::plain(format!("{name}: {e}"));
+    for entry in fs::read_dir(folder).map_err(unreadable)? {
+        let found = entry.map_err(unreadable)?.file_name();
+        if found != *test && found != "Channel" {
+            return Err(Failure::with_help(
+                format!("{name} holds {}, no part of an ISO-MME test, and is not replaced", found.to_string_lossy()),
+                "-o gives another name",
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn remove(folder: &Path) -> Result<(), Failure> {
+    fs::remove_dir_all(folder).map_err(|e| Failure::plain(format!("{} cannot be replaced: {e}", folder.display())))
+}

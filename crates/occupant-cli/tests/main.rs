@@ -1,0 +1,15 @@
+//! The command as a user meets it, a module each subject, in one binary: linking each of them alone would cost more than
+//! running it.
+
+mod command_line;
+mod convert;
+mod ensembles;
+mod fit;
+mod histories;
+mod pictures;
+mod print;
+mod recording;
+mod risk;
+mod sensitivity;
+mod study;
+mod sweep;

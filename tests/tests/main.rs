@@ -1,0 +1,29 @@
+//! Proofs of the model, a module each, in one binary: linking each of them alone would cost more than running it.
+
+mod appendix3;
+mod belts;
+mod cart_cases;
+mod contact_scene;
+mod edges;
+mod free_motion;
+mod friction;
+mod integration;
+mod joint_torques;
+mod joints;
+mod kernel;
+mod lanes;
+mod lap_case;
+mod layers;
+mod manual;
+mod reactions;
+mod reference;
+mod report_coordinates;
+mod resume;
+mod runs;
+mod seams;
+mod seating;
+mod sensitivity;
+mod spring;
+mod studies;
+mod symmetry;
+mod validation;
