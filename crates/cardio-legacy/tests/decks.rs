@@ -112,7 +112,7 @@ fn line_ends_sequence_numbers_and_latin_1_are_no_trouble() {
 #[test]
 fn a_series_that_is_not_needed_is_noted() {
     let mut lines = lines("driver-exact-state.dat");
-    let velocity = support::lines("driver-lap-torso.dat")[3].clone();
+    let velocity = crate::support::lines("driver-lap-torso.dat")[3].clone();
     lines.insert(3, velocity);
     let (decks, diagnostics) = parse_as(&lines.join("\n"), Strictness::Strict);
     assert_eq!(decks.len(), 1, "{diagnostics}");

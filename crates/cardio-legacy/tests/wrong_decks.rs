@@ -48,8 +48,8 @@ error[not-a-number]: `      6O.0` is no number: `O` in column 18; damping of the
 
 #[test]
 fn every_numeric_field_of_every_card_reports_what_is_no_number() {
-    for name in support::DECKS {
-        let deck = &cardio_legacy::Deck::parse(support::bytes(name), &Default::default()).0[0];
+    for name in crate::support::DECKS {
+        let deck = &cardio_legacy::Deck::parse(crate::support::bytes(name), &Default::default()).0[0];
         for card in deck.cards() {
             let series = cardio_legacy::cards::series(card.id.series).expect("a series");
             let layout = series.cards.iter().find(|c| c.letter == card.id.letter).expect("a card");
