@@ -4,7 +4,7 @@ use std::fs;
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use occupant_core::scenario::kind::{KINDS, TIME};
+use occupant_core::scenario::kind::{KINDS, TIME, UnitSystem};
 
 use crate::base::failure::{Done, Failure};
 use crate::base::talk::{print, say};
@@ -58,9 +58,9 @@ pub(crate) fn print_run(args: &Args) -> Result<Done, Failure> {
         )
     };
     let case = Case::read(&bytes).map_err(refused)?;
-    let units: &Units = match args.units {
-        Some(UnitsChoice::Si) => &crate::jobs::print::SI,
-        Some(UnitsChoice::InchPound) => &crate::jobs::print::INCH_POUND,
+    let units = match args.units {
+        Some(UnitsChoice::Si) => Units(UnitSystem::Si),
+        Some(UnitsChoice::InchPound) => Units(UnitSystem::InchPound),
         None => case.units(),
     };
     let text = printout(&case, units, every_s).map_err(|e| Failure::plain(format!("{name}: {e}")))?;

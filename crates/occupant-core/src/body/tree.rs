@@ -210,7 +210,7 @@ impl Tree {
     }
 
     /// Names of the standard spheres, in the table's order.
-    pub fn sphere_names(&self) -> Vec<&'static str> {
+    pub(crate) fn sphere_names(&self) -> Vec<&'static str> {
         self.spheres.iter().map(|row| row.name).collect()
     }
 
@@ -248,12 +248,12 @@ impl Tree {
     }
 
     /// The segment with this name.
-    pub fn segment_named(&self, name: &str) -> Option<Segment> {
+    pub(crate) fn segment_named(&self, name: &str) -> Option<Segment> {
         self.segments().find(|s| self[*s].name == name)
     }
 
     /// The joint that carries a segment; nothing carries the first.
-    pub const fn carrier(&self, segment: Segment) -> Option<Joint> {
+    pub(crate) const fn carrier(&self, segment: Segment) -> Option<Joint> {
         let mut j = 0;
         while j < self.joints.len() {
             if self.joints[j].distal.0 == segment.0 {

@@ -62,7 +62,7 @@ impl About {
         };
         let of = |c: &Column| ColumnAbout {
             name: c.channel.name.clone(),
-            unit: shown(c.channel.unit, units).ascii.to_owned(),
+            unit: shown(c.channel.unit, units).ascii(),
             frame: c.channel.axes.name(),
             filter: class_name(c.class),
             meaning: c.channel.meaning.clone(),

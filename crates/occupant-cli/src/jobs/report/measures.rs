@@ -1,8 +1,7 @@
 //! The table of measures: injury measures against limits, then what the run's summary tells.
 
 use crash_measures::injury;
-use crash_measures::unit::Unit;
-use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
+use crash_measures::unit::{Shown, Unit};
 use occupant_core::results::summary::Summary;
 use serde::Serialize;
 
@@ -12,7 +11,7 @@ pub(crate) struct Measure {
     group: &'static str,
     name: String,
     value: Option<f64>,
-    unit: &'static str,
+    unit: String,
     /// When; the start of an interval.
     time_s: Option<f64>,
     /// Largest value allowed, in the same unit.
@@ -26,14 +25,18 @@ pub(crate) struct Measure {
 }
 
 impl Measure {
-    fn new(
-        group: &'static str,
-        name: impl Into<String>,
-        value: Option<f64>,
-        unit: &'static str,
-        time_s: Option<f64>,
-    ) -> Self {
-        Measure { group, name: name.into(), value, unit, time_s, limit: None, rule: None, verdict: None, remark: None }
+    fn new(group: &'static str, name: impl Into<String>, value: Option<f64>, unit: Shown, time_s: Option<f64>) -> Self {
+        Measure {
+            group,
+            name: name.into(),
+            value,
+            unit: unit.symbol(),
+            time_s,
+            limit: None,
+            rule: None,
+            verdict: None,
+            remark: None,
+        }
     }
 }
 
@@ -47,18 +50,19 @@ pub(crate) fn measures(summary: &Summary) -> Vec<Measure> {
     let mut add = |name: &str, value: f64, unit| {
         rows.push(Measure::new(group, name, Some(value), unit, None));
     };
-    add("Greatest imbalance, of the greatest kinetic energy", 100.0 * energy.balance_error, "%");
-    add("Greatest kinetic energy, in the vehicle", energy.greatest_kinetic_j, "J");
-    add("Steps", summary.solver.steps as f64, "");
-    add("Steps rejected", summary.solver.rejected as f64, "");
+    let percent = Unit::One.shown_in("%");
+    add("Greatest imbalance, of the greatest kinetic energy", 100.0 * energy.balance_error, percent);
+    add("Greatest kinetic energy, in the vehicle", energy.greatest_kinetic_j, Unit::Joule.shown());
+    add("Steps", summary.solver.steps as f64, Unit::One.shown());
+    add("Steps rejected", summary.solver.rejected as f64, Unit::One.shown());
     rows
 }
 
 /// A row for each limit of an injury measure, or one without.
 fn injury_rows(m: &injury::Measure) -> Vec<Measure> {
-    let (unit, per_si) = scale(m.unit);
+    let unit = engineering(m.unit);
     let group = "Injury measures, unfiltered";
-    let mut first = Measure::new(group, m.label, m.value.map(|v| v * per_si), unit, m.from_s);
+    let mut first = Measure::new(group, m.label, m.value.map(|v| v * unit.per_si()), unit, m.from_s);
     first.remark.clone_from(&m.remark);
     if m.limits.is_empty() {
         return vec![first];
@@ -67,12 +71,13 @@ fn injury_rows(m: &injury::Measure) -> Vec<Measure> {
         group,
         name: m.label.to_owned(),
         value: first.value,
-        unit,
+        unit: first.unit.clone(),
         time_s: first.time_s,
-        limit: Some(judgement.most * per_si),
-        rule: Some(match judgement.quoted {
-            true => judgement.rule.to_owned(),
-            false => format!("{}, as generally known", judgement.rule),
+        limit: Some(judgement.most * unit.per_si()),
+        rule: Some(if judgement.quoted {
+            judgement.rule.to_owned()
+        } else {
+            format!("{}, as generally known", judgement.rule)
         }),
         verdict: Some(if judgement.passed { "passed" } else { "failed" }),
         remark: m.remark.clone(),
@@ -80,27 +85,25 @@ fn injury_rows(m: &injury::Measure) -> Vec<Measure> {
     m.limits.iter().map(row).collect()
 }
 
-/// The unit that engineers read, and how many of it make one of SI.
-fn scale(unit: Unit) -> (&'static str, f64) {
+/// The unit that engineers read.
+fn engineering(unit: Unit) -> Shown {
     match unit {
-        Unit::MetrePerSecondSquared => ("g", 1.0 / STANDARD_GRAVITY_M_S2),
-        Unit::Newton => ("kN", 1e-3),
-        Unit::One => ("", 1.0),
-        other => (other.symbol(), 1.0),
+        Unit::MetrePerSecondSquared => unit.shown_in("g"),
+        Unit::Newton => unit.shown_in("kN"),
+        other => other.shown(),
     }
 }
 
 fn add_loads(rows: &mut Vec<Measure>, summary: &Summary) {
+    let force = engineering(Unit::Newton);
+    let mut add = |name, force_n: f64, time_s| {
+        rows.push(Measure::new("Loads", name, Some(force_n / force.si), force, time_s));
+    };
     for belt in &summary.belts {
-        let name = format!("Belt {}, loop force", belt.belt);
-        let force_kn = Some(belt.loop_force_n / 1e3);
-        rows.push(Measure::new("Loads", name, force_kn, "kN", belt.time_s));
+        add(format!("Belt {}, loop force", belt.belt), belt.loop_force_n, belt.time_s);
     }
     for sphere in &summary.sphere_forces {
-        let name = format!("{} against {}", sphere.sphere, sphere.surface);
-        let force_kn = Some(sphere.force_n / 1e3);
-        let time = Some(sphere.time_s);
-        rows.push(Measure::new("Loads", name, force_kn, "kN", time));
+        add(format!("{} against {}", sphere.sphere, sphere.surface), sphere.force_n, Some(sphere.time_s));
     }
 }
 
@@ -116,7 +119,7 @@ fn add_excursion(rows: &mut Vec<Measure>, summary: &Summary) {
         ("up", e.up_m, e.up_time_s),
         ("down", e.down_m, e.down_time_s),
     ] {
-        let group = "Head excursion in the vehicle";
-        rows.push(Measure::new(group, way, Some(by_m * 1e3), "mm", Some(time_s)));
+        let (group, unit) = ("Head excursion in the vehicle", Unit::Metre.shown_in("mm"));
+        rows.push(Measure::new(group, way, Some(by_m * unit.per_si()), unit, Some(time_s)));
     }
 }

@@ -34,7 +34,7 @@ pub(crate) fn about(model: &Model, asked: &Asked<'_>, found: &Analysis, [source,
         meaning: "time of the run".to_owned(),
     }];
     for channel in &asked.wish.channels {
-        let unit = shown(channel.unit, UnitChoice::Si).ascii;
+        let unit = shown(channel.unit, UnitChoice::Si).ascii();
         let column = |name: String, unit: String, meaning: String| ColumnAbout {
             name,
             unit,
@@ -42,11 +42,11 @@ pub(crate) fn about(model: &Model, asked: &Asked<'_>, found: &Analysis, [source,
             filter: "none".to_owned(),
             meaning,
         };
-        columns.push(column(channel.name.clone(), unit.to_owned(), channel.meaning.clone()));
+        columns.push(column(channel.name.clone(), unit.clone(), channel.meaning.clone()));
         for parameter in &asked.parameters {
             columns.push(column(
                 format!("d({})/d({})", channel.name, parameter.name),
-                ascii(&per(unit, &parameter.unit)),
+                ascii(&per(&unit, &parameter.unit)),
                 format!("derivative of {} by {}", channel.name, parameter.name),
             ));
         }
