@@ -53,7 +53,7 @@ impl Axes {
 }
 
 /// Segment axes (left, up) to SAE J211 axes (right, down), or back: a half turn about X.
-pub fn to_j211(v: Vector3<f64>) -> Vector3<f64> {
+pub(crate) fn to_j211(v: Vector3<f64>) -> Vector3<f64> {
     Vector3::new(v.x, -v.y, -v.z)
 }
 
@@ -240,13 +240,13 @@ impl<O: Owner> Quantity<O> {
     }
 
     /// The name of its field: quantity, axes, unit.
-    pub fn field_name(&self, stem: &str) -> String {
+    pub(crate) fn field_name(&self, stem: &str) -> String {
         let unit = suffix(self.unit);
         [stem, self.axes.word(), &unit].into_iter().filter(|w| !w.is_empty()).collect::<Vec<_>>().join("_")
     }
 
     /// The name of the field of its magnitude.
-    pub fn resultant_name(&self, stem: &str) -> String {
+    pub(crate) fn resultant_name(&self, stem: &str) -> String {
         format!("{stem}_resultant_{}", suffix(self.unit))
     }
 

@@ -6,10 +6,7 @@ use crate::signal::STANDARD_GRAVITY_MPS2 as G;
 /// A dummy that feels a half-sine of 60 g and 40 ms in head, chest and pelvis, and known neck and femur loads, at 10 kHz.
 fn dummy() -> Signals {
     let time = |i: usize| i as f64 * 1e-4;
-    let pulse = |t: f64| match (0.01..=0.05).contains(&t) {
-        true => (PI * (t - 0.01) / 0.04).sin(),
-        false => 0.0,
-    };
+    let pulse = |t: f64| if (0.01..=0.05).contains(&t) { (PI * (t - 0.01) / 0.04).sin() } else { 0.0 };
     let history = |of: &dyn Fn(f64) -> f64| -> Vec<f64> { (0..1000).map(|i| of(time(i))).collect() };
     let still = || history(&|_| 0.0);
     let acceleration = || [history(&|t| -60.0 * G * pulse(t)), still(), still()];

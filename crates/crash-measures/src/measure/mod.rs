@@ -25,9 +25,6 @@ pub mod thiv;
 pub mod thorax;
 pub mod three_ms;
 
-#[cfg(test)]
-mod any_input;
-
 pub use asi::{Asi, AsiEdition, SeverityClass, asi};
 pub use bric::{Bric, BricBasis, bric};
 pub use damage::damage;
@@ -45,3 +42,8 @@ pub use severity_index::severity_index;
 pub use thiv::{HeadFlight, Thiv, thiv};
 pub use thorax::{ChestSize, combined_thoracic_index, viscous_criterion};
 pub use three_ms::{ThreeMs, clip_contiguous, clip_cumulative, three_ms_contiguous, three_ms_cumulative};
+
+#[cfg(test)]
+mod tests {
+    mod any_input;
+}

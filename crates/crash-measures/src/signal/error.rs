@@ -1,6 +1,5 @@
 //! What can be wrong with a signal, with what was found and what was needed.
 
-
 /// Why a signal cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error)]
 pub enum SignalError {
@@ -102,4 +101,3 @@ pub enum SignalError {
         needed: f64,
     },
 }
-

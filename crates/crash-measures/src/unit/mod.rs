@@ -5,9 +5,11 @@
 
 mod expression;
 mod named;
+mod shown;
 
 pub use expression::{UnitError, parse};
 pub use named::{NamedUnit, Scale, UNITS};
+pub use shown::Shown;
 
 /// Exponents of length, mass, time and angle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -3,12 +3,13 @@
 use std::path::PathBuf;
 
 use clap::ValueEnum;
+use occupant_core::scenario::kind::UnitSystem;
 
 use super::flags::history::interval;
 use crate::base::failure::{Done, Failure};
 use crate::base::output_file::{publish, refuse_input};
 use crate::base::talk::{print, say};
-use crate::jobs::print::{Case, INCH_POUND, SI, Units, printout};
+use crate::jobs::print::{Case, Units, printout};
 
 /// Print a run as paged text, as the report's program did
 ///
@@ -50,9 +51,9 @@ enum UnitsChoice {
 pub(crate) fn print_run(args: &Args) -> Result<Done, Failure> {
     let name = args.run.display();
     let case = Case::read(&args.run)?;
-    let units: &Units = match args.units {
-        Some(UnitsChoice::Si) => &SI,
-        Some(UnitsChoice::InchPound) => &INCH_POUND,
+    let units = match args.units {
+        Some(UnitsChoice::Si) => Units(UnitSystem::Si),
+        Some(UnitsChoice::InchPound) => Units(UnitSystem::InchPound),
         None => case.units(),
     };
     let text = printout(&case, units, args.every).map_err(|e| Failure::plain(format!("{name}: {e}")))?;

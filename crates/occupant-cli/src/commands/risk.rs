@@ -5,8 +5,9 @@ mod options;
 
 use std::path::PathBuf;
 
-use clap::ValueEnum;
+use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use crash_measures::measure::limits::Rule;
+use crash_measures::signal::{CfcFamily, ChannelClass};
 use occupant_core::vehicle::risk::{Preparation, VehicleSignals};
 
 use crate::base::failure::{Done, Failure};
@@ -27,16 +28,16 @@ pub(crate) struct Args {
     file: PathBuf,
 
     /// Judge by this rule; may be repeated; all are shown if absent
-    #[arg(long, value_name = "RULE")]
-    rule: Vec<RuleChoice>,
+    #[arg(long, value_name = "RULE", value_parser = one_of(&RULES))]
+    rule: Vec<Rule>,
 
     /// Channel frequency class of the filter; "none" for data that are filtered already
-    #[arg(long, value_name = "CLASS", default_value = "180")]
-    cfc: ClassChoice,
+    #[arg(long, value_name = "CLASS", default_value = "180", value_parser = class())]
+    cfc: Class,
 
     /// Filter coefficients
-    #[arg(long, value_name = "FAMILY", default_value = "iso6487")]
-    coefficients: FamilyChoice,
+    #[arg(long, value_name = "FAMILY", default_value = "iso6487", value_parser = one_of(&FAMILIES))]
+    coefficients: CfcFamily,
 
     /// Sample interval: recorded data are resampled by straight lines, paths are sampled (0.1 ms if absent)
     #[arg(long, value_name = "TIME")]
@@ -83,78 +84,53 @@ pub(crate) struct Args {
     json: bool,
 }
 
-/// Rules that judge a vehicle's motion.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum RuleChoice {
-    /// MASH 2016
-    Mash,
-    /// MASH 2016, breakaway supports
-    MashSupports,
-    /// NCHRP Report 350
-    Nchrp350,
-    /// EN 1317-1:1998
-    #[value(name = "en1317-1998")]
-    En1317Edition1998,
-    /// EN 1317-1:2010
-    #[value(name = "en1317-2010")]
-    En1317Edition2010,
+/// A class of filters, or none.
+type Class = Option<ChannelClass>;
+
+/// Rules that judge a vehicle's motion: names on the command line, names in help.
+const RULES: [(&str, &str, Rule); 5] = [
+    ("mash", "MASH 2016", Rule::Mash2016),
+    ("mash-supports", "MASH 2016, breakaway supports", Rule::Mash2016Supports),
+    ("nchrp350", "NCHRP Report 350", Rule::Nchrp350),
+    ("en1317-1998", "EN 1317-1:1998", Rule::En1317Edition1998),
+    ("en1317-2010", "EN 1317-1:2010", Rule::En1317Edition2010),
+];
+
+/// Filter coefficients, likewise.
+const FAMILIES: [(&str, &str, CfcFamily); 2] =
+    [("iso6487", "ISO 6487", CfcFamily::Iso6487), ("j211", "SAE J211", CfcFamily::SaeJ211)];
+
+/// Reads one of the names in a table.
+fn one_of<T: Copy + Send + Sync + 'static>(table: &'static [(&str, &str, T)]) -> impl TypedValueParser<Value = T> {
+    let names = table.iter().map(|(name, help, _)| PossibleValue::new(*name).help(*help));
+    let named = |name: String| table.iter().find(|row| row.0 == name).map(|row| row.2).ok_or("unknown name");
+    PossibleValuesParser::new(names).try_map(named)
 }
 
-impl RuleChoice {
-    fn rule(self) -> Rule {
-        match self {
-            RuleChoice::Mash => Rule::Mash2016,
-            RuleChoice::MashSupports => Rule::Mash2016Supports,
-            RuleChoice::Nchrp350 => Rule::Nchrp350,
-            RuleChoice::En1317Edition1998 => Rule::En1317Edition1998,
-            RuleChoice::En1317Edition2010 => Rule::En1317Edition2010,
-        }
-    }
-}
-
-/// Filter classes.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum ClassChoice {
-    #[value(name = "60")]
-    Cfc60,
-    #[value(name = "180")]
-    Cfc180,
-    #[value(name = "600")]
-    Cfc600,
-    #[value(name = "1000")]
-    Cfc1000,
-    None,
-}
-
-/// Filter coefficients.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum FamilyChoice {
-    /// ISO 6487
-    Iso6487,
-    /// SAE J211
-    J211,
+fn class() -> impl TypedValueParser<Value = Class> {
+    let names = PossibleValuesParser::new(["60", "180", "600", "1000", "none"]);
+    names.map(|name| name.parse().ok().and_then(ChannelClass::from_number))
 }
 
 /// Measures and judges.
 pub(crate) fn risk(args: &Args) -> Result<Done, Failure> {
     let preparation = preparation(args)?;
     let flight = flight(args)?;
-    let rules: Vec<Rule> = args.rule.iter().map(|rule| rule.rule()).collect();
     let (subject, signals) = measured(args, &preparation)?;
     warn_of_coarse_samples(&signals, &preparation);
-    let report = Report::new(subject, preparation, signals, flight, &rules);
-    match args.json {
-        true => print(&talk::json(&json(&report))?)?,
-        false => print(&text(&report))?,
+    let report = Report::new(subject, preparation, signals, flight, &args.rule);
+    if args.json {
+        print(&talk::json(&json(&report))?)?
+    } else {
+        print(&text(&report))?
     }
     let broken = report.judgements.iter().filter(|j| j.breaks_the_rule());
     let broken: Vec<String> = broken.map(|j| format!("{} {}", j.limit.rule.name(), j.measure)).collect();
-    match rules.is_empty() || broken.is_empty() {
-        true => Ok(Done::Well),
-        false => {
-            say(&format!("error: beyond the limit: {}", broken.join(", ")));
-            Ok(Done::Unwell)
-        }
+    if args.rule.is_empty() || broken.is_empty() {
+        Ok(Done::Well)
+    } else {
+        say(&format!("error: beyond the limit: {}", broken.join(", ")));
+        Ok(Done::Unwell)
     }
 }
 

@@ -9,9 +9,7 @@ use crate::base::names::file_name;
 use crate::files::history::{Treatment, UnitChoice, choose, load};
 use crate::files::measured::{self, MapArgument, Wanted, pairs};
 use crate::files::results::Results;
-use crate::pictures::plot::{
-    Entry, Figure, LimitArgument, Material, Overlay, RunCurves, Wish, figure, standard,
-};
+use crate::pictures::plot::{Entry, Figure, LimitArgument, Material, Overlay, RunCurves, Wish, figure, standard};
 
 /// What is plotted, and how.
 pub(crate) struct Request<'a> {

@@ -74,7 +74,7 @@ impl Body {
     }
 
     /// Y of what is beside the middle plane, m.
-    pub fn beside_m(&self, width: Width, side: Side) -> f64 {
+    pub(crate) fn beside_m(&self, width: Width, side: Side) -> f64 {
         let half_width_m = match width {
             Width::Shoulder => self.shoulder_half_width_m,
             Width::Hip => self.hip_half_width_m,
@@ -84,7 +84,7 @@ impl Body {
 
     /// Y and Z of the joint that carries a segment, seen from the joint end of its proximal segment along that one's axes,
     /// m; 0 for both segments that meet at T1.
-    pub fn joint_m(&self, segment: Segment) -> [f64; 2] {
+    pub(crate) fn joint_m(&self, segment: Segment) -> [f64; 2] {
         let Some(joint) = self.tree.carrier(segment) else {
             return [0.0; 2];
         };
@@ -98,7 +98,7 @@ impl Body {
     }
 
     /// Z of the far end of a segment, seen from its joint end, m.
-    pub fn far_m(&self, segment: Segment) -> f64 {
+    pub(crate) fn far_m(&self, segment: Segment) -> f64 {
         let length_m = self.segment(segment).length_m;
         if self.tree[segment].hangs() { -length_m } else { length_m }
     }

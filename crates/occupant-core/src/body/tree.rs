@@ -248,12 +248,12 @@ impl Tree {
     }
 
     /// The segment with this name.
-    pub fn segment_named(&self, name: &str) -> Option<Segment> {
+    pub(crate) fn segment_named(&self, name: &str) -> Option<Segment> {
         self.segments().find(|s| self[*s].name == name)
     }
 
     /// The joint that carries a segment; nothing carries the first.
-    pub const fn carrier(&self, segment: Segment) -> Option<Joint> {
+    pub(crate) const fn carrier(&self, segment: Segment) -> Option<Joint> {
         let mut j = 0;
         while j < self.joints.len() {
             if self.joints[j].distal.0 == segment.0 {

@@ -7,9 +7,9 @@
 //! that of its positive side.
 
 use std::array::from_fn;
-use std::ops::{Add, AddAssign, Div, Mul, Neg, Sub, SubAssign};
+use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::motion::scalar::Scalar;
+use crate::motion::scalar::{Scalar, in_place};
 
 /// A value and its derivatives in `N` directions.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,19 +79,7 @@ impl<const N: usize> Neg for Dual<N> {
     }
 }
 
-impl<const N: usize> AddAssign for Dual<N> {
-    #[inline(always)]
-    fn add_assign(&mut self, b: Self) {
-        *self = *self + b;
-    }
-}
-
-impl<const N: usize> SubAssign for Dual<N> {
-    #[inline(always)]
-    fn sub_assign(&mut self, b: Self) {
-        *self = *self - b;
-    }
-}
+in_place!([const N: usize] Dual<N>);
 
 impl<const N: usize> Scalar for Dual<N> {
     type Mask = bool;

@@ -87,13 +87,13 @@ pub fn free_slot(segment: usize) -> Option<usize> {
 }
 
 /// Place of a hinged segment in [`HINGED`], if it is one.
-pub fn hinge_slot(segment: usize) -> Option<usize> {
+pub(crate) fn hinge_slot(segment: usize) -> Option<usize> {
     HINGED.iter().position(|&n| n == segment)
 }
 
 /// The part of [`HUNG`] that a segment carries.
 #[inline(always)]
-pub fn hung_from(segment: usize) -> &'static [(usize, usize)] {
+pub(crate) fn hung_from(segment: usize) -> &'static [(usize, usize)] {
     const FIRST: [usize; SEGMENTS + 1] = {
         let (mut first, mut n) = ([0; SEGMENTS + 1], 0);
         while n < SEGMENTS {

@@ -9,6 +9,26 @@ use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign
 
 use crash_measures::trig;
 
+/// `+=` and `-=` of a type by its `+` and `-`.
+macro_rules! in_place {
+    ([$($parameter:tt)*] $Type:ty) => {
+        impl<$($parameter)*> std::ops::AddAssign for $Type {
+            #[inline(always)]
+            fn add_assign(&mut self, other: Self) {
+                *self = *self + other;
+            }
+        }
+
+        impl<$($parameter)*> std::ops::SubAssign for $Type {
+            #[inline(always)]
+            fn sub_assign(&mut self, other: Self) {
+                *self = *self - other;
+            }
+        }
+    };
+}
+pub(crate) use in_place;
+
 /// A real number, or several side by side.
 pub trait Scalar:
     Copy

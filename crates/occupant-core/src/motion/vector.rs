@@ -1,10 +1,10 @@
 //! Vectors and matrices of the kernel: only what it needs, over any [`Scalar`].
 
-use std::ops::{Add, AddAssign, Mul, Neg, Sub, SubAssign};
+use std::ops::{Add, Mul, Neg, Sub};
 
 use nalgebra::{Matrix3, Vector3};
 
-use crate::motion::scalar::Scalar;
+use crate::motion::scalar::{Scalar, in_place};
 
 /// A vector of three components.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -108,19 +108,7 @@ impl<S: Scalar> Mul<S> for V3<S> {
     }
 }
 
-impl<S: Scalar> AddAssign for V3<S> {
-    #[inline(always)]
-    fn add_assign(&mut self, b: Self) {
-        *self = *self + b;
-    }
-}
-
-impl<S: Scalar> SubAssign for V3<S> {
-    #[inline(always)]
-    fn sub_assign(&mut self, b: Self) {
-        *self = *self - b;
-    }
-}
+in_place!([S: Scalar] V3<S>);
 
 /// A 3 × 3 matrix by columns; for an orientation the columns are the axes X, Y, Z of the turned frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -194,14 +182,14 @@ pub struct Sym3<S> {
 impl<S: Scalar> Sym3<S> {
     /// k·1.
     #[inline(always)]
-    pub fn scaled_identity(k: S) -> Self {
+    pub(crate) fn scaled_identity(k: S) -> Self {
         let o = S::zero();
         Sym3 { xx: k, yy: k, zz: k, xy: o, xz: o, yz: o }
     }
 
     /// Adds k v vᵀ.
     #[inline(always)]
-    pub fn add_outer(&mut self, k: S, v: V3<S>) {
+    pub(crate) fn add_outer(&mut self, k: S, v: V3<S>) {
         let kv = v * k;
         self.xx += kv.x * v.x;
         self.yy += kv.y * v.y;
@@ -213,7 +201,7 @@ impl<S: Scalar> Sym3<S> {
 
     /// Adds k (v wᵀ + w vᵀ).
     #[inline(always)]
-    pub fn add_outer_pair(&mut self, k: S, v: V3<S>, w: V3<S>) {
+    pub(crate) fn add_outer_pair(&mut self, k: S, v: V3<S>, w: V3<S>) {
         let kv = v * k;
         self.xx += kv.x * w.x + kv.x * w.x;
         self.yy += kv.y * w.y + kv.y * w.y;
@@ -231,19 +219,19 @@ impl<S: Scalar> Sym3<S> {
 
     /// First row.
     #[inline(always)]
-    pub fn row_x(&self) -> V3<S> {
+    pub(crate) fn row_x(&self) -> V3<S> {
         v3(self.xx, self.xy, self.xz)
     }
 
     /// Second row.
     #[inline(always)]
-    pub fn row_y(&self) -> V3<S> {
+    pub(crate) fn row_y(&self) -> V3<S> {
         v3(self.xy, self.yy, self.yz)
     }
 
     /// Third row.
     #[inline(always)]
-    pub fn row_z(&self) -> V3<S> {
+    pub(crate) fn row_z(&self) -> V3<S> {
         v3(self.xz, self.yz, self.zz)
     }
 

@@ -112,6 +112,15 @@ pub fn matches(name: &str, pieces: &[&str]) -> bool {
     left.ends_with(last)
 }
 
+/// What the only star of a pattern stands for in a name, one character or more; empty for a pattern without a star that is
+/// the name.
+pub fn star<'n>(pattern: &str, name: &'n str) -> Option<&'n str> {
+    match pattern.split_once('*') {
+        None => (pattern == name).then_some(""),
+        Some((before, after)) => name.strip_prefix(before)?.strip_suffix(after).filter(|middle| !middle.is_empty()),
+    }
+}
+
 /// A recorder that keeps the values of chosen channels at every output.
 #[derive(Clone, Debug, Default)]
 pub struct Series {
@@ -161,6 +170,14 @@ impl Recorder for Series {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_star_is_one_name() {
+        assert_eq!(star("sphere.*.force.resultant", "sphere.left_knee.force.resultant"), Some("left_knee"));
+        assert_eq!(star("belt.*.force", "belt.lap.elongation"), None);
+        assert_eq!(star("belts.*.peak", "belts..peak"), None);
+        assert_eq!((star("hic15", "hic15"), star("hic15", "hic1")), (Some(""), None));
+    }
 
     #[test]
     fn a_star_stands_for_anything() {

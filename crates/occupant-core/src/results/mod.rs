@@ -3,6 +3,7 @@
 pub mod catalogue;
 pub mod channel;
 pub mod checkpoint;
+pub mod customary;
 pub mod elements;
 pub mod energy;
 pub mod instruments;

@@ -166,7 +166,7 @@ impl<'a> Sample<'a> {
     }
 
     /// Greatest Δ of a sphere, m; 0 without contact.
-    pub fn penetration_m(&self, sphere: usize) -> f64 {
+    pub(crate) fn penetration_m(&self, sphere: usize) -> f64 {
         let own = self.actions.contacts.iter().filter(|t| t.sphere == sphere);
         own.map(|t| t.depth).fold(0.0, f64::max)
     }

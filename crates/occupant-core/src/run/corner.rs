@@ -90,10 +90,7 @@ impl Crossing<'_> {
         let (mut rising, mut falling) = (0.0, 1.0);
         for _ in 0..30 {
             let middle = 0.5 * (rising + falling);
-            match speed(middle) > 0.0 {
-                true => rising = middle,
-                false => falling = middle,
-            }
+            if speed(middle) > 0.0 { rising = middle } else { falling = middle }
         }
         let s = falling;
         let deepest_m = d0 + s * (h * v0 + s * (square + cube * s));

@@ -37,7 +37,7 @@ impl Stretch {
 impl Stretch {
     /// True after the last step.
     #[inline]
-    pub fn is_over(&self) -> bool {
+    pub(crate) fn is_over(&self) -> bool {
         self.done >= self.count
     }
 }

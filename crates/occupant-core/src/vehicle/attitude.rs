@@ -58,7 +58,7 @@ impl Attitude {
     ///
     /// An attitude has many names: whole turns may be added to each angle, and (φ + π, π − θ, ψ + π) is the same
     /// attitude as (φ, θ, ψ). The second matters for a vehicle that pitches past the vertical.
-    pub fn unwrapped_after(&self, previous: &Attitude) -> Self {
+    pub(crate) fn unwrapped_after(&self, previous: &Attitude) -> Self {
         let reference = previous.to_vector();
         let nearest = |angles: Vector3<f64>| angles.zip_map(&reference, nearest_turn);
         let plain = nearest(self.to_vector());

@@ -228,3 +228,21 @@ pub(super) fn expect_finite(problems: &mut Vec<PathProblem>, quantity: &'static 
         problems.push(PathProblem::NotFinite { quantity, value });
     }
 }
+
+/// Adds what is wrong with row `station` of numbers over time: those that are not finite or beyond `largest` in magnitude, and a
+/// time that is not after that of the row before.
+pub(super) fn check_row(
+    problems: &mut Vec<PathProblem>,
+    station: usize,
+    time_s: f64,
+    previous_s: Option<f64>,
+    numbers: impl IntoIterator<Item = (&'static str, f64)>,
+    largest: f64,
+) {
+    let all = std::iter::once(("t", time_s)).chain(numbers);
+    let wrong = all.filter(|(_, value)| value.is_nan() || value.abs() > largest);
+    problems.extend(wrong.map(|(quantity, value)| PathProblem::StationNotFinite { station, quantity, value }));
+    if let Some(previous_s) = previous_s.filter(|previous_s| time_s <= *previous_s) {
+        problems.push(PathProblem::TimeNotIncreasing { station, time_s, previous_s });
+    }
+}

@@ -98,10 +98,7 @@ impl PulsePath {
         let mut problems = Vec::new();
         find_problems(&definition, &mut problems);
         let attitude = definition.initial.attitude.matrix();
-        let direction = match definition.direction {
-            TravelDirection::Heading => attitude.column(0).into_owned(),
-            TravelDirection::Along(vector) => unit(vector, &mut problems),
-        };
+        let direction = definition.direction.unit(&definition.initial, &mut problems);
         let profile = match definition.shape.profile() {
             Ok(profile) if problems.is_empty() => profile,
             Ok(_) => return Err(problems),
@@ -163,16 +160,6 @@ impl PulsePath {
     /// When and where the vehicle first comes to rest, if the pulse stops it.
     pub fn stop(&self) -> Option<Stop> {
         self.stop
-    }
-
-    /// When the vehicle first comes to rest, s.
-    pub fn stop_time_s(&self) -> Option<f64> {
-        self.stop.map(|stop| stop.time_s)
-    }
-
-    /// How far it has travelled by then since the deceleration began, m.
-    pub fn stopping_distance_m(&self) -> Option<f64> {
-        self.stop.map(|stop| stop.distance_m)
     }
 
     /// Pose and motion at `t_s`, in space axes.
@@ -250,15 +237,20 @@ fn holds_back(profile: &Profile, since_s: f64, distance_m: f64) -> bool {
     distance_m == 0.0 || after_m_s > before_m_s
 }
 
-/// `vector` at length one; a problem if it has no length.
-pub(super) fn unit(vector: Vector3<f64>, problems: &mut Vec<PathProblem>) -> Vector3<f64> {
-    let size = vector.amax();
-    expect_finite(problems, "direction of travel", vector.sum());
-    if size == 0.0 {
-        problems.push(PathProblem::NoDirection);
+impl TravelDirection {
+    /// A vector of length one in vehicle-space axes; a problem if it has no length.
+    pub(super) fn unit(self, initial: &VehiclePose, problems: &mut Vec<PathProblem>) -> Vector3<f64> {
+        let TravelDirection::Along(vector) = self else {
+            return initial.attitude.matrix().column(0).into_owned();
+        };
+        let size = vector.amax();
+        expect_finite(problems, "direction of travel", vector.sum());
+        if size == 0.0 {
+            problems.push(PathProblem::NoDirection);
+        }
+        // Through the largest component first, so that no vector is too long or too short to be squared.
+        (vector / size).normalize()
     }
-    // Through the largest component first, so that no vector is too long or too short to be squared.
-    (vector / size).normalize()
 }
 
 #[cfg(test)]

@@ -25,8 +25,7 @@ use super::attitude::Attitude;
 use super::cursor::PathCursor;
 use super::frame::{FrameMotion, rotation_to_space, to_space};
 use super::problem::{PathProblem, expect_finite};
-use super::pulse::unit;
-use super::{AfterEnd, TIME_SLACK, TravelDirection, VehiclePose, expect_finite_pose};
+use super::{AfterEnd, TravelDirection, VehiclePose, expect_finite_pose};
 use crash_measures::signal::ChannelClass;
 pub use record::{AccelerationRecord, DeltaVRecord, SensorRecord};
 use strapdown::{Piece, Start, integrate};
@@ -171,15 +170,7 @@ impl SensorPath {
     /// # Errors
     /// A run that starts before the first sample, or ends past the last one without saying what comes after.
     pub fn check_span(&self, start_s: f64, end_s: f64) -> Result<(), PathProblem> {
-        let (first_s, last_s) = self.span_s();
-        let slack_s = TIME_SLACK * (last_s - first_s);
-        if start_s < first_s - slack_s {
-            Err(PathProblem::StartsBeforePath { start_s, first_s })
-        } else if end_s > last_s + slack_s && self.definition.after == AfterEnd::Error {
-            Err(PathProblem::EndsAfterPath { end_s, last_s })
-        } else {
-            Ok(())
-        }
+        self.definition.after.check_span(self.span_s(), start_s, end_s)
     }
 
     /// The ends of the record, s. Between them velocity and angular velocity have no jump.
@@ -205,10 +196,7 @@ fn check_start(definition: &SensorDefinition, problems: &mut Vec<PathProblem>) -
             problems.push(PathProblem::Negative { quantity, value });
         }
     }
-    match definition.direction {
-        TravelDirection::Heading => definition.initial.attitude.matrix().column(0).into_owned(),
-        TravelDirection::Along(vector) => unit(vector, problems),
-    }
+    definition.direction.unit(&definition.initial, problems)
 }
 
 /// Motion of the c.g. at `t_s`, in space axes, from that of sensors at `offset_m`.

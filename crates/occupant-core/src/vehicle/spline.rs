@@ -29,7 +29,7 @@ impl Piece {
     }
 
     /// Their second derivatives at `t_s`, per s².
-    pub fn second_rate(&self, t_s: f64) -> Vector6<f64> {
+    pub(crate) fn second_rate(&self, t_s: f64) -> Vector6<f64> {
         let s = t_s - self.start_s;
         self.half_second * 2.0 + self.sixth_third * (6.0 * s)
     }

@@ -6,7 +6,7 @@ use nalgebra::{Vector3, Vector6};
 
 use super::VehiclePose;
 use super::attitude::Attitude;
-use super::problem::PathProblem;
+use super::problem::{PathProblem, check_row};
 
 /// Place and attitude of the vehicle at one time.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,16 +49,11 @@ pub(super) fn problems_of(stations: &[Station]) -> Vec<PathProblem> {
     }
     for (station, here) in stations.iter().enumerate() {
         let values = here.channels();
-        let numbers = std::iter::once(("t", here.time_s)).chain(COLUMNS.into_iter().zip(values.iter().copied()));
-        problems.extend(
-            numbers.filter(|(_, value)| !value.is_finite()).map(|(quantity, value)| PathProblem::StationNotFinite {
-                station,
-                quantity,
-                value,
-            }),
-        );
-        if station > 0 {
-            compare_with_previous(station, &stations[station - 1], here, &mut problems);
+        let numbers = COLUMNS.into_iter().zip(values.iter().copied());
+        let previous = station.checked_sub(1).map(|before| &stations[before]);
+        check_row(&mut problems, station, here.time_s, previous.map(|p| p.time_s), numbers, f64::MAX);
+        if let Some(previous) = previous {
+            compare_with_previous(station, previous, here, &mut problems);
         }
     }
     problems
@@ -66,12 +61,8 @@ pub(super) fn problems_of(stations: &[Station]) -> Vec<PathProblem> {
 
 /// What is wrong with a station only in the light of the one before it.
 fn compare_with_previous(station: usize, previous: &Station, here: &Station, problems: &mut Vec<PathProblem>) {
-    let (time_s, previous_s) = (here.time_s, previous.time_s);
-    if time_s <= previous_s {
-        problems.push(PathProblem::TimeNotIncreasing { station, time_s, previous_s });
-    }
     let (before, now) = (previous.channels(), here.channels());
-    let length_s = time_s - previous_s;
+    let length_s = here.time_s - previous.time_s;
     for (channel, quantity) in COLUMNS.into_iter().enumerate() {
         let (from, to) = (before[channel], now[channel]);
         if !(to - from).is_finite() {

@@ -38,6 +38,23 @@ pub enum AfterEnd {
     Hold,
 }
 
+impl AfterEnd {
+    /// Whether a path given from `first_s` to `last_s` has an answer from `start_s` to `end_s`.
+    ///
+    /// # Errors
+    /// A run that starts before the first time, or ends past the last one without being told what comes after.
+    pub(super) fn check_span(self, (first_s, last_s): (f64, f64), start_s: f64, end_s: f64) -> Result<(), PathProblem> {
+        let slack_s = TIME_SLACK * (last_s - first_s);
+        if start_s < first_s - slack_s {
+            Err(PathProblem::StartsBeforePath { start_s, first_s })
+        } else if end_s > last_s + slack_s && self == AfterEnd::Error {
+            Err(PathProblem::EndsAfterPath { end_s, last_s })
+        } else {
+            Ok(())
+        }
+    }
+}
+
 /// A vehicle path through stations, checked and ready to be asked.
 #[derive(Clone, Debug, PartialEq)]
 pub struct TablePath {
@@ -151,15 +168,7 @@ impl TablePath {
     /// # Errors
     /// A run that starts before the first station, or ends past the last one without saying what comes after.
     pub fn check_span(&self, start_s: f64, end_s: f64) -> Result<(), PathProblem> {
-        let (first_s, last_s) = self.span_s();
-        let slack_s = TIME_SLACK * (last_s - first_s);
-        if start_s < first_s - slack_s {
-            Err(PathProblem::StartsBeforePath { start_s, first_s })
-        } else if end_s > last_s + slack_s && self.after == AfterEnd::Error {
-            Err(PathProblem::EndsAfterPath { end_s, last_s })
-        } else {
-            Ok(())
-        }
+        self.after.check_span(self.span_s(), start_s, end_s)
     }
 
     /// Times at which the velocity or the acceleration jumps, s, in increasing order.

@@ -1,10 +1,9 @@
 //! The flags of `occupant risk` in SI.
 
-use crash_measures::signal::{CfcFamily, ChannelClass};
 use occupant_core::scenario::kind;
 use occupant_core::vehicle::risk::{Flight, Preparation, VerticalGravity};
 
-use super::{Args, ClassChoice, FamilyChoice};
+use super::Args;
 use crate::base::failure::Failure;
 
 const LENGTH: usize = kind::LENGTH;
@@ -12,29 +11,15 @@ const TIME: usize = kind::TIME;
 
 /// What is done with the record.
 pub(crate) fn preparation(args: &Args) -> Result<Preparation, Failure> {
-    let class = match args.cfc {
-        ClassChoice::Cfc60 => Some(ChannelClass::Cfc60),
-        ClassChoice::Cfc180 => Some(ChannelClass::Cfc180),
-        ClassChoice::Cfc600 => Some(ChannelClass::Cfc600),
-        ClassChoice::Cfc1000 => Some(ChannelClass::Cfc1000),
-        ClassChoice::None => None,
-    };
-    let family = match args.coefficients {
-        FamilyChoice::Iso6487 => CfcFamily::Iso6487,
-        FamilyChoice::J211 => CfcFamily::SaeJ211,
-    };
     let interval_s = quantity::<TIME>("--interval", &args.interval)?;
     if let Some(interval_s) = interval_s {
         positive("--interval", interval_s)?;
     }
     Ok(Preparation {
-        filter: class.map(|class| (class, family)),
+        filter: args.cfc.map(|class| (class, args.coefficients)),
         interval_s,
         offset_m: offset(args.offset.as_deref())?,
-        gravity: match args.gravity_included {
-            true => VerticalGravity::Included,
-            false => VerticalGravity::Removed,
-        },
+        gravity: if args.gravity_included { VerticalGravity::Included } else { VerticalGravity::Removed },
         start_s: quantity::<TIME>("--start", &args.start)?,
         end_s: quantity::<TIME>("--end", &args.end)?,
     })
@@ -72,10 +57,7 @@ fn si<const KIND: usize>(flag: &str, text: &str) -> Result<f64, Failure> {
 }
 
 fn positive(flag: &str, value: f64) -> Result<f64, Failure> {
-    match value > 0.0 {
-        true => Ok(value),
-        false => Err(Failure::plain(format!("{flag}: found {value}, expected more than 0"))),
-    }
+    if value > 0.0 { Ok(value) } else { Err(Failure::plain(format!("{flag}: found {value}, expected more than 0"))) }
 }
 
 fn offset(words: Option<&str>) -> Result<[f64; 3], Failure> {

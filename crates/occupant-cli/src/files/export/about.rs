@@ -68,7 +68,7 @@ impl About {
     ) -> Self {
         let of = |c: &Column| ColumnAbout {
             name: c.channel.name.clone(),
-            unit: shown(c.channel.unit, units).ascii.to_owned(),
+            unit: shown(c.channel.unit, units).ascii(),
             frame: c.channel.axes.name(),
             filter: class_name(c.class),
             meaning: c.channel.meaning.clone(),

@@ -27,10 +27,7 @@ pub(crate) fn choose(model: &Model, names: &[String]) -> Result<Vec<Channel>, Fa
 fn fitting(model: &Model, name: &str) -> Result<Vec<Channel>, Failure> {
     if name.contains('*') {
         let found = matching(model, name);
-        return match found.is_empty() {
-            true => Err(unknown(model, name, None)),
-            false => Ok(found),
-        };
+        return if found.is_empty() { Err(unknown(model, name, None)) } else { Ok(found) };
     }
     let found = find(model, name);
     found.map(|c| vec![c]).map_err(|nearest| unknown(model, name, nearest))

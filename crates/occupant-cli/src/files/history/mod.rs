@@ -14,7 +14,7 @@ use occupant_core::results::channel::Channel;
 pub(crate) use choose::choose;
 pub(crate) use filter::{Family, Filter, filtered};
 pub(crate) use load::{Treatment, Untreated, asked, load, treated};
-pub(crate) use unit::{Shown, UnitChoice, dimension, plotted, shown};
+pub(crate) use unit::{UnitChoice, plotted, shown};
 
 /// Channels of one run over common times.
 #[derive(Clone, Debug)]

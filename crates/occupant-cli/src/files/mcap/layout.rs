@@ -2,6 +2,7 @@
 //! three-dimensional topics until a layout shows them, so it travels with every file.
 
 use occupant_core::results::catalogue::Message;
+use occupant_core::results::customary::{ACCELERATIONS, BALANCE, ENERGIES};
 use serde_json::{Value, json};
 
 use super::topics::{self, VEHICLE_FRAME};
@@ -14,11 +15,13 @@ pub(crate) fn layout(messages: &[Message]) -> Value {
         let own = messages.iter().filter(|m| m.name == message);
         own.map(|m| format!("{}.{field}", m.topic)).collect()
     };
-    let accelerometers = ["head", "upper_torso", "lower_torso"]
-        .map(|segment| format!("/occupant/segment/{segment}.accelerometer_resultant_m_s2"));
+    let segments = ACCELERATIONS.iter().map(|(channel, _)| channel.trim_end_matches(".acceleration.resultant"));
+    let accelerometers: Vec<String> =
+        segments.map(|segment| format!("/occupant/segment/{segment}.accelerometer_resultant_m_s2")).collect();
     let loops = fields("BeltState", "loop_force_n");
     let forces = fields("SphereLoad", "contact_force_resultant_n");
-    let energies = ["kinetic_relative_j", "balance_j"].map(|field| fields("EnergyLedger", field)).concat();
+    let energy = |channel: &str| fields("EnergyLedger", &format!("{}_j", channel.trim_start_matches("energy.")));
+    let energies = [ENERGIES[0], BALANCE[0]].map(|(channel, _)| energy(channel)).concat();
     let panels = json!({
         "3D!scene": scene(),
         "Plot!accelerations": plot("Accelerometers, m/s²", &accelerometers),

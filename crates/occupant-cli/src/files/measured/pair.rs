@@ -12,7 +12,7 @@ use occupant_core::results::channel::Channel;
 
 use super::table::name_and_unit;
 use crate::base::failure::Failure;
-use crate::files::history::{Family, dimension, filtered};
+use crate::files::history::{Family, filtered};
 use crate::files::signals::{Recording, Signal, scale_of};
 
 /// A channel that a signal may belong to.
@@ -25,7 +25,7 @@ pub(crate) struct Wanted {
 
 impl From<&Channel> for Wanted {
     fn from(channel: &Channel) -> Self {
-        Wanted { name: channel.name.clone(), unit: Some((dimension(channel.unit), channel.unit.symbol().to_owned())) }
+        Wanted { name: channel.name.clone(), unit: Some((channel.unit.dimension(), channel.unit.symbol().to_owned())) }
     }
 }
 

@@ -1,30 +1,13 @@
 //! Bands over time: within which the middle 90 % of the members lie, and when they part.
 
 use occupant_core::model::Model;
-use occupant_core::results::channel::{Channel, channels, find, matching};
+use occupant_core::results::channel::{Channel, matching};
+use occupant_core::results::customary::BANDS;
 use occupant_study::spread::Band;
 
 use super::judge::{Tolerance, smallest};
 use crate::base::failure::Failure;
-
-/// The channels whose bands are looked at unless others are asked for.
-const MAIN: [&str; 15] = [
-    "head.acceleration.resultant",
-    "upper_torso.acceleration.resultant",
-    "lower_torso.acceleration.resultant",
-    "belt.*.force",
-    "sphere.head.force.resultant",
-    "sphere.chest.force.resultant",
-    "sphere.right_knee.force.resultant",
-    "sphere.left_knee.force.resultant",
-    "neck.force.resultant",
-    "neck.moment.resultant",
-    "right_femur.axial",
-    "left_femur.axial",
-    "sphere.head.position.x",
-    "sphere.head.position.y",
-    "sphere.head.position.z",
-];
+use crate::files::history;
 
 /// Memory that histories may take.
 const MOST_BYTES: usize = 1 << 30;
@@ -59,34 +42,10 @@ pub(crate) struct ChannelBand {
 /// A name or pattern that fits no channel.
 pub(crate) fn choose(model: &Model, names: &[String]) -> Result<Vec<Channel>, Failure> {
     if names.is_empty() {
-        let main = MAIN.iter().flat_map(|pattern| matching(model, pattern));
+        let main = BANDS.into_iter().flatten().flat_map(|(pattern, _)| matching(model, pattern));
         return Ok(main.collect());
     }
-    let mut chosen: Vec<Channel> = Vec::new();
-    for name in names.iter().flat_map(|n| n.split(',')).map(str::trim) {
-        let found = matching(model, name);
-        if found.is_empty() {
-            return Err(unknown(model, name));
-        }
-        for channel in found {
-            if chosen.iter().all(|c| c.name != channel.name) {
-                chosen.push(channel);
-            }
-        }
-    }
-    Ok(chosen)
-}
-
-fn unknown(model: &Model, name: &str) -> Failure {
-    let nearest = find(model, name).err().flatten();
-    let help = match (nearest, channels(model).first()) {
-        (Some(nearest), _) => format!("did you mean `{nearest}`?"),
-        (None, Some(one)) => {
-            format!("names are such as `{}` and `head.acceleration.resultant`; `*` stands for anything", one.name)
-        }
-        (None, None) => "the model has no channels".to_owned(),
-    };
-    Failure::with_help(format!("--channels: no channel is called `{name}`"), &help)
+    history::choose(model, names)
 }
 
 /// Refuses histories that would not fit into memory.

@@ -5,11 +5,10 @@ use std::path::Path;
 use occupant_core::forces::contact::{PASSED, PairHistory};
 use occupant_core::model::Model;
 use occupant_core::scenario::Loaded;
-use occupant_core::scenario::kind::UnitSystem;
 
 use cardio_legacy::CompartmentLayout;
 
-use super::unit::{INCH_POUND, SI, Units};
+use super::unit::Units;
 use crate::base::failure::Failure;
 use crate::files::mcap::StoredRun;
 use crate::files::mcap::about::RUN;
@@ -67,19 +66,25 @@ impl Case {
     }
 
     /// The units of the scenario.
-    pub(crate) fn units(&self) -> &'static Units {
-        match self.loaded.scenario.units {
-            Some(UnitSystem::InchPound) => &INCH_POUND,
-            _ => &SI,
-        }
+    pub(crate) fn units(&self) -> Units {
+        Units(self.loaded.scenario.units.unwrap_or_default())
+    }
+
+    /// A fact about the run from its record; `-` where it has none.
+    pub(crate) fn known(&self, key: &str) -> &str {
+        self.file.run.get(key).map_or("-", String::as_str)
+    }
+
+    /// The name of a contact sphere; empty for none.
+    pub(crate) fn sphere(&self, index: usize) -> String {
+        self.model.body().spheres.get(index).map(|s| s.name.clone()).unwrap_or_default()
     }
 
     /// The two lines on top of each page: the title cards, or the title and where the run comes from.
     pub(crate) fn titles(&self) -> [String; 2] {
         let notes = self.loaded.scenario.notes.as_deref().unwrap_or_default();
         let second = notes.lines().find_map(|line| line.trim().strip_prefix("TITLE 2 = "));
-        let known = |key: &str| self.file.run.get(key).map_or("-", String::as_str);
-        let origin = || format!("{}, {}", known("scenario"), known("program"));
+        let origin = || format!("{}, {}", self.known("scenario"), self.known("program"));
         [self.model.setup().title.clone(), second.map_or_else(origin, str::to_owned)]
     }
 

@@ -1,5 +1,5 @@
 //! The last sheet: how the run ended, and what an extension needs (series 6 and 14 of the cards): the pairs with
-//! NARRY(J,K) = 0, the coordinates, the rest angles of the spine and the belts' lengths.
+//! NARRY(J,K) = 0, the coordinates, the rest angles of the spine and what the elements keep.
 
 use occupant_core::body::tti12::{LOWER_BACK, UPPER_BACK};
 use occupant_core::motion::kinematics::Kinematics;
@@ -7,6 +7,7 @@ use occupant_core::motion::layout::BALL_JOINTS;
 use occupant_core::motion::report_coordinates::ReportCoordinates;
 use occupant_core::results::checkpoint::Checkpoint;
 
+use super::ELEMENTS;
 use super::case::Case;
 use super::echo::coordinates;
 use super::page::Pages;
@@ -14,7 +15,7 @@ use super::table::Table;
 use super::unit::Units;
 
 /// Writes the last sheet.
-pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units) {
+pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {
     pages.begin("END OF SOLUTION");
     ending(pages, case);
     if let Some(last) = case.file.checkpoints.last() {
@@ -51,13 +52,14 @@ fn ending(pages: &mut Pages, case: &Case) {
     ));
 }
 
-fn extension(pages: &mut Pages, case: &Case, units: &Units, checkpoint: &Checkpoint) {
+fn extension(pages: &mut Pages, case: &Case, units: Units, checkpoint: &Checkpoint) {
     pages.say("");
     pages.say("TO EXTEND THIS SOLUTION BY CARDS (SERIES 6 AND 14), FROM THE CHECKPOINT OF THE LAST OUTPUT.");
     pages.say("CARDS CARRY NO GREATEST DEFORMATION, SO AN EXTENSION BY CARDS IS APPROXIMATE; `occupant run --resume` IS EXACT.");
-    let numbers = match case.numbers_of_report {
-        true => "SURFACE NUMBERS ARE THOSE OF THE CARDS",
-        false => "SURFACES ARE NUMBERED IN THE ORDER OF THE SCENARIO",
+    let numbers = if case.numbers_of_report {
+        "SURFACE NUMBERS ARE THOSE OF THE CARDS"
+    } else {
+        "SURFACES ARE NUMBERED IN THE ORDER OF THE SCENARIO"
     };
     pairs(
         pages,
@@ -70,14 +72,7 @@ fn extension(pages: &mut Pages, case: &Case, units: &Units, checkpoint: &Checkpo
     pages.say("");
     let [upper, lower] = spine_rest_rad(case);
     pages.say(&format!("REST ANGLES OF THE BACK JOINTS: BETA4 {upper:.6} RAD, BETA7 {lower:.6} RAD"));
-    for (belt, law) in case.model.setup().belts.iter().zip(&case.model.system().forces.belts) {
-        pages.say(&format!(
-            "UNSTRETCHED LENGTH OF THE BELT {}: {} {}",
-            belt.name,
-            units.length.show(law.rest_length),
-            units.length.name
-        ));
-    }
+    ELEMENTS.iter().for_each(|element| (element.end)(pages, case, units));
 }
 
 /// β₀ of the upper and the lower back joint, rad: the scenario's, or the angles at the start.
@@ -93,16 +88,12 @@ fn spine_rest_rad(case: &Case) -> [f64; 2] {
 
 /// A list of pairs, two to a line.
 pub(crate) fn pairs(pages: &mut Pages, case: &Case, title: &str, passed: &[(usize, usize)]) {
-    let mut table = Table::new(title, &["J | <SPHERE | <K  SURFACE"; 2].join("|"));
+    let mut table = Table::new(title, "J|<SPHERE|<K  SURFACE|J|<SPHERE|<K  SURFACE");
     for row in passed.chunks(2) {
         let pair = |&(sphere, surface): &(usize, usize)| {
-            let name = case.model.body().spheres.get(sphere).map(|s| s.name.clone());
-            [(sphere + 1).to_string(), name.unwrap_or_default(), case.surface(surface)]
+            [(sphere + 1).to_string(), case.sphere(sphere), case.surface(surface)]
         };
         table.row(row.iter().flat_map(pair));
     }
-    match table.is_empty() {
-        true => pages.block(&[title.to_owned(), "NONE".to_owned()], 0),
-        false => table.write(pages),
-    }
+    table.write_or(pages, &[title, "NONE"]);
 }

@@ -1,112 +1,78 @@
-//! Items 5 to 7: forces on the contact spheres and the surfaces hit, points of application, belts; joint angles and the
-//! energy balance.
+//! Items 5 to 7: forces on the contact spheres and the surfaces hit, points of application, what the elements add; joint
+//! angles and the energy balance.
 
+use crash_measures::unit::Unit::{Joule, Metre, MetrePerSecond, Newton};
 use occupant_core::results::channel::matching;
 use occupant_core::results::sample::Sample;
 
 use super::case::Case;
 use super::page::Pages;
 use super::table::Table;
-use super::unit::{DEGREE, Units};
+use super::unit::{Units, degree};
+use super::{ELEMENTS, headings};
 
 /// The spheres whose point of application the report prints.
 const APPLICATION: [&str; 3] = ["head", "chest", "pelvis"];
 
 /// Writes the loads' tables.
-pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units, sample: &Sample<'_>) {
+pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units, sample: &Sample<'_>) {
     forces(case, units, sample).write(pages);
     application_points(units, sample).write(pages);
-    belts(pages, units, sample);
+    ELEMENTS.iter().for_each(|element| (element.output)(pages, units, sample));
     joints(pages, sample);
     energy(pages, units, sample);
 }
 
 /// Every sphere's force; one line for each surface hit.
-fn forces(case: &Case, units: &Units, s: &Sample<'_>) -> Table {
+fn forces(case: &Case, units: Units, s: &Sample<'_>) -> Table {
+    let (f, l, v) = (units.of(Newton), units.of(Metre), units.of(MetrePerSecond));
     let mut table = Table::new(
         format!(
-            "5. FORCE ON EACH CONTACT SPHERE, VEHICLE COORDINATES, BELTS APART, AND SURFACES HIT ({}, {}, {})",
-            units.force.name, units.length.name, units.speed.name
+            "5. FORCE ON EACH CONTACT SPHERE, VEHICLE COORDINATES, {} APART, AND SURFACES HIT {}",
+            headings(),
+            units.heading("({}, {}, {})", &[Newton, Metre, MetrePerSecond])
         ),
-        "NO | <SPHERE | FORCE X | FORCE Y | FORCE Z | RESULTANT | <SURFACE HIT | DEPTH | NORMAL | FRICTION | SLIP",
+        "NO|<SPHERE|FORCE X|FORCE Y|FORCE Z|RESULTANT|<SURFACE HIT|DEPTH|NORMAL|FRICTION|SLIP",
     );
     for (i, sphere) in s.model.body().spheres.iter().enumerate() {
         let force_n = s.sphere_force_n(i);
-        let mut cells = vec![(i + 1).to_string(), sphere.name.clone()];
-        cells.extend(units.force.vector(force_n));
-        cells.push(units.force.show(force_n.norm()));
+        let mut first =
+            [&[(i + 1).to_string(), sphere.name.clone()][..], &f.vector(force_n), &[f.show(force_n.norm())]].concat();
         let mut touches = s.contacts().filter(|c| c.sphere == i).peekable();
         if touches.peek().is_none() {
-            cells.push("-".to_owned());
-            table.row(std::mem::take(&mut cells));
+            table.row_of(&[&first, &["-".to_owned()]]);
         }
         for touch in touches {
-            cells.resize(6, String::new());
-            cells.extend([
+            let hit = [
                 case.surface(touch.surface),
-                units.length.show(touch.depth_m),
-                units.force.show(touch.normal_force_n),
-                units.force.show(touch.friction_n.norm()),
-                units.speed.show(touch.slip_m_s),
-            ]);
-            table.row(std::mem::take(&mut cells));
+                l.show(touch.depth_m),
+                f.show(touch.normal_force_n),
+                f.show(touch.friction_n.norm()),
+                v.show(touch.slip_m_s),
+            ];
+            table.row_of(&[&first, &hit]);
+            first.fill(String::new());
         }
     }
     table
 }
 
-fn application_points(units: &Units, s: &Sample<'_>) -> Table {
+fn application_points(units: Units, s: &Sample<'_>) -> Table {
     let mut table = Table::new(
-        format!(
+        units.heading(
             "6. POINT OF APPLICATION OF THE CONTACT FORCE FROM THE CENTER OF THE SPHERE, SEGMENT COORDINATES ({})",
-            units.length.name
+            &[Metre],
         ),
-        "NO | <SPHERE | X | Y | Z",
+        "NO|<SPHERE|X|Y|Z",
     );
     for name in APPLICATION {
         let Some(i) = s.model.body().sphere(name) else {
             continue;
         };
-        let cells = match s.application_point_m(i) {
-            Some(point) => units.length.vector(point),
-            None => ["-", "-", "-"].map(str::to_owned),
-        };
-        let first = [(i + 1).to_string(), name.to_owned()];
-        table.row(first.into_iter().chain(cells));
+        let point = s.application_point_m(i).map_or(["-"; 3].map(str::to_owned), |p| units.of(Metre).vector(p));
+        table.row_of(&[&[(i + 1).to_string(), name.to_owned()], &point]);
     }
     table
-}
-
-fn belts(pages: &mut Pages, units: &Units, s: &Sample<'_>) {
-    let mut table = Table::new(
-        format!(
-            "7. RESTRAINING FORCES OF BELTS, VEHICLE COORDINATES ({}, {}); WRAP (DEG) 0 OR LESS: OFF THE BODY",
-            units.force.name, units.length.name
-        ),
-        "<BELT | <ROUND | LOOP FORCE | FORCE X | FORCE Y | FORCE Z | RESULTANT | ELONGATION | LENGTH | WRAP",
-    );
-    for (belt, action) in s.model.setup().belts.iter().zip(&s.actions.belts) {
-        let round = s.model.body().spheres.get(belt.sphere);
-        let force = action.force.to_vector();
-        let first = [
-            belt.name.clone(),
-            round.map_or_else(String::new, |s| s.name.clone()),
-            units.force.show(action.loop_force),
-        ];
-        let last = [
-            units.force.show(force.norm()),
-            units.length.show(action.elongation),
-            units.length.show(action.length),
-            DEGREE.show(action.wrap),
-        ];
-        let force = units.force.vector(force);
-        table.row(first.into_iter().chain(force).chain(last));
-    }
-    if table.is_empty() {
-        pages.block(&["7. NO BELTS".to_owned()], 0);
-    } else {
-        table.write(pages);
-    }
 }
 
 fn joints(pages: &mut Pages, s: &Sample<'_>) {
@@ -114,7 +80,7 @@ fn joints(pages: &mut Pages, s: &Sample<'_>) {
     let heads: Vec<String> = tree.joint_rows().iter().map(|row| joint_head(row.name)).collect();
     let title = "JOINT ANGLES (DEG): BETA OF BALL JOINTS, ALPHA OF ELBOWS AND KNEES";
     let mut table = Table::new(title, &heads.join("|"));
-    table.row(tree.joints().map(|j| DEGREE.show(s.joint_angle_rad(j))));
+    table.row(tree.joints().map(|j| degree().show(s.joint_angle_rad(j))));
     table.write(pages);
 }
 
@@ -124,26 +90,22 @@ fn joint_head(name: &str) -> String {
     name.replace("RIGHT ", "R ").replace("LEFT ", "L ")
 }
 
-fn energy(pages: &mut Pages, units: &Units, s: &Sample<'_>) {
-    let columns = [
-        ("KINETIC", "energy.kinetic"),
-        ("KIN REL VEH", "energy.kinetic_relative"),
-        ("GRAVITY", "energy.gravity"),
-        ("SPINE", "energy.spine"),
-        ("LOST CONT", "energy.lost_contacts"),
-        ("LOST FRICT", "energy.lost_friction"),
-        ("LOST JOINTS", "energy.lost_joints"),
-        ("LOST BELTS", "energy.lost_belts"),
-        ("VEH WORK", "energy.vehicle_work"),
-        ("BALANCE", "energy.balance"),
-    ];
-    let energies = matching(s.model, "energy.*");
-    let energy_j = |name: &str| energies.iter().find(|c| c.name == name).map_or(f64::NAN, |c| c.value(s));
-    let title = format!(
-        "ENERGY ({}); THE BALANCE IS 0 FOR AN EXACT INTEGRATION; {} STEPS SO FAR",
-        units.energy.name, s.effort.steps
-    );
-    let mut table = Table::new(title, &columns.map(|(head, _)| head).join("|"));
-    table.row(columns.map(|(_, name)| units.energy.show(energy_j(name))));
+/// The ledger, but for what the elements have stored, the spine apart.
+fn energy(pages: &mut Pages, units: Units, s: &Sample<'_>) {
+    const STATE: [&str; 6] = ["kinetic", "kinetic_relative", "gravity", "spine", "vehicle_work", "balance"];
+    let all = matching(s.model, "energy.*").into_iter();
+    let named = all.filter_map(|c| Some((c.name.strip_prefix("energy.")?.to_owned(), c)));
+    let columns: Vec<_> = named.filter(|(name, _)| STATE.contains(&&**name) || name.starts_with("lost_")).collect();
+    let heads: Vec<String> = columns.iter().map(|(name, _)| energy_head(name)).collect();
+    let title = units.heading("ENERGY ({}); THE BALANCE IS 0 FOR AN EXACT INTEGRATION;", &[Joule]);
+    let mut table = Table::new(format!("{title} {} STEPS SO FAR", s.effort.steps), &heads.join("|"));
+    table.row(columns.iter().map(|(_, channel)| units.of(Joule).show(channel.value(s))));
     table.write(pages);
+}
+
+/// An energy's name in the room of a number: `LOST CONT`.
+fn energy_head(name: &str) -> String {
+    let name = name.to_uppercase().replace('_', " ");
+    let short = [("KINETIC RELATIVE", "KIN REL VEH"), ("CONTACTS", "CONT"), ("FRICTION", "FRICT"), ("VEHICLE", "VEH")];
+    short.iter().fold(name, |name, (long, short)| name.replace(long, short))
 }

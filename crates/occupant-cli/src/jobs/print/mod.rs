@@ -4,6 +4,7 @@
 //! (items 1 to 4 of the report's "Output"), contacts, belts and energy (items 5 to 7); last the sheet that an extension
 //! needs. A page has 60 lines of at most 132 columns and ends in a form feed.
 
+mod belts;
 mod case;
 mod echo;
 mod end_sheet;
@@ -15,12 +16,34 @@ mod unit;
 mod vehicle;
 
 pub(crate) use case::Case;
-pub(crate) use unit::{INCH_POUND, SI, Units};
+pub(crate) use unit::Units;
 
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::replay;
 use page::Pages;
+
+/// What a kind of force elements adds to the printout, beside contact surfaces and joints.
+pub(crate) struct Element {
+    /// Its name in headings.
+    heading: &'static str,
+    /// What was read.
+    input: fn(&mut Pages, &Case, Units),
+    /// What was computed of it before the first step.
+    start: fn(&mut Pages, &Case, Units),
+    /// What it does at an output.
+    output: fn(&mut Pages, Units, &Sample<'_>),
+    /// What an extension needs.
+    end: fn(&mut Pages, &Case, Units),
+}
+
+/// All kinds, in the order of the printout.
+pub(crate) const ELEMENTS: [Element; 1] = [belts::BELTS];
+
+/// Their names in a heading.
+fn headings() -> String {
+    ELEMENTS.map(|element| element.heading).join(", ")
+}
 
 /// The whole printout.
 ///
@@ -28,7 +51,7 @@ use page::Pages;
 ///
 /// # Errors
 /// An output that cannot be evaluated; a print interval shorter than the recorded one.
-pub(crate) fn printout(case: &Case, units: &Units, every_s: Option<f64>) -> Result<String, String> {
+pub(crate) fn printout(case: &Case, units: Units, every_s: Option<f64>) -> Result<String, String> {
     let mut pages = Pages::new(case.titles());
     echo::write(&mut pages, case, units);
     let times_s: Vec<f64> = case.file.checkpoints.iter().map(|c| c.time_s).collect();

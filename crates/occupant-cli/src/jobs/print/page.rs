@@ -1,11 +1,15 @@
 //! Pages of a line printer: 132 columns, 60 lines, the titles and the page number on top, a form feed at the end.
 
+use std::fmt::Display;
+
 /// Columns of a line.
 pub(crate) const COLUMNS: usize = 132;
 /// Lines of a page, its head included.
 pub(crate) const LINES: usize = 60;
 /// Lines of the head: two titles, the section, a blank.
 const HEAD: usize = 4;
+/// Columns of the names of facts.
+const MARGIN: usize = 15;
 /// Indent of a line that goes on.
 const INDENT: &str = "        ";
 
@@ -38,6 +42,11 @@ impl Pages {
         self.turn();
     }
 
+    /// A fact, by its name in the margin.
+    pub(crate) fn fact(&mut self, name: &str, words: impl Display) {
+        self.say(&format!("{name:<MARGIN$}{words}"));
+    }
+
     /// A line of words, folded where it is too long.
     pub(crate) fn say(&mut self, words: &str) {
         for line in folded(words) {
@@ -52,9 +61,10 @@ impl Pages {
     /// are continued, with the first `head` of them repeated.
     pub(crate) fn block(&mut self, lines: &[String], head: usize) {
         if self.line > HEAD {
-            match self.line + 1 + lines.len() <= LINES || self.line + head + 3 < LINES && lines.len() > LINES - HEAD {
-                true => self.put(""),
-                false => self.turn(),
+            if self.line + 1 + lines.len() <= LINES || self.line + head + 3 < LINES && lines.len() > LINES - HEAD {
+                self.put("")
+            } else {
+                self.turn()
             }
         }
         for (i, line) in lines.iter().enumerate() {
@@ -97,12 +107,11 @@ impl Pages {
 /// The first `width` characters; a text that is cut ends in `~`. Characters that would move the paper become blanks.
 pub(crate) fn cut(text: &str, width: usize) -> String {
     let plain = |c: char| if c.is_control() { ' ' } else { c };
-    match text.chars().count() > width {
-        false => text.chars().map(plain).collect(),
-        true => {
-            let kept = text.chars().take(width.saturating_sub(1)).map(plain);
-            kept.chain(['~']).collect()
-        }
+    if text.chars().count() > width {
+        let kept = text.chars().take(width.saturating_sub(1)).map(plain);
+        kept.chain(['~']).collect()
+    } else {
+        text.chars().map(plain).collect()
     }
 }
 

@@ -17,13 +17,12 @@ pub(crate) struct Table {
 }
 
 impl Table {
-    /// A table; its head is the heads of the columns with `|` between, those of columns of words begin with `<`.
-    pub(crate) fn new(title: impl Into<String>, head: &str) -> Self {
-        let heads = || head.split('|').map(str::trim);
+    /// A table; heads stand between `|`, and those of columns of words begin with `<`.
+    pub(crate) fn new(title: impl Into<String>, heads: &str) -> Self {
         Table {
             title: title.into(),
-            words: heads().map(|h| h.starts_with('<')).collect(),
-            rows: vec![heads().map(|h| h.trim_start_matches('<').to_owned()).collect()],
+            words: heads.split('|').map(|h| h.starts_with('<')).collect(),
+            rows: vec![heads.split('|').map(|h| h.trim_start_matches('<').to_owned()).collect()],
         }
     }
 
@@ -32,9 +31,17 @@ impl Table {
         self.rows.push(cells.into_iter().collect());
     }
 
-    /// True without any row.
-    pub(crate) fn is_empty(&self) -> bool {
-        self.rows.len() == 1
+    /// Adds a row that is made of several parts.
+    pub(crate) fn row_of(&mut self, parts: &[&[String]]) {
+        self.rows.push(parts.concat());
+    }
+
+    /// Writes it, or without any row these `lines` instead.
+    pub(crate) fn write_or(&self, pages: &mut Pages, lines: &[&str]) {
+        match self.rows.len() {
+            1 => pages.block(&lines.iter().map(|line| (*line).to_owned()).collect::<Vec<_>>(), 0),
+            _ => self.write(pages),
+        }
     }
 
     /// Writes it; its title and head are repeated on pages that continue it.
@@ -66,10 +73,11 @@ impl Table {
 
     fn line(&self, row: &[String], widths: &[usize]) -> String {
         let cells = row.iter().zip(widths).zip(&self.words);
-        let set = cells.map(|((cell, &width), words)| match words {
-            true => format!("{:<width$}", cut(cell, width)),
-            false => format!("{cell:>width$}"),
-        });
+        let set = cells.map(
+            |((cell, &width), &words)| {
+                if words { format!("{:<width$}", cut(cell, width)) } else { format!("{cell:>width$}") }
+            },
+        );
         set.collect::<Vec<String>>().join("  ")
     }
 }
@@ -80,7 +88,7 @@ mod tests {
 
     #[test]
     fn names_give_way_to_numbers() {
-        let mut table = Table::new("T", "<NAME | X");
+        let mut table = Table::new("T", "<NAME|X");
         table.row(["n".repeat(200), "12345.678".to_owned()]);
         let widths = table.widths();
         assert_eq!(widths, [COLUMNS - GAP - 9, 9]);

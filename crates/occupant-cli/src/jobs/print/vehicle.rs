@@ -1,40 +1,37 @@
 //! Place, attitude and motion of the vehicle at one output.
 
+use crash_measures::unit::Unit::{Metre, MetrePerSecond, RadianPerSecond, RadianPerSecondSquared};
 use occupant_core::results::sample::Sample;
 
 use super::page::Pages;
 use super::table::Table;
-use super::unit::{DEGREE, G, RAD_S, RAD_S2, Units};
+use super::unit::{Units, degree, g};
 
 /// Writes the vehicle's lines.
-pub(crate) fn write(pages: &mut Pages, units: &Units, s: &Sample<'_>) {
-    let title = format!(
+pub(crate) fn write(pages: &mut Pages, units: Units, s: &Sample<'_>) {
+    let title = units.heading(
         "VEHICLE: POSITION ({}) FORWARD, RIGHT, DOWN; ATTITUDE (DEG) ROLL, PITCH, YAW; THE REST IN VEHICLE COORDINATES",
-        units.length.name
+        &[Metre],
     );
-    let mut table = Table::new(title, "< | X | Y | Z | < | X | Y | Z");
+    let mut table = Table::new(title, "<|X|Y|Z|<|X|Y|Z");
     let attitude = &s.vehicle_pose.attitude;
-    let angles = DEGREE.vector([attitude.roll_rad, attitude.pitch_rad, attitude.yaw_rad]);
+    let angles = degree().vector([attitude.roll_rad, attitude.pitch_rad, attitude.yaw_rad]);
     let along = |v| s.vehicle.vector_to_frame(v);
-    let speed = format!("VELOCITY ({})", units.speed.name);
+    let speed = units.of(MetrePerSecond).vector(along(s.vehicle.velocity_m_s));
+    let turning = units.of(RadianPerSecond).vector(along(s.vehicle.angular_velocity_rad_s));
+    let turning_faster = units.of(RadianPerSecondSquared).vector(along(s.vehicle.angular_acceleration_rad_s2));
     let rows = [
-        ("POSITION", units.length.vector(s.vehicle_pose.position_m), "ROLL, PITCH, YAW (DEG)", angles),
-        (
-            speed.as_str(),
-            units.speed.vector(along(s.vehicle.velocity_m_s)),
-            "ANGULAR VELOCITY (RAD/S)",
-            RAD_S.vector(along(s.vehicle.angular_velocity_rad_s)),
-        ),
+        ("POSITION", units.of(Metre).vector(s.vehicle_pose.position_m), "ROLL, PITCH, YAW (DEG)", angles),
+        (&units.heading("VELOCITY ({})", &[MetrePerSecond]), speed, "ANGULAR VELOCITY (RAD/S)", turning),
         (
             "ACCELERATION (G)",
-            G.vector(along(s.vehicle.acceleration_m_s2)),
+            g().vector(along(s.vehicle.acceleration_m_s2)),
             "ANGULAR ACCELERATION (RAD/S2)",
-            RAD_S2.vector(along(s.vehicle.angular_acceleration_rad_s2)),
+            turning_faster,
         ),
     ];
     for (left, place, right, turn) in rows {
-        let (left, right) = ([left.to_owned()], [right.to_owned()]);
-        table.row(left.into_iter().chain(place).chain(right).chain(turn));
+        table.row_of(&[&[left.to_owned()], &place, &[right.to_owned()], &turn]);
     }
     table.write(pages);
 }

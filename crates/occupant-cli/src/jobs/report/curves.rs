@@ -1,8 +1,8 @@
 //! The time histories of the page, taken from the channels of the run.
 
 use occupant_core::model::Model;
-use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
-use occupant_core::results::channel::{Channel, Series, channels};
+use occupant_core::results::channel::{Channel, Series, channels, star};
+use occupant_core::results::customary::*;
 use serde::Serialize;
 
 use super::array::Array;
@@ -24,73 +24,25 @@ struct Curve {
     values: Array,
 }
 
-/// What a plot shows: channels by name, `*` for anything, with the label of the curve; `*` there is what the star stood for.
-struct Recipe {
-    title: &'static str,
-    unit: &'static str,
-    per_si: f64,
-    channels: &'static [(&'static str, &'static str)],
-}
-
-const RECIPES: [Recipe; 9] = [
-    Recipe {
-        title: "Resultant acceleration",
-        unit: "g",
-        per_si: 1.0 / STANDARD_GRAVITY_M_S2,
-        channels: &[
-            ("head.acceleration.resultant", "head"),
-            ("upper_torso.acceleration.resultant", "chest"),
-            ("lower_torso.acceleration.resultant", "pelvis"),
-        ],
-    },
-    Recipe { title: "Belt force", unit: "kN", per_si: 1e-3, channels: &[("belt.*.force", "*")] },
-    Recipe { title: CONTACTS, unit: "kN", per_si: 1e-3, channels: &[("sphere.*.force.resultant", "*")] },
-    Recipe {
-        title: "Neck force on the head",
-        unit: "kN",
-        per_si: 1e-3,
-        channels: &[("neck.force.x", "shear x"), ("neck.force.y", "shear y"), ("neck.force.z", "axial z")],
-    },
-    Recipe {
-        title: "Neck moment on the head",
-        unit: "N·m",
-        per_si: 1.0,
-        channels: &[("neck.moment.x", "x"), ("neck.moment.y", "y, + flexion"), ("neck.moment.z", "z")],
-    },
-    Recipe {
-        title: "Femur axial force",
-        unit: "kN",
-        per_si: 1e-3,
-        channels: &[("left_femur.axial", "left"), ("right_femur.axial", "right")],
-    },
-    Recipe {
-        title: "Vehicle acceleration",
-        unit: "g",
-        per_si: 1.0 / STANDARD_GRAVITY_M_S2,
-        channels: &[("vehicle.acceleration.x", "x"), ("vehicle.acceleration.y", "y"), ("vehicle.acceleration.z", "z")],
-    },
-    Recipe {
-        title: "Energy",
-        unit: "kJ",
-        per_si: 1e-3,
-        channels: &[
-            ("energy.kinetic_relative", "kinetic, in the vehicle"),
-            ("energy.contacts", "stored in contacts"),
-            ("energy.belts", "stored in belts"),
-            ("energy.lost_contacts", "lost in contacts"),
-            ("energy.lost_friction", "lost in friction"),
-            ("energy.lost_joints", "lost in joints"),
-            ("energy.lost_belts", "lost in belts"),
-        ],
-    },
-    Recipe { title: "Energy balance error", unit: "J", per_si: 1.0, channels: &[("energy.balance", "imbalance")] },
+/// A plot: its title, the unit that its channels are shown in, and its channels.
+const RECIPES: [(&str, &str, &Curves); 9] = [
+    ("Resultant acceleration", "g", ACCELERATIONS),
+    ("Belt force", "kN", BELTS),
+    (CONTACT_FORCE, "kN", CONTACTS),
+    ("Neck force on the head", "kN", NECK_FORCE),
+    ("Neck moment on the head", "N·m", NECK_MOMENT),
+    ("Femur axial force", "kN", FEMURS),
+    ("Vehicle acceleration", "g", VEHICLE),
+    // all but the last, the springs of the spine
+    ("Energy", "kJ", ENERGIES.split_at(7).0),
+    ("Energy balance error", "J", BALANCE),
 ];
-const CONTACTS: &str = "Contact force";
+const CONTACT_FORCE: &str = "Contact force";
 
 /// A recorder of all channels that the plots need.
 pub(crate) fn series(model: &Model) -> Series {
     let needed = |c: &Channel| {
-        let mut all = RECIPES.iter().flat_map(|r| r.channels);
+        let mut all = RECIPES.iter().flat_map(|(_, _, curves)| *curves);
         all.any(|(pattern, _)| star(pattern, &c.name).is_some())
     };
     Series::new(channels(model).into_iter().filter(needed).collect())
@@ -98,14 +50,22 @@ pub(crate) fn series(model: &Model) -> Series {
 
 /// The plots, without those that would be empty.
 pub(crate) fn plots(series: &Series) -> Vec<Plot> {
-    let plots =
-        RECIPES.iter().map(|recipe| Plot { title: recipe.title, unit: recipe.unit, curves: curves(recipe, series) });
+    let plots = RECIPES.into_iter().map(|(title, unit, wanted)| {
+        let mut found = find(wanted, series);
+        if title == CONTACT_FORCE {
+            keep_greatest(&mut found);
+        }
+        Plot { title, unit, curves: found.into_iter().map(|f| curve(f, unit)).collect() }
+    });
     plots.filter(|p| !p.curves.is_empty()).collect()
 }
 
-fn curves(recipe: &Recipe, series: &Series) -> Vec<Curve> {
+/// A curve under construction: its name, channel and values.
+type Found<'a> = (String, &'a Channel, &'a Vec<f64>);
+
+fn find<'a>(wanted: &Curves, series: &'a Series) -> Vec<Found<'a>> {
     let mut found = Vec::new();
-    for (pattern, label) in recipe.channels {
+    for (pattern, label) in wanted {
         for (channel, values) in series.channels.iter().zip(&series.values) {
             if let Some(stood_for) = star(pattern, &channel.name) {
                 let name = label.replace('*', &stood_for.replace('_', " "));
@@ -113,46 +73,23 @@ fn curves(recipe: &Recipe, series: &Series) -> Vec<Curve> {
             }
         }
     }
-    if recipe.title == CONTACTS {
-        keep_greatest(&mut found);
-    }
-    let curve = |(name, channel, values): (String, &Channel, &Vec<f64>)| Curve {
+    found
+}
+
+fn curve((name, channel, values): Found<'_>, unit: &'static str) -> Curve {
+    let per_si = channel.unit.shown_in(unit).per_si();
+    Curve {
         name,
         meaning: format!("{}: {}", channel.name, channel.meaning),
-        values: Array::float32(values.iter().map(|v| v * recipe.per_si)),
-    };
-    found.into_iter().map(curve).collect()
+        values: Array::float32(values.iter().map(|v| v * per_si)),
+    }
 }
 
 /// Leaves the spheres with the greatest forces, none that touched nothing, in the list's order.
-fn keep_greatest(found: &mut Vec<(String, &Channel, &Vec<f64>)>) {
+fn keep_greatest(found: &mut Vec<Found<'_>>) {
     let peak = |values: &[f64]| values.iter().copied().fold(0.0, f64::max);
     let mut peaks: Vec<f64> = found.iter().map(|f| peak(f.2)).collect();
     peaks.sort_by(|a, b| b.total_cmp(a));
     let least = peaks.get(MOST_SPHERES - 1).copied().unwrap_or(0.0);
     found.retain(|f| peak(f.2) > 0.0 && peak(f.2) >= least);
-}
-
-/// What the star of a pattern with at most one stands for in a name; empty without a star.
-fn star(pattern: &str, name: &str) -> Option<String> {
-    match pattern.split_once('*') {
-        None => (pattern == name).then(String::new),
-        Some((before, after)) => {
-            let middle = name.strip_prefix(before)?.strip_suffix(after)?;
-            (!middle.is_empty()).then(|| middle.to_owned())
-        }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_star_is_one_name() {
-        let found = star("sphere.*.force.resultant", "sphere.left_knee.force.resultant");
-        assert_eq!(found.as_deref(), Some("left_knee"));
-        assert_eq!(star("belt.*.force", "belt.lap.elongation"), None);
-        assert_eq!(star("a", "a").as_deref(), Some(""));
-    }
 }

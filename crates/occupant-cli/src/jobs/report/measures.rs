@@ -1,9 +1,8 @@
 //! The table of measures: injury measures against limits, then the run's summary.
 
 use crash_measures::injury;
-use crash_measures::unit::Unit;
+use crash_measures::unit::{Shown, Unit};
 use occupant_core::forces::table::{Holds, Table};
-use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
 use occupant_core::results::summary::{Peak, Summary};
 use serde::Serialize;
 
@@ -13,7 +12,7 @@ pub(crate) struct Measure {
     group: &'static str,
     name: String,
     value: Option<f64>,
-    unit: &'static str,
+    unit: String,
     /// When; the start of an interval.
     time_s: Option<f64>,
     /// Largest value allowed, in the same unit.
@@ -27,14 +26,18 @@ pub(crate) struct Measure {
 }
 
 impl Measure {
-    fn new(
-        group: &'static str,
-        name: impl Into<String>,
-        value: Option<f64>,
-        unit: &'static str,
-        time_s: Option<f64>,
-    ) -> Self {
-        Measure { group, name: name.into(), value, unit, time_s, limit: None, rule: None, verdict: None, remark: None }
+    fn new(group: &'static str, name: impl Into<String>, value: Option<f64>, unit: Shown, time_s: Option<f64>) -> Self {
+        Measure {
+            group,
+            name: name.into(),
+            value,
+            unit: unit.symbol(),
+            time_s,
+            limit: None,
+            rule: None,
+            verdict: None,
+            remark: None,
+        }
     }
 }
 
@@ -48,18 +51,19 @@ pub(crate) fn measures(summary: &Summary) -> Vec<Measure> {
     let mut add = |name: &str, value: f64, unit| {
         rows.push(Measure::new(group, name, Some(value), unit, None));
     };
-    add("Greatest imbalance, of the greatest kinetic energy", 100.0 * energy.balance_error, "%");
-    add("Greatest kinetic energy, in the vehicle", energy.greatest_kinetic_j, "J");
-    add("Steps", summary.solver.steps as f64, "");
-    add("Steps rejected", summary.solver.rejected as f64, "");
+    let percent = Unit::One.shown_in("%");
+    add("Greatest imbalance, of the greatest kinetic energy", 100.0 * energy.balance_error, percent);
+    add("Greatest kinetic energy, in the vehicle", energy.greatest_kinetic_j, Unit::Joule.shown());
+    add("Steps", summary.solver.steps as f64, Unit::One.shown());
+    add("Steps rejected", summary.solver.rejected as f64, Unit::One.shown());
     rows
 }
 
 /// A row for each limit of an injury measure, or one without.
 fn injury_rows(m: &injury::Measure) -> Vec<Measure> {
-    let (unit, per_si) = scale(m.unit);
+    let unit = engineering(m.unit);
     let group = "Injury measures, unfiltered";
-    let mut first = Measure::new(group, m.label, m.value.map(|v| v * per_si), unit, m.from_s);
+    let mut first = Measure::new(group, m.label, m.value.map(|v| v * unit.per_si()), unit, m.from_s);
     first.remark.clone_from(&m.remark);
     if m.limits.is_empty() {
         return vec![first];
@@ -68,12 +72,13 @@ fn injury_rows(m: &injury::Measure) -> Vec<Measure> {
         group,
         name: m.label.to_owned(),
         value: first.value,
-        unit,
+        unit: first.unit.clone(),
         time_s: first.time_s,
-        limit: Some(judgement.most * per_si),
-        rule: Some(match judgement.quoted {
-            true => judgement.rule.to_owned(),
-            false => format!("{}, as generally known", judgement.rule),
+        limit: Some(judgement.most * unit.per_si()),
+        rule: Some(if judgement.quoted {
+            judgement.rule.to_owned()
+        } else {
+            format!("{}, as generally known", judgement.rule)
         }),
         verdict: Some(if judgement.passed { "passed" } else { "failed" }),
         remark: m.remark.clone(),
@@ -81,24 +86,25 @@ fn injury_rows(m: &injury::Measure) -> Vec<Measure> {
     m.limits.iter().map(row).collect()
 }
 
-/// The unit that engineers read, and how many of it make one of SI.
-fn scale(unit: Unit) -> (&'static str, f64) {
+/// The unit that engineers read.
+fn engineering(unit: Unit) -> Shown {
     match unit {
-        Unit::MetrePerSecondSquared => ("g", 1.0 / STANDARD_GRAVITY_M_S2),
-        Unit::Newton => ("kN", 1e-3),
-        Unit::One => ("", 1.0),
-        other => (other.symbol(), 1.0),
+        Unit::MetrePerSecondSquared => unit.shown_in("g"),
+        Unit::Newton => unit.shown_in("kN"),
+        other => other.shown(),
     }
 }
 
 fn add_loads(rows: &mut Vec<Measure>, summary: &Summary) {
     rows.extend(summary.elements.values().flat_map(element_rows));
-    for sphere in &summary.sphere_forces {
-        let name = format!("{} against {}", sphere.sphere, sphere.surface);
-        let force_kn = Some(sphere.force_n / 1e3);
-        let time = Some(sphere.time_s);
-        rows.push(Measure::new("Loads", name, force_kn, "kN", time));
-    }
+    let spheres = summary.sphere_forces.iter();
+    rows.extend(spheres.map(|s| load(format!("{} against {}", s.sphere, s.surface), Some(s.force_n), Some(s.time_s))));
+}
+
+/// The row of a force.
+fn load(name: String, force_n: Option<f64>, time_s: Option<f64>) -> Measure {
+    let unit = engineering(Unit::Newton);
+    Measure::new("Loads", name, force_n.map(|force_n| force_n / unit.si), unit, time_s)
 }
 
 /// Peak forces of force elements whose times are known: `Belt lap, loop force`.
@@ -110,8 +116,7 @@ fn element_rows(table: &Table) -> impl Iterator<Item = Measure> {
     all.map(move |(peak, row)| {
         let what = peak[0].heading.split(',').next().unwrap_or_default();
         let name = format!("{of} {}, {what}", row[0].text().unwrap_or_default());
-        let force_kn = row[peak[0].key].number().map(|force_n| force_n / 1e3);
-        Measure::new("Loads", name, force_kn, "kN", row[peak[1].key].number())
+        load(name, row[peak[0].key].number(), row[peak[1].key].number())
     })
 }
 
@@ -120,7 +125,7 @@ fn add_excursion(rows: &mut Vec<Measure>, summary: &Summary) {
         return;
     };
     for (way, Peak { value, time_s }) in e.ways() {
-        let group = "Head excursion in the vehicle";
-        rows.push(Measure::new(group, way, Some(value * 1e3), "mm", Some(time_s)));
+        let (group, unit) = ("Head excursion in the vehicle", Unit::Metre.shown_in("mm"));
+        rows.push(Measure::new(group, way, Some(value * unit.per_si()), unit, Some(time_s)));
     }
 }

@@ -1,35 +1,34 @@
 //! The measures as a list: name, value, unit, when.
 
-use crash_measures::signal::STANDARD_GRAVITY_MPS2 as G;
+use crash_measures::unit::Shown;
+use crash_measures::unit::Unit::{MetrePerSecond, MetrePerSecondSquared, One, Radian};
 use occupant_core::vehicle::risk::{AXES, Measured};
 
 use super::Report;
 
-/// A unit of the table: its name and SI units in one of it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Unit {
-    pub(crate) name: &'static str,
-    /// SI units in one of it.
-    pub(crate) si: f64,
-    /// Decimals worth printing.
-    pub(crate) decimals: usize,
+/// A unit of the table, and the decimals worth printing in it.
+pub(crate) type Unit = (Shown, usize);
+
+pub(crate) fn m_s() -> Unit {
+    (MetrePerSecond.shown(), 2)
 }
 
-const fn unit(name: &'static str, si: f64, decimals: usize) -> Unit {
-    Unit { name, si, decimals }
+pub(crate) fn km_h() -> Unit {
+    (MetrePerSecond.shown_in("km/h"), 1)
 }
 
-pub(crate) const M_S: Unit = unit("m/s", 1.0, 2);
-const FT_S: Unit = unit("ft/s", 0.3048, 1);
-pub(crate) const KM_H: Unit = unit("km/h", 1.0 / 3.6, 1);
-const MPH: Unit = unit("mph", 0.44704, 1);
-/// Standard gravity.
-pub(crate) const G_UNIT: Unit = unit("g", G, 2);
-/// m/s².
-const M_S2: Unit = unit("m/s²", 1.0, 1);
-/// Plain number.
-pub(crate) const PLAIN: Unit = unit("", 1.0, 2);
-pub(crate) const DEGREE: Unit = unit("°", std::f64::consts::PI / 180.0, 1);
+pub(crate) fn g() -> Unit {
+    (MetrePerSecondSquared.shown_in("g"), 2)
+}
+
+pub(crate) fn plain() -> Unit {
+    (One.shown(), 2)
+}
+
+/// Of averages in reports in SI and in those in the US.
+fn accelerations() -> [Unit; 2] {
+    [g(), (MetrePerSecondSquared.shown(), 1)]
+}
 
 /// A measure of the table.
 #[derive(Clone, Debug)]
@@ -114,14 +113,14 @@ impl Figures {
         };
         let when: Vec<f64> = flail.impact_s.into_iter().collect();
         for (name, key, value) in [("OIV x", "oiv_x_m_s", flail.oiv_x_mps), ("OIV y", "oiv_y_m_s", flail.oiv_y_mps)] {
-            self.add(name, key, value, [M_S, FT_S], &when);
+            self.add(name, key, value, [m_s(), (MetrePerSecond.shown_in("ft/s"), 1)], &when);
             if flail.impact_s.is_none() {
                 self.remark("no impact: velocity change of the record");
             }
         }
         for (name, key, ridedown) in [("ORA x", "ora_x_m_s2", flail.ora_x), ("ORA y", "ora_y_m_s2", flail.ora_y)] {
             match ridedown {
-                Some(w) => self.add(name, key, w.value, [G_UNIT, M_S2], &[w.start_s, w.end_s]),
+                Some(w) => self.add(name, key, w.value, accelerations(), &[w.start_s, w.end_s]),
                 None => self.leave_out(name, no_ridedown(flail.impact_s)),
             }
         }
@@ -131,9 +130,9 @@ impl Figures {
         let Some(thiv) = self.measured("THIV and PHD", &report.risk.thiv) else {
             return;
         };
-        self.add("THIV", "thiv_m_s", thiv.speed_mps, [KM_H, M_S], &[thiv.impact_s]);
+        self.add("THIV", "thiv_m_s", thiv.speed_mps, [km_h(), m_s()], &[thiv.impact_s]);
         match thiv.phd {
-            Some(w) => self.add("PHD", "phd_m_s2", w.value, [G_UNIT, M_S2], &[w.start_s, w.end_s]),
+            Some(w) => self.add("PHD", "phd_m_s2", w.value, accelerations(), &[w.start_s, w.end_s]),
             None => self.leave_out("PHD", no_ridedown(Some(thiv.impact_s))),
         }
     }
@@ -144,7 +143,7 @@ impl Figures {
             ("ASI (EN 1317-1:2010)", "asi_2010", &report.risk.asi_2010),
         ] {
             if let Some(peak) = self.measured(name, measure) {
-                self.add(name, key, peak.value, [PLAIN; 2], &[peak.time_s]);
+                self.add(name, key, peak.value, [plain(); 2], &[peak.time_s]);
             }
         }
     }
@@ -154,7 +153,7 @@ impl Figures {
             let name = format!("max 50 ms average {axis}");
             if let Some(w) = self.measured(&name, measure) {
                 let key = format!("max_50ms_{axis}_m_s2");
-                self.add(&name, &key, w.value, [G_UNIT, M_S2], &[w.start_s, w.end_s]);
+                self.add(&name, &key, w.value, accelerations(), &[w.start_s, w.end_s]);
             }
         }
     }
@@ -165,7 +164,7 @@ impl Figures {
             let name = format!("max {angle}");
             if let Some(peak) = self.measured(&name, measure) {
                 let key = format!("max_{angle}_rad");
-                self.add(&name, &key, peak.value, [DEGREE; 2], &[peak.time_s]);
+                self.add(&name, &key, peak.value, [(Radian.shown_in("deg"), 1); 2], &[peak.time_s]);
                 if !angles.of_attitude {
                     self.remark("integral of this rate alone");
                 }
@@ -180,10 +179,10 @@ impl Figures {
                 let (largest, end_s) = (change.largest, report.signals.end_s() - self.start_s);
                 let name = format!("max velocity change {axis}");
                 let key = format!("max_velocity_change_{axis}_m_s");
-                self.add(&name, &key, largest.value, [M_S, MPH], &[largest.time_s]);
+                self.add(&name, &key, largest.value, [m_s(), (MetrePerSecond.shown_in("mph"), 1)], &[largest.time_s]);
                 let name = format!("final velocity change {axis}");
                 let key = format!("final_velocity_change_{axis}_m_s");
-                self.add(&name, &key, change.final_m_s, [M_S, MPH], &[end_s]);
+                self.add(&name, &key, change.final_m_s, [m_s(), (MetrePerSecond.shown_in("mph"), 1)], &[end_s]);
             }
         }
     }
@@ -191,7 +190,7 @@ impl Figures {
     fn load_criterion(&mut self, report: &Report) {
         if let Some(olc) = self.measured("OLC", &report.risk.olc) {
             let when = [olc.free_flight_end_s, olc.end_s];
-            self.add("OLC", "olc_m_s2", olc.olc_mps2, [G_UNIT, M_S2], &when);
+            self.add("OLC", "olc_m_s2", olc.olc_mps2, accelerations(), &when);
         }
     }
 }

@@ -45,10 +45,7 @@ impl Subject {
         let pose = path.attitude(time.start_s, &mut PathCursor::default());
         Some(Subject {
             name: name.to_owned(),
-            source: match straight {
-                true => Source::PathOfStraightLines,
-                false => Source::Path,
-            },
+            source: if straight { Source::PathOfStraightLines } else { Source::Path },
             record: sampled(path, time.start_s, time.end_s, interval_s)?,
             initial: pose.attitude,
         })

@@ -5,7 +5,7 @@ use crash_measures::signal::CfcFamily;
 use occupant_core::vehicle::risk::{Judgement, VerticalGravity};
 
 use super::Report;
-use super::figures::{Figure, Figures, G_UNIT, KM_H, M_S, PLAIN, Unit};
+use super::figures::{Figure, Figures, Unit, g, km_h, m_s, plain};
 use super::subject::Source;
 use crate::base::text_table::{Align, NONE, Table, facts, number};
 
@@ -103,10 +103,11 @@ fn measures(figures: &Figures) -> String {
     ]);
     for figure in &figures.figures {
         let [first, second] = figure.units;
-        let mut cells = vec![figure.name.clone(), shown(figure.value, first), first.name.into()];
-        match first == second {
-            true => cells.extend([String::new(), String::new()]),
-            false => cells.extend([shown(figure.value, second), second.name.into()]),
+        let mut cells = vec![figure.name.clone(), shown(figure.value, first), first.0.symbol()];
+        if first == second {
+            cells.extend([String::new(), String::new()])
+        } else {
+            cells.extend([shown(figure.value, second), second.0.symbol()])
         }
         cells.push(when(figure));
         cells.push(figure.remark.to_owned());
@@ -120,9 +121,9 @@ fn when(figure: &Figure) -> String {
     times.collect::<Vec<String>>().join(" – ")
 }
 
-fn shown(si: f64, unit: Unit) -> String {
+fn shown(si: f64, (unit, decimals): Unit) -> String {
     // minus zero is zero
-    let text = number(si / unit.si, unit.decimals);
+    let text = number(si / unit.si, decimals);
     match text.trim_start_matches(['-', '0', '.']) {
         "" => text.trim_start_matches('-').to_owned(),
         _ => text,
@@ -151,7 +152,7 @@ fn limits(judgements: &[Judgement]) -> String {
             shown(judgement.limit.most, unit),
             perhaps(judgement.value),
             perhaps(judgement.verdict.map(|v| v.margin)),
-            unit.name.to_owned(),
+            unit.0.symbol(),
             verdict_name(judgement).to_owned(),
             basis_name(judgement.limit.basis).to_owned(),
         ]);
@@ -161,10 +162,10 @@ fn limits(judgements: &[Judgement]) -> String {
 
 fn unit_of(quantity: Quantity) -> Unit {
     match quantity {
-        Quantity::OccupantImpactVelocity => M_S,
-        Quantity::Thiv => KM_H,
-        Quantity::RidedownAcceleration | Quantity::Phd => G_UNIT,
-        _ => PLAIN,
+        Quantity::OccupantImpactVelocity => m_s(),
+        Quantity::Thiv => km_h(),
+        Quantity::RidedownAcceleration | Quantity::Phd => g(),
+        _ => plain(),
     }
 }
 

@@ -28,16 +28,16 @@ pub(crate) fn histories(asked: &Asked<'_>, found: &Analysis) -> Histories {
 pub(crate) fn about(model: &Model, asked: &Asked<'_>, analysis: &Analysis, [source, sha256]: [&str; 2]) -> About {
     let mut columns = vec![ColumnAbout::time()];
     for channel in &asked.wish.channels {
-        let unit = shown(channel.unit, UnitChoice::Si).ascii;
+        let unit = shown(channel.unit, UnitChoice::Si).ascii();
         let column = |name: String, unit: String, meaning: String| {
             let (frame, filter) = (channel.axes.name(), "none".to_owned());
             ColumnAbout { name, unit, frame, filter, meaning }
         };
-        columns.push(column(channel.name.clone(), unit.to_owned(), channel.meaning.clone()));
+        columns.push(column(channel.name.clone(), unit.clone(), channel.meaning.clone()));
         columns.extend(asked.parameters.iter().map(|parameter| {
             let name = format!("d({})/d({})", channel.name, parameter.name);
             let meaning = format!("derivative of {} by {}", channel.name, parameter.name);
-            column(name, ascii(&per(unit, &parameter.unit)), meaning)
+            column(name, ascii(&per(&unit, &parameter.unit)), meaning)
         }));
     }
     let events = analysis.trajectory.events.len();

@@ -1,6 +1,8 @@
 //! Which figures of the runs a report is about.
 
 use occupant_core::problem::nearest;
+use occupant_core::results::channel::star;
+use occupant_core::results::customary::FIGURES;
 
 use super::gather::Gathered;
 use super::samples::varies;
@@ -8,21 +10,7 @@ use crate::base::failure::Failure;
 use crate::files::study_folder::manifest::{Column, Manifest, Role};
 use crate::jobs::ensemble::judge::is_result;
 
-/// What is looked at unless figures are asked for; `*` stands for one word.
-const CUSTOMARY: [&str; 11] = [
-    "hic15",
-    "head.peak",
-    "head.three_ms_cumulative",
-    "chest.peak",
-    "chest.three_ms_cumulative",
-    "pelvis.peak",
-    "belts.*.peak",
-    "head_excursion.forward",
-    "nij",
-    "right_femur",
-    "left_femur",
-];
-/// At most so many of them.
+/// At most so many of the customary figures.
 const MOST: usize = 8;
 
 /// The columns of the figures that are asked for, or of all customary ones.
@@ -32,11 +20,11 @@ const MOST: usize = 8;
 pub(crate) fn candidates(manifest: &Manifest, names: &[String]) -> Result<Vec<usize>, Failure> {
     let columns = &manifest.columns;
     let fitting = |pattern: &str| -> Vec<usize> {
-        let is_it = |c: &Column| c.role == Role::Figure && fits(pattern, &c.name);
+        let is_it = |c: &Column| c.role == Role::Figure && star(pattern, &c.name).is_some();
         (0..columns.len()).filter(|i| is_it(&columns[*i])).collect()
     };
     if names.is_empty() {
-        return Ok(CUSTOMARY.iter().flat_map(|name| fitting(name)).collect());
+        return Ok(FIGURES.iter().flat_map(|name| fitting(name)).collect());
     }
     let mut chosen: Vec<usize> = Vec::new();
     for name in names.iter().flat_map(|n| n.split(',')).map(str::trim) {
@@ -63,17 +51,6 @@ fn unknown(manifest: &Manifest, name: &str) -> Failure {
     Failure::with_help(format!("--to: no figure is named `{name}`"), &help)
 }
 
-/// Whether a name fits a pattern with at most one `*`.
-fn fits(pattern: &str, name: &str) -> bool {
-    match pattern.split_once('*') {
-        None => pattern == name,
-        Some((before, after)) => {
-            let rest = name.strip_prefix(before);
-            rest.and_then(|r| r.strip_suffix(after)).is_some_and(|middle| !middle.is_empty())
-        }
-    }
-}
-
 /// Of the customary figures leaves the first that vary, or the first of all where none does.
 pub(crate) fn keep_telling(gathered: &mut Gathered) {
     let responses = &gathered.samples.responses;
@@ -89,17 +66,4 @@ pub(crate) fn keep_telling(gathered: &mut Gathered) {
 fn keep<T>(list: &mut Vec<T>, places: &[usize]) {
     let mut place = 0..;
     list.retain(|_| place.next().is_some_and(|at: usize| places.contains(&at)));
-}
-
-#[cfg(test)]
-mod tests {
-    use super::fits;
-
-    #[test]
-    fn a_star_is_some_word() {
-        assert!(fits("belts.*.peak", "belts.lap.peak"));
-        assert!(!fits("belts.*.peak", "belts.lap.peak_time"));
-        assert!(!fits("belts.*.peak", "belts..peak"));
-        assert!(fits("hic15", "hic15") && !fits("hic15", "hic1"));
-    }
 }

@@ -2,12 +2,12 @@
 
 use std::str::FromStr;
 
-use crash_measures::unit::Unit;
+use crash_measures::unit::{Shown, Unit};
 use occupant_core::results::channel::Channel;
 
 use super::figure::{Axis, Curve, Figure, Limit, Style};
 use super::standard::{Entry, Wish};
-use crate::files::history::{Column, Histories, Shown, UnitChoice, dimension, plotted};
+use crate::files::history::{Column, Histories, UnitChoice, plotted};
 use crate::files::measured::Pair;
 use crate::files::signals::scale_of;
 
@@ -71,10 +71,12 @@ impl LimitArgument {
             return Ok(self.value);
         };
         match scale_of(written) {
-            Some(scale) if scale.dimension == dimension(unit) => Ok(self.value * scale.factor / shown.si),
+            Some(scale) if scale.dimension == unit.dimension() => Ok(self.value * scale.factor / shown.si),
             _ => Err(format!(
                 "--limit {}={}: `{written}` is not a unit of this channel, which is in {}",
-                self.channel, self.text, shown.symbol
+                self.channel,
+                self.text,
+                shown.symbol()
             )),
         }
     }
@@ -138,17 +140,9 @@ pub(crate) fn figure(wish: &Wish, material: &Material<'_>) -> Result<Figure, Str
         };
         Ok(Limit { label, level: limit.level(unit, shown)? })
     });
-    let axes = [x_axis(material), Axis::of(&wish.axis, symbol(shown))];
+    let axes = [x_axis(material), Axis::of(&wish.axis, shown.symbol())];
     let limits = limits.collect::<Result<_, String>>()?;
     Ok(Figure { limits, empty: wish.empty.clone(), ..Figure::new(&wish.title, axes, curves) })
-}
-
-/// A plain number has no symbol.
-fn symbol(shown: Shown) -> String {
-    match shown.ascii {
-        "1" => String::new(),
-        _ => shown.symbol.to_owned(),
-    }
 }
 
 fn column<'a>(histories: &'a Histories, channel: &str) -> Option<&'a Column> {
@@ -220,7 +214,7 @@ fn overlay(overlay: &Overlay, entry: &Entry, dash: usize, wish: &Wish, shown: Sh
 fn x_axis(material: &Material<'_>) -> Axis {
     let across = material.x.and_then(|x| channel_of(material.runs, x));
     match across {
-        Some(channel) => Axis::of(&channel.name, symbol(plotted(channel.unit, material.units))),
+        Some(channel) => Axis::of(&channel.name, plotted(channel.unit, material.units).symbol()),
         None => Axis::of("time", "ms"),
     }
 }

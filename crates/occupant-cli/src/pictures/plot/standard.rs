@@ -6,7 +6,8 @@
 //! the vehicle's acceleration (14).
 
 use occupant_core::model::Model;
-use occupant_core::results::channel::matching;
+use occupant_core::results::channel::{find, matching, star};
+use occupant_core::results::customary::{ACCELERATIONS, BELTS, ENERGIES, FRONTAL_CONTACTS, SPINE, VEHICLE};
 
 /// A plot that is wished for.
 #[derive(Clone, Debug, PartialEq)]
@@ -28,53 +29,42 @@ pub(crate) struct Entry {
     pub(crate) label: String,
 }
 
-const ACCELERATIONS: [(&str, &str); 3] = [("head", "Head"), ("upper_torso", "Chest"), ("lower_torso", "Pelvis")];
-
-/// Energies, the first of them for several runs.
-const ENERGIES: [(&str, &str); 8] = [
-    ("kinetic_relative", "kinetic, in the vehicle"),
-    ("contacts", "contacts"),
-    ("belts", "belts"),
-    ("lost_contacts", "lost in contacts"),
-    ("lost_friction", "lost in friction"),
-    ("lost_joints", "lost in joints"),
-    ("lost_belts", "lost in belts"),
-    ("spine", "spine springs"),
-];
+/// Energies of several runs over each other: the first of them.
 const FEW_ENERGIES: usize = 4;
 
 /// The plots, for the spheres and belts of a model; of several runs over each other, the energies that matter most.
 pub(crate) fn standard(model: &Model, several: bool) -> Vec<Wish> {
     let mut wishes = Vec::with_capacity(14);
-    for (segment, name) in ACCELERATIONS {
+    for (resultant, name) in ACCELERATIONS {
+        let (vector, name) = (resultant.trim_end_matches("resultant"), capitalized(name));
         for (component, words) in [("x", "X, ahead"), ("z", "Z, up"), ("resultant", "resultant")] {
-            let channel = format!("{segment}.acceleration.{component}");
-            wishes.push(wish(&format!("{name} acceleration {words}"), "acceleration", [(channel, words)]));
+            let channel = (format!("{vector}{component}"), words);
+            wishes.push(wish(&format!("{name} acceleration {words}"), "acceleration", [channel]));
         }
     }
-    let spheres = ["head", "chest", "right_knee", "left_knee"];
-    let force = |s: &'static str| {
-        let sphere = model.body().sphere(s);
-        sphere.map(|_| (format!("sphere.{s}.force.resultant"), s))
-    };
-    wishes.push(wish("Contact force on head, chest and knees", "force", spheres.into_iter().filter_map(force)));
-    let belts: Vec<(String, String)> = matching(model, "belt.*.force")
-        .into_iter()
-        .map(|c| (c.name.clone(), c.name["belt.".len()..c.name.len() - ".force".len()].to_owned()))
-        .collect();
+    let touched = FRONTAL_CONTACTS.iter().filter(|(channel, _)| find(model, channel).is_ok());
+    wishes.push(wish("Contact force on head, chest and knees", "force", touched.map(owned)));
+    let belts = BELTS.iter().flat_map(|(pattern, _)| {
+        let channels = matching(model, pattern).into_iter();
+        channels.filter_map(|c| Some((c.name.clone(), star(pattern, &c.name)?.to_owned())))
+    });
     wishes.push(wish("Belt loads", "loop force", belts));
-    let joints = ["neck", "upper_back", "lower_back"];
-    let angle = |j: &str| (format!("joint.{j}.angle"), j.to_owned());
-    wishes.push(wish("Spine angles", "angle between the segments", joints.map(angle)));
-    let shown = match several {
-        true => &ENERGIES[..FEW_ENERGIES],
-        false => &ENERGIES[..],
-    };
-    let energy = |(channel, label): &(&str, &'static str)| (format!("energy.{channel}"), *label);
-    wishes.push(wish("Energy", "energy", shown.iter().map(energy)));
-    let axes = ["x", "y", "z"].map(|axis| (format!("vehicle.acceleration.{axis}"), axis.to_uppercase()));
+    wishes.push(wish("Spine angles", "angle between the segments", SPINE.iter().map(owned)));
+    let energies = ENERGIES.iter().take(if several { FEW_ENERGIES } else { ENERGIES.len() });
+    let label = |label: &'static str| label.trim_start_matches("stored in ");
+    wishes.push(wish("Energy", "energy", energies.map(|(channel, name)| ((*channel).to_owned(), label(name)))));
+    let axes = VEHICLE.iter().map(|(channel, axis)| ((*channel).to_owned(), axis.to_uppercase()));
     wishes.push(wish("Vehicle acceleration", "acceleration", axes));
     wishes
+}
+
+fn owned((channel, label): &(&str, &'static str)) -> (String, &'static str) {
+    ((*channel).to_owned(), label)
+}
+
+fn capitalized(word: &str) -> String {
+    let (first, rest) = word.split_at(1);
+    first.to_uppercase() + rest
 }
 
 fn wish<L: Into<String>>(title: &str, axis: &str, entries: impl IntoIterator<Item = (String, L)>) -> Wish {

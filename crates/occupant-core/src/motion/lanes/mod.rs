@@ -10,10 +10,10 @@ mod trig;
 
 use crate::motion::scalar::Scalar;
 
-#[cfg(test)]
-pub(crate) use tests::plain::Plain;
 #[cfg(target_arch = "x86_64")]
 pub(crate) use processor::{Avx2, Avx512};
+#[cfg(test)]
+pub(crate) use tests::plain::Plain;
 
 /// True if the processor can compute with [`Avx2`].
 #[cfg(target_arch = "x86_64")]

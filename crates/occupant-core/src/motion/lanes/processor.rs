@@ -9,10 +9,10 @@
 )]
 
 use std::arch::x86_64::*;
-use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
+use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use super::{Lanes, trig};
-use crate::motion::scalar::Scalar;
+use crate::motion::scalar::{Scalar, in_place};
 
 /// Lanes in one register and their truth values: each operation as an expression of registers.
 macro_rules! lanes {
@@ -44,19 +44,7 @@ macro_rules! lanes {
             }
         })*
 
-        impl AddAssign for $Lanes {
-            #[inline(always)]
-            fn add_assign(&mut self, other: Self) {
-                *self = *self + other;
-            }
-        }
-
-        impl SubAssign for $Lanes {
-            #[inline(always)]
-            fn sub_assign(&mut self, other: Self) {
-                *self = *self - other;
-            }
-        }
+        in_place!([] $Lanes);
 
         impl Scalar for $Lanes {
             type Mask = $Mask;

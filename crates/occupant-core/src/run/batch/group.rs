@@ -6,47 +6,40 @@
 use std::ops::ControlFlow;
 
 use super::machine::{Bench, Machine};
-use super::place::{Next, Place, Rider, Witness};
-use super::{Ended, Job, Kernel, run_alone};
+use super::place::{Next, Place, Witness};
+use super::{Jobs, Kernel, run_alone};
 use crate::forces::History;
 use crate::model::Model;
 use crate::model::setup::Integrator;
 use crate::motion::frame::VEHICLE;
 use crate::motion::state::State;
-use crate::results::outcome::Status;
-use crate::results::recorder::Recorder;
+use crate::results::outcome::{RecordingFailed, Status};
 use crate::run::Run;
 
 /// Runs side by side in lanes of `L`.
-pub(super) struct Group<L: Machine, T, R> {
+pub(super) struct Group<L: Machine> {
     kernel: Kernel,
     /// None before the first run.
     bench: Option<Bench<L>>,
     state: State<L>,
     /// Boxed, as they change hands at every step.
     places: Vec<Option<Box<Place>>>,
-    /// Beside the places, so that the step knows nothing of tags and recorders and is compiled once.
-    riders: Vec<Option<Rider<T, R>>>,
 }
 
-impl<L: Machine, T, R: Recorder> Group<L, T, R> {
+impl<L: Machine> Group<L> {
     /// No runs yet.
     pub(super) fn new(kernel: Kernel) -> Self {
-        Group { kernel, bench: None, state: State::zero(), places: none::<L, _>(), riders: none::<L, _>() }
+        Group { kernel, bench: None, state: State::zero(), places: (0..L::COUNT).map(|_| None).collect() }
     }
 
-    /// Runs all `jobs`; `on_end` gets each when it has ended.
-    pub(super) fn run_all(
-        &mut self,
-        mut jobs: impl Iterator<Item = Job<T, R>>,
-        on_end: &mut impl FnMut(Ended<T, R>) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
+    /// Runs all `jobs`.
+    pub(super) fn run_all(&mut self, jobs: &mut dyn Jobs) -> ControlFlow<()> {
         let mut more = true;
         loop {
             for i in 0..L::COUNT {
                 while more && self.places[i].is_none() {
-                    match jobs.next() {
-                        Some(job) => self.seat(i, job, on_end)?,
+                    match jobs.next(i) {
+                        Some(model) => self.seat(i, model, jobs)?,
                         None => more = false,
                     }
                 }
@@ -54,29 +47,22 @@ impl<L: Machine, T, R: Recorder> Group<L, T, R> {
             match self.places.iter().flatten().count() {
                 0 => return ControlFlow::Continue(()),
                 // a step of all lanes takes longer than one of a run alone
-                1 => self.finish_the_last(on_end)?,
-                _ => self.step(on_end)?,
+                1 => self.finish_the_last(jobs)?,
+                _ => self.step(jobs)?,
             }
         }
     }
 
-    /// Gives the run of `job` place `i`, or runs it alone if it has no place among these.
-    fn seat(
-        &mut self,
-        i: usize,
-        job: Job<T, R>,
-        on_end: &mut impl FnMut(Ended<T, R>) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
-        let Integrator::Rk4 { step_s } = job.model.setup().integrator else {
-            return on_end(run_alone(job));
-        };
-        if !self.make_room(i, &job.model) {
-            return on_end(run_alone(job));
+    /// Gives the run of `model` place `i`, or runs it alone if it has no place among these.
+    fn seat(&mut self, i: usize, model: Model, jobs: &mut dyn Jobs) -> ControlFlow<()> {
+        match model.setup().integrator {
+            Integrator::Rk4 { step_s } if self.make_room(i, &model) => {
+                let mut place = Box::new(Place::new(model, step_s));
+                let next = place.begin(jobs.recorder(i));
+                self.go_on_or_end(i, place, next, jobs)
+            }
+            _ => run_alone(i, model, jobs),
         }
-        let mut place = Box::new(Place::new(job.model, step_s));
-        let mut rider = Rider { tag: job.tag, recorder: job.recorder };
-        let next = place.begin(&mut rider.recorder);
-        self.go_on_or_end(i, place, rider, next, on_end)
     }
 
     /// Puts the constants of `model` into lane `i`; false if its structure is another than that of the runs here.
@@ -100,7 +86,7 @@ impl<L: Machine, T, R: Recorder> Group<L, T, R> {
     }
 
     /// One step of every run, and the outputs that are reached.
-    fn step(&mut self, on_end: &mut impl FnMut(Ended<T, R>) -> ControlFlow<()>) -> ControlFlow<()> {
+    fn step(&mut self, jobs: &mut dyn Jobs) -> ControlFlow<()> {
         let Some(bench) = &mut self.bench else {
             return ControlFlow::Continue(());
         };
@@ -123,26 +109,19 @@ impl<L: Machine, T, R: Recorder> Group<L, T, R> {
         let finite;
         (self.state, finite) = L::step(bench, &self.state, h, &mut witness);
         for i in 0..L::COUNT {
-            if let (Some(place), Some(rider)) = (self.places[i].take(), self.riders[i].take()) {
-                self.settle(i, place, rider, finite.lane(i) > 0.0, on_end)?;
+            if let Some(place) = self.places[i].take() {
+                self.settle(i, place, finite.lane(i) > 0.0, jobs)?;
             }
         }
         ControlFlow::Continue(())
     }
 
     /// Accepts the step of the run of place `i`, if it led to numbers, and records an output that it reached.
-    fn settle(
-        &mut self,
-        i: usize,
-        mut place: Box<Place>,
-        mut rider: Rider<T, R>,
-        finite: bool,
-        on_end: &mut impl FnMut(Ended<T, R>) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
+    fn settle(&mut self, i: usize, mut place: Box<Place>, finite: bool, jobs: &mut dyn Jobs) -> ControlFlow<()> {
         place.run.effort.evaluations += 4;
         if finite && !place.stretch.is_over() {
             place.run.accept_time(place.step);
-            self.put(i, place, rider);
+            self.places[i] = Some(place);
             return ControlFlow::Continue(());
         }
         let state = self.lane_state(i);
@@ -150,26 +129,14 @@ impl<L: Machine, T, R: Recorder> Group<L, T, R> {
             Err(error) => Next::ended(Status::Failed(error)),
             Ok(()) => {
                 self.fetch_history(i, &mut place.run);
-                place.output(&mut rider.recorder)
+                place.output(jobs.recorder(i))
             }
         };
-        self.go_on_or_end(i, place, rider, next, on_end)
-    }
-
-    fn put(&mut self, i: usize, place: Box<Place>, rider: Rider<T, R>) {
-        self.places[i] = Some(place);
-        self.riders[i] = Some(rider);
+        self.go_on_or_end(i, place, next, jobs)
     }
 
     /// Puts a run back into its place, or hands it out.
-    fn go_on_or_end(
-        &mut self,
-        i: usize,
-        mut place: Box<Place>,
-        rider: Rider<T, R>,
-        next: Next,
-        on_end: &mut impl FnMut(Ended<T, R>) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
+    fn go_on_or_end(&mut self, i: usize, mut place: Box<Place>, next: Next, jobs: &mut dyn Jobs) -> ControlFlow<()> {
         // the output touched the history; and a lane that failed gets numbers again
         if let Some(bench) = &mut self.bench {
             let put = &mut |lanes: &mut L, x: &mut f64| lanes.set_lane(i, *x);
@@ -179,11 +146,22 @@ impl<L: Machine, T, R: Recorder> Group<L, T, R> {
         self.state = self.state.zip(state, |lanes, x| lanes.with_lane(i, x));
         match next {
             Next::GoesOn => {
-                self.put(i, place, rider);
+                self.places[i] = Some(place);
                 ControlFlow::Continue(())
             }
-            Next::Ends(status) => on_end(place.end(rider, self.kernel, status)),
+            Next::Ends(status) => self.hand_out(i, *place, status, jobs),
         }
+    }
+
+    fn hand_out(
+        &self,
+        i: usize,
+        place: Place,
+        status: Result<Status, RecordingFailed>,
+        jobs: &mut dyn Jobs,
+    ) -> ControlFlow<()> {
+        let (model, outcome) = place.end(status, jobs.recorder(i));
+        jobs.end(i, model, outcome, self.kernel)
     }
 
     /// The state of the run in place `i`.
@@ -201,23 +179,16 @@ impl<L: Machine, T, R: Recorder> Group<L, T, R> {
     }
 
     /// Finishes the only run left with the scalar kernel.
-    fn finish_the_last(&mut self, on_end: &mut impl FnMut(Ended<T, R>) -> ControlFlow<()>) -> ControlFlow<()> {
+    fn finish_the_last(&mut self, jobs: &mut dyn Jobs) -> ControlFlow<()> {
         for i in 0..L::COUNT {
-            let (Some(mut place), Some(mut rider)) = (self.places[i].take(), self.riders[i].take()) else {
-                continue;
-            };
+            let Some(mut place) = self.places[i].take() else { continue };
             place.run.state = self.lane_state(i);
             self.fetch_history(i, &mut place.run);
-            let status = place.finish(&mut rider.recorder);
-            on_end(place.end(rider, self.kernel, status))?;
+            let status = place.finish(jobs.recorder(i));
+            self.hand_out(i, *place, status, jobs)?;
         }
         ControlFlow::Continue(())
     }
-}
-
-/// As many empty places as there are lanes.
-fn none<L: Machine, P>() -> Vec<Option<P>> {
-    (0..L::COUNT).map(|_| None).collect()
 }
 
 /// A bench on which every lane is that of `model`.

@@ -128,25 +128,93 @@ pub fn simulate_many_with<T, R: Recorder>(
     jobs: impl IntoIterator<Item = Job<T, R>>,
     mut on_end: impl FnMut(Ended<T, R>) -> ControlFlow<()>,
 ) {
-    let mut jobs = jobs.into_iter();
+    let under_way = (0..MOST_PLACES).map(|_| None).collect();
+    let jobs: &mut dyn Jobs = &mut JobList { jobs: jobs.into_iter(), on_end: &mut on_end, under_way, nobody: () };
     // whether all were run or the caller broke off, there is nothing left to do
     let _ = match kernel {
         #[cfg(target_arch = "x86_64")]
-        Kernel::Lanes4 if kernel.is_available() => {
-            Group::<crate::motion::lanes::Avx2, T, R>::new(kernel).run_all(jobs, &mut on_end)
-        }
+        Kernel::Lanes4 if kernel.is_available() => Group::<crate::motion::lanes::Avx2>::new(kernel).run_all(jobs),
         #[cfg(target_arch = "x86_64")]
-        Kernel::Lanes8 if kernel.is_available() => {
-            Group::<crate::motion::lanes::Avx512, T, R>::new(kernel).run_all(jobs, &mut on_end)
-        }
-        _ => jobs.try_for_each(|job| on_end(run_alone(job))),
+        Kernel::Lanes8 if kernel.is_available() => Group::<crate::motion::lanes::Avx512>::new(kernel).run_all(jobs),
+        _ => one_by_one(jobs),
     };
 }
 
-/// A run with the scalar kernel.
-fn run_alone<T, R: Recorder>(mut job: Job<T, R>) -> Ended<T, R> {
-    let outcome = simulate(&job.model, &mut job.recorder);
-    Ended { tag: job.tag, model: job.model, recorder: job.recorder, outcome, kernel: Kernel::Scalar }
+/// Where the models of a group come from and go to, and what their jobs bring besides. Behind it everything is compiled once
+/// for each kind of lanes, whatever jobs there are.
+trait Jobs {
+    /// The model of the next job, which gets `place`.
+    fn next(&mut self, place: usize) -> Option<Model>;
+    /// Where the results of the run in `place` go.
+    fn recorder(&mut self, place: usize) -> &mut dyn Recorder;
+    /// Takes back the run of `place`, which has ended.
+    fn end(
+        &mut self,
+        place: usize,
+        model: Model,
+        outcome: Result<Outcome, RecordingFailed>,
+        kernel: Kernel,
+    ) -> ControlFlow<()>;
+}
+
+/// As many places as any lanes have.
+const MOST_PLACES: usize = 8;
+
+/// A list of jobs with what takes the runs that have ended.
+struct JobList<I, F, T, R> {
+    jobs: I,
+    on_end: F,
+    /// Tags and recorders of the runs under way, by place.
+    under_way: Vec<Option<(T, R)>>,
+    /// Records what belongs to no run.
+    nobody: (),
+}
+
+impl<T, R, I, F> Jobs for JobList<I, F, T, R>
+where
+    R: Recorder,
+    I: Iterator<Item = Job<T, R>>,
+    F: FnMut(Ended<T, R>) -> ControlFlow<()>,
+{
+    fn next(&mut self, place: usize) -> Option<Model> {
+        let Job { tag, model, recorder } = self.jobs.next()?;
+        self.under_way[place] = Some((tag, recorder));
+        Some(model)
+    }
+
+    fn recorder(&mut self, place: usize) -> &mut dyn Recorder {
+        match &mut self.under_way[place] {
+            Some((_, recorder)) => recorder,
+            None => &mut self.nobody,
+        }
+    }
+
+    fn end(
+        &mut self,
+        place: usize,
+        model: Model,
+        outcome: Result<Outcome, RecordingFailed>,
+        kernel: Kernel,
+    ) -> ControlFlow<()> {
+        match self.under_way[place].take() {
+            Some((tag, recorder)) => (self.on_end)(Ended { tag, model, recorder, outcome, kernel }),
+            None => ControlFlow::Continue(()),
+        }
+    }
+}
+
+/// All jobs with the scalar kernel.
+fn one_by_one(jobs: &mut dyn Jobs) -> ControlFlow<()> {
+    while let Some(model) = jobs.next(0) {
+        run_alone(0, model, jobs)?;
+    }
+    ControlFlow::Continue(())
+}
+
+/// The run of `model`, the job of `place`, with the scalar kernel.
+fn run_alone(place: usize, model: Model, jobs: &mut dyn Jobs) -> ControlFlow<()> {
+    let outcome = simulate(&model, jobs.recorder(place));
+    jobs.end(place, model, outcome, Kernel::Scalar)
 }
 
 #[cfg(test)]

@@ -1,17 +1,16 @@
 //! A run in its place beside others.
 
-use super::{Ended, Kernel};
 use crate::forces::Observer;
 use crate::forces::contact::Touch;
 use crate::model::Model;
 use crate::motion::lanes::Lanes;
-use crate::results::outcome::{RecordingFailed, Status};
+use crate::results::outcome::{Outcome, RecordingFailed, Status};
 use crate::results::recorder::{Flow, Recorder};
 use crate::run::observers::Meeting;
 use crate::run::simulate::go_on;
 use crate::run::{Run, Step, Stretch};
 
-/// A run in its place; what its job brought besides the model stays with the [`Rider`].
+/// A run in its place; the tag and the recorder of its job stay with the [`Jobs`](super::Jobs).
 pub(super) struct Place {
     pub model: Model,
     pub run: Run,
@@ -32,12 +31,6 @@ impl Next {
     pub(super) fn ended(status: Status) -> Self {
         Next::Ends(Ok(status))
     }
-}
-
-/// The tag and the recorder of a run in its place.
-pub(super) struct Rider<T, R> {
-    pub tag: T,
-    pub recorder: R,
 }
 
 impl Place {
@@ -78,14 +71,13 @@ impl Place {
         }
     }
 
-    pub(super) fn end<T, R: Recorder>(
+    /// The model, and how its run has ended.
+    pub(super) fn end(
         self,
-        mut rider: Rider<T, R>,
-        kernel: Kernel,
         status: Result<Status, RecordingFailed>,
-    ) -> Ended<T, R> {
-        let outcome = status.and_then(|status| self.run.end(status, &mut rider.recorder));
-        Ended { tag: rider.tag, model: self.model, recorder: rider.recorder, outcome, kernel }
+        recorder: &mut dyn Recorder,
+    ) -> (Model, Result<Outcome, RecordingFailed>) {
+        (self.model, status.and_then(|status| self.run.end(status, recorder)))
     }
 }
 

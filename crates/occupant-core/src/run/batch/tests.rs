@@ -34,10 +34,13 @@ fn carts_in_an_array_of_lanes_have_the_bits_of_each_alone() {
         recorder: keep(texts),
     });
     let mut outcomes = Vec::new();
-    let flow = Group::<Plain<3>, _, _>::new(Kernel::Lanes4).run_all(jobs, &mut |ended| {
+    let on_end = |ended: Ended<f64, _>| {
         outcomes.push((ended.tag, ended.outcome.unwrap()));
         ControlFlow::Continue(())
-    });
+    };
+    let mut jobs = JobList { jobs, on_end, under_way: (0..3).map(|_| None).collect(), nobody: () };
+    let flow = Group::<Plain<3>>::new(Kernel::Lanes4).run_all(&mut jobs);
+    drop(jobs);
     assert!(flow.is_continue());
     assert_eq!(outcomes.len(), models.len());
     for (model, found) in models.iter().zip(&texts) {

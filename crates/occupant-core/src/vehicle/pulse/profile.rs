@@ -32,7 +32,7 @@ pub(super) struct Ramp {
 }
 
 impl Ramp {
-    pub fn slope_m_s3(&self) -> f64 {
+    pub(crate) fn slope_m_s3(&self) -> f64 {
         (self.last_m_s2 - self.first_m_s2) / self.length_s
     }
 
@@ -100,7 +100,7 @@ impl Profile {
 
     /// The greatest speed gained at the end of a ramp between `from_s` and `until_s`, m/s; zero where there is none, and
     /// for the sines, which never both give and take.
-    pub fn greatest_gain_m_s(&self, from_s: f64, until_s: f64) -> f64 {
+    pub(crate) fn greatest_gain_m_s(&self, from_s: f64, until_s: f64) -> f64 {
         let Profile::Ramps(ramps) = self else {
             return 0.0;
         };

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 
 use super::super::cursor::PathCursor;
-use super::super::problem::{PathProblem, expect_finite};
+use super::super::problem::{PathProblem, check_row, expect_finite};
 use super::profile::Profile;
 
 /// How strong a pulse is; negative for a pulse that accelerates the vehicle in its direction of travel.
@@ -192,15 +192,9 @@ fn find_point_problems(points: &[DecelerationPoint], problems: &mut Vec<PathProb
         problems.push(PathProblem::TooFewStations { found: points.len() });
     }
     for (station, point) in points.iter().enumerate() {
-        for (quantity, value) in [("t", point.time_s), ("deceleration", point.deceleration_m_s2)] {
-            if !value.is_finite() {
-                problems.push(PathProblem::StationNotFinite { station, quantity, value });
-            }
-        }
-        if station > 0 && point.time_s <= points[station - 1].time_s {
-            let (time_s, previous_s) = (point.time_s, points[station - 1].time_s);
-            problems.push(PathProblem::TimeNotIncreasing { station, time_s, previous_s });
-        }
+        let previous_s = station.checked_sub(1).map(|before| points[before].time_s);
+        let numbers = [("deceleration", point.deceleration_m_s2)];
+        check_row(problems, station, point.time_s, previous_s, numbers, f64::MAX);
     }
 }
 

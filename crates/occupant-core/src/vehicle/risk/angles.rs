@@ -25,12 +25,13 @@ impl Angles {
     /// The angles that the rates allow.
     pub(super) fn of(signals: &VehicleSignals) -> Self {
         let of_attitude = signals.rate_rad_s.iter().all(Option::is_some);
-        let histories = match of_attitude {
-            true => match attitudes(signals) {
+        let histories = if of_attitude {
+            match attitudes(signals) {
                 Ok(histories) => histories.map(Ok),
                 Err(missing) => [(); 3].map(|()| Err(missing.clone())),
-            },
-            false => [0, 1, 2].map(|axis| alone(signals, axis)),
+            }
+        } else {
+            [0, 1, 2].map(|axis| alone(signals, axis))
         };
         Angles { largest: histories.map(|angle| Ok(largest_magnitude(&angle?, signals.dt_s)?)), of_attitude }
     }

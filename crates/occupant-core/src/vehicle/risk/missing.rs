@@ -1,6 +1,5 @@
 //! Measures that may be left out, and why.
 
-
 use crash_measures::signal::SignalError;
 
 /// A measure, or why it was left out.

@@ -1,6 +1,5 @@
 //! From a record to signals of the c.g.: even samples, filter, place of the sensors, gravity, first contact.
 
-
 use nalgebra::Vector3;
 
 use super::VehicleSignals;

@@ -42,10 +42,7 @@ pub(super) fn read(definition: &SensorDefinition) -> Result<Readings, Vec<PathPr
             }
             let norms: Vec<f64> = (0..record.time_s.len()).map(|i| triple(&record.rate_rad_s, i).norm()).collect();
             check_turning(&record.time_s, &norms, &mut problems);
-            match problems.is_empty() {
-                true => Ok(cut(&record, start_s)),
-                false => Err(problems),
-            }
+            if problems.is_empty() { Ok(cut(&record, start_s)) } else { Err(problems) }
         }
     }
 }

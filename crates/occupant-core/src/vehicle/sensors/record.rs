@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use crate::vehicle::problem::PathProblem;
+use crate::vehicle::problem::{PathProblem, check_row};
 
 /// What was recorded.
 #[derive(Clone, Debug, PartialEq)]
@@ -86,19 +86,8 @@ impl SensorRecord {
         }
         for (station, &here_s) in time_s.iter().enumerate() {
             let numbers = channels.iter().filter_map(|(name, samples)| Some((*name, *samples.get(station)?)));
-            problems.extend(
-                std::iter::once(("t", here_s))
-                    .chain(numbers)
-                    .filter(|(_, value)| value.is_nan() || value.abs() > LARGEST)
-                    .map(|(quantity, value)| PathProblem::StationNotFinite { station, quantity, value }),
-            );
-            if station > 0 && here_s <= time_s[station - 1] {
-                problems.push(PathProblem::TimeNotIncreasing {
-                    station,
-                    time_s: here_s,
-                    previous_s: time_s[station - 1],
-                });
-            }
+            let previous_s = station.checked_sub(1).map(|before| time_s[before]);
+            check_row(&mut problems, station, here_s, previous_s, numbers, LARGEST);
         }
         problems
     }

@@ -109,7 +109,7 @@ fn the_report_s_cart_stop_as_a_half_sine() {
     let found = path(ahead(speed_m_s, shape));
     let peak_g = found.peak_deceleration_m_s2() / INCH_M / 386.04;
     assert_below("peak, g", (peak_g - 17.9).abs(), 0.05); // 3.6e-03
-    let distance_in = found.stopping_distance_m().expect("a stop") / INCH_M;
+    let distance_in = found.stop().expect("a stop").distance_m / INCH_M;
     assert_below(
         "stopping distance, in",
         (distance_in - 352.0 * 0.04).abs(),
@@ -151,7 +151,7 @@ fn a_volunteer_sled_pulse_has_its_change_of_velocity() {
     assert_eq!(thrust.stop(), None);
     for i in 0..60 {
         let t_s = 0.004 * f64::from(i) + 0.001;
-        if braked.stop_time_s().is_none_or(|stop_s| t_s < stop_s) {
+        if braked.stop().is_none_or(|stop| t_s < stop.time_s) {
             let sum = at(&braked, t_s).velocity_m_s.x + at(&thrust, t_s).velocity_m_s.x;
             assert_below("sum of speeds, m/s", (sum - 20.5 * mph).abs(), 1e-13); // 0
         }
@@ -192,7 +192,7 @@ fn a_table_that_would_drive_a_stopped_vehicle_on_leaves_it_at_rest() {
     let found = path(ahead(10.0, PulseShape::Tabulated { points: points.to_vec() }));
     assert_below(
         "stop time, s",
-        (found.stop_time_s().expect("a stop") - 0.1).abs(),
+        (found.stop().expect("a stop").time_s - 0.1).abs(),
         1e-15, // 0
     );
     assert_eq!(at(&found, 0.4).velocity_m_s, Vector3::zeros());
@@ -386,7 +386,7 @@ fn a_measured_thrust_whose_noise_would_stop_the_sled_is_refused_unless_it_may_mo
     let there = [(0.0, -10.0), (1.0, -10.0), (2.0, 10.0), (3.0, 10.0)]
         .map(|(time_s, deceleration_m_s2)| DecelerationPoint { time_s, deceleration_m_s2 });
     let found = path(ahead(0.0, PulseShape::Tabulated { points: there.to_vec() }));
-    assert_eq!(found.stop_time_s(), Some(3.0));
+    assert_eq!(found.stop().map(|stop| stop.time_s), Some(3.0));
     assert_eq!(at(&found, 4.0).velocity_m_s, Vector3::zeros());
 }
 

@@ -1,6 +1,5 @@
 //! The echo of everything read, and of what was computed from it before the first step (the report's PRNTIN).
 
-mod belts;
 mod body;
 mod compartment;
 mod joints;
@@ -14,16 +13,17 @@ pub(crate) use seating::coordinates;
 use super::case::Case;
 use super::page::Pages;
 use super::unit::Units;
+use super::{ELEMENTS, headings};
 
 /// Writes the echo.
-pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units) {
+pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {
     run::write(pages, case, units);
     pages.begin("INPUT: OCCUPANT");
     body::write(pages, case, units);
     joints::write(pages, case, units);
-    pages.begin("INPUT: COMPARTMENT AND BELTS");
+    pages.begin(&format!("INPUT: COMPARTMENT AND {}", headings()));
     compartment::write(pages, case, units);
-    belts::write(pages, case, units);
+    ELEMENTS.iter().for_each(|element| (element.input)(pages, case, units));
     pages.begin("INPUT: PATH OF THE VEHICLE");
     path::write(pages, case, units);
     pages.begin("INPUT AND COMPUTED: THE OCCUPANT AT THE START");

@@ -1,5 +1,6 @@
 //! What the run is: its origin, times, integrator, and what was said about it.
 
+use crash_measures::unit::Unit::MetrePerSecondSquared;
 use occupant_core::forces::contact::EdgeForce;
 use occupant_core::model::setup::Integrator;
 
@@ -8,43 +9,40 @@ use crate::jobs::print::page::Pages;
 use crate::jobs::print::unit::Units;
 
 /// Writes the first page.
-pub(crate) fn write(pages: &mut Pages, case: &Case, units: &Units) {
+pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {
     pages.begin("INPUT: RUN");
     let setup = case.model.setup();
-    let known = |key: &str| case.file.run.get(key).map_or("-", String::as_str);
-    pages.say(&format!("TITLE          {}", setup.title));
-    pages.say(&format!("PROGRAM        {}", known("program")));
-    pages.say(&format!("SCENARIO       {}", known("scenario")));
-    pages.say(&format!("SHA-256        {}", known("scenario_sha256")));
+    pages.fact("TITLE", &setup.title);
+    pages.fact("PROGRAM", case.known("program"));
+    pages.fact("SCENARIO", case.known("scenario"));
+    pages.fact("SHA-256", case.known("scenario_sha256"));
     for (name, content) in &case.file.attachments {
-        pages.say(&format!("ATTACHED       {name}, {} BYTES", content.len()));
+        pages.fact("ATTACHED", format!("{name}, {} BYTES", content.len()));
     }
     if let (Some(from), Some(at)) = (case.file.run.get("resumed_from"), case.file.run.get("resumed_at_s")) {
-        pages.say(&format!("RESUMED FROM   {from} AT {at} SEC"));
+        pages.fact("RESUMED FROM", format!("{from} AT {at} SEC"));
     }
     if let Some(overrides) = case.file.run.get("overrides") {
-        for assignment in overrides.lines() {
-            pages.say(&format!("CHANGED BY     --set {assignment}"));
-        }
+        overrides.lines().for_each(|assignment| pages.fact("CHANGED BY", format!("--set {assignment}")));
     }
-    pages.say(&format!("UNITS          {}", units.name));
-    let gravity = units.acceleration.show(setup.gravity_m_s2);
-    pages.say(&format!("GRAVITY        {gravity} {}", units.acceleration.name));
+    pages.fact("UNITS", units.name());
+    pages.fact("GRAVITY", units.of(MetrePerSecondSquared).say(setup.gravity_m_s2));
     let time = &setup.time;
-    pages.say(&format!("START          {} SEC", time.start_s));
-    pages.say(&format!("END            {} SEC", time.end_s));
-    pages.say(&format!("RECORDED EVERY {} SEC", time.output_s));
-    pages.say(&format!("INTEGRATION    {}", integrator(&setup.integrator)));
+    pages.fact("START", format!("{} SEC", time.start_s));
+    pages.fact("END", format!("{} SEC", time.end_s));
+    pages.fact("RECORDED EVERY", format!("{} SEC", time.output_s));
+    pages.fact("INTEGRATION", integrator(&setup.integrator));
     let edge_force = match setup.edge_force {
         EdgeForce::AtContactPoint => "AT THE CONTACT POINT",
         EdgeForce::AtCentre => "AT THE CENTER OF THE SPHERE",
     };
-    pages.say(&format!("EDGE FORCE     {edge_force}"));
+    pages.fact("EDGE FORCE", edge_force);
     pages.say("");
-    pages.say("NOTATION       VEHICLE COORDINATES: X FORWARD, Y RIGHT, Z DOWN FROM THE C.G. OF THE VEHICLE");
-    pages.say("               SEGMENT COORDINATES: X AHEAD, Y TO THE OCCUPANT'S LEFT, Z UP WHEN STANDING UPRIGHT, FROM THE C.G.");
-    pages.say("               SPACE: X FORWARD, Y LEFT, Z UP");
-    pages.say("               A MASS IN LB WEIGHS AS MANY LBF UNDER STANDARD GRAVITY");
+    pages.fact("NOTATION", "VEHICLE COORDINATES: X FORWARD, Y RIGHT, Z DOWN FROM THE C.G. OF THE VEHICLE");
+    let segment = "SEGMENT COORDINATES: X AHEAD, Y TO THE OCCUPANT'S LEFT, Z UP WHEN STANDING UPRIGHT, FROM THE C.G.";
+    pages.fact("", segment);
+    pages.fact("", "SPACE: X FORWARD, Y LEFT, Z UP");
+    pages.fact("", "A MASS IN LB WEIGHS AS MANY LBF UNDER STANDARD GRAVITY");
     if let Some(notes) = &case.loaded.scenario.notes {
         pages.say("");
         pages.say("NOTES");

@@ -1,25 +1,23 @@
 //! A path from recorded motion.
 
+use crash_measures::unit::Unit::{Metre, MetrePerSecond};
 use occupant_core::vehicle::{SensorGravity, SensorPath, SensorRecord};
 
 use super::path::{after, direction, pose};
 use crate::jobs::print::page::Pages;
 use crate::jobs::print::table::Table;
-use crate::jobs::print::unit::{DEGREE, G, Units};
+use crate::jobs::print::unit::{Units, degree, g};
 
 /// Writes how the record is read, then the record.
-pub(crate) fn write(pages: &mut Pages, path: &SensorPath, units: &Units) {
-    let (d, v) = (path.definition(), units.speed);
+pub(crate) fn write(pages: &mut Pages, path: &SensorPath, units: Units) {
+    let (d, v) = (path.definition(), units.of(MetrePerSecond));
     let (from_s, to_s) = path.span_s();
     pages.say("RECORDED MOTION, INTEGRATED");
-    pages.say(&format!("START          {}", pose(&d.initial, units)));
-    pages.say(&format!("SPEED          {} {}, {}", v.show(d.initial_speed_m_s), v.name, direction(&d.direction)));
-    pages.say(&format!("USED           FROM {from_s:.6} TO {to_s:.6} SEC, {} AFTER THAT", after(d.after)));
-    pages.say(&format!(
-        "SENSORS        {} {} FROM THE CENTER OF GRAVITY (FORWARD, RIGHT, DOWN)",
-        units.length.point(d.offset_m.into()),
-        units.length.name
-    ));
+    pages.fact("START", pose(&d.initial, units));
+    pages.fact("SPEED", format!("{}, {}", v.say(d.initial_speed_m_s), direction(&d.direction)));
+    pages.fact("USED", format!("FROM {from_s:.6} TO {to_s:.6} SEC, {} AFTER THAT", after(d.after)));
+    let (place, unit) = (units.of(Metre).point(d.offset_m), units.of(Metre).name());
+    pages.fact("SENSORS", format!("{place} {unit} FROM THE CENTER OF GRAVITY (FORWARD, RIGHT, DOWN)"));
     if let SensorRecord::Accelerations(_) = d.record {
         let gravity = match d.gravity {
             SensorGravity::Included => "IN THE ACCELERATIONS",
@@ -34,24 +32,24 @@ pub(crate) fn write(pages: &mut Pages, path: &SensorPath, units: &Units) {
             Some(length_s) => format!("THE MEAN OF THE FIRST {length_s:.6} SEC TAKEN AWAY"),
             None => "NONE".to_owned(),
         };
-        pages.say(&format!("GRAVITY        {gravity}"));
-        pages.say(&format!("FILTER         {filter}"));
-        pages.say(&format!("BASELINE       {baseline}"));
+        pages.fact("GRAVITY", gravity);
+        pages.fact("FILTER", filter);
+        pages.fact("BASELINE", baseline);
     }
     record(pages, &d.record, units);
 }
 
 /// The samples as they were read: accelerations in g, rates in deg/s, velocity changes in the printout's unit.
-fn record(pages: &mut Pages, record: &SensorRecord, units: &Units) {
-    let channels = record.channels();
-    let names: String = channels.iter().map(|(name, _)| format!(" | {}", name.to_uppercase())).collect();
-    let title = format!("{} SAMPLES AS READ (A IN G, W IN DEG/SEC, DV IN {})", record.time_s().len(), units.speed.name);
-    let mut table = Table::new(title, &format!("SEC{names}"));
+fn record(pages: &mut Pages, record: &SensorRecord, units: Units) {
+    let (channels, v) = (record.channels(), units.of(MetrePerSecond));
+    let heads: String = channels.iter().map(|(name, _)| format!("|{}", name.to_uppercase())).collect();
+    let title = format!("{} SAMPLES AS READ (A IN G, W IN DEG/SEC, DV IN {})", record.time_s().len(), v.name());
+    let mut table = Table::new(title, &format!("SEC{heads}"));
     for (i, time_s) in record.time_s().iter().enumerate() {
         let cells = channels.iter().map(|(name, samples)| match name.as_bytes() {
-            [b'a', ..] => G.show(samples[i]),
-            [b'w', ..] => DEGREE.show(samples[i]),
-            _ => units.speed.show(samples[i]),
+            [b'a', ..] => g().show(samples[i]),
+            [b'w', ..] => degree().show(samples[i]),
+            _ => v.show(samples[i]),
         });
         table.row(std::iter::once(format!("{time_s:.6}")).chain(cells));
     }

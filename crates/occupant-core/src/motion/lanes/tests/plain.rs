@@ -1,10 +1,10 @@
 //! Lanes as an array, which every processor has: to test the others against.
 
 use std::array::from_fn;
-use std::ops::{Add, AddAssign, BitAnd, BitOr, Div, Mul, Neg, Not, Sub, SubAssign};
+use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 use crate::motion::lanes::{Lanes, trig};
-use crate::motion::scalar::Scalar;
+use crate::motion::scalar::{Scalar, in_place};
 
 /// N numbers.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,19 +61,7 @@ impl<const N: usize> Neg for Plain<N> {
     }
 }
 
-impl<const N: usize> AddAssign for Plain<N> {
-    #[inline(always)]
-    fn add_assign(&mut self, other: Self) {
-        *self = *self + other;
-    }
-}
-
-impl<const N: usize> SubAssign for Plain<N> {
-    #[inline(always)]
-    fn sub_assign(&mut self, other: Self) {
-        *self = *self - other;
-    }
-}
+in_place!([const N: usize] Plain<N>);
 
 impl<const N: usize> BitAnd for PlainMask<N> {
     type Output = Self;

@@ -1,7 +1,7 @@
 //! Any signal, however broken, gives a value or an error and never a panic.
 
-use super::*;
 use crate::correlation::{CoraSettings, anova, cora, iso18571, sprague_geers};
+use crate::measure::*;
 use crate::signal::{
     CfcFamily, ChannelClass, Interpolant, Interpolation, filter_cfc, integrate, moving_average, resample,
 };
