@@ -1,9 +1,8 @@
 //! `occupant fit`.
 
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use super::flags::sweep::{engine, kernel};
+use super::flags::sweep::EngineArgs;
 use crate::base::failure::{Done, Failure};
 use crate::base::interrupt::Interrupt;
 use crate::base::names::program;
@@ -49,13 +48,8 @@ pub(crate) struct Args {
     #[arg(long = "set", value_name = "PATH.TO.KEY=VALUE")]
     overrides: Vec<String>,
 
-    /// Number of threads; one for each core if absent
-    #[arg(long, value_name = "N")]
-    threads: Option<NonZeroUsize>,
-
-    /// How runs are computed: scalar, lanes4 or lanes8, the fastest of this processor if absent; all give the same bits
-    #[arg(long, value_name = "KERNEL")]
-    kernel: Option<String>,
+    #[command(flatten)]
+    engine: EngineArgs,
 
     /// Remove the results that the folder holds and begin anew
     #[arg(long)]
@@ -71,7 +65,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn fit(args: &Args) -> Result<Done, Failure> {
-    let engine = engine(args.threads, kernel(args.kernel.as_deref())?)?;
+    let engine = args.engine.engine()?;
     let given = Given { files: &args.to, maps: &args.map, overrides: &args.overrides };
     let fitting = Fitting::open(&args.study, &given, program()).map_err(Failure::CouldNotRun)?;
     if !args.quiet {

@@ -21,8 +21,7 @@ use crate::base::output_file::Existing;
 use crate::base::progress::Progress;
 use crate::base::talk::{self, say};
 use crate::files::scenario::{self, Opened, ScenarioArgs};
-use crate::jobs::ensemble::beside_run::Ran;
-use crate::jobs::ensemble::report::Description;
+use crate::jobs::ensemble::report::Report;
 use crate::jobs::ensemble::text::text as ensemble_text;
 use crate::jobs::run::recording::{Recording, Written};
 use crate::jobs::run::resume::{Resumed, Resumption, Retold};
@@ -86,7 +85,7 @@ struct Answer<'a> {
     unstable_friction: Vec<UnstableFriction>,
     /// Absent without `--ensemble`, and where the run itself did not complete.
     #[serde(skip_serializing_if = "Option::is_none")]
-    ensemble: Option<Description<'a>>,
+    ensemble: Option<&'a Report>,
     warnings: Vec<String>,
 }
 
@@ -150,7 +149,7 @@ pub(crate) fn run(args: &Args) -> Result<Done, Failure> {
         file: written.name(),
         summary: &summary,
         unstable_friction: friction.found(&opened.model),
-        ensemble: ran.as_ref().map(|r| r.report.describe(r.files.clone())),
+        ensemble: ran.as_ref(),
         warnings: Vec::new(),
     };
     tell(args, &opened, answer, &friction, &written, ran.as_ref())?;
@@ -210,7 +209,7 @@ fn tell(
     mut answer: Answer<'_>,
     friction: &FrictionWatch,
     written: &Written,
-    ran: Option<&Ran>,
+    ran: Option<&Report>,
 ) -> Result<(), Failure> {
     // the forces of a run that has failed say nothing about its friction
     let unstable = match answer.summary.status {
@@ -231,10 +230,10 @@ fn tell(
     let Some(ran) = ran else {
         return talk::print(&summary_table(answer.summary, written, &Marks::none()));
     };
-    let marks = Marks::of(ran.report.unstable());
+    let marks = Marks::of(ran.unstable());
     let summary = summary_table(answer.summary, written, &marks);
     let files: String = ran.files.iter().map(|f| format!("written   {f}\n")).collect();
-    talk::print(&format!("{summary}\n{}{files}", ensemble_text(&ran.report)))
+    talk::print(&format!("{summary}\n{}{files}", ensemble_text(ran)))
 }
 
 fn broke_off(summary: &Summary, written: &Written) -> String {

@@ -31,6 +31,11 @@ pub(crate) enum Kind {
     MaybeText,
 }
 
+/// Columns from lists of names that hold the same kind of thing.
+pub(crate) fn columns(lists: &[(Kind, &[&'static str])]) -> Vec<(&'static str, Kind)> {
+    lists.iter().flat_map(|(kind, names)| names.iter().map(|name| (*name, *kind))).collect()
+}
+
 /// A value.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) enum Cell {

@@ -18,22 +18,10 @@ use crate::files::study_folder::row::Status;
 
 /// Reads `none`, `all`, `3, 17` or `worst 5 by head.peak`.
 pub(crate) fn parse(text: &str) -> Option<Keep> {
-    let words: Vec<&str> = text.split_whitespace().collect();
-    match words[..] {
-        ["none"] => Some(Keep::None),
-        ["all"] => Some(Keep::All),
-        ["worst", count, "by", measure] => {
-            Some(Keep::Worst { count: count.parse().ok().filter(|n| *n > 0)?, measure: measure.to_owned() })
-        }
-        _ => {
-            let number = |word: &str| word.trim().parse::<u64>().ok();
-            let numbers: Option<Vec<u64>> = text.split(',').map(number).collect();
-            let mut numbers = numbers?;
-            numbers.sort_unstable();
-            numbers.dedup();
-            Some(Keep::Indices(numbers))
-        }
-    }
+    Keep::from_words(text).or_else(|| {
+        let numbers: Result<Vec<u64>, _> = text.split(',').map(|word| word.trim().parse()).collect();
+        numbers.ok().map(Keep::of)
+    })
 }
 
 /// Makes the folder of the kept runs, where there will be any.
