@@ -12,3 +12,9 @@ pub(crate) fn file_name(path: &Path) -> String {
     let name = path.file_name().unwrap_or_default();
     name.to_string_lossy().into_owned()
 }
+
+/// A name that can be that of a file.
+pub(crate) fn file_stem(name: &str) -> String {
+    let plain = |c: char| if c.is_alphanumeric() || "-_ .".contains(c) { c } else { '_' };
+    name.chars().map(plain).collect()
+}

@@ -11,11 +11,14 @@ use crate::files::measured::MapArgument;
 use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::shard::Shard;
 use crate::jobs::fit::evaluator::Evaluator;
-use crate::jobs::fit::fitting::{Fitting, Given};
+use crate::jobs::fit::fitting::Fitting;
 use crate::jobs::fit::identified::search;
+use crate::jobs::fit::opening::Given;
 use crate::jobs::fit::output::Output;
 use crate::jobs::fit::progress::Progress;
 use crate::jobs::fit::report;
+use crate::jobs::sweep::stored::sha256_of;
+use crate::jobs::sweep::words::warn_unlocked;
 
 /// Find the parameters of a study with which runs follow a test best
 ///
@@ -72,19 +75,12 @@ pub(crate) fn fit(args: &Args) -> Result<Done, Failure> {
         fitting.warnings.iter().for_each(|w| say(&format!("{w}\n")));
     }
     let folder = Folder::of_fit(&args.output);
-    let sha256 = fitting.manifest.sha256();
-    let sha256 = sha256.map_err(|e| Failure::plain(format!("the manifest cannot be written: {e}")))?;
-    let claimed = folder.claim(&fitting.manifest, &fitting.texts, Shard::WHOLE, args.restart);
-    let held = claimed?;
-    if let (Some(reason), false) = (&held.unlocked, args.quiet) {
-        say(&format!(
-            "warning: this file system has no locks ({reason}): nothing but you keeps two processes from fitting into one folder"
-        ));
-    }
+    let sha256 = sha256_of(&fitting.manifest)?;
+    let held = folder.claim(&fitting.manifest, &fitting.texts, Shard::WHOLE, args.restart)?;
+    warn_unlocked(&held, "fitting into one folder", args.quiet);
     let interrupt = Interrupt::listen_for("stopping; once more to stop at once");
     let progress = Progress::new(fitting.fit.budget, args.quiet);
-    let evaluator = Evaluator::new(&fitting, &folder, &sha256, &engine, &interrupt, progress);
-    let mut evaluator = evaluator?;
+    let mut evaluator = Evaluator::new(&fitting, &folder, &sha256, &engine, &interrupt, progress)?;
     if evaluator.known() > 0 && !args.quiet {
         say(&format!("going on: {} runs are there", evaluator.known()));
     }

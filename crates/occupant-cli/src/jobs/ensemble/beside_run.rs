@@ -1,6 +1,6 @@
 //! The ensemble beside a run: its members after the run itself, their tables and files.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use occupant_core::results::channel::{Channel, Series};
 use occupant_core::results::summary::Summary;
@@ -9,12 +9,12 @@ use occupant_study::{Study, Tolerances};
 
 use super::bands::Bands;
 use super::members::{Left, Members};
-use super::report::Report;
 use super::plot;
+use super::report::Report;
 use crate::base::failure::Failure;
 use crate::base::interrupt::Interrupt;
 use crate::base::names::program;
-use crate::base::output_file::{Existing, PartialFile};
+use crate::base::output_file::{Existing, write_whole};
 use crate::base::progress::bar;
 use crate::base::text_table::plain;
 use crate::files::scenario::Opened;
@@ -101,18 +101,10 @@ impl Wanted {
                 let bytes = format
                     .encode(&drawing, PIXELS)
                     .map_err(|e| Failure::BrokeOff(format!("error: {} cannot be made: {e}", path.display())))?;
-                let written = write_bytes(path, self.existing, &bytes);
+                let written = write_whole(path, self.existing, &bytes);
                 written.map_err(|reason| Failure::BrokeOff(format!("error: {reason}")))?
             }
         };
         Ok(written.display().to_string())
     }
-}
-
-fn write_bytes(path: &Path, existing: Existing, bytes: &[u8]) -> Result<PathBuf, String> {
-    use std::io::Write;
-    let mut file = PartialFile::create(path, existing).map_err(|e| e.to_string())?;
-    let written = file.write_all(bytes);
-    written.map_err(|e| format!("{} cannot be written: {e}", path.display()))?;
-    file.publish().map_err(|e| e.to_string())
 }

@@ -40,10 +40,7 @@ impl Judged {
 
 /// Judges figures (name, unit, a value for each member). Left out are those that no member has, and the times of peaks that
 /// are too small for anybody to act on: when nothing was greatest says nothing.
-pub(crate) fn judge<'a>(
-    figures: impl Iterator<Item = (&'a str, &'a str, &'a [f64])>,
-    relative: f64,
-) -> Vec<Judged> {
+pub(crate) fn judge<'a>(figures: impl Iterator<Item = (&'a str, &'a str, &'a [f64])>, relative: f64) -> Vec<Judged> {
     let mut judged: Vec<Judged> =
         figures.filter_map(|(name, unit, values)| Judged::of(name, unit, values, relative)).collect();
     let of_nothing = |f: &&Judged| f.spread.greatest.abs() <= smallest(&f.name, &f.unit);

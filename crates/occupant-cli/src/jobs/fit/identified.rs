@@ -1,15 +1,11 @@
 //! The search from its first candidate to the intervals of the parameters.
 
-use occupant_core::model::Model;
-use occupant_core::results::channel::Series;
-use occupant_core::run::simulate::simulate;
 use occupant_study::Misfit;
-use occupant_study::ending::Ending;
 use occupant_study::misfit::{likelihood_rise, unrelated_samples};
 use occupant_study::search::{Descents, Global, Point, Profiles, Reach, Shape, Stage, descend, profile, refine, scan};
+use serde::Serialize;
 
 use super::evaluator::{Evaluator, Record, WORST};
-use super::experiment::Experiment;
 use super::fitting::Fitting;
 use crate::base::failure::Failure;
 
@@ -42,17 +38,11 @@ pub(crate) struct Answer {
 }
 
 /// What says which sets are as good as the best.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Near {
-    Study,
-    /// The likelihood of the residuals, so many of which are unrelated.
-    Likelihood {
-        unrelated: f64,
-    },
-    /// Differences below 0.05 % of the peak, because the residuals are smaller still.
-    Peak,
-    /// Scores that differ by 0.01.
-    Score,
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub(crate) struct Near {
+    pub(crate) by: &'static str,
+    /// Residuals that are unrelated, where the likelihood says so.
+    pub(crate) unrelated_residuals: Option<f64>,
 }
 
 /// Searches, refines, and looks how well the answer is determined.
@@ -115,42 +105,25 @@ fn rise(fitting: &Fitting, best: &Point) -> Result<(f64, Near), Failure> {
     let score = misfit.of_cost(best.value);
     let above = |near: f64| misfit.cost(score + near) - misfit.cost(score);
     if let Some(near) = fitting.fit.near {
-        return Ok((above(near), Near::Study));
+        return Ok((above(near), Near { by: "the study", unrelated_residuals: None }));
     }
     if misfit != Misfit::Rms {
-        return Ok((above(SAME), Near::Score));
+        return Ok((above(SAME), Near { by: "scores that differ by less than 0.01", unrelated_residuals: None }));
     }
     let values = fitting.values(&best.at);
     let mut unrelated = 0.0;
     for experiment in &fitting.experiments {
-        let residuals = run(experiment, Some(&values)).and_then(|s| experiment.residuals(&s));
+        let residuals = experiment.run_with(Some(&values)).and_then(|s| experiment.residuals(&s));
         let residuals = residuals
             .map_err(|reason| Failure::BrokeOff(format!("error: the best candidate cannot be run again: {reason}")))?;
         unrelated += residuals.iter().map(|r| unrelated_samples(r)).sum::<f64>();
     }
     let likely = likelihood_rise(best.value, unrelated);
     let least = NONE * NONE;
-    Ok(if likely > least { (likely, Near::Likelihood { unrelated }) } else { (least, Near::Peak) })
-}
-
-/// The recorded channels of an experiment with these parameters.
-///
-/// # Errors
-/// A scenario that is refused, an integration that fails.
-pub(crate) fn run(experiment: &Experiment, values: Option<&[f64]>) -> Result<Series, String> {
-    let model = experiment.model_of(values).map_err(|e| e.to_string())?;
-    run_model(experiment, &model)
-}
-
-/// The recorded channels of an experiment for a model of it.
-///
-/// # Errors
-/// An integration that fails.
-pub(crate) fn run_model(experiment: &Experiment, model: &Model) -> Result<Series, String> {
-    let mut series = Series::new(experiment.recorded.clone());
-    let outcome = simulate(model, &mut series).map_err(|e| e.to_string())?;
-    match Ending::of(&outcome).and_then(|ending| ending.reason()) {
-        None => Ok(series),
-        Some(reason) => Err(reason),
-    }
+    Ok(match likely > least {
+        true => (likely, Near { by: "95 % likelihood of the residuals", unrelated_residuals: Some(unrelated) }),
+        false => {
+            (least, Near { by: "0.05 % of the measured peaks: the residuals are smaller", unrelated_residuals: None })
+        }
+    })
 }

@@ -39,7 +39,7 @@ fn overview(found: &Found) -> String {
                 e.intervals
             ),
         ),
-        ("as good", format!("scores up to {:.5} ({})", found.near.score, found.near.by)),
+        ("as good", format!("scores up to {:.5} ({})", found.near.score, found.near.near.by)),
     ];
     for warning in &found.warnings {
         lines.push(("warning", warning.clone()));

@@ -102,7 +102,8 @@ pub(crate) fn of_the_study(opened: &Stored, gathered: &Gathered) -> Vec<String> 
     if ends.finished() < ends.planned {
         notes.push(format!(
             "The study is not finished: {} of {} runs. Numbers are those of the runs that are there.",
-            ends.finished(), ends.planned
+            ends.finished(),
+            ends.planned
         ));
     }
     let lost = ends.without_figures();

@@ -92,9 +92,10 @@ impl Stable {
             (Kind::Text, &["verdict"]),
         ]);
         let forms = [(Form::Parquet, "ensemble.parquet"), (Form::Csv, "ensemble.csv")];
-        let tables = forms.into_iter().take(1 + usize::from(csv)).map(|(form, name)| {
-            TableFile::create(folder.path().join(name), form, Existing::Replace, &columns, &about)
-        });
+        let tables = forms
+            .into_iter()
+            .take(1 + usize::from(csv))
+            .map(|(form, name)| TableFile::create(folder.path().join(name), form, Existing::Replace, &columns, &about));
         Ok(Some(Stable { sample, figures, present: None, tables: tables.collect::<Result<_, _>>()?, found }))
     }
 
