@@ -48,10 +48,12 @@ impl Interrupt {
     /// # Errors
     /// Interrupted, and what was done before.
     pub(crate) fn refuse(&self, done: &str) -> Result<(), Failure> {
-        if self.is_asked() {
-            return Err(Failure::BrokeOff("error: interrupted".to_owned()).with_done(done));
-        }
-        Ok(())
+        if self.is_asked() { Err(Interrupt::failure(done)) } else { Ok(()) }
+    }
+
+    /// Interrupted, and what was done before.
+    pub(crate) fn failure(done: &str) -> Failure {
+        Failure::BrokeOff("error: interrupted".to_owned()).with_done(done)
     }
 
     /// What a signal sets.

@@ -26,8 +26,8 @@ use crate::jobs::sweep::words::warn_unlocked;
 /// test or of several are reproduced best; the study's [fit] says what counts. A global search (CMA-ES with growing
 /// populations) is followed by a refinement and by intervals: how far each parameter can go while the others make up for it.
 /// Writes FOLDER/fit.json, fitted.toml (the scenario with the fitted numbers and where they come from), plots/*.svg
-/// (measured against computed, before and after) and history.parquet and .csv (every candidate). A fit that was interrupted
-/// or killed goes on with the same command and ends at the same answer.
+/// (measured against computed, before and after) and history.parquet and .csv (every candidate). The same command
+/// resumes a fit that was interrupted or killed, and ends at the same answer.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The study, TOML or JSON
@@ -82,7 +82,7 @@ pub(crate) fn fit(args: &Args) -> Result<Done, Failure> {
     let progress = Progress::new(fitting.fit.budget, args.quiet);
     let mut evaluator = Evaluator::new(&fitting, &folder, &sha256, &engine, &interrupt, progress)?;
     if evaluator.known() > 0 && !args.quiet {
-        say(&format!("going on: {} runs are there", evaluator.known()));
+        say(&format!("resuming: {} runs are there", evaluator.known()));
     }
     let answer = search(&fitting, &mut evaluator)?;
     let records = evaluator.close()?;
@@ -92,7 +92,7 @@ pub(crate) fn fit(args: &Args) -> Result<Done, Failure> {
         (false, true) => {}
         (false, false) => {
             let written = format!("\nwritten to {}\n", folder.path().display());
-            print(&(report::text(&fitting, &found) + &written))?;
+            print(&(report::text(&found) + &written))?;
         }
     }
     Ok(Done::Well)

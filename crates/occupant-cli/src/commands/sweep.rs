@@ -19,8 +19,8 @@ use crate::jobs::sweep::plan::Plan;
 /// Run every sample of a study and write one table
 ///
 /// Writes FOLDER/results.parquet: a row for each sample with its inputs, all measures of the run and how it ended. A sample
-/// that fails is a row with its reason. A sweep that was interrupted or killed goes on with the same command: every finished
-/// sample is kept. On several machines, each computes a part of the study into the same folder (--shard, or a Slurm job
+/// that fails is a row with its reason. The same command resumes a sweep that was interrupted or killed: every
+/// finished sample is kept. On several machines, each computes a part of the study into the same folder (--shard, or a Slurm job
 /// array), and `occupant sweep merge FOLDER` makes the table.
 #[derive(Debug, clap::Args)]
 #[command(args_conflicts_with_subcommands = true, subcommand_negates_reqs = true)]

@@ -17,8 +17,8 @@ use crate::jobs::sweep::stored::{MadeBy, open};
 /// Write the bands over time of a study with an ensemble: within which the members of each sample lie, and when they part
 ///
 /// A sweep keeps no histories: the members of every sample are run once more, one sample after the other, and leave
-/// FOLDER/bands/SAMPLE.parquet (sample, channel, time, quantiles, and the time from which on the members are parted). What was
-/// interrupted or killed goes on with the same command.
+/// FOLDER/bands/SAMPLE.parquet (sample, channel, time, quantiles, and the time from which on the members are parted). The same
+/// command resumes what was interrupted or killed.
 #[derive(Debug, clap::Args)]
 pub(crate) struct BandsArgs {
     /// The folder that `occupant sweep` has written or still writes
@@ -52,7 +52,7 @@ pub(crate) fn bands(args: &BandsArgs) -> Result<Done, Failure> {
             "an [ensemble] in the study repeats every sample with small changes",
         ));
     }
-    // names that are none are told before anything is run
+    // names that are none are refused before anything is run
     if let Ok(first) = opened.plan.open_sample(0) {
         choose(&first.model, &args.channels)?;
     }

@@ -89,15 +89,8 @@ fn trimmed(value: f64) -> String {
 
 /// The figures that are shown, as a table.
 pub(crate) fn figure_table(figures: &[Judged]) -> String {
-    let mut table = Table::new(&[
-        ("figure", Left),
-        ("unchanged", Right),
-        ("median", Right),
-        ("5 %", Right),
-        ("95 %", Right),
-        ("", Left),
-        ("", Left),
-    ]);
+    let mut table =
+        Table::of(&[(Left, &["figure"]), (Right, &["unchanged", "median", "5 %", "95 %"]), (Left, &["", ""])]);
     for figure in figures.iter().filter(|f| is_shown(&f.name)) {
         table.row(figure_row(figure));
     }
@@ -145,13 +138,10 @@ fn decimals(size: f64) -> usize {
 }
 
 fn channels(report: &Report) -> String {
-    let mut table = Table::new(&[
-        ("channel", Left),
-        ("members part at, ms", Right),
-        ("by more than", Right),
-        ("widest", Right),
-        ("at, ms", Right),
-        ("", Left),
+    let mut table = Table::of(&[
+        (Left, &["channel"]),
+        (Right, &["members part at, ms", "by more than", "widest", "at, ms"]),
+        (Left, &[""]),
     ]);
     for band in &report.bands.channels {
         table.row(channel_row(band));

@@ -102,6 +102,9 @@ pub(crate) struct ParameterFound {
     pub(crate) name: String,
     /// SI unit; empty for factors and plain numbers.
     pub(crate) unit: &'static str,
+    /// The unit that tables show it in, and how many SI units that is.
+    #[serde(skip)]
+    pub(crate) shown: (String, f64),
     /// What is done with the number.
     pub(crate) apply: ApplyChoice,
     /// Where it acts.

@@ -50,31 +50,11 @@ pub(crate) struct Near {
 /// # Errors
 /// A signal, a full disk, a fit in which no candidate could be run.
 pub(crate) fn search(fitting: &Fitting, evaluator: &mut Evaluator<'_>) -> Result<Answer, Failure> {
-    evaluator.scores(None, vec![None])?;
-    let before = evaluator.records[0].clone();
-    let fit = &fitting.fit;
-    let how = Descents {
-        start: fitting.start(),
-        seed: fit.seed,
-        evaluations: fit.budget,
-        population: fit.population,
-        tolerance: fit.tolerance,
-    };
-    let mut scores =
-        |stage: Stage, points: &[Vec<f64>]| evaluator.scores(Some(stage), points.iter().cloned().map(Some).collect());
-    let global = descend(&how, &mut scores)?;
-    if global.best.value >= WORST {
-        let mut latest = evaluator.records.iter().rev();
-        let reason = latest.find_map(|r| r.reason.clone()).unwrap_or_default();
-        return Err(Failure::BrokeOff(format!(
-            "error: none of {} candidates could be run; the last: {reason}\n = help: narrow the ranges of the parameters, or try the base scenario with `occupant run`",
-            evaluator.records.len()
-        )));
-    }
-    let misfit = fit.misfit;
+    let before = evaluator.base()?;
+    let global = descents(fitting, evaluator)?;
+    let misfit = fitting.fit.misfit;
     let mut costs = |stage: Stage, points: &[Vec<f64>]| -> Result<Vec<f64>, Failure> {
-        let scores = evaluator.scores(Some(stage), points.iter().cloned().map(Some).collect())?;
-        Ok(scores.into_iter().map(|s| misfit.cost(s)).collect())
+        Ok(evaluator.scores(stage, points)?.into_iter().map(|score| misfit.cost(score)).collect())
     };
     let mut best = Point { at: global.best.at.clone(), value: misfit.cost(global.best.value) };
     let mut anew = 0;
@@ -97,6 +77,27 @@ pub(crate) fn search(fitting: &Fitting, evaluator: &mut Evaluator<'_>) -> Result
             }
         }
     }
+}
+
+/// The global search.
+fn descents(fitting: &Fitting, evaluator: &mut Evaluator<'_>) -> Result<Global, Failure> {
+    let fit = &fitting.fit;
+    let how = Descents {
+        start: fitting.start(),
+        seed: fit.seed,
+        evaluations: fit.budget,
+        population: fit.population,
+        tolerance: fit.tolerance,
+    };
+    let global = descend(&how, &mut |stage: Stage, points: &[Vec<f64>]| evaluator.scores(stage, points))?;
+    if global.best.value < WORST {
+        return Ok(global);
+    }
+    let reason = evaluator.records.iter().rev().find_map(|r| r.reason.clone()).unwrap_or_default();
+    Err(Failure::BrokeOff(format!(
+        "error: none of {} candidates could be run; the last: {reason}\n = help: narrow the ranges of the parameters, or try the base scenario with `occupant run`",
+        evaluator.records.len()
+    )))
 }
 
 /// By how much the cost of the best point may rise until a set counts as worse.

@@ -61,8 +61,8 @@ impl<'a> Opening<'a> {
     }
 
     fn complain(&mut self, at: &str, found: String, expected: &str, hint: Option<&str>) {
-        let told = self.text.complaint(at, found, expected, hint.map(str::to_owned));
-        self.problems.push(told.to_string());
+        let problem = self.text.complaint(at, found, expected, hint.map(str::to_owned));
+        self.problems.push(problem.to_string());
     }
 
     /// The tests with their files: those of the study, and where it leaves files out those of the command line, in order.

@@ -58,7 +58,7 @@ impl Output<'_> {
         for experiment in &self.fitting.experiments {
             let name = &experiment.fitted;
             let numbers: Vec<&Fitted> = found.written.iter().filter(|n| n.fitted == *name).collect();
-            let words = |i: usize| report::provenance(self.fitting, found, &found.parameters[i], i);
+            let words = |i: usize| report::provenance(found, &found.parameters[i]);
             let provenance: Vec<(String, String)> =
                 numbers.iter().map(|n| (n.path.clone(), words(n.parameter))).collect();
             let head = format!(

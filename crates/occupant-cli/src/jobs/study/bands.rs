@@ -2,7 +2,7 @@
 //!
 //! A sweep keeps no histories, so the members of a sample are run once more, one sample at a time: memory grows with
 //! members, channels and outputs, not with samples. A file carries its name only when it is complete and says of what it
-//! is, so that a process that was killed goes on with the first sample that has none.
+//! is, so that a process that was killed is resumed at the first sample that has none.
 
 use std::fs::{self, File};
 use std::path::{Path, PathBuf};
@@ -66,7 +66,7 @@ impl StudyBands<'_> {
         fs::create_dir_all(&self.folder)
             .map_err(|e| Failure::plain(format!("{} cannot be made: {e}", self.folder.display())))?;
         for sample in (0..samples).filter(|s| self.there(*s) != There::Bands) {
-            let done = format!("the bands of {sample} of {samples} samples are there; the same command goes on");
+            let done = format!("the bands of {sample} of {samples} samples are there; the same command resumes");
             self.write(sample).map_err(|failure| failure.with_done(&done))?;
             if !quiet {
                 say(&format!("sample {sample}: {}", self.file(sample).display()));

@@ -61,7 +61,7 @@ impl Sweep {
                 "shard {}: all {} samples are there, {} of them computed now; `occupant sweep merge {}` makes the table when all shards are",
                 self.shard,
                 samples.end - samples.start,
-                progress.computed(),
+                progress.computed,
                 folder.path().display()
             ));
         }
@@ -73,7 +73,7 @@ impl Sweep {
         let before = finished.count(samples.clone());
         let count = samples.end - samples.start;
         if before > 0 && before < count && !self.quiet {
-            say(&format!("going on: {before} of {count} samples are there"));
+            say(&format!("resuming: {before} of {count} samples are there"));
         }
         let mut progress = Progress::new(count, before, self.quiet);
         let mut journal = JournalWriter::new(&self.folder, sha256, self.shard)?;
@@ -86,8 +86,8 @@ impl Sweep {
         });
         progress.end();
         let ended = ended.and_then(|()| Ok(journal.close()?));
-        let done = before + progress.computed();
-        let kept = format!("{done} of {count} samples are finished and kept; the same command goes on from there");
+        let done = before + progress.computed;
+        let kept = format!("{done} of {count} samples are finished and kept; the same command resumes the sweep");
         ended.map_err(|failure| failure.with_done(&kept))?;
         self.interrupt.refuse(&kept)?;
         Ok(progress)
@@ -96,7 +96,7 @@ impl Sweep {
     /// Writes whole runs of finished samples.
     fn write_kept(&self, samples: &[u64]) -> Result<(), Failure> {
         kept::write(&self.plan, &self.folder, samples, &self.engine, self.interrupt.flag())?;
-        self.interrupt.refuse("all samples are finished; the same command goes on from there")
+        self.interrupt.refuse("all samples are finished; the same command resumes the sweep")
     }
 
     /// The tables, and the worst.
@@ -108,7 +108,7 @@ impl Sweep {
         }
         let work = format!(
             "{} samples in {:.1} s, {} threads",
-            progress.computed(),
+            progress.computed,
             progress.elapsed_s(),
             self.engine.threads()
         );
