@@ -9,9 +9,10 @@ use super::parameter::{Assignment, Parameter, Target, changed, place};
 use super::random::{Purpose, unit};
 use occupant_core::problem::Problem;
 use occupant_core::scenario::{Draft, rival_path};
+use serde::Serialize;
 
 /// How far the standard changes may go.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Tolerances {
     /// Of each angle of the posture, or of the initial state, rad.
     pub posture_rad: f64,

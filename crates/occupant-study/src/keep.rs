@@ -66,15 +66,20 @@ impl Keep {
             KeepSection::Indices(items) => {
                 let index =
                     |item: &Json| item.as_u64().ok_or_else(|| format!("`{item}` is no index, which counts from 0"));
-                let mut indices = items.iter().map(index).collect::<Result<Vec<u64>, _>>()?;
-                indices.sort_unstable();
-                indices.dedup();
-                Ok(Keep::Indices(indices))
+                Ok(Keep::of(items.iter().map(index).collect::<Result<_, _>>()?))
             }
         }
     }
 
-    fn from_words(words: &str) -> Option<Keep> {
+    /// Of the runs with these indices.
+    pub fn of(mut indices: Vec<u64>) -> Keep {
+        indices.sort_unstable();
+        indices.dedup();
+        Keep::Indices(indices)
+    }
+
+    /// What words such as `all` or `worst 5 by hic15` say; none if nothing.
+    pub fn from_words(words: &str) -> Option<Keep> {
         let words: Vec<&str> = words.split_whitespace().collect();
         match words.as_slice() {
             ["all"] => Some(Keep::All),

@@ -3,8 +3,10 @@
 //! All functions take plain slices, one number for each member, member 0 the unperturbed one; a member that failed or has
 //! no such figure is NaN and is counted as missing.
 
+use serde::Serialize;
+
 /// How a figure spreads over the members of an ensemble.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Spread {
     /// Members that have the figure.
     pub members: usize,
@@ -27,7 +29,8 @@ pub struct Spread {
 }
 
 /// Whether a figure may be quoted as one number.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Verdict {
     /// The middle 90 % of the members agree within the tolerance.
     Stable,
@@ -35,6 +38,17 @@ pub enum Verdict {
     NotStable,
     /// Too few members to say.
     TooFew,
+}
+
+impl Verdict {
+    /// The word in tables and JSON.
+    pub fn word(self) -> &'static str {
+        match self {
+            Verdict::Stable => "stable",
+            Verdict::NotStable => "not_stable",
+            Verdict::TooFew => "too_few",
+        }
+    }
 }
 
 /// How far the members may differ in a stable figure.
@@ -55,6 +69,13 @@ impl Default for Rule {
     /// members the middle 90 % is little else than the two outermost ones.
     fn default() -> Self {
         Rule { relative: 0.10, absolute: 0.0, least_members: 10 }
+    }
+}
+
+impl Rule {
+    /// Width of the middle 90 % up to which a figure of this median is stable: max(relative·|median|, absolute).
+    pub fn within(&self, median: f64) -> f64 {
+        (self.relative * median.abs()).max(self.absolute)
     }
 }
 
@@ -84,10 +105,9 @@ impl Spread {
     /// Whether the figure may be quoted as one number: q₉₅ − q₀₅ ≤ max(relative·|median|, absolute), and no member lacks
     /// it.
     pub fn verdict(&self, rule: &Rule) -> Verdict {
-        let within = (rule.relative * self.median.abs()).max(rule.absolute);
         match (self.missing, self.members) {
             (_, n) if n + self.missing < rule.least_members => Verdict::TooFew,
-            (0, _) if self.width() <= within => Verdict::Stable,
+            (0, _) if self.width() <= rule.within(self.median) => Verdict::Stable,
             _ => Verdict::NotStable,
         }
     }

@@ -6,6 +6,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 
+use super::failure::Failure;
 use super::talk::say;
 
 /// A recorder that stops the run once a signal has come.
@@ -40,6 +41,19 @@ impl Interrupt {
     /// Whether a signal has come.
     pub(crate) fn is_asked(&self) -> bool {
         self.asked.load(Ordering::Relaxed)
+    }
+
+    /// Ends the work once a signal has come.
+    ///
+    /// # Errors
+    /// Interrupted, and what was done before.
+    pub(crate) fn refuse(&self, done: &str) -> Result<(), Failure> {
+        if self.is_asked() { Err(Interrupt::failure(done)) } else { Ok(()) }
+    }
+
+    /// Interrupted, and what was done before.
+    pub(crate) fn failure(done: &str) -> Failure {
+        Failure::BrokeOff("error: interrupted".to_owned()).with_done(done)
     }
 
     /// What a signal sets.

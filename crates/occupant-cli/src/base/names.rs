@@ -17,3 +17,9 @@ pub(crate) fn file_name(path: &Path) -> String {
 pub(crate) fn ending(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
 }
+
+/// A name that can be that of a file.
+pub(crate) fn file_stem(name: &str) -> String {
+    let plain = |c: char| if c.is_alphanumeric() || "-_ .".contains(c) { c } else { '_' };
+    name.chars().map(plain).collect()
+}

@@ -3,7 +3,6 @@
 //! The provisional name keeps the ending, so that viewers open what an interrupted run has left.
 
 use std::ffi::OsString;
-use std::fmt;
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
@@ -186,13 +185,17 @@ impl Seek for PartialFile {
 /// # Errors
 /// A file is there and may not be replaced; the operating system refuses.
 pub(crate) fn publish(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Failure> {
-    let existing = Existing::by(force);
-    let refused = |e: &dyn fmt::Display| Failure::plain(e.to_string());
-    let mut file = PartialFile::create(path, existing).map_err(|e| refused(&e))?;
-    let written = file.write_all(bytes);
-    written.map_err(|e| Failure::plain(format!("{} cannot be written: {e}", path.display())))?;
-    file.publish().map_err(|e| refused(&e))?;
-    Ok(())
+    write_whole(path, Existing::by(force), bytes).map(|_| ()).map_err(Failure::plain)
+}
+
+/// The same, with the reason alone.
+///
+/// # Errors
+/// As [`publish`].
+pub(crate) fn write_whole(path: &Path, existing: Existing, bytes: &[u8]) -> Result<PathBuf, String> {
+    let mut file = PartialFile::create(path, existing).map_err(|e| e.to_string())?;
+    file.write_all(bytes).map_err(|e| format!("{} cannot be written: {e}", path.display()))?;
+    file.publish().map_err(|e| e.to_string())
 }
 
 /// `dir/run.mcap` → `dir/run.partial.mcap`.

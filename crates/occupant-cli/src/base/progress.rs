@@ -1,10 +1,14 @@
-//! The progress bar of a run, on a terminal only.
+//! How far a run is, or many runs are: a bar on a terminal; of many runs else a line now and then.
+
+use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 use occupant_core::model::Model;
 use occupant_core::results::outcome::Outcome;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
+
+use super::talk::say;
 
 /// A recorder that shows how far the run is.
 #[derive(Debug)]
@@ -28,6 +32,45 @@ pub(crate) fn bar(length: Option<u64>, template: &str, quiet: bool) -> ProgressB
         bar.set_style(style);
     }
     bar
+}
+
+/// How far many runs are: a bar on a terminal, else a line now and then.
+#[derive(Debug)]
+pub(crate) struct Runs {
+    bar: ProgressBar,
+    quiet: bool,
+    every: Duration,
+    line: Instant,
+}
+
+impl Runs {
+    /// Of so many; without a terminal at most a line `every` so often.
+    pub(crate) fn new(length: u64, template: &str, every: Duration, quiet: bool) -> Self {
+        Runs { bar: bar(Some(length), template, quiet), quiet, every, line: Instant::now() }
+    }
+
+    /// The bar, where there is one.
+    pub(crate) fn bar(&self) -> Option<&ProgressBar> {
+        (!self.bar.is_hidden()).then_some(&self.bar)
+    }
+
+    /// Whether lines are written, but none for a while.
+    pub(crate) fn is_line_due(&self) -> bool {
+        !self.quiet && self.line.elapsed() > self.every
+    }
+
+    /// Writes a line.
+    pub(crate) fn say(&mut self, text: &str) {
+        if !self.quiet {
+            say(text);
+            self.line = Instant::now();
+        }
+    }
+
+    /// No more.
+    pub(crate) fn end(&self) {
+        self.bar.finish_and_clear();
+    }
 }
 
 impl Recorder for Progress {

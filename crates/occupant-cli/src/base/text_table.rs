@@ -30,6 +30,12 @@ impl Table {
         }
     }
 
+    /// A table whose head is made of lists of names that are set alike.
+    pub(crate) fn of(heads: &[(Align, &[&str])]) -> Self {
+        let head = heads.iter().flat_map(|(align, names)| names.iter().map(|name| (*name, *align)));
+        Table::new(&head.collect::<Vec<_>>())
+    }
+
     /// Adds a row; cells that are missing at its end are blank.
     pub(crate) fn row(&mut self, cells: impl IntoIterator<Item = String>) {
         self.rows.push(cells.into_iter().collect());

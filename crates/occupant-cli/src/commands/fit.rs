@@ -1,9 +1,8 @@
 //! `occupant fit`.
 
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
-use super::flags::sweep::{engine, kernel};
+use super::flags::sweep::EngineArgs;
 use crate::base::failure::{Done, Failure};
 use crate::base::interrupt::Interrupt;
 use crate::base::names::program;
@@ -12,11 +11,14 @@ use crate::files::measured::MapArgument;
 use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::shard::Shard;
 use crate::jobs::fit::evaluator::Evaluator;
-use crate::jobs::fit::fitting::{Fitting, Given};
+use crate::jobs::fit::fitting::Fitting;
 use crate::jobs::fit::identified::search;
+use crate::jobs::fit::opening::Given;
 use crate::jobs::fit::output::Output;
 use crate::jobs::fit::progress::Progress;
 use crate::jobs::fit::report;
+use crate::jobs::sweep::stored::sha256_of;
+use crate::jobs::sweep::words::warn_unlocked;
 
 /// Find the parameters of a study with which runs follow a test best
 ///
@@ -24,8 +26,8 @@ use crate::jobs::fit::report;
 /// test or of several are reproduced best; the study's [fit] says what counts. A global search (CMA-ES with growing
 /// populations) is followed by a refinement and by intervals: how far each parameter can go while the others make up for it.
 /// Writes FOLDER/fit.json, fitted.toml (the scenario with the fitted numbers and where they come from), plots/*.svg
-/// (measured against computed, before and after) and history.parquet and .csv (every candidate). A fit that was interrupted
-/// or killed goes on with the same command and ends at the same answer.
+/// (measured against computed, before and after) and history.parquet and .csv (every candidate). The same command
+/// resumes a fit that was interrupted or killed, and ends at the same answer.
 #[derive(Debug, clap::Args)]
 pub(crate) struct Args {
     /// The study, TOML or JSON
@@ -49,13 +51,8 @@ pub(crate) struct Args {
     #[arg(long = "set", value_name = "PATH.TO.KEY=VALUE")]
     overrides: Vec<String>,
 
-    /// Number of threads; one for each core if absent
-    #[arg(long, value_name = "N")]
-    threads: Option<NonZeroUsize>,
-
-    /// How runs are computed: scalar, lanes4 or lanes8, the fastest of this processor if absent; all give the same bits
-    #[arg(long, value_name = "KERNEL")]
-    kernel: Option<String>,
+    #[command(flatten)]
+    engine: EngineArgs,
 
     /// Remove the results that the folder holds and begin anew
     #[arg(long)]
@@ -71,28 +68,21 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn fit(args: &Args) -> Result<Done, Failure> {
-    let engine = engine(args.threads, kernel(args.kernel.as_deref())?)?;
+    let engine = args.engine.engine()?;
     let given = Given { files: &args.to, maps: &args.map, overrides: &args.overrides };
     let fitting = Fitting::open(&args.study, &given, program()).map_err(Failure::CouldNotRun)?;
     if !args.quiet {
         fitting.warnings.iter().for_each(|w| say(&format!("{w}\n")));
     }
     let folder = Folder::of_fit(&args.output);
-    let sha256 = fitting.manifest.sha256();
-    let sha256 = sha256.map_err(|e| Failure::plain(format!("the manifest cannot be written: {e}")))?;
-    let claimed = folder.claim(&fitting.manifest, &fitting.texts, Shard::WHOLE, args.restart);
-    let held = claimed?;
-    if let (Some(reason), false) = (&held.unlocked, args.quiet) {
-        say(&format!(
-            "warning: this file system has no locks ({reason}): nothing but you keeps two processes from fitting into one folder"
-        ));
-    }
+    let sha256 = sha256_of(&fitting.manifest)?;
+    let held = folder.claim(&fitting.manifest, &fitting.texts, Shard::WHOLE, args.restart)?;
+    warn_unlocked(&held, "fitting into one folder", args.quiet);
     let interrupt = Interrupt::listen_for("stopping; once more to stop at once");
     let progress = Progress::new(fitting.fit.budget, args.quiet);
-    let evaluator = Evaluator::new(&fitting, &folder, &sha256, &engine, &interrupt, progress);
-    let mut evaluator = evaluator?;
+    let mut evaluator = Evaluator::new(&fitting, &folder, &sha256, &engine, &interrupt, progress)?;
     if evaluator.known() > 0 && !args.quiet {
-        say(&format!("going on: {} runs are there", evaluator.known()));
+        say(&format!("resuming: {} runs are there", evaluator.known()));
     }
     let answer = search(&fitting, &mut evaluator)?;
     let records = evaluator.close()?;
@@ -102,7 +92,7 @@ pub(crate) fn fit(args: &Args) -> Result<Done, Failure> {
         (false, true) => {}
         (false, false) => {
             let written = format!("\nwritten to {}\n", folder.path().display());
-            print(&(report::text(&fitting, &found) + &written))?;
+            print(&(report::text(&found) + &written))?;
         }
     }
     Ok(Done::Well)

@@ -16,8 +16,7 @@ use crate::base::names::program;
 use crate::base::output_file::Existing;
 use crate::base::talk::{json, print, say};
 use crate::files::scenario::{self, Opened, ScenarioArgs};
-use crate::jobs::ensemble::beside_run::Ran;
-use crate::jobs::ensemble::report::Description;
+use crate::jobs::ensemble::report::Report;
 use crate::jobs::ensemble::text::text as ensemble_text;
 use crate::jobs::run::recording::{Recording, Written};
 use crate::jobs::run::resume::{Resumed, Resumption};
@@ -82,7 +81,7 @@ struct Answer<'a> {
     unstable_friction: Vec<UnstableFriction>,
     /// Absent without `--ensemble`, and where the run itself did not complete.
     #[serde(skip_serializing_if = "Option::is_none")]
-    ensemble: Option<Description<'a>>,
+    ensemble: Option<&'a Report>,
     warnings: Vec<String>,
 }
 
@@ -172,7 +171,7 @@ fn show(
     opened: &Opened,
     from: Option<&Resumption>,
     run: &Simulated,
-    ensemble: Option<&Ran>,
+    ensemble: Option<&Report>,
 ) -> Result<(), Failure> {
     // the forces of a run that has failed say nothing about its friction
     let unstable = match run.summary.status {
@@ -191,7 +190,7 @@ fn show(
             file: run.written.name(),
             summary: &run.summary,
             unstable_friction: run.friction.found(&opened.model),
-            ensemble: ensemble.map(|e| e.report.describe(e.files.clone())),
+            ensemble,
             warnings: opened.warnings.iter().chain(unstable.iter()).map(ToString::to_string).collect(),
         })?);
     }
@@ -201,9 +200,9 @@ fn show(
     let Some(ensemble) = ensemble else {
         return print(&summary_table(&run.summary, &run.written, &Marks::none()));
     };
-    let summary = summary_table(&run.summary, &run.written, &Marks::of(ensemble.report.unstable()));
+    let summary = summary_table(&run.summary, &run.written, &Marks::of(ensemble.unstable()));
     let files: String = ensemble.files.iter().map(|f| format!("written   {f}\n")).collect();
-    print(&format!("{summary}\n{}{files}", ensemble_text(&ensemble.report)))
+    print(&format!("{summary}\n{}{files}", ensemble_text(ensemble)))
 }
 
 fn broke_off(run: &Simulated) -> String {

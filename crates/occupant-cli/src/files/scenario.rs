@@ -114,11 +114,14 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
     }
 }
 
-fn refused(name: &str, problems: &Diagnostics) -> Failure {
+/// The end of a command that a text with problems does not let begin.
+pub(crate) fn refused(name: &str, problems: &Diagnostics) -> Failure {
     let errors = problems.iter().filter(|d| d.problem.severity == Severity::Error).count();
-    let count = match errors {
-        1 => "1 error".to_owned(),
-        n => format!("{n} errors"),
-    };
-    Failure::CouldNotRun(format!("{problems}\n\n{name}: {count}, nothing was run"))
+    Failure::CouldNotRun(nothing_was_run(&problems.to_string(), name, errors))
+}
+
+/// Problems of a text and how many of them are errors.
+pub(crate) fn nothing_was_run(problems: &str, name: &str, errors: usize) -> String {
+    let count = if errors == 1 { "1 error".to_owned() } else { format!("{errors} errors") };
+    format!("{problems}\n\n{name}: {count}, nothing was run")
 }

@@ -32,6 +32,11 @@ pub(crate) enum Kind {
     MaybeText,
 }
 
+/// Columns from lists of names that hold the same kind of thing.
+pub(crate) fn columns(lists: &[(Kind, &[&'static str])]) -> Vec<(&'static str, Kind)> {
+    lists.iter().flat_map(|(kind, names)| names.iter().map(|name| (*name, *kind))).collect()
+}
+
 /// A value; in JSON nothing, a number or a text.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(untagged)]

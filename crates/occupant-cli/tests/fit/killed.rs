@@ -1,4 +1,4 @@
-//! Fits that are killed, and go on.
+//! Fits that are killed and resumed.
 
 use std::process::Stdio;
 use std::thread::sleep;

@@ -109,6 +109,35 @@ fn a_fit_in_which_nothing_runs_says_why() {
 }
 
 #[test]
+fn runs_that_are_out_of_balance_count_as_worst_and_the_fit_says_so() {
+    let study = |set: &str, parameter: &str| {
+        let set = format!("set = {{ \"time.end\" = \"80 ms\", {set} }}");
+        let fit = "from = \"10 ms\"\nto = \"70 ms\"\nbudget = 16";
+        format!("base = \"case.toml\"\n{set}\n[[parameters]]\n{parameter}\n[fit]\n{fit}\n")
+    };
+    // steps of 3 to 4 ms: measured 15 to 33 % of the kinetic energy
+    let steps = "path = \"integrator.step\"\nrange = { from = \"0.5 ms\", to = \"4 ms\" }";
+    let folder = folder_with(&study("\"output.interval\" = \"4 ms\"", steps));
+    let at = folder.path();
+    measure(at, "test.csv", &HIDDEN, 0.0, 0);
+    let said = done(at, &FIT);
+    let evaluations = &found(at, "out")["evaluations"];
+    assert!(number(&evaluations["failed"]) >= 1.0, "{said}");
+    let reason = evaluations["reason"].as_str().unwrap_or_default();
+    assert!(reason.starts_with("its energy balance is off by"), "{reason}");
+    assert!(said.contains(&format!("candidates could not be run and count as worst; the first: {reason}")), "{said}");
+    // steps of 5 ms: measured 46 to 67 % whatever the belt
+    let belt = "path = \"belts.lap.k1\"\nrange = { from = \"70 kN/m\", to = \"140 kN/m\" }";
+    fs::write(at.join("study.toml"), study("\"output.interval\" = \"5 ms\", \"integrator.step\" = \"5 ms\"", belt))
+        .unwrap();
+    let output = answer(at, &[&FIT[..], &["--restart"]].concat());
+    let said = err(&output);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("none of 17 candidates could be run; the last: its energy balance is off by"), "{said}");
+    assert!(!at.join("out/fit.json").exists());
+}
+
+#[test]
 fn a_study_with_a_fit_alone_is_no_sweep_and_says_what_it_is() {
     let folder = folder_with(STUDY);
     let said = refusal(folder.path(), &["sweep", "study.toml", "-o", "out"]);

@@ -1,4 +1,4 @@
-//! Sweeps that are killed, and go on.
+//! Sweeps that are killed and resumed.
 
 use std::collections::BTreeMap;
 use std::fs;

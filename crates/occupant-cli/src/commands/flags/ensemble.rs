@@ -17,7 +17,6 @@ use crate::files::scenario::Opened;
 use crate::files::table::Form;
 use crate::jobs::ensemble::bands::{choose, refuse_too_much};
 use crate::jobs::ensemble::beside_run::{BandFile, Wanted};
-use crate::jobs::ensemble::judge::Tolerance;
 use crate::pictures::Format;
 
 /// Flags of an ensemble.
@@ -89,7 +88,7 @@ impl EnsembleArgs {
             study: Study::of_ensemble(draft.clone(), name, members, self.seed, &changes),
             seed: self.seed,
             changes,
-            tolerance: Tolerance { relative: within },
+            within,
             engine: engine(self.threads, Kernel::best())?,
             channels,
             existing,

@@ -50,9 +50,9 @@ pub(crate) fn keep(given: Option<&str>, plan: &Plan) -> Result<Keep, Failure> {
             }
         }
         Keep::Worst { measure, .. } => {
-            let figures = manifest.columns.iter().filter(|c| c.role == Role::Figure);
-            let names: Vec<&str> = figures.map(|c| c.name.as_str()).collect();
-            if !names.contains(&measure.as_str()) {
+            if manifest.figure(measure).is_none() {
+                let figures = manifest.columns.iter().filter(|c| c.role == Role::Figure);
+                let names: Vec<&str> = figures.map(|c| c.name.as_str()).collect();
                 return Err(Failure::with_help(
                     format!("keep: no measure is named `{measure}`"),
                     &format!("the measures are {}", names.join(", ")),
@@ -71,16 +71,30 @@ pub(crate) fn engine(threads: Option<NonZeroUsize>, kernel: Kernel) -> Result<En
         .map_err(|e| Failure::plain(format!("no thread can be started: {e}")))
 }
 
-/// The form of the kernel: as the command line says, or the fastest of this processor.
-pub(crate) fn kernel(given: Option<&str>) -> Result<Kernel, Failure> {
-    let Some(name) = given else {
-        return Ok(Kernel::best());
-    };
-    let found = Kernel::named(name).filter(|kernel| kernel.is_available());
-    found.ok_or_else(|| {
-        Failure::with_help(
-            format!("--kernel {name}: this processor has no such kernel"),
-            "give scalar, or leave it out for the fastest",
-        )
-    })
+/// What computes many runs.
+#[derive(Clone, Debug, clap::Args)]
+pub(crate) struct EngineArgs {
+    /// Number of threads; one for each core if absent
+    #[arg(long, value_name = "N")]
+    threads: Option<NonZeroUsize>,
+
+    /// How runs are computed: scalar, lanes4 or lanes8, the fastest of this processor if absent; all give the same bits
+    #[arg(long, value_name = "KERNEL")]
+    kernel: Option<String>,
+}
+
+impl EngineArgs {
+    pub(crate) fn engine(&self) -> Result<Engine, Failure> {
+        let Some(name) = &self.kernel else {
+            return engine(self.threads, Kernel::best());
+        };
+        let found = Kernel::named(name).filter(|kernel| kernel.is_available());
+        let kernel = found.ok_or_else(|| {
+            Failure::with_help(
+                format!("--kernel {name}: this processor has no such kernel"),
+                "give scalar, or leave it out for the fastest",
+            )
+        })?;
+        engine(self.threads, kernel)
+    }
 }

@@ -1,6 +1,5 @@
 //! `occupant study bands`.
 
-use std::fs;
 use std::num::NonZeroUsize;
 use std::path::PathBuf;
 
@@ -8,17 +7,18 @@ use occupant_core::run::batch::Kernel;
 
 use crate::base::failure::{Done, Failure};
 use crate::base::interrupt::Interrupt;
+use crate::base::output_file::Existing;
 use crate::base::talk::say;
 use crate::commands::flags::sweep::engine;
 use crate::jobs::ensemble::bands::choose;
-use crate::jobs::ensemble::study_bands::{StudyBands, There};
-use crate::jobs::study::open;
+use crate::jobs::study::bands::StudyBands;
+use crate::jobs::sweep::stored::{MadeBy, open};
 
 /// Write the bands over time of a study with an ensemble: within which the members of each sample lie, and when they part
 ///
 /// A sweep keeps no histories: the members of every sample are run once more, one sample after the other, and leave
-/// FOLDER/bands/SAMPLE.parquet (sample, channel, time, quantiles, and the time from which on the members are parted). What was
-/// interrupted or killed goes on with the same command.
+/// FOLDER/bands/SAMPLE.parquet (sample, channel, time, quantiles, and the time from which on the members are parted). The same
+/// command resumes what was interrupted or killed.
 #[derive(Debug, clap::Args)]
 pub(crate) struct BandsArgs {
     /// The folder that `occupant sweep` has written or still writes
@@ -44,7 +44,7 @@ pub(crate) struct BandsArgs {
 
 /// Writes the bands of all samples that have none yet.
 pub(crate) fn bands(args: &BandsArgs) -> Result<Done, Failure> {
-    let opened = open(std::slice::from_ref(&args.folder))?;
+    let opened = open(std::slice::from_ref(&args.folder), MadeBy::AnyProgram)?;
     let study = opened.plan.study();
     if study.ensemble().is_none() {
         return Err(Failure::with_help(
@@ -52,7 +52,7 @@ pub(crate) fn bands(args: &BandsArgs) -> Result<Done, Failure> {
             "an [ensemble] in the study repeats every sample with small changes",
         ));
     }
-    // names that are none are told before anything is run
+    // names that are none are refused before anything is run
     if let Ok(first) = opened.plan.open_sample(0) {
         choose(&first.model, &args.channels)?;
     }
@@ -68,33 +68,6 @@ pub(crate) fn bands(args: &BandsArgs) -> Result<Done, Failure> {
         engine: &engine(args.threads, Kernel::best())?,
         interrupt: &interrupt,
     };
-    write_all(&bands, args)
-}
-
-fn write_all(bands: &StudyBands<'_>, args: &BandsArgs) -> Result<Done, Failure> {
-    let samples = bands.plan.study().samples();
-    let mut all = 0..samples;
-    if !args.force
-        && let Some(sample) = all.find(|s| bands.there(*s) == There::Other)
-    {
-        return Err(Failure::with_help(
-            format!("{} holds other bands", bands.file(sample).display()),
-            "--force replaces them; the same --channels go on",
-        ));
-    }
-    fs::create_dir_all(&bands.folder)
-        .map_err(|e| Failure::plain(format!("{} cannot be made: {e}", bands.folder.display())))?;
-    for sample in 0..samples {
-        if bands.there(sample) == There::Bands {
-            continue;
-        }
-        bands.write(sample).map_err(|failure| {
-            failure
-                .with_done(&format!("the bands of {sample} of {samples} samples are there; the same command goes on"))
-        })?;
-        if !args.quiet {
-            say(&format!("sample {sample}: {}", bands.file(sample).display()));
-        }
-    }
+    bands.write_all(Existing::by(args.force), args.quiet)?;
     Ok(Done::Well)
 }

@@ -5,7 +5,8 @@ use std::path::{Path, PathBuf};
 use crate::base::failure::{Done, Failure};
 use crate::base::output_file::{Existing, FileProblem, publish};
 use crate::base::talk::say;
-use crate::jobs::study::{Report, Tables, open, page, write_tables};
+use crate::jobs::study::{Report, Tables, page, write_tables};
+use crate::jobs::sweep::stored::{MadeBy, open};
 
 /// Make a page of a study: what matters, how much, how sure that is, and the command that runs each worst case again
 ///
@@ -37,7 +38,7 @@ pub(crate) fn report(args: &ReportArgs) -> Result<Done, Failure> {
     };
     let page_at = args.output.clone().unwrap_or_else(|| first.join("report.html"));
     let tables = Tables::beside(&page_at);
-    let opened = open(&args.folders)?;
+    let opened = open(&args.folders, MadeBy::AnyProgram)?;
     refuse(&page_at, &tables, args)?;
     let report = Report::of(opened, &args.to)?;
     for note in &report.notes {

@@ -87,6 +87,11 @@ impl Manifest {
         self.to_bytes().map(|bytes| sha256(&bytes))
     }
 
+    /// Where a measure stands among the columns.
+    pub(crate) fn figure(&self, name: &str) -> Option<usize> {
+        self.columns.iter().position(|c| c.role == Role::Figure && c.name == name)
+    }
+
     /// A line for each thing that differs, `what: there → here`. `there` and `here` give the texts.
     pub(crate) fn differences(
         &self,

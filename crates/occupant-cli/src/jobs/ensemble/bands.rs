@@ -5,35 +5,42 @@ use occupant_core::results::channel::{Channel, matching};
 use occupant_core::results::customary::BANDS;
 use occupant_study::spread::Band;
 
-use super::judge::{Tolerance, smallest};
+use serde::Serialize;
+
+use super::judge::smallest;
 use crate::base::failure::Failure;
 use crate::files::history;
+use crate::files::table::{Cell, Kind, columns};
 
 /// Memory that histories may take.
 const MOST_BYTES: usize = 1 << 30;
 
-/// The bands of an ensemble.
-#[derive(Clone, Debug, PartialEq)]
+/// The bands of an ensemble; in JSON without their values.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct Bands {
+    #[serde(skip)]
     pub(crate) time_s: Vec<f64>,
     pub(crate) channels: Vec<ChannelBand>,
 }
 
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct ChannelBand {
-    /// Name of the channel.
     pub(crate) name: String,
+    /// SI unit, as in the catalogue.
     pub(crate) unit: &'static str,
     /// The unchanged run.
+    #[serde(skip)]
     pub(crate) nominal: Vec<f64>,
-    /// Quantiles of the members.
+    /// The quantiles at each output.
+    #[serde(skip)]
     pub(crate) band: Band,
-    /// Width of the middle 90 % from which on the members count as parted.
+    /// Width of the middle 90 % at which the members count as parted, in the unit.
     pub(crate) tolerance: f64,
-    /// When they first are wider apart; none if never.
+    /// When they part, s; none if they never do.
     pub(crate) lost_at_s: Option<f64>,
-    /// Greatest width of the middle 90 %, and its time.
-    pub(crate) widest: Option<(f64, f64)>,
+    /// Greatest width of the middle 90 %, in the unit, and when it is reached, s.
+    pub(crate) widest: Option<f64>,
+    pub(crate) widest_at_s: Option<f64>,
 }
 
 /// The channels that names and patterns ask for, in the order asked; the main ones for none.
@@ -68,24 +75,50 @@ pub(crate) fn refuse_too_much(members: u64, channels: usize, outputs: usize) -> 
 }
 
 impl Bands {
-    /// The bands of these channels; the histories of the unchanged run come first.
-    pub(crate) fn of(channels: &[Channel], time_s: Vec<f64>, runs: &[&[Vec<f64>]], tolerance: Tolerance) -> Bands {
+    /// The bands of these channels; the histories of the unchanged run come first. `relative` is the width at which members
+    /// count as parted, as a part of the range that a channel runs through.
+    pub(crate) fn of(channels: &[Channel], time_s: Vec<f64>, runs: &[&[Vec<f64>]], relative: f64) -> Bands {
         let band = |(i, channel): (usize, &Channel)| {
             let members: Vec<&[f64]> = runs.iter().filter_map(|r| r.get(i)).map(Vec::as_slice).collect();
             let band = Band::of(&members);
             let unit = channel.unit.symbol();
-            let within = (tolerance.relative * range(&band.median)).max(smallest("", unit)).max(put_in(&band, unit));
+            let tolerance = (relative * range(&band.median)).max(smallest("", unit)).max(put_in(&band, unit));
+            let widest = widest(&band, &time_s);
             ChannelBand {
                 name: channel.name.clone(),
                 unit,
                 nominal: members.first().map(|m| m.to_vec()).unwrap_or_default(),
-                lost_at_s: band.time_wider_than(&time_s, within),
-                widest: widest(&band, &time_s),
-                tolerance: within,
+                lost_at_s: band.time_wider_than(&time_s, tolerance),
+                widest: widest.map(|(width, _)| width),
+                widest_at_s: widest.map(|(_, time_s)| time_s),
+                tolerance,
                 band,
             }
         };
         Bands { channels: channels.iter().enumerate().map(band).collect(), time_s }
+    }
+
+    /// Columns of a table of bands.
+    pub(crate) fn columns() -> Vec<(&'static str, Kind)> {
+        let values = ["time_s", "nominal", "q05", "q25", "median", "q75", "q95"];
+        columns(&[(Kind::Text, &["channel", "unit"]), (Kind::MaybeNumber, &values)])
+    }
+
+    /// The rows of that table: one for each channel and time, and of which channel it is.
+    pub(crate) fn rows(&self) -> impl Iterator<Item = (&ChannelBand, Vec<Cell>)> {
+        let times = 0..self.time_s.len();
+        self.channels.iter().flat_map(move |band| times.clone().map(move |i| (band, band.cells(&self.time_s, i))))
+    }
+}
+
+impl ChannelBand {
+    /// Channel, unit, time and the values of an output.
+    fn cells(&self, time_s: &[f64], output: usize) -> Vec<Cell> {
+        let b = &self.band;
+        let values = [time_s, &self.nominal, &b.q05, &b.q25, &b.median, &b.q75, &b.q95];
+        let mut cells = vec![Cell::text(&self.name), Cell::text(self.unit)];
+        cells.extend(values.map(|v| v.get(output).map_or(Cell::Absent, |x| Cell::finite(*x))));
+        cells
     }
 }
 

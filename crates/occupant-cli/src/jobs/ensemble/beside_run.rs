@@ -1,6 +1,6 @@
 //! The ensemble beside a run: its members after the run itself, their tables and files.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use occupant_core::results::channel::{Channel, Series};
 use occupant_core::results::summary::Summary;
@@ -8,18 +8,17 @@ use occupant_study::engine::Engine;
 use occupant_study::{Study, Tolerances};
 
 use super::bands::Bands;
-use super::judge::Tolerance;
 use super::members::{Left, Members};
+use super::plot;
 use super::report::Report;
-use super::{band_table, plot};
 use crate::base::failure::Failure;
 use crate::base::interrupt::Interrupt;
 use crate::base::names::program;
-use crate::base::output_file::{Existing, PartialFile};
+use crate::base::output_file::{Existing, write_whole};
 use crate::base::progress::bar;
 use crate::base::text_table::plain;
 use crate::files::scenario::Opened;
-use crate::files::table::Form;
+use crate::files::table::{Form, TableFile};
 use crate::pictures::Format;
 
 /// Pixels of a PNG for each unit of the drawing (1/96 inch).
@@ -30,7 +29,8 @@ pub(crate) struct Wanted {
     pub(crate) study: Study,
     pub(crate) seed: u64,
     pub(crate) changes: Tolerances,
-    pub(crate) tolerance: Tolerance,
+    /// Width of the middle 90 % that a stable figure may have, as a part of the median.
+    pub(crate) within: f64,
     pub(crate) engine: Engine,
     /// Whose histories are kept.
     pub(crate) channels: Vec<Channel>,
@@ -45,14 +45,6 @@ pub(crate) enum BandFile {
     Picture(Format),
 }
 
-/// An ensemble that has been run.
-pub(crate) struct Ran {
-    /// What it came to.
-    pub(crate) report: Report,
-    /// Files that were written.
-    pub(crate) files: Vec<String>,
-}
-
 impl Wanted {
     /// Runs the members and judges them; `histories` and `summary` are those of the unchanged run.
     ///
@@ -65,7 +57,7 @@ impl Wanted {
         histories: Series,
         interrupt: &Interrupt,
         quiet: bool,
-    ) -> Result<Ran, Failure> {
+    ) -> Result<Report, Failure> {
         let bar = bar(Some(self.study.len() - 1), "{wide_bar} {pos}/{len}", quiet);
         // what the scenario names was read with it and is not read again
         let table = opened.loaded.table();
@@ -87,39 +79,32 @@ impl Wanted {
         let nominal = Left::of(summary, &opened.model, histories);
         let completed = others.iter().flatten().map(|left| left.values.as_slice());
         let runs: Vec<&[Vec<f64>]> = std::iter::once(nominal.values.as_slice()).chain(completed).collect();
-        let bands = Bands::of(&self.channels, time_s, &runs, self.tolerance);
-        let set = (self.seed, self.changes);
-        let report = Report::of(&nominal, &others, self.tolerance, bands, set);
+        let bands = Bands::of(&self.channels, time_s, &runs, self.within);
+        let mut report = Report::of(&nominal, &others, self.within, bands, (self.seed, self.changes));
         let title = plain(&summary.title);
         let files = self.files.iter().map(|file| self.write(&report, file, &title));
-        let files = files.collect::<Result<_, _>>()?;
-        Ok(Ran { report, files })
+        report.files = files.collect::<Result<_, _>>()?;
+        Ok(report)
     }
 
     fn write(&self, report: &Report, (path, kind): &(PathBuf, BandFile), title: &str) -> Result<String, Failure> {
         let words = format!("{} runs with small changes, seed {}", report.members, report.seed);
         let written = match kind {
             BandFile::Table(form) => {
-                let about = format!("{}: {title}: {words}", program());
-                band_table::write(&report.bands, path, *form, self.existing, about)?
+                let about = [("occupant.ensemble", format!("{}: {title}: {words}", program()))];
+                let mut table = TableFile::create(path.clone(), *form, self.existing, &Bands::columns(), &about)?;
+                report.bands.rows().try_for_each(|(_, row)| table.row(row))?;
+                table.publish()?
             }
             BandFile::Picture(format) => {
                 let drawing = plot::svg(&report.bands, title, &words);
                 let bytes = format
                     .encode(&drawing, PIXELS)
                     .map_err(|e| Failure::BrokeOff(format!("error: {} cannot be made: {e}", path.display())))?;
-                let written = write_bytes(path, self.existing, &bytes);
+                let written = write_whole(path, self.existing, &bytes);
                 written.map_err(|reason| Failure::BrokeOff(format!("error: {reason}")))?
             }
         };
         Ok(written.display().to_string())
     }
-}
-
-fn write_bytes(path: &Path, existing: Existing, bytes: &[u8]) -> Result<PathBuf, String> {
-    use std::io::Write;
-    let mut file = PartialFile::create(path, existing).map_err(|e| e.to_string())?;
-    let written = file.write_all(bytes);
-    written.map_err(|e| format!("{} cannot be written: {e}", path.display()))?;
-    file.publish().map_err(|e| e.to_string())
 }

@@ -1,62 +1,48 @@
 //! Which figures of an ensemble may be quoted as one number.
 
 use occupant_study::spread::{Rule, Spread, Verdict};
+use serde::Serialize;
 
-/// How far the members may differ.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Tolerance {
-    /// Width of the middle 90 % as a part of the median, or of the range that a channel runs through.
-    pub(crate) relative: f64,
-}
-
-impl Default for Tolerance {
-    fn default() -> Self {
-        Tolerance { relative: Rule::default().relative }
-    }
-}
-
-/// A figure and how its ensemble spreads.
-#[derive(Clone, Debug, PartialEq)]
+/// A figure and how its ensemble spreads, as tables and JSON have it; SI units.
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub(crate) struct Judged {
     pub(crate) name: String,
     /// Its unit, `1` for a plain number.
     pub(crate) unit: String,
     /// Its value in the unchanged run.
     pub(crate) nominal: Option<f64>,
-    /// How the members spread.
+    #[serde(flatten)]
     pub(crate) spread: Spread,
+    /// Width of the middle 90 % up to which it is stable, in its unit.
+    pub(crate) tolerance: f64,
     /// Whether it may be quoted as one number.
     pub(crate) verdict: Verdict,
 }
 
 impl Judged {
-    /// Judges a figure: a value for each member, the unchanged run first, NaN where a member has none. None if no member
-    /// has one.
-    pub(crate) fn of(name: &str, unit: &str, values: &[f64], tolerance: Tolerance) -> Option<Judged> {
+    /// Judges a figure: a value for each member, the unchanged run first, NaN where a member has none; `relative` is the
+    /// width that the middle 90 % may have, as a part of the median. None if no member has one.
+    pub(crate) fn of(name: &str, unit: &str, values: &[f64], relative: f64) -> Option<Judged> {
         let spread = Spread::of(values)?;
+        // a time is judged by its plain difference alone: where a clock begins says nothing
+        let relative = if unit == "s" { 0.0 } else { relative };
+        let rule = Rule { relative, absolute: smallest(name, unit), ..Rule::default() };
         Some(Judged {
             name: name.to_owned(),
             unit: unit.to_owned(),
             nominal: values.first().copied().filter(|x| x.is_finite()),
-            verdict: spread.verdict(&rule(name, unit, tolerance)),
+            tolerance: rule.within(spread.median),
+            verdict: spread.verdict(&rule),
             spread,
         })
-    }
-
-    /// Whether it is known to spread too far.
-    pub(crate) fn is_unstable(&self) -> bool {
-        self.verdict == Verdict::NotStable
     }
 }
 
 /// Judges figures (name, unit, a value for each member). Left out are those that no member has, and the times of peaks that
 /// are too small for anybody to act on: when nothing was greatest says nothing.
-pub(crate) fn judge<'a>(
-    figures: impl Iterator<Item = (&'a str, &'a str, Vec<f64>)>,
-    tolerance: Tolerance,
-) -> Vec<Judged> {
+pub(crate) fn judge<'a>(figures: impl Iterator<Item = (&'a str, &'a str, &'a [f64])>, relative: f64) -> Vec<Judged> {
     let mut judged: Vec<Judged> =
-        figures.filter_map(|(name, unit, values)| Judged::of(name, unit, &values, tolerance)).collect();
+        figures.filter_map(|(name, unit, values)| Judged::of(name, unit, values, relative)).collect();
     let of_nothing = |f: &&Judged| f.spread.greatest.abs() <= smallest(&f.name, &f.unit);
     let nothing = judged.iter().filter(of_nothing);
     let times: Vec<String> = nothing.map(|f| format!("{}_time", f.name)).collect();
@@ -67,27 +53,6 @@ pub(crate) fn judge<'a>(
 /// Whether a figure is one of the run's result, and not of the work that it took or of how well it was computed.
 pub(crate) fn is_result(name: &str) -> bool {
     !(name.starts_with("solver.") || name.starts_with("run.") || name == "energy.balance_error")
-}
-
-/// The word of a verdict in tables and JSON.
-pub(crate) fn word(verdict: Verdict) -> &'static str {
-    match verdict {
-        Verdict::Stable => "stable",
-        Verdict::NotStable => "not_stable",
-        Verdict::TooFew => "too_few",
-    }
-}
-
-/// The rule for a figure. A time is judged by its plain difference alone: where a clock begins says nothing.
-pub(crate) fn rule(name: &str, unit: &str, tolerance: Tolerance) -> Rule {
-    Rule {
-        relative: match unit {
-            "s" => 0.0,
-            _ => tolerance.relative,
-        },
-        absolute: smallest(name, unit),
-        ..Rule::default()
-    }
 }
 
 /// The smallest difference that anybody would act on, in the unit: below it a figure is stable however small it is.
@@ -117,10 +82,10 @@ mod tests {
 
     #[test]
     fn small_figures_and_times_are_judged_by_plain_differences() {
-        let tolerance = Tolerance::default();
+        let relative = Rule::default().relative;
         let verdict = |name, unit, centre: f64, half_width: f64| {
             let values: Vec<f64> = (0..=20).map(|i| centre + half_width * (f64::from(i) / 10.0 - 1.0)).collect();
-            Judged::of(name, unit, &values, tolerance).map(|j| j.verdict)
+            Judged::of(name, unit, &values, relative).map(|j| j.verdict)
         };
         // the middle 90 % of evenly spread values is 0.9 of their whole width
         assert_eq!(verdict("a", "N", 1000.0, 55.0), Some(Verdict::Stable));
@@ -135,19 +100,19 @@ mod tests {
     #[test]
     fn when_nothing_was_greatest_is_no_figure() {
         let of = |peak: f64| {
-            let times = (0..12).map(f64::from).collect();
-            let figures = [("a.peak", "N", vec![peak; 12]), ("a.peak_time", "s", times)];
-            judge(figures.into_iter(), Tolerance::default()).len()
+            let times: Vec<f64> = (0..12).map(f64::from).collect();
+            let figures = [("a.peak", "N", &[peak; 12][..]), ("a.peak_time", "s", &times)];
+            judge(figures.into_iter(), Rule::default().relative).len()
         };
         assert_eq!((of(50.0), of(51.0)), (1, 2));
     }
 
     #[test]
     fn a_figure_that_no_member_has_is_none() {
-        assert_eq!(Judged::of("a", "s", &[f64::NAN; 12], Tolerance::default()), None);
+        assert_eq!(Judged::of("a", "s", &[f64::NAN; 12], 0.1), None);
         let mut some = [1.0; 12];
         some[0] = f64::NAN;
-        let judged = Judged::of("a", "s", &some, Tolerance::default());
+        let judged = Judged::of("a", "s", &some, 0.1);
         let judged = judged.expect("eleven members have it");
         assert_eq!((judged.nominal, judged.verdict), (None, Verdict::NotStable));
     }

@@ -6,13 +6,10 @@
 //!
 //! The changes and the quantiles are the core's (`occupant_study`); here are the runs, the tolerances and the words.
 
-mod band_table;
 pub(crate) mod bands;
 pub(crate) mod beside_run;
 pub(crate) mod judge;
 pub(crate) mod members;
-pub(crate) mod of_table;
 mod plot;
 pub(crate) mod report;
-pub(crate) mod study_bands;
 pub(crate) mod text;

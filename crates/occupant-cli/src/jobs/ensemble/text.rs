@@ -6,8 +6,7 @@ use occupant_study::spread::Verdict;
 
 use super::bands::ChannelBand;
 use super::judge::Judged;
-use super::of_table::Ensembles;
-use super::report::Report;
+use super::report::{Failed, Report};
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, Table, facts, number};
 
@@ -40,7 +39,7 @@ const ENOUGH: u64 = 10;
 
 /// Everything about an ensemble that a person at a terminal wants to know.
 pub(crate) fn text(report: &Report) -> String {
-    let mut parts = vec![what(report), figures(report)];
+    let mut parts = vec![what(report), figure_table(&report.figures)];
     if !report.bands.channels.is_empty() {
         parts.push(channels(report));
     }
@@ -55,7 +54,7 @@ fn what(report: &Report) -> String {
         ended += &format!("; {failed} FAILED: no figure of this ensemble counts as stable");
     }
     let mut lines = vec![("ensemble", ended)];
-    for (member, reason) in report.failed.iter().take(NAMED) {
+    for Failed { member, reason } in report.failed.iter().take(NAMED) {
         lines.push(("", format!("member {member}: {reason}")));
     }
     lines.push(("changed by up to", changes(&report.changes, report.seed)));
@@ -63,7 +62,7 @@ fn what(report: &Report) -> String {
         "stable",
         format!(
             "90 % of the members within {} % of the median, or closer than anybody would act on",
-            percent(report.tolerance.relative)
+            percent(report.within)
         ),
     ));
     facts(&lines)
@@ -88,25 +87,14 @@ fn trimmed(value: f64) -> String {
     text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }
 
-fn figures(report: &Report) -> String {
-    let mut table = figure_table();
-    for figure in report.figures.iter().filter(|f| is_shown(&f.name)) {
+/// The figures that are shown, as a table.
+pub(crate) fn figure_table(figures: &[Judged]) -> String {
+    let mut table =
+        Table::of(&[(Left, &["figure"]), (Right, &["unchanged", "median", "5 %", "95 %"]), (Left, &["", ""])]);
+    for figure in figures.iter().filter(|f| is_shown(&f.name)) {
         table.row(figure_row(figure));
     }
     table.text()
-}
-
-/// A table of figures without rows.
-fn figure_table() -> Table {
-    Table::new(&[
-        ("figure", Left),
-        ("unchanged", Right),
-        ("median", Right),
-        ("5 %", Right),
-        ("95 %", Right),
-        ("", Left),
-        ("", Left),
-    ])
 }
 
 fn figure_row(figure: &Judged) -> [String; 7] {
@@ -150,13 +138,10 @@ fn decimals(size: f64) -> usize {
 }
 
 fn channels(report: &Report) -> String {
-    let mut table = Table::new(&[
-        ("channel", Left),
-        ("members part at, ms", Right),
-        ("by more than", Right),
-        ("widest", Right),
-        ("at, ms", Right),
-        ("", Left),
+    let mut table = Table::of(&[
+        (Left, &["channel"]),
+        (Right, &["members part at, ms", "by more than", "widest", "at, ms"]),
+        (Left, &[""]),
     ]);
     for band in &report.bands.channels {
         table.row(channel_row(band));
@@ -172,8 +157,8 @@ fn channel_row(band: &ChannelBand) -> [String; 6] {
         band.name.clone(),
         band.lost_at_s.map_or("never".to_owned(), ms),
         size(band.tolerance),
-        band.widest.map_or(NONE.to_owned(), |(width, _)| size(width)),
-        band.widest.map_or(NONE.to_owned(), |(_, at)| ms(at)),
+        band.widest.map_or(NONE.to_owned(), size),
+        band.widest_at_s.map_or(NONE.to_owned(), ms),
         unit.to_owned(),
     ]
 }
@@ -202,48 +187,7 @@ fn conclusion(report: &Report) -> String {
     }
 }
 
-/// The ensembles of a study in words.
-pub(crate) fn of_study(found: &Ensembles) -> String {
-    let failed = match found.failed {
-        0 => String::new(),
-        n => format!("; {n} members did not complete, and no figure of their samples counts as stable"),
-    };
-    let samples = match found.samples {
-        1 => "1 sample".to_owned(),
-        n => format!("{n} samples"),
-    };
-    let lines = [("ensembles", format!("{samples}{failed}"))];
-    let table = match found.samples {
-        0 | 1 => first_sample(found),
-        _ => all_samples(found),
-    };
-    format!("{}\n{table}", facts(&lines))
-}
-
-fn is_shown(name: &str) -> bool {
+/// Whether the tables show a figure.
+pub(crate) fn is_shown(name: &str) -> bool {
     (name.starts_with("belts.") && name.ends_with(".peak")) || ALWAYS.contains(&name)
-}
-
-fn first_sample(found: &Ensembles) -> String {
-    let mut table = figure_table();
-    for figure in found.first.iter().filter(|f| is_shown(&f.name)) {
-        table.row(figure_row(figure));
-    }
-    table.text()
-}
-
-fn all_samples(found: &Ensembles) -> String {
-    let mut table = Table::new(&[
-        ("figure", Left),
-        ("stable in", Right),
-        ("NOT STABLE in", Right),
-        ("too few members in", Right),
-        ("absent in", Right),
-    ]);
-    for figure in found.figures.iter().filter(|f| is_shown(&f.name)) {
-        let counts = [figure.stable, figure.unstable, figure.too_few, figure.absent];
-        let cells = counts.map(|n| n.to_string());
-        table.row(std::iter::once(figure.name.clone()).chain(cells));
-    }
-    table.text()
 }

@@ -93,15 +93,24 @@ impl<'a> Evaluator<'a> {
         self.known.len()
     }
 
-    /// The scores of a batch of candidates; of the base scenario for `[None]`.
+    /// The base scenario, which is evaluated first.
+    ///
+    /// # Errors
+    /// As [`Evaluator::scores`].
+    pub(crate) fn base(&mut self) -> Result<Record, Failure> {
+        self.evaluate(None, vec![None])?;
+        Ok(self.records[0].clone())
+    }
+
+    /// The scores of a batch of candidates.
     ///
     /// # Errors
     /// A signal, a full disk, a journal that does not fit the search.
-    pub(crate) fn scores(
-        &mut self,
-        stage: Option<Stage>,
-        candidates: Vec<Option<Vec<f64>>>,
-    ) -> Result<Vec<f64>, Failure> {
+    pub(crate) fn scores(&mut self, stage: Stage, points: &[Vec<f64>]) -> Result<Vec<f64>, Failure> {
+        self.evaluate(Some(stage), points.iter().cloned().map(Some).collect())
+    }
+
+    fn evaluate(&mut self, stage: Option<Stage>, candidates: Vec<Option<Vec<f64>>>) -> Result<Vec<f64>, Failure> {
         let experiments = self.fitting.experiments.len() as u64;
         let first = self.records.len() as u64 * experiments;
         let rows = first..first + candidates.len() as u64 * experiments;
@@ -117,21 +126,14 @@ impl<'a> Evaluator<'a> {
         for (i, candidate) in candidates.iter().enumerate() {
             let rows: Option<Vec<&Row>> =
                 (0..experiments).map(|e| self.known.get(&(first + i as u64 * experiments + e))).collect();
-            let Some(rows) = rows else {
-                return Err(self.interrupted());
-            };
+            let done = self.records.len();
+            let kept = || format!("{done} evaluations are kept; the same command resumes the fit");
+            let rows = rows.ok_or_else(|| Interrupt::failure(&kept()))?;
             self.records.push(record(self.fitting, stage, candidate, &rows)?);
         }
         let new = &self.records[before..];
         self.progress.see(stage, new);
         Ok(new.iter().map(|r| r.score).collect())
-    }
-
-    fn interrupted(&self) -> Failure {
-        let done = self.records.len();
-        Failure::BrokeOff(format!(
-            "error: interrupted\n = done: {done} evaluations are kept; the same command goes on from there"
-        ))
     }
 
     /// Makes everything safe against a loss of power, and gives the records.

@@ -4,8 +4,10 @@ use std::path::PathBuf;
 
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, Series};
+use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Diagnostics, Draft, Loaded};
-use occupant_study::{FitTest, Misfit, Study};
+use occupant_study::ending::Ending;
+use occupant_study::{Misfit, Study};
 
 use super::target::{FAMILY, Target};
 use crate::files::history::{Filter, Histories, Treatment, Untreated, asked, treated};
@@ -14,9 +16,9 @@ use crate::files::history::{Filter, Histories, Treatment, Untreated, asked, trea
 pub(crate) struct Experiment {
     /// Path of the scenario, for messages and results.
     pub(crate) scenario: PathBuf,
+    /// The file that it has with the fitted numbers.
+    pub(crate) fitted: String,
     pub(crate) text: String,
-    /// The first test that it stands for.
-    pub(crate) of: FitTest,
     /// The study with this scenario as its base.
     pub(crate) study: Study,
     /// Files that the scenario names.
@@ -37,15 +39,14 @@ impl Experiment {
     pub(crate) fn new(
         scenario: PathBuf,
         text: String,
-        of: FitTest,
         study: Study,
         tables: Vec<(String, Vec<u8>)>,
     ) -> Result<(Experiment, Diagnostics), Diagnostics> {
         let (_, model, warnings) = opened(study.base().clone(), &tables)?;
         let experiment = Experiment {
             scenario,
+            fitted: String::new(),
             text,
-            of,
             study,
             tables,
             model,
@@ -54,11 +55,6 @@ impl Experiment {
             recorded: Vec::new(),
         };
         Ok((experiment, warnings))
-    }
-
-    /// Whether it stands for a test, too.
-    pub(crate) fn stands_for(&self, test: &FitTest) -> bool {
-        (&self.of.base, &self.of.set) == (&test.base, &test.set)
     }
 
     /// Adds a measured channel of a test.
@@ -91,16 +87,58 @@ impl Experiment {
         [time.start_s, time.start_s + steps as f64 * time.output_s]
     }
 
+    /// Scenario and model of a draft.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub(crate) fn open(&self, draft: Draft) -> Result<(Loaded, Model, Diagnostics), Diagnostics> {
+        opened(draft, &self.tables)
+    }
+
+    /// Scenario and model with these texts at these places.
+    ///
+    /// # Errors
+    /// What is wrong with the scenario then.
+    pub(crate) fn scenario_with(
+        &self,
+        changes: impl IntoIterator<Item = (impl AsRef<str>, impl AsRef<str>)>,
+    ) -> Result<(Loaded, Model, Diagnostics), Diagnostics> {
+        let mut draft = self.study.base().clone();
+        for (path, text) in changes {
+            draft.set_value(path.as_ref(), text.as_ref())?;
+        }
+        self.open(draft)
+    }
+
     /// The model with these values of all parameters, or without any.
     ///
     /// # Errors
     /// What is wrong with the scenario then.
     pub(crate) fn model_of(&self, values: Option<&[f64]>) -> Result<Model, Diagnostics> {
-        let mut draft = self.study.base().clone();
-        for assignment in values.map_or(Vec::new(), |v| self.study.assignments_of(v)) {
-            draft.set_value(&assignment.path, &assignment.text())?;
+        let assignments = values.map_or(Vec::new(), |v| self.study.assignments_of(v));
+        let texts: Vec<String> = assignments.iter().map(|a| a.text()).collect();
+        self.scenario_with(assignments.iter().map(|a| &a.path).zip(&texts)).map(|(_, model, _)| model)
+    }
+
+    /// The recorded channels of a run of a model of it.
+    ///
+    /// # Errors
+    /// An integration that fails; a run whose results mean nothing.
+    pub(crate) fn run(&self, model: &Model) -> Result<Series, String> {
+        let mut series = Series::new(self.recorded.clone());
+        let outcome = simulate(model, &mut series).map_err(|e| e.to_string())?;
+        match Ending::of(&outcome).and_then(|ending| ending.reason()) {
+            None => Ok(series),
+            Some(reason) => Err(reason),
         }
-        opened(draft, &self.tables).map(|(_, model, _)| model)
+    }
+
+    /// The recorded channels with these values of all parameters, or without any.
+    ///
+    /// # Errors
+    /// A scenario that is refused; as [`Experiment::run`].
+    pub(crate) fn run_with(&self, values: Option<&[f64]>) -> Result<Series, String> {
+        self.run(&self.model_of(values).map_err(|e| e.to_string())?)
     }
 
     /// The histories of a run that count, by filter.
@@ -124,12 +162,7 @@ impl Experiment {
     /// # Errors
     /// Histories that cannot be compared.
     pub(crate) fn misfits(&self, misfit: Misfit, series: &Series) -> Result<Vec<f64>, String> {
-        let histories = self.histories(series)?;
-        let of = |(_, target): &(usize, Target)| {
-            let computed = target.computed(in_group(&histories, target.filter)?)?;
-            target.misfit(misfit, &computed)
-        };
-        self.targets.iter().map(of).collect()
+        self.compared(series, |target, computed| target.misfit(misfit, computed))
     }
 
     /// Computed less measured of each target, over the greatest measured value.
@@ -137,13 +170,22 @@ impl Experiment {
     /// # Errors
     /// Histories that cannot be compared.
     pub(crate) fn residuals(&self, series: &Series) -> Result<Vec<Vec<f64>>, String> {
-        let histories = self.histories(series)?;
-        let of = |(_, target): &(usize, Target)| {
-            let computed = target.computed(in_group(&histories, target.filter)?)?;
+        self.compared(series, |target, computed| {
             let peak = target.reference.iter().fold(0.0, |g: f64, m| g.max(m.abs()));
             let pairs = computed.iter().zip(&target.reference);
             Ok(pairs.map(|(c, m)| (c - m) / peak).collect())
-        };
+        })
+    }
+
+    /// What a comparison says of each target, from the computed values on the grid of its measured ones.
+    fn compared<T>(
+        &self,
+        series: &Series,
+        compare: impl Fn(&Target, &[f64]) -> Result<T, String>,
+    ) -> Result<Vec<T>, String> {
+        let histories = self.histories(series)?;
+        let of =
+            |(_, target): &(usize, Target)| compare(target, &target.computed(in_group(&histories, target.filter)?)?);
         self.targets.iter().map(of).collect()
     }
 }
@@ -153,11 +195,7 @@ pub(crate) fn in_group(groups: &[(Filter, Histories)], filter: Filter) -> Result
     found.map(|(_, histories)| histories).ok_or_else(|| "a channel without a history".to_owned())
 }
 
-/// The scenario and the model of a draft.
-///
-/// # Errors
-/// What is wrong with it.
-pub(crate) fn opened(draft: Draft, tables: &[(String, Vec<u8>)]) -> Result<(Loaded, Model, Diagnostics), Diagnostics> {
+fn opened(draft: Draft, tables: &[(String, Vec<u8>)]) -> Result<(Loaded, Model, Diagnostics), Diagnostics> {
     let table = |name: &str| {
         let found = tables.iter().find(|(table, _)| table == name);
         found.map(|(_, bytes)| bytes.clone()).ok_or_else(|| "it was not there when the fit began".to_owned())

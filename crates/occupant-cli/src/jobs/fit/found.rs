@@ -5,11 +5,11 @@ use occupant_study::search::{Descent, Stage};
 use serde::Serialize;
 
 use super::evaluator::Record;
-use super::fitting::Fitting;
+use super::fitting::{Fitting, Test};
 use super::identified::{Answer, Near};
 use super::scenario_text::Fitted;
+use super::target::Target;
 use super::verdict::{Verdict, verdicts};
-use crate::base::names::file_name;
 use crate::files::history::class_name;
 
 /// Correlations beyond this say that two parameters compensate each other.
@@ -32,7 +32,7 @@ pub(crate) struct Found {
     pub(crate) budget: u64,
     /// Scores of a descent that differ by less are the same.
     pub(crate) tolerance: f64,
-    pub(crate) tests: Vec<TestFound>,
+    pub(crate) tests: Vec<Test>,
     pub(crate) score: Score,
     /// What the intervals hold.
     pub(crate) near: NearFound,
@@ -40,7 +40,7 @@ pub(crate) struct Found {
     /// Correlations of near-optimal sets, each pair once; those with a parameter at a bound are missing.
     pub(crate) correlations: Vec<Correlation>,
     /// The numbers as they stand in the fitted scenarios.
-    pub(crate) written: Vec<Written>,
+    pub(crate) written: Vec<Fitted>,
     /// The descents of the global search.
     pub(crate) descents: Vec<DescentFound>,
     /// How many evaluations were made, and for what.
@@ -55,18 +55,6 @@ pub(crate) struct File {
     pub(crate) file: String,
     /// Its SHA-256.
     pub(crate) sha256: String,
-}
-
-#[derive(Serialize)]
-pub(crate) struct TestFound {
-    pub(crate) name: String,
-    pub(crate) file: String,
-    /// SHA-256 of the file.
-    pub(crate) sha256: String,
-    /// The scenario that stands for it.
-    pub(crate) scenario: String,
-    /// That scenario with the fitted numbers.
-    pub(crate) fitted: String,
 }
 
 /// Scores; 0 is a run that is the test.
@@ -102,9 +90,8 @@ pub(crate) struct ChannelFound {
 pub(crate) struct NearFound {
     /// Sets with a score up to this count as good as the best.
     pub(crate) score: f64,
-    pub(crate) by: &'static str,
-    /// Residuals that are unrelated, where the likelihood says so.
-    unrelated_residuals: Option<f64>,
+    #[serde(flatten)]
+    pub(crate) near: Near,
     /// How many of the evaluated sets are as good.
     pub(crate) sets: usize,
 }
@@ -115,6 +102,9 @@ pub(crate) struct ParameterFound {
     pub(crate) name: String,
     /// SI unit; empty for factors and plain numbers.
     pub(crate) unit: &'static str,
+    /// The unit that tables show it in, and how many SI units that is.
+    #[serde(skip)]
+    pub(crate) shown: (String, f64),
     /// What is done with the number.
     pub(crate) apply: ApplyChoice,
     /// Where it acts.
@@ -160,15 +150,6 @@ pub(crate) struct Correlation {
     pub(crate) correlation: f64,
 }
 
-/// A fitted number.
-#[derive(Serialize)]
-pub(crate) struct Written {
-    pub(crate) fitted: String,
-    pub(crate) path: String,
-    /// As it is written there.
-    pub(crate) text: String,
-}
-
 #[derive(Serialize)]
 pub(crate) struct DescentFound {
     /// Candidates of a generation.
@@ -196,25 +177,16 @@ pub(crate) struct Evaluations {
     pub(crate) reason: Option<String>,
 }
 
-/// The fitted scenarios and what they came to.
-pub(crate) struct Fittings {
-    /// Names of the files, one for each experiment.
-    pub(crate) names: Vec<String>,
-    /// Numbers, one list for each experiment.
-    pub(crate) numbers: Vec<Vec<Fitted>>,
-    /// Misfits of the runs, experiment by experiment.
-    pub(crate) parts: Vec<f64>,
-}
-
-/// Puts everything together.
+/// Puts everything together; `written` are the fitted numbers and `parts` the misfits of runs with them, experiment by
+/// experiment.
 pub(crate) fn found(
     fitting: &Fitting,
     answer: &Answer,
     records: &[Record],
-    fitted: &Fittings,
-    program: String,
+    written: Vec<Fitted>,
+    parts: &[f64],
 ) -> Found {
-    let misfit = fitting.fit.misfit;
+    let (misfit, study) = (fitting.fit.misfit, &fitting.manifest.texts[0]);
     let before = (answer.before.reason.is_none()).then_some(answer.before.score);
     let evaluations = evaluations(records);
     let limit = misfit.of_cost(answer.best.value + answer.rise);
@@ -223,35 +195,23 @@ pub(crate) fn found(
     let mut warnings = fitting.warnings.clone();
     warnings.extend(remarks(fitting, answer, &parameters, &evaluations));
     Found {
-        program,
-        title: fitting.title.clone(),
-        study: File { file: fitting.study_name.clone(), sha256: fitting.study_sha256.clone() },
+        program: fitting.manifest.program.clone(),
+        title: fitting.manifest.title.clone(),
+        study: File { file: study.name.clone(), sha256: study.sha256.clone() },
         overrides: fitting.overrides.clone(),
         objective: misfit.name(),
         seed: fitting.fit.seed,
         budget: fitting.fit.budget,
         tolerance: fitting.fit.tolerance,
-        tests: tests(fitting, fitted),
-        score: Score { before, after: fitting.score(&fitted.parts), channels: channels(fitting, answer, fitted) },
-        near: NearFound::of(answer.near, limit, sets.len()),
+        tests: fitting.tests.clone(),
+        score: Score { before, after: fitting.score(parts), channels: channels(fitting, answer, parts) },
+        near: NearFound { score: limit, near: answer.near, sets: sets.len() },
         parameters,
         correlations: correlations(fitting, answer),
-        written: written(fitted),
+        written,
         descents: answer.global.descents.iter().map(DescentFound::of).collect(),
         evaluations,
         warnings,
-    }
-}
-
-impl NearFound {
-    fn of(near: Near, score: f64, sets: usize) -> Self {
-        let (by, unrelated_residuals) = match near {
-            Near::Study => ("the study", None),
-            Near::Likelihood { unrelated } => ("95 % likelihood of the residuals", Some(unrelated)),
-            Near::Peak => ("0.05 % of the measured peaks: the residuals are smaller", None),
-            Near::Score => ("scores that differ by less than 0.01", None),
-        };
-        NearFound { score, by, unrelated_residuals, sets }
     }
 }
 
@@ -266,32 +226,18 @@ impl DescentFound {
     }
 }
 
-fn tests(fitting: &Fitting, fitted: &Fittings) -> Vec<TestFound> {
-    let test = |test: &super::fitting::Test| TestFound {
-        name: test.name.clone(),
-        file: test.file.clone(),
-        sha256: test.sha256.clone(),
-        scenario: file_name(&fitting.experiments[test.experiment].scenario),
-        fitted: fitted.names[test.experiment].clone(),
+fn channels(fitting: &Fitting, answer: &Answer, parts: &[f64]) -> Vec<ChannelFound> {
+    let channel = |(i, ((test, target), after)): (usize, (&(usize, Target), &f64))| ChannelFound {
+        test: fitting.tests[*test].name.clone(),
+        channel: target.channel.name.clone(),
+        signal: target.measured.signal.clone(),
+        filter: class_name(target.class),
+        weight: target.weight,
+        window_s: target.window_s,
+        before: answer.before.parts.get(i).copied(),
+        after: *after,
     };
-    fitting.tests.iter().map(test).collect()
-}
-
-fn channels(fitting: &Fitting, answer: &Answer, fitted: &Fittings) -> Vec<ChannelFound> {
-    let parts = fitted.parts.iter().enumerate();
-    let targets = fitting.targets().zip(parts);
-    targets
-        .map(|((test, target), (i, after))| ChannelFound {
-            test: fitting.tests[*test].name.clone(),
-            channel: target.channel.name.clone(),
-            signal: target.measured.signal.clone(),
-            filter: class_name(target.class),
-            weight: target.weight,
-            window_s: target.window_s,
-            before: answer.before.parts.get(i).copied(),
-            after: *after,
-        })
-        .collect()
+    fitting.targets().zip(parts).enumerate().map(channel).collect()
 }
 
 fn correlations(fitting: &Fitting, answer: &Answer) -> Vec<Correlation> {
@@ -305,16 +251,6 @@ fn correlations(fitting: &Fitting, answer: &Answer) -> Vec<Correlation> {
         }
     }
     all
-}
-
-fn written(fitted: &Fittings) -> Vec<Written> {
-    let files = fitted.names.iter().zip(&fitted.numbers);
-    let number = |(name, numbers): (&String, &Vec<Fitted>)| {
-        let written =
-            numbers.iter().map(|n| Written { fitted: name.clone(), path: n.path.clone(), text: n.text.clone() });
-        written.collect::<Vec<_>>()
-    };
-    files.flat_map(number).collect()
 }
 
 fn evaluations(records: &[Record]) -> Evaluations {

@@ -1,11 +1,11 @@
 //! Fits: the parameters within their bounds with which runs follow measured channels best.
 //!
 //! ```text
-//! study + tests ─ Fitting ─ search (core) ⇄ Evaluator (journal, threads, lanes) ─ Found ─ fit.json, fitted.toml, plots, history
+//! study + tests ─ Opening ─ Fitting ─ search ⇄ Evaluator (journal, threads, lanes) ─ Found ─ fit.json, fitted.toml, plots, history
 //! ```
 //!
 //! The search asks for values of whole generations; the evaluator runs what the journal does not hold yet. As both depend on
-//! nothing but study, tests and program, a fit that was killed goes on to the same answer.
+//! nothing but study, tests and program, a fit that was killed ends at the same answer when it is resumed.
 
 mod candidates;
 pub(crate) mod evaluator;
@@ -13,6 +13,7 @@ mod experiment;
 pub(crate) mod fitting;
 mod found;
 pub(crate) mod identified;
+pub(crate) mod opening;
 pub(crate) mod output;
 mod plots;
 pub(crate) mod progress;

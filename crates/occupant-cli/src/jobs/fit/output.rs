@@ -1,22 +1,18 @@
 //! The files of a fit: fitted scenarios, history, plots, and fit.json last.
 
 use std::fs;
-use std::io::Write;
 use std::path::Path;
 
-use occupant_core::scenario::Draft;
-
 use super::evaluator::Record;
-use super::experiment::opened;
 use super::fitting::Fitting;
-use super::found::{Fittings, Found, found};
-use super::identified::{Answer, run, run_model};
+use super::found::{Found, found};
+use super::identified::Answer;
 use super::plots::{Pair, sheets};
-use super::scenario_text::{fitted, numbers};
+use super::scenario_text::{Fitted, fitted, numbers};
 use super::{candidates, report};
 use crate::base::failure::Failure;
-use crate::base::names::{file_name, program};
-use crate::base::output_file::{Existing, PartialFile};
+use crate::base::names::{file_name, file_stem};
+use crate::base::output_file::{Existing, write_whole};
 use crate::base::talk::{json, say};
 use crate::files::study_folder::folder::Folder;
 
@@ -30,58 +26,39 @@ impl Output<'_> {
     /// Fitted scenarios, history, plots, and fit.json last.
     pub(crate) fn write(&self, answer: &Answer, records: &[Record]) -> Result<Found, Failure> {
         let values = self.fitting.values(&answer.best.at);
-        let (fittings, runs) = self.run_fitted(&values).map_err(broke_off)?;
-        let found = found(self.fitting, answer, records, &fittings, program());
-        self.write_scenarios(&found, &fittings)?;
+        let (written, parts, runs) = self.run_fitted(&values).map_err(broke_off)?;
+        let found = found(self.fitting, answer, records, written, &parts);
+        self.write_scenarios(&found)?;
         candidates::write(self.folder, self.fitting, records)?;
         let lines = [format!("{}: {} score {:.5}", found.study.file, found.objective, found.score.after)];
         for (name, svg) in sheets(self.fitting, &runs, &lines).map_err(broke_off)? {
-            let name = format!("plots/{}.svg", file_stem(&name));
-            self.put(&name, svg.as_bytes())?;
+            self.put(Path::new(&format!("plots/{}.svg", file_stem(&name))), svg.as_bytes())?;
         }
-        self.put("fit.json", json(&found)?.as_bytes())?;
+        self.put(Path::new("fit.json"), json(&found)?.as_bytes())?;
         Ok(found)
     }
 
-    /// Runs the scenarios with the numbers as they will be written, and without.
-    fn run_fitted(&self, values: &[f64]) -> Result<(Fittings, Vec<Pair>), String> {
-        let experiments = &self.fitting.experiments;
-        let mut fittings = Fittings { names: self.names(), numbers: Vec::new(), parts: Vec::new() };
-        let mut runs = Vec::new();
-        for experiment in experiments {
+    /// Runs the scenarios with the numbers as they will be written, and without: the numbers, the misfits of all targets,
+    /// the runs.
+    fn run_fitted(&self, values: &[f64]) -> Result<(Vec<Fitted>, Vec<f64>, Vec<Pair>), String> {
+        let (mut written, mut parts, mut runs) = (Vec::new(), Vec::new(), Vec::new());
+        for experiment in &self.fitting.experiments {
             let numbers = numbers(experiment, values)?;
-            let mut draft: Draft = experiment.study.base().clone();
-            for number in &numbers {
-                let set = draft.set_value(&number.path, &number.text);
-                set.map_err(|e| e.to_string())?;
-            }
-            let (_, model, _) = opened(draft, &experiment.tables).map_err(|e| e.to_string())?;
-            let after = run_model(experiment, &model)?;
-            fittings.parts.extend(experiment.misfits(self.fitting.fit.misfit, &after)?);
-            fittings.numbers.push(numbers);
-            runs.push(Pair { before: run(experiment, None).ok(), after });
+            let opened = experiment.scenario_with(numbers.iter().map(|n| (&n.path, &n.text)));
+            let (_, model, _) = opened.map_err(|e| e.to_string())?;
+            let after = experiment.run(&model)?;
+            parts.extend(experiment.misfits(self.fitting.fit.misfit, &after)?);
+            written.extend(numbers);
+            runs.push(Pair { before: experiment.run_with(None).ok(), after });
         }
-        Ok((fittings, runs))
+        Ok((written, parts, runs))
     }
 
-    /// `fitted.toml`, or a file for each experiment, named after its first test.
-    fn names(&self) -> Vec<String> {
-        let experiments = self.fitting.experiments.len();
-        if experiments == 1 {
-            return vec!["fitted.toml".to_owned()];
-        }
-        let name = |e: usize| {
-            let test = self.fitting.tests.iter().find(|t| t.experiment == e);
-            let name = test.map_or(e.to_string(), |t| file_stem(&t.name));
-            format!("fitted/{name}.toml")
-        };
-        (0..experiments).map(name).collect()
-    }
-
-    fn write_scenarios(&self, found: &Found, fittings: &Fittings) -> Result<(), Failure> {
-        let each = self.fitting.experiments.iter().zip(&fittings.numbers);
-        for ((experiment, numbers), name) in each.zip(&fittings.names) {
-            let words = |i: usize| report::provenance(self.fitting, found, &found.parameters[i], i);
+    fn write_scenarios(&self, found: &Found) -> Result<(), Failure> {
+        for experiment in &self.fitting.experiments {
+            let name = &experiment.fitted;
+            let numbers: Vec<&Fitted> = found.written.iter().filter(|n| n.fitted == *name).collect();
+            let words = |i: usize| report::provenance(found, &found.parameters[i]);
             let provenance: Vec<(String, String)> =
                 numbers.iter().map(|n| (n.path.clone(), words(n.parameter))).collect();
             let head = format!(
@@ -89,18 +66,17 @@ impl Output<'_> {
                 file_name(&experiment.scenario),
                 found.study.file
             );
-            let text = fitted(experiment, numbers, &provenance, &head).map_err(broke_off)?;
+            let text = fitted(experiment, &numbers, &provenance, &head).map_err(broke_off)?;
             if !text.kept {
                 say(&format!("note: {name} is written anew: its comments and order could not be kept"));
             }
-            self.put(name, text.text.as_bytes())?;
+            self.put(Path::new(name), text.text.as_bytes())?;
             let folder = Path::new(name).parent().unwrap_or(Path::new(""));
             for (table, bytes) in &experiment.tables {
                 // beside the scenario that names it, if that is a place below it
-                let below = Path::new(table).components();
-                if below.clone().all(|c| matches!(c, std::path::Component::Normal(_))) {
-                    let place = folder.join(table);
-                    self.put(&place.display().to_string(), bytes)?;
+                let mut below = Path::new(table).components();
+                if below.all(|c| matches!(c, std::path::Component::Normal(_))) {
+                    self.put(&folder.join(table), bytes)?;
                 }
             }
         }
@@ -108,26 +84,12 @@ impl Output<'_> {
     }
 
     /// Writes a file of the folder, whole or not at all.
-    fn put(&self, name: &str, bytes: &[u8]) -> Result<(), Failure> {
+    fn put(&self, name: &Path, bytes: &[u8]) -> Result<(), Failure> {
         let path = self.folder.path().join(name);
-        let failed =
-            |e: &dyn std::fmt::Display| Failure::BrokeOff(format!("error: cannot write {}: {e}", path.display()));
-        if let Some(folder) = path.parent() {
-            fs::create_dir_all(folder).map_err(|e| failed(&e))?;
-        }
-        let mut file = PartialFile::create(&path, Existing::Replace).map_err(|e| failed(&e))?;
-        file.write_all(bytes).map_err(|e| failed(&e))?;
-        file.publish().map_err(|e| failed(&e))?;
-        Ok(())
+        let made = path.parent().map_or(Ok(()), fs::create_dir_all);
+        made.map_err(|e| broke_off(format!("cannot write {}: {e}", path.display())))?;
+        write_whole(&path, Existing::Replace, bytes).map(|_| ()).map_err(broke_off)
     }
-}
-
-/// A name that can be that of a file.
-fn file_stem(name: &str) -> String {
-    let plain = |c: char| {
-        if c.is_alphanumeric() || "-_ .".contains(c) { c } else { '_' }
-    };
-    name.chars().map(plain).collect()
 }
 
 fn broke_off(reason: String) -> Failure {

@@ -1,43 +1,31 @@
-//! How far a fit is: a bar on a terminal, else a line whenever the score has improved, now and then.
+//! How far a fit is: without a terminal a line for each stage, and now and then one whenever the score has improved.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
-use indicatif::ProgressBar;
 use occupant_study::search::Stage;
 
 use super::evaluator::{Record, WORST};
-use crate::base::progress::bar;
-use crate::base::talk::say;
+use crate::base::progress::Runs;
 
 /// At most a line so often where there is no terminal, stages apart.
 const LINE_EVERY: Duration = Duration::from_secs(2);
 
-/// How far a fit is.
 #[derive(Debug)]
 pub(crate) struct Progress {
-    bar: ProgressBar,
-    quiet: bool,
+    runs: Runs,
     budget: u64,
     evaluations: u64,
     best: f64,
-    told: f64,
+    /// The best score that a line has said.
+    said: f64,
     stage: &'static str,
-    line: Instant,
 }
 
 impl Progress {
     /// Of a search of so many evaluations.
     pub(crate) fn new(budget: u64, quiet: bool) -> Self {
-        Progress {
-            bar: bar(Some(budget), "{bar:30} {pos} of {len} evaluations, {msg}", quiet),
-            quiet,
-            budget,
-            evaluations: 0,
-            best: f64::INFINITY,
-            told: f64::INFINITY,
-            stage: "",
-            line: Instant::now(),
-        }
+        let runs = Runs::new(budget, "{bar:30} {pos} of {len} evaluations, {msg}", LINE_EVERY, quiet);
+        Progress { runs, budget, evaluations: 0, best: f64::INFINITY, said: f64::INFINITY, stage: "" }
     }
 
     /// What a batch came to.
@@ -47,33 +35,25 @@ impl Progress {
         if stage.is_some() {
             self.best = self.best.min(least);
         }
-        if self.quiet {
-            return;
-        }
         let (name, words) = words_of(stage);
-        if !self.bar.is_hidden() {
-            self.bar.set_length(self.budget.max(self.evaluations));
-            self.bar.set_position(self.evaluations);
-            self.bar.set_message(format!("{words}: score {:.5}", self.best));
-            return;
-        }
-        match stage {
-            None => say(&format!("base scenario: {}", score(least))),
-            Some(_) => {
-                let news = name != self.stage;
-                if news || (self.best < self.told && self.line.elapsed() > LINE_EVERY) {
-                    say(&format!("{} evaluations, {words}: {}", self.evaluations, score(self.best)));
-                    self.told = self.best;
-                    self.line = Instant::now();
-                }
-                self.stage = name;
+        if let Some(bar) = self.runs.bar() {
+            bar.set_length(self.budget.max(self.evaluations));
+            bar.set_position(self.evaluations);
+            bar.set_message(format!("{words}: score {:.5}", self.best));
+        } else if stage.is_none() {
+            self.runs.say(&format!("base scenario: {}", score(least)));
+        } else {
+            if name != self.stage || (self.best < self.said && self.runs.is_line_due()) {
+                self.runs.say(&format!("{} evaluations, {words}: {}", self.evaluations, score(self.best)));
+                self.said = self.best;
             }
+            self.stage = name;
         }
     }
 
     /// No more.
     pub(crate) fn end(&self) {
-        self.bar.finish_and_clear();
+        self.runs.end();
     }
 }
 

@@ -2,16 +2,15 @@
 
 use occupant_study::ApplyChoice;
 
-use super::fitting::Fitting;
-use super::found::{COMPENSATING, Found, ParameterFound};
+use super::found::{COMPENSATING, EndFound, Found, ParameterFound};
 use super::verdict::Verdict;
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, Table, facts};
 
 /// Tables of parameters and channels.
-pub(crate) fn text(fitting: &Fitting, found: &Found) -> String {
-    let mut parts = vec![overview(found), parameters(fitting, found)];
-    let pairs = compensating(fitting, found);
+pub(crate) fn text(found: &Found) -> String {
+    let mut parts = vec![overview(found), parameters(found)];
+    let pairs = compensating(found);
     if !pairs.is_empty() {
         parts.push(pairs);
     }
@@ -39,7 +38,7 @@ fn overview(found: &Found) -> String {
                 e.intervals
             ),
         ),
-        ("as good", format!("scores up to {:.5} ({})", found.near.score, found.near.by)),
+        ("as good", format!("scores up to {:.5} ({})", found.near.score, found.near.near.by)),
     ];
     for warning in &found.warnings {
         lines.push(("warning", warning.clone()));
@@ -47,50 +46,48 @@ fn overview(found: &Found) -> String {
     facts(&lines)
 }
 
-/// In which unit the values of a parameter are shown, and how many SI units it is: that of its place.
-pub(crate) fn unit_of(fitting: &Fitting, i: usize) -> (String, f64) {
-    let parameter = &fitting.parameters()[i];
-    let base = fitting.experiments[0].study.base();
-    let place = parameter.targets.first();
-    match parameter.apply {
-        ApplyChoice::Factor => (String::new(), 1.0),
-        ApplyChoice::Value | ApplyChoice::Offset => {
-            place.and_then(|t| base.unit_at(&t.path)).unwrap_or((parameter.unit.to_owned(), 1.0))
-        }
+impl ParameterFound {
+    /// A value in its shown unit.
+    fn number(&self, si: f64) -> String {
+        short(si / self.shown.1)
+    }
+
+    /// The same with the unit.
+    fn with_unit(&self, text: &str) -> String {
+        format!("{text} {}", self.shown.0).trim().to_owned()
+    }
+
+    fn from_to(&self, ends: [f64; 2]) -> String {
+        let [low, high] = ends.map(|si| self.number(si));
+        format!("{low} to {high}")
     }
 }
 
 /// A number with five significant digits.
-pub(crate) fn short(value: f64) -> String {
+fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.4e}").parse().unwrap_or(value);
     rounded.to_string()
 }
 
-fn parameters(fitting: &Fitting, found: &Found) -> String {
-    let mut table = Table::new(&[
-        ("parameter", Left),
-        ("unit", Left),
-        ("base", Right),
-        ("fitted", Right),
-        ("interval", Right),
-        ("looked for", Right),
-        ("", Left),
+fn parameters(found: &Found) -> String {
+    let mut table = Table::of(&[
+        (Left, &["parameter", "unit"]),
+        (Right, &["base", "fitted", "interval", "looked for"]),
+        (Left, &[""]),
     ]);
-    for (i, p) in found.parameters.iter().enumerate() {
-        let (unit, si) = unit_of(fitting, i);
-        let unit = match (p.apply, unit.as_str()) {
-            (ApplyChoice::Factor, _) => "×".to_owned(),
-            (_, "") => NONE.to_owned(),
-            (_, unit) => unit.to_owned(),
+    for p in &found.parameters {
+        let unit = match (p.apply, p.shown.0.as_str()) {
+            (ApplyChoice::Factor, _) => "×",
+            (_, "") => NONE,
+            (_, unit) => unit,
         };
-        let from_to = |[a, b]: [f64; 2]| format!("{} to {}", short(a / si), short(b / si));
         table.row([
             p.name.clone(),
-            unit,
-            p.base.map_or(NONE.to_owned(), |b| short(b / si)),
-            short(p.value / si),
-            from_to(p.interval),
-            from_to(p.bounds),
+            unit.to_owned(),
+            p.base.map_or(NONE.to_owned(), |b| p.number(b)),
+            p.number(p.value),
+            p.from_to(p.interval),
+            p.from_to(p.bounds),
             p.words.clone(),
         ]);
     }
@@ -98,7 +95,7 @@ fn parameters(fitting: &Fitting, found: &Found) -> String {
 }
 
 /// Pairs that make up for each other, and how far.
-fn compensating(fitting: &Fitting, found: &Found) -> String {
+fn compensating(found: &Found) -> String {
     let mut lines = Vec::new();
     for pair in found.correlations.iter().filter(|c| c.correlation.abs() > COMPENSATING) {
         let [a, b] = &pair.between;
@@ -106,35 +103,23 @@ fn compensating(fitting: &Fitting, found: &Found) -> String {
         let (Some(i), Some(j)) = (place(a), place(b)) else {
             continue;
         };
-        let [low, high] = &found.parameters[i].ends;
-        let value = |end: &super::found::EndFound, at: usize| {
-            let (unit, si) = unit_of(fitting, at);
-            format!("{} {unit}", short(end.values[at] / si)).trim().to_owned()
+        let end = |end: &EndFound| {
+            let [one, other] = [i, j].map(|at| {
+                let p = &found.parameters[at];
+                p.with_unit(&p.number(end.values[at]))
+            });
+            format!("{one} with {other} scores {:.5}", end.score)
         };
-        lines.push(format!(
-            "{a} and {b} compensate each other (correlation {:.3}): {} with {} scores {:.5}, {} with {} scores {:.5}\n",
-            pair.correlation,
-            value(low, i),
-            value(low, j),
-            low.score,
-            value(high, i),
-            value(high, j),
-            high.score,
-        ));
+        let [low, high] = found.parameters[i].ends.each_ref().map(end);
+        let correlation = pair.correlation;
+        lines.push(format!("{a} and {b} compensate each other (correlation {correlation:.3}): {low}, {high}\n"));
     }
     lines.concat()
 }
 
 fn channels(found: &Found) -> String {
-    let mut table = Table::new(&[
-        ("test", Left),
-        ("channel", Left),
-        ("filter", Left),
-        ("ms", Right),
-        ("weight", Right),
-        ("before", Right),
-        ("fitted", Right),
-    ]);
+    let mut table =
+        Table::of(&[(Left, &["test", "channel", "filter"]), (Right, &["ms", "weight", "before", "fitted"])]);
     for c in &found.score.channels {
         let [from, to] = c.window_s.map(|t| short(t * 1e3));
         table.row([
@@ -151,20 +136,18 @@ fn channels(found: &Found) -> String {
 }
 
 /// What is said of a fitted number in the scenario.
-pub(crate) fn provenance(fitting: &Fitting, found: &Found, p: &ParameterFound, i: usize) -> String {
-    let (unit, si) = unit_of(fitting, i);
-    let with_unit = |text: String| format!("{text} {unit}").trim().to_owned();
-    let [low, high] = p.interval.map(|x| short(x / si));
+pub(crate) fn provenance(found: &Found, p: &ParameterFound) -> String {
     let factor = match p.apply {
         ApplyChoice::Value => String::new(),
         ApplyChoice::Factor => format!(" (times {} what the base scenario says)", short(p.value)),
-        ApplyChoice::Offset => format!(" ({} added to what the base scenario says)", with_unit(short(p.value / si))),
-    };
-    let interval = match p.verdict {
-        Verdict::NotIdentified => {
-            format!("{}; any value of {} is as good", p.words, with_unit(format!("{low} to {high}")))
+        ApplyChoice::Offset => {
+            format!(" ({} added to what the base scenario says)", p.with_unit(&p.number(p.value)))
         }
-        _ => format!("{}, interval {}", p.words, with_unit(format!("{low} to {high}"))),
+    };
+    let range = p.with_unit(&p.from_to(p.interval));
+    let interval = match p.verdict {
+        Verdict::NotIdentified => format!("{}; any value of {range} is as good", p.words),
+        _ => format!("{}, interval {range}", p.words),
     };
     let tests = found.tests.iter();
     let tests: Vec<String> = tests.map(|t| format!("{} (SHA-256 {})", t.file, t.sha256)).collect();

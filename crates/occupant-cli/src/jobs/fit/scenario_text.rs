@@ -5,22 +5,26 @@
 
 use occupant_core::scenario::text::{Step, parse_path};
 use occupant_core::scenario::{Draft, Format, Scenario};
-use occupant_study::Parameter;
+use occupant_study::{Assignment, Parameter};
+use serde::Serialize;
 use toml_edit::{DocumentMut, InlineTable, Item, Table, TableLike, Value, value};
 
-use super::experiment::{Experiment, opened};
+use super::experiment::Experiment;
 use crate::files::scenario::format_of;
 
 /// Significant digits of fitted numbers.
 const DIGITS: usize = 6;
 
 /// A number that a fit has put into a scenario.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub(crate) struct Fitted {
+    /// The file of that scenario.
+    pub(crate) fitted: String,
     pub(crate) path: String,
-    /// As it is written.
+    /// As it is written there.
     pub(crate) text: String,
     /// Which parameter it comes from.
+    #[serde(skip)]
     pub(crate) parameter: usize,
 }
 
@@ -41,21 +45,17 @@ pub(crate) fn numbers(experiment: &Experiment, values: &[f64]) -> Result<Vec<Fit
     let study = &experiment.study;
     let of = |path: &str| {
         let acts = |p: &Parameter| p.targets.iter().any(|t| t.path == path);
-        let last = study.parameters().iter().rposition(acts);
-        last.unwrap_or(0)
+        study.parameters().iter().rposition(acts).unwrap_or(0)
     };
-    study
-        .assignments_of(values)
-        .into_iter()
-        .map(|assignment| {
-            let occupant_study::Value::Number(si) = assignment.value else {
-                return Err(format!("`{}` is no number", assignment.path));
-            };
-            let text = study.base().written(&assignment.path, si, DIGITS);
-            let text = text.ok_or_else(|| format!("no number can stand at `{}`", assignment.path))?;
-            Ok(Fitted { parameter: of(&assignment.path), path: assignment.path, text })
-        })
-        .collect()
+    let number = |Assignment { path, value, .. }: Assignment| {
+        let occupant_study::Value::Number(si) = value else {
+            return Err(format!("`{path}` is no number"));
+        };
+        let text = study.base().written(&path, si, DIGITS);
+        let text = text.ok_or_else(|| format!("no number can stand at `{path}`"))?;
+        Ok(Fitted { fitted: experiment.fitted.clone(), parameter: of(&path), path, text })
+    };
+    study.assignments_of(values).into_iter().map(number).collect()
 }
 
 /// The scenario of an experiment with these numbers and their provenance.
@@ -64,39 +64,33 @@ pub(crate) fn numbers(experiment: &Experiment, values: &[f64]) -> Result<Vec<Fit
 /// Numbers that the scenario refuses.
 pub(crate) fn fitted(
     experiment: &Experiment,
-    numbers: &[Fitted],
+    numbers: &[&Fitted],
     provenance: &[(String, String)],
     head: &str,
 ) -> Result<FittedText, String> {
-    let mut draft = experiment.study.base().clone();
-    for number in numbers {
-        let set = draft.set_value(&number.path, &number.text);
-        set.map_err(|e| e.to_string())?;
-    }
-    let (loaded, ..) = opened(draft, &experiment.tables).map_err(|e| e.to_string())?;
+    let changes = numbers.iter().map(|n| (&n.path, &n.text));
+    let (loaded, ..) = experiment.scenario_with(changes).map_err(|e| e.to_string())?;
     let mut wanted = loaded.scenario;
-    for (path, words) in provenance {
-        wanted.provenance.insert(path.clone(), words.clone());
-    }
+    wanted.provenance.extend(provenance.iter().cloned());
     let format = format_of(&experiment.scenario);
     let is_toml = format.unwrap_or_else(|| Format::of_text(&experiment.text)) == Format::Toml;
     let edited = is_toml.then(|| edited(experiment, numbers, provenance)).flatten();
-    if let Some(text) = edited.filter(|text| says(experiment, text, &wanted)) {
-        return Ok(FittedText { text: format!("{head}{text}"), kept: true });
-    }
-    let text = wanted.to_toml().map_err(|e| e.to_string())?;
-    Ok(FittedText { text: format!("{head}{text}"), kept: false })
+    let (text, kept) = match edited.filter(|text| says(experiment, text, &wanted)) {
+        Some(text) => (text, true),
+        None => (wanted.to_toml().map_err(|e| e.to_string())?, false),
+    };
+    Ok(FittedText { text: format!("{head}{text}"), kept })
 }
 
 /// Whether a text says this scenario.
 fn says(experiment: &Experiment, text: &str, wanted: &Scenario) -> bool {
     let draft = Draft::read(text, Format::Toml, "fitted");
-    let found = draft.and_then(|draft| opened(draft, &experiment.tables));
+    let found = draft.and_then(|draft| experiment.open(draft));
     found.is_ok_and(|(loaded, ..)| loaded.scenario == *wanted)
 }
 
 /// The author's text with everything put in that the study, the command line and the fit have changed.
-fn edited(experiment: &Experiment, numbers: &[Fitted], provenance: &[(String, String)]) -> Option<String> {
+fn edited(experiment: &Experiment, numbers: &[&Fitted], provenance: &[(String, String)]) -> Option<String> {
     let mut document: DocumentMut = experiment.text.parse().ok()?;
     let changes = experiment.study.changes().iter();
     let numbers = numbers.iter().map(|n| (&n.path, &n.text));
@@ -122,37 +116,34 @@ fn edited(experiment: &Experiment, numbers: &[Fitted], provenance: &[(String, St
     Some(document.to_string())
 }
 
-/// Puts a value at a place; none where the text has no such place and none can be made.
-fn put(item: &mut Item, steps: &[Step], new: Value) -> Option<()> {
-    let (step, rest) = steps.split_first()?;
+/// Puts a value at a place, with the blanks and comments of the old one; none where the text has no such place and none can
+/// be made.
+fn put(item: &mut Item, steps: &[Step], mut new: Value) -> Option<()> {
+    let Some((step, rest)) = steps.split_first() else {
+        let old = item.as_value_mut()?;
+        *new.decor_mut() = old.decor().clone();
+        *old = new;
+        return Some(());
+    };
     let inline = item.is_inline_table();
-    if let Step::Key(key) = step
-        && let Some(table) = item.as_table_like_mut()
-    {
-        return put_in_table(table, inline, key, rest, new);
-    }
-    match (step, item) {
-        (Step::Index(i), Item::Value(Value::Array(array))) => put_in_value(array.get_mut(*i)?, rest, new),
-        (Step::Index(i), Item::ArrayOfTables(tables)) => {
-            let table = tables.get_mut(*i)?;
-            let (Step::Key(key), rest) = rest.split_first()? else {
-                return None;
-            };
-            put_in_table(table, false, key, rest, new)
-        }
+    let next = match (step, item) {
+        (Step::Every, _) => return None,
+        (Step::Index(i), item) => item.get_mut(*i)?,
         (Step::Key(name), Item::ArrayOfTables(tables)) => {
-            let named = |t: &&mut Table| t.get("name").and_then(Item::as_str) == Some(name);
-            let table = tables.iter_mut().find(named)?;
-            let (Step::Key(key), rest) = rest.split_first()? else {
-                return None;
-            };
-            put_in_table(table, false, key, rest, new)
+            let named = |t: &Table| t.get("name").and_then(Item::as_str) == Some(name);
+            let place = tables.iter().position(named)?;
+            return put_in_table(tables.get_mut(place)?, false, rest, new);
         }
-        _ => None,
-    }
+        (Step::Key(_), item) => return put_in_table(item.as_table_like_mut()?, inline, steps, new),
+    };
+    put(next, rest, new)
 }
 
-fn put_in_table(table: &mut dyn TableLike, inline: bool, key: &str, rest: &[Step], new: Value) -> Option<()> {
+/// The same below a table, where what the place needs is made.
+fn put_in_table(table: &mut dyn TableLike, inline: bool, steps: &[Step], new: Value) -> Option<()> {
+    let (Step::Key(key), rest) = steps.split_first()? else {
+        return None;
+    };
     if !table.contains_key(key) {
         let blank = match (rest.is_empty(), inline) {
             (true, _) => Item::Value(new.clone()),
@@ -161,31 +152,5 @@ fn put_in_table(table: &mut dyn TableLike, inline: bool, key: &str, rest: &[Step
         };
         table.insert(key, blank);
     }
-    let item = table.get_mut(key)?;
-    match (rest.is_empty(), item) {
-        (false, item) => put(item, rest, new),
-        (true, Item::Value(old)) => {
-            replace(old, new);
-            Some(())
-        }
-        (true, _) => None,
-    }
-}
-
-fn put_in_value(old: &mut Value, rest: &[Step], new: Value) -> Option<()> {
-    let Some((step, rest)) = rest.split_first() else {
-        replace(old, new);
-        return Some(());
-    };
-    match (step, old) {
-        (Step::Key(key), Value::InlineTable(table)) => put_in_table(table, true, key, rest, new),
-        (Step::Index(i), Value::Array(array)) => put_in_value(array.get_mut(*i)?, rest, new),
-        _ => None,
-    }
-}
-
-/// A new value with the blanks and comments of the old one.
-fn replace(old: &mut Value, mut new: Value) {
-    *new.decor_mut() = old.decor().clone();
-    *old = new;
+    put(table.get_mut(key)?, rest, new)
 }

@@ -1,7 +1,7 @@
 //! How well each parameter is identified, from the ends of its interval.
 
 use occupant_study::search::End;
-use occupant_study::{Bounds, Value};
+use occupant_study::{ApplyChoice, Bounds, Value};
 use serde::Serialize;
 
 use super::evaluator::Record;
@@ -57,6 +57,7 @@ fn parameter(fitting: &Fitting, answer: &Answer, sets: &[&Record], i: usize) -> 
     ParameterFound {
         name: of.name.clone(),
         unit: of.unit,
+        shown: shown_unit(fitting, i),
         apply: of.apply,
         places: of.targets.iter().map(|t| t.path.clone()).collect(),
         bounds: [bounds.from, bounds.to],
@@ -74,6 +75,19 @@ fn parameter(fitting: &Fitting, answer: &Answer, sets: &[&Record], i: usize) -> 
         verdict,
         compensated_by,
         ends: [end(&ends[0]), end(&ends[1])],
+    }
+}
+
+/// In which unit the values of a parameter are shown, and how many SI units it is: that of its place.
+fn shown_unit(fitting: &Fitting, i: usize) -> (String, f64) {
+    let parameter = &fitting.parameters()[i];
+    let base = fitting.experiments[0].study.base();
+    let place = parameter.targets.first();
+    match parameter.apply {
+        ApplyChoice::Factor => (String::new(), 1.0),
+        ApplyChoice::Value | ApplyChoice::Offset => {
+            place.and_then(|t| base.unit_at(&t.path)).unwrap_or((parameter.unit.to_owned(), 1.0))
+        }
     }
 }
 

@@ -8,9 +8,9 @@ use occupant_study::analysis::{Effect, Estimate, RankCorrelation, Regression, So
 use occupant_study::spread::Spread;
 
 use super::gather::Gathered;
-use super::open::Opened;
 use super::samples::Samples;
 use super::shown::part as shown_part;
+use crate::jobs::sweep::stored::Stored;
 
 /// A Sobol index is marked if its 95 % interval is wider.
 const INDEX_WIDTH: f64 = 0.1;
@@ -96,20 +96,21 @@ fn part(some: usize, all: usize) -> f64 {
 }
 
 /// What a reader should know of the whole study.
-pub(crate) fn of_the_study(opened: &Opened, gathered: &Gathered) -> Vec<String> {
+pub(crate) fn of_the_study(opened: &Stored, gathered: &Gathered) -> Vec<String> {
     let ends = &gathered.ends;
     let mut notes = opened.notes.clone();
-    if ends.finished < ends.planned {
+    if ends.finished() < ends.planned {
         notes.push(format!(
             "The study is not finished: {} of {} runs. Numbers are those of the runs that are there.",
-            ends.finished, ends.planned
+            ends.finished(),
+            ends.planned
         ));
     }
     let lost = ends.without_figures();
-    if lost as f64 > MISSING * ends.finished as f64 {
+    if lost as f64 > MISSING * ends.finished() as f64 {
         notes.push(format!(
             "{lost} of {} runs have no figures that count. Runs seldom fail by chance: what is said of the others need not hold for all.",
-            ends.finished
+            ends.finished()
         ));
     }
     let study = opened.plan.study();

@@ -1,20 +1,20 @@
 //! From the rows of a journal to a table of samples: only the columns that are asked for.
 
-use occupant_study::ending::Balance;
-use occupant_study::spread::{Verdict, median};
+use occupant_study::spread::{Rule, Verdict, median};
 use occupant_study::{Law, Study, Value};
 
-use super::extremes::Extremes;
-use super::open::Opened;
 use super::samples::Samples;
 use crate::base::failure::Failure;
 use crate::files::study_folder::manifest::Role;
-use crate::files::study_folder::row::{Row, Status};
+use crate::files::study_folder::row::Row;
 use crate::files::table::Cell;
-use crate::jobs::ensemble::judge::{Judged, Tolerance};
+use crate::jobs::ensemble::judge::Judged;
+use crate::jobs::sweep::census::Census;
+use crate::jobs::sweep::extremes::Extremes;
+use crate::jobs::sweep::stored::Stored;
 
-/// So many different reasons are remembered.
-const REASONS: usize = 12;
+/// So many runs are named at each end of a response.
+const EXTREMES: usize = 3;
 
 /// The table of a study, and how its runs ended.
 #[derive(Clone, Debug, Default)]
@@ -24,66 +24,14 @@ pub(crate) struct Gathered {
     /// By response: the runs at its ends.
     pub(crate) extremes: Vec<Extremes>,
     /// How the runs ended.
-    pub(crate) ends: Ends,
-}
-
-/// How the runs ended.
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Ends {
-    /// All runs of the study.
-    pub(crate) planned: u64,
-    /// Runs that have ended, however.
-    pub(crate) finished: u64,
-    /// At their end time.
-    pub(crate) completed: u64,
-    /// The integration failed.
-    pub(crate) failed: u64,
-    /// The scenario was refused.
-    pub(crate) refused: u64,
-    /// The program broke off.
-    pub(crate) broken: u64,
-    /// Completed, with an energy balance that is off by more than 10 %: their figures count for nothing.
-    pub(crate) doubtful: u64,
-    /// Reasons of runs that did not complete: words, how many, the first run.
-    pub(crate) reasons: Vec<(String, u64, u64)>,
-    /// Runs with other reasons still.
-    pub(crate) other_reasons: u64,
-}
-
-impl Ends {
-    /// Finished runs without figures.
-    pub(crate) fn without_figures(&self) -> u64 {
-        self.finished - self.completed + self.doubtful
-    }
-
-    fn see(&mut self, row: &Row, doubtful: bool) {
-        self.finished += 1;
-        match row.status {
-            Status::Completed => self.completed += 1,
-            Status::Failed => self.failed += 1,
-            Status::Refused => self.refused += 1,
-            Status::Broken => self.broken += 1,
-        }
-        self.doubtful += u64::from(doubtful);
-        if row.status == Status::Completed {
-            return;
-        }
-        let known = self.reasons.iter().position(|r| r.0 == row.reason);
-        match known {
-            Some(at) => self.reasons[at].1 += 1,
-            None if self.reasons.len() < REASONS => {
-                self.reasons.push((row.reason.clone(), 1, row.index));
-            }
-            None => self.other_reasons += 1,
-        }
-    }
+    pub(crate) ends: Census,
 }
 
 /// Reads all rows that are there; `figures` are the columns of the responses.
 ///
 /// # Errors
 /// A journal that cannot be read.
-pub(crate) fn gather(opened: &Opened, figures: &[usize]) -> Result<Gathered, Failure> {
+pub(crate) fn gather(opened: &Stored, figures: &[usize]) -> Result<Gathered, Failure> {
     let study = opened.plan.study();
     let columns = &opened.manifest.columns;
     let named: Vec<(String, String)> =
@@ -91,11 +39,10 @@ pub(crate) fn gather(opened: &Opened, figures: &[usize]) -> Result<Gathered, Fai
     let mut gathering = Gathering {
         study,
         figures,
-        balance: columns.iter().position(|c| c.name == "energy.balance_error"),
         found: Gathered {
             samples: Samples::new(study, &named),
-            extremes: vec![Extremes::default(); figures.len()],
-            ends: Ends { planned: opened.manifest.samples, ..Ends::default() },
+            extremes: vec![Extremes::new(EXTREMES); figures.len()],
+            ends: Census::new(&opened.manifest),
         },
         members: vec![Vec::new(); figures.len()],
     };
@@ -112,7 +59,6 @@ struct Gathering<'a> {
     study: &'a Study,
     /// Columns of the responses.
     figures: &'a [usize],
-    balance: Option<usize>,
     found: Gathered,
     /// By response: the members of the present sample so far.
     members: Vec<Vec<f64>>,
@@ -137,10 +83,7 @@ impl Gathering<'_> {
 
     fn see(&mut self, row: &Row) {
         let cell = |at: usize| row.cells.get(at).and_then(Cell::number);
-        let completed = row.status == Status::Completed;
-        let balanced = |at| cell(at).is_some_and(|off| Balance::of(off) != Balance::Lost);
-        let counts = completed && self.balance.is_none_or(balanced);
-        self.found.ends.see(row, completed && !counts);
+        let counts = self.found.ends.see(row);
         let (number, _) = self.study.sample_and_member(row.index);
         if self.found.samples.numbers.last() != Some(&number) {
             self.close();
@@ -176,7 +119,7 @@ impl Gathering<'_> {
             let there = members.iter().filter(|x| x.is_finite()).count();
             let value = median(members).filter(|_| 2 * there >= members.len());
             response.values.push(value.unwrap_or(f64::NAN));
-            let judged = Judged::of(&response.name, &response.unit, members, Tolerance::default());
+            let judged = Judged::of(&response.name, &response.unit, members, Rule::default().relative);
             match judged.map(|j| j.verdict).filter(|_| members.len() > 1) {
                 Some(Verdict::Stable) => response.stable[0] += 1,
                 Some(Verdict::NotStable) => response.stable[1] += 1,

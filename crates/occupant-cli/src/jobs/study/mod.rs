@@ -1,18 +1,17 @@
 //! What a finished or growing study says: which parameter matters, how much, how sure that is, and how to run it again.
 //!
 //! ```text
-//! folder of a sweep ─ Opened ─ Samples (a table of inputs and responses) ─ Analysis of each response ─ page, Parquet
+//! folder of a sweep ─ Stored ─ Samples (a table of inputs and responses) ─ Analysis of each response ─ numbers ─ page, Parquet
 //! ```
 
 pub mod analysis;
+pub(crate) mod bands;
 pub mod caution;
 mod command;
 mod describe;
-mod extremes;
 mod gather;
 mod matters;
 mod numbers;
-mod open;
 mod page;
 mod pictures;
 mod plots;
@@ -22,22 +21,33 @@ mod sections;
 mod shown;
 mod tables;
 
-pub(crate) use open::{Opened, open};
 pub(crate) use page::page;
 pub(crate) use tables::{Tables, write as write_tables};
 
 use crate::base::failure::Failure;
+use crate::jobs::sweep::stored::Stored;
 use analysis::Analysis;
 use gather::Gathered;
+use numbers::{Number, numbers};
+use samples::{Response, Samples};
 
 /// Everything that a report says of a study.
 pub(crate) struct Report {
     /// The folder it comes from.
-    pub(crate) opened: Opened,
+    pub(crate) opened: Stored,
     gathered: Gathered,
-    analyses: Vec<Analysis>,
+    /// By response: its analysis and all its numbers.
+    analyses: Vec<(Analysis, Vec<Number>)>,
     /// What a reader should know before trusting any number of it.
     pub(crate) notes: Vec<String>,
+}
+
+/// A response and what the study says of it.
+struct Finding<'a> {
+    samples: &'a Samples,
+    response: &'a Response,
+    analysis: &'a Analysis,
+    numbers: &'a [Number],
 }
 
 impl Report {
@@ -45,15 +55,27 @@ impl Report {
     ///
     /// # Errors
     /// A name that is none; a journal that cannot be read.
-    pub(crate) fn of(opened: Opened, names: &[String]) -> Result<Report, Failure> {
+    pub(crate) fn of(opened: Stored, names: &[String]) -> Result<Report, Failure> {
         let candidates = responses::candidates(&opened.manifest, names)?;
         let mut gathered = gather::gather(&opened, &candidates)?;
         if names.is_empty() {
             responses::keep_telling(&mut gathered);
         }
-        let study = opened.plan.study();
-        let count = gathered.samples.responses.len();
-        let analyses = (0..count).map(|i| Analysis::of(&gathered.samples, i, study));
-        Ok(Report { analyses: analyses.collect(), notes: caution::of_the_study(&opened, &gathered), gathered, opened })
+        let analyse = |i: usize| {
+            let analysis = Analysis::of(&gathered.samples, i, opened.plan.study());
+            let numbers = numbers(&opened, &gathered, &analysis);
+            (analysis, numbers)
+        };
+        let analyses = (0..gathered.samples.responses.len()).map(analyse).collect();
+        Ok(Report { analyses, notes: caution::of_the_study(&opened, &gathered), gathered, opened })
+    }
+
+    /// What it says of each response.
+    fn findings(&self) -> impl Iterator<Item = Finding<'_>> {
+        let samples = &self.gathered.samples;
+        self.analyses.iter().map(move |(analysis, numbers)| {
+            let response = &samples.responses[analysis.response];
+            Finding { samples, response, analysis, numbers }
+        })
     }
 }

@@ -1,113 +1,108 @@
-//! Every number of the report, one after the other.
+//! Every number of the report: the page and the table both show these.
 
 use occupant_study::analysis::Estimate;
 
 use super::analysis::{Analysis, ByDesign};
+use super::caution;
 use super::command::command;
-use super::{Report, caution};
+use super::gather::Gathered;
+use crate::jobs::sweep::stored::Stored;
 
-/// One number of the report, SI units.
+/// One number of a response, SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Number {
-    /// Name of the response.
-    pub(crate) response: String,
     /// What it is: `median`, `rank_correlation`, `sobol_total`, …
     pub(crate) quantity: &'static str,
-    /// Name of the parameter, empty where it is of none.
-    pub(crate) parameter: String,
-    /// Number of the run, where it is of one.
-    pub(crate) run: Option<u64>,
-    pub(crate) value: f64,
-    /// Ends of its 95 % interval; NaN without one.
-    pub(crate) interval: [f64; 2],
-    /// Its unit, `1` for a plain number.
-    pub(crate) unit: String,
+    /// Its parameter, where it is of one.
+    pub(crate) parameter: Option<usize>,
+    /// Its run, where it is of one.
+    pub(crate) run: Option<Run>,
+    /// Whether it is in the unit of the response; else it is a plain number.
+    pub(crate) in_unit: bool,
+    /// Its value and its 95 % interval; NaN without one.
+    pub(crate) estimate: Estimate,
     /// Rows, points or effects that it is made of.
     pub(crate) rows: usize,
-    /// Why it should not be relied on; empty if no rule speaks against it.
-    pub(crate) mark: String,
-    /// The command that runs the run again.
-    pub(crate) command: String,
+    /// Why it should not be relied on.
+    pub(crate) mark: Option<String>,
 }
 
-pub(crate) fn numbers(report: &Report) -> Vec<Number> {
-    let of = |analysis: &Analysis| {
-        let mut list = List::of(report, analysis);
-        list.spread();
-        list.linear();
-        list.by_design();
-        list.ends();
-        list.numbers
+/// A run at an end of a response.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Run {
+    pub(crate) number: u64,
+    /// 0 for the greatest or least value, 1 for the next.
+    pub(crate) place: u64,
+    /// The command that runs it again; none where no shell can say it.
+    pub(crate) command: Option<String>,
+}
+
+/// All numbers of a response.
+pub(crate) fn numbers(opened: &Stored, gathered: &Gathered, analysis: &Analysis) -> Vec<Number> {
+    let mut list = List {
+        rows: analysis.spread.map_or(0, |s| s.members),
+        mark: caution::lacking(analysis.spread.as_ref()),
+        numbers: Vec::new(),
     };
-    report.analyses.iter().flat_map(of).collect()
+    list.spread(analysis);
+    list.linear(analysis);
+    list.by_design(&analysis.by_design);
+    let extremes = &gathered.extremes[analysis.response];
+    for (quantity, runs) in [("worst", &extremes.worst), ("best", &extremes.best)] {
+        for (place, (value, run)) in (0..).zip(runs) {
+            let command = command(&opened.plan, &opened.manifest, *run);
+            let run = Run { number: *run, place, command };
+            let estimate = exactly(*value);
+            let number =
+                Number { quantity, parameter: None, run: Some(run), in_unit: true, estimate, rows: 1, mark: None };
+            list.numbers.push(number);
+        }
+    }
+    list.numbers
 }
 
-struct List<'a> {
-    report: &'a Report,
-    analysis: &'a Analysis,
+/// A value without an interval.
+fn exactly(value: f64) -> Estimate {
+    Estimate { value, low: f64::NAN, high: f64::NAN }
+}
+
+struct List {
+    /// Samples that have the response.
     rows: usize,
     /// Why all numbers are marked.
     mark: Option<String>,
     numbers: Vec<Number>,
 }
 
-impl<'a> List<'a> {
-    fn of(report: &'a Report, analysis: &'a Analysis) -> Self {
-        List {
-            report,
-            analysis,
-            rows: analysis.spread.map_or(0, |s| s.members),
-            mark: caution::lacking(analysis.spread.as_ref()),
-            numbers: Vec::new(),
-        }
-    }
-
-    fn put(&mut self, quantity: &'static str, unit: &str, value: f64) -> &mut Number {
-        let response = &self.report.gathered.samples.responses[self.analysis.response];
-        self.numbers.push(Number {
-            response: response.name.clone(),
-            quantity,
-            parameter: String::new(),
-            run: None,
-            value,
-            interval: [f64::NAN; 2],
-            unit: match unit {
-                "" => response.unit.clone(),
-                unit => unit.to_owned(),
-            },
-            rows: self.rows,
-            mark: self.mark.clone().unwrap_or_default(),
-            command: String::new(),
-        });
+impl List {
+    fn put(&mut self, quantity: &'static str, in_unit: bool, estimate: Estimate) -> &mut Number {
+        let (rows, mark) = (self.rows, self.mark.clone());
+        self.numbers.push(Number { quantity, parameter: None, run: None, in_unit, estimate, rows, mark });
         let last = self.numbers.len() - 1;
         &mut self.numbers[last]
     }
 
-    /// A number of a parameter with its interval and why it is marked.
-    fn estimate(
+    /// A number of so many rows, marked by its own rule or with all others; of a parameter or of all together.
+    fn found(
         &mut self,
-        quantity: &'static str,
-        unit: &str,
-        parameter: usize,
-        estimate: &Estimate,
+        (quantity, in_unit): (&'static str, bool),
+        parameter: Option<usize>,
+        estimate: Estimate,
+        rows: usize,
         mark: Option<String>,
-    ) -> &mut Number {
-        let name = self.report.gathered.samples.inputs[parameter].name.clone();
-        let number = self.put(quantity, unit, estimate.value);
-        number.parameter = name;
-        number.interval = [estimate.low, estimate.high];
-        if let Some(mark) = mark {
-            number.mark = mark;
-        }
-        number
+    ) {
+        let number = self.put(quantity, in_unit, estimate);
+        (number.parameter, number.rows) = (parameter, rows);
+        number.mark = mark.or(number.mark.take());
     }
 
-    fn spread(&mut self) {
-        let Some(s) = self.analysis.spread else {
+    fn spread(&mut self, analysis: &Analysis) {
+        let Some(s) = analysis.spread else {
             return;
         };
-        self.put("samples", "1", s.members as f64);
-        self.put("missing", "1", s.missing as f64);
+        for (quantity, count) in [("samples", s.members), ("missing", s.missing)] {
+            self.put(quantity, false, exactly(count as f64));
+        }
         for (quantity, value) in [
             ("least", s.least),
             ("q05", s.q05),
@@ -117,50 +112,44 @@ impl<'a> List<'a> {
             ("q95", s.q95),
             ("greatest", s.greatest),
         ] {
-            self.put(quantity, "", value);
+            self.put(quantity, true, exactly(value));
         }
     }
 
-    fn linear(&mut self) {
-        let linear = &self.analysis.linear;
+    fn linear(&mut self, analysis: &Analysis) {
+        let linear = &analysis.linear;
         for (i, rank) in linear.ranks.iter().enumerate() {
             if let Ok(found) = rank {
-                let mark = caution::rank(found);
-                self.estimate("rank_correlation", "1", i, &found.rho, mark).rows = found.rows;
+                self.found(("rank_correlation", false), Some(i), found.rho, found.rows, caution::rank(found));
             }
         }
         if let Ok((which, found)) = &linear.regression {
             let mark = caution::regression(found);
             for (i, estimate) in which.iter().zip(&found.coefficients) {
-                self.estimate("regression_coefficient", "1", *i, estimate, mark.clone()).rows = found.rows;
+                self.found(("regression_coefficient", false), Some(*i), *estimate, found.rows, mark.clone());
             }
-            let explained = self.put("r_squared", "1", found.explained);
-            explained.rows = found.rows;
-            explained.mark = mark.unwrap_or_else(|| explained.mark.clone());
+            self.found(("r_squared", false), None, exactly(found.explained), found.rows, mark);
         }
     }
 
-    fn by_design(&mut self) {
-        match &self.analysis.by_design {
+    fn by_design(&mut self, by_design: &ByDesign) {
+        match by_design {
             ByDesign::Sobol(Ok(found)) => {
-                let all = [("sobol_first", &found.first), ("sobol_total", &found.total)];
-                for (quantity, estimates) in all {
+                for (quantity, estimates) in [("sobol_first", &found.first), ("sobol_total", &found.total)] {
                     for (i, estimate) in estimates.iter().enumerate() {
                         let mark = caution::index(estimate, found);
-                        self.estimate(quantity, "1", i, estimate, mark).rows = found.points;
+                        self.found((quantity, false), Some(i), *estimate, found.points, mark);
                     }
                 }
             }
             ByDesign::Morris(Ok(found)) => {
                 for (i, effect) in found.iter().enumerate() {
-                    let sigma = Estimate { value: effect.deviation, low: f64::NAN, high: f64::NAN };
                     for (quantity, estimate) in [
-                        ("morris_mu", &effect.mean),
-                        ("morris_mu_star", &effect.mean_magnitude),
-                        ("morris_sigma", &sigma),
+                        ("morris_mu", effect.mean),
+                        ("morris_mu_star", effect.mean_magnitude),
+                        ("morris_sigma", exactly(effect.deviation)),
                     ] {
-                        let mark = caution::effect(effect);
-                        self.estimate(quantity, "", i, estimate, mark).rows = effect.effects;
+                        self.found((quantity, true), Some(i), estimate, effect.effects, caution::effect(effect));
                     }
                 }
             }
@@ -175,29 +164,11 @@ impl<'a> List<'a> {
                         ("alone_at_least_value", low),
                         ("alone_at_greatest_value", high),
                     ] {
-                        let name = self.report.gathered.samples.inputs[i].name.clone();
-                        let number = self.put(quantity, "", value);
-                        number.parameter = name;
-                        number.rows = reach.levels.len();
+                        self.found((quantity, true), Some(i), exactly(value), reach.levels.len(), None);
                     }
                 }
             }
             _ => {}
-        }
-    }
-
-    fn ends(&mut self) {
-        let opened = &self.report.opened;
-        let extremes = &self.report.gathered.extremes[self.analysis.response];
-        for (quantity, runs) in [("worst", &extremes.worst), ("best", &extremes.best)] {
-            for (value, run) in runs {
-                let again = command(&opened.plan, &opened.manifest, *run).unwrap_or_default();
-                let number = self.put(quantity, "", *value);
-                number.run = Some(*run);
-                number.rows = 1;
-                number.mark.clear();
-                number.command = again;
-            }
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The page: one HTML file that needs no network and no script.
 
 use super::shown::shown_unit;
-use super::{Analysis, Report, caution, sections};
+use super::{Report, caution, sections};
 use crate::base::names::program;
 use crate::pictures::html::Html;
 use crate::pictures::svg::escape;
@@ -28,7 +28,7 @@ pub(crate) fn page(report: &Report) -> String {
     html.raw("</head>\n<body>\n<div id=\"report\" class=\"study\">\n<header>\n");
     html.text("h1", title);
     let ends = &report.gathered.ends;
-    html.text("p", &format!("Study report, {} of {} runs finished", ends.finished, ends.planned));
+    html.text("p", &format!("Study report, {} of {} runs finished", ends.finished(), ends.planned));
     html.raw("</header>\n");
     for note in &report.notes {
         html.text("p class=\"note\"", note);
@@ -40,39 +40,29 @@ pub(crate) fn page(report: &Report) -> String {
     sections::ends(&mut html, report);
     html.raw("</div></div>\n");
     sections::varied(&mut html, report);
-    if ends.finished == 0 {
+    if ends.finished() == 0 {
         html.text("p class=\"note\"", "No run has finished yet: there is nothing to say.");
     }
-    for analysis in shown(report) {
-        sections::response(&mut html, report, analysis);
+    if ends.finished() > 0 {
+        report.findings().for_each(|finding| sections::response(&mut html, &finding));
     }
     about(&mut html, report);
     html.raw("</div>\n</body>\n</html>\n");
     html.finish()
 }
 
-/// The responses that are shown: all, once a run has finished.
-fn shown(report: &Report) -> &[Analysis] {
-    match report.gathered.ends.finished {
-        0 => &[],
-        _ => &report.analyses,
-    }
-}
-
 fn contents(html: &mut Html, report: &Report) {
-    let all = shown(report);
-    if all.len() < 2 {
+    if report.gathered.ends.finished() == 0 || report.analyses.len() < 2 {
         return;
     }
     html.raw("<nav>");
-    for analysis in all {
-        let response = &report.gathered.samples.responses[analysis.response];
-        let unit = shown_unit(&response.unit).1;
+    for finding in report.findings() {
+        let unit = shown_unit(&finding.response.unit).1;
         html.raw(&format!(
             "<a href=\"#r{}\" title=\"{}\">{}</a> ",
-            analysis.response,
+            finding.analysis.response,
             escape(unit),
-            escape(&response.name)
+            escape(&finding.response.name)
         ));
     }
     html.raw("</nav>\n");

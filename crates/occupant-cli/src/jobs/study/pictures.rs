@@ -2,9 +2,9 @@
 
 use occupant_study::spread::quantile;
 
-use super::analysis::{Analysis, ByDesign};
+use super::analysis::ByDesign;
 use super::samples::{Input, Response};
-use super::{Report, plots};
+use super::{Finding, plots};
 use crate::pictures::html::Html;
 
 /// At most so many scatter plots for each response.
@@ -15,9 +15,8 @@ const MAPPED: usize = 4;
 const MAPPED_ROWS: usize = 10;
 
 /// A response over each parameter, and over two at a time.
-pub(crate) fn pictures(html: &mut Html, report: &Report, analysis: &Analysis) {
-    let samples = &report.gathered.samples;
-    let response = &samples.responses[analysis.response];
+pub(crate) fn pictures(html: &mut Html, of: &Finding<'_>) {
+    let Finding { samples, response, analysis, .. } = of;
     let drawn: Vec<&Input> =
         analysis.order.iter().map(|i| &samples.inputs[*i]).filter(|input| input.varies()).collect();
     if drawn.is_empty() {

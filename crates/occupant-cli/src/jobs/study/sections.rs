@@ -1,10 +1,7 @@
 //! The sections of the page.
 
-use super::analysis::Analysis;
-use super::command::command;
-use super::samples::Response;
 use super::shown::{shown, shown_unit, with_unit};
-use super::{Report, caution, describe, matters, pictures};
+use super::{Finding, Report, caution, describe, matters, pictures};
 use crate::pictures::html::{Cell, Html};
 
 pub(crate) fn study(html: &mut Html, report: &Report) {
@@ -15,7 +12,7 @@ pub(crate) fn study(html: &mut Html, report: &Report) {
         ("base scenario", study.base_name().to_owned()),
         ("design", describe::design(study)),
         ("seed", study.seed().to_string()),
-        ("runs", format!("{} of {} finished", ends.finished, ends.planned)),
+        ("runs", format!("{} of {} finished", ends.finished(), ends.planned)),
     ];
     if let Some(ensemble) = study.ensemble() {
         let each = format!(
@@ -60,7 +57,7 @@ pub(crate) fn ends(html: &mut Html, report: &Report) {
         ("failed", ends.failed),
         ("refused", ends.refused),
         ("the program broke off", ends.broken),
-        ("not finished yet", ends.planned - ends.finished),
+        ("not finished yet", ends.planned - ends.finished()),
     ] {
         if count > 0 {
             facts.push((name, count.to_string()));
@@ -84,30 +81,25 @@ pub(crate) fn ends(html: &mut Html, report: &Report) {
     html.table(&["runs", "first", "reason"], &rows);
 }
 
-pub(crate) fn response(html: &mut Html, report: &Report, analysis: &Analysis) {
-    let samples = &report.gathered.samples;
-    let response = &samples.responses[analysis.response];
-    html.raw(&format!("<section id=\"r{}\">\n", analysis.response));
-    html.text("h2", &heading(response));
-    spread(html, response, analysis);
-    if analysis.spread.is_some() && !analysis.constant {
-        matters::by_design(html, report, analysis);
-        matters::linear(html, report, analysis);
-        pictures::pictures(html, report, analysis);
+pub(crate) fn response(html: &mut Html, of: &Finding<'_>) {
+    let heading = match shown_unit(&of.response.unit).1 {
+        "" => of.response.name.clone(),
+        unit => format!("{}, {unit}", of.response.name),
+    };
+    html.raw(&format!("<section id=\"r{}\">\n", of.analysis.response));
+    html.text("h2", &heading);
+    spread(html, of);
+    if of.analysis.spread.is_some() && !of.analysis.constant {
+        matters::by_design(html, of);
+        matters::linear(html, of);
+        pictures::pictures(html, of);
     }
-    extremes(html, report, analysis);
+    extremes(html, of);
     html.raw("</section>\n");
 }
 
-fn heading(response: &Response) -> String {
-    match shown_unit(&response.unit).1 {
-        "" => response.name.clone(),
-        unit => format!("{}, {unit}", response.name),
-    }
-}
-
-fn spread(html: &mut Html, response: &Response, analysis: &Analysis) {
-    let Some(s) = analysis.spread else {
+fn spread(html: &mut Html, of: &Finding<'_>) {
+    let Some(s) = of.analysis.spread else {
         html.text("p class=\"note\"", "No sample that is there has this figure.");
         return;
     };
@@ -115,7 +107,7 @@ fn spread(html: &mut Html, response: &Response, analysis: &Analysis) {
     if let Some(why) = &lacking {
         html.text("p class=\"note\"", &format!("† {why}."));
     }
-    let [stable, unstable] = response.stable;
+    let [stable, unstable] = of.response.stable;
     if unstable > 0 {
         html.text(
             "p class=\"note\"",
@@ -125,34 +117,30 @@ fn spread(html: &mut Html, response: &Response, analysis: &Analysis) {
             ),
         );
     }
-    if analysis.constant {
-        let value = with_unit(s.median, &response.unit);
+    if of.analysis.constant {
+        let value = with_unit(s.median, &of.response.unit);
         html.text("p", &format!("The same in all {} samples: {value}.", s.members));
         return;
     }
     let head = ["samples", "least", "5 %", "median", "95 %", "greatest"];
     let mut row = vec![Cell::Number(s.members.to_string())];
     let values = [s.least, s.q05, s.median, s.q95, s.greatest];
-    row.extend(values.map(|x| Cell::of(shown(x, &response.unit), lacking.clone())));
+    row.extend(values.map(|x| Cell::of(shown(x, &of.response.unit), lacking.clone())));
     html.table(&head, &[row]);
 }
 
-fn extremes(html: &mut Html, report: &Report, analysis: &Analysis) {
-    let samples = &report.gathered.samples;
-    let response = &samples.responses[analysis.response];
-    let found = &report.gathered.extremes[analysis.response];
-    if found.worst.is_empty() {
-        return;
+fn extremes(html: &mut Html, of: &Finding<'_>) {
+    let mut runs = of.numbers.iter().filter_map(|n| Some((n, n.run.as_ref()?))).peekable();
+    if runs.peek().is_some() {
+        html.text("h3", "Worst and best runs");
     }
-    html.text("h3", "Worst and best runs");
-    for (word, runs) in [("greatest", &found.worst), ("least", &found.best)] {
-        for (value, run) in runs {
-            let value = with_unit(*value, &response.unit);
-            html.text("p class=\"run\"", &format!("Run {run}, {word}: {value}"));
-            match command(&report.opened.plan, &report.opened.manifest, *run) {
-                Some(command) => html.text("pre class=\"command\"", &command),
-                None => html.text("p class=\"remark\"", "No shell command can say its values."),
-            }
+    for (number, run) in runs {
+        let word = if number.quantity == "worst" { "greatest" } else { "least" };
+        let value = with_unit(number.estimate.value, &of.response.unit);
+        html.text("p class=\"run\"", &format!("Run {}, {word}: {value}", run.number));
+        match &run.command {
+            Some(command) => html.text("pre class=\"command\"", command),
+            None => html.text("p class=\"remark\"", "No shell command can say its values."),
         }
     }
 }

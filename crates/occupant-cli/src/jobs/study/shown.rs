@@ -18,10 +18,19 @@ pub(crate) fn shown(value: f64, unit: &str) -> String {
 
 /// A number with its shown unit.
 pub(crate) fn with_unit(value: f64, unit: &str) -> String {
+    unit_after(shown(value, unit), unit)
+}
+
+/// A given number with its shown unit.
+pub(crate) fn given_with_unit(value: f64, unit: &str) -> String {
+    unit_after(given(value, unit), unit)
+}
+
+fn unit_after(number: String, unit: &str) -> String {
     match shown_unit(unit).1 {
-        "" => shown(value, unit),
-        "°" => format!("{}°", shown(value, unit)),
-        symbol => format!("{} {symbol}", shown(value, unit)),
+        "" => number,
+        "°" => format!("{number}°"),
+        symbol => format!("{number} {symbol}"),
     }
 }
 
@@ -46,15 +55,6 @@ pub(crate) fn given(value: f64, unit: &str) -> String {
     match text.contains('.') && !text.contains('e') {
         true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
         false => text,
-    }
-}
-
-/// A given number with its shown unit.
-pub(crate) fn given_with_unit(value: f64, unit: &str) -> String {
-    match shown_unit(unit).1 {
-        "" => given(value, unit),
-        "°" => format!("{}°", given(value, unit)),
-        symbol => format!("{} {symbol}", given(value, unit)),
     }
 }
 

@@ -2,27 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-use super::Report;
-use super::numbers::{Number, numbers};
+use super::numbers::Number;
 use super::samples::Samples;
+use super::{Finding, Report};
 use crate::base::failure::Failure;
 use crate::base::output_file::Existing;
-use crate::files::table::{Cell, Form, Kind, TableFile};
-
-const COLUMNS: [(&str, Kind); 12] = [
-    ("response", Kind::Text),
-    ("quantity", Kind::Text),
-    ("parameter", Kind::Text),
-    ("run", Kind::MaybeNumber),
-    ("value", Kind::MaybeNumber),
-    ("low", Kind::MaybeNumber),
-    ("high", Kind::MaybeNumber),
-    ("unit", Kind::Text),
-    ("rows", Kind::Count),
-    ("mark", Kind::Text),
-    ("command", Kind::Text),
-    ("place", Kind::Count),
-];
+use crate::files::table::{Cell, Form, Kind, TableFile, columns};
 
 /// Where the tables of a report go.
 #[derive(Clone, Debug)]
@@ -54,35 +39,39 @@ pub(crate) fn write(report: &Report, tables: &Tables, existing: Existing) -> Res
             "{\"value\": \"column unit\", \"low\": \"column unit\", \"high\": \"column unit\"}".to_owned(),
         ),
     ];
-    let mut table = TableFile::create(tables.numbers.clone(), Form::Parquet, existing, &COLUMNS, &about)?;
-    let mut place = 0;
-    let mut last = ("", String::new());
-    for number in numbers(report) {
-        // the first, second, third worst
-        let now = (number.quantity, number.response.clone());
-        place = if number.run.is_some() && now == last { place + 1 } else { 0 };
-        last = now;
-        table.row(row(&number, place))?;
+    let columns = columns(&[
+        (Kind::Text, &["response", "quantity", "parameter"]),
+        (Kind::MaybeNumber, &["run", "value", "low", "high"]),
+        (Kind::Text, &["unit"]),
+        (Kind::Count, &["rows"]),
+        (Kind::Text, &["mark", "command"]),
+        (Kind::Count, &["place"]),
+    ]);
+    let mut table = TableFile::create(tables.numbers.clone(), Form::Parquet, existing, &columns, &about)?;
+    for finding in report.findings() {
+        finding.numbers.iter().try_for_each(|number| table.row(row(&finding, number)))?;
     }
     table.publish()?;
     samples(&report.gathered.samples, report, &tables.samples, existing)
 }
 
-fn row(number: &Number, place: u64) -> Vec<Cell> {
-    vec![
-        Cell::text(&number.response),
+fn row(of: &Finding<'_>, number: &Number) -> Vec<Cell> {
+    let (e, run) = (&number.estimate, number.run.as_ref());
+    let mut row = vec![
+        Cell::text(&of.response.name),
         Cell::text(number.quantity),
-        Cell::text(&number.parameter),
-        number.run.map_or(Cell::Absent, Cell::count),
-        Cell::finite(number.value),
-        Cell::finite(number.interval[0]),
-        Cell::finite(number.interval[1]),
-        Cell::text(&number.unit),
+        Cell::text(number.parameter.map_or("", |i| &of.samples.inputs[i].name)),
+        run.map_or(Cell::Absent, |run| Cell::count(run.number)),
+    ];
+    row.extend([e.value, e.low, e.high].map(Cell::finite));
+    row.extend([
+        Cell::text(if number.in_unit { &of.response.unit } else { "1" }),
         Cell::count(number.rows as u64),
-        Cell::text(&number.mark),
-        Cell::text(&number.command),
-        Cell::count(place),
-    ]
+        Cell::text(number.mark.as_deref().unwrap_or_default()),
+        Cell::text(run.and_then(|run| run.command.as_deref()).unwrap_or_default()),
+        Cell::count(run.map_or(0, |run| run.place)),
+    ]);
+    row
 }
 
 fn samples(samples: &Samples, report: &Report, path: &Path, existing: Existing) -> Result<(), Failure> {

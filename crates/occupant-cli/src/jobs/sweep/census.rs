@@ -1,52 +1,59 @@
-//! What a sweep came to: how its samples ended, and which of them are the worst.
+//! How the runs of a study ended, and of which the figures count.
 
 use occupant_study::ending::Balance;
 
-use super::worst::Worst;
-use crate::files::study_folder::manifest::{Column, Manifest, Role};
+use crate::files::study_folder::manifest::Manifest;
 use crate::files::study_folder::row::{Row, Status};
+use crate::files::table::Cell;
 
-/// So many reasons are told.
-const TOLD: usize = 3;
+/// So many different reasons are remembered.
+const REASONS: usize = 12;
+/// So many runs are remembered with their reasons.
+const FIRST: usize = 3;
 
-/// Counts how samples ended.
+/// How runs ended.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Census {
-    /// Samples at their end time.
+    /// All runs of the study.
+    pub(crate) planned: u64,
+    /// Runs at their end time.
     pub(crate) completed: u64,
-    /// Samples whose integration failed.
+    /// Runs whose integration failed.
     pub(crate) failed: u64,
-    /// Samples whose scenario is refused.
+    /// Runs whose scenario is refused.
     pub(crate) refused: u64,
-    /// Samples on which the program broke off.
+    /// Runs on which the program broke off.
     pub(crate) broken: u64,
-    /// Completed samples whose energy balance is off by more than a tenth.
-    pub(crate) unbalanced: u64,
-    /// The first samples that did not complete, and why.
-    pub(crate) reasons: Vec<(u64, String)>,
+    /// Completed runs with an energy balance that is off by more than 10 %: their figures count for nothing.
+    pub(crate) doubtful: u64,
+    /// The first runs that did not complete, and why.
+    pub(crate) first: Vec<(u64, String)>,
+    /// Reasons of runs that did not complete: words, how many, the first run.
+    pub(crate) reasons: Vec<(String, u64, u64)>,
+    /// Runs with other reasons still.
+    pub(crate) other_reasons: u64,
+    /// Column of the energy balance.
     balance: Option<usize>,
-    worst: Option<(usize, Worst)>,
 }
 
 impl Census {
     pub(crate) fn new(manifest: &Manifest) -> Self {
-        Census { balance: column(manifest, "energy.balance_error"), ..Census::default() }
+        let balance = manifest.figure("energy.balance_error");
+        Census { planned: manifest.samples, balance, ..Census::default() }
     }
 
-    /// Looks for the `count` worst by a figure too; false if there is no such figure.
-    pub(crate) fn look_for(&mut self, manifest: &Manifest, count: usize, figure: &str) -> bool {
-        let column = column(manifest, figure);
-        self.worst = column.map(|c| (c, Worst::new(count)));
-        column.is_some()
+    /// Runs that have ended, however.
+    pub(crate) fn finished(&self) -> u64 {
+        self.completed + self.failed + self.refused + self.broken
     }
 
-    /// The worst, if they were looked for.
-    pub(crate) fn worst(&self) -> Vec<u64> {
-        let worst = self.worst.as_ref();
-        worst.map(|(_, worst)| worst.indices()).unwrap_or_default()
+    /// Finished runs without figures that count.
+    pub(crate) fn without_figures(&self) -> u64 {
+        self.finished() - self.completed + self.doubtful
     }
 
-    pub(crate) fn see(&mut self, row: &Row) {
+    /// Counts a run; whether its figures count.
+    pub(crate) fn see(&mut self, row: &Row) -> bool {
         *match row.status {
             Status::Completed => &mut self.completed,
             Status::Failed => &mut self.failed,
@@ -54,25 +61,25 @@ impl Census {
             Status::Broken => &mut self.broken,
         } += 1;
         if row.status != Status::Completed {
-            if self.reasons.len() < TOLD {
-                self.reasons.push((row.index, row.reason.clone()));
-            }
-            return;
+            self.remember(row);
+            return false;
         }
-        let value = |column: usize| row.cells.get(column).and_then(|cell| cell.number());
-        if self.balance.and_then(value).is_some_and(|e| Balance::of(e) == Balance::Lost) {
-            self.unbalanced += 1;
+        let error = |at: usize| row.cells.get(at).and_then(Cell::number);
+        let balanced = |at: usize| error(at).is_some_and(|error| Balance::of(error) != Balance::Lost);
+        let counts = self.balance.is_none_or(balanced);
+        self.doubtful += u64::from(!counts);
+        counts
+    }
+
+    fn remember(&mut self, row: &Row) {
+        if self.first.len() < FIRST {
+            self.first.push((row.index, row.reason.clone()));
         }
-        if let Some((column, worst)) = &mut self.worst
-            && let Some(value) = value(*column)
-        {
-            worst.see(value, row.index);
+        let known = self.reasons.iter().position(|r| r.0 == row.reason);
+        match known {
+            Some(at) => self.reasons[at].1 += 1,
+            None if self.reasons.len() < REASONS => self.reasons.push((row.reason.clone(), 1, row.index)),
+            None => self.other_reasons += 1,
         }
     }
-}
-
-/// Where a figure stands.
-fn column(manifest: &Manifest, figure: &str) -> Option<usize> {
-    let ours = |c: &Column| c.role == Role::Figure && c.name == figure;
-    manifest.columns.iter().position(ours)
 }

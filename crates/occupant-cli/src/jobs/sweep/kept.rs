@@ -18,22 +18,10 @@ use crate::files::study_folder::row::Status;
 
 /// Reads `none`, `all`, `3, 17` or `worst 5 by head.peak`.
 pub(crate) fn parse(text: &str) -> Option<Keep> {
-    let words: Vec<&str> = text.split_whitespace().collect();
-    match words[..] {
-        ["none"] => Some(Keep::None),
-        ["all"] => Some(Keep::All),
-        ["worst", count, "by", measure] => {
-            Some(Keep::Worst { count: count.parse().ok().filter(|n| *n > 0)?, measure: measure.to_owned() })
-        }
-        _ => {
-            let number = |word: &str| word.trim().parse::<u64>().ok();
-            let numbers: Option<Vec<u64>> = text.split(',').map(number).collect();
-            let mut numbers = numbers?;
-            numbers.sort_unstable();
-            numbers.dedup();
-            Some(Keep::Indices(numbers))
-        }
-    }
+    Keep::from_words(text).or_else(|| {
+        let numbers: Result<Vec<u64>, _> = text.split(',').map(|word| word.trim().parse()).collect();
+        numbers.ok().map(Keep::of)
+    })
 }
 
 /// Makes the folder of the kept runs, where there will be any.
@@ -78,12 +66,8 @@ pub(crate) fn missing(
 }
 
 /// Those of a range that are kept beforehand.
-pub(crate) fn wanted(keep: &Keep, samples: Range<u64>) -> Box<dyn Iterator<Item = u64> + '_> {
-    match keep {
-        Keep::All => Box::new(samples),
-        Keep::Indices(_) => Box::new(samples.filter(|i| is_kept(keep, *i))),
-        Keep::None | Keep::Worst { .. } => Box::new(std::iter::empty()),
-    }
+pub(crate) fn wanted(keep: &Keep, samples: Range<u64>) -> impl Iterator<Item = u64> {
+    samples.filter(|i| is_kept(keep, *i))
 }
 
 /// Runs samples again and writes their files.

@@ -1,16 +1,19 @@
 //! Sweeps: every sample of a study run, one row each, on all cores, to be resumed after any interruption.
 //!
 //! ```text
-//! study ─ Plan ─ engine (sample → model → run → figures → row) ─ journal ─ table
+//! study ─ Plan ─ engine (sample → model → run → figures → row) ─ journal ─ table, census, worst, stable
 //! ```
 //!
 //! A finished sample is a row in the journal at once; the table is made from the journal when all are there.
 
 pub(crate) mod census;
+pub(crate) mod extremes;
+pub(crate) mod job;
 pub(crate) mod kept;
-pub(crate) mod parts;
 pub(crate) mod plan;
-pub(crate) mod progress;
+mod progress;
 pub(crate) mod results;
 pub(crate) mod simulation;
-mod worst;
+mod stable;
+pub(crate) mod stored;
+pub(crate) mod words;

@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use occupant_core::model::Model;
-use occupant_core::problem::Severity;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{Figure, Summarizer};
@@ -14,13 +13,16 @@ use occupant_study::{Design, Law, Parameter, Setting, Study, StudyText, Value};
 
 use crate::base::failure::Failure;
 use crate::base::names::file_name;
-use crate::files::scenario::{Opened, ScenarioArgs, format_of};
+use crate::files::scenario::{Opened, ScenarioArgs, format_of, refused};
 use crate::files::study_folder::manifest::{Column, Manifest, Role};
 use crate::files::study_folder::texts::{NamedBy, Texts};
 use crate::files::table::Cell;
 
 /// So many samples are tried to find the columns where the base scenario itself cannot be run.
 const TRIED: u64 = 16;
+
+/// The key under which a scenario names a file.
+pub(crate) const FILE: &str = "path.file";
 
 /// A study and everything it needs. Shared by all threads.
 pub(crate) struct Plan {
@@ -151,25 +153,14 @@ impl Plan {
 
     /// Reads what the scenario names, and what those of the samples name where a study varies the name of a file.
     fn take_tables(&mut self, texts: &Texts) {
-        let mut names: Vec<String> = Vec::new();
-        let file = "path.file";
-        let mut base = self.study.base().clone();
-        if let Ok(found) = base.get(file) {
-            let name = |(_, value): &(String, Written)| match value {
-                Written::String(name) => Some(name.clone()),
-                _ => None,
-            };
-            names.extend(found.iter().filter_map(name));
-        }
-        let varied = self.study.parameters().iter().any(|p| p.targets.iter().any(|t| t.path == file));
-        if varied {
-            for index in 0..self.study.len() {
-                for assignment in &self.study.assignments(index) {
-                    if let (true, Value::Text(name)) = (assignment.path == file, &assignment.value)
-                        && !names.contains(name)
-                    {
-                        names.push(name.clone());
-                    }
+        let mut names: Vec<String> = named_file(&self.study).into_iter().collect();
+        let varied = self.study.parameters().iter().any(|p| p.targets.iter().any(|t| t.path == FILE));
+        for index in (0..self.study.len()).filter(|_| varied) {
+            for assignment in &self.study.assignments(index) {
+                if let (FILE, Value::Text(name)) = (assignment.path.as_str(), &assignment.value)
+                    && !names.contains(name)
+                {
+                    names.push(name.clone());
                 }
             }
         }
@@ -250,6 +241,14 @@ fn changes_of(text: &StudyText) -> Vec<String> {
     text.section.set.iter().map(change).collect()
 }
 
+/// The file that the base scenario of a study names.
+pub(crate) fn named_file(study: &Study) -> Option<String> {
+    match study.base().clone().get(FILE).ok()?.into_iter().next()? {
+        (_, Written::String(name)) => Some(name),
+        _ => None,
+    }
+}
+
 /// Whether a parameter has values that are no numbers.
 fn has_texts(study: &Study, at: usize) -> bool {
     let text = |value: &Value| matches!(value, Value::Text(_) | Value::Truth(_));
@@ -267,13 +266,4 @@ impl Recorder for Enough {
     fn record(&mut self, _sample: &Sample<'_>) -> Result<Flow, RecorderError> {
         Ok(Flow::Stop)
     }
-}
-
-fn refused(name: &str, problems: &Diagnostics) -> Failure {
-    let errors = problems.iter().filter(|d| d.problem.severity == Severity::Error);
-    let count = match errors.count() {
-        1 => "1 error".to_owned(),
-        n => format!("{n} errors"),
-    };
-    Failure::CouldNotRun(format!("{problems}\n\n{name}: {count}, nothing was run"))
 }

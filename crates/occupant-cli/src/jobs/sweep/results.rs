@@ -5,14 +5,29 @@ use std::path::PathBuf;
 use occupant_study::Keep;
 
 use super::census::Census;
+use super::extremes::Extremes;
+use super::stable::{Ensembles, Stable};
 use crate::base::failure::Failure;
 use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::journal::Journal;
 use crate::files::study_folder::manifest::Manifest;
 use crate::files::study_folder::problem::Problem;
+use crate::files::study_folder::row::Status;
 use crate::files::study_folder::table::{StudyTable, write_columns};
+use crate::files::table::Cell;
 
-/// Writes the table into `folder` and counts how samples ended.
+/// What a sweep came to.
+pub(crate) struct Results {
+    pub(crate) census: Census,
+    /// The samples with the greatest values of the measure that the keep names, greatest first.
+    pub(crate) worst: Vec<u64>,
+    /// What is stable, where the study has ensembles.
+    pub(crate) ensembles: Option<Ensembles>,
+    /// Files that were written.
+    pub(crate) files: Vec<PathBuf>,
+}
+
+/// Writes the tables into `folder` and counts how samples ended.
 ///
 /// # Errors
 /// Samples that are missing or disagree; another process at the same work; the operating system refuses. A table that was
@@ -23,7 +38,7 @@ pub(crate) fn write(
     manifest: &Manifest,
     keep: &Keep,
     csv: bool,
-) -> Result<(Census, Vec<PathBuf>), Failure> {
+) -> Result<Results, Failure> {
     refuse_gaps(journal, manifest)?;
     let _alone = folder.claim_table()?;
     let written = write_files(folder, journal, manifest, keep, csv);
@@ -52,20 +67,31 @@ fn write_files(
     manifest: &Manifest,
     keep: &Keep,
     csv: bool,
-) -> Result<(Census, Vec<PathBuf>), Failure> {
+) -> Result<Results, Failure> {
+    let (count, figure) = match keep {
+        Keep::Worst { count, measure } => (*count, manifest.figure(measure)),
+        _ => (0, None),
+    };
+    let mut extremes = Extremes::new(usize::try_from(count).unwrap_or(usize::MAX));
     let mut census = Census::new(manifest);
-    if let Keep::Worst { count, measure } = keep {
-        let count = usize::try_from(*count).unwrap_or(usize::MAX);
-        census.look_for(manifest, count, measure);
-    }
+    let mut stable = Stable::begin(folder, manifest, csv)?;
     let mut table = StudyTable::create(folder.parquet(), csv.then(|| folder.csv()), manifest)?;
     journal.each_row(|row| {
-        census.see(&row);
+        let counts = census.see(&row);
+        let value = figure.and_then(|at| row.cells.get(at)).and_then(Cell::number);
+        if let (Status::Completed, Some(value)) = (row.status, value) {
+            extremes.see(row.index, value);
+        }
+        if let Some(stable) = &mut stable {
+            stable.see(&row, counts)?;
+        }
         table.row(&row)
     })?;
     let mut files = table.publish()?;
     if csv {
         files.push(write_columns(folder.columns(), manifest)?);
     }
-    Ok((census, files))
+    let ensembles = stable.map(Stable::finish).transpose()?;
+    files.extend(ensembles.iter().flat_map(|e| e.files.clone()));
+    Ok(Results { census, worst: extremes.worst.iter().map(|(_, index)| *index).collect(), ensembles, files })
 }

@@ -1,11 +1,10 @@
-//! The runs with the greatest and the least values of a response.
+//! The runs with the greatest and the least values of a figure.
 
-/// So many at each end.
-const COUNT: usize = 3;
-
-/// The runs at both ends of a response: value and number of the run.
+/// The runs at both ends of a figure: value and number of the run.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Extremes {
+    /// So many at each end.
+    count: usize,
     /// Greatest first; of equal ones the lowest number.
     pub(crate) worst: Vec<(f64, u64)>,
     /// Least first.
@@ -13,20 +12,24 @@ pub(crate) struct Extremes {
 }
 
 impl Extremes {
+    pub(crate) fn new(count: usize) -> Self {
+        Extremes { count, ..Extremes::default() }
+    }
+
     /// Looks at the next run. One without a value is at no end.
     pub(crate) fn see(&mut self, run: u64, value: f64) {
         if value.is_finite() {
-            put(&mut self.worst, (value, run), |a, b| a > b);
-            put(&mut self.best, (value, run), |a, b| a < b);
+            put(&mut self.worst, (value, run), self.count, |a, b| a > b);
+            put(&mut self.best, (value, run), self.count, |a, b| a < b);
         }
     }
 }
 
-fn put(list: &mut Vec<(f64, u64)>, new: (f64, u64), before: impl Fn(f64, f64) -> bool) {
+fn put(list: &mut Vec<(f64, u64)>, new: (f64, u64), count: usize, before: impl Fn(f64, f64) -> bool) {
     let at = list.partition_point(|old| !before(new.0, old.0));
-    if at < COUNT {
+    if at < count {
         list.insert(at, new);
-        list.truncate(COUNT);
+        list.truncate(count);
     }
 }
 
@@ -36,7 +39,7 @@ mod tests {
 
     #[test]
     fn the_ends_are_found_and_ties_keep_their_order() {
-        let mut extremes = Extremes::default();
+        let mut extremes = Extremes::new(3);
         for (run, value) in [3.0, f64::NAN, 7.0, 1.0, 7.0, 2.0, 9.0].into_iter().enumerate() {
             extremes.see(run as u64, value);
         }

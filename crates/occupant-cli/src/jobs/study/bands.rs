@@ -2,44 +2,28 @@
 //!
 //! A sweep keeps no histories, so the members of a sample are run once more, one sample at a time: memory grows with
 //! members, channels and outputs, not with samples. A file carries its name only when it is complete and says of what it
-//! is, so that a process that was killed goes on with the first sample that has none.
+//! is, so that a process that was killed is resumed at the first sample that has none.
 
-use std::fs::File;
+use std::fs::{self, File};
 use std::path::{Path, PathBuf};
 
 use indicatif::ProgressBar;
 use occupant_core::results::channel::Channel;
 use occupant_study::engine::Engine;
+use occupant_study::spread::Rule;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 
-use super::bands::{Bands, choose, refuse_too_much};
-use super::judge::Tolerance;
-use super::members::{Left, Member, Members};
 use crate::base::failure::Failure;
 use crate::base::interrupt::Interrupt;
 use crate::base::output_file::Existing;
-use crate::files::table::{Cell, Form, Kind, TableFile};
+use crate::base::talk::say;
+use crate::files::table::{Cell, Form, Kind, TableFile, columns};
+use crate::jobs::ensemble::bands::{Bands, choose, refuse_too_much};
+use crate::jobs::ensemble::members::{Left, Member, Members};
 use crate::jobs::sweep::plan::Plan;
 
 /// What a file says of itself.
 const ABOUT: &str = "occupant.bands";
-
-const COLUMNS: [(&str, Kind); 14] = [
-    ("sample", Kind::Count),
-    ("channel", Kind::Text),
-    ("unit", Kind::Text),
-    ("time_s", Kind::MaybeNumber),
-    ("nominal", Kind::MaybeNumber),
-    ("q05", Kind::MaybeNumber),
-    ("q25", Kind::MaybeNumber),
-    ("median", Kind::MaybeNumber),
-    ("q75", Kind::MaybeNumber),
-    ("q95", Kind::MaybeNumber),
-    ("tolerance", Kind::MaybeNumber),
-    ("lost_at_s", Kind::MaybeNumber),
-    ("members", Kind::Count),
-    ("failed", Kind::Count),
-];
 
 pub(crate) struct StudyBands<'a> {
     pub(crate) plan: &'a Plan,
@@ -56,7 +40,7 @@ pub(crate) struct StudyBands<'a> {
 
 /// What is there of a sample.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum There {
+enum There {
     Bands,
     Nothing,
     /// A file of something else.
@@ -64,11 +48,38 @@ pub(crate) enum There {
 }
 
 impl StudyBands<'_> {
-    pub(crate) fn file(&self, sample: u64) -> PathBuf {
+    /// Writes the bands of all samples that have none yet.
+    ///
+    /// # Errors
+    /// Files of something else that may not be replaced; interrupted; the operating system refuses.
+    pub(crate) fn write_all(&self, existing: Existing, quiet: bool) -> Result<(), Failure> {
+        let samples = self.plan.study().samples();
+        let mut all = 0..samples;
+        if existing == Existing::Keep
+            && let Some(sample) = all.find(|s| self.there(*s) == There::Other)
+        {
+            return Err(Failure::with_help(
+                format!("{} holds other bands", self.file(sample).display()),
+                "--force replaces them; the same --channels go on",
+            ));
+        }
+        fs::create_dir_all(&self.folder)
+            .map_err(|e| Failure::plain(format!("{} cannot be made: {e}", self.folder.display())))?;
+        for sample in (0..samples).filter(|s| self.there(*s) != There::Bands) {
+            let done = format!("the bands of {sample} of {samples} samples are there; the same command resumes");
+            self.write(sample).map_err(|failure| failure.with_done(&done))?;
+            if !quiet {
+                say(&format!("sample {sample}: {}", self.file(sample).display()));
+            }
+        }
+        Ok(())
+    }
+
+    fn file(&self, sample: u64) -> PathBuf {
         self.folder.join(format!("{sample:06}.parquet"))
     }
 
-    pub(crate) fn there(&self, sample: u64) -> There {
+    fn there(&self, sample: u64) -> There {
         let path = self.file(sample);
         match (path.exists(), said_of_itself(&path)) {
             (false, _) => There::Nothing,
@@ -82,7 +93,7 @@ impl StudyBands<'_> {
         let about = serde_json::json!({
             "sweep": self.manifest_sha256,
             "channels": self.channels,
-            "within": Tolerance::default().relative,
+            "within": Rule::default().relative,
         });
         about.to_string()
     }
@@ -91,7 +102,7 @@ impl StudyBands<'_> {
     ///
     /// # Errors
     /// A channel that is none; interrupted; the file cannot be written.
-    pub(crate) fn write(&self, sample: u64) -> Result<(), Failure> {
+    fn write(&self, sample: u64) -> Result<(), Failure> {
         let study = self.plan.study();
         let runs = sample * study.members()..(sample + 1) * study.members();
         let channels = self.channels_of(runs.start)?;
@@ -122,24 +133,24 @@ impl StudyBands<'_> {
         let completed: Vec<&Left> = members.iter().flatten().collect();
         let runs: Vec<&[Vec<f64>]> = completed.iter().map(|l| l.values.as_slice()).collect();
         let time_s = completed.first().map_or(Vec::new(), |l| l.time_s.clone());
-        let mut bands = Bands::of(channels, time_s, &runs, Tolerance::default());
-        let counts = [completed.len(), members.len() - completed.len()].map(|n| n as u64);
+        let mut bands = Bands::of(channels, time_s, &runs, Rule::default().relative);
+        let counts = [completed.len(), members.len() - completed.len()].map(|n| Cell::count(n as u64));
         if !matches!(members.first(), Some(Ok(_))) {
             // the first that completed is not the unchanged one
             bands.channels.iter_mut().for_each(|band| band.nominal.clear());
         }
+        let mut columns = columns(&[(Kind::Count, &["sample"])]);
+        columns.extend(Bands::columns());
+        columns.extend(["tolerance", "lost_at_s"].map(|name| (name, Kind::MaybeNumber)));
+        columns.extend(["members", "failed"].map(|name| (name, Kind::Count)));
         let about = [(ABOUT, self.about())];
-        let path = self.file(sample);
-        let mut table = TableFile::create(path, Form::Parquet, Existing::Replace, &COLUMNS, &about)?;
-        for band in &bands.channels {
-            let lost_at_s = band.lost_at_s.map_or(Cell::Absent, Cell::Number);
-            for i in 0..bands.time_s.len() {
-                let mut row = vec![Cell::count(sample)];
-                row.extend(band.cells(&bands.time_s, i));
-                row.extend([Cell::finite(band.tolerance), lost_at_s.clone()]);
-                row.extend(counts.map(Cell::count));
-                table.row(row)?;
-            }
+        let mut table = TableFile::create(self.file(sample), Form::Parquet, Existing::Replace, &columns, &about)?;
+        for (band, values) in bands.rows() {
+            let mut row = vec![Cell::count(sample)];
+            row.extend(values);
+            row.extend([Cell::finite(band.tolerance), band.lost_at_s.map_or(Cell::Absent, Cell::Number)]);
+            row.extend(counts.clone());
+            table.row(row)?;
         }
         table.publish().map(|_| ())
     }

@@ -1,0 +1,117 @@
+//! A sweep in its folder: computes what is missing, writes whole runs that are kept, then the tables.
+
+use std::ops::Range;
+
+use occupant_study::Keep;
+use occupant_study::engine::Engine;
+
+use super::plan::Plan;
+use super::progress::Progress;
+use super::simulation::Simulation;
+use super::stored::sha256_of;
+use super::words::{tell, warn_unlocked};
+use super::{kept, results};
+use crate::base::failure::{Done, Failure};
+use crate::base::interrupt::Interrupt;
+use crate::base::talk::say;
+use crate::files::study_folder::finished::Finished;
+use crate::files::study_folder::folder::Folder;
+use crate::files::study_folder::journal::{Journal, JournalWriter};
+use crate::files::study_folder::shard::Shard;
+
+/// A sweep, or one part of it.
+pub(crate) struct Sweep {
+    pub(crate) plan: Plan,
+    pub(crate) folder: Folder,
+    pub(crate) shard: Shard,
+    /// Of which samples the whole run is written.
+    pub(crate) keep: Keep,
+    /// Whether tables are written as CSV too.
+    pub(crate) csv: bool,
+    /// Whether results that are there are removed.
+    pub(crate) restart: bool,
+    pub(crate) quiet: bool,
+    pub(crate) engine: Engine,
+    pub(crate) interrupt: Interrupt,
+}
+
+impl Sweep {
+    /// Computes what is missing, and of a whole sweep writes the tables.
+    ///
+    /// # Errors
+    /// A folder of something else, or in which another process is at work; interrupted; the operating system refuses.
+    pub(crate) fn run(&self) -> Result<Done, Failure> {
+        let Sweep { plan, folder, .. } = self;
+        let manifest = &plan.manifest;
+        let held = folder.claim(manifest, &plan.texts, self.shard, self.restart)?;
+        warn_unlocked(&held, "computing the same shard", self.quiet);
+        kept::prepare(&self.keep, folder)?;
+        let samples = self.shard.range(manifest.samples);
+        let sha256 = sha256_of(manifest)?;
+        let journal = || Journal::read(std::slice::from_ref(folder), &sha256, manifest.samples);
+        let progress = self.compute(&journal()?.finished, &samples, &sha256)?;
+        let journal = journal()?;
+        let lacking = kept::missing(folder, &journal, kept::wanted(&self.keep, samples.clone()))?;
+        self.write_kept(&lacking)?;
+        if self.shard.is_whole() {
+            return self.finish(&journal, &progress);
+        }
+        if !self.quiet {
+            say(&format!(
+                "shard {}: all {} samples are there, {} of them computed now; `occupant sweep merge {}` makes the table when all shards are",
+                self.shard,
+                samples.end - samples.start,
+                progress.computed,
+                folder.path().display()
+            ));
+        }
+        Ok(Done::Well)
+    }
+
+    /// Computes what is not finished.
+    fn compute(&self, finished: &Finished, samples: &Range<u64>, sha256: &str) -> Result<Progress, Failure> {
+        let before = finished.count(samples.clone());
+        let count = samples.end - samples.start;
+        if before > 0 && before < count && !self.quiet {
+            say(&format!("resuming: {before} of {count} samples are there"));
+        }
+        let mut progress = Progress::new(count, before, self.quiet);
+        let mut journal = JournalWriter::new(&self.folder, sha256, self.shard)?;
+        let simulation = Simulation { plan: &self.plan, keep: &self.keep, folder: &self.folder };
+        let missing = samples.clone().filter(|index| !finished.has(*index));
+        let ended = self.engine.run(&simulation, missing, self.interrupt.flag(), |row| {
+            journal.append(&row)?;
+            progress.see(&row);
+            Ok(())
+        });
+        progress.end();
+        let ended = ended.and_then(|()| Ok(journal.close()?));
+        let done = before + progress.computed;
+        let kept = format!("{done} of {count} samples are finished and kept; the same command resumes the sweep");
+        ended.map_err(|failure| failure.with_done(&kept))?;
+        self.interrupt.refuse(&kept)?;
+        Ok(progress)
+    }
+
+    /// Writes whole runs of finished samples.
+    fn write_kept(&self, samples: &[u64]) -> Result<(), Failure> {
+        kept::write(&self.plan, &self.folder, samples, &self.engine, self.interrupt.flag())?;
+        self.interrupt.refuse("all samples are finished; the same command resumes the sweep")
+    }
+
+    /// The tables, and the worst.
+    fn finish(&self, journal: &Journal, progress: &Progress) -> Result<Done, Failure> {
+        let found = results::write(&self.folder, journal, &self.plan.manifest, &self.keep, self.csv)?;
+        self.write_kept(&kept::missing(&self.folder, journal, found.worst.iter().copied())?)?;
+        if self.quiet {
+            return Ok(Done::Well);
+        }
+        let work = format!(
+            "{} samples in {:.1} s, {} threads",
+            progress.computed,
+            progress.elapsed_s(),
+            self.engine.threads()
+        );
+        tell(&found, Some(work))
+    }
+}

@@ -1,0 +1,72 @@
+//! What a sweep says it came to.
+
+use super::results::Results;
+use super::stable::Ensembles;
+use crate::base::failure::{Done, Failure};
+use crate::base::talk;
+use crate::base::text_table::Align::{Left, Right};
+use crate::base::text_table::{Table, facts};
+use crate::files::study_folder::folder::Held;
+use crate::jobs::ensemble::text::{figure_table, is_shown};
+
+/// Warns where a file system has no locks; `doing` is what two processes could be at in one folder.
+pub(crate) fn warn_unlocked(held: &Held, doing: &str, quiet: bool) {
+    if let (Some(reason), false) = (&held.unlocked, quiet) {
+        talk::say(&format!(
+            "warning: this file system has no locks ({reason}): nothing but you keeps two processes from {doing}"
+        ));
+    }
+}
+
+/// What it came to.
+pub(crate) fn tell(results: &Results, work: Option<String>) -> Result<Done, Failure> {
+    let census = &results.census;
+    let mut ended = vec![format!("{} completed", census.completed)];
+    for (count, word) in
+        [(census.failed, "failed"), (census.refused, "refused"), (census.broken, "on which the program broke off")]
+    {
+        if count > 0 {
+            ended.push(format!("{count} {word}"));
+        }
+    }
+    let mut lines = vec![("samples", ended.join(", "))];
+    lines.extend(census.first.iter().map(|(index, reason)| ("", format!("{index}: {reason}"))));
+    if census.doubtful > 0 {
+        let found = "samples whose energy balance is off by more than 10 %: their figures mean nothing";
+        lines.push(("doubtful", format!("{} {found}", census.doubtful)));
+    }
+    lines.extend(work.map(|work| ("computed", work)));
+    let names: Vec<String> = results.files.iter().map(|f| f.display().to_string()).collect();
+    lines.push(("written", names.join(", ")));
+    let stable = results.ensembles.as_ref().map(|e| format!("\n{}", stable(e)));
+    talk::print(&(facts(&lines) + &stable.unwrap_or_default()))?;
+    Ok(Done::Well)
+}
+
+/// The ensembles of a study in words.
+fn stable(found: &Ensembles) -> String {
+    let failed = match found.failed {
+        0 => String::new(),
+        n => format!("; {n} members did not complete, and no figure of their samples counts as stable"),
+    };
+    let samples = match found.samples {
+        1 => "1 sample".to_owned(),
+        n => format!("{n} samples"),
+    };
+    let lines = [("ensembles", format!("{samples}{failed}"))];
+    let table = match found.samples {
+        0 | 1 => figure_table(&found.first),
+        _ => all_samples(found),
+    };
+    format!("{}\n{table}", facts(&lines))
+}
+
+fn all_samples(found: &Ensembles) -> String {
+    let mut table =
+        Table::of(&[(Left, &["figure"]), (Right, &["stable in", "NOT STABLE in", "too few members in", "absent in"])]);
+    for figure in found.figures.iter().filter(|f| is_shown(&f.name)) {
+        let counts = [figure.stable, figure.unstable, figure.too_few, figure.absent];
+        table.row(std::iter::once(figure.name.clone()).chain(counts.map(|n| n.to_string())));
+    }
+    table.text()
+}
