@@ -60,7 +60,7 @@ impl<E: Reported> Owner for OneOf<E> {
 }
 
 /// The elements of one kind at one output.
-pub struct Shown<'a, E: Element + ?Sized> {
+pub struct Shown<'a, E: Element> {
     /// What the setup says of them.
     pub data: E::Data<'a>,
     /// Their law.

@@ -16,7 +16,7 @@ pub trait Archive {
 
 impl dyn Archive + '_ {
     /// Exchanges a number.
-    pub fn number(&mut self, words: FieldWords, number: &mut f64) {
+    pub(crate) fn number(&mut self, words: FieldWords, number: &mut f64) {
         let mut value = Value::Number(*number);
         self.exchange(words, &mut value);
         if let Value::Number(stored) = value {
@@ -25,7 +25,7 @@ impl dyn Archive + '_ {
     }
 
     /// Exchanges a whole number.
-    pub fn count(&mut self, words: FieldWords, count: &mut u64) {
+    pub(crate) fn count(&mut self, words: FieldWords, count: &mut u64) {
         let mut value = Value::Count(*count);
         self.exchange(words, &mut value);
         if let Value::Count(stored) = value {
@@ -34,14 +34,14 @@ impl dyn Archive + '_ {
     }
 
     /// Exchanges a list of numbers.
-    pub fn numbers(&mut self, words: FieldWords, list: Vec<f64>) -> Vec<f64> {
+    pub(crate) fn numbers(&mut self, words: FieldWords, list: Vec<f64>) -> Vec<f64> {
         let mut value = Value::Numbers(list);
         self.exchange(words, &mut value);
         if let Value::Numbers(stored) = value { stored } else { Vec::new() }
     }
 
     /// Exchanges a list of indices.
-    pub fn indices(&mut self, words: FieldWords, list: Vec<u32>) -> Vec<u32> {
+    pub(crate) fn indices(&mut self, words: FieldWords, list: Vec<u32>) -> Vec<u32> {
         let mut value = Value::Indices(list);
         self.exchange(words, &mut value);
         if let Value::Indices(stored) = value { stored } else { Vec::new() }

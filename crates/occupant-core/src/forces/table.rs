@@ -63,29 +63,33 @@ pub enum Holds {
 
 impl Column {
     /// Words.
-    pub const fn text(key: &'static str, heading: &'static str) -> Self {
+    pub(crate) const fn text(key: &'static str, heading: &'static str) -> Self {
         Column { holds: Holds::Text, ..Column::number(key, heading, 0) }
     }
 
     /// Numbers, printed in the unit of JSON.
-    pub const fn number(key: &'static str, heading: &'static str, decimals: usize) -> Self {
+    pub(crate) const fn number(key: &'static str, heading: &'static str, decimals: usize) -> Self {
         Column { key, heading, scale: 1.0, decimals, holds: Holds::Number, measure: None }
     }
 
     /// When the peak of the column before was reached.
-    pub const fn time(key: &'static str) -> Self {
+    pub(crate) const fn time(key: &'static str) -> Self {
         Column { scale: 1e3, holds: Holds::Time, ..Column::number(key, "at, ms", 1) }
     }
 
     /// Also a measure of a run.
-    pub const fn measure(self, name: &'static str, unit: Unit) -> Self {
+    pub(crate) const fn measure(self, name: &'static str, unit: Unit) -> Self {
         Column { measure: Some((name, unit)), ..self }
     }
 }
 
 impl Table {
     /// A table of elements of which one is called `of`, with a row of cells for each name.
-    pub fn new(of: &'static str, columns: &[Column], rows: impl IntoIterator<Item = (String, Vec<Cell>)>) -> Self {
+    pub(crate) fn new(
+        of: &'static str,
+        columns: &[Column],
+        rows: impl IntoIterator<Item = (String, Vec<Cell>)>,
+    ) -> Self {
         let columns = [&[Column::text(of, of)], columns].concat();
         let row = |(name, cells)| {
             let cells = [Cell::Text(name)].into_iter().chain(cells);

@@ -14,10 +14,12 @@ pub(super) struct ElementPeaks(Vec<KindPeaks>);
 #[derive(Clone, Debug)]
 struct KindPeaks {
     of: &'static str,
-    /// Element by element.
-    peaks: Vec<(String, Vec<Peak>)>,
-    table: fn(&[(String, Vec<Peak>)]) -> Table,
+    peaks: Vec<OfOne>,
+    table: fn(&[OfOne]) -> Table,
 }
+
+/// An element's name and peaks.
+type OfOne = (String, Vec<Peak>);
 
 impl ElementPeaks {
     /// None seen yet.
@@ -63,10 +65,9 @@ impl Visitor for See<'_, '_> {
     }
 }
 
-fn table<E: Reported>(peaks: &[(String, Vec<Peak>)]) -> Table {
+fn table<E: Reported>(peaks: &[OfOne]) -> Table {
     let columns: Vec<_> = E::PEAKS.iter().flat_map(|tracked| [Some(tracked.column), tracked.time]).flatten().collect();
-    let row =
-        |(name, peaks): &(String, Vec<Peak>)| (name.clone(), E::PEAKS.iter().zip(peaks).flat_map(cells).collect());
+    let row = |(name, peaks): &OfOne| (name.clone(), E::PEAKS.iter().zip(peaks).flat_map(cells).collect());
     Table::new(E::NAMES[0], &columns, peaks.iter().map(row))
 }
 
