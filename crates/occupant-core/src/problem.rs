@@ -76,12 +76,12 @@ impl Problems {
     }
 
     /// Adds an error.
-    pub fn error(&mut self, path: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) {
+    pub(crate) fn error(&mut self, path: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) {
         self.0.push(Problem::error(path, found, expected));
     }
 
     /// Adds an error with a remedy.
-    pub fn error_with_hint(
+    pub(crate) fn error_with_hint(
         &mut self,
         path: impl Into<String>,
         found: impl Into<String>,
@@ -92,7 +92,7 @@ impl Problems {
     }
 
     /// Adds a warning.
-    pub fn warning(&mut self, path: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) {
+    pub(crate) fn warning(&mut self, path: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) {
         self.0.push(Problem::warning(path, found, expected));
     }
 
@@ -113,7 +113,7 @@ impl Problems {
     }
 
     /// Appends all of `other`.
-    pub fn extend(&mut self, other: Problems) {
+    pub(crate) fn extend(&mut self, other: Problems) {
         self.0.extend(other.0);
     }
 

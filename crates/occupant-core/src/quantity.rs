@@ -122,7 +122,7 @@ pub enum Take<O: Owner> {
 }
 
 /// Fields of a message by number.
-pub type Fields = Vec<(u32, Value)>;
+pub(crate) type Fields = Vec<(u32, Value)>;
 
 /// What was taken.
 #[derive(Clone, Debug, PartialEq)]
@@ -197,7 +197,7 @@ impl<O: Owner> Copy for Take<O> {}
 
 impl<O: Owner> Quantity<O> {
     /// What a function takes from its owner.
-    pub const fn new(unit: Unit, axes: Axes, take: Take<O>) -> Self {
+    pub(crate) const fn new(unit: Unit, axes: Axes, take: Take<O>) -> Self {
         Quantity { unit, axes, take, channel: None, field: None, resultant: None }
     }
 
@@ -207,7 +207,7 @@ impl<O: Owner> Quantity<O> {
     }
 
     /// A whole number.
-    pub const fn count(of: fn(&O::At<'_>) -> u64) -> Self {
+    pub(crate) const fn count(of: fn(&O::At<'_>) -> u64) -> Self {
         Quantity::new(Unit::One, Axes::None, Take::Count(of))
     }
 
@@ -217,7 +217,7 @@ impl<O: Owner> Quantity<O> {
     }
 
     /// A vector that need not exist.
-    pub const fn perhaps(unit: Unit, axes: Axes, of: fn(&O::At<'_>) -> Option<Vector3<f64>>) -> Self {
+    pub(crate) const fn perhaps(unit: Unit, axes: Axes, of: fn(&O::At<'_>) -> Option<Vector3<f64>>) -> Self {
         Quantity::new(unit, axes, Take::Perhaps(of))
     }
 
@@ -228,13 +228,13 @@ impl<O: Owner> Quantity<O> {
     }
 
     /// Also a field of the owner's message; axes and unit are added to `stem`.
-    pub const fn field(mut self, number: u32, stem: &'static str, meaning: &'static str) -> Self {
+    pub(crate) const fn field(mut self, number: u32, stem: &'static str, meaning: &'static str) -> Self {
         self.field = Some(FieldWords { number, stem, meaning });
         self
     }
 
     /// Its magnitude is a field too.
-    pub const fn resultant(mut self, number: u32, stem: &'static str, meaning: &'static str) -> Self {
+    pub(crate) const fn resultant(mut self, number: u32, stem: &'static str, meaning: &'static str) -> Self {
         self.resultant = Some(FieldWords { number, stem, meaning });
         self
     }
@@ -251,7 +251,7 @@ impl<O: Owner> Quantity<O> {
     }
 
     /// Its value.
-    pub fn value(&self, at: &O::At<'_>) -> Value {
+    pub(crate) fn value(&self, at: &O::At<'_>) -> Value {
         match self.take {
             Take::Number(of) => Value::Number(of(at)),
             Take::Count(of) => Value::Count(of(at)),
@@ -307,6 +307,6 @@ fn suffix(unit: Unit) -> String {
 }
 
 /// Values of all fields of a list, by number.
-pub fn values<O: Owner>(list: &[Quantity<O>], at: &O::At<'_>) -> Fields {
+pub(crate) fn values<O: Owner>(list: &[Quantity<O>], at: &O::At<'_>) -> Fields {
     list.iter().filter_map(|q| Some((q.field?.number, q.value(at)))).collect()
 }

@@ -28,7 +28,7 @@ pub struct Joint(pub(super) usize);
 
 impl Joint {
     /// Position in the table, from 0.
-    pub const fn index(self) -> usize {
+    pub(crate) const fn index(self) -> usize {
         self.0
     }
 
@@ -118,7 +118,7 @@ pub struct JointRow {
 
 impl JointRow {
     /// True for elbows and knees.
-    pub const fn is_hinge(&self) -> bool {
+    pub(crate) const fn is_hinge(&self) -> bool {
         matches!(self.kind, JointKind::Hinge)
     }
 }

@@ -23,7 +23,7 @@ use crate::vehicle::{PathCursor, VehiclePath};
 use rates::FrictionMasses;
 
 /// Degrees of freedom of the body.
-pub const DEGREES_OF_FREEDOM: usize = 31;
+pub(crate) const DEGREES_OF_FREEDOM: usize = 31;
 
 /// What will be simulated.
 #[derive(Clone, Debug, PartialEq, Serialize)]

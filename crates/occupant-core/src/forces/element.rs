@@ -207,7 +207,7 @@ pub struct Load<S> {
 impl<S: Scalar> Load<S> {
     /// None yet.
     #[inline(always)]
-    pub fn zero() -> Self {
+    pub(crate) fn zero() -> Self {
         Load { wrench: [Wrench::zero(); SEGMENTS], power: Work::zero() }
     }
 }

@@ -20,10 +20,10 @@ macro_rules! kinds {
         pub(crate) const KINDS: usize = [$(stringify!($kind)),+].len();
 
         /// The energies that elements store, in the order of results.
-        pub const STORED: [StoredEnergy; KINDS] = stored_in_order([$($Kind::STORED),+]);
+        pub(crate) const STORED: [StoredEnergy; KINDS] = stored_in_order([$($Kind::STORED),+]);
 
         /// The work sums of the elements, in their order in [`crate::motion::state::Work`].
-        pub const SUMS: [WorkSum; WORK_SUMS] = sums_in_order([$($Kind::SUMS),+]);
+        pub(crate) const SUMS: [WorkSum; WORK_SUMS] = sums_in_order([$($Kind::SUMS),+]);
 
         /// What a setup says of all force elements.
         #[derive(Clone, Copy)]
@@ -124,7 +124,7 @@ macro_rules! kinds {
 
         impl Actions<f64> {
             /// Stored energies in the order of [`STORED`], J.
-            pub fn stored_j(&self) -> [f64; KINDS] {
+            pub(crate) fn stored_j(&self) -> [f64; KINDS] {
                 let mut list = [0.0; KINDS];
                 $(list[$Kind::STORED.at] = $Kind::stored_j(&self.$kind);)+
                 list
@@ -157,7 +157,7 @@ macro_rules! kinds {
 
         impl Forces<f64> {
             /// Laws for a body that has no place yet.
-            pub fn new(data: &Data<'_>, body: &Body) -> Self {
+            pub(crate) fn new(data: &Data<'_>, body: &Body) -> Self {
                 Forces { $($kind: $Kind::new(data.$kind, body)),+ }
             }
 
@@ -188,7 +188,7 @@ macro_rules! kinds {
             ///
             /// # Errors
             /// Elements of unlike structure.
-            pub fn zip<A: Copy, T>(&self, other: &Forces<A>, f: &impl Fn(S, A) -> T) -> Result<Forces<T>, Unlike> {
+            pub(crate) fn zip<A: Copy, T>(&self, other: &Forces<A>, f: &impl Fn(S, A) -> T) -> Result<Forces<T>, Unlike> {
                 Ok(Forces { $($kind: $Kind::zip(&self.$kind, &other.$kind, f)?),+ })
             }
         }
@@ -197,7 +197,7 @@ macro_rules! kinds {
             /// All loads and powers at one instant. With `COMMIT` the history first takes over the present position, which
             /// must be that of an accepted step; without it the history is only read.
             #[inline(always)]
-            pub fn apply<const COMMIT: bool>(
+            pub(crate) fn apply<const COMMIT: bool>(
                 &self,
                 at: &Instant<'_, S>,
                 history: &mut History<S>,
@@ -243,7 +243,7 @@ macro_rules! kinds {
             ///
             /// # Errors
             /// The first kind that it has another number of.
-            pub fn check_count(&self, forces: &Forces<f64>) -> Result<(), Misfit> {
+            pub(crate) fn check_count(&self, forces: &Forces<f64>) -> Result<(), Misfit> {
                 $(
                     let [_, of] = $Kind::NAMES;
                     let (found, expected) = (self.$kind.len(), $Kind::count(&forces.$kind));
@@ -258,7 +258,7 @@ macro_rules! kinds {
             ///
             /// # Errors
             /// The first that cannot.
-            pub fn check(&self) -> Result<(), Misfit> {
+            pub(crate) fn check(&self) -> Result<(), Misfit> {
                 $(
                     let [of, _] = $Kind::NAMES;
                     if let Some(number) = self.$kind.iter().position(|past| !$Kind::is_possible(past)) {
@@ -338,7 +338,7 @@ impl<S: Scalar> History<S> {
     }
 
     /// Lets the next commit look at everything, as it must where the remembered numbers are those of another place.
-    pub fn look_again(&mut self) {
+    pub(crate) fn look_again(&mut self) {
         self.hints.look_again();
     }
 }

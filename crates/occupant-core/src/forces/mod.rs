@@ -14,7 +14,7 @@ pub mod contact;
 mod element;
 pub mod joint;
 mod list;
-pub mod rate;
+pub(crate) mod rate;
 pub mod shown;
 pub mod sphere;
 pub mod spring;

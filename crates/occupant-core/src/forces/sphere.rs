@@ -38,7 +38,7 @@ impl<S: Scalar> Site<S> {
 
     /// The centre seen from the segment's joint, in space, and its velocity; all in space axes.
     #[inline(always)]
-    pub fn place(&self, k: &Kinematics<S>) -> (V3<S>, V3<S>, V3<S>) {
+    pub(crate) fn place(&self, k: &Kinematics<S>) -> (V3<S>, V3<S>, V3<S>) {
         let n = self.segment;
         let arm = k.axes[n].out(self.offset);
         (arm, k.joint[n] + arm, k.joint_velocity[n] + k.omega[n].cross(arm))

@@ -12,7 +12,7 @@ use crate::motion::scalar::Scalar;
 use crate::problem::Problems;
 
 /// A fraction below this counts as this, so that μ = 0 is a very steep drop.
-pub const LEAST_FRACTION: f64 = 0.01;
+pub(crate) const LEAST_FRACTION: f64 = 0.01;
 
 /// Force over deformation while loading: slope K₁ up to Δ_b, then K₂.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,7 +85,7 @@ pub struct Spring<S> {
 
 impl<S: Copy> Spring<S> {
     /// f applied to every number and the one in the same place of `other`.
-    pub fn zip<A: Copy, T>(&self, other: &Spring<A>, f: &impl Fn(S, A) -> T) -> Spring<T> {
+    pub(crate) fn zip<A: Copy, T>(&self, other: &Spring<A>, f: &impl Fn(S, A) -> T) -> Spring<T> {
         Spring {
             k1: f(self.k1, other.k1),
             k2: f(self.k2, other.k2),

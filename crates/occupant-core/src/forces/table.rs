@@ -10,7 +10,7 @@ use serde::Serialize;
 pub type Tables = IndexMap<&'static str, Table>;
 
 /// A row: the name of an element under what one is called, then what stands in each column under its key.
-pub type Row = IndexMap<&'static str, Cell>;
+pub(crate) type Row = IndexMap<&'static str, Cell>;
 
 /// A table of the elements of one kind. In JSON it is its rows.
 #[derive(Clone, Debug, PartialEq, Serialize)]

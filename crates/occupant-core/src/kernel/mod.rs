@@ -21,7 +21,7 @@ use crate::motion::state::{State, Work};
 use crate::motion::vector::V3;
 
 /// Other spheres, or spheres on other segments.
-pub const OTHER_SPHERES: Unlike = Unlike("the contact spheres are others or on other segments");
+pub(crate) const OTHER_SPHERES: Unlike = Unlike("the contact spheres are others or on other segments");
 
 /// Constants of the body and of everything that acts on it.
 #[derive(Clone, Debug)]

@@ -103,7 +103,7 @@ impl Model {
     }
 
     /// Time of output `index`, s; the last is the end of the run.
-    pub fn output_time_s(&self, index: usize) -> Option<f64> {
+    pub(crate) fn output_time_s(&self, index: usize) -> Option<f64> {
         let time = &self.setup.time;
         let (number, whole) = (index as f64, time.whole_intervals());
         if number <= whole {

@@ -17,7 +17,7 @@ use crate::vehicle::VehiclePath;
 pub const STANDARD_GRAVITY_M_S2: f64 = 9.80665;
 
 /// Time between two outputs where nobody says otherwise.
-pub const DEFAULT_OUTPUT_S: f64 = 1e-3;
+pub(crate) const DEFAULT_OUTPUT_S: f64 = 1e-3;
 
 /// Start, end and output times.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,7 +75,7 @@ impl Default for Integrator {
 
 impl Integrator {
     /// The longest step that it can take, s.
-    pub fn longest_step_s(&self) -> f64 {
+    pub(crate) fn longest_step_s(&self) -> f64 {
         match *self {
             Integrator::Rk4 { step_s } => step_s,
             Integrator::Adaptive { max_step_s, .. } => max_step_s,

@@ -34,7 +34,7 @@ pub struct Wrench<S> {
 impl<S: Scalar> Wrench<S> {
     /// Force and moment along the axes of a frame.
     #[inline(always)]
-    pub fn into_frame(self, axes: &M3<S>) -> (V3<S>, V3<S>) {
+    pub(crate) fn into_frame(self, axes: &M3<S>) -> (V3<S>, V3<S>) {
         (axes.into_frame(self.force), axes.into_frame(self.moment))
     }
 
@@ -47,7 +47,7 @@ impl<S: Scalar> Wrench<S> {
 
 /// What a subtree asks of the joint that carries it: f = `mass`·a + `bias`, space axes.
 #[derive(Clone, Copy, Debug)]
-pub struct Demand<S> {
+pub(crate) struct Demand<S> {
     /// M̃, kg.
     pub mass: Sym3<S>,
     /// b̃, N; without gravity.
@@ -63,7 +63,7 @@ impl<S: Scalar> Demand<S> {
 
     /// The force at the joint for an acceleration `a` of the joint, gravity excluded.
     #[inline(always)]
-    pub fn force(&self, a: V3<S>) -> V3<S> {
+    pub(crate) fn force(&self, a: V3<S>) -> V3<S> {
         self.mass.mul(a) + self.bias
     }
 }

@@ -65,7 +65,7 @@ impl<S: Scalar> Moving<S> {
 
     /// The same motion in every lane.
     #[inline]
-    pub fn of(motion: &FrameMotion) -> Self {
+    pub(crate) fn of(motion: &FrameMotion) -> Self {
         Moving {
             origin: V3::of(&motion.origin_m),
             axes: M3::of(&motion.rotation),

@@ -12,7 +12,7 @@ use crate::body::tree::{Joint, JointRow, Place, Tree};
 use crate::body::tti12::TTI12;
 
 /// The tree.
-pub const TREE: Tree = TTI12;
+pub(crate) const TREE: Tree = TTI12;
 const JOINTS: usize = TREE.joint_rows().len();
 
 /// The values, at all `$n` below `$bound` for which the condition holds, as a constant slice.
@@ -45,19 +45,19 @@ macro_rules! collect {
 /// Segments whose orientation is free, in the order of [`super::state::State::orientation`].
 pub const FREE: &[usize] = collect!(usize: n, for n in SEGMENTS, if !is_hinged(n));
 /// Hinged segments, in the order of [`super::state::State::hinge`].
-pub const HINGED: &[usize] = collect!(usize: n, for n in SEGMENTS, if is_hinged(n));
+pub(crate) const HINGED: &[usize] = collect!(usize: n, for n in SEGMENTS, if is_hinged(n));
 /// Upper and lower segment of each limb, in the order of [`HINGED`].
 pub const LIMBS: &[(usize, usize)] = collect!((usize, usize): (parent(n), n), for n in SEGMENTS, if is_hinged(n));
 /// Segments on a ball joint that carry nothing.
-pub const LEAVES: &[usize] =
+pub(crate) const LEAVES: &[usize] =
     collect!(usize: n, for n in SEGMENTS, if !is_hinged(n) && !carries(n, false) && !carries(n, true));
 /// Segments on a ball joint that carry others on ball joints.
-pub const TRUNKS: &[usize] = collect!(usize: n, for n in SEGMENTS, if !is_hinged(n) && carries(n, false));
+pub(crate) const TRUNKS: &[usize] = collect!(usize: n, for n in SEGMENTS, if !is_hinged(n) && carries(n, false));
 /// Segments whose joint is T1.
-pub const ROOTS: &[usize] = collect!(usize: n, for n in SEGMENTS, if parent(n) == AT_T1);
+pub(crate) const ROOTS: &[usize] = collect!(usize: n, for n in SEGMENTS, if parent(n) == AT_T1);
 /// All other segments, each with the one that carries it: those that one segment carries stand together, and none stands
 /// before the one that carries it.
-pub const HUNG: &[(usize, usize)] = collect!(
+pub(crate) const HUNG: &[(usize, usize)] = collect!(
     (usize, usize): (n % SEGMENTS, n / SEGMENTS), for n in SEGMENTS * SEGMENTS, if parent(n % SEGMENTS) == n / SEGMENTS
 );
 

@@ -15,7 +15,7 @@ use crate::motion::vector::{M3, Sym3, V3, v3};
 
 /// A limb after the inward sweep, in axes of its upper segment.
 #[derive(Clone, Copy)]
-pub struct Limb<S> {
+pub(crate) struct Limb<S> {
     /// J⁻¹(τ − β_τ).
     alpha_free: V3<S>,
     /// Elements of B J⁻¹.
@@ -47,14 +47,14 @@ impl<S: Scalar> Gain<S> {
 impl<S: Scalar> Limb<S> {
     /// Not yet reduced.
     #[inline(always)]
-    pub fn zero() -> Self {
+    pub(crate) fn zero() -> Self {
         let o = S::zero();
         Limb { alpha_free: V3::zero(), gain: Gain::zero(), hinge_bias: o, sigma: o, inverse_iy: o, sin_cos: (o, o) }
     }
 
     /// Angular acceleration of the upper segment, space axes, for an acceleration `a` of its joint.
     #[inline(always)]
-    pub fn alpha(&self, k: &Kinematics<S>, upper: usize, a: V3<S>) -> V3<S> {
+    pub(crate) fn alpha(&self, k: &Kinematics<S>, upper: usize, a: V3<S>) -> V3<S> {
         let axes = &k.axes[upper];
         let a = axes.into_frame(a);
         let g = &self.gain;
@@ -64,7 +64,7 @@ impl<S: Scalar> Limb<S> {
 
     /// α̈ for the upper segment's angular acceleration and the hinge's acceleration, both in space axes.
     #[inline(always)]
-    pub fn hinge_acceleration(&self, k: &Kinematics<S>, upper: usize, alpha: V3<S>, a: V3<S>) -> S {
+    pub(crate) fn hinge_acceleration(&self, k: &Kinematics<S>, upper: usize, alpha: V3<S>, a: V3<S>) -> S {
         let axes = &k.axes[upper];
         let (s, c) = self.sin_cos;
         let along_x = axes.x.dot(a) * c - axes.z.dot(a) * s;
@@ -74,7 +74,7 @@ impl<S: Scalar> Limb<S> {
 
 /// Reduces limb `i` of [`LIMBS`] to what it asks of its shoulder or hip, the first result.
 #[inline(always)]
-pub fn reduce<S: Scalar>(
+pub(crate) fn reduce<S: Scalar>(
     body: &Skeleton<S>,
     k: &Kinematics<S>,
     i: usize,
@@ -173,7 +173,7 @@ impl<S: Scalar> PlaneMass<S> {
 
 /// A leaf after the inward sweep: a ball joint with nothing beyond, so that J and M̃ are diagonal in its own axes.
 #[derive(Clone, Copy)]
-pub struct Leaf<S> {
+pub(crate) struct Leaf<S> {
     alpha_free: V3<S>,
     gain: Gain<S>,
 }
@@ -181,13 +181,13 @@ pub struct Leaf<S> {
 impl<S: Scalar> Leaf<S> {
     /// Not yet reduced.
     #[inline(always)]
-    pub fn zero() -> Self {
+    pub(crate) fn zero() -> Self {
         Leaf { alpha_free: V3::zero(), gain: Gain::zero() }
     }
 
     /// Angular acceleration of segment `n`, space axes, for an acceleration `a` of its joint.
     #[inline(always)]
-    pub fn alpha(&self, k: &Kinematics<S>, n: usize, a: V3<S>) -> V3<S> {
+    pub(crate) fn alpha(&self, k: &Kinematics<S>, n: usize, a: V3<S>) -> V3<S> {
         let axes = &k.axes[n];
         let a = axes.into_frame(a);
         axes.out(self.alpha_free + v3(self.gain.yx * a.y, self.gain.xy * a.x, S::zero()))
@@ -196,7 +196,7 @@ impl<S: Scalar> Leaf<S> {
 
 /// Reduces the leaf `n` to what it asks of its joint, the first result.
 #[inline(always)]
-pub fn reduce_leaf<S: Scalar>(
+pub(crate) fn reduce_leaf<S: Scalar>(
     body: &Skeleton<S>,
     k: &Kinematics<S>,
     n: usize,

@@ -8,10 +8,10 @@ pub mod kinematics;
 #[cfg(any(target_arch = "x86_64", test))]
 pub(crate) mod lanes;
 pub mod layout;
-pub mod limb;
-pub mod mobility;
+pub(crate) mod limb;
+pub(crate) mod mobility;
 pub mod report_coordinates;
-pub mod scalar;
+pub(crate) mod scalar;
 pub mod skeleton;
 pub mod state;
 pub mod vector;

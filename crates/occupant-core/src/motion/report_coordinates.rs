@@ -22,7 +22,7 @@ pub const DOF: usize = 3 + 3 * FREE.len() + HINGED.len();
 pub const EULER_START: [usize; FREE.len()] = places(FREE);
 
 /// Where α of each hinged segment stands in q, in the order of the state's hinges.
-pub const HINGE_PLACE: [usize; HINGED.len()] = places(HINGED);
+pub(crate) const HINGE_PLACE: [usize; HINGED.len()] = places(HINGED);
 
 /// Where the coordinates of these segments begin in q: those of T1 come first, then all segments in the tree's order.
 const fn places<const N: usize>(segments: &[usize]) -> [usize; N] {
@@ -93,7 +93,7 @@ impl ReportCoordinates {
 }
 
 /// T = R_z(φ) R_y(θ) R_z(ψ) (Eq. 6).
-pub fn euler_rotation([phi, theta, psi]: [f64; 3]) -> Matrix3<f64> {
+pub(crate) fn euler_rotation([phi, theta, psi]: [f64; 3]) -> Matrix3<f64> {
     let ((sf, cf), (st, ct), (sp, cp)) = (sin_cos(phi), sin_cos(theta), sin_cos(psi));
     Matrix3::new(
         cf * ct * cp - sf * sp,
@@ -144,7 +144,7 @@ fn euler_when_vertical(rotation: &Matrix3<f64>, omega: Vector3<f64>) -> ([f64; 3
 }
 
 /// The unit quaternion of a rotation matrix.
-pub fn quaternion(rotation: &Matrix3<f64>) -> Quat<f64> {
+pub(crate) fn quaternion(rotation: &Matrix3<f64>) -> Quat<f64> {
     let q = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(*rotation));
     let Quaternion { coords } = *q.quaternion();
     Quat { w: coords.w, v: v3(coords.x, coords.y, coords.z) }

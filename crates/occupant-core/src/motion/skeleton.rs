@@ -46,7 +46,7 @@ pub struct Skeleton<S> {
 
 impl<S: Copy> Link<S> {
     /// f applied to every number and the one in the same place of `other`.
-    pub fn zip<A: Copy, T>(&self, other: &Link<A>, f: &impl Fn(S, A) -> T) -> Link<T> {
+    pub(crate) fn zip<A: Copy, T>(&self, other: &Link<A>, f: &impl Fn(S, A) -> T) -> Link<T> {
         Link {
             mass: f(self.mass, other.mass),
             cg: f(self.cg, other.cg),
@@ -65,7 +65,7 @@ impl<S: Copy> Link<S> {
 
 impl<S: Copy> Skeleton<S> {
     /// f applied to every number and the one in the same place of `other`.
-    pub fn zip<A: Copy, T>(&self, other: &Skeleton<A>, f: &impl Fn(S, A) -> T) -> Skeleton<T> {
+    pub(crate) fn zip<A: Copy, T>(&self, other: &Skeleton<A>, f: &impl Fn(S, A) -> T) -> Skeleton<T> {
         Skeleton { links: from_fn(|n| self.links[n].zip(&other.links[n], f)), gravity: f(self.gravity, other.gravity) }
     }
 }

@@ -24,7 +24,7 @@ pub struct Quat<S> {
 impl<S: Copy> Quat<S> {
     /// f applied to every number and the one in the same place of `other`.
     #[inline(always)]
-    pub fn zip<A: Copy, T>(&self, other: &Quat<A>, f: &impl Fn(S, A) -> T) -> Quat<T> {
+    pub(crate) fn zip<A: Copy, T>(&self, other: &Quat<A>, f: &impl Fn(S, A) -> T) -> Quat<T> {
         Quat { w: f(self.w, other.w), v: self.v.zip(&other.v, f) }
     }
 }
@@ -39,13 +39,13 @@ impl<S: Scalar> Quat<S> {
 
     /// q·q.
     #[inline(always)]
-    pub fn norm_squared(&self) -> S {
+    pub(crate) fn norm_squared(&self) -> S {
         self.w * self.w + self.v.norm_squared()
     }
 }
 
 /// Work sums of the force elements.
-pub const WORK_SUMS: usize = 4;
+pub(crate) const WORK_SUMS: usize = 4;
 
 /// Work done since the start, for the energy ledger, J.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,7 +83,7 @@ fn zip_4<S: Copy, A: Copy, T>(a: &[S; 4], b: &[A; 4], f: &impl Fn(S, A) -> T) ->
 impl<S: Scalar> Work<S> {
     /// None yet.
     #[inline(always)]
-    pub fn zero() -> Self {
+    pub(crate) fn zero() -> Self {
         let o = S::zero();
         Work { sums: [o; WORK_SUMS], vehicle: o }
     }
@@ -144,13 +144,13 @@ impl<S: Scalar> State<S> {
 
     /// self + h·rate.
     #[inline(always)]
-    pub fn advanced(&self, h: S, rate: &Self) -> Self {
+    pub(crate) fn advanced(&self, h: S, rate: &Self) -> Self {
         self.zip(rate, |a, b| a + h * b)
     }
 
     /// Where every component but the work sums is a finite number.
     #[inline(always)]
-    pub fn finite(&self) -> S::Mask {
+    pub(crate) fn finite(&self) -> S::Mask {
         let mut all = finite(self.t1) & finite(self.velocity);
         for q in &self.orientation {
             all = all & finite(q.v) & q.w.abs().lt(S::of(f64::INFINITY));
@@ -166,7 +166,7 @@ impl<S: Scalar> State<S> {
 
     /// Brings the quaternions back to unit length, which the integration keeps only to its order.
     #[inline(always)]
-    pub fn normalize(&mut self) {
+    pub(crate) fn normalize(&mut self) {
         for q in &mut self.orientation {
             let k = S::one() / q.norm_squared().sqrt();
             *q = Quat { w: q.w * k, v: q.v * k };
@@ -234,7 +234,7 @@ impl State<f64> {
     }
 
     /// True if every component but the work sums is a finite number.
-    pub fn is_finite(&self) -> bool {
+    pub(crate) fn is_finite(&self) -> bool {
         self.finite()
     }
 }

@@ -26,7 +26,7 @@ pub fn v3<S>(x: S, y: S, z: S) -> V3<S> {
 impl<S: Copy> V3<S> {
     /// f applied to every number and the one in the same place of `other`.
     #[inline(always)]
-    pub fn zip<A: Copy, T>(&self, other: &V3<A>, f: &impl Fn(S, A) -> T) -> V3<T> {
+    pub(crate) fn zip<A: Copy, T>(&self, other: &V3<A>, f: &impl Fn(S, A) -> T) -> V3<T> {
         v3(f(self.x, other.x), f(self.y, other.y), f(self.z, other.z))
     }
 }
@@ -64,7 +64,7 @@ impl<S: Scalar> V3<S> {
 
     /// `yes` where the mask is true, else `no`.
     #[inline(always)]
-    pub fn select(mask: S::Mask, yes: Self, no: Self) -> Self {
+    pub(crate) fn select(mask: S::Mask, yes: Self, no: Self) -> Self {
         v3(S::select(mask, yes.x, no.x), S::select(mask, yes.y, no.y), S::select(mask, yes.z, no.z))
     }
 }
@@ -124,7 +124,7 @@ pub struct M3<S> {
 impl<S: Copy> M3<S> {
     /// f applied to every number and the one in the same place of `other`.
     #[inline(always)]
-    pub fn zip<A: Copy, T>(&self, other: &M3<A>, f: &impl Fn(S, A) -> T) -> M3<T> {
+    pub(crate) fn zip<A: Copy, T>(&self, other: &M3<A>, f: &impl Fn(S, A) -> T) -> M3<T> {
         M3 { x: self.x.zip(&other.x, f), y: self.y.zip(&other.y, f), z: self.z.zip(&other.z, f) }
     }
 }
@@ -138,7 +138,7 @@ impl<S: Scalar> M3<S> {
 
     /// The unit matrix.
     #[inline(always)]
-    pub fn identity() -> Self {
+    pub(crate) fn identity() -> Self {
         M3::of(&Matrix3::identity())
     }
 
@@ -164,7 +164,7 @@ impl M3<f64> {
 
 /// A symmetric 3 × 3 matrix.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Sym3<S> {
+pub(crate) struct Sym3<S> {
     /// Element 1,1.
     pub xx: S,
     /// Element 2,2.
@@ -213,7 +213,7 @@ impl<S: Scalar> Sym3<S> {
 
     /// M v.
     #[inline(always)]
-    pub fn mul(&self, v: V3<S>) -> V3<S> {
+    pub(crate) fn mul(&self, v: V3<S>) -> V3<S> {
         v3(self.row_x().dot(v), self.row_y().dot(v), self.row_z().dot(v))
     }
 
@@ -237,7 +237,7 @@ impl<S: Scalar> Sym3<S> {
 
     /// M⁻¹ by cofactors; M must be positive definite.
     #[inline(always)]
-    pub fn inverse(&self) -> Self {
+    pub(crate) fn inverse(&self) -> Self {
         let xx = self.yy * self.zz - self.yz * self.yz;
         let xy = self.xz * self.yz - self.xy * self.zz;
         let xz = self.xy * self.yz - self.xz * self.yy;

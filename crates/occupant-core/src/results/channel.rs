@@ -4,7 +4,7 @@
 //! `head.acceleration.x`, `belt.lap.force`, `joint.neck.moment.resultant`; names of spheres and belts are those of the
 //! scenario. The list depends on the model alone, so every run of a scenario has the same channels.
 
-pub use crash_measures::unit::Unit;
+pub(crate) use crash_measures::unit::Unit;
 
 use crate::model::Model;
 use crate::problem::nearest;
@@ -46,9 +46,9 @@ pub(super) enum Component {
 }
 
 impl Component {
-    pub const ALL: [Component; 4] = [Component::X, Component::Y, Component::Z, Component::Resultant];
+    pub(crate) const ALL: [Component; 4] = [Component::X, Component::Y, Component::Z, Component::Resultant];
 
-    pub const fn name(self) -> &'static str {
+    pub(crate) const fn name(self) -> &'static str {
         ["x", "y", "z", "resultant"][self as usize]
     }
 
@@ -57,7 +57,7 @@ impl Component {
         if self == Component::Resultant { Axes::None } else { of_vector }
     }
 
-    pub fn of(self, value: &Value) -> f64 {
+    pub(crate) fn of(self, value: &Value) -> f64 {
         match (value, self) {
             (Value::Number(x), _) => *x,
             (Value::Vector(Some(v)), Component::Resultant) => v.norm(),

@@ -12,7 +12,7 @@ pub const ACCELERATIONS: &Curves = &[
     ("lower_torso.acceleration.resultant", "pelvis"),
 ];
 /// Loop forces.
-pub const BELTS: &Curves = &[("belt.*.force", "*")];
+pub const WEBBING: &Curves = &[("belt.*.force", "*")];
 /// Forces on all contact spheres.
 pub const CONTACTS: &Curves = &[("sphere.*.force.resultant", "*")];
 /// Forces on those that are loaded most in frontal crashes.
@@ -52,7 +52,7 @@ pub const BALANCE: &Curves = &[("energy.balance", "imbalance")];
 /// Patterns of the channels whose bands over time are looked at.
 pub const BANDS: [&Curves; 6] = [
     ACCELERATIONS,
-    BELTS,
+    WEBBING,
     FRONTAL_CONTACTS,
     &[("neck.force.resultant", ""), ("neck.moment.resultant", "")],
     &[("right_femur.axial", ""), ("left_femur.axial", "")],

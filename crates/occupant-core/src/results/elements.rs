@@ -32,7 +32,7 @@ impl Sample<'_> {
     }
 
     /// What there is to know of force elements at the start of a run.
-    pub fn start_tables(&self) -> Tables {
+    pub(crate) fn start_tables(&self) -> Tables {
         let mut list = StartTables(self, Tables::new());
         visit_kinds(&mut list);
         list.1

@@ -41,7 +41,7 @@ pub struct EnergyStart {
 
 impl EnergyLedger {
     /// The ledger of one instant; `vehicle` is the vehicle's motion, `stored_j` what force elements store.
-    pub fn new(
+    pub(crate) fn new(
         body: &Skeleton<f64>,
         k: &Kinematics<f64>,
         vehicle: &Moving<f64>,

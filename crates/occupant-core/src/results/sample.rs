@@ -219,7 +219,7 @@ impl<'a> Sample<'a> {
     }
 
     /// Energy imbalance as a fraction of the greatest kinetic energy relative to the vehicle, `greatest_j`.
-    pub fn balance_fraction(&self, greatest_j: f64) -> f64 {
+    pub(crate) fn balance_fraction(&self, greatest_j: f64) -> f64 {
         if greatest_j > 0.0 { self.energy.balance_j / greatest_j } else { 0.0 }
     }
 

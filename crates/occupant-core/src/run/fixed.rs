@@ -29,7 +29,7 @@ pub struct Step {
 
 impl Stretch {
     /// Steps of `step_s`, the last one shortened to end at the target.
-    pub fn new(from_s: f64, target_s: f64, step_s: f64) -> Self {
+    pub(crate) fn new(from_s: f64, target_s: f64, step_s: f64) -> Self {
         Stretch { from_s, target_s, step_s, count: (((target_s - from_s) / step_s) - 1e-9).ceil().max(1.0), done: 0.0 }
     }
 }
@@ -75,7 +75,7 @@ impl Step {
 
 impl Run {
     /// All steps of `stretch`.
-    pub fn advance_rk4(&mut self, model: &Model, stretch: Stretch) -> Result<(), StepError> {
+    pub(crate) fn advance_rk4(&mut self, model: &Model, stretch: Stretch) -> Result<(), StepError> {
         let system = model.system();
         for step in stretch {
             let [at_start, at_middle, at_end] = step.frames(model, &mut self.cursor);

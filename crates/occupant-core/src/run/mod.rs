@@ -112,7 +112,7 @@ impl Run {
     }
 
     /// Tells `recorder` that the run begins.
-    pub fn begin(&self, model: &Model, recorder: &mut dyn Recorder) -> Result<(), RecordingFailed> {
+    pub(crate) fn begin(&self, model: &Model, recorder: &mut dyn Recorder) -> Result<(), RecordingFailed> {
         recorder.begin(model).map_err(|e| self.unrecorded(e))
     }
 

@@ -72,7 +72,7 @@ impl Draft {
     ///
     /// # Errors
     /// A path that cannot be read, leads nowhere, or leads to something that is no number.
-    pub fn scale(&mut self, path: &str, factor: f64) -> Result<(), Diagnostics> {
+    pub(crate) fn scale(&mut self, path: &str, factor: f64) -> Result<(), Diagnostics> {
         for (place, value) in self.get(path)? {
             let scaled = match &value {
                 Value::String(text) => scaled_text(text, factor),

@@ -52,23 +52,23 @@ pub const TIME: usize = 1;
 /// Plane angle.
 pub const ANGLE: usize = 2;
 /// Speed.
-pub const SPEED: usize = 3;
+pub(crate) const SPEED: usize = 3;
 /// Acceleration.
-pub const ACCELERATION: usize = 4;
+pub(crate) const ACCELERATION: usize = 4;
 /// Angular velocity.
-pub const ANGULAR_VELOCITY: usize = 5;
+pub(crate) const ANGULAR_VELOCITY: usize = 5;
 /// Mass.
-pub const MASS: usize = 6;
+pub(crate) const MASS: usize = 6;
 /// Force.
-pub const FORCE: usize = 7;
+pub(crate) const FORCE: usize = 7;
 /// Moment of inertia.
-pub const INERTIA: usize = 8;
+pub(crate) const INERTIA: usize = 8;
 /// Stiffness, force per length.
-pub const STIFFNESS: usize = 9;
+pub(crate) const STIFFNESS: usize = 9;
 /// Rotational stiffness, torque per angle.
-pub const ROTATIONAL_STIFFNESS: usize = 10;
+pub(crate) const ROTATIONAL_STIFFNESS: usize = 10;
 /// Rotational damping, torque per angular velocity.
-pub const ROTATIONAL_DAMPING: usize = 11;
+pub(crate) const ROTATIONAL_DAMPING: usize = 11;
 /// Plain number.
 pub const RATIO: usize = 12;
 
@@ -107,7 +107,7 @@ impl Kind {
     }
 
     /// What it is and how it may be written, for messages.
-    pub fn expected(&self) -> String {
+    pub(crate) fn expected(&self) -> String {
         format!("{}: {}", self.noun, self.example)
     }
 

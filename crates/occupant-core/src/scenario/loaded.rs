@@ -43,7 +43,7 @@ impl Scenario {
     ///
     /// # Errors
     /// None for a scenario that was read from a text.
-    pub fn to_json(&self) -> Result<String, serde_json::Error> {
+    pub(crate) fn to_json(&self) -> Result<String, serde_json::Error> {
         let mut value = serde_json::to_value(self)?;
         without_null(&mut value);
         serde_json::to_string_pretty(&value)

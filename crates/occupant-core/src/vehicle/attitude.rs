@@ -27,7 +27,7 @@ const LOCKED_COSINE: f64 = 1e-9;
 
 impl Attitude {
     /// The matrix A (3×3) that turns vehicle components into vehicle-space components (Eqs 78, 79).
-    pub fn matrix(&self) -> Matrix3<f64> {
+    pub(crate) fn matrix(&self) -> Matrix3<f64> {
         Trigonometry::of(self.to_vector()).matrix()
     }
 
@@ -35,7 +35,7 @@ impl Attitude {
     ///
     /// With the vehicle upright on its nose or tail only the difference of roll and yaw is known; the roll is then that
     /// of `near`.
-    pub fn from_matrix(matrix: &Matrix3<f64>, near: &Attitude) -> Self {
+    pub(crate) fn from_matrix(matrix: &Matrix3<f64>, near: &Attitude) -> Self {
         let a = |row: usize, column: usize| matrix[(row - 1, column - 1)];
         // A₃₁ = −sin θ (79g), A₃₂ = cos θ sin φ (79h), A₃₃ = cos θ cos φ (79i)
         let cos_pitch = (a(3, 2) * a(3, 2) + a(3, 3) * a(3, 3)).sqrt();

@@ -44,7 +44,7 @@ impl FixedPath {
     }
 
     /// The same, with its (zero) motion, in space axes.
-    pub fn motion(&self) -> FrameMotion {
+    pub(crate) fn motion(&self) -> FrameMotion {
         self.motion
     }
 }

@@ -23,7 +23,7 @@ pub struct FrameMotion {
 
 impl FrameMotion {
     /// The space frame itself: origin at zero, at rest.
-    pub const fn space() -> Self {
+    pub(crate) const fn space() -> Self {
         let zero = Vector3::new(0.0, 0.0, 0.0);
         FrameMotion {
             origin_m: zero,
@@ -48,7 +48,7 @@ impl FrameMotion {
     }
 
     /// Components along the space axes of a vector given along the frame's axes (Eq. 94).
-    pub fn vector_to_space(&self, vector_frame: Vector3<f64>) -> Vector3<f64> {
+    pub(crate) fn vector_to_space(&self, vector_frame: Vector3<f64>) -> Vector3<f64> {
         self.rotation * vector_frame
     }
 
@@ -58,13 +58,13 @@ impl FrameMotion {
     }
 
     /// Velocity in space, m/s, of the point of the frame that is at `point_space_m` now.
-    pub fn velocity_at(&self, point_space_m: Vector3<f64>) -> Vector3<f64> {
+    pub(crate) fn velocity_at(&self, point_space_m: Vector3<f64>) -> Vector3<f64> {
         // v + ω × r
         self.velocity_m_s + self.angular_velocity_rad_s.cross(&(point_space_m - self.origin_m))
     }
 
     /// Acceleration in space, m/s², of the point of the frame that is at `point_space_m` now.
-    pub fn acceleration_at(&self, point_space_m: Vector3<f64>) -> Vector3<f64> {
+    pub(crate) fn acceleration_at(&self, point_space_m: Vector3<f64>) -> Vector3<f64> {
         // a + α × r + ω × (ω × r)
         let arm_m = point_space_m - self.origin_m;
         let omega = self.angular_velocity_rad_s;

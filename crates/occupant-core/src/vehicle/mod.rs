@@ -39,7 +39,7 @@ pub use cursor::PathCursor;
 pub use fixed::FixedPath;
 pub use frame::FrameMotion;
 pub use own::{OwnPath, VehicleMotion, VehicleState};
-pub use problem::PathProblem;
+pub(crate) use problem::PathProblem;
 pub use pulse::{DecelerationPoint, PulseDefinition, PulsePath, PulseShape, Stop, Strength, TravelDirection};
 pub use sensors::{AccelerationRecord, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord};
 pub use station::{Station, unwrap_angles};
@@ -124,7 +124,7 @@ impl VehiclePath {
     /// # Errors
     /// Times that are not finite; a start before the first station of a table or sample of a record; an end past its
     /// last one unless the path says what comes after; a run outside the span of a program's own path.
-    pub fn check_span(&self, start_s: f64, end_s: f64) -> Result<(), PathProblem> {
+    pub(crate) fn check_span(&self, start_s: f64, end_s: f64) -> Result<(), PathProblem> {
         for (quantity, value) in [("start of the run", start_s), ("end of the run", end_s)] {
             if !value.is_finite() {
                 return Err(PathProblem::NotFinite { quantity, value });
@@ -139,7 +139,7 @@ impl VehiclePath {
     }
 
     /// Times from and up to which the path is given by data, s; infinite for pulses and frames at rest.
-    pub fn span_s(&self) -> (f64, f64) {
+    pub(crate) fn span_s(&self) -> (f64, f64) {
         match self {
             VehiclePath::Table(table) => table.span_s(),
             VehiclePath::Sensors(sensors) => sensors.span_s(),

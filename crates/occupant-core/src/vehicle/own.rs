@@ -29,7 +29,7 @@ pub struct VehicleState {
 
 impl VehicleState {
     /// The same in space axes, with the angular velocity and acceleration as vectors.
-    pub fn motion(&self) -> FrameMotion {
+    pub(crate) fn motion(&self) -> FrameMotion {
         let turning = turning(self.pose.attitude.to_vector(), self.angle_rates_rad_s, self.angle_accelerations_rad_s2);
         FrameMotion {
             origin_m: to_space(self.pose.position_m),
@@ -92,19 +92,19 @@ impl PartialEq for OwnPath {
 
 impl OwnPath {
     /// The path of `motion`.
-    pub fn new(motion: impl VehicleMotion + 'static) -> Self {
+    pub(crate) fn new(motion: impl VehicleMotion + 'static) -> Self {
         OwnPath(Arc::new(motion))
     }
 
     /// Pose and motion at `t_s`, in space axes. Outside its span the vehicle coasts.
-    pub fn motion(&self, t_s: f64) -> FrameMotion {
+    pub(crate) fn motion(&self, t_s: f64) -> FrameMotion {
         let inside_s = self.inside_s(t_s);
         let motion = self.0.at(inside_s).motion();
         if t_s == inside_s { motion } else { motion.coasted(t_s - inside_s) }
     }
 
     /// Place and attitude at `t_s`, for output.
-    pub fn pose(&self, t_s: f64) -> VehiclePose {
+    pub(crate) fn pose(&self, t_s: f64) -> VehiclePose {
         let inside_s = self.inside_s(t_s);
         let pose = self.0.at(inside_s).pose;
         if t_s == inside_s {
@@ -118,12 +118,12 @@ impl OwnPath {
     }
 
     /// As [`VehicleMotion::span_s`].
-    pub fn span_s(&self) -> (f64, f64) {
+    pub(crate) fn span_s(&self) -> (f64, f64) {
         self.0.span_s()
     }
 
     /// As [`VehicleMotion::breaks_s`], in increasing order.
-    pub fn breaks_s(&self) -> Vec<f64> {
+    pub(crate) fn breaks_s(&self) -> Vec<f64> {
         let mut breaks_s = self.0.breaks_s();
         breaks_s.sort_by(f64::total_cmp);
         breaks_s
@@ -133,7 +133,7 @@ impl OwnPath {
     ///
     /// # Errors
     /// A run outside the span; numbers that are not finite at its start or its end.
-    pub fn check_span(&self, start_s: f64, end_s: f64) -> Result<(), PathProblem> {
+    pub(crate) fn check_span(&self, start_s: f64, end_s: f64) -> Result<(), PathProblem> {
         let (first_s, last_s) = self.span_s();
         if !(first_s <= start_s && end_s <= last_s) {
             return Err(PathProblem::OutsideOwnPath { start_s, end_s, first_s, last_s });

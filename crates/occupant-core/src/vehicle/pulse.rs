@@ -163,7 +163,7 @@ impl PulsePath {
     }
 
     /// Pose and motion at `t_s`, in space axes.
-    pub fn motion(&self, t_s: f64, cursor: &mut PathCursor) -> FrameMotion {
+    pub(crate) fn motion(&self, t_s: f64, cursor: &mut PathCursor) -> FrameMotion {
         let travel = self.travel(t_s, cursor);
         FrameMotion {
             origin_m: self.at_rest.origin_m + self.direction_space * travel.distance_m,
@@ -174,13 +174,13 @@ impl PulsePath {
     }
 
     /// Place and attitude at `t_s`, for output.
-    pub fn pose(&self, t_s: f64, cursor: &mut PathCursor) -> VehiclePose {
+    pub(crate) fn pose(&self, t_s: f64, cursor: &mut PathCursor) -> VehiclePose {
         let initial = self.definition.initial;
         VehiclePose { position_m: initial.position_m + self.direction * self.travel(t_s, cursor).distance_m, ..initial }
     }
 
     /// Times at which the acceleration, or its slope, jumps, s, in increasing order.
-    pub fn breaks_s(&self) -> Vec<f64> {
+    pub(crate) fn breaks_s(&self) -> Vec<f64> {
         let (begin_s, end_s) = self.pulse_span_s();
         let mut breaks_s = match &self.profile {
             Profile::Ramps(ramps) => ramps.iter().map(|ramp| begin_s + ramp.start_s).collect(),

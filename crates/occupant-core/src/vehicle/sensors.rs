@@ -91,7 +91,7 @@ impl SensorPath {
     /// Everything that is wrong with the definition at once: a record without a channel, with too few samples, with
     /// times that do not increase, numbers that are not finite, samples too far apart for the turning or for the
     /// filter; a start or a baseline outside the record; a direction without length.
-    pub fn new(definition: SensorDefinition) -> Result<Self, Vec<PathProblem>> {
+    pub(crate) fn new(definition: SensorDefinition) -> Result<Self, Vec<PathProblem>> {
         let mut problems = Vec::new();
         let direction = check_start(&definition, &mut problems);
         let readings = match readings::read(&definition) {
@@ -132,7 +132,7 @@ impl SensorPath {
     ///
     /// Outside the record the vehicle coasts, or stands still if the path says so; it stands still in the steps whose
     /// middle, `step_middle_s`, is past the last sample.
-    pub fn motion(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> FrameMotion {
+    pub(crate) fn motion(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> FrameMotion {
         let (first_s, last_s) = self.span_s();
         let holds = self.definition.after == AfterEnd::Hold;
         let motion = if t_s < first_s {
@@ -148,7 +148,7 @@ impl SensorPath {
     }
 
     /// Place and attitude at `t_s`, for output.
-    pub fn pose(&self, t_s: f64, cursor: &mut PathCursor) -> VehiclePose {
+    pub(crate) fn pose(&self, t_s: f64, cursor: &mut PathCursor) -> VehiclePose {
         let (first_s, last_s) = self.span_s();
         let motion = self.motion(t_s, t_s, cursor);
         let near = if t_s < first_s {
@@ -169,12 +169,12 @@ impl SensorPath {
     ///
     /// # Errors
     /// A run that starts before the first sample, or ends past the last one without saying what comes after.
-    pub fn check_span(&self, start_s: f64, end_s: f64) -> Result<(), PathProblem> {
+    pub(crate) fn check_span(&self, start_s: f64, end_s: f64) -> Result<(), PathProblem> {
         self.definition.after.check_span(self.span_s(), start_s, end_s)
     }
 
     /// The ends of the record, s. Between them velocity and angular velocity have no jump.
-    pub fn breaks_s(&self) -> Vec<f64> {
+    pub(crate) fn breaks_s(&self) -> Vec<f64> {
         vec![self.pieces[0].start_s, self.end_s]
     }
 

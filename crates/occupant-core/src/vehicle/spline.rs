@@ -17,13 +17,13 @@ pub(super) struct Piece {
 
 impl Piece {
     /// The six channels at `t_s`.
-    pub fn value(&self, t_s: f64) -> Vector6<f64> {
+    pub(crate) fn value(&self, t_s: f64) -> Vector6<f64> {
         let s = t_s - self.start_s;
         self.value + (self.rate + (self.half_second + self.sixth_third * s) * s) * s
     }
 
     /// Their first derivatives at `t_s`, per s.
-    pub fn rate(&self, t_s: f64) -> Vector6<f64> {
+    pub(crate) fn rate(&self, t_s: f64) -> Vector6<f64> {
         let s = t_s - self.start_s;
         self.rate + (self.half_second * 2.0 + self.sixth_third * (3.0 * s)) * s
     }

@@ -122,7 +122,7 @@ impl TablePath {
     /// straight lines in the interval that contains `step_middle_s`, so that one integration step sees one velocity
     /// even where it begins or ends at a station. Outside the stations the vehicle coasts, or stands still if the path
     /// says so; it stands still in the steps whose middle is past the last station.
-    pub fn motion(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> FrameMotion {
+    pub(crate) fn motion(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> FrameMotion {
         let (first_s, last_s) = self.span_s();
         let inside_s = t_s.clamp(first_s, last_s);
         let place = self.piece_at(inside_s, cursor);
@@ -145,7 +145,7 @@ impl TablePath {
     }
 
     /// Place and attitude at `t_s` as the table tells them, for output.
-    pub fn pose(&self, t_s: f64, cursor: &mut PathCursor) -> VehiclePose {
+    pub(crate) fn pose(&self, t_s: f64, cursor: &mut PathCursor) -> VehiclePose {
         let (first_s, last_s) = self.span_s();
         let inside_s = t_s.clamp(first_s, last_s);
         let values = self.piece_at(inside_s, cursor).value(inside_s);
@@ -167,12 +167,12 @@ impl TablePath {
     ///
     /// # Errors
     /// A run that starts before the first station, or ends past the last one without saying what comes after.
-    pub fn check_span(&self, start_s: f64, end_s: f64) -> Result<(), PathProblem> {
+    pub(crate) fn check_span(&self, start_s: f64, end_s: f64) -> Result<(), PathProblem> {
         self.after.check_span(self.span_s(), start_s, end_s)
     }
 
     /// Times at which the velocity or the acceleration jumps, s, in increasing order.
-    pub fn breaks_s(&self) -> Vec<f64> {
+    pub(crate) fn breaks_s(&self) -> Vec<f64> {
         match self.interpolation {
             Interpolation::Linear => self.stations.iter().map(|station| station.time_s).collect(),
             Interpolation::Spline => vec![self.span_s().0, self.span_s().1],

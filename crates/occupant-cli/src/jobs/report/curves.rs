@@ -27,7 +27,7 @@ struct Curve {
 /// A plot: its title, the unit that its channels are shown in, and its channels.
 const RECIPES: [(&str, &str, &Curves); 9] = [
     ("Resultant acceleration", "g", ACCELERATIONS),
-    ("Belt force", "kN", BELTS),
+    ("Belt force", "kN", WEBBING),
     (CONTACT_FORCE, "kN", CONTACTS),
     ("Neck force on the head", "kN", NECK_FORCE),
     ("Neck moment on the head", "N·m", NECK_MOMENT),

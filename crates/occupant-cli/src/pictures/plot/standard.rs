@@ -7,7 +7,7 @@
 
 use occupant_core::model::Model;
 use occupant_core::results::channel::{find, matching, star};
-use occupant_core::results::customary::{ACCELERATIONS, BELTS, ENERGIES, FRONTAL_CONTACTS, SPINE, VEHICLE};
+use occupant_core::results::customary::{ACCELERATIONS, ENERGIES, FRONTAL_CONTACTS, SPINE, VEHICLE, WEBBING};
 
 /// A plot that is wished for.
 #[derive(Clone, Debug, PartialEq)]
@@ -44,7 +44,7 @@ pub(crate) fn standard(model: &Model, several: bool) -> Vec<Wish> {
     }
     let touched = FRONTAL_CONTACTS.iter().filter(|(channel, _)| find(model, channel).is_ok());
     wishes.push(wish("Contact force on head, chest and knees", "force", touched.map(owned)));
-    let belts = BELTS.iter().flat_map(|(pattern, _)| {
+    let belts = WEBBING.iter().flat_map(|(pattern, _)| {
         let channels = matching(model, pattern).into_iter();
         channels.filter_map(|c| Some((c.name.clone(), star(pattern, &c.name)?.to_owned())))
     });

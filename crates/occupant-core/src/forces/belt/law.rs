@@ -57,7 +57,7 @@ pub struct BeltAction<S> {
 
 impl<S: Copy> BeltLaw<S> {
     /// f applied to every number and the one in the same place of `other`, which goes round the same sphere.
-    pub fn zip<A: Copy, T>(&self, other: &BeltLaw<A>, f: &impl Fn(S, A) -> T) -> BeltLaw<T> {
+    pub(crate) fn zip<A: Copy, T>(&self, other: &BeltLaw<A>, f: &impl Fn(S, A) -> T) -> BeltLaw<T> {
         BeltLaw {
             sphere: self.sphere,
             anchors: from_fn(|i| self.anchors[i].zip(&other.anchors[i], f)),
@@ -70,7 +70,7 @@ impl<S: Copy> BeltLaw<S> {
 
 impl<S: Scalar> BeltLaw<S> {
     /// Constants from data, for the sphere's radius and a known L₀.
-    pub fn new(belt: &Belt, radius_m: f64, rest_length_m: f64) -> Self {
+    pub(crate) fn new(belt: &Belt, radius_m: f64, rest_length_m: f64) -> Self {
         BeltLaw {
             sphere: belt.sphere,
             anchors: [V3::of(&belt.anchors_m[0].coords), V3::of(&belt.anchors_m[1].coords)],

@@ -7,7 +7,7 @@ use crate::motion::scalar::Scalar;
 
 /// A point or a direction in the two coordinates of a plane.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct V2<S> {
+pub(crate) struct V2<S> {
     /// Along the plane's first axis.
     pub u: S,
     /// Along the plane's second axis.
@@ -16,7 +16,7 @@ pub struct V2<S> {
 
 /// A side of a convex polygon, run through counter-clockwise.
 #[derive(Clone, Copy, Debug)]
-pub struct Edge<S> {
+pub(crate) struct Edge<S> {
     start: V2<S>,
     direction: V2<S>,
     length: S,
@@ -24,7 +24,7 @@ pub struct Edge<S> {
 
 /// Outline of a face in plane coordinates.
 #[derive(Clone, Debug)]
-pub enum Outline<S> {
+pub(crate) enum Outline<S> {
     /// Convex polygon.
     Polygon(Vec<Edge<S>>),
     /// Disc.
@@ -40,7 +40,7 @@ pub enum Outline<S> {
 
 /// Offset of a point from the nearest point of a face.
 #[derive(Clone, Copy, Debug)]
-pub struct Offset<S> {
+pub(crate) struct Offset<S> {
     /// d, m; 0 inside.
     pub distance: S,
     /// ê; 0 inside.
@@ -56,7 +56,7 @@ impl<S: Copy> V2<S> {
 impl<S: Copy> Outline<S> {
     /// f applied to every number and the one in the same place of `other`; none if that is of another kind or has another
     /// number of sides.
-    pub fn zip<A: Copy, T>(&self, other: &Outline<A>, f: &impl Fn(S, A) -> T) -> Option<Outline<T>> {
+    pub(crate) fn zip<A: Copy, T>(&self, other: &Outline<A>, f: &impl Fn(S, A) -> T) -> Option<Outline<T>> {
         match (self, other) {
             (Outline::Polygon(a), Outline::Polygon(b)) if a.len() == b.len() => {
                 let edge = |(a, b): (&Edge<S>, &Edge<A>)| Edge {
@@ -77,7 +77,7 @@ impl<S: Copy> Outline<S> {
 
 impl<S: Scalar> Outline<S> {
     /// Polygon through corners given counter-clockwise in plane coordinates.
-    pub fn polygon(corners: &[[f64; 2]]) -> Self {
+    pub(crate) fn polygon(corners: &[[f64; 2]]) -> Self {
         let edges = (0..corners.len()).map(|i| {
             let ([u, v], [u2, v2]) = (corners[i], corners[(i + 1) % corners.len()]);
             let length = ((u2 - u).powi(2) + (v2 - v).powi(2)).sqrt();
@@ -92,7 +92,7 @@ impl<S: Scalar> Outline<S> {
 
     /// Offset of `point` from the face.
     #[inline(always)]
-    pub fn offset(&self, point: V2<S>) -> Offset<S> {
+    pub(crate) fn offset(&self, point: V2<S>) -> Offset<S> {
         let o = S::zero();
         match self {
             Outline::Unbounded => Offset { distance: o, away: V2 { u: o, v: o } },

@@ -3,7 +3,7 @@
 mod assembly;
 mod check;
 mod encounter;
-pub mod face;
+pub(crate) mod face;
 pub mod flat_face;
 mod hints;
 pub mod material;
@@ -12,7 +12,7 @@ pub mod surface;
 mod system;
 mod zip;
 
-pub use hints::ContactHints;
+pub(crate) use hints::ContactHints;
 pub use system::*;
 pub use zip::{OTHER_OUTLINES, OTHER_PAIRS};
 

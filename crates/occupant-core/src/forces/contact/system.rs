@@ -66,7 +66,7 @@ pub struct Pair<S> {
 
 /// Plane of a pair: N̂ and r + G, so that Δ = reach − N̂·x.
 #[derive(Clone, Copy, Debug)]
-pub struct Plane<S> {
+pub(crate) struct Plane<S> {
     pub(crate) normal: V3<S>,
     pub(crate) reach: S,
 }

@@ -102,7 +102,7 @@ pub struct Joints {
 
 impl Joints {
     /// ε unless a scenario says otherwise.
-    pub const EPSILON: f64 = 1e-3;
+    pub(crate) const EPSILON: f64 = 1e-3;
 
     /// Free joints: no damping, no stop, no spring.
     pub fn free(tree: &'static Tree) -> Self {

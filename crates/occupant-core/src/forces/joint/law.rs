@@ -118,7 +118,7 @@ impl<S: Copy> Hinge<S> {
 
 impl<S: Copy> JointSystem<S> {
     /// f applied to every number and the one in the same place of `other`, which has springs in the same joints.
-    pub fn zip<A: Copy, T>(&self, other: &JointSystem<A>, f: &impl Fn(S, A) -> T) -> JointSystem<T> {
+    pub(crate) fn zip<A: Copy, T>(&self, other: &JointSystem<A>, f: &impl Fn(S, A) -> T) -> JointSystem<T> {
         JointSystem {
             balls: from_fn(|i| self.balls[i].zip(&other.balls[i], f)),
             hinges: from_fn(|i| self.hinges[i].zip(&other.hinges[i], f)),
@@ -127,7 +127,7 @@ impl<S: Copy> JointSystem<S> {
     }
 
     /// Which ball joints have a spring.
-    pub fn springs(&self) -> [bool; BALLS.len()] {
+    pub(crate) fn springs(&self) -> [bool; BALLS.len()] {
         from_fn(|i| self.balls[i].has_spring)
     }
 }

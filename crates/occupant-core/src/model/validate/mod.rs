@@ -7,7 +7,7 @@ use crate::model::setup::Setup;
 use crate::problem::Problems;
 
 /// Reports every problem of the numbers of `setup`.
-pub fn check(setup: &Setup, problems: &mut Problems) {
+pub(crate) fn check(setup: &Setup, problems: &mut Problems) {
     body::check_body(&setup.body, problems);
     setup.forces(&[]).check(&setup.body, problems);
     time::check_time(&setup.time, &setup.integrator, problems);

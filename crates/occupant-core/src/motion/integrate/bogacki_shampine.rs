@@ -10,10 +10,10 @@ use crate::motion::state::State;
 use crate::motion::vector::V3;
 
 /// Evaluations of a step whose first stage is known.
-pub const EVALUATIONS: u64 = 3;
+pub(crate) const EVALUATIONS: u64 = 3;
 
 /// The least power of the step in the error estimate.
-pub const ERROR_ORDER: f64 = 3.0;
+pub(crate) const ERROR_ORDER: f64 = 3.0;
 
 /// Where in a step a rate is asked for.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,7 +26,7 @@ pub enum Stage {
 
 /// Tolerances of a step.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Tolerance {
+pub(crate) struct Tolerance {
     /// On speeds, relative to their size.
     pub relative: f64,
     /// On positions, m; angles count at a radius of 1 m.
@@ -37,7 +37,7 @@ pub struct Tolerance {
 
 /// A trial step.
 #[derive(Clone, Copy, Debug)]
-pub struct Trial {
+pub(crate) struct Trial {
     /// The state at its end.
     pub state: State<f64>,
     /// The rate there: the first stage of the next step.
@@ -47,7 +47,7 @@ pub struct Trial {
 }
 
 /// Tries a step `h` (s) from `state`, whose rate is `k1`; `rate` is called three times, last with [`Stage::End`].
-pub fn attempt(
+pub(crate) fn attempt(
     state: &State<f64>,
     k1: &State<f64>,
     h: f64,

@@ -22,7 +22,7 @@ const fn from_upper(word: u32) -> f64 {
 
 /// Sine and cosine.
 #[inline(always)]
-pub fn sin_cos<L: Lanes>(x: L) -> (L, L) {
+pub(crate) fn sin_cos<L: Lanes>(x: L) -> (L, L) {
     let size = x.abs();
     let below = |upper: u32| size.lt(L::of(from_upper(upper)));
     // about π/4, 3π/4 and 5π/4, where the quarter turns begin; π/2 and π, where the reduction cancels
@@ -79,7 +79,7 @@ fn kernel_cos<L: Lanes>(x: L, y: L) -> L {
 
 /// Angle of the point (`x`, `y`).
 #[inline(always)]
-pub fn atan2<L: Lanes>(y: L, x: L) -> L {
+pub(crate) fn atan2<L: Lanes>(y: L, x: L) -> L {
     let o = L::zero();
     let (size_x, size_y) = (x.abs(), y.abs());
     // neither vanishes, none much greater than the other
@@ -136,7 +136,7 @@ fn atan_of_positive<L: Lanes>(x: L) -> L {
 
 /// Arc cosine.
 #[inline(always)]
-pub fn acos<L: Lanes>(x: L) -> L {
+pub(crate) fn acos<L: Lanes>(x: L) -> L {
     let (one, two, half) = (L::one(), L::of(2.0), L::of(0.5));
     let (hi, lo) = (L::of(HALF_PI_HI), L::of(HALF_PI_LO));
     let size = x.abs();

@@ -29,7 +29,7 @@ pub struct Source(Arc<dyn Fn(&Sample<'_>) -> Value + Send + Sync>);
 
 impl Source {
     /// A source from a function.
-    pub fn new(of: impl Fn(&Sample<'_>) -> Value + Send + Sync + 'static) -> Self {
+    pub(crate) fn new(of: impl Fn(&Sample<'_>) -> Value + Send + Sync + 'static) -> Self {
         Source(Arc::new(of))
     }
 

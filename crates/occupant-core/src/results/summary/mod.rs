@@ -15,7 +15,7 @@ use crash_measures::injury::Measure;
 
 use crate::forces::table::Tables;
 
-pub use excursion::Excursion;
+pub(crate) use excursion::Excursion;
 pub use figures::{Figure, word};
 pub use peak::Peak;
 pub use summarizer::Summarizer;

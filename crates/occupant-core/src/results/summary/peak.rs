@@ -11,10 +11,10 @@ pub struct Peak {
 
 impl Peak {
     /// Nothing seen yet.
-    pub const NONE: Peak = Peak { value: f64::NEG_INFINITY, time_s: f64::NAN };
+    pub(crate) const NONE: Peak = Peak { value: f64::NEG_INFINITY, time_s: f64::NAN };
 
     /// Looks at a value; true if it is the greatest so far.
-    pub fn see(&mut self, value: f64, time_s: f64) -> bool {
+    pub(crate) fn see(&mut self, value: f64, time_s: f64) -> bool {
         let greater = value > self.value;
         if greater {
             *self = Peak { value, time_s };

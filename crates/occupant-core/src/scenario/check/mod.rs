@@ -29,7 +29,7 @@ impl Document {
     }
 
     /// The units of its bare numbers.
-    pub fn units(&self) -> UnitSystem {
+    pub(crate) fn units(&self) -> UnitSystem {
         match self.root.get("units").and_then(Node::as_str) {
             Some("in-lbf-s") => UnitSystem::InchPound,
             _ => UnitSystem::Si,

@@ -46,7 +46,7 @@ impl NumberTable {
     }
 
     /// A column in SI, if it is there.
-    pub fn column(&self, i: usize) -> Option<Vec<f64>> {
+    pub(crate) fn column(&self, i: usize) -> Option<Vec<f64>> {
         self.present[i].then(|| self.rows.iter().map(|row| row[i]).collect())
     }
 }

@@ -42,7 +42,7 @@ impl Diagnostic {
     }
 
     /// A problem of a text as a whole.
-    pub fn of(source: impl Into<String>, problem: Problem) -> Self {
+    pub(crate) fn of(source: impl Into<String>, problem: Problem) -> Self {
         Diagnostic { problem, source: source.into(), position: None, words: String::new(), line: String::new() }
     }
 
@@ -136,7 +136,7 @@ impl Diagnostics {
     }
 
     /// How many.
-    pub fn len(&self) -> usize {
+    pub(crate) fn len(&self) -> usize {
         self.0.len()
     }
 

@@ -62,7 +62,7 @@ pub enum Value {
 }
 
 /// Named values in the order in which they were written.
-pub type Table = IndexMap<String, Entry>;
+pub(crate) type Table = IndexMap<String, Entry>;
 
 /// A named value.
 #[derive(Clone, Debug, PartialEq)]

@@ -27,7 +27,7 @@ impl Span {
 
 /// A named text.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Source {
+pub(crate) struct Source {
     /// File name as the user gave it, or words such as `--set path.speed`.
     pub name: String,
     /// The text.

@@ -24,7 +24,7 @@ pub fn parse(sources: &Sources, id: SourceId) -> Result<Node, Diagnostics> {
 ///
 /// # Errors
 /// As for [`parse`].
-pub fn parse_value(sources: &Sources, id: SourceId) -> Result<Node, Diagnostics> {
+pub(crate) fn parse_value(sources: &Sources, id: SourceId) -> Result<Node, Diagnostics> {
     let (value, errors) = DeValue::parse_recoverable(sources.text(id));
     let mut reader = Reader::new(sources, id);
     report_all(&mut reader, errors);

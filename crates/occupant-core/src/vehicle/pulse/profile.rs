@@ -37,7 +37,7 @@ impl Ramp {
     }
 
     /// Loss `since_s` after the ramp's start.
-    pub fn loss(&self, since_s: f64) -> Loss {
+    pub(crate) fn loss(&self, since_s: f64) -> Loss {
         let (first, slope) = (self.first_m_s2, self.slope_m_s3());
         Loss {
             deceleration_m_s2: first + slope * since_s,
@@ -63,7 +63,7 @@ pub(super) enum Profile {
 
 impl Profile {
     /// Straight lines through (τ, a). Two points at one time are a jump. Times do not decrease and start at 0.
-    pub fn through(points: &[(f64, f64)]) -> Self {
+    pub(crate) fn through(points: &[(f64, f64)]) -> Self {
         let mut ramps: Vec<Ramp> = Vec::with_capacity(points.len());
         let (mut speed_before_m_s, mut distance_before_m) = (0.0, 0.0);
         for pair in points.windows(2) {
@@ -80,7 +80,7 @@ impl Profile {
     }
 
     /// Duration T, s.
-    pub fn duration_s(&self) -> f64 {
+    pub(crate) fn duration_s(&self) -> f64 {
         match self {
             Profile::HalfSine { duration_s, .. } | Profile::Haversine { duration_s, .. } => *duration_s,
             Profile::Ramps(ramps) => ramps.last().map_or(0.0, |ramp| ramp.start_s + ramp.length_s),
@@ -88,7 +88,7 @@ impl Profile {
     }
 
     /// The deceleration of greatest size, with its sign, m/s².
-    pub fn peak_m_s2(&self) -> f64 {
+    pub(crate) fn peak_m_s2(&self) -> f64 {
         match self {
             Profile::HalfSine { peak_m_s2, .. } | Profile::Haversine { peak_m_s2, .. } => *peak_m_s2,
             Profile::Ramps(ramps) => ramps
@@ -112,7 +112,7 @@ impl Profile {
     }
 
     /// Loss at τ = `since_s`: nothing before the pulse, and the speed lost stays lost after it.
-    pub fn loss(&self, since_s: f64, cursor: &mut PathCursor) -> Loss {
+    pub(crate) fn loss(&self, since_s: f64, cursor: &mut PathCursor) -> Loss {
         let duration_s = self.duration_s();
         if since_s < 0.0 {
             return Loss { deceleration_m_s2: 0.0, speed_m_s: 0.0, distance_m: 0.0 };

@@ -16,7 +16,7 @@ mod prepare;
 mod sampled;
 
 use crate::vehicle::Attitude;
-pub use angles::Angles;
+pub(crate) use angles::Angles;
 use crash_measures::measure::{
     Asi, AsiEdition, FlailDistances, FlailSpace, HeadFlight, Olc, Peak, Thiv, asi, flail_space, max_50ms_average, olc,
     thiv,

@@ -64,7 +64,7 @@ pub(super) struct SensorMotion {
 
 impl Piece {
     /// The motion at `t_s`.
-    pub fn at(&self, t_s: f64) -> SensorMotion {
+    pub(crate) fn at(&self, t_s: f64) -> SensorMotion {
         let s = t_s - self.start_s;
         let rotation = self.rotation_after(s);
         SensorMotion {
