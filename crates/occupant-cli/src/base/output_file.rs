@@ -76,12 +76,10 @@ pub(crate) fn refuse_input(target: &Path, input: &Path) -> Result<(), FileProble
 
 /// Refuses what a rename would destroy although it is no file of results.
 fn refuse_irregular(target: &Path) -> Result<(), FileProblem> {
-    let path = target.to_owned();
-    match fs::metadata(target) {
-        Ok(found) if !found.is_file() => Err(FileProblem::NotAFile { path }),
-        _ if target.file_name().is_none() => Err(FileProblem::NotAFile { path }),
-        _ => Ok(()),
+    if target.file_name().is_none() || fs::metadata(target).is_ok_and(|found| !found.is_file()) {
+        return Err(FileProblem::NotAFile { path: target.to_owned() });
     }
+    Ok(())
 }
 
 /// Removes a file, for which `doing` is the word.

@@ -133,9 +133,8 @@ impl Folder {
     pub(crate) fn manifest(&self) -> Result<Option<Manifest>, Problem> {
         let path = self.manifest_path();
         let bytes = match fs::read(&path) {
-            Ok(bytes) => bytes,
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
-            Err(error) => return Err(Problem::io("read", &path)(error)),
+            read => read.map_err(Problem::io("read", &path))?,
         };
         let read = serde_json::from_slice(&bytes);
         read.map(Some).map_err(|error| Problem::Damaged {

@@ -24,7 +24,8 @@ impl StudyTable {
     /// # Errors
     /// The operating system refuses.
     pub(crate) fn create(parquet: PathBuf, csv: Option<PathBuf>, manifest: &Manifest) -> Result<Self, Failure> {
-        let columns = columns(manifest);
+        let inputs = manifest.columns.iter().filter(|c| c.role != Role::Figure).count();
+        let columns = columns(manifest, inputs);
         let units: serde_json::Map<String, serde_json::Value> =
             manifest.columns.iter().map(|column| (column.name.clone(), column.unit.clone().into())).collect();
         let whole = manifest.to_bytes().map_err(|e| Failure::plain(format!("the manifest cannot be written: {e}")))?;
@@ -34,10 +35,7 @@ impl StudyTable {
         ];
         let asked = std::iter::once((parquet, Form::Parquet)).chain(csv.map(|path| (path, Form::Csv)));
         let files = asked.map(|(path, form)| TableFile::create(path, form, Existing::Replace, &columns, &about));
-        Ok(StudyTable {
-            files: files.collect::<Result<_, _>>()?,
-            inputs: manifest.columns.iter().filter(|c| c.role != Role::Figure).count(),
-        })
+        Ok(StudyTable { files: files.collect::<Result<_, _>>()?, inputs })
     }
 
     /// Adds a row.
@@ -47,11 +45,10 @@ impl StudyTable {
     pub(crate) fn row(&mut self, row: &Row) -> Result<(), Failure> {
         let (inputs, figures) = row.cells.split_at_checked(self.inputs).unwrap_or((&[], &[]));
         let reason = if row.reason.is_empty() { Cell::Absent } else { Cell::text(&row.reason) };
-        let mut cells = vec![Cell::count(row.index)];
-        cells.extend_from_slice(inputs);
-        cells.extend([Cell::text(row.status.word()), reason]);
-        cells.extend_from_slice(figures);
-        cells.extend([Cell::Number(row.wall_time_s), Cell::text(&row.kernel)]);
+        let begin = [Cell::count(row.index)];
+        let ending = [Cell::text(row.status.word()), reason];
+        let work = [Cell::Number(row.wall_time_s), Cell::text(&row.kernel)];
+        let cells = [&begin[..], inputs, &ending, figures, &work].concat();
         self.files.iter_mut().try_for_each(|file| file.row(cells.clone()))
     }
 
@@ -64,19 +61,17 @@ impl StudyTable {
     }
 }
 
-fn columns(manifest: &Manifest) -> Vec<(&str, Kind)> {
-    let of = |column: &'_ Column| match column.role {
+/// The columns of a table; the first `inputs` of the manifest's stand before `status`.
+fn columns(manifest: &Manifest, inputs: usize) -> Vec<(&str, Kind)> {
+    let of = |column: &Column| match column.role {
         Role::Input | Role::Figure => Kind::MaybeNumber,
         Role::InputText => Kind::MaybeText,
     };
-    let named = manifest.columns.iter().map(|column| (column, (column.name.as_str(), of(column))));
-    let (figures, inputs): (Vec<_>, Vec<_>) = named.partition(|(column, _)| column.role == Role::Figure);
-    let mut columns = vec![("index", Kind::Count)];
-    columns.extend(inputs.into_iter().map(|(_, column)| column));
-    columns.extend([("status", Kind::Text), ("reason", Kind::MaybeText)]);
-    columns.extend(figures.into_iter().map(|(_, column)| column));
-    columns.extend([("wall_time_s", Kind::Number), ("kernel", Kind::Text)]);
-    columns
+    let named: Vec<(&str, Kind)> = manifest.columns.iter().map(|c| (c.name.as_str(), of(c))).collect();
+    let (inputs, figures) = named.split_at(inputs);
+    let ending = [("status", Kind::Text), ("reason", Kind::MaybeText)];
+    let work = [("wall_time_s", Kind::Number), ("kernel", Kind::Text)];
+    [&[("index", Kind::Count)][..], inputs, &ending, figures, &work].concat()
 }
 
 /// Writes names, units and roles of the columns.
