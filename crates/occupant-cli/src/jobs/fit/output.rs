@@ -22,11 +22,22 @@ pub(crate) struct Output<'a> {
     pub(crate) folder: &'a Folder,
 }
 
+/// What the fitted scenarios came to.
+#[derive(Default)]
+struct FittedRuns {
+    /// The numbers as they are written.
+    written: Vec<Fitted>,
+    /// Misfits of all targets, experiment by experiment.
+    parts: Vec<f64>,
+    /// The runs of each experiment.
+    runs: Vec<Pair>,
+}
+
 impl Output<'_> {
     /// Fitted scenarios, history, plots, and fit.json last.
     pub(crate) fn write(&self, answer: &Answer, records: &[Record]) -> Result<Found, Failure> {
         let values = self.fitting.values(&answer.best.at);
-        let (written, parts, runs) = self.run_fitted(&values).map_err(broke_off)?;
+        let FittedRuns { written, parts, runs } = self.run_fitted(&values).map_err(broke_off)?;
         let found = found(self.fitting, answer, records, written, &parts);
         self.write_scenarios(&found)?;
         candidates::write(self.folder, self.fitting, records)?;
@@ -38,10 +49,9 @@ impl Output<'_> {
         Ok(found)
     }
 
-    /// Runs the scenarios with the numbers as they will be written, and without: the numbers, the misfits of all targets,
-    /// the runs.
-    fn run_fitted(&self, values: &[f64]) -> Result<(Vec<Fitted>, Vec<f64>, Vec<Pair>), String> {
-        let (mut written, mut parts, mut runs) = (Vec::new(), Vec::new(), Vec::new());
+    /// Runs the scenarios with the numbers as they will be written, and without.
+    fn run_fitted(&self, values: &[f64]) -> Result<FittedRuns, String> {
+        let FittedRuns { mut written, mut parts, mut runs } = FittedRuns::default();
         for experiment in &self.fitting.experiments {
             let numbers = numbers(experiment, values)?;
             let opened = experiment.scenario_with(numbers.iter().map(|n| (&n.path, &n.text)));
@@ -51,7 +61,7 @@ impl Output<'_> {
             written.extend(numbers);
             runs.push(Pair { before: experiment.run_with(None).ok(), after });
         }
-        Ok((written, parts, runs))
+        Ok(FittedRuns { written, parts, runs })
     }
 
     fn write_scenarios(&self, found: &Found) -> Result<(), Failure> {

@@ -57,7 +57,7 @@ impl ParameterFound {
         format!("{text} {}", self.shown.0).trim().to_owned()
     }
 
-    fn from_to(&self, ends: [f64; 2]) -> String {
+    fn range(&self, ends: [f64; 2]) -> String {
         let [low, high] = ends.map(|si| self.number(si));
         format!("{low} to {high}")
     }
@@ -86,8 +86,8 @@ fn parameters(found: &Found) -> String {
             unit.to_owned(),
             p.base.map_or(NONE.to_owned(), |b| p.number(b)),
             p.number(p.value),
-            p.from_to(p.interval),
-            p.from_to(p.bounds),
+            p.range(p.interval),
+            p.range(p.bounds),
             p.words.clone(),
         ]);
     }
@@ -144,7 +144,7 @@ pub(crate) fn provenance(found: &Found, p: &ParameterFound) -> String {
             format!(" ({} added to what the base scenario says)", p.with_unit(&p.number(p.value)))
         }
     };
-    let range = p.with_unit(&p.from_to(p.interval));
+    let range = p.with_unit(&p.range(p.interval));
     let interval = match p.verdict {
         Verdict::NotIdentified => format!("{}; any value of {range} is as good", p.words),
         _ => format!("{}, interval {range}", p.words),
