@@ -172,3 +172,20 @@ fn the_scanner_sees_what_is_there() {
     let found: Vec<_> = uses(text).into_iter().filter(|word| !word.is_empty()).collect();
     assert_eq!(found, ["forces", "model", "results", "run"]);
 }
+
+/// Files of tests are modules of one binary: one that no binary names would never run.
+#[test]
+fn every_file_of_tests_belongs_to_a_binary() {
+    for folder in ["tests/tests", "crates/occupant-cli/tests", "crates/cardio-legacy/tests"] {
+        let folder = crates().join("..").join(folder);
+        let main = fs::read_to_string(folder.join("main.rs")).unwrap();
+        let own = |stem: &str| ["main", "allocation"].contains(&stem);
+        for path in fs::read_dir(&folder).unwrap().map(|entry| entry.unwrap().path()) {
+            let is_rust = path.extension().is_some_and(|e| e == "rs") || path.join("mod.rs").exists();
+            let stem = name(&path);
+            if is_rust && !own(&stem) {
+                assert!(main.lines().any(|line| line == format!("mod {stem};")), "{}", path.display());
+            }
+        }
+    }
+}
