@@ -5,6 +5,7 @@ use crate::{
     reference::{DOF, Dual, PointForce, System, pose},
 };
 use nalgebra::{Matrix3, Point3, Rotation3, Vector3};
+use occupant_core::Problems;
 use occupant_core::forces::contact::ContactData;
 use occupant_core::forces::contact::ContactSystem;
 use occupant_core::forces::contact::EdgeForce;
@@ -27,7 +28,6 @@ use occupant_core::motion::frame::Moving;
 use occupant_core::motion::skeleton::Skeleton;
 use occupant_core::motion::vector::M3;
 use occupant_core::motion::vector::V3;
-use occupant_core::problem::Problems;
 
 /// A frame's motion: origin, axes as columns, velocity, angular velocity; all in space.
 #[derive(Clone, Copy, Debug)]

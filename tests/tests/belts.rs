@@ -246,7 +246,7 @@ fn slack_delays_the_pull_and_preload_advances_it() {
 }
 
 /// A floating body whose pelvis wears a belt with its first anchor at `anchor`.
-fn belted(anchor: Point3<f64>) -> Result<Model, occupant_core::problem::Problems> {
+fn belted(anchor: Point3<f64>) -> Result<Model, occupant_core::Problems> {
     let mut setup = afloat(male50(), 0.1, 1e-3);
     let mut data = belt([anchor, Point3::new(-0.4, 0.3, 0.5)], K, 0.0);
     data.sphere = 2;

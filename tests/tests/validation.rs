@@ -7,8 +7,8 @@ use occupant_core::forces::joint::Stop;
 use occupant_core::model::Model;
 use occupant_core::model::seating::InitialPosture;
 use occupant_core::model::setup::{Integrator, Setup};
-use occupant_core::problem::{Problems, Severity};
 use occupant_core::vehicle::{AfterEnd, Interpolation, Station, TablePath, VehiclePath};
+use occupant_core::{Problems, Severity};
 use occupant_tests::cart::lap;
 
 fn sound() -> Setup {

@@ -128,10 +128,10 @@
 //! | [`results`] | samples, channels, reactions, energies, recorders, summaries, checkpoints to resume from |
 //! | [`diagnosis`] | what will be simulated and whether the step suits it, before a run |
 //! | [`scenario`] | scenarios as text: units, presets, overrides, messages with line and column |
-//! | [`problem`] | what is wrong with an input |
 //!
 //! Above this crate `occupant-study` has designs, searches and sensitivities of many runs; below it `crash-measures` has
-//! filters and injury measures of any time history.
+//! filters and injury measures of any time history, and `placed-text` reads TOML, JSON and CSV with places and says what is
+//! wrong with them.
 
 pub mod body;
 pub mod diagnosis;
@@ -139,9 +139,10 @@ pub mod forces;
 pub mod kernel;
 pub mod model;
 pub mod motion;
-pub mod problem;
 pub mod quantity;
 pub mod results;
 pub mod run;
 pub mod scenario;
 pub mod vehicle;
+
+pub use placed_text::{Problem, Problems, Severity};

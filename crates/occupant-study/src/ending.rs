@@ -2,9 +2,9 @@
 
 use std::any::Any;
 
-use occupant_core::problem::Severity;
 use occupant_core::results::outcome::{Outcome, Status};
 use occupant_core::scenario::{Diagnostic, Diagnostics};
+use placed_text::Severity;
 
 /// How well a run kept its energy: greatest imbalance over greatest kinetic energy.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -7,8 +7,8 @@
 
 use super::parameter::{Assignment, Parameter, Target, changed, place};
 use super::random::{Purpose, unit};
-use occupant_core::problem::Problem;
 use occupant_core::scenario::{Draft, rival_path};
+use placed_text::Problem;
 use serde::Serialize;
 
 /// How far the standard changes may go.

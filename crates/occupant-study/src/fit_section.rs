@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use occupant_core::scenario::sections::Time;
-use occupant_core::scenario::text::Value;
+use placed_text::Value;
 
 /// What `occupant fit` makes the parameters of the study reproduce: measured channels of one test or several.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -2,8 +2,8 @@
 
 use super::law::{Law, Value};
 use crate::section::ApplyChoice;
-use occupant_core::scenario::text::Value as Written;
 use occupant_core::scenario::{Place, Wanted};
+use placed_text::Value as Written;
 
 /// A parameter that has found its places in the base scenario.
 #[derive(Clone, Debug, PartialEq)]

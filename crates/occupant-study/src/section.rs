@@ -15,7 +15,7 @@ use super::keep::KeepSection;
 use occupant_core::scenario::kind::UnitSystem;
 use occupant_core::scenario::schema_of;
 use occupant_core::scenario::sections::{Angle, FRACTION, Length, NOT_NEGATIVE, Ratio};
-use occupant_core::scenario::text::Value;
+use placed_text::Value;
 
 /// The JSON Schema of a study file.
 pub fn schema_json() -> &'static Json {

@@ -1,8 +1,8 @@
 //! A study text that has been read and whose words are right; what they mean depends on the base scenario.
 
 use crate::section::{StudySection, schema_json};
-use occupant_core::problem::Problem;
-use occupant_core::scenario::text::{Diagnostics, Document, Format};
+use occupant_core::scenario::check_words;
+use placed_text::{Diagnostics, Document, Format, Problem};
 
 /// A study text that has been read and whose words are right.
 #[derive(Clone, Debug)]
@@ -30,7 +30,7 @@ impl StudyText {
     }
 
     fn of(mut document: Document) -> Result<StudyText, Diagnostics> {
-        let problems = document.check(schema_json(), "the study");
+        let problems = check_words(&mut document, schema_json(), "the study");
         if problems.has_errors() {
             return Err(problems);
         }

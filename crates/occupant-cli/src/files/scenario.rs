@@ -4,8 +4,8 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use occupant_core::model::Model;
-use occupant_core::problem::Severity;
 use occupant_core::scenario::{Diagnostics, Draft, Format, Loaded};
+use placed_text::Severity;
 
 use super::mcap::StoredRun;
 use super::mcap::about::RESOLVED;

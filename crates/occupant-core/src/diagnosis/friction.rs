@@ -9,9 +9,9 @@ use super::mobility_of;
 use super::rates::FrictionMasses;
 use crate::model::Model;
 use crate::model::setup::Integrator;
-use crate::problem::Problems;
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
+use placed_text::Problems;
 
 /// Stability number above which a warning is due.
 pub(super) const LIMIT: f64 = 2.0;

@@ -12,8 +12,8 @@ use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::motion::state::{State, Work};
 use crate::motion::vector::V3;
-use crate::problem::Problems;
 use crate::quantity::{Energy, FieldWords, Quantity};
+use placed_text::Problems;
 
 /// A kind of force element: all elements of one kind in a model share a law, a place in the energy ledger, and the way in
 /// which they are checked, laid, remembered and compared.

@@ -11,7 +11,7 @@ use crate::body::Body;
 use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::motion::state::WORK_SUMS;
-use crate::problem::Problems;
+use placed_text::Problems;
 
 /// Everything that goes over all kinds, for the kinds in the order in which their forces are added.
 macro_rules! kinds {

@@ -9,7 +9,7 @@
 //! Loading is the case Δ = Δ_m of the same formula.
 
 use crate::motion::scalar::Scalar;
-use crate::problem::Problems;
+use placed_text::Problems;
 
 /// A fraction below this counts as this, so that μ = 0 is a very steep drop.
 pub(crate) const LEAST_FRACTION: f64 = 0.01;

@@ -21,8 +21,8 @@ use crate::motion::layout::FREE;
 use crate::motion::skeleton::Skeleton;
 use crate::motion::state::State;
 use crate::motion::vector::V3;
-use crate::problem::Problems;
 use crate::vehicle::{FrameMotion, PathCursor};
+use placed_text::Problems;
 
 /// A scenario ready to run.
 #[derive(Clone, Debug)]

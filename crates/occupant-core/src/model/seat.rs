@@ -16,8 +16,8 @@ use crate::motion::layout::{free_slot, hinge_slot};
 use crate::motion::report_coordinates::quaternion;
 use crate::motion::state::State;
 use crate::motion::vector::V3;
-use crate::problem::Problems;
 use crate::vehicle::FrameMotion;
+use placed_text::Problems;
 
 /// Figures of a seating, for the user to check.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -14,9 +14,9 @@ use crate::motion::kinematics::Kinematics;
 use crate::motion::report_coordinates::quaternion;
 use crate::motion::state::State;
 use crate::motion::vector::V3;
-use crate::problem::Problems;
 use crate::vehicle::FrameMotion;
 use crash_measures::trig;
+use placed_text::Problems;
 
 /// Lever that turns moments into comparable forces, m.
 const LEVER_M: f64 = 0.3;

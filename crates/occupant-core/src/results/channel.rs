@@ -7,12 +7,12 @@
 pub(crate) use crash_measures::unit::Unit;
 
 use crate::model::Model;
-use crate::problem::nearest;
 pub use crate::quantity::Axes;
 use crate::quantity::Value;
 use crate::results::catalogue::{self, Source};
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
+use crash_measures::nearest::nearest;
 
 /// A scalar time history of a run.
 #[derive(Clone, Debug)]

@@ -1,16 +1,16 @@
 //! A scenario text that has been read but not yet checked: the place to apply overrides.
 
-use super::check::references;
+use super::check::{check_words, references, units_of};
 use super::expand::expand;
 use super::kind::{UnitSystem, scaled_text};
 use super::loaded::{Loaded, Resolver};
 use super::overrides::{needs_explicit, put};
 use super::sections::schema;
-use super::text::{
+use crate::body::tti12::TTI12;
+use placed_text::{
     Diagnostics, Document, Format, Node, SourceId, Step, Value, follow, parse_path, parse_value, refuse, targets,
     to_text,
 };
-use crate::body::tti12::TTI12;
 
 /// A scenario text that has been read but not yet checked.
 #[derive(Clone, Debug)]
@@ -101,7 +101,7 @@ impl Draft {
 
     /// The units of its bare numbers.
     pub fn units(&self) -> UnitSystem {
-        self.document.units()
+        units_of(&self.document)
     }
 
     /// All that is wrong with the words of the scenario as it stands.
@@ -111,7 +111,7 @@ impl Draft {
 
     /// As [`Draft::check`]; notes every quantity in SI units.
     pub(super) fn check_words(&mut self) -> Diagnostics {
-        let mut problems = self.document.check(schema(), "the scenario");
+        let mut problems = check_words(&mut self.document, schema(), "the scenario");
         // where the words are right, names are looked up when the plain data are built
         if problems.has_errors() {
             let root = self.explicit();

@@ -5,10 +5,11 @@
 
 use std::sync::OnceLock;
 
+use super::check::check_words;
 use super::sections::schema;
-use super::text::{Document, Entry, Format, Node, Sources, Table, Value};
 use crate::body::tree::{JointRow, both_sides};
 use crate::body::tti12::TTI12;
+use placed_text::{Document, Entry, Format, Node, Sources, Table, Value};
 
 /// Two keys of which a later layer's one, or an override's, replaces an earlier layer's other.
 const RIVALS: [[&str; 2]; 3] = [["mass", "weight"], ["peak", "delta_v"], ["slack", "length"]];
@@ -35,7 +36,7 @@ fn preset(name: &str) -> Option<&'static Document> {
     let read = || {
         let mut document = Document::read(text, Format::Toml, name).ok()?;
         // it lacks what a whole scenario has; its quantities are read
-        document.check(schema(), "the preset");
+        check_words(&mut document, schema(), "the preset");
         Some(document)
     };
     cell.get_or_init(read).as_ref()

@@ -4,7 +4,7 @@
 use crash_measures::unit::{Dimension, Scale, Unit, UnitError, parse};
 use serde::{Deserialize, Serialize};
 
-use super::text::Value;
+use placed_text::Value;
 
 /// Which units bare numbers have.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, schemars::JsonSchema)]

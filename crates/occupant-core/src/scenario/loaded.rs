@@ -3,10 +3,9 @@
 use super::draft::Draft;
 use super::expand::expand;
 use super::sections::{Scenario, setup};
-use super::text::{Diagnostics, Document, Format, SourceId, text_of};
 use crate::model::Model;
 use crate::model::setup::Setup;
-use crate::problem::{Problem, Problems};
+use placed_text::{Diagnostics, Document, Format, Problem, Problems, SourceId, text_of};
 
 /// Gives the bytes of a file named in a scenario, or says why not. The core reads no files itself.
 pub type Resolver<'a> = &'a dyn Fn(&str) -> Result<Vec<u8>, String>;

@@ -4,7 +4,7 @@
 //! text ─ Draft (overrides) ─ check ─ sections ─ Loaded ─ plain data ─ Setup ─ Model
 //! ```
 //!
-//! - `text`: TOML, JSON and CSV with places, and messages that point at them;
+//! - [`placed_text`]: TOML, JSON and CSV with places, and messages that point at them;
 //! - `kind`: what a number can be, and how a written one becomes SI;
 //! - `check`: every value of the tree against the schema of the sections; quantities become SI here, once;
 //! - `sections`: one file for each concept: its keys, and the plain data they come to;
@@ -45,15 +45,14 @@ mod overrides;
 mod places;
 mod presets;
 pub mod sections;
-pub mod text;
 
-pub use check::schema_of;
+pub use check::{check_words, schema_of};
 pub use draft::Draft;
 pub use expand::rival_path;
 pub use loaded::{Loaded, Resolver};
+pub use placed_text::{Diagnostic, Diagnostics, Format};
 pub use places::{Place, Wanted};
 pub use sections::{RecordFile, Scenario, read_record, schema};
-pub use text::{Diagnostic, Diagnostics, Format};
 
 #[cfg(test)]
 mod tests;

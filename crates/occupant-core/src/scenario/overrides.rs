@@ -1,7 +1,7 @@
 //! `path.to.key=value`: changes to a scenario from a command line or a sweep, made before it is checked.
 
 use super::expand::rival;
-use super::text::{Entry, Node, Span, Step, Table, Value, child, follow, with_step};
+use placed_text::{Entry, Node, Span, Step, Table, Value, child, follow, with_step};
 
 /// Whether a path can only be followed in the explicit form of a scenario: it has wildcards, or it leads into a list that
 /// is not written.

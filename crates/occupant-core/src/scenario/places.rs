@@ -11,9 +11,8 @@ use super::expand::expand;
 use super::kind::{Kind, split_number};
 use super::overrides::put;
 use super::sections::schema;
-use super::text::{Node, Step, Value, child, children, did_you_mean, follow, parse_path, targets, to_text};
-use crate::problem::Problem;
 use crash_measures::unit::parse;
+use placed_text::{Node, Problem, Step, Value, child, children, did_you_mean, follow, parse_path, targets, to_text};
 
 /// What may stand at a place.
 #[derive(Clone, Debug, PartialEq)]

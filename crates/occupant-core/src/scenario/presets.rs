@@ -5,9 +5,9 @@ use std::sync::OnceLock;
 
 use super::expand::expand;
 use super::sections::occupant;
-use super::text::{Document, Format};
 use crate::body::Body;
 use crate::forces::joint::Joints;
+use placed_text::{Document, Format};
 
 impl Body {
     /// The 50th-percentile male (78.7 kg) of the GEBOD generator, with the report's 17 spheres: `body.preset = "male50"`.

@@ -4,7 +4,7 @@ use super::Binder;
 use crate::copula::Copula;
 use crate::design::Design;
 use crate::parameter::Parameter;
-use occupant_core::scenario::text::{did_you_mean, one_of};
+use placed_text::{did_you_mean, one_of};
 
 impl Binder<'_> {
     pub(super) fn copula(&mut self, parameters: &[Parameter], design: &Design) -> Option<Copula> {

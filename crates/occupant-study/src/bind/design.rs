@@ -5,8 +5,8 @@ use crate::design::Design;
 use crate::ensemble::Ensemble;
 use crate::parameter::Parameter;
 use crate::sobol::MAX_DIMENSIONS;
-use occupant_core::problem::Problem;
 use occupant_core::scenario::Resolver;
+use placed_text::Problem;
 
 impl Binder<'_> {
     /// The design of the study; columns of a table of samples may become parameters.

@@ -5,8 +5,8 @@ use super::Binder;
 use crate::law::{Law, Value};
 use crate::parameter::{Assignment, Parameter};
 use crate::section::ApplyChoice;
-use occupant_core::problem::{Problem, Severity};
 use occupant_core::scenario::{Diagnostics, Draft, Place};
+use placed_text::{Problem, Severity};
 
 /// The part of a normal distribution beyond which values out of range are not looked for.
 const RARE: f64 = 1e-6;

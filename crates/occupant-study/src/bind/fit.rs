@@ -7,10 +7,9 @@ use crate::fit::{Bounds, Fit};
 use crate::fit_section::{FitChannel, FitSection, FitTest};
 use crate::{Parameter, Study, StudyText};
 use crash_measures::trig::ln;
-use occupant_core::problem::Problem;
 use occupant_core::scenario::sections::Time;
-use occupant_core::scenario::text::Value;
 use occupant_core::scenario::{Diagnostics, Draft, Resolver};
+use placed_text::{Problem, Value};
 
 /// Evaluations for each parameter.
 const BUDGET: u64 = 400;

@@ -5,7 +5,7 @@ use crate::law::{Law, Value};
 use crate::section::{ApplyChoice, DistributionSection, GridSection, ParameterSection, ScaleChoice};
 use occupant_core::scenario::Wanted;
 use occupant_core::scenario::kind::{KINDS, Kind, RATIO, UnitSystem};
-use occupant_core::scenario::text::{Value as Written, did_you_mean, one_of};
+use placed_text::{Value as Written, did_you_mean, one_of};
 
 /// How the values of one parameter are to be read.
 pub(super) struct Quantities<'w> {

@@ -19,10 +19,9 @@ use super::keep::Keep;
 use super::parameter::Parameter;
 use super::sobol::Sobol;
 use super::text::StudyText;
-use occupant_core::problem::Problem;
 use occupant_core::scenario::kind::UnitSystem;
-use occupant_core::scenario::text::{Value, with_key};
 use occupant_core::scenario::{Diagnostics, Draft, Resolver, Wanted};
+use placed_text::{Problem, Value, with_key};
 
 impl StudyText {
     /// Checks the study against its base scenario. What the study's `set` says is put into the base first, then the

@@ -5,10 +5,9 @@ use super::law::kind_of;
 use crate::law::{Law, Value};
 use crate::parameter::{Parameter, Target, si_unit};
 use crate::section::ApplyChoice;
-use occupant_core::problem::Problem;
 use occupant_core::scenario::kind::Kind;
-use occupant_core::scenario::text::{Cell, Sources, Span, cells, lines, name_and_unit, number, one_of, text_of};
 use occupant_core::scenario::{Diagnostic, Resolver, Wanted};
+use placed_text::{Cell, Problem, Sources, Span, cells, lines, name_and_unit, number, one_of, text_of};
 
 /// How the cells of a column are read.
 struct Column {

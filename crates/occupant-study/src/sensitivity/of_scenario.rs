@@ -2,8 +2,8 @@
 
 use super::parameter::{Parameter, size_of};
 use crate::{Assignment, Target, Value};
-use occupant_core::problem::Problem;
 use occupant_core::scenario::{Draft, Resolver, Wanted};
+use placed_text::Problem;
 
 /// The parameter at a path: the number that stands there, or for a path to several numbers, such as `joints.*.damping`, a
 /// factor on all of them.

@@ -7,8 +7,8 @@ use crash_measures::unit::UnitError;
 use occupant_core::run::batch::Kernel;
 use occupant_core::scenario::Draft;
 use occupant_core::scenario::kind::{self, KINDS, UnitSystem};
-use occupant_core::scenario::text::Value;
 use occupant_study::{Study, Tolerances};
+use placed_text::Value;
 
 use super::sweep::engine;
 use crate::base::failure::Failure;

@@ -3,9 +3,9 @@
 //! The numbers are put into the text itself. The text counts only if it says the same scenario as the program's own
 //! changes do; where it cannot (a list that only a preset has, a text in JSON), the scenario is written anew.
 
-use occupant_core::scenario::text::{Step, parse_path};
 use occupant_core::scenario::{Draft, Format, Scenario};
 use occupant_study::{Assignment, Parameter};
+use placed_text::{Step, parse_path};
 use serde::Serialize;
 use toml_edit::{DocumentMut, InlineTable, Item, Table, TableLike, Value, value};
 

@@ -4,7 +4,6 @@ use std::collections::HashSet;
 use std::time::Instant;
 
 use occupant_core::model::Model;
-use occupant_core::problem::Problem;
 use occupant_core::results::outcome::Status;
 use occupant_core::results::summary::{Figure, Summarizer};
 use occupant_core::run::simulate::simulate;
@@ -12,6 +11,7 @@ use occupant_core::scenario::{Draft, Resolver};
 use occupant_study::sensitivity::finite::{CHANGES, Comparison, Finite, compare, finite_changes};
 use occupant_study::sensitivity::measures::{Derivatives, Request, Values, chosen, derivatives, plain_values};
 use occupant_study::sensitivity::{Built, Parameter, Trajectory, follow, parameter};
+use placed_text::Problem;
 
 use crate::base::failure::Failure;
 use crate::files::history::choose;

@@ -5,7 +5,7 @@
 
 use std::path::Path;
 
-use occupant_core::scenario::text::Value as Node;
+use placed_text::Value as Node;
 
 use crate::base::names::file_name;
 use crate::files::study_folder::manifest::Manifest;

@@ -1,6 +1,6 @@
 //! Which figures of the runs a report is about.
 
-use occupant_core::problem::nearest;
+use crash_measures::nearest::nearest;
 use occupant_core::results::channel::star;
 use occupant_core::results::customary::FIGURES;
 

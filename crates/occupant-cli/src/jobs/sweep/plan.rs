@@ -7,9 +7,9 @@ use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{Figure, Summarizer};
 use occupant_core::run::simulate::simulate;
-use occupant_core::scenario::text::Value as Written;
 use occupant_core::scenario::{Diagnostics, Draft, Loaded};
 use occupant_study::{Design, Law, Parameter, Setting, Study, StudyText, Value};
+use placed_text::Value as Written;
 
 use crate::base::failure::Failure;
 use crate::base::names::file_name;

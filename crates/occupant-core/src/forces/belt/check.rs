@@ -4,7 +4,7 @@ use crate::body::Body;
 use crate::forces::belt::Belt;
 use crate::forces::belt::law::BeltLaw;
 use crate::motion::vector::V3;
-use crate::problem::Problems;
+use placed_text::Problems;
 
 pub(super) fn data(belts: &[Belt], body: &Body, problems: &mut Problems) {
     for (i, belt) in belts.iter().enumerate() {

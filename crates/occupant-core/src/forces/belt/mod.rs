@@ -17,9 +17,9 @@ use crate::motion::frame::VEHICLE;
 use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::v3;
-use crate::problem::Problems;
 use crate::quantity::energy;
 use law::{BeltAction, BeltHistory, BeltLaw};
+use placed_text::Problems;
 
 /// Place of the recoverable energy in the energy ledger.
 pub const STORED: usize = 2;

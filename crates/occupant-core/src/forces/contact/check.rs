@@ -3,7 +3,7 @@
 use crate::body::Body;
 use crate::forces::contact::material::Material;
 use crate::forces::contact::surface::Surface;
-use crate::problem::Problems;
+use placed_text::Problems;
 
 pub(super) fn check(materials: &[Material], surfaces: &[Surface], body: &Body, problems: &mut Problems) {
     for m in materials {

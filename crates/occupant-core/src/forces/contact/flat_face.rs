@@ -5,7 +5,7 @@
 use nalgebra::{Point3, Vector3};
 
 use crate::forces::contact::surface::{Facing, Frame, Outline, Surface};
-use crate::problem::Problems;
+use placed_text::Problems;
 
 /// Points closer than this are the same point, m.
 const SAME_M: f64 = 1e-6;

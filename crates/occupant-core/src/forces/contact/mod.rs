@@ -22,10 +22,10 @@ use crate::forces::contact::material::Material;
 use crate::forces::contact::surface::Surface;
 use crate::forces::element::{Element, HeldBy, Instant, Load, StoredEnergy, Unlike, WorkSum};
 use crate::motion::scalar::Scalar;
-use crate::problem::Problems;
 use crate::quantity::energy;
 use encounter::Sphere;
 use hints::{Looking, Near, Nearing};
+use placed_text::Problems;
 
 /// Place of the recoverable energy in the energy ledger.
 pub const STORED: usize = 1;

@@ -1,7 +1,7 @@
 //! Dampers, stops and springs of the joints.
 
 use crate::forces::joint::{BallJoint, HingeJoint, JointLaw, Joints, Stop};
-use crate::problem::Problems;
+use placed_text::Problems;
 
 pub(super) fn check(j: &Joints, problems: &mut Problems) {
     // ball joints first, as ever

@@ -15,8 +15,8 @@ use crate::forces::shown::Reported;
 use crate::motion::layout::BALLS;
 use crate::motion::mobility::Mobility;
 use crate::motion::scalar::Scalar;
-use crate::problem::Problems;
 use crate::quantity::energy;
+use placed_text::Problems;
 
 /// Place of the springs' energy in the energy ledger.
 pub const STORED: usize = 0;

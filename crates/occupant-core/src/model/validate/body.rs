@@ -1,7 +1,7 @@
 //! Segments and spheres of the body.
 
 use crate::body::{Body, SegmentProperties};
-use crate::problem::Problems;
+use placed_text::Problems;
 
 /// A sphere may lie this far beside even a short segment, m.
 const WIDEST_M: f64 = 0.3;

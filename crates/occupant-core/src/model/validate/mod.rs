@@ -4,7 +4,7 @@ mod body;
 mod time;
 
 use crate::model::setup::Setup;
-use crate::problem::Problems;
+use placed_text::Problems;
 
 /// Reports every problem of the numbers of `setup`.
 pub(crate) fn check(setup: &Setup, problems: &mut Problems) {

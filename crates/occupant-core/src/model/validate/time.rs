@@ -1,7 +1,7 @@
 //! Times and the integrator.
 
 use crate::model::setup::{Integrator, TimeSpan};
-use crate::problem::Problems;
+use placed_text::Problems;
 
 /// More steps than this are a slip of the pen.
 const MOST_STEPS: f64 = 1e9;

@@ -4,8 +4,7 @@ use serde_json::{Map, Value as Json};
 
 use super::schema::groups;
 use super::{Checker, View};
-use crate::problem::Problem;
-use crate::scenario::text::{Entry, Node, Table, one_of, quoted};
+use placed_text::{Entry, Node, Problem, Table, one_of, quoted};
 
 impl Checker<'_> {
     /// Keys that exclude or need each other.

@@ -14,26 +14,25 @@ pub use schema::schema_of;
 pub(super) use view::View;
 
 use super::kind::{Kind, UnitSystem};
-use super::text::{Diagnostic, Diagnostics, Document, Node, Sources, Span, Value, did_you_mean, one_of, with_key};
-use crate::problem::Problem;
+use placed_text::{
+    Diagnostic, Diagnostics, Document, Node, Problem, Sources, Span, Value, did_you_mean, one_of, with_key,
+};
 
-impl Document {
-    /// All that is wrong with its words; `what` is what messages call it.
-    pub fn check(&mut self, schema: &'static Json, what: &'static str) -> Diagnostics {
-        let units = self.units();
-        let mut checker = Checker { sources: &self.sources, root: schema, what, units, problems: Diagnostics::new() };
-        if let Some(view) = View::of(schema, schema) {
-            checker.node(&view, &mut self.root, "");
-        }
-        checker.problems
+/// All that is wrong with the words of a text; `what` is what messages call it.
+pub fn check_words(document: &mut Document, schema: &'static Json, what: &'static str) -> Diagnostics {
+    let units = units_of(document);
+    let mut checker = Checker { sources: &document.sources, root: schema, what, units, problems: Diagnostics::new() };
+    if let Some(view) = View::of(schema, schema) {
+        checker.node(&view, &mut document.root, "");
     }
+    checker.problems
+}
 
-    /// The units of its bare numbers.
-    pub(crate) fn units(&self) -> UnitSystem {
-        match self.root.get("units").and_then(Node::as_str) {
-            Some("in-lbf-s") => UnitSystem::InchPound,
-            _ => UnitSystem::Si,
-        }
+/// The units of a text's bare numbers.
+pub(super) fn units_of(document: &Document) -> UnitSystem {
+    match document.root.get("units").and_then(Node::as_str) {
+        Some("in-lbf-s") => UnitSystem::InchPound,
+        _ => UnitSystem::Si,
     }
 }
 

@@ -1,7 +1,6 @@
 //! Names that refer to other parts of a scenario.
 
-use crate::problem::Problem;
-use crate::scenario::text::{Node, did_you_mean, follow, one_of, parse_path, targets, to_text};
+use placed_text::{Node, Problem, did_you_mean, follow, one_of, parse_path, targets, to_text};
 
 /// Where a name stands, what it names, and the table that has things of that kind.
 const REFERENCES: [(&str, &str, &str); 9] = [

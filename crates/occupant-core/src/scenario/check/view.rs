@@ -3,7 +3,7 @@
 use serde_json::{Map, Value as Json};
 
 use crate::scenario::kind::Kind;
-use crate::scenario::text::one_of;
+use placed_text::one_of;
 
 /// A place in the schema.
 #[derive(Clone, Copy)]

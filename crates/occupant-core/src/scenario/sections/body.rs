@@ -12,8 +12,7 @@ use crate::body::tree::SphereRow;
 use crate::body::tti12::TTI12;
 use crate::body::{Body, ContactSphere, SegmentProperties, Tree};
 use crate::model::setup::STANDARD_GRAVITY_M_S2;
-use crate::problem::Problem;
-use crate::scenario::text::with_key;
+use placed_text::{Problem, with_key};
 
 /// A preset, changes to it, or a whole body of one's own.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -3,8 +3,7 @@
 use serde::de::DeserializeOwned;
 
 use super::quantity::Quantity;
-use crate::problem::Problem;
-use crate::scenario::text::{Diagnostics, Document, follow, parse_path, with_key};
+use placed_text::{Diagnostics, Document, Problem, follow, parse_path, with_key};
 
 /// Collects problems while the plain data are put together.
 pub(super) struct Builder<'a> {

@@ -8,8 +8,7 @@ use super::quantity::{NOT_NEGATIVE, si_or};
 use super::{Angle, Ratio, RotationalDamping, RotationalStiffness};
 use crate::body::tti12::TTI12;
 use crate::forces::joint::{AngularSpring, BallJoint, HingeJoint, JointLaw, Joints, Stop};
-use crate::problem::Problem;
-use crate::scenario::text::with_key;
+use placed_text::{Problem, with_key};
 
 /// The eleven joints. What is said of one joint replaces what is said of its pair, that replaces what is said of `all`,
 /// and that replaces the preset. Every joint needs a damping from somewhere.

@@ -3,11 +3,10 @@
 //! The first line names the columns with their units, `t[s],x[m],yaw[deg]`. Every further line holds one number for each
 //! column. Blank lines and lines that start with `#` are skipped.
 
-use crate::problem::Problem;
 use crate::scenario::kind::{KINDS, UnitSystem};
-use crate::scenario::text::{
-    Cell, Diagnostic, Diagnostics, Node, SourceId, Sources, Span, cells, did_you_mean, lines, name_and_unit, number,
-    one_of,
+use placed_text::{
+    Cell, Diagnostic, Diagnostics, Node, Problem, SourceId, Sources, Span, cells, did_you_mean, lines, name_and_unit,
+    number, one_of,
 };
 
 /// A column that a table may have.

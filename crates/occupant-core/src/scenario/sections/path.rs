@@ -10,13 +10,12 @@ use super::pulse::{self, PulseSection};
 use super::quantity::{all_si, si_or};
 use super::sensors::{self, SensorsSection};
 use super::{Angle, Length, Ratio};
-use crate::problem::Problem;
 use crate::scenario::kind;
-use crate::scenario::text::{Diagnostic, SourceId};
 use crate::vehicle::{
     AfterEnd, Attitude, FixedPath, Interpolation, PathProblem, Station, TablePath, TravelDirection, VehiclePath,
     VehiclePose,
 };
+use placed_text::{Diagnostic, Problem, SourceId};
 
 /// Motion of the vehicle, in vehicle-space axes: x forward, y right, z down.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

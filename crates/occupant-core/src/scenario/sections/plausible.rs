@@ -9,8 +9,7 @@ use super::posture::PostureSection;
 use super::{Angle, Scenario};
 use crate::body::tti12::TTI12;
 use crate::model::setup::Setup;
-use crate::problem::Problem;
-use crate::scenario::text::{Step, child, follow, parse_path, targets, to_text};
+use placed_text::{Problem, Step, child, follow, parse_path, targets, to_text};
 
 /// What is usual of one kind of number, and what an unusual one is likely to be.
 struct Usual {

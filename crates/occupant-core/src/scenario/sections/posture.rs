@@ -11,7 +11,8 @@ use super::{Angle, Length, Scenario, Speed};
 use crate::body::Body;
 use crate::model::seating::{InitialPosture, InitialVelocity, Seating};
 use crate::motion::report_coordinates::{DOF, ReportCoordinates};
-use crate::problem::Problem;
+use crate::scenario::check::units_of;
+use placed_text::Problem;
 
 /// A place to sit.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -129,7 +130,7 @@ fn state_of(b: &mut Builder, s: &Scenario, state: &InitialStateSection, body: &B
 
 /// q₁–q₃ are lengths in the file's unit, all others radians.
 fn coordinates(b: &Builder, section: &InitialStateSection) -> Option<ReportCoordinates> {
-    let length_m = b.document.units().length_m();
+    let length_m = units_of(b.document).length_m();
     let si = |values: &[f64]| -> Option<[f64; DOF]> {
         let scaled = values.iter().enumerate();
         let scaled: Vec<f64> = scaled.map(|(i, x)| if i < 3 { x * length_m } else { *x }).collect();

@@ -8,10 +8,9 @@ use super::number_table::{Column, column};
 use super::path::{direction, numbers, pose, refuse};
 use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, si_or};
 use super::{Acceleration, Angle, Length, Ratio, Speed, Time};
-use crate::problem::Problem;
 use crate::scenario::kind;
-use crate::scenario::text::SourceId;
 use crate::vehicle::{DecelerationPoint, PulseDefinition, PulsePath, PulseShape as Shape, Strength};
+use placed_text::{Problem, SourceId};
 
 /// A deceleration pulse. The vehicle stays where its speed reaches zero, unless a rebound is given.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

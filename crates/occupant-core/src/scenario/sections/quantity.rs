@@ -9,7 +9,7 @@ use serde_json::json;
 
 use super::Length;
 use crate::scenario::kind::{KINDS, Kind, UnitSystem};
-use crate::scenario::text::Value;
+use placed_text::Value;
 
 /// Any number.
 pub(crate) const ANY: usize = 0;

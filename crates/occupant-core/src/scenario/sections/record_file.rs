@@ -2,9 +2,8 @@
 
 use super::number_table::read_csv;
 use super::sensors::{COLUMNS, RECORDED};
-use crate::problem::Problem;
-use crate::scenario::text::{Diagnostic, Diagnostics, Sources, Span, text_of};
 use crate::vehicle::AccelerationRecord;
+use placed_text::{Diagnostic, Diagnostics, Problem, Sources, Span, text_of};
 
 /// Recorded accelerations and rates in SI, as the file's axes have them, with the places of its lines.
 #[derive(Clone, Debug)]

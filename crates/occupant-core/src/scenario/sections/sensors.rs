@@ -10,13 +10,12 @@ use super::path::{direction, numbers, pose, refuse};
 use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si};
 use super::{Angle, Length, Ratio, Speed, Time};
 use crate::model::setup::STANDARD_GRAVITY_M_S2;
-use crate::problem::Problem;
 use crate::scenario::kind;
-use crate::scenario::text::{Diagnostic, SourceId};
 use crate::vehicle::{
     AccelerationRecord, AfterEnd, DeltaVRecord, SensorDefinition, SensorGravity, SensorPath, SensorRecord,
 };
 use crash_measures::signal::ChannelClass;
+use placed_text::{Diagnostic, Problem, SourceId};
 
 /// What sensors in the vehicle recorded, along its axes: x forward, y right, z down.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

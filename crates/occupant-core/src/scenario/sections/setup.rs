@@ -13,9 +13,8 @@ use super::{
 use crate::body::Body;
 use crate::forces::joint::Joints;
 use crate::model::setup::{STANDARD_GRAVITY_M_S2, Setup};
-use crate::problem::Problem;
 use crate::scenario::check::references;
-use crate::scenario::text::{Diagnostics, Document, SourceId, locate, with_key};
+use placed_text::{Diagnostics, Document, Problem, SourceId, locate, with_key};
 
 /// Builds the plain data; `written` is the scenario as it was written, `explicit` the one with presets written out, and
 /// `document` the tree of the latter.

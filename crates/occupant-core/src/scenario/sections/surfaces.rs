@@ -10,8 +10,7 @@ use super::{Angle, Length, Ratio, Scenario};
 use crate::body::Body;
 use crate::forces::contact::EdgeForce;
 use crate::forces::contact::surface::{Facing, Frame, Outline, Surface};
-use crate::problem::Problem;
-use crate::scenario::text::with_key;
+use placed_text::{Problem, with_key};
 
 /// A plane surface: `points`, `edge` with `half_width`, `disc`, or `plane`.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]

@@ -69,7 +69,7 @@ fn values_can_be_read_before_they_are_changed() {
     assert_eq!(found.len(), 11);
     assert_eq!(found[0].0, "joints.neck.damping");
     let found = draft.get("path.speed").unwrap();
-    assert_eq!(found[0].1, super::super::text::Value::String("30 km/h".into()));
+    assert_eq!(found[0].1, placed_text::Value::String("30 km/h".into()));
     assert!(draft.get("belts.*.slack").is_err());
 }
 

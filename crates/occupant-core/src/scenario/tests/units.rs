@@ -4,8 +4,8 @@ use crate::scenario::kind::{
     ACCELERATION, ANGLE, ANGULAR_VELOCITY, FORCE, INERTIA, KINDS, LENGTH, MASS, RATIO, ROTATIONAL_DAMPING, SPEED,
     STIFFNESS, TIME, UnitSystem,
 };
-use crate::scenario::text::Value;
 use crash_measures::unit::{Dimension, UNITS, UnitError, parse};
+use placed_text::Value;
 
 fn read(text: &str, kind: usize) -> Result<f64, UnitError> {
     KINDS[kind].si(&Value::String(text.into()), UnitSystem::Si)

@@ -1,12 +1,12 @@
 //! TOML text → [`Node`] tree.
 
-use ::toml::Spanned;
-use ::toml::de::{DeTable, DeValue, Error};
+use toml::Spanned;
+use toml::de::{DeTable, DeValue, Error};
 
-use super::diagnostic::Diagnostics;
-use super::node::{Entry, Node, Table, Value};
-use super::reader::Reader;
-use super::source::{SourceId, Sources, Span};
+use crate::diagnostic::Diagnostics;
+use crate::node::{Entry, Node, Table, Value};
+use crate::reader::Reader;
+use crate::source::{SourceId, Sources, Span};
 
 /// Reads a TOML document.
 ///
@@ -24,7 +24,7 @@ pub fn parse(sources: &Sources, id: SourceId) -> Result<Node, Diagnostics> {
 ///
 /// # Errors
 /// As for [`parse`].
-pub(crate) fn parse_value(sources: &Sources, id: SourceId) -> Result<Node, Diagnostics> {
+pub fn parse_value(sources: &Sources, id: SourceId) -> Result<Node, Diagnostics> {
     let (value, errors) = DeValue::parse_recoverable(sources.text(id));
     let mut reader = Reader::new(sources, id);
     report_all(&mut reader, errors);

@@ -2,8 +2,6 @@
 
 use std::fmt;
 
-pub use crash_measures::nearest::nearest;
-
 /// How bad a problem is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Severity {
@@ -76,12 +74,12 @@ impl Problems {
     }
 
     /// Adds an error.
-    pub(crate) fn error(&mut self, path: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) {
+    pub fn error(&mut self, path: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) {
         self.0.push(Problem::error(path, found, expected));
     }
 
     /// Adds an error with a remedy.
-    pub(crate) fn error_with_hint(
+    pub fn error_with_hint(
         &mut self,
         path: impl Into<String>,
         found: impl Into<String>,
@@ -92,12 +90,12 @@ impl Problems {
     }
 
     /// Adds a warning.
-    pub(crate) fn warning(&mut self, path: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) {
+    pub fn warning(&mut self, path: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) {
         self.0.push(Problem::warning(path, found, expected));
     }
 
     /// Adds an error unless `value` is positive; returns whether it is.
-    pub(crate) fn check_positive(&mut self, path: &str, value: f64, unit: &str) -> bool {
+    pub fn check_positive(&mut self, path: &str, value: f64, unit: &str) -> bool {
         let is_good = value > 0.0 && value.is_finite();
         if !is_good {
             self.error(path, format!("{value} {unit}").trim_end(), "a positive number");
@@ -106,14 +104,14 @@ impl Problems {
     }
 
     /// Adds an error unless `value` is zero or positive.
-    pub(crate) fn check_at_least_zero(&mut self, path: &str, value: f64, unit: &str) {
+    pub fn check_at_least_zero(&mut self, path: &str, value: f64, unit: &str) {
         if !(value >= 0.0 && value.is_finite()) {
             self.error(path, format!("{value} {unit}").trim_end(), "zero or a positive number");
         }
     }
 
     /// Appends all of `other`.
-    pub(crate) fn extend(&mut self, other: Problems) {
+    pub fn extend(&mut self, other: Problems) {
         self.0.extend(other.0);
     }
 

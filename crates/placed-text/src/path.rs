@@ -1,7 +1,7 @@
 //! Paths into a scenario: `belts.lap.anchors[1]`, `joints.*.damping`, `surfaces."front cushion".material`.
 
-use super::node::{Node, Value};
-use super::source::Span;
+use crate::node::{Node, Value};
+use crate::source::Span;
 
 /// One step of a path.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -81,12 +81,12 @@ pub fn with_key(path: &str, key: &str) -> String {
 }
 
 /// The path of step texts, for messages.
-pub(crate) fn to_text(steps: &[Step]) -> String {
+pub fn to_text(steps: &[Step]) -> String {
     steps.iter().fold(String::new(), |path, step| with_step(&path, step))
 }
 
 /// A path with one more step.
-pub(crate) fn with_step(path: &str, step: &Step) -> String {
+pub fn with_step(path: &str, step: &Step) -> String {
     match step {
         Step::Key(key) => with_key(path, key),
         Step::Index(i) => format!("{path}[{i}]"),
@@ -96,12 +96,12 @@ pub(crate) fn with_step(path: &str, step: &Step) -> String {
 }
 
 /// Where the steps of a path lead in a tree.
-pub(crate) fn follow<'a>(root: &'a Node, steps: &[Step]) -> Option<&'a Node> {
+pub fn follow<'a>(root: &'a Node, steps: &[Step]) -> Option<&'a Node> {
     steps.iter().try_fold(root, child)
 }
 
 /// The item of a node that a key or an index leads to. Items of lists are found by their `name`, too.
-pub(crate) fn child<'a>(node: &'a Node, step: &Step) -> Option<&'a Node> {
+pub fn child<'a>(node: &'a Node, step: &Step) -> Option<&'a Node> {
     match (&node.value, step) {
         (Value::Table(table), Step::Key(key)) => table.get(key).map(|e| &e.node),
         (Value::Array(items), Step::Index(i)) => items.get(*i),
@@ -115,7 +115,7 @@ pub(crate) fn child<'a>(node: &'a Node, step: &Step) -> Option<&'a Node> {
 /// The places a path with wildcards leads to in the explicit form of a scenario, as paths without wildcards.
 ///
 /// A path without wildcards leads to itself, even where nothing stands yet.
-pub(crate) fn targets(explicit: &Node, steps: &[Step]) -> Vec<Vec<Step>> {
+pub fn targets(explicit: &Node, steps: &[Step]) -> Vec<Vec<Step>> {
     if !steps.contains(&Step::Every) {
         return vec![steps.to_vec()];
     }
@@ -141,7 +141,7 @@ fn collect(node: &Node, rest: &[Step], path: &mut Vec<Step>, found: &mut Vec<Vec
 }
 
 /// All items of a node, with the steps that lead to them.
-pub(crate) fn children(node: &Node) -> Vec<(Step, &Node)> {
+pub fn children(node: &Node) -> Vec<(Step, &Node)> {
     match &node.value {
         Value::Table(table) => table.iter().map(|(key, entry)| (Step::Key(key.clone()), &entry.node)).collect(),
         Value::Array(items) => items.iter().enumerate().map(|(i, item)| (Step::Index(i), item)).collect(),
@@ -150,7 +150,7 @@ pub(crate) fn children(node: &Node) -> Vec<(Step, &Node)> {
 }
 
 /// Where a path stands in a tree: its value, or the nearest part above it that exists.
-pub(crate) fn locate(root: &Node, path: &str) -> Option<Span> {
+pub fn locate(root: &Node, path: &str) -> Option<Span> {
     let steps = parse(path).ok()?;
     let mut node = root;
     let mut found = None;

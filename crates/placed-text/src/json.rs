@@ -4,10 +4,10 @@ use jsonc_parser::ast::{Object, Value as Ast};
 use jsonc_parser::common::Ranged;
 use jsonc_parser::{CollectOptions, ParseOptions, parse_to_ast};
 
-use super::diagnostic::Diagnostics;
-use super::node::{Entry, Node, Table, Value};
-use super::reader::Reader;
-use super::source::{SourceId, Sources, Span};
+use crate::diagnostic::Diagnostics;
+use crate::node::{Entry, Node, Table, Value};
+use crate::reader::Reader;
+use crate::source::{SourceId, Sources, Span};
 
 /// Nothing that goes beyond RFC 8259.
 const STRICT: ParseOptions = ParseOptions {

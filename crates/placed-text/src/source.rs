@@ -1,4 +1,4 @@
-//! Texts that a scenario is made of, and places in them.
+//! Named texts, and places in them.
 //!
 //! A scenario may come from several texts: its own file, command line overrides, a preset, tables in CSV files. Every
 //! value keeps the [`Span`] it was read from, so that a problem found much later still points at the words that caused it.
@@ -20,18 +20,18 @@ pub struct Span {
 
 impl Span {
     /// A part of this span: bytes `from..to` counted from its start.
-    pub(crate) fn part(self, from: usize, to: usize) -> Span {
+    pub fn part(self, from: usize, to: usize) -> Span {
         Span { source: self.source, start: (self.start + from).min(self.end), end: (self.start + to).min(self.end) }
     }
 }
 
 /// A named text.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Source {
+struct Source {
     /// File name as the user gave it, or words such as `--set path.speed`.
-    pub name: String,
+    name: String,
     /// The text.
-    pub text: String,
+    text: String,
 }
 
 /// Line and column of a place, both counted from 1; the column counts characters.
@@ -60,17 +60,17 @@ impl Sources {
     }
 
     /// The text with this name, if there is one already.
-    pub(crate) fn named(&self, name: &str) -> Option<SourceId> {
+    pub fn named(&self, name: &str) -> Option<SourceId> {
         self.0.iter().position(|s| s.name == name).map(SourceId)
     }
 
     /// The text, or an empty one for an id of another set.
-    pub(crate) fn text(&self, id: SourceId) -> &str {
+    pub fn text(&self, id: SourceId) -> &str {
         self.0.get(id.0).map_or("", |s| s.text.as_str())
     }
 
     /// The name of the text.
-    pub(crate) fn name(&self, id: SourceId) -> &str {
+    pub fn name(&self, id: SourceId) -> &str {
         self.0.get(id.0).map_or("", |s| s.name.as_str())
     }
 
@@ -80,12 +80,12 @@ impl Sources {
     }
 
     /// The words of a span; empty if it lies outside its text or splits a character.
-    pub(crate) fn slice(&self, span: Span) -> &str {
+    pub fn slice(&self, span: Span) -> &str {
         self.text(span.source).get(span.start..span.end).unwrap_or("")
     }
 
     /// Line and column where the span starts.
-    pub(crate) fn position(&self, span: Span) -> Position {
+    pub fn position(&self, span: Span) -> Position {
         let text = self.text(span.source);
         let before = &text[..floor_char_boundary(text, span.start)];
         let line_start = before.rfind('\n').map_or(0, |i| i + 1);
@@ -93,7 +93,7 @@ impl Sources {
     }
 
     /// The whole line where the span starts, without its line end.
-    pub(crate) fn line(&self, span: Span) -> &str {
+    pub fn line(&self, span: Span) -> &str {
         let text = self.text(span.source);
         let at = floor_char_boundary(text, span.start);
         let start = text[..at].rfind('\n').map_or(0, |i| i + 1);

@@ -1,6 +1,6 @@
 //! Lines and cells of a CSV text, with their places. Cells hold numbers and column names, so there is no quoting.
 
-use super::source::{SourceId, Sources, Span};
+use crate::source::{SourceId, Sources, Span};
 
 /// A cell: its words and place.
 pub struct Cell<'a> {

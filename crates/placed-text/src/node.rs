@@ -8,7 +8,7 @@ use serde::de::value::{Error, MapDeserializer, SeqDeserializer};
 use serde::de::{Deserializer, IntoDeserializer, Visitor};
 use serde::{Deserialize, Serialize, forward_to_deserialize_any};
 
-use super::source::{SourceId, Span};
+use crate::source::{SourceId, Span};
 
 /// How a scenario text is written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -62,7 +62,7 @@ pub enum Value {
 }
 
 /// Named values in the order in which they were written.
-pub(crate) type Table = IndexMap<String, Entry>;
+pub type Table = IndexMap<String, Entry>;
 
 /// A named value.
 #[derive(Clone, Debug, PartialEq)]
@@ -130,12 +130,12 @@ impl JsonSchema for Value {
 
 impl Node {
     /// A value and where it stands.
-    pub(crate) fn new(span: Span, value: Value) -> Node {
+    pub fn new(span: Span, value: Value) -> Node {
         Node { span, value, si: None }
     }
 
     /// The table, if it is one.
-    pub(crate) fn as_table(&self) -> Option<&Table> {
+    pub fn as_table(&self) -> Option<&Table> {
         match &self.value {
             Value::Table(table) => Some(table),
             _ => None,
@@ -143,7 +143,7 @@ impl Node {
     }
 
     /// The table, if it is one.
-    pub(crate) fn as_table_mut(&mut self) -> Option<&mut Table> {
+    pub fn as_table_mut(&mut self) -> Option<&mut Table> {
         match &mut self.value {
             Value::Table(table) => Some(table),
             _ => None,
@@ -151,7 +151,7 @@ impl Node {
     }
 
     /// The text, if it is one.
-    pub(crate) fn as_str(&self) -> Option<&str> {
+    pub fn as_str(&self) -> Option<&str> {
         match &self.value {
             Value::String(text) => Some(text),
             _ => None,
@@ -159,17 +159,17 @@ impl Node {
     }
 
     /// The entry of a table with this key.
-    pub(crate) fn get(&self, key: &str) -> Option<&Node> {
+    pub fn get(&self, key: &str) -> Option<&Node> {
         self.as_table()?.get(key).map(|e| &e.node)
     }
 
     /// Whether it says that it is taken away: `remove = true`.
-    pub(crate) fn is_removed(&self) -> bool {
+    pub fn is_removed(&self) -> bool {
         self.get("remove").is_some_and(|n| n.value == Value::Bool(true))
     }
 
     /// The items, if it is a list.
-    pub(crate) fn items(&self) -> &[Node] {
+    pub fn items(&self) -> &[Node] {
         match &self.value {
             Value::Array(items) => items,
             _ => &[],
@@ -177,7 +177,7 @@ impl Node {
     }
 
     /// The same tree as if it had been read from another text.
-    pub(crate) fn moved_to(&self, source: SourceId) -> Node {
+    pub fn moved_to(&self, source: SourceId) -> Node {
         let value = match &self.value {
             Value::Array(items) => Value::Array(items.iter().map(|item| item.moved_to(source)).collect()),
             Value::Table(table) => {

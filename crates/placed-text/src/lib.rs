@@ -1,35 +1,37 @@
-//! Texts that scenarios and studies are made of: TOML and JSON as one tree whose values know their places, paths into it,
-//! lines of CSV, and messages that point at the words they are about. Knows no key of any section.
+//! Texts that inputs are made of: TOML and JSON as one tree whose values know their places, paths into it, lines of CSV,
+//! and messages that point at the words they are about. Knows no key of any section and no simulator; reads no files, prints
+//! nothing.
 
 mod csv;
 mod diagnostic;
 mod json;
 mod node;
 mod path;
+mod problem;
 mod reader;
 mod source;
 mod toml;
 
 pub use csv::{Cell, cells, lines, name_and_unit, number};
 pub use diagnostic::{Diagnostic, Diagnostics};
-pub(crate) use node::{Entry, Node, Table};
-pub use node::{Format, Value};
-pub use path::{Step, parse as parse_path, with_key};
-pub(crate) use path::{child, children, follow, locate, targets, to_text, with_step};
-pub(crate) use source::SourceId;
-pub use source::{Sources, Span};
-pub(crate) use toml::parse_value;
+pub use node::{Entry, Format, Node, Table, Value};
+pub use path::{Step, child, children, follow, locate, parse as parse_path, targets, to_text, with_key, with_step};
+pub use problem::{Problem, Problems, Severity};
+pub use source::{Position, SourceId, Sources, Span};
+pub use toml::parse_value;
 
+use crash_measures::nearest::nearest;
 use serde::de::DeserializeOwned;
-
-use crate::problem::{Problem, nearest};
 
 /// A text that has been read: its tree, and the texts that the places of the tree point into.
 #[derive(Clone, Debug)]
 pub struct Document {
-    pub(crate) sources: Sources,
-    pub(crate) main: SourceId,
-    pub(crate) root: Node,
+    /// Every text that places point into.
+    pub sources: Sources,
+    /// The text itself.
+    pub main: SourceId,
+    /// Its tree.
+    pub root: Node,
 }
 
 impl Document {
@@ -102,7 +104,7 @@ pub fn text_of<'a>(bytes: &'a [u8], name: &str) -> Result<&'a str, Diagnostics> 
 }
 
 /// One problem of a text as a whole.
-pub(crate) fn refuse(source: &str, found: String, expected: &str) -> Diagnostics {
+pub fn refuse(source: &str, found: String, expected: &str) -> Diagnostics {
     Diagnostic::of(source, Problem::error("", found, expected)).into()
 }
 
@@ -116,7 +118,7 @@ pub fn one_of(names: &[&str], quote: char) -> String {
 }
 
 /// `"a", "b", "c"`.
-pub(crate) fn quoted(names: &[&str], quote: char) -> String {
+pub fn quoted(names: &[&str], quote: char) -> String {
     let each: Vec<String> = names.iter().map(|n| format!("{quote}{n}{quote}")).collect();
     each.join(", ")
 }

@@ -2,8 +2,8 @@
 
 use std::fmt;
 
-use super::source::{Position, Sources, Span};
 use crate::problem::{Problem, Severity};
+use crate::source::{Position, Sources, Span};
 
 /// A problem and where it is.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,7 +42,7 @@ impl Diagnostic {
     }
 
     /// A problem of a text as a whole.
-    pub(crate) fn of(source: impl Into<String>, problem: Problem) -> Self {
+    pub fn of(source: impl Into<String>, problem: Problem) -> Self {
         Diagnostic { problem, source: source.into(), position: None, words: String::new(), line: String::new() }
     }
 
@@ -136,7 +136,7 @@ impl Diagnostics {
     }
 
     /// How many.
-    pub(crate) fn len(&self) -> usize {
+    pub fn len(&self) -> usize {
         self.0.len()
     }
 

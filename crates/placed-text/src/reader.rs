@@ -1,9 +1,9 @@
 //! What the readers of TOML and JSON share: the text under reading and a list for what is wrong with it.
 
-use super::diagnostic::{Diagnostic, Diagnostics};
-use super::node::{Node, Value};
-use super::source::{SourceId, Sources, Span};
+use crate::diagnostic::{Diagnostic, Diagnostics};
+use crate::node::{Node, Value};
 use crate::problem::Problem;
+use crate::source::{SourceId, Sources, Span};
 
 /// A text under reading.
 pub(super) struct Reader<'a> {
