@@ -1,7 +1,9 @@
-//! What every room may lean on: how a command ends and talks, how files come to their names, text tables.
+//! What every room may lean on: how a command ends and talks, how files come to their names, text
+//! tables, what is shown by default.
 //!
 //! Knows no command, no job and no file format.
 
+pub(crate) mod customary;
 pub(crate) mod failure;
 pub(crate) mod interrupt;
 pub(crate) mod names;

@@ -3,7 +3,6 @@
 pub mod catalogue;
 pub mod channel;
 pub mod checkpoint;
-pub mod customary;
 pub(crate) mod elements;
 pub mod energy;
 pub(crate) mod instruments;

@@ -2,7 +2,7 @@
 
 use super::check::{check_words, references, units_of};
 use super::expand::expand;
-use super::kind::{UnitSystem, scaled_text};
+use super::kind::UnitSystem;
 use super::loaded::{Loaded, Resolver};
 use super::overrides::{needs_explicit, put};
 use super::sections::schema;
@@ -64,25 +64,6 @@ impl Draft {
         for place in places {
             put(&mut self.document.root, explicit.as_ref(), &place, value.clone())
                 .map_err(|found| refuse(&name, found, "a path that exists in the scenario"))?;
-        }
-        Ok(())
-    }
-
-    /// Multiplies the quantities that a path leads to, presets included, each in its own unit.
-    ///
-    /// # Errors
-    /// A path that cannot be read, leads nowhere, or leads to something that is no number.
-    pub(crate) fn scale(&mut self, path: &str, factor: f64) -> Result<(), Diagnostics> {
-        for (place, value) in self.get(path)? {
-            let scaled = match &value {
-                Value::String(text) => scaled_text(text, factor),
-                value => value.number().map(|x| (x * factor).to_string()),
-            };
-            let Some(scaled) = scaled else {
-                let found = format!("`{place}` is no number, so it cannot be multiplied");
-                return Err(refuse(path, found, "a path to quantities"));
-            };
-            self.set_value(&place, &scaled)?;
         }
         Ok(())
     }

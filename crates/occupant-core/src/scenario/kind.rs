@@ -197,13 +197,6 @@ impl Kind {
     }
 }
 
-/// A text such as `"20 mph"` with its number multiplied and its unit kept; none if it does not start with a number.
-pub(super) fn scaled_text(text: &str, factor: f64) -> Option<String> {
-    let (number, unit_start) = split_number(text)?;
-    let unit = text[unit_start..].trim_end();
-    Some(format!("{} {unit}", number * factor))
-}
-
 fn finite(value: f64, text: &str) -> Result<f64, UnitError> {
     if value.is_finite() {
         return Ok(value);

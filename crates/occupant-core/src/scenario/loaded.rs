@@ -37,28 +37,6 @@ impl Scenario {
     pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
         toml::to_string(self)
     }
-
-    /// The scenario as JSON.
-    ///
-    /// # Errors
-    /// None for a scenario that was read from a text.
-    pub(crate) fn to_json(&self) -> Result<String, serde_json::Error> {
-        let mut value = serde_json::to_value(self)?;
-        without_null(&mut value);
-        serde_json::to_string_pretty(&value)
-    }
-}
-
-/// Takes away the keys that are not written.
-fn without_null(value: &mut serde_json::Value) {
-    match value {
-        serde_json::Value::Object(table) => {
-            table.retain(|_, value| !value.is_null());
-            table.values_mut().for_each(without_null);
-        }
-        serde_json::Value::Array(items) => items.iter_mut().for_each(without_null),
-        _ => {}
-    }
 }
 
 impl Loaded {

@@ -1,8 +1,8 @@
 //! A layout for Foxglove-compatible viewers: the scene beside the plots that a crash engineer looks at first. Viewers hide
 //! three-dimensional topics until a layout shows them, so it travels with every file.
 
+use crate::base::customary::{ACCELERATIONS, BALANCE, ENERGIES};
 use occupant_core::results::catalogue::Message;
-use occupant_core::results::customary::{ACCELERATIONS, BALANCE, ENERGIES};
 use serde_json::{Value, json};
 
 use super::topics::{self, VEHICLE_FRAME};

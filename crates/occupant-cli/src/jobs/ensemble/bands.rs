@@ -1,8 +1,8 @@
 //! Bands over time: within which the middle 90 % of the members lie, and when they part.
 
+use crate::base::customary::BANDS;
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, matching};
-use occupant_core::results::customary::BANDS;
 use occupant_study::spread::Band;
 
 use serde::Serialize;

@@ -1,8 +1,8 @@
 //! The time histories of the page, taken from the channels of the run.
 
+use crate::base::customary::*;
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, Series, channels, star};
-use occupant_core::results::customary::*;
 use serde::Serialize;
 
 use super::array::Array;

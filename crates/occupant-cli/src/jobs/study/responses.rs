@@ -1,8 +1,8 @@
 //! Which figures of the runs a report is about.
 
+use crate::base::customary::FIGURES;
 use crash_measures::nearest::nearest;
 use occupant_core::results::channel::star;
-use occupant_core::results::customary::FIGURES;
 
 use super::gather::Gathered;
 use super::samples::varies;

@@ -5,9 +5,9 @@
 //! segment reads them (1–9); contact forces on head, chest and knees (10); belt loads (11); spine angles (12); energies (13);
 //! the vehicle's acceleration (14).
 
+use crate::base::customary::{ACCELERATIONS, ENERGIES, FRONTAL_CONTACTS, SPINE, VEHICLE, WEBBING};
 use occupant_core::model::Model;
 use occupant_core::results::channel::{find, matching, star};
-use occupant_core::results::customary::{ACCELERATIONS, ENERGIES, FRONTAL_CONTACTS, SPINE, VEHICLE, WEBBING};
 
 /// A plot that is wished for.
 #[derive(Clone, Debug, PartialEq)]

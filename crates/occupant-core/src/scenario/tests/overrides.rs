@@ -119,30 +119,3 @@ fn problems_are_reported_as_of_the_override() {
         assert_eq!(changed(&[assignment]).unwrap_err(), expected);
     }
 }
-
-#[test]
-fn whole_groups_are_scaled_in_their_own_units() {
-    let plain = changed(&[]).unwrap();
-    let mut draft = Draft::read(SHORT, Format::Toml, "s.toml").unwrap();
-    draft.scale("joints.*.damping", 1.5).unwrap();
-    draft.scale("path.speed", 2.0).unwrap();
-    draft.scale("posture.heels[0]", 0.5).unwrap();
-    let loaded = draft.load(&no_files).unwrap();
-    let setup = loaded.build().unwrap().0;
-    for (scaled, before) in [
-        (
-            setup.joints[tti12::NECK].ball().unwrap().damping_n_m_s,
-            plain.joints[tti12::NECK].ball().unwrap().damping_n_m_s,
-        ),
-        (
-            setup.joints[tti12::LEFT_KNEE].hinge().unwrap().damping_n_m_s,
-            plain.joints[tti12::LEFT_KNEE].hinge().unwrap().damping_n_m_s,
-        ),
-    ] {
-        assert_relative_eq!(scaled, 1.5 * before, max_relative = 1e-15);
-    }
-    assert!(loaded.scenario.to_toml().unwrap().contains("speed = \"60 km/h\""));
-    let mut draft = Draft::read(SHORT, Format::Toml, "s.toml").unwrap();
-    assert!(draft.scale("title", 2.0).is_err());
-    assert!(draft.scale("belts.lap.anchors", 2.0).is_err());
-}

@@ -1,42 +1,43 @@
 //! What is looked at unless somebody asks for something else: the channels of plots, of the page and of bands over time, and
 //! the figures of studies. Each list stands here once, in the order in which it is shown.
 
-/// Channels by pattern ([`star`](super::channel::star)), each with the name of its curve, in which `*` is what the star stands
+/// Channels by pattern ([`star`](occupant_core::results::channel::star)), each with the name of its curve, in which `*` is what the star stands
 /// for.
-pub type Curves = [(&'static str, &'static str)];
+pub(crate) type Curves = [(&'static str, &'static str)];
 
 /// What the accelerometers of a dummy read.
-pub const ACCELERATIONS: &Curves = &[
+pub(crate) const ACCELERATIONS: &Curves = &[
     ("head.acceleration.resultant", "head"),
     ("upper_torso.acceleration.resultant", "chest"),
     ("lower_torso.acceleration.resultant", "pelvis"),
 ];
 /// Loop forces.
-pub const WEBBING: &Curves = &[("belt.*.force", "*")];
+pub(crate) const WEBBING: &Curves = &[("belt.*.force", "*")];
 /// Forces on all contact spheres.
-pub const CONTACTS: &Curves = &[("sphere.*.force.resultant", "*")];
+pub(crate) const CONTACTS: &Curves = &[("sphere.*.force.resultant", "*")];
 /// Forces on those that are loaded most in frontal crashes.
-pub const FRONTAL_CONTACTS: &Curves = &[
+pub(crate) const FRONTAL_CONTACTS: &Curves = &[
     ("sphere.head.force.resultant", "head"),
     ("sphere.chest.force.resultant", "chest"),
     ("sphere.right_knee.force.resultant", "right knee"),
     ("sphere.left_knee.force.resultant", "left knee"),
 ];
 /// Force of the neck on the head.
-pub const NECK_FORCE: &Curves =
+pub(crate) const NECK_FORCE: &Curves =
     &[("neck.force.x", "shear x"), ("neck.force.y", "shear y"), ("neck.force.z", "axial z")];
 /// Moment of the neck on the head.
-pub const NECK_MOMENT: &Curves = &[("neck.moment.x", "x"), ("neck.moment.y", "y, + flexion"), ("neck.moment.z", "z")];
+pub(crate) const NECK_MOMENT: &Curves =
+    &[("neck.moment.x", "x"), ("neck.moment.y", "y, + flexion"), ("neck.moment.z", "z")];
 /// Axial forces of the thighs.
-pub const FEMURS: &Curves = &[("left_femur.axial", "left"), ("right_femur.axial", "right")];
+pub(crate) const FEMURS: &Curves = &[("left_femur.axial", "left"), ("right_femur.axial", "right")];
 /// The vehicle's motion.
-pub const VEHICLE: &Curves =
+pub(crate) const VEHICLE: &Curves =
     &[("vehicle.acceleration.x", "x"), ("vehicle.acceleration.y", "y"), ("vehicle.acceleration.z", "z")];
 /// How far the spine is bent.
-pub const SPINE: &Curves =
+pub(crate) const SPINE: &Curves =
     &[("joint.neck.angle", "neck"), ("joint.upper_back.angle", "upper back"), ("joint.lower_back.angle", "lower back")];
 /// Where the energy is, or went: first what matters most.
-pub const ENERGIES: &Curves = &[
+pub(crate) const ENERGIES: &Curves = &[
     ("energy.kinetic_relative", "kinetic, in the vehicle"),
     ("energy.contacts", "stored in contacts"),
     ("energy.belts", "stored in belts"),
@@ -47,10 +48,10 @@ pub const ENERGIES: &Curves = &[
     ("energy.spine", "spine springs"),
 ];
 /// How far the energies are from a balance.
-pub const BALANCE: &Curves = &[("energy.balance", "imbalance")];
+pub(crate) const BALANCE: &Curves = &[("energy.balance", "imbalance")];
 
 /// Patterns of the channels whose bands over time are looked at.
-pub const BANDS: [&Curves; 6] = [
+pub(crate) const BANDS: [&Curves; 6] = [
     ACCELERATIONS,
     WEBBING,
     FRONTAL_CONTACTS,
@@ -60,7 +61,7 @@ pub const BANDS: [&Curves; 6] = [
 ];
 
 /// Patterns of the figures that studies report on, most telling first.
-pub const FIGURES: [&str; 11] = [
+pub(crate) const FIGURES: [&str; 11] = [
     "hic15",
     "head.peak",
     "head.three_ms_cumulative",
