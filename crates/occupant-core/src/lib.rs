@@ -119,7 +119,7 @@
 //! | room | holds |
 //! |---|---|
 //! | [`body`] | segments, joints, contact spheres: the occupant as data |
-//! | [`vehicle`] | the vehicle's path: table, pulse, sensors, at rest, a program's own; [`vehicle::risk`] of a path alone |
+//! | [`vehicle`] | the vehicle's path: table, pulse, sensors, at rest, a program's own |
 //! | [`forces`] | surfaces and contact, belts, joints: their data, laws and memory |
 //! | [`motion`] | frames, state, kinematics, equations of motion, integrators; numbers as scalars, dual numbers and lanes |
 //! | [`kernel`] | the rate of change of the state: motion and forces put together |
@@ -129,7 +129,7 @@
 //! | [`diagnosis`] | what will be simulated and whether the step suits it, before a run |
 //! | [`scenario`] | scenarios as text: units, presets, overrides, messages with line and column |
 //!
-//! Above this crate `occupant-study` has designs, searches and sensitivities of many runs; below it `crash-measures` has
+//! Above this crate `occupant-study` has designs, searches and sensitivities of many runs, and the risk of a path alone; below it `crash-measures` has
 //! filters and injury measures of any time history, and `placed-text` reads TOML, JSON and CSV with places and says what is
 //! wrong with them.
 

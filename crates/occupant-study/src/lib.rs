@@ -1,4 +1,4 @@
-//! Studies: many runs of one scenario, in which some of its values are varied.
+//! Studies: many runs of one scenario, in which some of its values are varied; [`risk`] of a vehicle's path without a run.
 //!
 //! ```text
 //! text ─ StudyText ─ bind(base scenario) ─ Study ─ sample i ─ Draft i
@@ -65,6 +65,7 @@ mod normal;
 mod parameter;
 mod permutation;
 mod random;
+pub mod risk;
 mod saltelli;
 pub mod search;
 mod section;

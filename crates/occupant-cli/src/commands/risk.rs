@@ -8,7 +8,7 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use crash_measures::measure::limits::Rule;
 use crash_measures::signal::{CfcFamily, ChannelClass};
-use occupant_core::vehicle::risk::{Preparation, VehicleSignals};
+use occupant_study::risk::{Preparation, VehicleSignals};
 
 use crate::base::failure::{Done, Failure};
 use crate::base::talk::{self, print, say};

@@ -26,7 +26,6 @@ mod frame;
 mod own;
 mod problem;
 mod pulse;
-pub mod risk;
 mod sensors;
 mod spline;
 mod station;

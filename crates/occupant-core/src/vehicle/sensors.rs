@@ -91,7 +91,7 @@ impl SensorPath {
     /// Everything that is wrong with the definition at once: a record without a channel, with too few samples, with
     /// times that do not increase, numbers that are not finite, samples too far apart for the turning or for the
     /// filter; a start or a baseline outside the record; a direction without length.
-    pub(crate) fn new(definition: SensorDefinition) -> Result<Self, Vec<PathProblem>> {
+    pub fn new(definition: SensorDefinition) -> Result<Self, Vec<PathProblem>> {
         let mut problems = Vec::new();
         let direction = check_start(&definition, &mut problems);
         let readings = match readings::read(&definition) {

@@ -2,7 +2,7 @@
 
 use crash_measures::signal::SignalError;
 use occupant_core::scenario::{Diagnostics, RecordFile, read_record};
-use occupant_core::vehicle::risk::{Preparation, Unprepared, VehicleSignals, prepare};
+use occupant_study::risk::{Preparation, Unprepared, VehicleSignals, prepare};
 
 use super::Args;
 use crate::base::failure::Failure;

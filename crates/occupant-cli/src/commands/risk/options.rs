@@ -1,7 +1,7 @@
 //! The flags of `occupant risk` in SI.
 
 use occupant_core::scenario::kind;
-use occupant_core::vehicle::risk::{Flight, Preparation, VerticalGravity};
+use occupant_study::risk::{Flight, Preparation, VerticalGravity};
 
 use super::Args;
 use crate::base::failure::Failure;

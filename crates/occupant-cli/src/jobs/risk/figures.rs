@@ -2,7 +2,7 @@
 
 use crash_measures::unit::Shown;
 use crash_measures::unit::Unit::{MetrePerSecond, MetrePerSecondSquared, One, Radian};
-use occupant_core::vehicle::risk::{AXES, Measured};
+use occupant_study::risk::{AXES, Measured};
 
 use super::Report;
 

@@ -5,7 +5,7 @@ use serde_json::{Map, Value, json as value};
 use super::Report;
 use super::figures::Figures;
 use super::table::{basis_name, family_name, grade_name, source_name, verdict_name};
-use occupant_core::vehicle::risk::VerticalGravity;
+use occupant_study::risk::VerticalGravity;
 
 pub(crate) fn json(report: &Report) -> Value {
     let figures = Figures::of(report);

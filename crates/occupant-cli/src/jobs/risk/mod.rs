@@ -6,9 +6,7 @@ mod subject;
 mod table;
 
 use crash_measures::measure::limits::Rule;
-use occupant_core::vehicle::risk::{
-    Flight, Judgement, Preparation, ROADSIDE_RULES, VehicleRisk, VehicleSignals, judge,
-};
+use occupant_study::risk::{Flight, Judgement, Preparation, ROADSIDE_RULES, VehicleRisk, VehicleSignals, judge};
 
 pub(crate) use json::json;
 pub(crate) use subject::Subject;

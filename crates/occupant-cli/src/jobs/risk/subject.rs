@@ -2,8 +2,8 @@
 
 use occupant_core::model::setup::Setup;
 use occupant_core::scenario::RecordFile;
-use occupant_core::vehicle::risk::sampled;
 use occupant_core::vehicle::{AccelerationRecord, Attitude, Interpolation, PathCursor, VehiclePath};
+use occupant_study::risk::sampled;
 
 /// Where the motion comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

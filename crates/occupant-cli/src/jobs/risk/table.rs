@@ -2,7 +2,7 @@
 
 use crash_measures::measure::limits::{Basis, Grade, Quantity};
 use crash_measures::signal::CfcFamily;
-use occupant_core::vehicle::risk::{Judgement, VerticalGravity};
+use occupant_study::risk::{Judgement, VerticalGravity};
 
 use super::Report;
 use super::figures::{Figure, Figures, Unit, g, km_h, m_s, plain};

@@ -3,12 +3,13 @@
 use nalgebra::Vector3;
 
 use super::*;
-use crate::vehicle::{
+use crash_measures::measure::limits::{Grade, Rule};
+use crash_measures::signal::{CfcFamily, ChannelClass, STANDARD_GRAVITY_MPS2 as G, SignalError};
+use occupant_core::scenario::read_record;
+use occupant_core::vehicle::{
     AccelerationRecord, AfterEnd, Interpolation, PulseDefinition, PulsePath, PulseShape, Station, Strength, TablePath,
     TravelDirection, VehiclePath, VehiclePose,
 };
-use crash_measures::measure::limits::{Grade, Rule};
-use crash_measures::signal::{CfcFamily, ChannelClass, STANDARD_GRAVITY_MPS2 as G, SignalError};
 
 /// Accelerations in g and a yaw rate in deg/s, all constant over 0.2 s; the other rates are zero.
 fn steady(x_g: f64, y_g: f64, z_g: f64, yaw_rate: f64, dt_s: f64) -> AccelerationRecord {
@@ -238,4 +239,33 @@ fn rules_judge_each_component_and_each_edition_its_own_index() {
     );
     let unjudged = judge(&nothing, &ROADSIDE_RULES);
     assert!(unjudged.iter().all(|j| j.value.is_none() && !j.breaks_the_rule()));
+}
+
+#[test]
+fn any_bytes_give_measures_or_reasons() {
+    let mut seed = 7u64;
+    let mut random = |below: usize| {
+        seed = seed.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (seed >> 33) as usize % below
+    };
+    let spice = b"\n,[]#.-e0123456789tx\xff\xef\xbb\xbf ";
+    let mut measured = 0;
+    for _ in 0..3000 {
+        let mut bytes = b"t[ms],ax[g],ay[m/s^2],wz[deg/s]\n0,-1,2,3\n1,-1.5,2,3\n2,-2e0,2,3\n3,-1,2,4\n".to_vec();
+        for _ in 0..random(4) {
+            let at = random(bytes.len());
+            match random(3) {
+                0 => bytes[at] = spice[random(spice.len())],
+                1 => bytes.insert(at, spice[random(spice.len())]),
+                _ => drop(bytes.remove(at)),
+            }
+        }
+        if let Ok(file) = read_record(&bytes, "a.csv")
+            && let Ok(signals) = prepare(&file.record, &Preparation::default())
+        {
+            let _risk = VehicleRisk::of(&signals, &Flight::default());
+            measured += 1;
+        }
+    }
+    assert!(measured > 300, "only {measured} got through");
 }

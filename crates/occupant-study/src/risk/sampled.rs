@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use crate::vehicle::{AccelerationRecord, Interpolation, PathCursor, TablePath, VehiclePath};
+use occupant_core::vehicle::{AccelerationRecord, Interpolation, PathCursor, VehiclePath};
 
 /// Most samples of a path.
 const MOST_SAMPLES: f64 = 1e7;
@@ -26,7 +26,7 @@ pub fn sampled(path: &VehiclePath, start_s: f64, end_s: f64, dt_s: f64) -> Optio
         let motion = path.motion(t_s, t_s, &mut cursor);
         let acceleration = match path {
             VehiclePath::Table(table) if table.interpolation() == Interpolation::Linear => {
-                jump(table, t_s, dt_s, &mut cursor)
+                jump(path, table.span_s(), t_s, dt_s, &mut cursor)
             }
             _ => motion.acceleration_m_s2,
         };
@@ -44,11 +44,16 @@ pub fn sampled(path: &VehiclePath, start_s: f64, end_s: f64, dt_s: f64) -> Optio
 }
 
 /// Velocity change about `t_s` over the interval, m/s²; at the ends of the table half of it lies inside.
-fn jump(table: &TablePath, t_s: f64, dt_s: f64, cursor: &mut PathCursor) -> Vector3<f64> {
-    let (first_s, last_s) = table.span_s();
+fn jump(
+    path: &VehiclePath,
+    (first_s, last_s): (f64, f64),
+    t_s: f64,
+    dt_s: f64,
+    cursor: &mut PathCursor,
+) -> Vector3<f64> {
     let mut velocity = |t: f64| {
         let t = t.clamp(first_s, last_s);
-        table.motion(t, t, cursor).velocity_m_s
+        path.motion(t, t, cursor).velocity_m_s
     };
     (velocity(t_s + 0.5 * dt_s) - velocity(t_s - 0.5 * dt_s)) / dt_s
 }

@@ -15,7 +15,6 @@ mod missing;
 mod prepare;
 mod sampled;
 
-use crate::vehicle::Attitude;
 pub(crate) use angles::Angles;
 use crash_measures::measure::{
     Asi, AsiEdition, FlailDistances, FlailSpace, HeadFlight, Olc, Peak, Thiv, asi, flail_space, max_50ms_average, olc,
@@ -24,6 +23,7 @@ use crash_measures::measure::{
 use crash_measures::signal::{CumulativeIntegral, WindowExtreme};
 pub use judgement::{Judgement, ROADSIDE_RULES, judge};
 pub use missing::{Measured, Missing};
+use occupant_core::vehicle::Attitude;
 pub use prepare::{Preparation, Unprepared, VerticalGravity, prepare};
 pub use sampled::sampled;
 

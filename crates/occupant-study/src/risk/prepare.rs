@@ -3,11 +3,11 @@
 use nalgebra::Vector3;
 
 use super::VehicleSignals;
-use crate::vehicle::{AccelerationRecord, Attitude};
 use crash_measures::signal::{
     CfcFamily, ChannelClass, Interpolant, Interpolation, STANDARD_GRAVITY_MPS2, SignalError, filter_cfc,
     uniform_interval,
 };
+use occupant_core::vehicle::{AccelerationRecord, Attitude};
 
 /// Gravity in the vertical channel.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

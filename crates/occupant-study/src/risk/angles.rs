@@ -4,12 +4,12 @@ use nalgebra::Vector3;
 
 use super::VehicleSignals;
 use super::missing::{Measured, Missing};
-use crate::vehicle::{
-    AccelerationRecord, AfterEnd, PathCursor, SensorDefinition, SensorGravity, SensorPath, SensorRecord,
-    TravelDirection, VehiclePose,
-};
 use crash_measures::measure::{Peak, largest_magnitude};
 use crash_measures::signal::integrate;
+use occupant_core::vehicle::{
+    AccelerationRecord, AfterEnd, PathCursor, SensorDefinition, SensorGravity, SensorPath, SensorRecord,
+    TravelDirection, VehiclePath, VehiclePose,
+};
 
 /// Largest roll, pitch and yaw.
 #[derive(Clone, Debug, PartialEq)]
@@ -40,7 +40,7 @@ impl Angles {
 /// Roll, pitch and yaw of the attitude that the three rates lead to.
 fn attitudes(signals: &VehicleSignals) -> Measured<[Vec<f64>; 3]> {
     let time_s: Vec<f64> = (0..signals.samples()).map(|i| i as f64 * signals.dt_s).collect();
-    let path = SensorPath::new(SensorDefinition {
+    let sensors = SensorPath::new(SensorDefinition {
         record: SensorRecord::Accelerations(AccelerationRecord {
             time_s: time_s.clone(),
             acceleration_m_s2: [const { None }; 3],
@@ -61,8 +61,8 @@ fn attitudes(signals: &VehicleSignals) -> Measured<[Vec<f64>; 3]> {
         let first = problems.first().map(ToString::to_string);
         Missing::Turning(first.unwrap_or_default())
     })?;
-    let mut cursor = PathCursor::default();
-    let attitudes: Vec<_> = time_s.iter().map(|&t| path.pose(t, &mut cursor).attitude).collect();
+    let (path, mut cursor) = (VehiclePath::Sensors(Box::new(sensors)), PathCursor::default());
+    let attitudes: Vec<_> = time_s.iter().map(|&t| path.attitude(t, &mut cursor).attitude).collect();
     let heading_rad = signals.initial.yaw_rad;
     Ok([
         attitudes.iter().map(|a| a.roll_rad).collect(),
