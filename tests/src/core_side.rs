@@ -82,3 +82,17 @@ fn external(system: &System, kinematics: &Kinematics<f64>) -> [Wrench<f64>; SEGM
     }
     wrench
 }
+
+/// Σ M v and Σ (M (x − about) × v + I ω), space axes: kg·m/s and kg·m²/s.
+pub fn momentum(body: &Skeleton<f64>, k: &Kinematics<f64>, about: V3<f64>) -> (V3<f64>, V3<f64>) {
+    let (mut linear, mut angular) = (V3::zero(), V3::zero());
+    for (n, link) in body.links.iter().enumerate() {
+        let p = k.cg_velocity(body, n) * link.mass;
+        let w = k.axes[n].into_frame(k.omega[n]);
+        let [ix, iy, iz] = link.central;
+        linear += p;
+        angular += (k.cg(body, n) - about).cross(p);
+        angular += k.axes[n].out(V3 { x: ix * w.x, y: iy * w.y, z: iz * w.z });
+    }
+    (linear, angular)
+}

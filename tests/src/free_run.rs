@@ -1,5 +1,6 @@
 //! The simulator's body on its own: no surface, no belt, only gravity and joints, stepped by its Runge–Kutta method.
 
+use crate::core_side;
 use crate::reference::System;
 use nalgebra::Vector3;
 use occupant_core::forces::contact::EdgeForce;
@@ -72,7 +73,7 @@ impl FreeRun {
     pub fn conserved(&self, state: &State<f64>) -> Conserved {
         let body = &self.system.skeleton;
         let k = Kinematics::new(body, state);
-        let (linear, angular) = energy::momentum(body, &k, V3::zero());
+        let (linear, angular) = core_side::momentum(body, &k, V3::zero());
         let energy = energy::kinetic(body, &k, &Moving::space())
             + energy::gravity(body, &k)
             + self.system.forces.joints.stored(&k)

@@ -221,9 +221,13 @@ fn lightened(body: &Body, kept: &[usize]) -> Body {
 
 /// A stop has corners in time, where no method keeps its order.
 fn remove_stops(joints: &mut Joints) {
-    joints.balls_mut().for_each(|ball| ball.stop = None);
-    for hinge in joints.hinges_mut() {
-        (hinge.lower_stop, hinge.upper_stop) = (None, None);
+    for joint in TTI12.joints() {
+        if let Some(ball) = joints.ball_mut(joint) {
+            ball.stop = None;
+        }
+        if let Some(hinge) = joints.hinge_mut(joint) {
+            (hinge.lower_stop, hinge.upper_stop) = (None, None);
+        }
     }
     joints.epsilon = 0.1;
 }

@@ -8,7 +8,7 @@ use occupant_core::motion::layout::BALLS;
 use occupant_core::motion::vector::V3;
 use occupant_core::results::energy;
 use occupant_tests::{
-    core_side::CoreSide,
+    core_side::{CoreSide, momentum},
     golden::Golden,
     random::Random,
     reference::{
@@ -139,7 +139,7 @@ fn energies_and_momenta_agree() {
             linear += segment.mass_kg * m.velocity;
             angular += segment.mass_kg * m.place.cross(&m.velocity) + m.inertia * m.omega;
         }
-        let (p, h) = energy::momentum(&skeleton, &k, V3::zero());
+        let (p, h) = momentum(&skeleton, &k, V3::zero());
         worst = worst.max((p.to_vector() - linear).norm() / linear.norm());
         worst = worst.max((h.to_vector() - angular).norm() / angular.norm());
     }

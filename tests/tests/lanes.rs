@@ -3,16 +3,14 @@
 use std::ops::ControlFlow;
 
 use occupant_core::body::tti12;
-use occupant_core::forces::belt::OTHER_BELTS;
-use occupant_core::forces::contact::OTHER_PAIRS;
+use occupant_core::forces::Unlike;
 use occupant_core::forces::contact::material::Memory;
-use occupant_core::forces::joint::OTHER_SPRINGS;
 use occupant_core::model::Model;
 use occupant_core::model::setup::{Integrator, Setup};
 use occupant_core::results::outcome::{Outcome, Status};
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
-use occupant_core::run::batch::{Ended, Job, Kernel, simulate_many, simulate_many_with};
+use occupant_core::run::batch::{Ended, Job, Kernel, simulate_many};
 use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Format, Scenario};
 use occupant_tests::cart::lap;
@@ -67,7 +65,7 @@ fn together(kernel: Kernel, cases: &[Case]) -> Vec<(Result_, Kernel)> {
         recorder: case.texts.clone(),
     });
     let mut results: Vec<_> = cases.iter().map(|_| None).collect();
-    simulate_many_with(kernel, jobs, |ended: Ended<usize, Texts>| {
+    simulate_many(kernel, jobs, |ended: Ended<usize, Texts>| {
         let outcome = ended.outcome.map_err(|e| e.to_string());
         let result = ((outcome, ended.recorder.outputs), ended.kernel);
         assert!(results[ended.tag].replace(result).is_none(), "ended twice");
@@ -204,7 +202,7 @@ fn jobs_are_taken_when_there_is_room_and_the_caller_may_break_off() {
         Job { tag, model, recorder }
     });
     let mut ended = 0;
-    simulate_many(jobs, |_| {
+    simulate_many(Kernel::best(), jobs, |_| {
         ended += 1;
         match ended < 2 {
             true => ControlFlow::Continue(()),
@@ -226,8 +224,9 @@ fn what_keeps_models_apart_has_a_name() {
     let unlike = |change: &dyn Fn(&mut Setup)| base.zip(&system(change), |a, _| a).err();
     assert_eq!(unlike(&|s| s.gravity_m_s2 = 9.0), None);
     let belts = unlike(&|s| s.belts.truncate(1));
-    assert_eq!(belts, Some(OTHER_BELTS));
-    assert_eq!(unlike(&|s| s.joints.ball_mut(tti12::UPPER_BACK).unwrap().spring = None), Some(OTHER_SPRINGS));
+    assert_eq!(belts, Some(Unlike("the belts are others or go round other spheres")));
+    let springs = unlike(&|s| s.joints.ball_mut(tti12::UPPER_BACK).unwrap().spring = None);
+    assert_eq!(springs, Some(Unlike("other joints have springs")));
     let fewer = unlike(&|s| s.surfaces.truncate(s.surfaces.len() - 1));
-    assert_eq!(fewer, Some(OTHER_PAIRS));
+    assert_eq!(fewer, Some(Unlike("the spheres meet other surfaces")));
 }

@@ -3,6 +3,7 @@
 use allocation_counter::measure;
 use occupant_core::model::Model;
 use occupant_core::model::setup::{Integrator, Setup};
+use occupant_core::motion::layout::{BALL_JOINTS, HINGE_JOINTS};
 use occupant_core::results::channel::{Channel, Series, channels};
 use occupant_core::results::checkpoint::Checkpoint;
 use occupant_core::results::recorder::Watch;
@@ -256,7 +257,8 @@ impl Scaled {
             belt.webbing.k1_n_per_m *= lambda;
             belt.webbing.k2_n_per_m *= lambda;
         }
-        for ball in setup.joints.balls_mut() {
+        for &joint in BALL_JOINTS {
+            let ball = setup.joints.ball_mut(joint).unwrap();
             ball.damping_n_m_s *= lambda;
             ball.twist_damping_n_m_s *= lambda;
             if let Some(stop) = &mut ball.stop {
@@ -266,7 +268,8 @@ impl Scaled {
                 spring.stiffness_n_m *= lambda;
             }
         }
-        for hinge in setup.joints.hinges_mut() {
+        for &joint in HINGE_JOINTS {
+            let hinge = setup.joints.hinge_mut(joint).unwrap();
             hinge.damping_n_m_s *= lambda;
             for stop in [&mut hinge.lower_stop, &mut hinge.upper_stop].into_iter().flatten() {
                 stop.damping_n_m_s *= lambda;

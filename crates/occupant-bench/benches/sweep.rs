@@ -9,7 +9,7 @@ use occupant_bench as scene;
 use occupant_core::model::Model;
 use occupant_core::results::recorder::Recorder;
 use occupant_core::results::summary::Summarizer;
-use occupant_core::run::batch::{Job, Kernel, simulate_many_with};
+use occupant_core::run::batch::{Job, Kernel, simulate_many};
 use occupant_core::scenario::{Draft, Format};
 use occupant_study::{Study, StudyText};
 
@@ -76,7 +76,7 @@ fn model(study: &Study, index: u64) -> Model {
 
 fn run<R: Recorder>(kernel: Kernel, models: impl Iterator<Item = Model>, recorder: impl Fn() -> R) {
     let jobs = models.map(|model| Job { tag: (), model, recorder: recorder() });
-    simulate_many_with(kernel, jobs, |ended| {
+    simulate_many(kernel, jobs, |ended| {
         black_box(&ended.recorder);
         ended.outcome.expect("nothing is written");
         ControlFlow::Continue(())

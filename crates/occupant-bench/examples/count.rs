@@ -9,7 +9,7 @@ use std::ops::ControlFlow;
 use occupant_bench::{self as scene, Instant, STEP_S, TOUCHING_S};
 use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
-use occupant_core::run::batch::{Job, Kernel, simulate_many_with};
+use occupant_core::run::batch::{Job, Kernel, simulate_many};
 
 /// A piece of work: calls that are counted.
 type Work = fn(count: usize);
@@ -89,7 +89,7 @@ fn run(kernel: Kernel, side_by_side: usize, steps: usize) {
     };
     let models = scene::models(side_by_side).into_iter().map(shortened);
     let job = |model| Job { tag: (), model, recorder: () };
-    simulate_many_with(kernel, models.map(job), |ended| {
+    simulate_many(kernel, models.map(job), |ended| {
         black_box(ended.outcome.expect("nothing is written"));
         ControlFlow::Continue(())
     });

@@ -11,7 +11,7 @@ use occupant_bench::{self as scene, Instant, TOUCHING_S};
 use occupant_core::model::Model;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
-use occupant_core::run::batch::{Job, Kernel, simulate_many_with};
+use occupant_core::run::batch::{Job, Kernel, simulate_many};
 use occupant_core::run::simulate::simulate;
 
 /// Rounds over all figures.
@@ -127,7 +127,7 @@ fn sweep_ms() -> Vec<(Kernel, f64)> {
         for (kernel, best) in &mut best {
             let jobs: Vec<_> = models.iter().map(job).collect();
             let clock = Clock::now();
-            simulate_many_with(*kernel, jobs, |ended| {
+            simulate_many(*kernel, jobs, |ended| {
                 black_box(ended.outcome.expect("nothing is written"));
                 ControlFlow::Continue(())
             });

@@ -202,7 +202,7 @@ impl<O: Owner> Quantity<O> {
     }
 
     /// A number.
-    pub const fn number(unit: Unit, of: fn(&O::At<'_>) -> f64) -> Self {
+    pub(crate) const fn number(unit: Unit, of: fn(&O::At<'_>) -> f64) -> Self {
         Quantity::new(unit, Axes::None, Take::Number(of))
     }
 

@@ -14,7 +14,7 @@ use occupant_core::model::setup::{Integrator, Setup};
 use occupant_core::results::checkpoint::Checkpoint;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
-use occupant_core::run::batch::{Job, Kernel, simulate_many_with};
+use occupant_core::run::batch::{Job, Kernel, simulate_many};
 use occupant_core::run::simulate::{resume, simulate};
 use occupant_core::scenario::{Format, Scenario};
 use occupant_core::vehicle::{Attitude, PathCursor, VehicleMotion, VehiclePath, VehiclePose, VehicleState};
@@ -76,7 +76,7 @@ fn side_by_side_and_in_another_thread_it_gives_the_same_bits() {
             let jobs = models.iter().enumerate();
             let jobs = jobs.map(|(tag, model)| Job { tag, model: model.clone(), recorder: Outputs::default() });
             let mut seen = 0;
-            simulate_many_with(kernel, jobs, |ended| {
+            simulate_many(kernel, jobs, |ended| {
                 assert!(ended.recorder.texts == expected[ended.tag].texts, "run {} with {kernel}", ended.tag);
                 seen += 1;
                 ControlFlow::Continue(())

@@ -21,7 +21,7 @@ use occupant_core::model::Model;
 use occupant_core::results::outcome::RecordingFailed;
 use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
-use occupant_core::run::batch::{self, Job, Kernel, simulate_many_with};
+use occupant_core::run::batch::{self, Job, Kernel, simulate_many};
 use occupant_core::scenario::Diagnostics;
 use rayon::{ThreadPool, ThreadPoolBuildError, ThreadPoolBuilder};
 
@@ -260,7 +260,7 @@ impl<'a, S: Source, I: Iterator<Item = u64>> Worker<'a, S, I> {
                 }
             }
         });
-        simulate_many_with(kernel, jobs, |ended| {
+        simulate_many(kernel, jobs, |ended| {
             self.end(ended);
             if self.stop.is_halted() { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
         });

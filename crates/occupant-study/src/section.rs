@@ -14,7 +14,7 @@ use super::fit_section::FitSection;
 use super::keep::KeepSection;
 use occupant_core::scenario::kind::UnitSystem;
 use occupant_core::scenario::schema_of;
-use occupant_core::scenario::sections::{Angle, FRACTION, Length, NOT_NEGATIVE, Ratio};
+use occupant_core::scenario::{Angle, FRACTION, Length, NOT_NEGATIVE, Ratio};
 use placed_text::Value;
 
 /// The JSON Schema of a study file.

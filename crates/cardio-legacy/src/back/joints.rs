@@ -25,7 +25,7 @@ pub(super) fn read(back: &mut Back<'_>) {
 }
 
 /// The law of a ball joint of the report's body.
-pub(super) fn ball_of(joints: &Joints, joint: occupant_core::body::tree::Joint) -> BallJoint {
+pub(super) fn ball_of(joints: &Joints, joint: occupant_core::body::Joint) -> BallJoint {
     joints[joint].ball().copied().unwrap_or_default()
 }
 

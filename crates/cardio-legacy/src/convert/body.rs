@@ -1,6 +1,6 @@
 //! Segments and spheres (series 5 and 7).
 
-use occupant_core::body::tree::both_sides;
+use occupant_core::body::both_sides;
 use occupant_core::body::tti12::TTI12;
 
 use super::writer::Writer;

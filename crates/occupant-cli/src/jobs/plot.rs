@@ -2,7 +2,8 @@
 
 use std::path::PathBuf;
 
-use occupant_core::results::channel::{Axes, Channel, find};
+use occupant_core::quantity::Axes;
+use occupant_core::results::channel::{Channel, find};
 
 use crate::base::failure::Failure;
 use crate::base::names::file_name;

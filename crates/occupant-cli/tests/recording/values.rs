@@ -6,7 +6,7 @@ use nalgebra::{UnitQuaternion, Vector3};
 use occupant_cli::mcap::StoredRun;
 use occupant_core::body::tti12::*;
 use occupant_core::body::{Joint, Segment};
-use occupant_core::forces::{belt, contact, joint};
+use occupant_core::forces::{Element, belt, contact, joint};
 use occupant_core::results::reaction::{femur_axial_n, reaction};
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
@@ -130,9 +130,9 @@ fn energy(s: &Sample<'_>) -> Fields {
         ("kinetic_j", vec![e.kinetic_j]),
         ("kinetic_relative_j", vec![e.kinetic_relative_j]),
         ("gravity_j", vec![e.gravity_j]),
-        ("spine_j", vec![e.stored_j[joint::STORED]]),
-        ("contacts_j", vec![e.stored_j[contact::STORED]]),
-        ("belts_j", vec![e.stored_j[belt::STORED]]),
+        ("spine_j", vec![e.stored_j[joint::JointMoments::STORED.at]]),
+        ("contacts_j", vec![e.stored_j[contact::Contacts::STORED.at]]),
+        ("belts_j", vec![e.stored_j[belt::Belts::STORED.at]]),
         ("lost_contacts_j", vec![e.lost_j[contact::PRESS]]),
         ("lost_friction_j", vec![e.lost_j[contact::FRICTION]]),
         ("lost_joints_j", vec![e.lost_j[joint::DAMPING]]),

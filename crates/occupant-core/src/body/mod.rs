@@ -3,13 +3,15 @@
 //! Report: "Body Geometry and Coordinate Systems", Fig. 1, Fig. 5, Eqs 13–26. Segment axes are X ahead, Y to the
 //! occupant's left and Z up when the occupant stands upright with hanging arms; they are principal axes.
 
-pub mod tree;
+pub(crate) mod tree;
 pub mod tti12;
 
 use nalgebra::{Point3, Vector3};
 
-pub use tree::{Joint, Segment, Tree};
-use tree::{Place, Side, Width};
+pub use tree::{
+    End, Joint, JointKind, JointRow, Landmarks, Limb, Pair, Place, Segment, SegmentRow, Side, SphereRow, Tree, Width,
+    both_sides,
+};
 
 /// Number of rigid segments of the bodies that the kernel is compiled for.
 pub const SEGMENTS: usize = tti12::TTI12.segment_rows().len();
@@ -105,7 +107,7 @@ impl Body {
 
     /// The tree's spheres (Fig. 5) on this body's segments; `radius_m` in the tree's order.
     pub fn standard_spheres(&self, radius_m: &[f64]) -> Vec<ContactSphere> {
-        let sphere = |(row, &radius_m): (&tree::SphereRow, &f64)| ContactSphere {
+        let sphere = |(row, &radius_m): (&SphereRow, &f64)| ContactSphere {
             name: row.name.to_owned(),
             segment: row.segment,
             centre_from_lower_end_m: Point3::new(

@@ -33,7 +33,7 @@ pub struct Seated {
 }
 
 /// What the seat is made of where the pelvis sits.
-pub struct Seat<'a> {
+pub(crate) struct Seat<'a> {
     /// Plane of the cushion.
     pub cushion: &'a FlatFace,
     /// Plane of the back.
@@ -43,7 +43,7 @@ pub struct Seat<'a> {
 }
 
 /// Seats `body`; velocities are zero. Problems are reported under `posture` and `seat`.
-pub fn seat(
+pub(crate) fn seat(
     body: &Body,
     seating: &Seating,
     seat: &Seat<'_>,

@@ -7,7 +7,7 @@
 pub(crate) use crash_measures::unit::Unit;
 
 use crate::model::Model;
-pub use crate::quantity::Axes;
+use crate::quantity::Axes;
 use crate::quantity::Value;
 use crate::results::catalogue::{self, Source};
 use crate::results::recorder::{Flow, Recorder, RecorderError};

@@ -9,7 +9,6 @@ use crate::motion::frame::Moving;
 use crate::motion::kinematics::Kinematics;
 use crate::motion::skeleton::Skeleton;
 use crate::motion::state::{WORK_SUMS, Work};
-use crate::motion::vector::V3;
 
 /// Energies of one instant, J.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -97,18 +96,4 @@ pub fn kinetic(body: &Skeleton<f64>, k: &Kinematics<f64>, frame: &Moving<f64>) -
 pub fn gravity(body: &Skeleton<f64>, k: &Kinematics<f64>) -> f64 {
     let height = |n: usize| body.links[n].mass * k.cg(body, n).z;
     body.gravity * (0..body.links.len()).map(height).sum::<f64>()
-}
-
-/// Σ M v and Σ (M (x − about) × v + I ω), space axes: kg·m/s and kg·m²/s.
-pub fn momentum(body: &Skeleton<f64>, k: &Kinematics<f64>, about: V3<f64>) -> (V3<f64>, V3<f64>) {
-    let (mut linear, mut angular) = (V3::zero(), V3::zero());
-    for (n, link) in body.links.iter().enumerate() {
-        let p = k.cg_velocity(body, n) * link.mass;
-        let w = k.axes[n].into_frame(k.omega[n]);
-        let [ix, iy, iz] = link.central;
-        linear += p;
-        angular += (k.cg(body, n) - about).cross(p);
-        angular += k.axes[n].out(V3 { x: ix * w.x, y: iy * w.y, z: iz * w.z });
-    }
-    (linear, angular)
 }

@@ -37,13 +37,6 @@ pub fn reaction(sample: &Sample<'_>, joint: Joint) -> Reaction {
     in_axes(sample, distal, load)
 }
 
-/// What all joints carry, in the tree's order.
-pub fn reactions(sample: &Sample<'_>) -> [Reaction; SEGMENTS - 1] {
-    let loads = Loads::new(sample);
-    let rows = sample.model.body().tree.joint_rows();
-    std::array::from_fn(|j| in_axes(sample, rows[j].distal, loads.at(rows[j].distal.index())))
-}
-
 fn in_axes(sample: &Sample<'_>, distal: Segment, load: Wrench<f64>) -> Reaction {
     let axes = &sample.evaluation.kinematics.axes[distal.index()];
     Reaction { force_n: axes.into_frame(load.force).to_vector(), moment_n_m: axes.into_frame(load.moment).to_vector() }

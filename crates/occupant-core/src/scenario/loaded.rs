@@ -98,11 +98,6 @@ impl Loaded {
         let id = self.path_table?;
         Some((self.document.sources.name(id), self.document.sources.text(id)))
     }
-
-    /// The text the scenario was read from.
-    pub fn text(&self) -> &str {
-        self.document.text()
-    }
 }
 
 /// Reads the CSV file that the vehicle path names.

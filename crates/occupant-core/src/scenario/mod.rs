@@ -44,15 +44,17 @@ mod loaded;
 mod overrides;
 mod places;
 mod presets;
-pub mod sections;
+pub(crate) mod sections;
 
-pub use check::{check_words, schema_of};
+pub use check::{check_words, schema::schema_of};
 pub use draft::Draft;
 pub use expand::rival_path;
 pub use loaded::{Loaded, Resolver};
 pub use placed_text::{Diagnostic, Diagnostics, Format};
 pub use places::{Place, Wanted};
-pub use sections::{RecordFile, Scenario, read_record, schema};
+pub use sections::{
+    Angle, FRACTION, Length, NOT_NEGATIVE, POSITIVE, Quantity, Ratio, RecordFile, Scenario, Time, read_record, schema,
+};
 
 #[cfg(test)]
 mod tests;

@@ -7,7 +7,7 @@ use crate::fit::{Bounds, Fit};
 use crate::fit_section::{FitChannel, FitSection, FitTest};
 use crate::{Parameter, Study, StudyText};
 use crash_measures::trig::ln;
-use occupant_core::scenario::sections::Time;
+use occupant_core::scenario::Time;
 use occupant_core::scenario::{Diagnostics, Draft, Resolver};
 use placed_text::{Problem, Value};
 

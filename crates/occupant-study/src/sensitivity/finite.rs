@@ -9,7 +9,7 @@ use super::measures::pick;
 use super::parameter::Parameter;
 use crate::ending::Ending;
 use occupant_core::results::summary::Summarizer;
-use occupant_core::run::batch::{Ended, Job, simulate_many};
+use occupant_core::run::batch::{Ended, Job, Kernel, simulate_many};
 
 /// Changes as parts of a parameter's size, to either side.
 pub const CHANGES: [f64; 4] = [1e-4, 1e-3, 3e-3, 1e-2];
@@ -94,7 +94,7 @@ pub fn finite_changes(parameters: &[Parameter<'_>], parts: &[f64], figures: &[St
 /// The figures of the runs that have completed.
 fn run<T>(jobs: Vec<Job<T, Summarizer>>, figures: &[String]) -> Vec<(T, Vec<f64>)> {
     let mut all = Vec::with_capacity(jobs.len());
-    simulate_many(jobs, |ended: Ended<T, Summarizer>| {
+    simulate_many(Kernel::best(), jobs, |ended: Ended<T, Summarizer>| {
         let completed = ended.outcome.is_ok_and(|o| Ending::of(&o) == Some(Ending::Completed));
         if let (true, Some(summary)) = (completed, ended.recorder.summary(None)) {
             all.push((ended.tag, pick(&summary.figures(&ended.model), figures)));

@@ -2,7 +2,7 @@
 
 use super::super::{StudyText, Value};
 use super::{base, bind, no_files, study};
-use occupant_core::body::tree::Joint;
+use occupant_core::body::Joint;
 use occupant_core::body::tti12;
 use occupant_core::forces::joint::{JointLaw, Joints};
 use occupant_core::model::setup::Setup;

@@ -21,13 +21,11 @@ use crate::quantity::energy;
 use law::{BeltAction, BeltHistory, BeltLaw};
 use placed_text::Problems;
 
-/// Place of the recoverable energy in the energy ledger.
-pub const STORED: usize = 2;
 /// Place of the work put into belts, stored and dissipated.
 pub const STRETCH: usize = 3;
 
 /// Other belts, or belts round other spheres.
-pub const OTHER_BELTS: Unlike = Unlike("the belts are others or go round other spheres");
+pub(crate) const OTHER_BELTS: Unlike = Unlike("the belts are others or go round other spheres");
 
 /// How the unstretched length L₀ is given.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,7 +77,7 @@ pub struct Belts;
 
 impl Element for Belts {
     const STORED: StoredEnergy = StoredEnergy {
-        at: STORED,
+        at: 2,
         quantity: energy(7, "belts", "stored in belts", "recoverable, in belts"),
         held_by: HeldBy::sum(STRETCH, 22, "start_belts_j", "stored in belts at the start of the run"),
     };

@@ -14,7 +14,6 @@ mod zip;
 
 pub(crate) use hints::ContactHints;
 pub use system::*;
-pub use zip::{OTHER_OUTLINES, OTHER_PAIRS};
 
 use crate::body::Body;
 use crate::forces::contact::flat_face::FlatFace;
@@ -27,8 +26,6 @@ use encounter::Sphere;
 use hints::{Looking, Near, Nearing};
 use placed_text::Problems;
 
-/// Place of the recoverable energy in the energy ledger.
-pub const STORED: usize = 1;
 /// Place of the work put into contacts along their normals and edge bands, stored and dissipated.
 pub const PRESS: usize = 0;
 /// Place of the work that friction dissipates.
@@ -55,7 +52,7 @@ pub struct Contacts;
 
 impl Element for Contacts {
     const STORED: StoredEnergy = StoredEnergy {
-        at: STORED,
+        at: 1,
         quantity: energy(6, "contacts", "stored in contacts", "recoverable, in contacts"),
         held_by: HeldBy::sum(PRESS, 21, "start_contacts_j", "stored in contacts at the start of the run"),
     };

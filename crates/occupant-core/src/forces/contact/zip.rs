@@ -4,9 +4,9 @@ use super::{ContactSystem, Pair, Part, Plane};
 use crate::forces::element::Unlike;
 
 /// Other pairs of spheres and surfaces, because of other surfaces, frames, seams or lists of spheres.
-pub const OTHER_PAIRS: Unlike = Unlike("the spheres meet other surfaces");
+pub(crate) const OTHER_PAIRS: Unlike = Unlike("the spheres meet other surfaces");
 /// Surfaces of another kind, or with another number of corners.
-pub const OTHER_OUTLINES: Unlike = Unlike("the surfaces have other outlines or numbers of corners");
+pub(crate) const OTHER_OUTLINES: Unlike = Unlike("the surfaces have other outlines or numbers of corners");
 
 impl<S: Copy> ContactSystem<S> {
     pub(super) fn zip<A: Copy, T>(

@@ -141,22 +141,6 @@ impl Joints {
         self.tree.joints().zip(&self.laws)
     }
 
-    /// The laws of all ball joints, to change their numbers.
-    pub fn balls_mut(&mut self) -> impl Iterator<Item = &mut BallJoint> {
-        self.laws.iter_mut().filter_map(|law| match law {
-            JointLaw::Ball(ball) => Some(ball),
-            JointLaw::Hinge(_) => None,
-        })
-    }
-
-    /// The laws of all hinges, to change their numbers.
-    pub fn hinges_mut(&mut self) -> impl Iterator<Item = &mut HingeJoint> {
-        self.laws.iter_mut().filter_map(|law| match law {
-            JointLaw::Hinge(hinge) => Some(hinge),
-            JointLaw::Ball(_) => None,
-        })
-    }
-
     /// The law of a ball joint, to change its numbers.
     pub fn ball_mut(&mut self, joint: Joint) -> Option<&mut BallJoint> {
         match &mut self.laws[joint.index()] {

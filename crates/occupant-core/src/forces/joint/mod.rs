@@ -18,13 +18,11 @@ use crate::motion::scalar::Scalar;
 use crate::quantity::energy;
 use placed_text::Problems;
 
-/// Place of the springs' energy in the energy ledger.
-pub const STORED: usize = 0;
 /// Place of the work that dampers and stops dissipate.
 pub const DAMPING: usize = 2;
 
 /// Springs in other joints.
-pub const OTHER_SPRINGS: Unlike = Unlike("other joints have springs");
+pub(crate) const OTHER_SPRINGS: Unlike = Unlike("other joints have springs");
 
 /// The kind of force element: moments in the joints.
 #[derive(Clone, Copy, Debug)]
@@ -32,7 +30,7 @@ pub struct JointMoments;
 
 impl Element for JointMoments {
     const STORED: StoredEnergy = StoredEnergy {
-        at: STORED,
+        at: 0,
         quantity: energy(5, "spine", "stored in the joints' springs", "stored in joint springs"),
         held_by: None,
     };

@@ -110,20 +110,12 @@ impl fmt::Display for Kernel {
     }
 }
 
-/// Runs all `jobs` on this thread with the fastest kernel; `on_end` gets each when it has ended, in no fixed order, and may
+/// Runs all `jobs` on this thread, with [`Kernel::Scalar`] if this processor has not got `kernel`; `on_end` gets each when it has ended, in no fixed order, and may
 /// break off: then the runs still under way are dropped.
 ///
 /// The next job is taken only when there is room for it; a job list that waits for others (a channel) holds up the runs
 /// under way.
 pub fn simulate_many<T, R: Recorder>(
-    jobs: impl IntoIterator<Item = Job<T, R>>,
-    on_end: impl FnMut(Ended<T, R>) -> ControlFlow<()>,
-) {
-    simulate_many_with(Kernel::best(), jobs, on_end);
-}
-
-/// [`simulate_many`] with a kernel of the caller's choice; with [`Kernel::Scalar`] if this processor has not got it.
-pub fn simulate_many_with<T, R: Recorder>(
     kernel: Kernel,
     jobs: impl IntoIterator<Item = Job<T, R>>,
     mut on_end: impl FnMut(Ended<T, R>) -> ControlFlow<()>,

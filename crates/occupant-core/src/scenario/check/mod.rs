@@ -3,14 +3,13 @@
 
 mod groups;
 mod references;
-mod schema;
+pub(super) mod schema;
 mod view;
 
 use crash_measures::unit::UnitError;
 use serde_json::Value as Json;
 
 pub(super) use references::references;
-pub use schema::schema_of;
 pub(super) use view::View;
 
 use super::kind::{Kind, UnitSystem};

@@ -39,7 +39,7 @@ use self::posture::{InitialStateSection, PostureSection, SeatSection};
 use self::quantity::ANY;
 use self::run::{IntegratorSection, OutputSection, TimeSection};
 use self::surfaces::{ContactSection, SurfaceSection};
-use super::check::schema_of;
+use super::check::schema::schema_of;
 use super::kind::{self, UnitSystem};
 
 /// The JSON Schema of a scenario.

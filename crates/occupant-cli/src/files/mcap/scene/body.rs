@@ -8,7 +8,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{UnitQuaternion, Vector3};
-use occupant_core::body::tree::Landmarks;
+use occupant_core::body::Landmarks;
 use occupant_core::body::{Body, ContactSphere, Segment};
 
 use super::primitive::{cylinder, ellipsoid};
