@@ -23,7 +23,7 @@ pub fn parse(sources: &Sources, id: SourceId) -> Result<Node, Diagnostics> {
 /// Reads one TOML value, as the right side of `key = value`.
 ///
 /// # Errors
-/// As for [`parse`].
+/// All syntax errors of the text, dates, and integers beyond 64 bits.
 pub fn parse_value(sources: &Sources, id: SourceId) -> Result<Node, Diagnostics> {
     let (value, errors) = DeValue::parse_recoverable(sources.text(id));
     let mut reader = Reader::new(sources, id);

@@ -1,7 +1,7 @@
 //! What acts on the body: contact, belts, joints, each kind of force element in a room of its own.
 //!
 //! A kind is an [`Element`]. The list of kinds in `list.rs` gives the force laws of everything ([`Forces`]), what they
-//! remember ([`History`]), what they do at one instant ([`Actions`]), their energies ([`STORED`], [`SUMS`]). The kernel, runs
+//! remember ([`History`]), what they do at one instant ([`Actions`]), their energies (`STORED`, `SUMS`). The kernel, runs
 //! side by side, dual numbers, the energy ledger and checkpoints know the list alone. What results show of a kind is its
 //! [`shown::Reported`]: result files, summaries, pictures and sensitivities visit the list ([`visit_kinds`]). To add a kind
 //! takes a folder with its [`Element`] and [`shown::Reported`], its line in the list, its places in the ledger and its data

@@ -99,7 +99,7 @@ impl<S: Copy> Spring<S> {
 }
 
 impl<S: Scalar> Spring<S> {
-    /// Constants from data; fractions below [`LEAST_FRACTION`] are raised to it.
+    /// Constants from data; fractions below `LEAST_FRACTION` are raised to it.
     pub fn new(data: &BilinearSpring) -> Self {
         let (mu1, mu2) = (data.returned_1.max(LEAST_FRACTION), data.returned_2.max(LEAST_FRACTION));
         Spring {

@@ -46,7 +46,7 @@ macro_rules! collect {
 pub const FREE: &[usize] = collect!(usize: n, for n in SEGMENTS, if !is_hinged(n));
 /// Hinged segments, in the order of [`super::state::State::hinge`].
 pub(crate) const HINGED: &[usize] = collect!(usize: n, for n in SEGMENTS, if is_hinged(n));
-/// Upper and lower segment of each limb, in the order of [`HINGED`].
+/// Upper and lower segment of each limb, in the order of `HINGED`.
 pub const LIMBS: &[(usize, usize)] = collect!((usize, usize): (parent(n), n), for n in SEGMENTS, if is_hinged(n));
 /// Segments on a ball joint that carry nothing.
 pub(crate) const LEAVES: &[usize] =
@@ -67,7 +67,7 @@ pub const BALL_JOINTS: &[Joint] = collect!(Joint: TREE.joint(n), for n in JOINTS
 pub const BALLS: &[(usize, usize)] = collect!(
     (usize, usize): (row(n).proximal.index(), row(n).distal.index()), for n in JOINTS, if !row(n).is_hinge()
 );
-/// Hinges, in the order of [`HINGED`].
+/// Hinges, in the order of `HINGED`.
 pub const HINGE_JOINTS: &[Joint] = collect!(
     Joint: TREE.joint(n % JOINTS), for n in HINGED.len() * JOINTS, if row(n % JOINTS).distal.index() == HINGED[n / JOINTS]
 );

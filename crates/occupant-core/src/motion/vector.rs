@@ -1,4 +1,4 @@
-//! Vectors and matrices of the kernel: only what it needs, over any [`Scalar`].
+//! Vectors and matrices of the kernel: only what it needs, over any `Scalar`.
 
 use std::ops::{Add, Mul, Neg, Sub};
 

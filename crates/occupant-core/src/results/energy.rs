@@ -19,9 +19,9 @@ pub struct EnergyLedger {
     pub kinetic_relative_j: f64,
     /// M g Z′, zero at Z′ = 0.
     pub gravity_j: f64,
-    /// Stored (recoverable) in force elements, in the order of [`STORED`].
+    /// Stored (recoverable) in force elements, in the order of `STORED`.
     pub stored_j: [f64; KINDS],
-    /// Dissipated since the start, in the order of [`crate::forces::SUMS`]: work put in less what is stored.
+    /// Dissipated since the start, in the order of `SUMS`: work put in less what is stored.
     pub lost_j: [f64; WORK_SUMS],
     /// Work done on the occupant by the moving vehicle since the start.
     pub vehicle_work_j: f64,
@@ -32,7 +32,7 @@ pub struct EnergyLedger {
 /// Stored energies at the start, from which the balance counts.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyStart {
-    /// Stored in force elements, in the order of [`STORED`], J; 0 where no work sum holds it.
+    /// Stored in force elements, in the order of `STORED`, J; 0 where no work sum holds it.
     pub stored_j: [f64; KINDS],
     /// Sum of kinetic and gravity energy and of what is stored without a work sum, J.
     pub mechanical_j: f64,

@@ -96,7 +96,7 @@ impl VehiclePath {
     /// `step_middle_s` is the middle of the present integration step; it decides which interval of a linear table gives the
     /// velocities, and whether a held table already stands still. For output at an instant give `t_s` itself. The
     /// answer depends on the two times alone, never on `cursor`. Outside the path's span (see
-    /// [`VehiclePath::check_span`]) the vehicle coasts.
+    /// `VehiclePath::check_span`) the vehicle coasts.
     pub fn motion(&self, t_s: f64, step_middle_s: f64, cursor: &mut PathCursor) -> FrameMotion {
         match self {
             VehiclePath::Table(table) => table.motion(t_s, step_middle_s, cursor),
