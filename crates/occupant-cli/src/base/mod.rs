@@ -3,6 +3,7 @@
 //! Knows no command, no job and no file format.
 
 pub(crate) mod failure;
+pub(crate) mod input_file;
 pub(crate) mod interrupt;
 pub(crate) mod names;
 pub(crate) mod output_file;

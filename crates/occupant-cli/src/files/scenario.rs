@@ -78,11 +78,11 @@ pub(crate) fn files_beside(scenario: &Path) -> impl Fn(&str) -> Result<Vec<u8>, 
     move |file| std::fs::read(folder.join(file)).map_err(|error| error.to_string())
 }
 
-/// The scenario that a results file was made from, all that was changed in it included.
+/// The scenario that a results file was made from, all that was changed in it included, its model and warnings about it.
 ///
 /// # Errors
 /// A file without it, or with one that this program cannot read.
-pub(crate) fn stored(file: &Path, run: &StoredRun) -> Result<Loaded, Failure> {
+pub(crate) fn stored(file: &Path, run: &StoredRun) -> Result<(Loaded, Model, Diagnostics), Failure> {
     let name = file.display();
     let bytes = run.attachments.get(RESOLVED);
     let bytes = bytes.ok_or_else(|| Failure::plain(format!("{name} holds no scenario")))?;
@@ -90,9 +90,13 @@ pub(crate) fn stored(file: &Path, run: &StoredRun) -> Result<Loaded, Failure> {
         let found = run.attachments.get(&file_name(Path::new(table)));
         found.cloned().ok_or_else(|| format!("{name} does not hold it"))
     };
-    Draft::read_bytes(bytes, Some(Format::Toml), RESOLVED)
+    let loaded = Draft::read_bytes(bytes, Some(Format::Toml), RESOLVED)
         .and_then(|draft| draft.load(&resolver))
-        .map_err(|problems| Failure::plain(format!("the scenario in {name} cannot be read:\n{problems}")))
+        .map_err(|problems| Failure::plain(format!("the scenario in {name} cannot be read:\n{problems}")))?;
+    let model = loaded.model();
+    let (model, warnings) =
+        model.map_err(|problems| Failure::plain(format!("the scenario in {name} is refused:\n{problems}")))?;
+    Ok((loaded, model, warnings))
 }
 
 /// The format that the ending of the file name stands for, if any.

@@ -218,11 +218,6 @@ impl<'a> Sample<'a> {
         ReportCoordinates::from_state(self.state)
     }
 
-    /// Energy imbalance as a fraction of the greatest kinetic energy relative to the vehicle, `greatest_j`.
-    pub(crate) fn balance_fraction(&self, greatest_j: f64) -> f64 {
-        if greatest_j > 0.0 { self.energy.balance_j / greatest_j } else { 0.0 }
-    }
-
     fn contact(&self, t: &Touch<f64>) -> Contact {
         let system = self.model.system();
         let site = &system.spheres[t.sphere];

@@ -63,14 +63,6 @@ impl FrameMotion {
         self.velocity_m_s + self.angular_velocity_rad_s.cross(&(point_space_m - self.origin_m))
     }
 
-    /// Acceleration in space, m/s², of the point of the frame that is at `point_space_m` now.
-    pub(crate) fn acceleration_at(&self, point_space_m: Vector3<f64>) -> Vector3<f64> {
-        // a + α × r + ω × (ω × r)
-        let arm_m = point_space_m - self.origin_m;
-        let omega = self.angular_velocity_rad_s;
-        self.acceleration_m_s2 + self.angular_acceleration_rad_s2.cross(&arm_m) + omega.cross(&omega.cross(&arm_m))
-    }
-
     /// The same frame `duration_s` later, its velocity and angular velocity in space unchanged.
     pub(super) fn coasted(&self, duration_s: f64) -> Self {
         FrameMotion {

@@ -138,16 +138,6 @@ impl VehiclePath {
         }
     }
 
-    /// Times from and up to which the path is given by data, s; infinite for pulses and frames at rest.
-    pub(crate) fn span_s(&self) -> (f64, f64) {
-        match self {
-            VehiclePath::Table(table) => table.span_s(),
-            VehiclePath::Sensors(sensors) => sensors.span_s(),
-            VehiclePath::Own(own) => own.span_s(),
-            VehiclePath::Pulse(_) | VehiclePath::Fixed(_) => (f64::NEG_INFINITY, f64::INFINITY),
-        }
-    }
-
     /// Times at which velocity or acceleration jump, s, in increasing order: an integrator that lets its steps end there
     /// keeps its order.
     pub fn breaks_s(&self) -> Vec<f64> {

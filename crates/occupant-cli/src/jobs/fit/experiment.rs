@@ -42,7 +42,7 @@ impl Experiment {
         study: Study,
         tables: Vec<(String, Vec<u8>)>,
     ) -> Result<(Experiment, Diagnostics), Diagnostics> {
-        let (_, model, warnings) = opened(study.base().clone(), &tables)?;
+        let (_, model, warnings) = opened(study.base.clone(), &tables)?;
         let experiment = Experiment {
             scenario,
             fitted: String::new(),
@@ -103,7 +103,7 @@ impl Experiment {
         &self,
         changes: impl IntoIterator<Item = (impl AsRef<str>, impl AsRef<str>)>,
     ) -> Result<(Loaded, Model, Diagnostics), Diagnostics> {
-        let mut draft = self.study.base().clone();
+        let mut draft = self.study.base.clone();
         for (path, text) in changes {
             draft.set_value(path.as_ref(), text.as_ref())?;
         }

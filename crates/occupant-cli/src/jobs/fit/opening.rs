@@ -10,7 +10,7 @@ use occupant_study::{Fit, FitChannel, FitTest, Study, StudyText};
 use super::experiment::Experiment;
 use super::fitting::Test;
 use super::target::{Target, filter_of};
-use crate::base::names::file_name;
+use crate::base::names::{ending, file_name};
 use crate::files::measured::{self, MapArgument, Pair, Wanted, pairs};
 use crate::files::scenario::format_of;
 use crate::files::signals::Recording;
@@ -190,8 +190,8 @@ impl<'a> Opening<'a> {
             .text
             .bind_fit(draft, (&named.test.set, &at), self.given.overrides, &beside)
             .map_err(|e| e.to_string())?;
-        if !study.warnings().is_empty() {
-            self.warnings.push(study.warnings().to_string());
+        if !study.warnings.is_empty() {
+            self.warnings.push(study.warnings.to_string());
         }
         let tables = self.tables(&study, base);
         let text = String::from_utf8_lossy(&bytes).into_owned();
@@ -220,7 +220,7 @@ impl<'a> Opening<'a> {
                     self.warnings.push(format!("note: {note}"));
                 }
                 // a copy for the folder; of an ISO-MME test its checksum only
-                let mme = named.file.extension().is_some_and(|e| e.eq_ignore_ascii_case("mme"));
+                let mme = ending(&named.file) == "mme";
                 let single = named.file.is_file() && !mme;
                 let copied = single && self.texts.get(named.by.0, &named.by.1).is_ok();
                 if !copied {

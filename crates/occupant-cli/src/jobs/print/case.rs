@@ -10,6 +10,7 @@ use cardio_legacy::CompartmentLayout;
 
 use super::unit::Units;
 use crate::base::failure::Failure;
+use crate::base::input_file;
 use crate::files::mcap::StoredRun;
 use crate::files::mcap::about::RUN;
 use crate::files::scenario::stored;
@@ -37,7 +38,7 @@ impl Case {
     /// checkpoints this program refuses.
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
         let name = path.display();
-        let bytes = std::fs::read(path).map_err(|error| Failure::plain(format!("{name} cannot be read: {error}")))?;
+        let bytes = input_file::read(path)?;
         let refused = |reason: String| {
             Failure::with_help(
                 format!("{name} cannot be printed: {reason}"),
@@ -49,9 +50,7 @@ impl Case {
             let found = format!("it is an MCAP file without the record `{RUN}`: no result of `occupant run`");
             return Err(refused(found));
         }
-        let loaded = stored(path, &file)?;
-        let (model, warnings) =
-            loaded.model().map_err(|d| refused(format!("the scenario in the file is refused:\n{d}")))?;
+        let (loaded, model, warnings) = stored(path, &file)?;
         file.checkpoints.iter().try_for_each(|c| c.check(&model)).map_err(|e| refused(e.to_string()))?;
         let report = report_numbers(&model);
         let in_order = || (1..=model.setup().surfaces.len()).collect();

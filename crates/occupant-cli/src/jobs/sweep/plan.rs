@@ -26,7 +26,7 @@ pub(crate) const FILE: &str = "path.file";
 
 /// A study and everything it needs. Shared by all threads.
 pub(crate) struct Plan {
-    study: Study,
+    pub(crate) study: Study,
     /// Path of the scenario that is varied, for messages and results.
     scenario: PathBuf,
     bytes: Vec<u8>,
@@ -68,7 +68,7 @@ impl Plan {
         let title = text.section.title.clone().unwrap_or_default();
         let manifest = Manifest::new(program, title, study.len(), overrides.to_vec());
         let mut plan = Plan {
-            warnings: study.warnings().clone(),
+            warnings: study.warnings.clone(),
             study,
             scenario,
             bytes,
@@ -81,10 +81,6 @@ impl Plan {
         plan.manifest.columns = plan.columns()?;
         (plan.manifest.texts, plan.texts) = texts.all();
         Ok(plan)
-    }
-
-    pub(crate) fn study(&self) -> &Study {
-        &self.study
     }
 
     /// The values of a sample, by the columns that are inputs.
@@ -142,7 +138,7 @@ impl Plan {
 
     /// The model of a sample, or of the base scenario.
     fn model(&self, index: Option<u64>) -> Result<(Loaded, Model, Diagnostics), Diagnostics> {
-        let mut draft = self.study.base().clone();
+        let mut draft = self.study.base.clone();
         if let Some(index) = index {
             self.study.apply(index, &mut draft)?;
         }
@@ -154,7 +150,7 @@ impl Plan {
     /// Reads what the scenario names, and what those of the samples name where a study varies the name of a file.
     fn take_tables(&mut self, texts: &Texts) {
         let mut names: Vec<String> = named_file(&self.study).into_iter().collect();
-        let varied = self.study.parameters().iter().any(|p| p.targets.iter().any(|t| t.path == FILE));
+        let varied = self.study.parameters.iter().any(|p| p.targets.iter().any(|t| t.path == FILE));
         for index in (0..self.study.len()).filter(|_| varied) {
             for assignment in &self.study.assignments(index) {
                 if let (FILE, Value::Text(name)) = (assignment.path.as_str(), &assignment.value)
@@ -189,7 +185,7 @@ impl Plan {
                 number(&parameter.name, parameter.unit)
             }
         };
-        let parameters = self.study.parameters().iter().enumerate();
+        let parameters = self.study.parameters.iter().enumerate();
         let mut columns: Vec<Column> = parameters.map(input).collect();
         if self.study.members() > 1 {
             columns.push(number("ensemble.sample", ""));
@@ -243,7 +239,7 @@ fn changes_of(text: &StudyText) -> Vec<String> {
 
 /// The file that the base scenario of a study names.
 pub(crate) fn named_file(study: &Study) -> Option<String> {
-    match study.base().clone().get(FILE).ok()?.into_iter().next()? {
+    match study.base.clone().get(FILE).ok()?.into_iter().next()? {
         (_, Written::String(name)) => Some(name),
         _ => None,
     }
@@ -252,7 +248,7 @@ pub(crate) fn named_file(study: &Study) -> Option<String> {
 /// Whether a parameter has values that are no numbers.
 fn has_texts(study: &Study, at: usize) -> bool {
     let text = |value: &Value| matches!(value, Value::Text(_) | Value::Truth(_));
-    match (study.parameters().get(at).map(|p| &p.law), study.design()) {
+    match (study.parameters.get(at).map(|p| &p.law), &study.design) {
         (Some(Law::List(values)), _) => values.iter().any(text),
         (Some(Law::Table), Design::Table { rows, .. }) => rows.iter().any(|row| row.get(at).is_some_and(text)),
         _ => false,

@@ -41,7 +41,10 @@ fn recorded(path: &VehiclePath, gravity_m_s2: f64, end_s: f64) -> String {
         let motion = path.motion(t_s, t_s, &mut cursor);
         let sensors = motion.point_to_space(OFFSET_M);
         let up = Vector3::new(0.0, 0.0, gravity_m_s2);
-        let felt = motion.vector_to_frame(motion.acceleration_at(sensors) + up) / G;
+        // a + α × r + ω × (ω × r)
+        let (arm_m, omega) = (sensors - motion.origin_m, motion.angular_velocity_rad_s);
+        let turning = motion.angular_acceleration_rad_s2.cross(&arm_m) + omega.cross(&omega.cross(&arm_m));
+        let felt = motion.vector_to_frame(motion.acceleration_m_s2 + turning + up) / G;
         let rate = motion.vector_to_frame(motion.angular_velocity_rad_s);
         let rate = rate.map(f64::to_degrees);
         let digits = |x: f64, decimals: usize| {

@@ -1,6 +1,6 @@
 use nalgebra::Vector3;
 
-use super::support::{Seeded, assert_below, differentiate};
+use super::support::{Seeded, acceleration_at, assert_below, differentiate};
 use super::*;
 
 #[test]
@@ -63,7 +63,7 @@ fn a_point_of_the_vehicle_moves_as_its_place_does() {
         let v = differentiate(place, t_s, 1e-4);
         let a = differentiate(|t| at(t).velocity_at(place(t)), t_s, 1e-4);
         velocity = velocity.max((v - now.velocity_at(place(t_s))).amax());
-        acceleration = acceleration.max((a - now.acceleration_at(place(t_s))).amax());
+        acceleration = acceleration.max((a - acceleration_at(&now, place(t_s))).amax());
     }
     assert_below("velocity", velocity, 1e-11); // 3.3e-12
     assert_below("acceleration", acceleration, 1e-9); // 8.3e-11
@@ -72,7 +72,6 @@ fn a_point_of_the_vehicle_moves_as_its_place_does() {
 #[test]
 fn a_frame_at_rest_has_no_span_and_no_breaks() {
     let path = VehiclePath::Fixed(FixedPath::new(VehiclePose::default()).expect("a sound pose"));
-    assert_eq!(path.span_s(), (f64::NEG_INFINITY, f64::INFINITY));
     assert_eq!(path.check_span(-5.0, 5.0), Ok(()));
     assert!(path.check_span(0.0, f64::INFINITY).is_err());
     assert!(path.breaks_s().is_empty());

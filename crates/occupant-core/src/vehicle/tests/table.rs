@@ -263,8 +263,9 @@ fn a_spinning_vehicle_that_coasts_counts_its_turns() {
 #[test]
 fn a_cursor_that_jumps_about_answers_like_a_fresh_one() {
     for interpolation in [Interpolation::Linear, Interpolation::Spline] {
-        let path = VehiclePath::Table(table(tumble(26, 50), interpolation, AfterEnd::Coast));
-        let (first_s, last_s) = path.span_s();
+        let table = table(tumble(26, 50), interpolation, AfterEnd::Coast);
+        let (first_s, last_s) = table.span_s();
+        let path = VehiclePath::Table(table);
         let (mut seeded, mut cursor) = (Seeded(27), PathCursor::default());
         for _ in 0..2000 {
             let t_s = seeded.between(first_s - 0.1, last_s + 0.1);
@@ -280,7 +281,6 @@ fn a_cursor_that_jumps_about_answers_like_a_fresh_one() {
 fn a_run_must_fit_the_table() {
     let spanning = |after| VehiclePath::Table(table(vec![turn(0.5), turn(1.0)], Interpolation::Linear, after));
     let path = spanning(AfterEnd::Error);
-    assert_eq!(path.span_s(), (0.5, 1.0));
     assert_eq!(path.check_span(0.5, 1.0), Ok(()));
     assert_eq!(path.check_span(0.4, 1.0), Err(PathProblem::StartsBeforePath { start_s: 0.4, first_s: 0.5 }));
     let past = path.check_span(0.5, 1.2);
