@@ -78,6 +78,28 @@ pub(crate) fn files_beside(scenario: &Path) -> impl Fn(&str) -> Result<Vec<u8>, 
     move |file| std::fs::read(folder.join(file)).map_err(|error| error.to_string())
 }
 
+/// Files that scenarios name, as they were when the work began: names and bytes.
+#[derive(Default)]
+pub(crate) struct Tables(pub(crate) Vec<(String, Vec<u8>)>);
+
+impl Tables {
+    /// The bytes of a file, as resolvers of scenarios give them.
+    pub(crate) fn get(&self, name: &str) -> Result<Vec<u8>, String> {
+        let found = self.0.iter().find(|(table, _)| table == name);
+        found.map(|(_, bytes)| bytes.clone()).ok_or_else(|| "it was not there at the beginning".to_owned())
+    }
+
+    /// Scenario, model and warnings of a draft.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub(crate) fn open(&self, draft: Draft) -> Result<(Loaded, Model, Diagnostics), Diagnostics> {
+        let loaded = draft.load(&|name| self.get(name))?;
+        let (model, warnings) = loaded.model()?;
+        Ok((loaded, model, warnings))
+    }
+}
+
 /// The scenario that a results file was made from, all that was changed in it included, its model and warnings about it.
 ///
 /// # Errors

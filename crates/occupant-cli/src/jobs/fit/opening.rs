@@ -12,7 +12,7 @@ use super::fitting::Test;
 use super::target::{Target, filter_of};
 use crate::base::names::{ending, file_name};
 use crate::files::measured::{self, MapArgument, Pair, Wanted, pairs};
-use crate::files::scenario::format_of;
+use crate::files::scenario::{Tables, format_of};
 use crate::files::signals::Recording;
 use crate::files::study_folder::texts::{NamedBy, Texts};
 use crate::jobs::sweep::plan::named_file;
@@ -204,13 +204,13 @@ impl<'a> Opening<'a> {
     }
 
     /// The file that a scenario names, if it names one; one that cannot be read is reported when the scenario is opened.
-    fn tables(&self, study: &Study, base: &str) -> Vec<(String, Vec<u8>)> {
+    fn tables(&self, study: &Study, base: &str) -> Tables {
         let beside = Path::new(base).parent().unwrap_or(Path::new(""));
         let read = |name: String| {
             let bytes = self.texts.get(NamedBy::Study, &beside.join(&name).display().to_string()).ok()?;
             Some((name, bytes))
         };
-        named_file(study).into_iter().filter_map(read).collect()
+        Tables(named_file(study).into_iter().filter_map(read).collect())
     }
 
     fn recording(&mut self, named: &Named) -> Option<Recording> {

@@ -85,7 +85,7 @@ pub(crate) fn fitted(
 /// Whether a text says this scenario.
 fn says(experiment: &Experiment, text: &str, wanted: &Scenario) -> bool {
     let draft = Draft::read(text, Format::Toml, "fitted");
-    let found = draft.and_then(|draft| experiment.open(draft));
+    let found = draft.and_then(|draft| experiment.tables.open(draft));
     found.is_ok_and(|(loaded, ..)| loaded.scenario == *wanted)
 }
 

@@ -2,11 +2,11 @@
 
 use std::path::Path;
 
-use occupant_core::forces::contact::{PASSED, PairHistory};
+use occupant_core::forces::contact::PairHistory;
 use occupant_core::model::Model;
 use occupant_core::scenario::Loaded;
 
-use cardio_legacy::CompartmentLayout;
+use cardio_legacy::{CompartmentLayout, passed_pairs};
 
 use super::unit::Units;
 use crate::base::failure::Failure;
@@ -102,16 +102,7 @@ impl Case {
 
     /// The pairs (sphere, surface), by index, that have passed a surface's edge: those with NARRY = 0.
     pub(crate) fn passed(&self, pairs: &[PairHistory<f64>]) -> Vec<(usize, usize)> {
-        let contacts = &self.model.system().forces.contacts;
-        let mut passed = Vec::new();
-        for group in contacts.groups() {
-            for i in group.pairs.clone() {
-                let is_passed = pairs.get(i).is_some_and(|p| p.phase == PASSED);
-                let parts = contacts.pairs().get(i).map_or(&[][..], |p| &p.parts);
-                let own = parts.iter().filter(|_| is_passed);
-                passed.extend(own.map(|part| (group.sphere, part.surface)));
-            }
-        }
+        let mut passed: Vec<_> = passed_pairs(&self.model, pairs).collect();
         let number = |surface: usize| self.numbers.get(surface).copied();
         passed.sort_by_key(|&(sphere, surface)| (sphere, number(surface)));
         passed

@@ -109,7 +109,7 @@ impl StudyBands<'_> {
         let members = Members {
             study,
             runs,
-            resolver: &|name: &str| self.plan.table(name),
+            resolver: &|name: &str| self.plan.tables.get(name),
             channels: &channels,
             interrupt: self.interrupt,
             bar: &ProgressBar::hidden(),

@@ -13,7 +13,7 @@ use occupant_study::{Design, Law, Parameter, Setting, Study, StudyText, Value};
 
 use crate::base::failure::Failure;
 use crate::base::names::file_name;
-use crate::files::scenario::{Opened, ScenarioArgs, format_of, refused};
+use crate::files::scenario::{Opened, ScenarioArgs, Tables, format_of, refused};
 use crate::files::study_folder::manifest::{Column, Manifest, Role};
 use crate::files::study_folder::texts::{NamedBy, Texts};
 use crate::files::table::Cell;
@@ -33,7 +33,7 @@ pub(crate) struct Plan {
     /// Changes of the study and of the command line that are the same in all samples.
     changes: Vec<String>,
     /// What the scenarios of the samples name.
-    tables: Vec<(String, Vec<u8>)>,
+    pub(crate) tables: Tables,
     /// What the folder of the sweep will hold.
     pub(crate) manifest: Manifest,
     /// Bytes of the manifest's texts.
@@ -73,7 +73,7 @@ impl Plan {
             scenario,
             bytes,
             changes,
-            tables: Vec::new(),
+            tables: Tables::default(),
             manifest,
             texts: Vec::new(),
         };
@@ -120,12 +120,6 @@ impl Plan {
         })
     }
 
-    /// The bytes of a table that a scenario of the study names.
-    pub(crate) fn table(&self, name: &str) -> Result<Vec<u8>, String> {
-        let found = self.tables.iter().find(|(table, _)| table == name);
-        found.map(|(_, bytes)| bytes.clone()).ok_or_else(|| "it was not there when the sweep began".to_owned())
-    }
-
     /// The words with which `occupant run` runs a sample, and the scenario's bytes.
     pub(crate) fn command(&self, index: u64) -> (ScenarioArgs, Vec<u8>) {
         let mut overrides = self.changes.clone();
@@ -142,9 +136,7 @@ impl Plan {
         if let Some(index) = index {
             self.study.apply(index, &mut draft)?;
         }
-        let loaded = draft.load(&|name| self.table(name))?;
-        let (model, warnings) = loaded.model()?;
-        Ok((loaded, model, warnings))
+        self.tables.open(draft)
     }
 
     /// Reads what the scenario names, and what those of the samples name where a study varies the name of a file.
@@ -163,7 +155,7 @@ impl Plan {
         for name in names {
             // one that cannot be read is a refusal of the samples that name it
             if let Ok(bytes) = texts.get(NamedBy::Scenario, &name) {
-                self.tables.push((name, bytes));
+                self.tables.0.push((name, bytes));
             }
         }
     }
