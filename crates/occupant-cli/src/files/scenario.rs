@@ -146,8 +146,12 @@ pub(crate) fn refused(name: &str, problems: &Diagnostics) -> Failure {
     Failure::CouldNotRun(nothing_was_run(&problems.to_string(), name, errors))
 }
 
+/// So many errors, in words.
+pub(crate) fn counted(errors: usize) -> String {
+    if errors == 1 { "1 error".to_owned() } else { format!("{errors} errors") }
+}
+
 /// Problems of a text and how many of them are errors.
 pub(crate) fn nothing_was_run(problems: &str, name: &str, errors: usize) -> String {
-    let count = if errors == 1 { "1 error".to_owned() } else { format!("{errors} errors") };
-    format!("{problems}\n\n{name}: {count}, nothing was run")
+    format!("{problems}\n\n{name}: {}, nothing was run", counted(errors))
 }

@@ -59,7 +59,7 @@ pub struct StepUnderWay<'a> {
 
 impl StepUnderWay<'_> {
     /// All of it as plain data.
-    pub(crate) fn to_start(&self) -> StepStart {
+    pub(crate) fn to_start(self) -> StepStart {
         StepStart { start_s: self.start_s, end_s: self.end_s, state: *self.state, memory: self.history.memory.clone() }
     }
 }

@@ -83,9 +83,8 @@ fn path_of(args: &Args, name: &str, extension: &str, wanted: &Preparation) -> Re
 fn recorded(args: &Args, name: &str) -> Result<RecordFile, Failure> {
     let bytes = input_file::read(&args.file)?;
     let mut file = read_record(&bytes, name).map_err(|problems| {
-        let count = problems.iter().count();
-        let errors = if count == 1 { "error" } else { "errors" };
-        Failure::CouldNotRun(format!("{problems}\n\n{name}: {count} {errors}, nothing was measured"))
+        let count = scenario::counted(problems.iter().count());
+        Failure::CouldNotRun(format!("{problems}\n\n{name}: {count}, nothing was measured"))
     })?;
     if args.z_up {
         let record = &mut file.record;

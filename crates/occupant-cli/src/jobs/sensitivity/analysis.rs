@@ -15,6 +15,7 @@ use occupant_study::sensitivity::{Built, Parameter, Trajectory, follow, paramete
 
 use crate::base::failure::Failure;
 use crate::files::history::choose;
+use crate::files::scenario::counted;
 
 /// What is asked for, each name known.
 pub(crate) struct Asked<'a> {
@@ -69,10 +70,7 @@ pub(crate) fn ask<'a>(
     let names =
         gather(words.to, &mut wrong, |name| chosen(&figures, name).map_err(|problem| described("--to", &problem)));
     if !wrong.is_empty() {
-        let count = match wrong.len() {
-            1 => "1 error".to_owned(),
-            n => format!("{n} errors"),
-        };
+        let count = counted(wrong.len());
         return Err(Failure::CouldNotRun(format!("{}\n\n{count}, nothing was computed", wrong.join("\n"))));
     }
     let parameters = distinct(parameters, |p| &p.name);
