@@ -38,7 +38,7 @@ fn every_example_study_fits_its_base_and_its_samples_become_models() {
     assert!(names.len() >= 5, "{names:?}");
     for name in names {
         let study = bind(&name);
-        assert!(study.warnings().is_empty(), "{name}: {}", study.warnings());
+        assert!(study.warnings.is_empty(), "{name}: {}", study.warnings);
         let n = study.len();
         assert!((2..=100).contains(&n), "{name} has {n} runs, too many for an example");
         for index in [0, 1, n / 2, n - 1] {

@@ -70,7 +70,7 @@ mod read;
 mod rule;
 mod write;
 
-pub use back::{FromScenario, NoDeck, RunEnd, spine_rest};
+pub use back::{FromScenario, NoDeck, RunEnd, passed_pairs, spine_rest};
 pub use compartment::{CompartmentLayout, Corner, Face, Wall};
 pub use convert::{Conversion, ConversionError, ConvertOptions, PathSource, Report};
 pub use deck::{Deck, DeckCard, Difference, Number, Plot};

@@ -96,18 +96,29 @@ mod tests;
 /// A study that fits its base scenario.
 #[derive(Clone, Debug)]
 pub struct Study {
-    base: Draft,
-    base_name: String,
-    changes: Vec<(String, String)>,
-    seed: u64,
-    parameters: Vec<Parameter>,
-    design: Design,
+    /// The base scenario, with what the study and the command line say of all runs.
+    pub base: Draft,
+    /// The name of the base scenario as the study gives it.
+    pub base_name: String,
+    /// What the study and the command line have put into the base scenario, in order: paths and values as
+    /// [`Draft::set_value`] reads them.
+    pub changes: Vec<(String, String)>,
+    /// What names the random numbers.
+    pub seed: u64,
+    /// What is varied.
+    pub parameters: Vec<Parameter>,
+    /// How the samples are chosen.
+    pub design: Design,
     sobol: Sobol,
     copula: Option<Copula>,
-    ensemble: Option<Ensemble>,
-    keep: Keep,
-    csv: bool,
-    warnings: Diagnostics,
+    /// The small changes of every sample, if there are any.
+    pub ensemble: Option<Ensemble>,
+    /// Of which runs the whole motion is kept.
+    pub keep: Keep,
+    /// Whether the table of results is also written as CSV.
+    pub csv: bool,
+    /// What the user should know, though the study can be run.
+    pub warnings: Diagnostics,
 }
 
 /// The value of one parameter in one sample.
@@ -238,57 +249,6 @@ impl Study {
     pub fn morris_step(&self, index: u64) -> Option<f64> {
         let (sample, _) = self.sample_and_member(index);
         self.design.morris_step(sample, self.parameters.len(), self.seed)
-    }
-
-    /// What is varied.
-    pub fn parameters(&self) -> &[Parameter] {
-        &self.parameters
-    }
-
-    /// How the samples are chosen.
-    pub fn design(&self) -> &Design {
-        &self.design
-    }
-
-    /// The small changes of every sample, if there are any.
-    pub fn ensemble(&self) -> Option<&Ensemble> {
-        self.ensemble.as_ref()
-    }
-
-    /// The base scenario, with what the study and the command line say of all runs.
-    pub fn base(&self) -> &Draft {
-        &self.base
-    }
-
-    /// What the study and the command line have put into the base scenario, in order: paths and values as
-    /// [`Draft::set_value`] reads them.
-    pub fn changes(&self) -> &[(String, String)] {
-        &self.changes
-    }
-
-    /// The name of the base scenario as the study gives it.
-    pub fn base_name(&self) -> &str {
-        &self.base_name
-    }
-
-    /// What names the random numbers.
-    pub fn seed(&self) -> u64 {
-        self.seed
-    }
-
-    /// Of which runs the whole motion is kept.
-    pub fn keep(&self) -> &Keep {
-        &self.keep
-    }
-
-    /// Whether the table of results is also written as CSV.
-    pub fn csv(&self) -> bool {
-        self.csv
-    }
-
-    /// What the user should know, though the study can be run.
-    pub fn warnings(&self) -> &Diagnostics {
-        &self.warnings
     }
 
     fn levels(&self) -> Vec<Option<u64>> {

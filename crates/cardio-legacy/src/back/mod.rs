@@ -15,7 +15,7 @@ use occupant_core::model::setup::{Integrator, Setup};
 use occupant_core::scenario::{Diagnostics as ScenarioDiagnostics, Loaded};
 use thiserror::Error;
 
-pub use motion::{RunEnd, spine_rest};
+pub use motion::{RunEnd, passed_pairs, spine_rest};
 
 use crate::cards::{Unit, field_named};
 use crate::compartment::CompartmentLayout;

@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 
 use occupant_core::body::tti12::{LOWER_BACK, UPPER_BACK};
 use occupant_core::forces::belt::{Belt, RestLength};
-use occupant_core::forces::contact::PASSED;
+use occupant_core::forces::contact::{PASSED, PairHistory};
+use occupant_core::model::Model;
 use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating};
 use occupant_core::motion::report_coordinates::ReportCoordinates;
 use occupant_core::results::sample::Sample;
@@ -190,20 +191,20 @@ pub fn spine_rest(first: &Sample<'_>) -> [f64; 2] {
 }
 
 fn passed(sample: &Sample<'_>, layout: &CompartmentLayout) -> Vec<(u32, u32)> {
-    let contacts = &sample.model.system().forces.contacts;
     let surfaces = &sample.model.setup().surfaces;
-    let mut pairs = BTreeSet::new();
-    for group in contacts.groups() {
-        for at in group.pairs.clone() {
-            let is_passed = sample.history.memory.contacts.get(at).is_some_and(|p| p.phase == PASSED);
-            let parts = contacts.pairs().get(at).map(|p| p.parts.as_slice()).unwrap_or_default();
-            for part in parts.iter().filter(|_| is_passed) {
-                let number = surfaces.get(part.surface).and_then(|s| layout.number_of(&s.name));
-                pairs.extend(number.and_then(|surface| Some((u32::try_from(group.sphere + 1).ok()?, surface))));
-            }
-        }
-    }
-    pairs.into_iter().collect()
+    let number = |surface: usize| surfaces.get(surface).and_then(|s| layout.number_of(&s.name));
+    let numbers = |(sphere, surface): (usize, usize)| Some((u32::try_from(sphere + 1).ok()?, number(surface)?));
+    let pairs = passed_pairs(sample.model, &sample.history.memory.contacts);
+    pairs.filter_map(numbers).collect::<BTreeSet<_>>().into_iter().collect()
+}
+
+/// The pairs (sphere, surface), by index, that have passed a surface's edge: those with NARRY = 0.
+pub fn passed_pairs(model: &Model, pairs: &[PairHistory<f64>]) -> impl Iterator<Item = (usize, usize)> {
+    let contacts = &model.system().forces.contacts;
+    let groups = contacts.groups().iter().flat_map(|group| group.pairs.clone().map(|at| (group.sphere, at)));
+    let passed = groups.filter(|(_, at)| pairs.get(*at).is_some_and(|pair| pair.phase == PASSED));
+    let parts = |at: usize| contacts.pairs().get(at).map_or(&[][..], |pair| &pair.parts);
+    passed.flat_map(move |(sphere, at)| parts(at).iter().map(move |part| (sphere, part.surface)))
 }
 
 /// The fields of the coordinates and of their rates.

@@ -22,7 +22,7 @@ pub(crate) fn is_of_unused(name: &str, nopblt: f64) -> bool {
     VARIABLES.contains(&variable) && !uses(nopblt, belt)
 }
 
-/// The lengths of a run that goes on from an exact state, on card 6a.
+/// The lengths of a run that continues from an exact state, on card 6a.
 pub(super) fn initial_lengths() -> [Field; 2] {
     BELTS.map(|(number, name, _)| {
         let unknown = format!("the {name} belt is in use and has no initial length");

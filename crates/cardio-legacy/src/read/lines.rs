@@ -22,7 +22,7 @@ fn until_end_mark<'a>(bytes: &'a [u8], sink: &mut Sink) -> &'a [u8] {
         Diagnostic::new(Rule::ControlCharacter, message)
             .at_line(line)
             .expected("the mark at the very end, or none")
-            .remedy("remove the character if the deck goes on behind it")
+            .remedy("remove the character if the deck continues behind it")
             .report(sink);
     }
     &bytes[..end]

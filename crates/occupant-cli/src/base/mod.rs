@@ -5,6 +5,7 @@
 
 pub(crate) mod customary;
 pub(crate) mod failure;
+pub(crate) mod input_file;
 pub(crate) mod interrupt;
 pub(crate) mod names;
 pub(crate) mod output_file;

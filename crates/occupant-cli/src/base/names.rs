@@ -18,6 +18,11 @@ pub(crate) fn ending(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
 }
 
+/// Whether a file's name is that of a page.
+pub(crate) fn is_page(path: &Path) -> bool {
+    matches!(ending(path).as_str(), "html" | "htm")
+}
+
 /// A name that can be that of a file.
 pub(crate) fn file_stem(name: &str) -> String {
     let plain = |c: char| if c.is_alphanumeric() || "-_ .".contains(c) { c } else { '_' };

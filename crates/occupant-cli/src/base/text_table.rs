@@ -22,18 +22,13 @@ const GAP: &str = "   ";
 pub(crate) const NONE: &str = "–";
 
 impl Table {
-    /// A table with this head.
-    pub(crate) fn new(head: &[(&str, Align)]) -> Self {
-        Table {
-            columns: head.iter().map(|&(_, align)| align).collect(),
-            rows: vec![head.iter().map(|(name, _)| (*name).to_owned()).collect()],
-        }
-    }
-
     /// A table whose head is made of lists of names that are set alike.
-    pub(crate) fn of(heads: &[(Align, &[&str])]) -> Self {
-        let head = heads.iter().flat_map(|(align, names)| names.iter().map(|name| (*name, *align)));
-        Table::new(&head.collect::<Vec<_>>())
+    pub(crate) fn new(heads: &[(Align, &[&str])]) -> Self {
+        let names = || heads.iter().flat_map(|(align, names)| names.iter().map(move |name| (*align, *name)));
+        Table {
+            columns: names().map(|(align, _)| align).collect(),
+            rows: vec![names().map(|(_, name)| name.to_owned()).collect()],
+        }
     }
 
     /// Adds a row; cells that are missing at its end are blank.
@@ -68,6 +63,16 @@ pub(crate) fn number(value: f64, decimals: usize) -> String {
     if value.abs() < 1e6 { format!("{value:.decimals$}") } else { format!("{value:.2e}") }
 }
 
+/// A number with so many decimals at most: without the zeros at its end.
+pub(crate) fn trimmed(value: f64, decimals: usize) -> String {
+    without_zeros(&format!("{value:.decimals$}")).to_owned()
+}
+
+/// The digits of a number with decimals without the zeros at their end.
+pub(crate) fn without_zeros(digits: &str) -> &str {
+    digits.trim_end_matches('0').trim_end_matches('.')
+}
+
 /// Two columns of words without a head: a name and its description.
 pub(crate) fn facts(facts: &[(&str, String)]) -> String {
     let width = facts.iter().map(|(name, _)| name.chars().count()).max();
@@ -87,7 +92,7 @@ mod tests {
 
     #[test]
     fn columns_line_up_whatever_the_script() {
-        let mut table = Table::new(&[("joint", Align::Left), ("β, °", Align::Right)]);
+        let mut table = Table::new(&[(Align::Left, &["joint"]), (Align::Right, &["β, °"])]);
         table.row(["neck".to_owned(), "3.5".to_owned()]);
         table.row(["left_shoulder".to_owned(), "127.0".to_owned()]);
         table.row(["blank".to_owned()]);

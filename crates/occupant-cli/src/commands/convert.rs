@@ -1,6 +1,5 @@
 //! `occupant convert`: card deck → scenario, scenario → card deck.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use cardio_legacy::{
@@ -10,7 +9,8 @@ use clap::ArgGroup;
 use occupant_core::scenario::{Draft, Format, Loaded};
 
 use crate::base::failure::{Done, Failure};
-use crate::base::names::file_name;
+use crate::base::input_file::read;
+use crate::base::names::{ending, file_name};
 use crate::base::output_file::{publish, refuse_input};
 use crate::base::talk::{print, say};
 use crate::files::scenario::{files_beside, format_of};
@@ -78,17 +78,13 @@ pub(crate) struct Args {
 pub(crate) fn convert(args: &Args) -> Result<Done, Failure> {
     let bytes = read(&args.input)?;
     let layout = args.compartment.as_deref().map(compartment).transpose()?;
-    if args.input.extension().is_some_and(|e| e.eq_ignore_ascii_case("mcap")) {
+    if ending(&args.input) == "mcap" {
         return deliver_deck(args, run_to_deck(args, &bytes, layout.as_ref())?);
     }
     match format_of(&args.input) {
         Some(format) => deliver_deck(args, scenario_to_deck(args, &bytes, format, layout.as_ref())?),
         None => decks_to_scenarios(args, &bytes, layout),
     }
-}
-
-fn read(path: &Path) -> Result<Vec<u8>, Failure> {
-    fs::read(path).map_err(|error| Failure::plain(format!("{} cannot be read: {error}", path.display())))
 }
 
 fn read_text(path: &Path) -> Result<String, Failure> {

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::flags::history::{HistoryArgs, code_letter, interval};
 use crate::base::failure::{Done, Failure};
-use crate::base::names::{file_name, program};
+use crate::base::names::{ending, file_name, program};
 use crate::base::output_file::Existing;
 use crate::base::talk::{note, say};
 use crate::files::export::About;
@@ -58,7 +58,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn export(args: &Args) -> Result<Done, Failure> {
-    let is_mme = args.output.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("mme"));
+    let is_mme = ending(&args.output) == "mme";
     let form = (!is_mme).then(|| Form::of(&args.output)).flatten();
     if !is_mme && form.is_none() {
         return Err(Failure::ending(&args.output, ".csv, .parquet or .mme"));
@@ -109,8 +109,9 @@ fn export_mme(args: &Args, results: &Results, histories: &Histories) -> Result<D
 
 fn code_pair(text: &str) -> Result<String, String> {
     let fits = |c: u8| c.is_ascii_digit() || c.is_ascii_uppercase();
-    match text.len() == 2 && text.bytes().all(fits) {
-        true => Ok(text.to_owned()),
-        false => Err("expected two digits or capitals".to_owned()),
+    if text.len() == 2 && text.bytes().all(fits) {
+        Ok(text.to_owned())
+    } else {
+        Err("expected two digits or capitals".to_owned())
     }
 }

@@ -116,12 +116,10 @@ pub(crate) fn plot(args: &Args) -> Result<Done, Failure> {
 
 fn window(window: WindowArgs) -> Result<[f64; 2], Failure> {
     let [from, to] = [window.from.unwrap_or(f64::NEG_INFINITY), window.to.unwrap_or(f64::INFINITY)];
-    match from < to {
-        true => Ok([from, to]),
-        false => {
-            Err(Failure::with_help(format!("--from {from} s is not before --to {to} s"), "--from is the earlier time"))
-        }
+    if from < to {
+        return Ok([from, to]);
     }
+    Err(Failure::with_help(format!("--from {from} s is not before --to {to} s"), "--from is the earlier time"))
 }
 
 /// Runs whose titles stand below the heading.

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::base::failure::{Done, Failure};
+use crate::base::names::is_page;
 use crate::base::output_file::{publish, refuse_input};
 use crate::base::talk::note;
 use crate::files::results::Results;
@@ -31,8 +32,7 @@ pub(crate) struct Args {
 }
 
 pub(crate) fn report(args: &Args) -> Result<Done, Failure> {
-    let ending = args.output.extension().and_then(|e| e.to_str());
-    if !ending.is_some_and(|e| e.eq_ignore_ascii_case("html") || e.eq_ignore_ascii_case("htm")) {
+    if !is_page(&args.output) {
         return Err(Failure::ending(&args.output, ".html"));
     }
     for input in std::iter::once(&args.run).chain(&args.against) {

@@ -118,11 +118,10 @@ pub(crate) fn run(args: &Args) -> Result<Done, Failure> {
     if !args.quiet || balance == Balance::Lost {
         say_balance(balance, &run.summary);
     }
-    match run.completed {
-        true if balance == Balance::Lost => Ok(Done::Unwell),
-        true => Ok(Done::Well),
-        false => Err(Failure::BrokeOff(broke_off(&run))),
+    if !run.completed {
+        return Err(Failure::BrokeOff(broke_off(&run)));
     }
+    Ok(if balance == Balance::Lost { Done::Unwell } else { Done::Well })
 }
 
 fn say_balance(balance: Balance, summary: &Summary) {

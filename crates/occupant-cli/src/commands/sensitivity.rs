@@ -74,9 +74,10 @@ pub(crate) fn sensitivity(args: &Args) -> Result<Done, Failure> {
         let about = about(&opened.model, &asked, &analysis, [&name, &sha256(&opened.bytes)]);
         files.write(&histories(&asked, &analysis), &about, UnitChoice::Si)?;
     }
-    print(&match args.json {
-        true => talk::json(&answer(&name, &opened.model, &asked, &analysis))?,
-        false => text(&opened.model, &asked, &analysis),
+    print(&if args.json {
+        talk::json(&answer(&name, &opened.model, &asked, &analysis))?
+    } else {
+        text(&opened.model, &asked, &analysis)
     })?;
     Ok(Done::Well)
 }

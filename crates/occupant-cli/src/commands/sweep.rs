@@ -103,7 +103,7 @@ fn open(args: &Args, study: &Path, output: &Path) -> Result<Sweep, Failure> {
         }
     }
     Ok(Sweep {
-        csv: args.csv || (plan.study().csv() && shard.is_whole()),
+        csv: args.csv || (plan.study.csv && shard.is_whole()),
         folder: Folder::at(output),
         engine: args.engine.engine()?,
         interrupt: Interrupt::listen_for("stopping; once more to stop at once"),

@@ -4,7 +4,6 @@
 //! Whatever is made from results (plots, views, reports, exports, scores) is a recorder over these samples.
 
 use std::collections::BTreeMap;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use occupant_core::model::Model;
@@ -21,6 +20,7 @@ use occupant_study::ending::{Balance, Ending};
 use super::mcap::StoredRun;
 use super::scenario::stored;
 use crate::base::failure::Failure;
+use crate::base::input_file;
 use crate::base::names::program;
 use crate::base::sha256::sha256;
 
@@ -49,16 +49,12 @@ impl Results {
     /// # Errors
     /// A file that cannot be read, holds no run, or whose scenario this program refuses.
     pub fn open(path: &Path) -> Result<Self, Failure> {
-        let name = path.display();
-        let bytes = fs::read(path).map_err(|e| Failure::plain(format!("{name} cannot be read: {e}")))?;
+        let bytes = input_file::read(path)?;
         let run = StoredRun::read(&bytes).map_err(|e| no_results(path, &e))?;
         if run.run.is_empty() || run.checkpoints.is_empty() {
             return Err(no_results(path, "it holds no outputs of a run"));
         }
-        let loaded = stored(path, &run)?;
-        let (model, _) = loaded
-            .model()
-            .map_err(|problems| Failure::plain(format!("the scenario in {name} is refused:\n{problems}")))?;
+        let (loaded, model, _) = stored(path, &run)?;
         for checkpoint in &run.checkpoints {
             checkpoint.check(&model).map_err(|e| no_results(path, &e.to_string()))?;
         }

@@ -78,11 +78,33 @@ pub(crate) fn files_beside(scenario: &Path) -> impl Fn(&str) -> Result<Vec<u8>, 
     move |file| std::fs::read(folder.join(file)).map_err(|error| error.to_string())
 }
 
-/// The scenario that a results file was made from, all that was changed in it included.
+/// Files that scenarios name, as they were when the work began: names and bytes.
+#[derive(Default)]
+pub(crate) struct Tables(pub(crate) Vec<(String, Vec<u8>)>);
+
+impl Tables {
+    /// The bytes of a file, as resolvers of scenarios give them.
+    pub(crate) fn get(&self, name: &str) -> Result<Vec<u8>, String> {
+        let found = self.0.iter().find(|(table, _)| table == name);
+        found.map(|(_, bytes)| bytes.clone()).ok_or_else(|| "it was not there at the beginning".to_owned())
+    }
+
+    /// Scenario, model and warnings of a draft.
+    ///
+    /// # Errors
+    /// What is wrong with it.
+    pub(crate) fn open(&self, draft: Draft) -> Result<(Loaded, Model, Diagnostics), Diagnostics> {
+        let loaded = draft.load(&|name| self.get(name))?;
+        let (model, warnings) = loaded.model()?;
+        Ok((loaded, model, warnings))
+    }
+}
+
+/// The scenario that a results file was made from, all that was changed in it included, its model and warnings about it.
 ///
 /// # Errors
 /// A file without it, or with one that this program cannot read.
-pub(crate) fn stored(file: &Path, run: &StoredRun) -> Result<Loaded, Failure> {
+pub(crate) fn stored(file: &Path, run: &StoredRun) -> Result<(Loaded, Model, Diagnostics), Failure> {
     let name = file.display();
     let bytes = run.attachments.get(RESOLVED);
     let bytes = bytes.ok_or_else(|| Failure::plain(format!("{name} holds no scenario")))?;
@@ -90,9 +112,13 @@ pub(crate) fn stored(file: &Path, run: &StoredRun) -> Result<Loaded, Failure> {
         let found = run.attachments.get(&file_name(Path::new(table)));
         found.cloned().ok_or_else(|| format!("{name} does not hold it"))
     };
-    Draft::read_bytes(bytes, Some(Format::Toml), RESOLVED)
+    let loaded = Draft::read_bytes(bytes, Some(Format::Toml), RESOLVED)
         .and_then(|draft| draft.load(&resolver))
-        .map_err(|problems| Failure::plain(format!("the scenario in {name} cannot be read:\n{problems}")))
+        .map_err(|problems| Failure::plain(format!("the scenario in {name} cannot be read:\n{problems}")))?;
+    let model = loaded.model();
+    let (model, warnings) =
+        model.map_err(|problems| Failure::plain(format!("the scenario in {name} is refused:\n{problems}")))?;
+    Ok((loaded, model, warnings))
 }
 
 /// The format that the ending of the file name stands for, if any.
@@ -120,8 +146,12 @@ pub(crate) fn refused(name: &str, problems: &Diagnostics) -> Failure {
     Failure::CouldNotRun(nothing_was_run(&problems.to_string(), name, errors))
 }
 
+/// So many errors, in words.
+pub(crate) fn counted(errors: usize) -> String {
+    if errors == 1 { "1 error".to_owned() } else { format!("{errors} errors") }
+}
+
 /// Problems of a text and how many of them are errors.
 pub(crate) fn nothing_was_run(problems: &str, name: &str, errors: usize) -> String {
-    let count = if errors == 1 { "1 error".to_owned() } else { format!("{errors} errors") };
-    format!("{problems}\n\n{name}: {count}, nothing was run")
+    format!("{problems}\n\n{name}: {}, nothing was run", counted(errors))
 }

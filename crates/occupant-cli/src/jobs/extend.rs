@@ -61,8 +61,7 @@ pub(crate) fn extend_run(
     let last = stored.checkpoints.last();
     let last = last.ok_or_else(|| Failure::plain(format!("{name} holds no checkpoint")))?;
     refuse_early(final_s, last.time_s)?;
-    let loaded = scenario::stored(file, &stored)?;
-    let (model, _) = loaded.model().map_err(|problems| Failure::CouldNotRun(problems.to_string()))?;
+    let (loaded, model, _) = scenario::stored(file, &stored)?;
     let cards = Deck::from_scenario(&loaded, layout);
     let mut cards = cards.map_err(|e| Failure::CouldNotRun(format!("error: {name}: {e}")))?;
     let layout = layout_or_ours(layout)?;

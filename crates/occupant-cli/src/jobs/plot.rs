@@ -10,7 +10,7 @@ use crate::base::names::file_name;
 use crate::files::history::{Treatment, UnitChoice, choose, load};
 use crate::files::measured::{self, MapArgument, Wanted, pairs};
 use crate::files::results::Results;
-use crate::pictures::plot::{Entry, Figure, LimitArgument, Material, Overlay, RunCurves, Wish, figure, standard};
+use crate::pictures::plot::{Entry, Figure, LimitArgument, Material, Overlay, Plot, RunCurves, figure, standard};
 
 /// What is plotted, and how.
 pub(crate) struct Request<'a> {
@@ -67,7 +67,7 @@ pub(crate) fn plots(request: &Request<'_>) -> Result<(Vec<Figure>, Vec<String>),
 }
 
 /// The standard plots, with the channels that any of the runs has.
-fn standard_plots(runs: &[Results]) -> Vec<Wish> {
+fn standard_plots(runs: &[Results]) -> Vec<Plot> {
     let mut plots = standard(&runs[0].model, runs.len() > 1);
     for other in &runs[1..] {
         for (plot, more) in plots.iter_mut().zip(standard(&other.model, true)) {
@@ -79,7 +79,7 @@ fn standard_plots(runs: &[Results]) -> Vec<Wish> {
 }
 
 /// A plot of channels by name, as the first run that has them knows them.
-fn own_plot(names: &str, runs: &[Results]) -> Result<Wish, Failure> {
+fn own_plot(names: &str, runs: &[Results]) -> Result<Plot, Failure> {
     let mut first_refusal = None;
     for run in runs {
         match choose(&run.model, &[names.to_owned()]) {
@@ -90,14 +90,14 @@ fn own_plot(names: &str, runs: &[Results]) -> Result<Wish, Failure> {
     Err(first_refusal.unwrap_or_else(|| Failure::plain("no run was given")))
 }
 
-fn plot_of(names: &str, channels: &[Channel]) -> Wish {
+fn plot_of(names: &str, channels: &[Channel]) -> Plot {
     let title = match channels {
         [one] if one.axes != Axes::None => format!("{}, {} axes", one.name, one.axes.name()),
         [one] => one.name.clone(),
         _ => names.split(',').map(str::trim).collect::<Vec<_>>().join(", "),
     };
     let entry = |c: &Channel| Entry { channel: c.name.clone(), label: c.name.clone() };
-    Wish {
+    Plot {
         title,
         axis: channels.first().map_or("", |c| c.unit.quantity()).to_owned(),
         entries: channels.iter().map(entry).collect(),
@@ -106,7 +106,7 @@ fn plot_of(names: &str, channels: &[Channel]) -> Wish {
 }
 
 /// Every channel that some plot needs, once.
-fn channel_names(plots: &[Wish], x: Option<&str>) -> Vec<String> {
+fn channel_names(plots: &[Plot], x: Option<&str>) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     let drawn = plots.iter().flat_map(|plot| &plot.entries).map(|e| e.channel.as_str());
     for name in drawn.chain(x) {

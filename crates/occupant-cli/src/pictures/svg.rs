@@ -6,6 +6,7 @@
 use std::fmt::Write as _;
 
 use super::font::{self, Weight};
+use crate::base::text_table::trimmed;
 
 /// A drawing that grows; x to the right, y down, user units.
 #[derive(Clone, Debug)]
@@ -183,9 +184,8 @@ pub(crate) fn number(value: f64) -> String {
     if !value.is_finite() {
         return "0".to_owned();
     }
-    let text = format!("{value:.2}");
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    if text == "-0" { "0".to_owned() } else { text.to_owned() }
+    let text = trimmed(value, 2);
+    if text == "-0" { "0".to_owned() } else { text }
 }
 
 /// Text for XML: marks escaped, control characters (which XML forbids) replaced.

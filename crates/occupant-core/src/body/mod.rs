@@ -1,6 +1,6 @@
 //! The occupant's body: rigid segments, the tree that their joints make of them, and the spheres that can touch things.
 //!
-//! Report: "Body Geometry and Coordinate Systems", Fig. 1, Fig. 5, Eqs 13–26. Segment axes are X ahead, Y to the
+//! Report: "Body Geometry and Coordinate Systems", Figs 1 and 5. Segment axes are X ahead, Y to the
 //! occupant's left and Z up when the occupant stands upright with hanging arms; they are principal axes.
 
 pub(crate) mod tree;

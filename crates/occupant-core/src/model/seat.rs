@@ -1,6 +1,6 @@
 //! Seating: from posture angles and a seat to the state at the start.
 //!
-//! Report: "Seating the Passenger", Figs 19 and 20, Eqs 109–111. In vehicle axes a segment that leans back by γ has
+//! Report: "Seating the Passenger", Figs 19 and 20. In vehicle axes a segment that leans back by γ has
 //! Z = (−sin γ, 0, −cos γ). Our decisions: the pelvis sphere is tangent to the seat back and sinks into the cushion until
 //! the loading curve there, resolved along gravity, carries g·(M₁+…+M₈ + ½(M₉+M₁₀)); each leg is a two-link chain from hip
 //! to heel with the knee above the line.

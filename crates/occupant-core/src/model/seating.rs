@@ -1,6 +1,6 @@
 //! How the body starts: posture, place and velocity, as data.
 //!
-//! Report: "Initial Position of Passenger", Fig. 19 and 20, Eqs 109–111.
+//! Report: "Initial Position of Passenger", Figs 19 and 20.
 
 use nalgebra::Vector3;
 

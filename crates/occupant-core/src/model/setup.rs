@@ -40,7 +40,7 @@ impl TimeSpan {
 /// How the equations of motion are integrated.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Integrator {
-    /// Classical fourth-order Runge–Kutta with a fixed step (Eqs 115–127).
+    /// Classical fourth-order Runge–Kutta with a fixed step.
     Rk4 {
         /// Step.
         step_s: f64,

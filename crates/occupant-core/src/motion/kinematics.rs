@@ -1,6 +1,6 @@
 //! Where every segment is and how it moves: derived from the state, overwritten at every evaluation.
 //!
-//! Report: Eqs 8, 13–26 (places), 44–46 (angular velocities). Every joint is T1 plus constant multiples of Y and Z of the
+//! Report: "Body Geometry and Coordinate Systems". Every joint is T1 plus constant multiples of Y and Z of the
 //! segments; all vectors are in space axes.
 
 use crate::body::SEGMENTS;
@@ -57,7 +57,7 @@ impl<S: Scalar> Kinematics<S> {
         self.omega[lower] = self.omega[upper] + y * state.hinge_rate[limb];
     }
 
-    /// Joints from the root outwards (Eqs 13–14, 16–26), each at (0, y, z) of the segment that carries it.
+    /// Joints from the root outwards, each at (0, y, z) of the segment that carries it.
     #[inline(always)]
     fn place_joints(&mut self, body: &Skeleton<S>) {
         for &(child, parent) in HUNG {

@@ -1,6 +1,6 @@
 //! Constants of the multibody system: masses, inertias and joint places, seen from each segment's own joint.
 //!
-//! Report: Eqs 13–26 and 54. Seen from its proximal joint, the centre of gravity of a segment lies on its Z axis: at −ρ̄
+//! Report: "Body Geometry and Coordinate Systems". Seen from its proximal joint, the centre of gravity of a segment lies on its Z axis: at −ρ̄
 //! for the hanging segments, at +ρ for the upper torso and the head (Eq. 15 as printed has ρ₁ for ρ̄₁).
 
 use std::array::from_fn;

@@ -171,7 +171,7 @@ fn motion_numbers(motion: &Moving<f64>) -> [f64; MOTION] {
     numbers
 }
 
-/// The dual number of place `at`, which goes on by one.
+/// The dual number of place `at`, which moves on by one.
 fn next<const N: usize>(value: f64, at: &Cell<usize>, slope: impl Fn(usize, usize) -> f64) -> Dual<N> {
     let place = at.get();
     at.set(place + 1);

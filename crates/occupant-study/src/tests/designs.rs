@@ -191,7 +191,7 @@ fn a_design_that_cannot_be_counted_is_refused() {
 #[test]
 fn an_uneven_number_of_sobol_points_is_warned_of() {
     let study = unit_square("{ kind = \"sobol\", samples = 100 }");
-    assert!(study.warnings().to_string().contains("samples = 64 or 128"));
-    assert!(unit_square("{ kind = \"sobol\", samples = 128 }").warnings().is_empty());
-    assert_eq!(*study.design(), Design::Sobol { samples: 100, scramble: true });
+    assert!(study.warnings.to_string().contains("samples = 64 or 128"));
+    assert!(unit_square("{ kind = \"sobol\", samples = 128 }").warnings.is_empty());
+    assert_eq!(study.design, Design::Sobol { samples: 100, scramble: true });
 }

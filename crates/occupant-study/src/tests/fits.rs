@@ -65,7 +65,7 @@ fn parts_of_the_way_between_the_ends_lead_to_values_and_back() {
     let text = text("[design]\nkind = \"monte_carlo\"\nsamples = 3");
     let set = IndexMap::new();
     let study = text.bind_fit(base(), (&set, ""), &[], &no_files).unwrap();
-    let bounds: Vec<Bounds> = study.parameters().iter().filter_map(|p| p.bounds()).collect();
+    let bounds: Vec<Bounds> = study.parameters.iter().filter_map(|p| p.bounds()).collect();
     assert_eq!(bounds[1], Bounds { from: 0.2, to: 1.0, log: false });
     // the middle of a logarithmic range: √(0.1 · 1.6)
     assert!((bounds[0].value(0.5) - 0.4).abs() < 1e-15);
@@ -89,17 +89,17 @@ fn parameters_without_ends_are_told_by_a_fit_and_not_by_a_sweep() {
     let text = StudyText::read(&written, Format::Toml, "study.toml").unwrap();
     assert!(text.bind(base(), &[], &no_files).is_ok());
     let set = IndexMap::new();
-    let told = text.bind_fit(base(), (&set, ""), &[], &no_files);
-    let told = told.unwrap_err().to_string();
-    assert!(told.contains("`friction` has no ends between which to look"), "{told}");
-    assert!(told.contains("study.toml:4:"), "{told}");
+    let message = text.bind_fit(base(), (&set, ""), &[], &no_files);
+    let message = message.unwrap_err().to_string();
+    assert!(message.contains("`friction` has no ends between which to look"), "{message}");
+    assert!(message.contains("study.toml:4:"), "{message}");
 }
 
 #[test]
 fn what_a_test_has_besides_is_told_where_it_stands() {
     let text = text("[[fit.tests]]\nfile = \"a.csv\"\nset = { \"materials.foam.k9\" = 3 }");
     let fit = text.fit().unwrap();
-    let told = text.bind_fit(base(), (&fit.tests[0].set, "fit.tests[0].set"), &[], &no_files);
-    let told = told.unwrap_err().to_string();
-    assert!(told.contains("k9"), "{told}");
+    let message = text.bind_fit(base(), (&fit.tests[0].set, "fit.tests[0].set"), &[], &no_files);
+    let message = message.unwrap_err().to_string();
+    assert!(message.contains("k9"), "{message}");
 }

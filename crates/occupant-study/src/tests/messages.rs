@@ -210,7 +210,7 @@ distribution = { kind = \"normal\", mean = 0.3, sd = 0.1 }
 ",
     );
     assert_eq!(
-        study.warnings().to_string(),
+        study.warnings.to_string(),
         r#"warning: `materials.foam.friction` spoils the scenario: `-0.1753424308822899` is out of range
  --> study.toml:3:1
   |

@@ -39,10 +39,10 @@ fn values_arrive_in_si_units_to_the_last_bit() {
     let found = setup(&kilonewton, 0).belts[0].webbing.k1_n_per_m;
     assert_eq!(*value, Value::Number(found));
     assert!((found - 123.456_789 * 4.448_221_615_260_5 / 0.0254).abs() < 1e-9);
-    assert_eq!(kilonewton.parameters()[0].unit, "N/m");
+    assert_eq!(kilonewton.parameters[0].unit, "N/m");
 
     let angle = two("posture.head", "", "10, \"0.1 rad\"");
-    assert_eq!(angle.parameters()[0].unit, "rad");
+    assert_eq!(angle.parameters[0].unit, "rad");
     assert_eq!(angle.sample(1)[0].value, Value::Number(0.1));
     assert_eq!(angle.assignments(1)[0].text(), "0.1 rad");
 
@@ -64,8 +64,8 @@ fn values_arrive_in_si_units_to_the_last_bit() {
 #[test]
 fn a_factor_multiplies_what_presets_say_each_in_its_own_place() {
     let study = two("joints.*.damping", "apply = \"factor\"", "1, 0.5");
-    assert_eq!(study.parameters()[0].unit, "");
-    assert_eq!(study.parameters()[0].targets.len(), 11);
+    assert_eq!(study.parameters[0].unit, "");
+    assert_eq!(study.parameters[0].targets.len(), 11);
     let (plain, half) = (setup(&study, 0).joints, setup(&study, 1).joints);
     assert_eq!(damping(&half, tti12::NECK), 0.5 * damping(&plain, tti12::NECK));
     assert_eq!(damping(&half, tti12::LEFT_KNEE), 0.5 * damping(&plain, tti12::LEFT_KNEE));
@@ -86,10 +86,10 @@ fn an_offset_is_added() {
 #[test]
 fn a_word_for_a_group_stands_for_what_it_changes() {
     let study = two("joints.knees.damping", "apply = \"factor\"", "2, 3");
-    let paths: Vec<&str> = study.parameters()[0].targets.iter().map(|t| t.path.as_str()).collect();
+    let paths: Vec<&str> = study.parameters[0].targets.iter().map(|t| t.path.as_str()).collect();
     assert_eq!(paths, ["joints.right_knee.damping", "joints.left_knee.damping"]);
     let all = two("joints.all.damping", "", "2, 3");
-    assert_eq!(all.parameters()[0].targets.len(), 11);
+    assert_eq!(all.parameters[0].targets.len(), 11);
     let thighs = two("body.segments.thighs.mass", "", "9, 10");
     assert_eq!(setup(&thighs, 0).body.segments[8].mass_kg, 9.0);
     assert_eq!(setup(&thighs, 1).body.segments[9].mass_kg, 10.0);
@@ -98,7 +98,7 @@ fn a_word_for_a_group_stands_for_what_it_changes() {
 #[test]
 fn what_the_scenario_does_not_say_yet_can_be_varied() {
     let study = two("belts.lap.mu1", "", "0.1, 0.2");
-    assert_eq!(study.parameters()[0].targets[0].base, Value::Base);
+    assert_eq!(study.parameters[0].targets[0].base, Value::Base);
     let draft = study.draft(1).unwrap();
     assert!(draft.load(&no_files).unwrap().build().is_ok());
 }
@@ -145,7 +145,7 @@ fn set_and_overrides_change_the_base_of_all_runs() {
     let study = text.bind(base(), &by_hand, &no_files).unwrap();
     let setup = setup(&study, 2);
     assert_eq!(setup.time.end_s, 0.08);
-    let head = study.base().places("posture.head").unwrap()[0].si.unwrap();
+    let head = study.base.places("posture.head").unwrap()[0].si.unwrap();
     assert!((head - 7_f64.to_radians()).abs() < 1e-15);
     // what is varied cannot be given by hand, too
     let by_hand = ["belts.*.slack=1 cm".to_owned()];
@@ -188,7 +188,7 @@ fn json_says_the_same_as_toml() {
 #[test]
 fn a_peak_replaces_a_change_of_speed() {
     let study = two("path.peak", "", "\"10 g\", \"20 g\"");
-    assert_eq!(study.parameters()[0].targets[0].base, Value::Base);
+    assert_eq!(study.parameters[0].targets[0].base, Value::Base);
     for (i, g) in [(0, 10.0), (1, 20.0)] {
         let occupant_core::vehicle::VehiclePath::Pulse(pulse) = setup(&study, i).path else {
             panic!();

@@ -78,8 +78,8 @@ fn a_morris_trajectory_changes_each_parameter_once_by_one_step() {
                 let moved: Vec<usize> = (0..3).filter(|d| before[*d] != after[*d]).collect();
                 let [d] = moved[..] else { panic!("{moved:?} at {index}") };
                 assert!(((after[d] - before[d]).abs() - step).abs() < 1e-15);
-                let told = study.morris_step(index).unwrap();
-                assert!((after[d] - before[d] - told).abs() < 1e-15);
+                let step = study.morris_step(index).unwrap();
+                assert!((after[d] - before[d] - step).abs() < 1e-15);
                 assert_eq!(study.morris_step(trajectory * 4), None);
                 let role = study.role(index);
                 let changed = Some(d);

@@ -26,7 +26,7 @@ fn a_table_gives_the_samples_row_by_row() {
     let study = with("# ours\nbelts.lap.slack[mm], damping, path.shape\n\n10, 1, square\n25.4, 0.5, half_sine\n");
     let study = study.unwrap_or_else(|e| panic!("{e}"));
     assert_eq!(study.len(), 2);
-    let names: Vec<&str> = study.parameters().iter().map(|p| p.name.as_str()).collect();
+    let names: Vec<&str> = study.parameters.iter().map(|p| p.name.as_str()).collect();
     assert_eq!(names, ["damping", "belts.lap.slack", "path.shape"]);
     let row: Vec<Value> = study.sample(1).into_iter().map(|s| s.value).collect();
     let wanted = [Value::Number(0.5), Value::Number(0.0254), Value::Text("half_sine".into())];

@@ -21,8 +21,8 @@ pub(crate) fn shard(given: Option<&str>) -> Result<(Shard, Option<&'static str>)
         let shard = Shard::parse(text).map_err(|e| refused(format!("--shard: {e}")))?;
         return Ok((shard, None));
     }
-    let told = Shard::from_environment(|name| std::env::var(name).ok()).map_err(refused)?;
-    Ok(match told {
+    let shard = Shard::from_environment(|name| std::env::var(name).ok()).map_err(refused)?;
+    Ok(match shard {
         Some((shard, variable)) => (shard, Some(variable)),
         None => (Shard::WHOLE, None),
     })
@@ -37,7 +37,7 @@ pub(crate) fn keep(given: Option<&str>, plan: &Plan) -> Result<Keep, Failure> {
                 "give all, none, numbers of samples such as '3, 17', or 'worst 5 by head.peak'",
             )
         })?,
-        None => plan.study().keep().clone(),
+        None => plan.study.keep.clone(),
     };
     let manifest = &plan.manifest;
     match &keep {

@@ -6,6 +6,8 @@ use occupant_study::risk::{Preparation, Unprepared, VehicleSignals, prepare};
 
 use super::Args;
 use crate::base::failure::Failure;
+use crate::base::input_file;
+use crate::base::names::ending;
 use crate::base::talk::say;
 use crate::files::mcap::StoredRun;
 use crate::files::scenario::{self, ScenarioArgs};
@@ -17,8 +19,7 @@ const PATH_INTERVAL_S: f64 = 1e-4;
 /// What the file holds, and the signals that it gives.
 pub(crate) fn measured(args: &Args, wanted: &Preparation) -> Result<(Subject, VehicleSignals), Failure> {
     let name = args.file.display().to_string();
-    let extension = args.file.extension().unwrap_or_default();
-    let extension = extension.to_string_lossy().to_ascii_lowercase();
+    let extension = ending(&args.file);
     if matches!(extension.as_str(), "toml" | "json" | "mcap") {
         let subject = path_of(args, &name, &extension, wanted)?;
         // the path was sampled as asked, and it knows neither sensors nor gravity
@@ -55,14 +56,10 @@ fn path_of(args: &Args, name: &str, extension: &str, wanted: &Preparation) -> Re
     }
     let model = match extension {
         "mcap" => {
-            let bytes = read(args, name)?;
+            let bytes = input_file::read(&args.file)?;
             let run =
                 StoredRun::read(&bytes).map_err(|reason| Failure::plain(format!("{name} cannot be read: {reason}")))?;
-            let loaded = scenario::stored(&args.file, &run)?;
-            let (model, _) = loaded
-                .model()
-                .map_err(|problems| Failure::plain(format!("the scenario in {name} is refused:\n{problems}")))?;
-            model
+            scenario::stored(&args.file, &run)?.1
         }
         _ => {
             let opened =
@@ -82,17 +79,12 @@ fn path_of(args: &Args, name: &str, extension: &str, wanted: &Preparation) -> Re
     })
 }
 
-fn read(args: &Args, name: &str) -> Result<Vec<u8>, Failure> {
-    std::fs::read(&args.file).map_err(|error| Failure::plain(format!("{name} cannot be read: {error}")))
-}
-
 /// The record in a CSV file, with its axes forward, right, down.
 fn recorded(args: &Args, name: &str) -> Result<RecordFile, Failure> {
-    let bytes = read(args, name)?;
+    let bytes = input_file::read(&args.file)?;
     let mut file = read_record(&bytes, name).map_err(|problems| {
-        let count = problems.iter().count();
-        let errors = if count == 1 { "error" } else { "errors" };
-        Failure::CouldNotRun(format!("{problems}\n\n{name}: {count} {errors}, nothing was measured"))
+        let count = scenario::counted(problems.iter().count());
+        Failure::CouldNotRun(format!("{problems}\n\n{name}: {count}, nothing was measured"))
     })?;
     if args.z_up {
         let record = &mut file.record;

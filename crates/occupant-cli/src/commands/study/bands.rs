@@ -45,8 +45,8 @@ pub(crate) struct BandsArgs {
 /// Writes the bands of all samples that have none yet.
 pub(crate) fn bands(args: &BandsArgs) -> Result<Done, Failure> {
     let opened = open(std::slice::from_ref(&args.folder), MadeBy::AnyProgram)?;
-    let study = opened.plan.study();
-    if study.ensemble().is_none() {
+    let study = &opened.plan.study;
+    if study.ensemble.is_none() {
         return Err(Failure::with_help(
             format!("the study of {} has no ensemble", args.folder.display()),
             "an [ensemble] in the study repeats every sample with small changes",

@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use crate::base::failure::{Done, Failure};
+use crate::base::names::is_page;
 use crate::base::output_file::{Existing, FileProblem, publish};
 use crate::base::talk::say;
 use crate::jobs::study::{Report, Tables, page, write_tables};
@@ -52,8 +53,7 @@ pub(crate) fn report(args: &ReportArgs) -> Result<Done, Failure> {
 
 /// Refuses names that are no page, files of the sweep itself, and files that are there.
 fn refuse(page: &Path, tables: &Tables, args: &ReportArgs) -> Result<(), Failure> {
-    let ending = page.extension().and_then(|e| e.to_str());
-    if !ending.is_some_and(|e| e.eq_ignore_ascii_case("html") || e.eq_ignore_ascii_case("htm")) {
+    if !is_page(page) {
         return Err(Failure::with_help(
             format!("{} has not the ending of a page", page.display()),
             "give a name that ends with .html",

@@ -57,7 +57,7 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     target.refuse_other_results(&manifest)?;
     let keep = keep(args.keep.as_deref(), &plan)?;
     kept::prepare(&keep, &target)?;
-    let found = results::write(&target, &journal, &manifest, &keep, args.csv || plan.study().csv())?;
+    let found = results::write(&target, &journal, &manifest, &keep, args.csv || plan.study.csv)?;
     let lacking = kept::missing(&target, &journal, found.worst.iter().copied())?;
     let engine = engine(args.threads, Kernel::best())?;
     kept::write(&plan, &target, &lacking, &engine, &AtomicBool::new(false))?;

@@ -5,7 +5,7 @@ use occupant_core::diagnosis::{Diagnosis, Rate, SeatStart};
 use super::elements;
 use super::summary::Marks;
 use crate::base::text_table::Align::{Left, Right};
-use crate::base::text_table::{NONE, Table, facts, plain};
+use crate::base::text_table::{NONE, Table, facts, plain, trimmed};
 
 /// Everything that a user should see before a run.
 pub(crate) fn check_text(d: &Diagnosis) -> String {
@@ -26,7 +26,7 @@ pub(crate) fn check_text(d: &Diagnosis) -> String {
 fn overview(d: &Diagnosis) -> String {
     let (run, vehicle) = (&d.run, &d.vehicle);
     let step = match run.step_s {
-        Some(step_s) => format!("{}, step {} ms", run.integrator, short(step_s * 1e3)),
+        Some(step_s) => format!("{}, step {} ms", run.integrator, trimmed(step_s * 1e3, 4)),
         None => format!("{}, step under error control", run.integrator),
     };
     facts(&[
@@ -52,10 +52,10 @@ fn overview(d: &Diagnosis) -> String {
             "run",
             format!(
                 "{} to {} ms, {} outputs every {} ms, {step}",
-                short(run.start_s * 1e3),
-                short(run.end_s * 1e3),
+                trimmed(run.start_s * 1e3, 4),
+                trimmed(run.end_s * 1e3, 4),
                 run.outputs,
-                short(run.output_s * 1e3)
+                trimmed(run.output_s * 1e3, 4)
             ),
         ),
         ("gravity", format!("{:.5} m/s²", run.gravity_m_s2)),
@@ -63,7 +63,7 @@ fn overview(d: &Diagnosis) -> String {
 }
 
 fn segments(d: &Diagnosis) -> String {
-    let mut table = Table::new(&[("segment", Left), ("mass, kg", Right), ("length, m", Right)]);
+    let mut table = Table::new(&[(Left, &["segment"]), (Right, &["mass, kg", "length, m"])]);
     for s in &d.body.segments {
         table.row([s.segment.to_owned(), format!("{:.3}", s.mass_kg), format!("{:.4}", s.length_m)]);
     }
@@ -98,8 +98,7 @@ fn contacts(d: &Diagnosis) -> String {
     if d.contacts.is_empty() {
         return "nothing touches at the start\n".to_owned();
     }
-    let mut table =
-        Table::new(&[("touches at the start", Left), ("surface", Left), ("depth, mm", Right), ("force, N", Right)]);
+    let mut table = Table::new(&[(Left, &["touches at the start", "surface"]), (Right, &["depth, mm", "force, N"])]);
     for c in &d.contacts {
         table.row([
             c.sphere.clone(),
@@ -113,13 +112,8 @@ fn contacts(d: &Diagnosis) -> String {
 
 fn sphere_rates(d: &Diagnosis) -> String {
     let mut table = Table::new(&[
-        ("sphere", Left),
-        ("stiffest material", Left),
-        ("effective mass, kg", Right),
-        ("slope, kN/m", Right),
-        ("time scale, ms", Right),
-        ("step/time scale", Right),
-        ("friction stable to, N", Right),
+        (Left, &["sphere", "stiffest material"]),
+        (Right, &["effective mass, kg", "slope, kN/m", "time scale, ms", "step/time scale", "friction stable to, N"]),
     ]);
     for s in &d.sphere_rates {
         let r = &s.rate;
@@ -137,8 +131,7 @@ fn sphere_rates(d: &Diagnosis) -> String {
 }
 
 fn other_rates(d: &Diagnosis) -> String {
-    let mut table =
-        Table::new(&[("belt or joint", Left), ("", Left), ("time scale, ms", Right), ("step/time scale", Right)]);
+    let mut table = Table::new(&[(Left, &["belt or joint", ""]), (Right, &["time scale, ms", "step/time scale"])]);
     for r in &d.other_rates {
         table.row([r.of.clone(), r.by.clone(), format!("{:.3}", r.time_scale_s * 1e3), by_step(d, r)]);
     }
@@ -161,10 +154,4 @@ fn verdict(d: &Diagnosis) -> String {
         }
         None => format!("{scale}; the error control chooses the step\n"),
     }
-}
-
-/// A number without the zeros that say nothing.
-fn short(value: f64) -> String {
-    let text = format!("{value:.4}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
 }

@@ -13,8 +13,9 @@ pub(crate) fn texts(tables: &Tables, marks: &Marks) -> impl Iterator<Item = Stri
 }
 
 fn text(of: &str, Elements { columns, rows }: &Elements, marks: &Marks) -> String {
-    let head = columns.iter().map(|column| (column.heading, if column.holds == Holds::Text { Left } else { Right }));
-    let mut table = Table::new(&head.collect::<Vec<_>>());
+    let align = |column: &Column| if column.holds == Holds::Text { Left } else { Right };
+    let heads: Vec<_> = columns.iter().map(|column| (align(column), std::slice::from_ref(&column.heading))).collect();
+    let mut table = Table::new(&heads);
     for row in rows {
         let name = word(row.values().next().and_then(Cell::text).unwrap_or_default());
         let mark = |(column, cell): (&Column, &Cell)| match column.measure {

@@ -27,7 +27,7 @@ pub(crate) fn remarks(measures: &[Measure]) -> String {
 
 /// Risks of injury, a line for each curve.
 pub(crate) fn risks(measures: &[Measure]) -> String {
-    let mut table = Table::new(&[("injury", Left), ("from", Left), ("risk, %", Right)]);
+    let mut table = Table::new(&[(Left, &["injury", "from"]), (Right, &["risk, %"])]);
     for m in measures {
         for risk in &m.risks {
             table.row([risk.injury.to_owned(), m.label.to_owned(), number(100.0 * risk.probability, 1)]);
@@ -38,14 +38,13 @@ pub(crate) fn risks(measures: &[Measure]) -> String {
 
 fn table<'m>(measures: impl Iterator<Item = &'m Measure>, marks: &Marks) -> String {
     let mut table = Table::new(&[
-        ("injury measure", Left),
-        ("value", Right),
-        ("unit", Left),
-        ("at, ms", Right),
-        ("limit", Right),
-        ("of", Left),
-        ("margin", Right),
-        ("", Left),
+        (Left, &["injury measure"]),
+        (Right, &["value"]),
+        (Left, &["unit"]),
+        (Right, &["at, ms", "limit"]),
+        (Left, &["of"]),
+        (Right, &["margin"]),
+        (Left, &[""]),
     ]);
     for m in measures {
         let value = m.value.map_or(NONE.to_owned(), |v| shown(m, v));

@@ -8,7 +8,7 @@ use occupant_core::results::summary::{
 
 use super::{elements, measures};
 use crate::base::text_table::Align::{Left, Right};
-use crate::base::text_table::{NONE, Table, facts, number, plain};
+use crate::base::text_table::{NONE, Table, facts, number, plain, without_zeros};
 use crate::jobs::run::recording::Written;
 
 /// Results that are not stable in an ensemble: they carry a star.
@@ -61,21 +61,14 @@ fn title(summary: &Summary) -> String {
         RunStatus::Failed => format!("FAILED: {reached} of {} ms", ms(summary.end_s)),
     };
     let every = (summary.reached_s - summary.start_s) / summary.solver.outputs.saturating_sub(1).max(1) as f64;
-    let peaks = format!(
-        "peaks are those of outputs every {} ms",
-        number(every * 1e3, 3).trim_end_matches('0').trim_end_matches('.')
-    );
+    let peaks = format!("peaks are those of outputs every {} ms", without_zeros(&number(every * 1e3, 3)));
     format!("{}\n{ending}; {peaks}\n", plain(&summary.title))
 }
 
 fn accelerations(summary: &Summary, marks: &Marks) -> String {
     let mut table = Table::new(&[
-        ("acceleration", Left),
-        ("peak, g", Right),
-        ("at, ms", Right),
-        ("3 ms held, g", Right),
-        ("from–to, ms", Right),
-        ("3 ms in total, g", Right),
+        (Left, &["acceleration"]),
+        (Right, &["peak, g", "at, ms", "3 ms held, g", "from–to, ms", "3 ms in total, g"]),
     ]);
     let a = &summary.accelerations;
     for (name, part) in [("head", &a.head), ("chest", &a.chest), ("pelvis", &a.pelvis)] {
@@ -101,13 +94,9 @@ fn acceleration(name: &str, part: &Acceleration, marks: &Marks) -> [String; 6] {
 
 fn first_contacts(summary: &Summary, marks: &Marks) -> String {
     let mut table = Table::new(&[
-        ("contact", Left),
-        ("surface", Left),
-        ("at, ms", Right),
-        ("speed, m/s", Right),
-        ("greatest force, N", Right),
-        ("at, ms", Right),
-        ("on", Left),
+        (Left, &["contact", "surface"]),
+        (Right, &["at, ms", "speed, m/s", "greatest force, N", "at, ms"]),
+        (Left, &["on"]),
     ]);
     for first in &summary.first_contacts {
         rows_of(summary, first, marks).into_iter().for_each(|row| table.row(row));
@@ -148,9 +137,10 @@ fn rows_of(summary: &Summary, first: &FirstContact, marks: &Marks) -> Vec<[Strin
 
 /// Surface, time and closing speed; what touches at the start has not arrived.
 fn touch(contact: &ContactBegin) -> [String; 3] {
-    let [time, speed] = match contact.at_start {
-        true => ["at start".to_owned(), NONE.to_owned()],
-        false => [ms(contact.time_s), number(contact.closing_m_s, 2)],
+    let [time, speed] = if contact.at_start {
+        ["at start".to_owned(), NONE.to_owned()]
+    } else {
+        [ms(contact.time_s), number(contact.closing_m_s, 2)]
     };
     [contact.surface.clone(), time, speed]
 }

@@ -43,9 +43,10 @@ struct Words {
 
 impl Archive for Words {
     fn exchange(&mut self, FieldWords { number, stem, meaning }: FieldWords, value: &mut Value) {
-        let (name, meaning) = match self.is_step {
-            true => (format!("step_{stem}"), format!("as `{stem}`").into()),
-            false => (stem.to_owned(), meaning.into()),
+        let (name, meaning) = if self.is_step {
+            (format!("step_{stem}"), format!("as `{stem}`").into())
+        } else {
+            (stem.to_owned(), meaning.into())
         };
         let kind = match value {
             Value::Count(_) => Kind::Count,

@@ -46,7 +46,7 @@ impl Default for McapOptions {
 /// Writes every result of a run to `W`. The same scenario gives the same bytes.
 ///
 /// The file is complete when the run has ended and says how in its last metadata record. Dropped before, it is a readable
-/// file without that record. Chunks are compressed and written on a thread of their own while the run goes on.
+/// file without that record. Chunks are compressed and written on a thread of their own during the run.
 pub struct McapRecorder<W: Write + Seek + Send + 'static> {
     press: Press<W>,
     about: About,

@@ -11,6 +11,7 @@ use super::mme;
 use super::signals::Recording;
 use super::trouble::Trouble;
 use crate::base::failure::Failure;
+use crate::base::input_file;
 use crate::base::names::ending;
 use crate::base::sha256::sha256;
 
@@ -29,7 +30,7 @@ pub(crate) fn read(path: &Path) -> Result<Recording, Failure> {
     if path.is_dir() || ending(path) == "mme" {
         return mme::read(path);
     }
-    let bytes = std::fs::read(path).map_err(|e| Failure::plain(format!("{} cannot be read: {e}", path.display())))?;
+    let bytes = input_file::read(path)?;
     let text = String::from_utf8(bytes.clone()).map_err(|e| {
         let at = e.utf8_error().valid_up_to();
         let line = 1 + bytes[..at].iter().filter(|b| **b == b'\n').count();

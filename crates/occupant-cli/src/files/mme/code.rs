@@ -60,10 +60,7 @@ impl Code {
     /// The code of a place.
     pub(crate) fn new(place: &Place, seat: char, dummy: &str, class: Option<ChannelClass>) -> Option<Self> {
         let position = if place.of_vehicle { '0' } else { seat };
-        let third = match place.of_vehicle {
-            true => "00",
-            false => place.webbing.unwrap_or(dummy),
-        };
+        let third = if place.of_vehicle { "00" } else { place.webbing.unwrap_or(dummy) };
         let filter = class.map_or('0', ChannelClass::mme_letter);
         format!("1{position}{}{third}{}{}{filter}", place.location, place.dimension, place.direction).parse().ok()
     }
@@ -85,10 +82,7 @@ impl Code {
         }
         let place = place_of_name(channel)?;
         let fine = self.part(6, 10);
-        let position = match place.of_vehicle {
-            true => self.is_at('0'),
-            false => self.is_at(seat),
-        };
+        let position = if place.of_vehicle { self.is_at('0') } else { self.is_at(seat) };
         let fits = self.part(2, 6) == &place.location[..4]
             && (fine == &place.location[4..] || fine == "0000")
             && self.part(12, 14) == place.dimension

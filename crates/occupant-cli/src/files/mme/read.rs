@@ -6,6 +6,8 @@ use std::path::{Path, PathBuf};
 use super::code::Code;
 use super::header::{Header, entry, text_of};
 use crate::base::failure::Failure;
+use crate::base::input_file;
+use crate::base::names::ending;
 use crate::base::sha256::sha256;
 use crate::files::signals::{Recording, Signal, scale_of, seconds_in};
 use crate::files::trouble::Trouble;
@@ -17,12 +19,12 @@ use crate::files::trouble::Trouble;
 pub(crate) fn read(path: &Path) -> Result<Recording, Failure> {
     let mme = if path.is_dir() { the_mme_in(path)? } else { path.to_owned() };
     // the test's file itself holds nothing that signals need
-    fs::read(&mme).map_err(|e| Failure::plain(format!("{} cannot be read: {e}", mme.display())))?;
+    input_file::read(&mme)?;
     let files = channel_files(&mme)?;
     let mut all_bytes = Vec::new();
     let mut channels = Vec::with_capacity(files.len());
     for file in files {
-        let bytes = fs::read(&file).map_err(|e| Failure::plain(format!("{} cannot be read: {e}", file.display())))?;
+        let bytes = input_file::read(&file)?;
         all_bytes.extend_from_slice(&bytes);
         channels.push(RawChannel::read(file, &text_of(bytes))?);
     }
@@ -44,7 +46,7 @@ fn entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
 }
 
 fn the_mme_in(folder: &Path) -> Result<PathBuf, Failure> {
-    let is_mme = |p: &PathBuf| p.extension().is_some_and(|e| e.eq_ignore_ascii_case("mme"));
+    let is_mme = |p: &PathBuf| ending(p) == "mme";
     let mut found: Vec<PathBuf> = entries(folder)?.into_iter().filter(is_mme).collect();
     match (found.len(), found.pop()) {
         (1, Some(one)) => Ok(one),

@@ -102,11 +102,9 @@ fn channel_file(column: &Column, place: &Place, code: &Code, interval_s: f64, fi
     put("Time of first sample", &first_s.to_string());
     put("Number of samples", &column.values.len().to_string());
     for value in &column.values {
-        let _ = match value.is_finite() {
-            // minus zero is zero
-            true => writeln!(text, "{}", value * place.sign + 0.0),
-            false => writeln!(text, "NOVALUE"),
-        };
+        // minus zero is zero
+        let signed = value * place.sign + 0.0;
+        let _ = if value.is_finite() { writeln!(text, "{signed}") } else { writeln!(text, "NOVALUE") };
     }
     text
 }

@@ -44,10 +44,7 @@ pub(super) fn couples(request: &Request<'_>, remarks: &mut Remarks) -> Result<Co
     }
     let run = Results::open(computed)?;
     remarks.judge(&run);
-    match is_recording(measured) {
-        true => run_and_test(request, &run, remarks),
-        false => two_runs(request, &run, remarks),
-    }
+    if is_recording(measured) { run_and_test(request, &run, remarks) } else { two_runs(request, &run, remarks) }
 }
 
 fn run_and_test(request: &Request<'_>, run: &Results, remarks: &mut Remarks) -> Result<Coupled, Failure> {

@@ -138,7 +138,7 @@ fn put_in(band: &Band, unit: &str) -> f64 {
     }
 }
 
-/// Greatest less least: a place has no zero that its size could be told from.
+/// Greatest less least: a place has no zero to measure its size from.
 fn range(values: &[f64]) -> f64 {
     let finite = || values.iter().copied().filter(|x| x.is_finite());
     let range = finite().fold(f64::NEG_INFINITY, f64::max) - finite().fold(f64::INFINITY, f64::min);

@@ -8,7 +8,7 @@ use super::bands::ChannelBand;
 use super::judge::Judged;
 use super::report::{Failed, Report};
 use crate::base::text_table::Align::{Left, Right};
-use crate::base::text_table::{NONE, Table, facts, number};
+use crate::base::text_table::{NONE, Table, facts, number, trimmed};
 
 /// Figures that the table shows whether they are stable or not, besides belts.
 const ALWAYS: [&str; 17] = [
@@ -71,26 +71,21 @@ fn what(report: &Report) -> String {
 fn changes(most: &Tolerances, seed: u64) -> String {
     format!(
         "{}° of each angle, {} mm of place, {} % of the pulse, {} % of each stiffness (seed {seed})",
-        trimmed(most.posture_rad.to_degrees()),
-        trimmed(most.place_m * 1e3),
+        trimmed(most.posture_rad.to_degrees(), 3),
+        trimmed(most.place_m * 1e3, 3),
         percent(most.path),
         percent(most.stiffness)
     )
 }
 
 fn percent(part: f64) -> String {
-    trimmed(100.0 * part)
-}
-
-fn trimmed(value: f64) -> String {
-    let text = format!("{value:.3}");
-    text.trim_end_matches('0').trim_end_matches('.').to_owned()
+    trimmed(100.0 * part, 3)
 }
 
 /// The figures that are shown, as a table.
 pub(crate) fn figure_table(figures: &[Judged]) -> String {
     let mut table =
-        Table::of(&[(Left, &["figure"]), (Right, &["unchanged", "median", "5 %", "95 %"]), (Left, &["", ""])]);
+        Table::new(&[(Left, &["figure"]), (Right, &["unchanged", "median", "5 %", "95 %"]), (Left, &["", ""])]);
     for figure in figures.iter().filter(|f| is_shown(&f.name)) {
         table.row(figure_row(figure));
     }
@@ -138,7 +133,7 @@ fn decimals(size: f64) -> usize {
 }
 
 fn channels(report: &Report) -> String {
-    let mut table = Table::of(&[
+    let mut table = Table::new(&[
         (Left, &["channel"]),
         (Right, &["members part at, ms", "by more than", "widest", "at, ms"]),
         (Left, &[""]),

@@ -5,12 +5,13 @@ use std::path::PathBuf;
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, Series};
 use occupant_core::run::simulate::simulate;
-use occupant_core::scenario::{Diagnostics, Draft, Loaded};
+use occupant_core::scenario::{Diagnostics, Loaded};
 use occupant_study::ending::Ending;
 use occupant_study::{Misfit, Study};
 
 use super::target::{FAMILY, Target};
 use crate::files::history::{Filter, Histories, Treatment, Untreated, asked, treated};
+use crate::files::scenario::Tables;
 
 /// A scenario with the parameters of the study.
 pub(crate) struct Experiment {
@@ -22,7 +23,7 @@ pub(crate) struct Experiment {
     /// The study with this scenario as its base.
     pub(crate) study: Study,
     /// Files that the scenario names.
-    pub(crate) tables: Vec<(String, Vec<u8>)>,
+    pub(crate) tables: Tables,
     /// The model without any parameter.
     pub(crate) model: Model,
     /// Measured channels, and of which test each is.
@@ -40,9 +41,9 @@ impl Experiment {
         scenario: PathBuf,
         text: String,
         study: Study,
-        tables: Vec<(String, Vec<u8>)>,
+        tables: Tables,
     ) -> Result<(Experiment, Diagnostics), Diagnostics> {
-        let (_, model, warnings) = opened(study.base().clone(), &tables)?;
+        let (_, model, warnings) = tables.open(study.base.clone())?;
         let experiment = Experiment {
             scenario,
             fitted: String::new(),
@@ -87,14 +88,6 @@ impl Experiment {
         [time.start_s, time.start_s + steps as f64 * time.output_s]
     }
 
-    /// Scenario and model of a draft.
-    ///
-    /// # Errors
-    /// What is wrong with it.
-    pub(crate) fn open(&self, draft: Draft) -> Result<(Loaded, Model, Diagnostics), Diagnostics> {
-        opened(draft, &self.tables)
-    }
-
     /// Scenario and model with these texts at these places.
     ///
     /// # Errors
@@ -103,11 +96,11 @@ impl Experiment {
         &self,
         changes: impl IntoIterator<Item = (impl AsRef<str>, impl AsRef<str>)>,
     ) -> Result<(Loaded, Model, Diagnostics), Diagnostics> {
-        let mut draft = self.study.base().clone();
+        let mut draft = self.study.base.clone();
         for (path, text) in changes {
             draft.set_value(path.as_ref(), text.as_ref())?;
         }
-        self.open(draft)
+        self.tables.open(draft)
     }
 
     /// The model with these values of all parameters, or without any.
@@ -193,14 +186,4 @@ impl Experiment {
 pub(crate) fn in_group(groups: &[(Filter, Histories)], filter: Filter) -> Result<&Histories, String> {
     let found = groups.iter().find(|(f, _)| *f == filter);
     found.map(|(_, histories)| histories).ok_or_else(|| "a channel without a history".to_owned())
-}
-
-fn opened(draft: Draft, tables: &[(String, Vec<u8>)]) -> Result<(Loaded, Model, Diagnostics), Diagnostics> {
-    let table = |name: &str| {
-        let found = tables.iter().find(|(table, _)| table == name);
-        found.map(|(_, bytes)| bytes.clone()).ok_or_else(|| "it was not there when the fit began".to_owned())
-    };
-    let loaded = draft.load(&table)?;
-    let (model, warnings) = loaded.model()?;
-    Ok((loaded, model, warnings))
 }

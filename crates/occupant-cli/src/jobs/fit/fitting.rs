@@ -72,7 +72,7 @@ impl Fitting {
         if !problems.is_empty() || experiments.is_empty() {
             return Err(ended(&problems));
         }
-        let bounds = experiments[0].study.parameters().iter();
+        let bounds = experiments[0].study.parameters.iter();
         let bounds: Option<Vec<Bounds>> = bounds.map(Parameter::bounds).collect();
         // bind_fit has refused parameters without ends
         let bounds = bounds.ok_or("error: a parameter without ends")?;
@@ -85,7 +85,7 @@ impl Fitting {
 
     /// What is fitted.
     pub(crate) fn parameters(&self) -> &[Parameter] {
-        self.experiments[0].study.parameters()
+        &self.experiments[0].study.parameters
     }
 
     /// Values of the parameters, SI, at a point of the unit cube.

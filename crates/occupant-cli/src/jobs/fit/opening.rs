@@ -10,9 +10,9 @@ use occupant_study::{Fit, FitChannel, FitTest, Study, StudyText};
 use super::experiment::Experiment;
 use super::fitting::Test;
 use super::target::{Target, filter_of};
-use crate::base::names::file_name;
+use crate::base::names::{ending, file_name};
 use crate::files::measured::{self, MapArgument, Pair, Wanted, pairs};
-use crate::files::scenario::format_of;
+use crate::files::scenario::{Tables, format_of};
 use crate::files::signals::Recording;
 use crate::files::study_folder::texts::{NamedBy, Texts};
 use crate::jobs::sweep::plan::named_file;
@@ -190,8 +190,8 @@ impl<'a> Opening<'a> {
             .text
             .bind_fit(draft, (&named.test.set, &at), self.given.overrides, &beside)
             .map_err(|e| e.to_string())?;
-        if !study.warnings().is_empty() {
-            self.warnings.push(study.warnings().to_string());
+        if !study.warnings.is_empty() {
+            self.warnings.push(study.warnings.to_string());
         }
         let tables = self.tables(&study, base);
         let text = String::from_utf8_lossy(&bytes).into_owned();
@@ -204,13 +204,13 @@ impl<'a> Opening<'a> {
     }
 
     /// The file that a scenario names, if it names one; one that cannot be read is reported when the scenario is opened.
-    fn tables(&self, study: &Study, base: &str) -> Vec<(String, Vec<u8>)> {
+    fn tables(&self, study: &Study, base: &str) -> Tables {
         let beside = Path::new(base).parent().unwrap_or(Path::new(""));
         let read = |name: String| {
             let bytes = self.texts.get(NamedBy::Study, &beside.join(&name).display().to_string()).ok()?;
             Some((name, bytes))
         };
-        named_file(study).into_iter().filter_map(read).collect()
+        Tables(named_file(study).into_iter().filter_map(read).collect())
     }
 
     fn recording(&mut self, named: &Named) -> Option<Recording> {
@@ -220,7 +220,7 @@ impl<'a> Opening<'a> {
                     self.warnings.push(format!("note: {note}"));
                 }
                 // a copy for the folder; of an ISO-MME test its checksum only
-                let mme = named.file.extension().is_some_and(|e| e.eq_ignore_ascii_case("mme"));
+                let mme = ending(&named.file) == "mme";
                 let single = named.file.is_file() && !mme;
                 let copied = single && self.texts.get(named.by.0, &named.by.1).is_ok();
                 if !copied {

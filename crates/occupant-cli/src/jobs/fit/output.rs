@@ -82,7 +82,7 @@ impl Output<'_> {
             }
             self.put(Path::new(name), text.text.as_bytes())?;
             let folder = Path::new(name).parent().unwrap_or(Path::new(""));
-            for (table, bytes) in &experiment.tables {
+            for (table, bytes) in &experiment.tables.0 {
                 // beside the scenario that names it, if that is a place below it
                 let mut below = Path::new(table).components();
                 if below.all(|c| matches!(c, std::path::Component::Normal(_))) {

@@ -6,7 +6,7 @@ use super::experiment::{Experiment, in_group};
 use super::fitting::Fitting;
 use super::target::Target;
 use crate::files::history::{Filter, Histories, UnitChoice};
-use crate::pictures::plot::{self, Entry, Figure, Material, Overlay, RunCurves, Sheet, Wish, sheet};
+use crate::pictures::plot::{self, Entry, Figure, Material, Overlay, Plot, RunCurves, Sheet, sheet};
 
 /// Runs of an experiment before and after.
 pub(crate) struct Pair {
@@ -52,7 +52,7 @@ fn figure(target: &Target, file: &str, before: Option<&Groups>, after: &Groups) 
         file: file.rsplit(['/', '\\']).next().unwrap_or(file).to_owned(),
         pair: target.measured.clone(),
     };
-    let wish = Wish {
+    let plot = Plot {
         title: target.channel.name.clone(),
         axis: target.channel.unit.quantity().to_owned(),
         entries: vec![Entry { channel: target.channel.name.clone(), label: target.channel.name.clone() }],
@@ -66,5 +66,5 @@ fn figure(target: &Target, file: &str, before: Option<&Groups>, after: &Groups) 
         units: UnitChoice::Si,
         window_s: target.window_s,
     };
-    plot::figure(&wish, &material)
+    plot::figure(&plot, &material)
 }

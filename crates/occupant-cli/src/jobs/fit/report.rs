@@ -70,7 +70,7 @@ fn short(value: f64) -> String {
 }
 
 fn parameters(found: &Found) -> String {
-    let mut table = Table::of(&[
+    let mut table = Table::new(&[
         (Left, &["parameter", "unit"]),
         (Right, &["base", "fitted", "interval", "looked for"]),
         (Left, &[""]),
@@ -119,7 +119,7 @@ fn compensating(found: &Found) -> String {
 
 fn channels(found: &Found) -> String {
     let mut table =
-        Table::of(&[(Left, &["test", "channel", "filter"]), (Right, &["ms", "weight", "before", "fitted"])]);
+        Table::new(&[(Left, &["test", "channel", "filter"]), (Right, &["ms", "weight", "before", "fitted"])]);
     for c in &found.score.channels {
         let [from, to] = c.window_s.map(|t| short(t * 1e3));
         table.row([

@@ -45,13 +45,13 @@ pub(crate) fn numbers(experiment: &Experiment, values: &[f64]) -> Result<Vec<Fit
     let study = &experiment.study;
     let of = |path: &str| {
         let acts = |p: &Parameter| p.targets.iter().any(|t| t.path == path);
-        study.parameters().iter().rposition(acts).unwrap_or(0)
+        study.parameters.iter().rposition(acts).unwrap_or(0)
     };
     let number = |Assignment { path, value, .. }: Assignment| {
         let occupant_study::Value::Number(si) = value else {
             return Err(format!("`{path}` is no number"));
         };
-        let text = study.base().written(&path, si, DIGITS);
+        let text = study.base.written(&path, si, DIGITS);
         let text = text.ok_or_else(|| format!("no number can stand at `{path}`"))?;
         Ok(Fitted { fitted: experiment.fitted.clone(), parameter: of(&path), path, text })
     };
@@ -85,19 +85,19 @@ pub(crate) fn fitted(
 /// Whether a text says this scenario.
 fn says(experiment: &Experiment, text: &str, wanted: &Scenario) -> bool {
     let draft = Draft::read(text, Format::Toml, "fitted");
-    let found = draft.and_then(|draft| experiment.open(draft));
+    let found = draft.and_then(|draft| experiment.tables.open(draft));
     found.is_ok_and(|(loaded, ..)| loaded.scenario == *wanted)
 }
 
 /// The author's text with everything put in that the study, the command line and the fit have changed.
 fn edited(experiment: &Experiment, numbers: &[&Fitted], provenance: &[(String, String)]) -> Option<String> {
     let mut document: DocumentMut = experiment.text.parse().ok()?;
-    let changes = experiment.study.changes().iter();
+    let changes = experiment.study.changes.iter();
     let numbers = numbers.iter().map(|n| (&n.path, &n.text));
     for (path, text) in changes.map(|(p, t)| (p, t)).chain(numbers) {
         let new = text.parse().unwrap_or_else(|_| Value::from(text.as_str()));
         // a path with wildcards stands for many places
-        let places = if path.contains('*') { experiment.study.base().places(path).ok()? } else { Vec::new() };
+        let places = if path.contains('*') { experiment.study.base.places(path).ok()? } else { Vec::new() };
         let mut paths: Vec<&str> = places.iter().map(|p| p.path.as_str()).collect();
         if paths.is_empty() {
             paths.push(path);

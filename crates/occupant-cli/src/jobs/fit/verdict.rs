@@ -81,7 +81,7 @@ fn parameter(fitting: &Fitting, answer: &Answer, sets: &[&Record], i: usize) -> 
 /// In which unit the values of a parameter are shown, and how many SI units it is: that of its place.
 fn shown_unit(fitting: &Fitting, i: usize) -> (String, f64) {
     let parameter = &fitting.parameters()[i];
-    let base = fitting.experiments[0].study.base();
+    let base = &fitting.experiments[0].study.base;
     let place = parameter.targets.first();
     match parameter.apply {
         ApplyChoice::Factor => (String::new(), 1.0),

@@ -2,14 +2,15 @@
 
 use std::path::Path;
 
-use occupant_core::forces::contact::{PASSED, PairHistory};
+use occupant_core::forces::contact::PairHistory;
 use occupant_core::model::Model;
 use occupant_core::scenario::Loaded;
 
-use cardio_legacy::CompartmentLayout;
+use cardio_legacy::{CompartmentLayout, passed_pairs};
 
 use super::unit::Units;
 use crate::base::failure::Failure;
+use crate::base::input_file;
 use crate::files::mcap::StoredRun;
 use crate::files::mcap::about::RUN;
 use crate::files::scenario::stored;
@@ -37,7 +38,7 @@ impl Case {
     /// checkpoints this program refuses.
     pub(crate) fn read(path: &Path) -> Result<Self, Failure> {
         let name = path.display();
-        let bytes = std::fs::read(path).map_err(|error| Failure::plain(format!("{name} cannot be read: {error}")))?;
+        let bytes = input_file::read(path)?;
         let refused = |reason: String| {
             Failure::with_help(
                 format!("{name} cannot be printed: {reason}"),
@@ -49,9 +50,7 @@ impl Case {
             let found = format!("it is an MCAP file without the record `{RUN}`: no result of `occupant run`");
             return Err(refused(found));
         }
-        let loaded = stored(path, &file)?;
-        let (model, warnings) =
-            loaded.model().map_err(|d| refused(format!("the scenario in the file is refused:\n{d}")))?;
+        let (loaded, model, warnings) = stored(path, &file)?;
         file.checkpoints.iter().try_for_each(|c| c.check(&model)).map_err(|e| refused(e.to_string()))?;
         let report = report_numbers(&model);
         let in_order = || (1..=model.setup().surfaces.len()).collect();
@@ -103,16 +102,7 @@ impl Case {
 
     /// The pairs (sphere, surface), by index, that have passed a surface's edge: those with NARRY = 0.
     pub(crate) fn passed(&self, pairs: &[PairHistory<f64>]) -> Vec<(usize, usize)> {
-        let contacts = &self.model.system().forces.contacts;
-        let mut passed = Vec::new();
-        for group in contacts.groups() {
-            for i in group.pairs.clone() {
-                let is_passed = pairs.get(i).is_some_and(|p| p.phase == PASSED);
-                let parts = contacts.pairs().get(i).map_or(&[][..], |p| &p.parts);
-                let own = parts.iter().filter(|_| is_passed);
-                passed.extend(own.map(|part| (group.sphere, part.surface)));
-            }
-        }
+        let mut passed: Vec<_> = passed_pairs(&self.model, pairs).collect();
         let number = |surface: usize| self.numbers.get(surface).copied();
         passed.sort_by_key(|&(sphere, surface)| (sphere, number(surface)));
         passed

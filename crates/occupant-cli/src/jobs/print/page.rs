@@ -10,7 +10,7 @@ pub(crate) const LINES: usize = 60;
 const HEAD: usize = 4;
 /// Columns of the names of facts.
 const MARGIN: usize = 15;
-/// Indent of a line that goes on.
+/// Indent of a continued line.
 const INDENT: &str = "        ";
 
 /// A printout under construction.

@@ -93,13 +93,11 @@ pub(crate) fn source_name(report: &Report) -> &'static str {
 
 fn measures(figures: &Figures) -> String {
     let mut table = Table::new(&[
-        ("measure", Align::Left),
-        ("value", Align::Right),
-        ("unit", Align::Left),
-        ("or", Align::Right),
-        ("unit", Align::Left),
-        ("time, s", Align::Left),
-        ("", Align::Left),
+        (Align::Left, &["measure"]),
+        (Align::Right, &["value"]),
+        (Align::Left, &["unit"]),
+        (Align::Right, &["or"]),
+        (Align::Left, &["unit", "time, s", ""]),
     ]);
     for figure in &figures.figures {
         let [first, second] = figure.units;
@@ -132,15 +130,9 @@ fn shown(si: f64, (unit, decimals): Unit) -> String {
 
 fn limits(judgements: &[Judgement]) -> String {
     let mut table = Table::new(&[
-        ("rule", Align::Left),
-        ("measure", Align::Left),
-        ("limit", Align::Left),
-        ("at most", Align::Right),
-        ("value", Align::Right),
-        ("margin", Align::Right),
-        ("unit", Align::Left),
-        ("verdict", Align::Left),
-        ("limit read in", Align::Left),
+        (Align::Left, &["rule", "measure", "limit"]),
+        (Align::Right, &["at most", "value", "margin"]),
+        (Align::Left, &["unit", "verdict", "limit read in"]),
     ]);
     for judgement in judgements {
         let unit = unit_of(judgement.limit.quantity);

@@ -108,10 +108,7 @@ impl Recording {
         let partial = open.partial.display();
         let file = open.recorder.into_inner();
         let file = file.map_err(|e| Failure::BrokeOff(format!("error: {partial} cannot be closed: {e}")))?;
-        let closed = match completed {
-            true => file.publish().map(Written::Complete),
-            false => file.keep().map(Written::Partial),
-        };
+        let closed = if completed { file.publish().map(Written::Complete) } else { file.keep().map(Written::Partial) };
         closed.map_err(|e| Failure::BrokeOff(format!("error: {e}\n = done: the run is in {partial}")))
     }
 }

@@ -109,13 +109,11 @@ impl Resumption {
             (Ok(a), Ok(b)) => a == b,
             _ => false,
         };
-        match same(target) || same(partial) {
-            true => Err(Failure::with_help(
-                format!("{} would write over {}, which it resumes", target.display(), self.file.display()),
-                "choose another name with -o FILE.mcap",
-            )),
-            false => Ok(()),
+        if !same(target) && !same(partial) {
+            return Ok(());
         }
+        let found = format!("{} would write over {}, which it resumes", target.display(), self.file.display());
+        Err(Failure::with_help(found, "choose another name with -o FILE.mcap"))
     }
 }
 
@@ -144,7 +142,7 @@ fn last_fitting(
 /// Refuses a file of another scenario; warns of another program.
 fn same_scenario(file: &Path, stored: &StoredRun, opened: &Opened) -> Result<(), Failure> {
     let name = file.display();
-    let theirs = scenario::stored(file, stored)?;
+    let (theirs, ..) = scenario::stored(file, stored)?;
     let mut found = differences(theirs.explicit(), opened.loaded.explicit())
         .map_err(|e| Failure::plain(format!("the scenarios cannot be compared: {e}")))?;
     let table = |loaded: &occupant_core::scenario::Loaded| loaded.table().map(|(_, text)| sha256(text.as_bytes()));

@@ -15,11 +15,12 @@ use placed_text::Problem;
 
 use crate::base::failure::Failure;
 use crate::files::history::choose;
+use crate::files::scenario::counted;
 
 /// What is asked for, each name known.
 pub(crate) struct Asked<'a> {
     pub(crate) parameters: Vec<Parameter<'a>>,
-    pub(crate) wish: Request,
+    pub(crate) request: Request,
     /// Units of the figures.
     pub(crate) units: Vec<&'static str>,
 }
@@ -69,17 +70,14 @@ pub(crate) fn ask<'a>(
     let names =
         gather(words.to, &mut wrong, |name| chosen(&figures, name).map_err(|problem| described("--to", &problem)));
     if !wrong.is_empty() {
-        let count = match wrong.len() {
-            1 => "1 error".to_owned(),
-            n => format!("{n} errors"),
-        };
+        let count = counted(wrong.len());
         return Err(Failure::CouldNotRun(format!("{}\n\n{count}, nothing was computed", wrong.join("\n"))));
     }
     let parameters = distinct(parameters, |p| &p.name);
     let channels = distinct(channels, |c| &c.name);
     let names = distinct(names, |n| n);
     let unit = |name: &String| figures.iter().find(|f| f.name == *name).map_or("1", |f| f.unit);
-    Ok(Asked { parameters, units: names.iter().map(unit).collect(), wish: Request { figures: names, channels } })
+    Ok(Asked { parameters, units: names.iter().map(unit).collect(), request: Request { figures: names, channels } })
 }
 
 /// What the items of lists name; what is wrong with an item goes to `wrong`.
@@ -154,18 +152,18 @@ pub(crate) fn analyse(model: &Model, asked: &Asked<'_>) -> Result<Analysis, Fail
     let begun = Instant::now();
     let trajectory = follow(model, &mut built).map_err(|e| broke_off(&e))?;
     let dual_s = begun.elapsed().as_secs_f64();
-    let values = plain_values(model, &trajectory, &asked.wish).map_err(|e| broke_off(&e))?;
-    let changes: &[f64] = if asked.wish.figures.is_empty() { &[] } else { &CHANGES };
-    let finite = finite_changes(&asked.parameters, changes, &asked.wish.figures);
+    let values = plain_values(model, &trajectory, &asked.request).map_err(|e| broke_off(&e))?;
+    let changes: &[f64] = if asked.request.figures.is_empty() { &[] } else { &CHANGES };
+    let finite = finite_changes(&asked.parameters, changes, &asked.request.figures);
     let (mut all, mut comparisons) = (Vec::new(), Vec::new());
     for (k, (parameter, changes)) in asked.parameters.iter().zip(&finite).enumerate() {
-        let found = derivatives(model, parameter, &trajectory, k, &asked.wish);
+        let found = derivatives(model, parameter, &trajectory, k, &asked.request);
         let found = found.map_err(|e| broke_off(&e))?;
         let one = |i: usize| {
             let value = values.figures[i];
             compare(&found.figures[i], value, parameter.size, changes, i)
         };
-        comparisons.push((0..asked.wish.figures.len()).map(one).collect());
+        comparisons.push((0..asked.request.figures.len()).map(one).collect());
         all.push(found);
     }
     Ok(Analysis { values, trajectory, built, derivatives: all, finite, comparisons, cost_s: [plain_s, dual_s] })

@@ -16,7 +16,7 @@ pub(crate) fn answer(file: &str, model: &Model, asked: &Asked<'_>, analysis: &An
     let setup = model.setup();
     let [plain_s, dual_s] = analysis.cost_s;
     let trajectory = &analysis.trajectory;
-    let measures = asked.wish.figures.iter().zip(&asked.units).zip(&analysis.values.figures);
+    let measures = asked.request.figures.iter().zip(&asked.units).zip(&analysis.values.figures);
     json!({
         "program": program(),
         "scenario": file,
@@ -66,7 +66,7 @@ fn parameters(asked: &Asked<'_>, analysis: &Analysis) -> Vec<Value> {
 /// from the derivative, as a part of it, for changes up to `up_to_part`.
 fn sensitivities(asked: &Asked<'_>, analysis: &Analysis) -> Vec<Value> {
     let mut all = Vec::new();
-    for (i, measure) in asked.wish.figures.iter().enumerate() {
+    for (i, measure) in asked.request.figures.iter().enumerate() {
         for (k, parameter) in asked.parameters.iter().enumerate() {
             let slope = analysis.derivatives[k].figures[i];
             let comparison = &analysis.comparisons[k][i];

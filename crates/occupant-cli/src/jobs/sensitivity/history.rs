@@ -11,7 +11,7 @@ use crate::files::history::{Column, Histories, UnitChoice, shown};
 /// Channels and their derivatives over the outputs.
 pub(crate) fn histories(asked: &Asked<'_>, found: &Analysis) -> Histories {
     let mut columns = Vec::new();
-    for (c, channel) in asked.wish.channels.iter().enumerate() {
+    for (c, channel) in asked.request.channels.iter().enumerate() {
         let mut column = |values: Vec<f64>| {
             columns.push(Column { channel: channel.clone(), class: None, values });
         };
@@ -27,7 +27,7 @@ pub(crate) fn histories(asked: &Asked<'_>, found: &Analysis) -> Histories {
 /// What the columns are; `source` is the scenario's name and SHA-256.
 pub(crate) fn about(model: &Model, asked: &Asked<'_>, analysis: &Analysis, [source, sha256]: [&str; 2]) -> About {
     let mut columns = vec![ColumnAbout::time()];
-    for channel in &asked.wish.channels {
+    for channel in &asked.request.channels {
         let unit = shown(channel.unit, UnitChoice::Si).ascii();
         let column = |name: String, unit: String, meaning: String| {
             let (frame, filter) = (channel.axes.name(), "none".to_owned());

@@ -6,7 +6,7 @@ use occupant_study::sensitivity::finite::Verdict;
 
 use super::analysis::{Analysis, Asked, relative};
 use super::units::per;
-use crate::base::text_table::{Align, NONE, Table, facts};
+use crate::base::text_table::{Align, NONE, Table, facts, trimmed};
 
 /// Distance of two extrapolations of the vehicle's motion that counts as a kink.
 const KINK: f64 = 1e-2;
@@ -16,7 +16,7 @@ const LISTED: usize = 30;
 /// The whole answer.
 pub(crate) fn text(model: &Model, asked: &Asked<'_>, found: &Analysis) -> String {
     let mut text = heading(model, asked, found);
-    if !asked.wish.figures.is_empty() {
+    if !asked.request.figures.is_empty() {
         text.push('\n');
         text.push_str(&table(asked, found));
         text.push_str(
@@ -56,7 +56,7 @@ fn heading(model: &Model, asked: &Asked<'_>, found: &Analysis) -> String {
     {
         accuracy.push_str(&format!(", the vehicle's motion to {doubt:.0e} (worst at {:.1} ms)", time_s * 1e3));
     }
-    if !asked.wish.figures.is_empty() {
+    if !asked.request.figures.is_empty() {
         accuracy.push_str(&format!(", measures to {figures:.0e}"));
     }
     let [plain, dual] = found.cost_s;
@@ -81,16 +81,15 @@ fn heading(model: &Model, asked: &Asked<'_>, found: &Analysis) -> String {
 
 fn table(asked: &Asked<'_>, found: &Analysis) -> String {
     let mut table = Table::new(&[
-        ("measure", Align::Left),
-        ("value", Align::Right),
-        ("parameter", Align::Left),
-        ("value", Align::Right),
-        ("derivative", Align::Right),
-        ("unit", Align::Left),
-        ("relative", Align::Right),
-        ("holds", Align::Left),
+        (Align::Left, &["measure"]),
+        (Align::Right, &["value"]),
+        (Align::Left, &["parameter"]),
+        (Align::Right, &["value", "derivative"]),
+        (Align::Left, &["unit"]),
+        (Align::Right, &["relative"]),
+        (Align::Left, &["holds"]),
     ]);
-    for (i, measure) in asked.wish.figures.iter().enumerate() {
+    for (i, measure) in asked.request.figures.iter().enumerate() {
         let (value, unit) = (found.values.figures[i], asked.units[i]);
         for (k, parameter) in asked.parameters.iter().enumerate() {
             let slope = found.derivatives[k].figures[i];
@@ -132,11 +131,8 @@ fn number(value: f64) -> String {
 }
 
 fn words(verdict: &Verdict, of_zero: bool) -> String {
-    let part = |part: f64| match of_zero {
-        // a parameter of 0 has no parts: its size stands for it
-        true => format!("{} of its size", percent(part)),
-        false => percent(part),
-    };
+    // a parameter of 0 has no parts: its size stands for it
+    let part = |part: f64| if of_zero { format!("{} of its size", percent(part)) } else { percent(part) };
     match *verdict {
         Verdict::Holds { off, up_to } => format!("within {} up to ±{}", percent(off), part(up_to)),
         Verdict::NoInfluence => "no influence".to_owned(),
@@ -152,7 +148,7 @@ fn percent(part: f64) -> String {
         x if x >= 1000.0 => "> 1000 %".to_owned(),
         x if x >= 10.0 => format!("{x:.0} %"),
         x if x >= 0.995 => format!("{x:.1} %").replace(".0 %", " %"),
-        x if x >= 0.0095 => format!("{} %", format!("{x:.2}").trim_end_matches('0').trim_end_matches('.')),
+        x if x >= 0.0095 => format!("{} %", trimmed(x, 2)),
         _ => format!("{value:.0e} %"),
     }
 }

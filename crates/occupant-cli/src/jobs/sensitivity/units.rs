@@ -3,10 +3,8 @@
 /// The unit of a derivative: that of what changes, per that of the parameter.
 pub(crate) fn per(measure: &str, parameter: &str) -> String {
     let bare = |unit: &str| unit == "1" || unit.is_empty();
-    let parameter_in_brackets = match parameter.contains(['*', '·', '/', '^', ' ']) {
-        true => format!("({parameter})"),
-        false => parameter.to_owned(),
-    };
+    let parameter_in_brackets =
+        if parameter.contains(['*', '·', '/', '^', ' ']) { format!("({parameter})") } else { parameter.to_owned() };
     match (bare(measure), bare(parameter)) {
         (true, true) => "1".to_owned(),
         (false, true) => measure.to_owned(),

@@ -92,8 +92,8 @@ impl Analysis {
     /// Analyses response number `response` of a table of samples of a study.
     pub fn of(samples: &Samples, response: usize, study: &Study) -> Analysis {
         let values = &samples.responses[response].values;
-        let seed = study.seed();
-        let by_design = match study.design() {
+        let seed = study.seed;
+        let by_design = match &study.design {
             Design::Saltelli { .. } => ByDesign::Sobol(sobol(samples, values, seed)),
             Design::Morris { .. } => ByDesign::Morris(morris(samples, values, seed)),
             Design::OneAtATime { .. } => ByDesign::OneAtATime(reaches(samples, values)),
@@ -136,11 +136,11 @@ fn order(parameters: usize, by_design: &ByDesign, linear: &Linear) -> Vec<usize>
 
 impl Linear {
     fn of(samples: &Samples, values: &[f64], study: &Study) -> Linear {
-        let rows: Vec<usize> = match study.design() {
+        let rows: Vec<usize> = match &study.design {
             Design::Saltelli { .. } => independent(samples),
             Design::Morris { .. } => {
                 return Linear::without(
-                    "the runs of Morris’s trajectories hang on one another: rank correlation and regression would claim too much",
+                    "the runs of Morris’s trajectories depend on one another: rank correlation and regression would claim too much",
                 );
             }
             Design::OneAtATime { .. } => {
@@ -152,14 +152,17 @@ impl Linear {
         };
         let taken = |column: &[f64]| -> Vec<f64> { rows.iter().map(|r| column[*r]).collect() };
         let y = taken(values);
-        let rank = |input: &Input| match input.is_number() {
-            true => rank_correlation(&taken(&input.values), &y).map_err(|e| said(&e)),
-            false => Err("words have no order".to_owned()),
+        let rank = |input: &Input| {
+            if input.is_number() {
+                rank_correlation(&taken(&input.values), &y).map_err(|e| said(&e))
+            } else {
+                Err("words have no order".to_owned())
+            }
         };
         Linear {
             without: None,
             ranks: samples.inputs.iter().map(rank).collect(),
-            regression: fit(&samples.inputs, &rows, values, study.seed()),
+            regression: fit(&samples.inputs, &rows, values, study.seed),
         }
     }
 
@@ -268,9 +271,10 @@ fn reaches(samples: &Samples, values: &[f64]) -> Result<Vec<Reach>, String> {
             continue;
         };
         let reach = &mut reaches[*parameter];
-        match values[row].is_finite() {
-            true => reach.levels.push((samples.inputs[*parameter].values[row], values[row])),
-            false => reach.missing += 1,
+        if values[row].is_finite() {
+            reach.levels.push((samples.inputs[*parameter].values[row], values[row]))
+        } else {
+            reach.missing += 1
         }
     }
     Ok(reaches)

@@ -53,14 +53,14 @@ impl StudyBands<'_> {
     /// # Errors
     /// Files of something else that may not be replaced; interrupted; the operating system refuses.
     pub(crate) fn write_all(&self, existing: Existing, quiet: bool) -> Result<(), Failure> {
-        let samples = self.plan.study().samples();
+        let samples = self.plan.study.samples();
         let mut all = 0..samples;
         if existing == Existing::Keep
             && let Some(sample) = all.find(|s| self.there(*s) == There::Other)
         {
             return Err(Failure::with_help(
                 format!("{} holds other bands", self.file(sample).display()),
-                "--force replaces them; the same --channels go on",
+                "--force replaces them; the same --channels resume",
             ));
         }
         fs::create_dir_all(&self.folder)
@@ -103,13 +103,13 @@ impl StudyBands<'_> {
     /// # Errors
     /// A channel that is none; interrupted; the file cannot be written.
     fn write(&self, sample: u64) -> Result<(), Failure> {
-        let study = self.plan.study();
+        let study = &self.plan.study;
         let runs = sample * study.members()..(sample + 1) * study.members();
         let channels = self.channels_of(runs.start)?;
         let members = Members {
             study,
             runs,
-            resolver: &|name: &str| self.plan.table(name),
+            resolver: &|name: &str| self.plan.tables.get(name),
             channels: &channels,
             interrupt: self.interrupt,
             bar: &ProgressBar::hidden(),
@@ -124,7 +124,7 @@ impl StudyBands<'_> {
             return Ok(Vec::new());
         };
         let channels = choose(&opened.model, self.channels)?;
-        let members = self.plan.study().members();
+        let members = self.plan.study.members();
         refuse_too_much(members, channels.len(), opened.model.output_count())?;
         Ok(channels)
     }

@@ -113,11 +113,11 @@ pub(crate) fn of_the_study(opened: &Stored, gathered: &Gathered) -> Vec<String> 
             ends.finished()
         ));
     }
-    let study = opened.plan.study();
-    if !matches!(study.design(), Design::Saltelli { .. } | Design::Morris { .. } | Design::OneAtATime { .. }) {
+    let study = &opened.plan.study;
+    if !matches!(study.design, Design::Saltelli { .. } | Design::Morris { .. } | Design::OneAtATime { .. }) {
         notes.extend(together(&gathered.samples));
     }
-    if study.parameters().is_empty() && *study.design() == Design::Single {
+    if study.parameters.is_empty() && study.design == Design::Single {
         notes.push(
             "The study varies nothing but the small changes of its ensemble: there is no parameter to analyse."
                 .to_owned(),
@@ -126,7 +126,7 @@ pub(crate) fn of_the_study(opened: &Stored, gathered: &Gathered) -> Vec<String> 
     notes
 }
 
-/// Parameters that go together, the strongest first: what one does cannot be told from what the other does.
+/// Parameters that go together, the strongest first: what one does cannot be separated from what the other does.
 fn together(samples: &Samples) -> Vec<String> {
     let numbers: Vec<_> = samples.inputs.iter().filter(|i| i.is_number()).collect();
     let mut pairs = Vec::new();

@@ -28,7 +28,7 @@ pub(crate) fn command(plan: &Plan, manifest: &Manifest, run: u64) -> Option<Stri
 
 /// The file that the sample's scenario names, by the name of its copy, which stands beside that of the scenario.
 fn table(plan: &Plan, manifest: &Manifest, run: u64) -> Option<String> {
-    let mut draft = plan.study().draft(run).ok()?;
+    let mut draft = plan.study.draft(run).ok()?;
     let found = draft.get(FILE).ok()?;
     let Some((_, Node::String(name))) = found.first() else {
         return None;

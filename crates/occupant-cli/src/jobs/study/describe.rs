@@ -9,7 +9,7 @@ const NAMED: usize = 6;
 
 /// A design in words.
 pub(crate) fn design(study: &Study) -> String {
-    match study.design() {
+    match &study.design {
         Design::Single => "the scenario itself".to_owned(),
         Design::FullFactorial => "full factorial: every value with every other".to_owned(),
         Design::LatinHypercube { samples } => format!("Latin hypercube of {samples} samples"),

@@ -32,7 +32,7 @@ pub(crate) struct Gathered {
 /// # Errors
 /// A journal that cannot be read.
 pub(crate) fn gather(opened: &Stored, figures: &[usize]) -> Result<Gathered, Failure> {
-    let study = opened.plan.study();
+    let study = &opened.plan.study;
     let columns = &opened.manifest.columns;
     let named: Vec<(String, String)> =
         figures.iter().map(|i| (columns[*i].name.clone(), columns[*i].unit.clone())).collect();
@@ -67,7 +67,7 @@ struct Gathering<'a> {
 impl Gathering<'_> {
     /// Words in the order of the study's lists.
     fn name_words(&mut self, is_words: impl Fn(usize) -> bool) {
-        for (at, parameter) in self.study.parameters().iter().enumerate() {
+        for (at, parameter) in self.study.parameters.iter().enumerate() {
             if !is_words(at) {
                 continue;
             }

@@ -62,7 +62,7 @@ impl Report {
             responses::keep_telling(&mut gathered);
         }
         let analyse = |i: usize| {
-            let analysis = Analysis::of(&gathered.samples, i, opened.plan.study());
+            let analysis = Analysis::of(&gathered.samples, i, &opened.plan.study);
             let numbers = numbers(&opened, &gathered, &analysis);
             (analysis, numbers)
         };

@@ -54,7 +54,7 @@ impl Samples {
             ..Response::default()
         };
         Samples {
-            inputs: study.parameters().iter().map(input).collect(),
+            inputs: study.parameters.iter().map(input).collect(),
             responses: responses.iter().map(response).collect(),
             ..Samples::default()
         }

@@ -6,15 +6,15 @@ use crate::pictures::html::{Cell, Html};
 
 pub(crate) fn study(html: &mut Html, report: &Report) {
     let opened = &report.opened;
-    let (study, manifest) = (opened.plan.study(), &opened.manifest);
+    let (study, manifest) = (&opened.plan.study, &opened.manifest);
     let ends = &report.gathered.ends;
     let mut facts = vec![
-        ("base scenario", study.base_name().to_owned()),
+        ("base scenario", study.base_name.to_owned()),
         ("design", describe::design(study)),
-        ("seed", study.seed().to_string()),
+        ("seed", study.seed.to_string()),
         ("runs", format!("{} of {} finished", ends.finished(), ends.planned)),
     ];
-    if let Some(ensemble) = study.ensemble() {
+    if let Some(ensemble) = &study.ensemble {
         let each = format!(
             "{} members for each sample, {} small changes; the response of a sample is the median of its members",
             ensemble.members,
@@ -30,12 +30,12 @@ pub(crate) fn study(html: &mut Html, report: &Report) {
 }
 
 pub(crate) fn varied(html: &mut Html, report: &Report) {
-    let study = report.opened.plan.study();
-    if study.parameters().is_empty() {
+    let study = &report.opened.plan.study;
+    if study.parameters.is_empty() {
         return;
     }
     html.text("h2", "What is varied");
-    let rows = study.parameters().iter().map(|p| {
+    let rows = study.parameters.iter().map(|p| {
         vec![
             Cell::Words(p.name.clone()),
             Cell::Words(describe::law(p)),

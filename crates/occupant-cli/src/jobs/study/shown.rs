@@ -1,5 +1,6 @@
 //! Numbers as people read them.
 
+use crate::base::text_table::without_zeros;
 use crate::jobs::ensemble::text::shown_unit as shown_figure_unit;
 
 /// SI units in one unit that is shown, and its symbol; empty for a plain number.
@@ -52,18 +53,12 @@ pub(crate) fn significant(value: f64) -> String {
 /// The same without zeros at the end: of numbers that somebody gave.
 pub(crate) fn given(value: f64, unit: &str) -> String {
     let text = shown(value, unit);
-    match text.contains('.') && !text.contains('e') {
-        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
-        false => text,
-    }
+    if text.contains('.') && !text.contains('e') { without_zeros(&text).to_owned() } else { text }
 }
 
 /// Three decimals: parts and correlations.
 pub(crate) fn part(value: f64) -> String {
-    match value.is_finite() {
-        true => format!("{:.3}", value + 0.0).replace('-', "−"),
-        false => "–".to_owned(),
-    }
+    if value.is_finite() { format!("{:.3}", value + 0.0).replace('-', "−") } else { "–".to_owned() }
 }
 
 #[cfg(test)]

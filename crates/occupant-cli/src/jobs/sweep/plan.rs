@@ -13,7 +13,7 @@ use placed_text::Value as Written;
 
 use crate::base::failure::Failure;
 use crate::base::names::file_name;
-use crate::files::scenario::{Opened, ScenarioArgs, format_of, refused};
+use crate::files::scenario::{Opened, ScenarioArgs, Tables, format_of, refused};
 use crate::files::study_folder::manifest::{Column, Manifest, Role};
 use crate::files::study_folder::texts::{NamedBy, Texts};
 use crate::files::table::Cell;
@@ -26,14 +26,14 @@ pub(crate) const FILE: &str = "path.file";
 
 /// A study and everything it needs. Shared by all threads.
 pub(crate) struct Plan {
-    study: Study,
+    pub(crate) study: Study,
     /// Path of the scenario that is varied, for messages and results.
     scenario: PathBuf,
     bytes: Vec<u8>,
     /// Changes of the study and of the command line that are the same in all samples.
     changes: Vec<String>,
     /// What the scenarios of the samples name.
-    tables: Vec<(String, Vec<u8>)>,
+    pub(crate) tables: Tables,
     /// What the folder of the sweep will hold.
     pub(crate) manifest: Manifest,
     /// Bytes of the manifest's texts.
@@ -68,12 +68,12 @@ impl Plan {
         let title = text.section.title.clone().unwrap_or_default();
         let manifest = Manifest::new(program, title, study.len(), overrides.to_vec());
         let mut plan = Plan {
-            warnings: study.warnings().clone(),
+            warnings: study.warnings.clone(),
             study,
             scenario,
             bytes,
             changes,
-            tables: Vec::new(),
+            tables: Tables::default(),
             manifest,
             texts: Vec::new(),
         };
@@ -81,10 +81,6 @@ impl Plan {
         plan.manifest.columns = plan.columns()?;
         (plan.manifest.texts, plan.texts) = texts.all();
         Ok(plan)
-    }
-
-    pub(crate) fn study(&self) -> &Study {
-        &self.study
     }
 
     /// The values of a sample, by the columns that are inputs.
@@ -124,12 +120,6 @@ impl Plan {
         })
     }
 
-    /// The bytes of a table that a scenario of the study names.
-    pub(crate) fn table(&self, name: &str) -> Result<Vec<u8>, String> {
-        let found = self.tables.iter().find(|(table, _)| table == name);
-        found.map(|(_, bytes)| bytes.clone()).ok_or_else(|| "it was not there when the sweep began".to_owned())
-    }
-
     /// The words with which `occupant run` runs a sample, and the scenario's bytes.
     pub(crate) fn command(&self, index: u64) -> (ScenarioArgs, Vec<u8>) {
         let mut overrides = self.changes.clone();
@@ -142,19 +132,17 @@ impl Plan {
 
     /// The model of a sample, or of the base scenario.
     fn model(&self, index: Option<u64>) -> Result<(Loaded, Model, Diagnostics), Diagnostics> {
-        let mut draft = self.study.base().clone();
+        let mut draft = self.study.base.clone();
         if let Some(index) = index {
             self.study.apply(index, &mut draft)?;
         }
-        let loaded = draft.load(&|name| self.table(name))?;
-        let (model, warnings) = loaded.model()?;
-        Ok((loaded, model, warnings))
+        self.tables.open(draft)
     }
 
     /// Reads what the scenario names, and what those of the samples name where a study varies the name of a file.
     fn take_tables(&mut self, texts: &Texts) {
         let mut names: Vec<String> = named_file(&self.study).into_iter().collect();
-        let varied = self.study.parameters().iter().any(|p| p.targets.iter().any(|t| t.path == FILE));
+        let varied = self.study.parameters.iter().any(|p| p.targets.iter().any(|t| t.path == FILE));
         for index in (0..self.study.len()).filter(|_| varied) {
             for assignment in &self.study.assignments(index) {
                 if let (FILE, Value::Text(name)) = (assignment.path.as_str(), &assignment.value)
@@ -167,7 +155,7 @@ impl Plan {
         for name in names {
             // one that cannot be read is a refusal of the samples that name it
             if let Ok(bytes) = texts.get(NamedBy::Scenario, &name) {
-                self.tables.push((name, bytes));
+                self.tables.0.push((name, bytes));
             }
         }
     }
@@ -189,7 +177,7 @@ impl Plan {
                 number(&parameter.name, parameter.unit)
             }
         };
-        let parameters = self.study.parameters().iter().enumerate();
+        let parameters = self.study.parameters.iter().enumerate();
         let mut columns: Vec<Column> = parameters.map(input).collect();
         if self.study.members() > 1 {
             columns.push(number("ensemble.sample", ""));
@@ -243,7 +231,7 @@ fn changes_of(text: &StudyText) -> Vec<String> {
 
 /// The file that the base scenario of a study names.
 pub(crate) fn named_file(study: &Study) -> Option<String> {
-    match study.base().clone().get(FILE).ok()?.into_iter().next()? {
+    match study.base.clone().get(FILE).ok()?.into_iter().next()? {
         (_, Written::String(name)) => Some(name),
         _ => None,
     }
@@ -252,7 +240,7 @@ pub(crate) fn named_file(study: &Study) -> Option<String> {
 /// Whether a parameter has values that are no numbers.
 fn has_texts(study: &Study, at: usize) -> bool {
     let text = |value: &Value| matches!(value, Value::Text(_) | Value::Truth(_));
-    match (study.parameters().get(at).map(|p| &p.law), study.design()) {
+    match (study.parameters.get(at).map(|p| &p.law), &study.design) {
         (Some(Law::List(values)), _) => values.iter().any(text),
         (Some(Law::Table), Design::Table { rows, .. }) => rows.iter().any(|row| row.get(at).is_some_and(text)),
         _ => false,

@@ -63,7 +63,7 @@ fn stable(found: &Ensembles) -> String {
 
 fn all_samples(found: &Ensembles) -> String {
     let mut table =
-        Table::of(&[(Left, &["figure"]), (Right, &["stable in", "NOT STABLE in", "too few members in", "absent in"])]);
+        Table::new(&[(Left, &["figure"]), (Right, &["stable in", "NOT STABLE in", "too few members in", "absent in"])]);
     for figure in found.figures.iter().filter(|f| is_shown(&f.name)) {
         let counts = [figure.stable, figure.unstable, figure.too_few, figure.absent];
         table.row(std::iter::once(figure.name.clone()).chain(counts.map(|n| n.to_string())));

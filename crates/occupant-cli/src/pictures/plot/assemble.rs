@@ -6,7 +6,7 @@ use crash_measures::unit::{Shown, Unit};
 use occupant_core::results::channel::Channel;
 
 use super::figure::{Axis, Curve, Figure, Limit, Style};
-use super::standard::{Entry, Wish};
+use super::standard::{Entry, Plot};
 use crate::files::history::{Column, Histories, UnitChoice, plotted};
 use crate::files::measured::Pair;
 use crate::files::signals::scale_of;
@@ -97,52 +97,52 @@ pub(crate) struct Material<'a> {
     pub(crate) window_s: [f64; 2],
 }
 
-/// The figure of a wish.
+/// The figure of a plot.
 ///
 /// # Errors
 /// Channels of different units, a limit in another unit, more curves than can be distinguished.
-pub(crate) fn figure(wish: &Wish, material: &Material<'_>) -> Result<Figure, String> {
-    let unit = common_unit(wish, material.runs)?;
+pub(crate) fn figure(plot: &Plot, material: &Material<'_>) -> Result<Figure, String> {
+    let unit = common_unit(plot, material.runs)?;
     let shown = plotted(unit, material.units);
     let mut curves = Vec::new();
     for (r, run) in material.runs.iter().enumerate() {
-        for (e, entry) in wish.entries.iter().enumerate() {
+        for (e, entry) in plot.entries.iter().enumerate() {
             let Some(column) = column(&run.histories, &entry.channel) else {
                 continue;
             };
             // a colour for each run and a dash for each channel, as long as there are enough
-            let style = match (material.runs.len(), wish.entries.len()) {
+            let style = match (material.runs.len(), plot.entries.len()) {
                 (1, _) => Style::of(e, 0),
                 (runs, channels) if runs <= Style::COLOURS && channels <= Style::DASHES => Style::of(r, e),
                 _ => Style::of(curves.len(), 0),
             };
             let points = points(run, column, shown, material);
-            curves.push(Curve::new(label(entry, run, wish, material), style, points));
+            curves.push(Curve::new(label(entry, run, plot, material), style, points));
         }
     }
     if curves.len() > Style::DISTINCT {
         return Err(format!(
             "{} curves in the plot {}: at most {} can be distinguished",
             curves.len(),
-            wish.title,
+            plot.title,
             Style::DISTINCT
         ));
     }
-    for (e, entry) in wish.entries.iter().enumerate() {
+    for (e, entry) in plot.entries.iter().enumerate() {
         let measured = material.overlays.iter().filter(|o| o.channel == entry.channel);
-        curves.extend(measured.map(|o| overlay(o, entry, e, wish, shown, material)));
+        curves.extend(measured.map(|o| overlay(o, entry, e, plot, shown, material)));
     }
-    let limits = material.limits.iter().filter(|limit| wish.entries.iter().any(|e| e.channel == limit.channel));
+    let limits = material.limits.iter().filter(|limit| plot.entries.iter().any(|e| e.channel == limit.channel));
     let limits = limits.map(|limit| {
-        let label = match wish.entries.len() {
+        let label = match plot.entries.len() {
             1 => format!("limit {}", limit.text),
             _ => format!("limit of {}: {}", limit.channel, limit.text),
         };
         Ok(Limit { label, level: limit.level(unit, shown)? })
     });
-    let axes = [x_axis(material), Axis::of(&wish.axis, shown.symbol())];
+    let axes = [x_axis(material), Axis::of(&plot.axis, shown.symbol())];
     let limits = limits.collect::<Result<_, String>>()?;
-    Ok(Figure { limits, empty: wish.empty.clone(), ..Figure::new(&wish.title, axes, curves) })
+    Ok(Figure { limits, empty: plot.empty.clone(), ..Figure::new(&plot.title, axes, curves) })
 }
 
 fn column<'a>(histories: &'a Histories, channel: &str) -> Option<&'a Column> {
@@ -153,8 +153,8 @@ fn channel_of<'a>(runs: &'a [RunCurves], name: &str) -> Option<&'a Channel> {
     runs.iter().find_map(|r| column(&r.histories, name)).map(|c| &c.channel)
 }
 
-fn common_unit(wish: &Wish, runs: &[RunCurves]) -> Result<Unit, String> {
-    let mut channels = wish.entries.iter().filter_map(|entry| channel_of(runs, &entry.channel));
+fn common_unit(plot: &Plot, runs: &[RunCurves]) -> Result<Unit, String> {
+    let mut channels = plot.entries.iter().filter_map(|entry| channel_of(runs, &entry.channel));
     let Some(first) = channels.next() else {
         return Ok(Unit::One);
     };
@@ -171,9 +171,9 @@ fn common_unit(wish: &Wish, runs: &[RunCurves]) -> Result<Unit, String> {
 }
 
 /// What distinguishes this curve from the others of its figure.
-fn label(entry: &Entry, run: &RunCurves, wish: &Wish, material: &Material<'_>) -> String {
-    let measured = material.overlays.iter().any(|o| wish.entries.iter().any(|e| e.channel == o.channel));
-    match (run.label.as_str(), wish.entries.len()) {
+fn label(entry: &Entry, run: &RunCurves, plot: &Plot, material: &Material<'_>) -> String {
+    let measured = material.overlays.iter().any(|o| plot.entries.iter().any(|e| e.channel == o.channel));
+    match (run.label.as_str(), plot.entries.len()) {
         ("", 1) if measured => "run".to_owned(),
         ("", 1) => String::new(),
         ("", _) => entry.label.clone(),
@@ -201,9 +201,9 @@ fn points(run: &RunCurves, column: &Column, shown: Shown, material: &Material<'_
     both.filter(|(_, t)| inside(t)).map(|((x, y), _)| [*x, y / shown.si]).collect()
 }
 
-fn overlay(overlay: &Overlay, entry: &Entry, dash: usize, wish: &Wish, shown: Shown, material: &Material<'_>) -> Curve {
+fn overlay(overlay: &Overlay, entry: &Entry, dash: usize, plot: &Plot, shown: Shown, material: &Material<'_>) -> Curve {
     let pair = &overlay.pair;
-    let label = match wish.entries.len() {
+    let label = match plot.entries.len() {
         1 => format!("test: {} ({})", pair.signal, overlay.file),
         _ => format!("test: {}, {} ({})", entry.label, pair.signal, overlay.file),
     };

@@ -15,4 +15,4 @@ mod standard;
 pub(crate) use assemble::{LimitArgument, Material, Overlay, RunCurves, figure};
 pub(crate) use figure::{Axis, Curve, Figure, Style};
 pub(crate) use sheet::{Sheet, inline, sheet};
-pub(crate) use standard::{Entry, Wish, standard};
+pub(crate) use standard::{Entry, Plot, standard};

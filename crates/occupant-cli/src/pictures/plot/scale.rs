@@ -78,11 +78,9 @@ impl Scale {
         let half = self.exponent / 2;
         let value = tick * 10_f64.powi(-half) * 10_f64.powi(half - self.exponent);
         let text = format!("{value:.*}", self.decimals);
-        match text.trim_start_matches('-').bytes().all(|b| matches!(b, b'0' | b'.')) {
-            true => text.trim_start_matches('-').to_owned(),
-            // a true minus sign is as wide as a plus
-            false => text.replace('-', "−"),
-        }
+        let is_zero = text.bytes().all(|b| matches!(b, b'-' | b'0' | b'.'));
+        // a true minus sign is as wide as a plus
+        text.replace('-', if is_zero { "" } else { "−" })
     }
 
     /// Where a value stands, 0 at the range's begin and 1 at its end.

@@ -11,7 +11,7 @@ use occupant_core::results::channel::{find, matching, star};
 
 /// A plot that is wished for.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Wish {
+pub(crate) struct Plot {
     /// Heading.
     pub(crate) title: String,
     /// What Y measures.
@@ -33,29 +33,29 @@ pub(crate) struct Entry {
 const FEW_ENERGIES: usize = 4;
 
 /// The plots, for the spheres and belts of a model; of several runs over each other, the energies that matter most.
-pub(crate) fn standard(model: &Model, several: bool) -> Vec<Wish> {
-    let mut wishes = Vec::with_capacity(14);
+pub(crate) fn standard(model: &Model, several: bool) -> Vec<Plot> {
+    let mut plots = Vec::with_capacity(14);
     for (resultant, name) in ACCELERATIONS {
         let (vector, name) = (resultant.trim_end_matches("resultant"), capitalized(name));
         for (component, words) in [("x", "X, ahead"), ("z", "Z, up"), ("resultant", "resultant")] {
             let channel = (format!("{vector}{component}"), words);
-            wishes.push(wish(&format!("{name} acceleration {words}"), "acceleration", [channel]));
+            plots.push(plot(&format!("{name} acceleration {words}"), "acceleration", [channel]));
         }
     }
     let touched = FRONTAL_CONTACTS.iter().filter(|(channel, _)| find(model, channel).is_ok());
-    wishes.push(wish("Contact force on head, chest and knees", "force", touched.map(owned)));
+    plots.push(plot("Contact force on head, chest and knees", "force", touched.map(owned)));
     let belts = WEBBING.iter().flat_map(|(pattern, _)| {
         let channels = matching(model, pattern).into_iter();
         channels.filter_map(|c| Some((c.name.clone(), star(pattern, &c.name)?.to_owned())))
     });
-    wishes.push(wish("Belt loads", "loop force", belts));
-    wishes.push(wish("Spine angles", "angle between the segments", SPINE.iter().map(owned)));
+    plots.push(plot("Belt loads", "loop force", belts));
+    plots.push(plot("Spine angles", "angle between the segments", SPINE.iter().map(owned)));
     let energies = ENERGIES.iter().take(if several { FEW_ENERGIES } else { ENERGIES.len() });
     let label = |label: &'static str| label.trim_start_matches("stored in ");
-    wishes.push(wish("Energy", "energy", energies.map(|(channel, name)| ((*channel).to_owned(), label(name)))));
+    plots.push(plot("Energy", "energy", energies.map(|(channel, name)| ((*channel).to_owned(), label(name)))));
     let axes = VEHICLE.iter().map(|(channel, axis)| ((*channel).to_owned(), axis.to_uppercase()));
-    wishes.push(wish("Vehicle acceleration", "acceleration", axes));
-    wishes
+    plots.push(plot("Vehicle acceleration", "acceleration", axes));
+    plots
 }
 
 fn owned((channel, label): &(&str, &'static str)) -> (String, &'static str) {
@@ -67,9 +67,9 @@ fn capitalized(word: &str) -> String {
     first.to_uppercase() + rest
 }
 
-fn wish<L: Into<String>>(title: &str, axis: &str, entries: impl IntoIterator<Item = (String, L)>) -> Wish {
+fn plot<L: Into<String>>(title: &str, axis: &str, entries: impl IntoIterator<Item = (String, L)>) -> Plot {
     let entry = |(channel, label): (String, L)| Entry { channel, label: label.into().replace('_', " ") };
-    Wish {
+    Plot {
         title: title.to_owned(),
         axis: axis.to_owned(),
         entries: entries.into_iter().map(entry).collect(),

@@ -97,11 +97,10 @@ fn draw_surface(svg: &mut Svg, place: &Place, moment: &Snapshot, face: &FlatFace
         let line = format!("stroke=\"{SURFACE}\" stroke-width=\"1.6\" stroke-linecap=\"round\"");
         return svg.segment(from, to, &line);
     }
-    let look = match before {
-        true => {
-            format!("fill=\"none\" stroke=\"{SURFACE}\" stroke-width=\"0.6\" stroke-dasharray=\"3 2\"")
-        }
-        false => format!("fill=\"{SURFACE}\" fill-opacity=\"0.08\" stroke=\"{SURFACE}\" stroke-width=\"0.7\""),
+    let look = if before {
+        format!("fill=\"none\" stroke=\"{SURFACE}\" stroke-width=\"0.6\" stroke-dasharray=\"3 2\"")
+    } else {
+        format!("fill=\"{SURFACE}\" fill-opacity=\"0.08\" stroke=\"{SURFACE}\" stroke-width=\"0.7\"")
     };
     svg.polygon(&points, &look);
 }

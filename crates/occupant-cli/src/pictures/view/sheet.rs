@@ -3,6 +3,7 @@
 use super::layout::Layout;
 use super::panel::Pen;
 use super::{Strip, legend, panel};
+use crate::base::text_table::trimmed;
 use crate::pictures::body::parts;
 use crate::pictures::font::Weight;
 use crate::pictures::svg::{Anchor, Svg, Text};
@@ -61,9 +62,8 @@ fn draw_moment(svg: &mut Svg, layout: &Layout, pen: &Pen<'_>, moment: usize) {
 
 /// `40 ms`, with as many decimals (up to three) as the time has.
 fn time_label(time_s: f64) -> String {
-    let text = format!("{:.3}", time_s * 1e3);
-    let text = text.trim_end_matches('0').trim_end_matches('.');
-    let text = if text == "-0" { "0" } else { text };
+    let text = trimmed(time_s * 1e3, 3);
+    let text = if text == "-0" { "0" } else { &text };
     format!("{text} ms")
 }
 

@@ -1,6 +1,6 @@
 //! Belts: one loop round one sphere, in the plane of its centre and the two anchors.
 //!
-//! Report: Eqs 95–108, Figs 17, 18. With l₁, l₂ the distances from the centre c to the anchors, θ_i = acos(r/l_i) and θ₃
+//! Report: Figs 17 and 18. With l₁, l₂ the distances from the centre c to the anchors, θ_i = acos(r/l_i) and θ₃
 //! the angle between the anchors seen from c: wrap W = 2π − θ₁ − θ₂ − θ₃, length = l₁ sin θ₁ + l₂ sin θ₂ + rW. The force
 //! on the sphere is −F_L times the gradient of the length: F_L times the sum of the unit vectors along the two free
 //! lengths, which lies along their bisector with magnitude 2F_L cos α (Eq. 103). It acts at the centre (our decision).

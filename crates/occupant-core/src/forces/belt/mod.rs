@@ -1,6 +1,6 @@
 //! Belts: one loop round one sphere, two anchors in the vehicle.
 //!
-//! Report: "Lap and Torso Restraint Belts", Eqs 95–108, Figs 17 and 18.
+//! Report: "Lap and Torso Restraint Belts", Figs 17 and 18.
 
 mod check;
 mod course;

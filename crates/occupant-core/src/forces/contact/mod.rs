@@ -46,7 +46,7 @@ pub struct ContactData<'a> {
     pub longest_step_s: f64,
 }
 
-/// The kind of force element: spheres that press and rub on faces (Eqs 84–94).
+/// The kind of force element: spheres that press and rub on faces.
 #[derive(Clone, Copy, Debug)]
 pub struct Contacts;
 

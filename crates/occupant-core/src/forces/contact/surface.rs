@@ -1,6 +1,6 @@
 //! Bounded plane surfaces of the compartment and of the surroundings, as data.
 //!
-//! Report: "The Idealized Passenger Compartment", Eqs 84–92. The report's planes have no edges in print; bounded faces
+//! Report: "The Idealized Passenger Compartment". The report's planes have no edges in print; bounded faces
 //! are our decision (see the theory manual).
 
 use crash_measures::trig;

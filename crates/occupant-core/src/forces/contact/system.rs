@@ -1,6 +1,6 @@
 //! Contact of spheres with bounded plane surfaces: pair states, normal force, edge band, friction.
 //!
-//! Report: Eqs 84–94, Fig. 15, Fig. 16. L = G − N̂·x_c, Δ = r + L; Δ > 0 is contact and Δ the deformation. Our decisions:
+//! Report: Figs 15 and 16. L = G − N̂·x_c, Δ = r + L; Δ > 0 is contact and Δ the deformation. Our decisions:
 //! bounded faces with weight w = clamp01(1 − d/r); the states open, touching and passed; coplanar faces that share an
 //! edge act as one; regularised friction. With (F, U) of the spring at Δ, the sphere gets the normal force wF N̂, the edge
 //! force (U/r) ê, and at A = centre − r N̂ the friction −f·wF·v_t/√(v_t² + v_s²).

@@ -1,7 +1,6 @@
 //! Joints as data: viscous dampers, stops and elastic springs.
 //!
-//! Report: "The Viscous Damper" (Eqs 69–77), "Joint Stops" (Figs 9–11), "Potential Energy due to Spinal Elasticity"
-//! (Eqs 57–62).
+//! Report: "The Viscous Damper", "Joint Stops" (Figs 9–11), "Potential Energy due to Spinal Elasticity".
 
 use std::ops::Index;
 
@@ -19,7 +18,7 @@ pub struct Stop {
     pub damping_n_m_s: f64,
 }
 
-/// Rotational spring in β (Eqs 57–62): V = ½ K (β − β₀)².
+/// Rotational spring in β: V = ½ K (β − β₀)².
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AngularSpring {
     /// K, N·m/rad.

@@ -1,6 +1,6 @@
 //! Moments in the joints: viscous dampers, stops, springs in β, resistance to twist.
 //!
-//! Report: Eqs 57–62 and 69–77, Figs 9–11. For a ball joint between segments k and l: n = Z_k × Z_l, s = |n|,
+//! Report: "The Viscous Damper", "Joint Stops", Figs 9–11. For a ball joint between segments k and l: n = Z_k × Z_l, s = |n|,
 //! ω = ω_l − ω_k. Our decision: β = atan2(√(s² + ε²), Z_k·Z_l), which has no singular posture; then
 //! β̇ = n·ω/√(s² + ε²), exactly.
 

@@ -1,4 +1,4 @@
-//! The classical fourth-order Runge–Kutta step (Eqs 115–127).
+//! The classical fourth-order Runge–Kutta step.
 //!
 //! Orientations are integrated as quaternions in R⁴ and brought back to unit length after the step, which keeps the order.
 

@@ -1,6 +1,6 @@
 use nalgebra::Vector3;
 
-use super::support::{Seeded, assert_below, differentiate};
+use super::support::{Seeded, acceleration_at, assert_below, differentiate};
 use super::*;
 
 #[test]
@@ -63,10 +63,7 @@ fn a_point_of_the_vehicle_moves_as_its_place_does() {
         let v = differentiate(place, t_s, 1e-4);
         let a = differentiate(|t| at(t).velocity_at(place(t)), t_s, 1e-4);
         velocity = velocity.max((v - now.velocity_at(place(t_s))).amax());
-        // a + α × r + ω × (ω × r)
-        let (r, omega) = (place(t_s) - now.origin_m, now.angular_velocity_rad_s);
-        let turning = now.angular_acceleration_rad_s2.cross(&r) + omega.cross(&omega.cross(&r));
-        acceleration = acceleration.max((a - (now.acceleration_m_s2 + turning)).amax());
+        acceleration = acceleration.max((a - acceleration_at(&now, place(t_s))).amax());
     }
     assert_below("velocity", velocity, 1e-11); // 3.3e-12
     assert_below("acceleration", acceleration, 1e-9); // 8.3e-11

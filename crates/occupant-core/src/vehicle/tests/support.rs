@@ -5,6 +5,8 @@ use std::ops::{Add, Mul, Sub};
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::vehicle::FrameMotion;
+
 /// Seeded numbers (SplitMix64), the same in every run.
 pub(super) struct Seeded(pub u64);
 
@@ -22,6 +24,12 @@ impl Seeded {
     pub fn vector(&mut self, low: f64, high: f64) -> Vector3<f64> {
         Vector3::from_fn(|_, _| self.between(low, high))
     }
+}
+
+/// Acceleration in space, m/s², of the point of a frame that is at `point_space_m` now: a + α × r + ω × (ω × r).
+pub(super) fn acceleration_at(frame: &FrameMotion, point_space_m: Vector3<f64>) -> Vector3<f64> {
+    let (arm_m, omega) = (point_space_m - frame.origin_m, frame.angular_velocity_rad_s);
+    frame.acceleration_m_s2 + frame.angular_acceleration_rad_s2.cross(&arm_m) + omega.cross(&omega.cross(&arm_m))
 }
 
 /// Derivative of `f` at `at` by the four-point central difference, of fourth order in `step`.
