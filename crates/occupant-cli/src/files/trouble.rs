@@ -1,12 +1,12 @@
 //! What is wrong in a file of measured signals, in the words of every message.
 
-use std::fmt;
 use std::path::Path;
 
 use crate::base::failure::Failure;
 
 /// One problem.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, thiserror::Error)]
+#[error("error: {found}\n --> {place}\n = expected {expected}{}", .hint.as_ref().map_or(String::new(), |hint| format!("\n = help: {hint}")))]
 pub(crate) struct Trouble {
     place: String,
     found: String,
@@ -38,16 +38,6 @@ impl Trouble {
 impl From<Trouble> for Failure {
     fn from(trouble: Trouble) -> Self {
         failure(&[trouble])
-    }
-}
-
-impl fmt::Display for Trouble {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "error: {}\n --> {}\n = expected {}", self.found, self.place, self.expected)?;
-        match &self.hint {
-            Some(hint) => write!(f, "\n = help: {hint}"),
-            None => Ok(()),
-        }
     }
 }
 

@@ -4,7 +4,7 @@
 //! segments; all vectors are in space axes.
 
 use crate::body::SEGMENTS;
-use crate::motion::layout::{FREE, HUNG, LIMBS};
+use crate::motion::layout::{FREE, HUNG, LIMBS, ROOTS};
 use crate::motion::scalar::Scalar;
 use crate::motion::skeleton::Skeleton;
 use crate::motion::state::{Quat, State};
@@ -29,22 +29,37 @@ impl<S: Scalar> Kinematics<S> {
     /// Kinematics of `state`.
     #[inline(always)]
     pub fn new(body: &Skeleton<S>, state: &State<S>) -> Self {
-        let mut k = Kinematics {
+        let mut k = Kinematics::blank();
+        k.follow(body, state);
+        k
+    }
+
+    /// Of nothing yet.
+    #[inline(always)]
+    pub(crate) fn blank() -> Self {
+        Kinematics {
             axes: [M3::identity(); SEGMENTS],
             omega: [V3::zero(); SEGMENTS],
-            joint: [state.t1; SEGMENTS],
-            joint_velocity: [state.velocity; SEGMENTS],
+            joint: [V3::zero(); SEGMENTS],
+            joint_velocity: [V3::zero(); SEGMENTS],
             hinge_sin_cos: [(S::zero(), S::one()); LIMBS.len()],
-        };
+        }
+    }
+
+    /// Becomes the kinematics of `state`.
+    #[inline(always)]
+    pub(crate) fn follow(&mut self, body: &Skeleton<S>, state: &State<S>) {
+        for &n in ROOTS {
+            (self.joint[n], self.joint_velocity[n]) = (state.t1, state.velocity);
+        }
         for (slot, &n) in FREE.iter().enumerate() {
-            k.axes[n] = axes(&state.orientation[slot]);
-            k.omega[n] = state.omega[slot];
+            self.axes[n] = axes(&state.orientation[slot]);
+            self.omega[n] = state.omega[slot];
         }
         for (limb, &(upper, lower)) in LIMBS.iter().enumerate() {
-            k.turn_hinge(limb, upper, lower, state);
+            self.turn_hinge(limb, upper, lower, state);
         }
-        k.place_joints(body);
-        k
+        self.place_joints(body);
     }
 
     /// X_j = R_y(α) X_m (Eq. 8), ω_j = ω_m + α̇ Y_m.

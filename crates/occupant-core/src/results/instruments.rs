@@ -5,7 +5,7 @@ use nalgebra::Vector3;
 
 use crate::model::Model;
 use crate::quantity::to_j211;
-use crate::results::reaction::{femur_axial_n, reaction};
+use crate::results::reaction::Loads;
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
 
@@ -42,12 +42,13 @@ impl Recorder for Signals {
         push(&mut self.pelvis_m_s2, s.specific_force_m_s2(marks.pelvis));
         push(&mut self.head_rad_s, s.angular_velocity_rad_s(marks.head));
         push(&mut self.head_rad_s2, s.angular_acceleration_rad_s2(marks.head));
-        let neck = reaction(s, marks.neck);
+        let loads = Loads::new(s);
+        let neck = loads.reaction(marks.neck);
         push(&mut self.neck_n, neck.force_n);
         push(&mut self.neck_n_m, neck.moment_n_m);
         let thighs = [marks.legs.right.upper, marks.legs.left.upper];
         for (values, thigh) in self.femur_n.iter_mut().zip(thighs) {
-            values.push(femur_axial_n(s, thigh));
+            values.push(loads.femur_axial_n(thigh));
         }
         Ok(Flow::Continue)
     }

@@ -32,25 +32,18 @@ pub struct Reaction {
 
 /// What `joint` carries in `sample`.
 pub fn reaction(sample: &Sample<'_>, joint: Joint) -> Reaction {
-    let distal = sample.model.body().tree[joint].distal;
-    let load = Loads::new(sample).at(distal.index());
-    in_axes(sample, distal, load)
-}
-
-fn in_axes(sample: &Sample<'_>, distal: Segment, load: Wrench<f64>) -> Reaction {
-    let axes = &sample.evaluation.kinematics.axes[distal.index()];
-    Reaction { force_n: axes.into_frame(load.force).to_vector(), moment_n_m: axes.into_frame(load.moment).to_vector() }
+    Loads::new(sample).reaction(joint)
 }
 
 /// Loads of force elements, from which reactions follow.
-struct Loads<'s, 'a> {
+pub(super) struct Loads<'s, 'a> {
     sample: &'s Sample<'a>,
     /// Moments of dampers, stops and springs, which the evaluation counts among the loads.
     passive: [Wrench<f64>; SEGMENTS],
 }
 
 impl<'s, 'a> Loads<'s, 'a> {
-    fn new(sample: &'s Sample<'a>) -> Self {
+    pub(super) fn new(sample: &'s Sample<'a>) -> Self {
         let mut passive = [Wrench::zero(); SEGMENTS];
         let k = &sample.evaluation.kinematics;
         sample.model.system().forces.joints.apply(k, sample.state, &mut passive, &mut |_| {});
@@ -88,6 +81,35 @@ impl<'s, 'a> Loads<'s, 'a> {
         let omega = e.kinematics.omega[n];
         by_inertia(e.accelerations.alpha[n]) + omega.cross(by_inertia(omega))
     }
+
+    /// [`reaction`] of `joint`.
+    pub(super) fn reaction(&self, joint: Joint) -> Reaction {
+        let distal = self.sample.model.body().tree[joint].distal.index();
+        let (load, axes) = (self.at(distal), &self.sample.evaluation.kinematics.axes[distal]);
+        Reaction {
+            force_n: axes.into_frame(load.force).to_vector(),
+            moment_n_m: axes.into_frame(load.moment).to_vector(),
+        }
+    }
+
+    /// [`femur_axial_n`] of `thigh`.
+    pub(super) fn femur_axial_n(&self, thigh: Segment) -> f64 {
+        let sample = self.sample;
+        let k = &sample.evaluation.kinematics;
+        let shanks = hung_from(thigh.index()).iter().map(|&(shank, _)| self.at(shank).force);
+        let carried = shanks.reduce(|a, b| a + b).unwrap_or(V3::zero());
+        let body = sample.model.body();
+        let half_m = 0.5 * body.segment(thigh).length_m;
+        let at_knee = |s: &usize| {
+            let sphere = &body.spheres[*s];
+            sphere.segment == thigh && sphere.centre_from_lower_end_m.z < half_m
+        };
+        let of_sphere = |s| sample.sphere_force_n(s) + sample.sphere_pull_n(s, None);
+        let pushed: Vector3<f64> = (0..body.spheres.len()).filter(at_knee).map(of_sphere).sum();
+        let pushed = V3::of(&sample.vehicle.vector_to_space(pushed));
+        // Z of a thigh points from the knee to the hip: a force at the knee against it pulls
+        -(pushed - carried).dot(k.axes[thigh.index()].z)
+    }
 }
 
 /// Axial force in a thigh at its knee end, tension positive as a load cell in the femur reports it, N: what the shank, the
@@ -96,19 +118,5 @@ impl<'s, 'a> Loads<'s, 'a> {
 ///
 /// Spheres in the distal half of the thigh count as at the knee.
 pub fn femur_axial_n(sample: &Sample<'_>, thigh: Segment) -> f64 {
-    let k = &sample.evaluation.kinematics;
-    let loads = Loads::new(sample);
-    let shanks = hung_from(thigh.index()).iter().map(|&(shank, _)| loads.at(shank).force);
-    let carried = shanks.reduce(|a, b| a + b).unwrap_or(V3::zero());
-    let body = sample.model.body();
-    let half_m = 0.5 * body.segment(thigh).length_m;
-    let at_knee = |s: &usize| {
-        let sphere = &body.spheres[*s];
-        sphere.segment == thigh && sphere.centre_from_lower_end_m.z < half_m
-    };
-    let of_sphere = |s| sample.sphere_force_n(s) + sample.sphere_pull_n(s, None);
-    let pushed: Vector3<f64> = (0..body.spheres.len()).filter(at_knee).map(of_sphere).sum();
-    let pushed = V3::of(&sample.vehicle.vector_to_space(pushed));
-    // Z of a thigh points from the knee to the hip: a force at the knee against it pulls
-    -(pushed - carried).dot(k.axes[thigh.index()].z)
+    Loads::new(sample).femur_axial_n(thigh)
 }

@@ -65,11 +65,17 @@ impl Step {
         self.end_s - self.start_s
     }
 
+    /// When it starts, its middle and its end, s.
+    #[inline]
+    pub(crate) fn times_s(self) -> [f64; 3] {
+        [self.start_s, 0.5 * (self.start_s + self.end_s), self.end_s]
+    }
+
     /// Frames at its start, middle and end.
     #[inline]
     pub fn frames(self, model: &Model, cursor: &mut PathCursor) -> [Frames<f64>; 3] {
-        let middle_s = 0.5 * (self.start_s + self.end_s);
-        [self.start_s, middle_s, self.end_s].map(|t| model.frames(t, middle_s, cursor))
+        let times_s = self.times_s();
+        times_s.map(|t| model.frames(t, times_s[1], cursor))
     }
 }
 

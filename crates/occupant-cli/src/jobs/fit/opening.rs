@@ -87,20 +87,14 @@ impl<'a> Opening<'a> {
             return Vec::new();
         }
         let mut files = files.iter();
-        let mut named = Vec::new();
-        for (i, test) in fit.tests.iter().enumerate() {
-            let at = format!("fit.tests[{i}]");
-            match &test.file {
-                Some(file) => named.push(Named {
-                    file: self.folder.join(file),
-                    by: (NamedBy::Study, file.clone()),
-                    test: test.clone(),
-                    at,
-                }),
-                None => named.extend(files.next().map(|f| Named::by_command_line(f, test.clone(), at))),
-            }
-        }
-        named
+        let named = fit.tests.iter().enumerate().filter_map(|(i, test)| {
+            let (test, at) = (test.clone(), format!("fit.tests[{i}]"));
+            let Some(file) = test.file.clone() else {
+                return files.next().map(|f| Named::by_command_line(f, test, at));
+            };
+            Some(Named { file: self.folder.join(&file), by: (NamedBy::Study, file), test, at })
+        });
+        named.collect()
     }
 
     /// Reads tests and scenarios and brings them together.

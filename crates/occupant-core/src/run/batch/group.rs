@@ -11,7 +11,8 @@ use super::{Jobs, Kernel, run_alone};
 use crate::forces::History;
 use crate::model::Model;
 use crate::model::setup::Integrator;
-use crate::motion::frame::VEHICLE;
+use crate::motion::frame::{Moving, VEHICLE};
+use crate::motion::kinematics::Kinematics;
 use crate::motion::state::State;
 use crate::results::outcome::{RecordingFailed, Status};
 use crate::run::Run;
@@ -99,10 +100,11 @@ impl<L: Machine> Group<L> {
             };
             place.step = step;
             h.set_lane(i, step.length_s());
-            let frames = step.frames(&place.model, &mut place.run.cursor);
-            for (lanes, frames) in bench.frames.iter_mut().zip(&frames) {
+            let times_s = step.times_s();
+            for (lanes, t_s) in bench.frames.iter_mut().zip(times_s) {
                 // space stands still
-                lanes[VEHICLE].each(&frames[VEHICLE], &mut |lanes: &mut L, x| lanes.set_lane(i, x));
+                let vehicle = place.model.setup().path.motion(t_s, times_s[1], &mut place.run.cursor);
+                lanes[VEHICLE].each(&Moving::of(&vehicle), &mut |lanes: &mut L, x: f64| lanes.set_lane(i, x));
             }
         }
         let mut witness = Witness(&mut self.places);
@@ -200,5 +202,5 @@ fn new_bench<L: Machine>(model: &Model) -> Option<Bench<L>> {
     let start_s = model.setup().time.start_s;
     let frames = model.frames(start_s, start_s, &mut cursor);
     let frames = frames.map(|frame| frame.zip(&frame, &|x, _| L::of(x)));
-    Some(Bench { system, history, frames: [frames; 3] })
+    Some(Bench { system, history, frames: [frames; 3], kinematics: Kinematics::blank() })
 }

@@ -9,6 +9,7 @@ use crate::forces::{History, Observer};
 use crate::kernel::System;
 use crate::motion::frame::Frames;
 use crate::motion::integrate::rk4::{self, Stage};
+use crate::motion::kinematics::Kinematics;
 use crate::motion::lanes::Lanes;
 use crate::motion::state::State;
 
@@ -19,6 +20,8 @@ pub(crate) struct Bench<L: Lanes> {
     pub history: History<L>,
     /// At the step's start, middle and end.
     pub frames: [Frames<L>; 3],
+    /// Of the last evaluation.
+    pub kinematics: Kinematics<L>,
 }
 
 /// Lanes that some processors can compute with.
@@ -33,7 +36,7 @@ impl<L: Lanes> Bench<L> {
     #[inline(always)]
     fn rate<const START: bool>(&mut self, stage: Stage, state: &State<L>, observer: &mut impl Observer<L>) -> State<L> {
         let frames = &self.frames[stage as usize];
-        self.system.rate_observed::<START>(state, frames, &mut self.history, observer)
+        self.system.rate_with::<START>(&mut self.kinematics, state, frames, &mut self.history, observer)
     }
 
     /// One step, in the instructions of the caller; `rate` is [`Bench::rate`] compiled for them.
@@ -47,16 +50,6 @@ impl<L: Lanes> Bench<L> {
         let next = rk4::step(state, h, |stage, state| rate(self, stage, state));
         let finite = L::select(next.finite(), L::one(), L::zero());
         (next, finite)
-    }
-}
-
-#[cfg(test)]
-impl<const N: usize> Machine for crate::motion::lanes::Plain<N> {
-    fn step(bench: &mut Bench<Self>, state: &State<Self>, h: Self, witness: &mut Witness<'_>) -> (State<Self>, Self) {
-        bench.step(state, h, |bench, stage, state| match stage {
-            Stage::Start => bench.rate::<true>(stage, state, witness),
-            _ => bench.rate::<false>(stage, state, &mut ()),
-        })
     }
 }
 
@@ -112,3 +105,22 @@ macro_rules! machine {
 machine!(Avx2, "avx2", avx2);
 #[cfg(target_arch = "x86_64")]
 machine!(Avx512, "avx512f,avx512dq", avx512);
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    impl<const N: usize> Machine for crate::motion::lanes::Plain<N> {
+        fn step(
+            bench: &mut Bench<Self>,
+            state: &State<Self>,
+            h: Self,
+            witness: &mut Witness<'_>,
+        ) -> (State<Self>, Self) {
+            bench.step(state, h, |bench, stage, state| match stage {
+                Stage::Start => bench.rate::<true>(stage, state, witness),
+                _ => bench.rate::<false>(stage, state, &mut ()),
+            })
+        }
+    }
+}
