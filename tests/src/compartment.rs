@@ -113,7 +113,7 @@ impl Compartment {
             joints: JointSystem::new(&system.joints, &[f64::NAN; 7]),
         };
         let untouched = PairHistory { phase: OPEN, greatest: 0.0 };
-        let contacts = vec![untouched; forces.contacts.pairs().len()];
+        let contacts = vec![untouched; forces.contacts.pairs.len()];
         let history = History::new(&forces, Memory { contacts, belts: Vec::new(), joints: Vec::new() });
         let vehicle = Moving {
             origin: V3::of(&self.vehicle.origin),

@@ -216,7 +216,7 @@ fn where_cards_tell_the_pairs_these_have_passed_and_all_others_touch() {
     let overlapping = |c: &Checkpoint| c.memory.contacts.iter().filter(|p| p.phase != OPEN).count();
     let from = outputs.checkpoints.iter().max_by_key(|c| overlapping(c));
     let from = from.unwrap();
-    let groups = model.system().forces.contacts.groups();
+    let groups = &model.system().forces.contacts.groups;
     let named = groups.iter().flat_map(|group| {
         let pairs = group.pairs.clone();
         pairs.map(|i| (i, (group.sphere, surface_of(&model, i))))
@@ -243,5 +243,5 @@ fn where_cards_tell_the_pairs_these_have_passed_and_all_others_touch() {
 
 /// The first of a pair's surfaces.
 fn surface_of(model: &Model, pair: usize) -> usize {
-    model.system().forces.contacts.pairs()[pair].parts[0].surface
+    model.system().forces.contacts.pairs[pair].parts[0].surface
 }

@@ -34,7 +34,7 @@ fn main() {
             *best = best.min(median_ns(call));
         }
     }
-    report("pairs", model.system().forces.contacts.pairs().len() as f64);
+    report("pairs", model.system().forces.contacts.pairs.len() as f64);
     report("touches", Instant::full(&model, TOUCHING_S).touches() as f64);
     for ((name, _), best) in works.iter().zip(best) {
         report(name, best);

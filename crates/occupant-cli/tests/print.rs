@@ -218,10 +218,10 @@ fn last_state() -> (Vec<(String, String)>, f64) {
         passed.clear();
         q1 = sample.report_coordinates().q[0];
         let contacts = &model.system().forces.contacts;
-        for group in contacts.groups() {
+        for group in &contacts.groups {
             for at in group.pairs.clone() {
                 if sample.history.memory.contacts[at].phase == PASSED {
-                    for part in &contacts.pairs()[at].parts {
+                    for part in &contacts.pairs[at].parts {
                         passed.push((group.sphere, part.surface));
                     }
                 }

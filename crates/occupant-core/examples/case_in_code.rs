@@ -47,8 +47,8 @@ pub(crate) fn cart() -> Result<Setup, Box<dyn Error>> {
     let body = Body::male50();
     let (pelvis, chest) = (body.sphere("pelvis").ok_or("no pelvis")?, body.sphere("chest").ok_or("no chest")?);
     let mut case = SetupBuilder::new("Cart, 20 mph, lap and torso belt", body, Joints::male50());
-    case.gravity_m_s2 = 386.04 * INCH_M;
-    case.integrator = Integrator::Rk4 { step_s: 1e-4 };
+    case.setup.gravity_m_s2 = 386.04 * INCH_M;
+    case.setup.integrator = Integrator::Rk4 { step_s: 1e-4 };
 
     // Materials: lbf/in up to a deformation in inches, then lbf/in; fraction of the energy that comes back; friction.
     let mut material = |name, k1, break_in, k2, returned, friction| {

@@ -201,9 +201,9 @@ fn passed(sample: &Sample<'_>, layout: &CompartmentLayout) -> Vec<(u32, u32)> {
 /// The pairs (sphere, surface), by index, that have passed a surface's edge: those with NARRY = 0.
 pub fn passed_pairs(model: &Model, pairs: &[PairHistory<f64>]) -> impl Iterator<Item = (usize, usize)> {
     let contacts = &model.system().forces.contacts;
-    let groups = contacts.groups().iter().flat_map(|group| group.pairs.clone().map(|at| (group.sphere, at)));
+    let groups = contacts.groups.iter().flat_map(|group| group.pairs.clone().map(|at| (group.sphere, at)));
     let passed = groups.filter(|(_, at)| pairs.get(*at).is_some_and(|pair| pair.phase == PASSED));
-    let parts = |at: usize| contacts.pairs().get(at).map_or(&[][..], |pair| &pair.parts);
+    let parts = |at: usize| contacts.pairs.get(at).map_or(&[][..], |pair| &pair.parts);
     passed.flat_map(move |(sphere, at)| parts(at).iter().map(move |part| (sphere, part.surface)))
 }
 

@@ -12,7 +12,7 @@ use super::talk::say;
 /// A recorder that stops the run once a signal has come.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Interrupt {
-    asked: Arc<AtomicBool>,
+    pub(crate) asked: Arc<AtomicBool>,
 }
 
 impl Interrupt {
@@ -54,11 +54,6 @@ impl Interrupt {
     /// Interrupted, and what was done before.
     pub(crate) fn failure(done: &str) -> Failure {
         Failure::BrokeOff("error: interrupted".to_owned()).with_done(done)
-    }
-
-    /// What a signal sets.
-    pub(crate) fn flag(&self) -> &AtomicBool {
-        &self.asked
     }
 }
 

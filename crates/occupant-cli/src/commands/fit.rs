@@ -91,7 +91,7 @@ pub(crate) fn fit(args: &Args) -> Result<Done, Failure> {
         (true, _) => print(&json(&found)?)?,
         (false, true) => {}
         (false, false) => {
-            let written = format!("\nwritten to {}\n", folder.path().display());
+            let written = format!("\nwritten to {}\n", folder.path.display());
             print(&(report::text(&found) + &written))?;
         }
     }

@@ -67,8 +67,8 @@ impl FrictionMasses {
 /// Pairs of sphere and surface that can touch.
 fn pairs(model: &Model) -> impl Iterator<Item = (usize, usize)> + '_ {
     let contacts = &model.system().forces.contacts;
-    contacts.groups().iter().flat_map(move |group| {
-        let parts = contacts.pairs()[group.pairs.clone()].iter().flat_map(|p| &p.parts);
+    contacts.groups.iter().flat_map(move |group| {
+        let parts = contacts.pairs[group.pairs.clone()].iter().flat_map(|p| &p.parts);
         parts.map(move |part| (group.sphere, part.surface))
     })
 }
@@ -78,7 +78,7 @@ fn tangential(model: &Model, mobility: &Mobility<'_>, sphere: usize, surface: us
     let system = model.system();
     let site = &system.spheres[sphere];
     let normal = normal_in_space(model, &model.faces()[surface]);
-    let (_, centre, _) = system.sphere(mobility.kinematics(), sphere);
+    let (_, centre, _) = system.sphere(&mobility.kinematics, sphere);
     let point = centre - crate::motion::vector::V3::of(&normal) * site.radius;
     1.0 / greatest(across(&mobility.of_point(site.segment, point), &normal))
 }
@@ -110,7 +110,7 @@ pub(super) fn of_spheres(
         let slope = |&surface: &usize| material_of(setup, surface).spring.steepest_n_per_m();
         let stiffest = own().max_by(|a, b| slope(a).total_cmp(&slope(b)))?;
         let site = &model.system().spheres[sphere];
-        let (_, centre, _) = model.system().sphere(mobility.kinematics(), sphere);
+        let (_, centre, _) = model.system().sphere(&mobility.kinematics, sphere);
         let mass_kg = 1.0 / greatest(mobility.of_point(site.segment, centre));
         let friction = step_s.and_then(|step_s| {
             let worst = |surface: usize| (masses.per_newton(model, sphere, surface, step_s), surface);

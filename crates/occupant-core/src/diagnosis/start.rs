@@ -155,11 +155,11 @@ pub(super) fn behind(model: &Model, mobility: &Mobility<'_>) -> Vec<SphereBehind
     let (setup, contacts) = (model.setup(), &model.system().forces.contacts);
     let vehicle = vehicle_at_start(model);
     let mut found = Vec::new();
-    for group in contacts.groups() {
-        let (_, centre, _) = model.system().sphere(mobility.kinematics(), group.sphere);
+    for group in &contacts.groups {
+        let (_, centre, _) = model.system().sphere(&mobility.kinematics, group.sphere);
         let radius_m = setup.body.spheres[group.sphere].radius_m;
         let passed = group.pairs.clone().filter(|&i| model.start().history.memory.contacts[i].phase == PASSED);
-        for part in passed.flat_map(|i| &contacts.pairs()[i].parts) {
+        for part in passed.flat_map(|i| &contacts.pairs[i].parts) {
             let plane = &model.faces()[part.surface];
             let place = match plane.frame {
                 Frame::Space => centre.to_vector(),

@@ -38,7 +38,7 @@ pub(crate) fn lowest_m() -> f64 {
     let mobility = mobility_of(&model);
     let spheres = model.body().spheres.iter().enumerate();
     let bottom = spheres.map(|(i, sphere)| {
-        let (_, centre, _) = model.system().sphere(mobility.kinematics(), i);
+        let (_, centre, _) = model.system().sphere(&mobility.kinematics, i);
         centre.z - sphere.radius_m
     });
     bottom.fold(f64::INFINITY, f64::min)
@@ -65,7 +65,7 @@ fn an_impulse_at_a_point_gives_the_kinetic_energy_that_its_mobility_says() {
     // u = D⁻¹JᵀF has ½uᵀDu = ½F·(JD⁻¹Jᵀ)F: energy and mobility come from different code
     let model = free_body();
     let mobility = mobility_of(&model);
-    let k = mobility.kinematics();
+    let k = &mobility.kinematics;
     let skeleton = &model.system().skeleton;
     let force = Vector3::new(0.7, -1.1, 0.4);
     for segment in TTI12.segments() {
@@ -163,7 +163,7 @@ fn a_point_responds_as_the_change_of_its_velocity_under_an_impulse_says() {
     let mobility = mobility_of(&model);
     for segment in TTI12.segments() {
         let n = segment.index();
-        let point = mobility.kinematics().joint[n] + V3 { x: 0.03, y: -0.05, z: 0.1 };
+        let point = mobility.kinematics.joint[n] + V3 { x: 0.03, y: -0.05, z: 0.1 };
         let raw = mobility.of_point(n, point);
         let eigenvalues = SymmetricEigen::new(raw).eigenvalues;
         assert!(eigenvalues.min() > 0.0, "{segment:?}: {eigenvalues}");
@@ -178,7 +178,7 @@ fn a_force_through_the_whole_body_moves_its_mass() {
     // Σ over segments of the response to M_n·g is g itself: the tree falls as one
     let model = free_body();
     let mobility = mobility_of(&model);
-    let k = mobility.kinematics();
+    let k = &mobility.kinematics;
     let skeleton = &model.system().skeleton;
     let mut loads = [Wrench::zero(); SEGMENTS];
     for (n, link) in skeleton.links.iter().enumerate() {

@@ -11,6 +11,7 @@ use crate::forces::contact::surface::Surface;
 use crate::forces::contact::{ContactData, EdgeForce};
 use crate::forces::joint::Joints;
 use crate::model::seating::{InitialPosture, InitialVelocity};
+use crate::motion::report_coordinates::{DOF, ReportCoordinates};
 use crate::vehicle::VehiclePath;
 
 /// Standard gravity, 9.80665 m/s².
@@ -137,87 +138,57 @@ impl Setup {
     }
 }
 
-/// Puts a [`Setup`] together. What is not said is as in a scenario that does not say it: the fields start with its defaults.
+/// Puts a [`Setup`] together. What is not said is as in a scenario that does not say it.
 #[derive(Clone, Debug)]
 pub struct SetupBuilder {
-    title: String,
-    body: Body,
-    joints: Joints,
-    materials: Vec<Material>,
-    surfaces: Vec<Surface>,
-    belts: Vec<Belt>,
-    /// g, along −Z′, m/s².
-    pub gravity_m_s2: f64,
-    /// Where the edge force acts.
-    pub edge_force: EdgeForce,
-    /// Velocity of a seated body at the start.
-    pub velocity: InitialVelocity,
-    /// Start of the run, s.
-    pub start_s: f64,
-    /// Time between two outputs, s.
-    pub output_s: f64,
-    /// Integrator.
-    pub integrator: Integrator,
-    /// Extra outputs.
-    pub output: OutputOptions,
+    /// The case so far, with a scenario's defaults. Its path, its posture and its end are given last.
+    pub setup: Setup,
 }
 
 impl SetupBuilder {
     /// A case with this occupant, without belts and with nothing to touch.
     pub fn new(title: impl Into<String>, body: Body, joints: Joints) -> Self {
-        SetupBuilder {
+        let setup = Setup {
             title: title.into(),
             body,
             joints,
+            gravity_m_s2: STANDARD_GRAVITY_M_S2,
             materials: Vec::new(),
             surfaces: Vec::new(),
-            belts: Vec::new(),
-            gravity_m_s2: STANDARD_GRAVITY_M_S2,
             edge_force: EdgeForce::default(),
+            belts: Vec::new(),
+            path: VehiclePath::parked(),
+            posture: InitialPosture::Coordinates(Box::new(ReportCoordinates { q: [0.0; DOF], rates: [0.0; DOF] })),
             velocity: InitialVelocity::default(),
-            start_s: 0.0,
-            output_s: DEFAULT_OUTPUT_S,
+            time: TimeSpan { start_s: 0.0, end_s: 0.0, output_s: DEFAULT_OUTPUT_S },
             integrator: Integrator::default(),
             output: OutputOptions::default(),
-        }
+        };
+        SetupBuilder { setup }
     }
 
     /// Adds a material and gives its index, which surfaces refer to.
     pub fn material(&mut self, material: Material) -> usize {
-        self.materials.push(material);
-        self.materials.len() - 1
+        self.setup.materials.push(material);
+        self.setup.materials.len() - 1
     }
 
     /// Adds a surface and gives its index, which a [`Seating`](crate::model::seating::Seating) refers to.
     pub fn surface(&mut self, surface: Surface) -> usize {
-        self.surfaces.push(surface);
-        self.surfaces.len() - 1
+        self.setup.surfaces.push(surface);
+        self.setup.surfaces.len() - 1
     }
 
     /// Adds a belt.
     pub fn belt(&mut self, belt: Belt) {
-        self.belts.push(belt);
+        self.setup.belts.push(belt);
     }
 
     /// The setup: this occupant in a vehicle that moves along `path`, from `posture` until `end_s`.
     ///
     /// Nothing is checked here: [`Model::new`](crate::model::Model::new) reports all problems at once.
     pub fn build(self, path: VehiclePath, posture: InitialPosture, end_s: f64) -> Setup {
-        Setup {
-            title: self.title,
-            body: self.body,
-            joints: self.joints,
-            gravity_m_s2: self.gravity_m_s2,
-            materials: self.materials,
-            surfaces: self.surfaces,
-            edge_force: self.edge_force,
-            belts: self.belts,
-            path,
-            posture,
-            velocity: self.velocity,
-            time: TimeSpan { start_s: self.start_s, end_s, output_s: self.output_s },
-            integrator: self.integrator,
-            output: self.output,
-        }
+        let time = TimeSpan { end_s, ..self.setup.time };
+        Setup { path, posture, time, ..self.setup }
     }
 }

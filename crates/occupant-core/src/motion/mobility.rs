@@ -17,7 +17,7 @@ use crate::motion::vector::V3;
 #[derive(Clone, Debug)]
 pub struct Mobility<'a> {
     skeleton: &'a Skeleton<f64>,
-    kinematics: Kinematics<f64>,
+    pub(crate) kinematics: Kinematics<f64>,
     pub(crate) unloaded: Accelerations<f64>,
 }
 
@@ -29,11 +29,6 @@ impl<'a> Mobility<'a> {
         let kinematics = Kinematics::new(skeleton, &still);
         let unloaded = solve(skeleton, &kinematics, &[0.0; HINGED.len()], &[Wrench::zero(); SEGMENTS]);
         Mobility { skeleton, kinematics, unloaded }
-    }
-
-    /// Places at the start.
-    pub(crate) fn kinematics(&self) -> &Kinematics<f64> {
-        &self.kinematics
     }
 
     /// Acceleration of a point of a segment for a unit force there, space axes, 1/kg.

@@ -229,7 +229,7 @@ impl<'a> Sample<'a> {
                 self.frames[VEHICLE].axes.into_frame(space).to_vector()
             }
         };
-        let part = &system.forces.contacts.pairs()[t.pair].parts[t.part as usize];
+        let part = &system.forces.contacts.pairs[t.pair].parts[t.part as usize];
         let normal = to_vehicle(t.normal);
         Contact {
             sphere: t.sphere,

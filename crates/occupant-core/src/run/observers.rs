@@ -48,7 +48,7 @@ impl Seen {
     /// Notes a touch of `model`, the one that this was made for.
     #[inline]
     pub(super) fn note(&mut self, model: &Model, time_s: f64, meeting: Meeting) {
-        let pair = &model.system().forces.contacts.pairs()[meeting.pair];
+        let pair = &model.system().forces.contacts.pairs[meeting.pair];
         let (sphere, surface) = (meeting.sphere, pair.parts[meeting.part].surface);
         let known = &mut self.known[sphere * self.surfaces + surface];
         if !*known {

@@ -8,7 +8,7 @@ use super::{VehiclePose, expect_finite_pose};
 #[derive(Clone, Debug, PartialEq)]
 pub struct FixedPath {
     pose: VehiclePose,
-    motion: FrameMotion,
+    pub(super) motion: FrameMotion,
 }
 
 impl Default for FixedPath {
@@ -26,10 +26,7 @@ impl FixedPath {
     pub fn new(pose: VehiclePose) -> Result<Self, Vec<PathProblem>> {
         let mut problems = Vec::new();
         expect_finite_pose(&mut problems, &pose);
-        if !problems.is_empty() {
-            return Err(problems);
-        }
-        Ok(FixedPath::at(pose))
+        if problems.is_empty() { Ok(FixedPath::at(pose)) } else { Err(problems) }
     }
 
     fn at(pose: VehiclePose) -> Self {
@@ -41,10 +38,5 @@ impl FixedPath {
     /// Where it stands.
     pub fn pose(&self) -> VehiclePose {
         self.pose
-    }
-
-    /// The same, with its (zero) motion, in space axes.
-    pub(crate) fn motion(&self) -> FrameMotion {
-        self.motion
     }
 }

@@ -102,7 +102,7 @@ impl VehiclePath {
             VehiclePath::Table(table) => table.motion(t_s, step_middle_s, cursor),
             VehiclePath::Pulse(pulse) => pulse.motion(t_s, cursor),
             VehiclePath::Sensors(sensors) => sensors.motion(t_s, step_middle_s, cursor),
-            VehiclePath::Fixed(fixed) => fixed.motion(),
+            VehiclePath::Fixed(fixed) => fixed.motion,
             VehiclePath::Own(own) => own.motion(t_s),
         }
     }

@@ -53,7 +53,7 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
         return Err(Failure::plain("no folder was given"));
     };
     let target = Folder::at(target);
-    std::fs::create_dir_all(target.path()).map_err(Problem::io("create", target.path()))?;
+    std::fs::create_dir_all(&target.path).map_err(Problem::io("create", &target.path))?;
     target.refuse_other_results(&manifest)?;
     let keep = keep(args.keep.as_deref(), &plan)?;
     kept::prepare(&keep, &target)?;

@@ -146,7 +146,7 @@ impl<W: Write + Seek + Send + 'static> McapRecorder<W> {
             let mut channel = schemas.add_foxglove(self.press.home()?, topic, SCENE_UPDATE)?;
             self.wire.clear();
             draw(&mut self.wire);
-            self.press.write(channel.next(0), self.wire.bytes());
+            self.press.write(channel.next(0), &self.wire.bytes);
         }
         Ok(())
     }
@@ -198,7 +198,7 @@ impl Tracks {
             if message.topic == checkpoint::TOPIC {
                 checkpoint::write(wire, sample);
             }
-            press.write(channel.next(ns), wire.bytes());
+            press.write(channel.next(ns), &wire.bytes);
         }
     }
 
@@ -212,13 +212,13 @@ impl Tracks {
         let ns = nanoseconds(sample.time_s, self.start_s);
         wire.clear();
         transforms::write(wire, ns, sample, &self.frames);
-        press.write(self.transforms.next(ns), wire.bytes());
+        press.write(self.transforms.next(ns), &wire.bytes);
         wire.clear();
         scene::lines::write(wire, ns, sample);
-        press.write(self.lines.next(ns), wire.bytes());
+        press.write(self.lines.next(ns), &wire.bytes);
         wire.clear();
         scene::forces::write(wire, ns, sample, m_per_n);
-        press.write(self.forces.next(ns), wire.bytes());
+        press.write(self.forces.next(ns), &wire.bytes);
     }
 
     fn write_log(
@@ -231,7 +231,7 @@ impl Tracks {
         let ns = nanoseconds(time_s, self.start_s);
         wire.clear();
         log::write(wire, ns, level, words);
-        press.write(self.log.next(ns), wire.bytes());
+        press.write(self.log.next(ns), &wire.bytes);
     }
 }
 

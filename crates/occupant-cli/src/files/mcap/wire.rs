@@ -16,15 +16,10 @@ const FIXED_32: u32 = 5;
 /// A message under construction.
 #[derive(Debug, Default)]
 pub(crate) struct Wire {
-    bytes: Vec<u8>,
+    pub(crate) bytes: Vec<u8>,
 }
 
 impl Wire {
-    /// What was written since the last [`Wire::clear`].
-    pub(crate) fn bytes(&self) -> &[u8] {
-        &self.bytes
-    }
-
     /// Begins a new message.
     pub(crate) fn clear(&mut self) {
         self.bytes.clear();
@@ -203,7 +198,7 @@ mod tests {
         wire.text(2, "testing");
         wire.message(3, |w| w.count(1, 150));
         let expected = [&[0x08, 0x96, 0x01][..], b"\x12\x07testing", &[0x1a, 0x03, 0x08, 0x96, 0x01]];
-        assert_eq!(wire.bytes(), expected.concat());
+        assert_eq!(wire.bytes, expected.concat());
     }
 
     #[test]
@@ -211,14 +206,14 @@ mod tests {
         let mut wire = Wire::default();
         wire.message(1, |w| w.text(2, &"x".repeat(300)));
         // 300 + key and two bytes of length = 303 = 0b10_0101111
-        assert_eq!(&wire.bytes()[..6], [0x0a, 0xaf, 0x02, 0x12, 0xac, 0x02]);
-        assert_eq!(wire.bytes().len(), 306);
+        assert_eq!(&wire.bytes[..6], [0x0a, 0xaf, 0x02, 0x12, 0xac, 0x02]);
+        assert_eq!(wire.bytes.len(), 306);
     }
 
     #[test]
     fn minus_zero_is_written() {
         let mut wire = Wire::default();
         wire.number(1, -0.0);
-        assert_eq!(wire.bytes(), [9, 0, 0, 0, 0, 0, 0, 0, 0x80]);
+        assert_eq!(wire.bytes, [9, 0, 0, 0, 0, 0, 0, 0, 0x80]);
     }
 }

@@ -56,7 +56,7 @@ impl Holds {
 /// The folder of a sweep, or of a fit.
 #[derive(Clone, Debug)]
 pub(crate) struct Folder {
-    path: PathBuf,
+    pub(crate) path: PathBuf,
     holds: Holds,
 }
 
@@ -82,10 +82,6 @@ impl Folder {
 
     fn manifest_path(&self) -> PathBuf {
         self.path.join(self.holds.manifest())
-    }
-
-    pub(crate) fn path(&self) -> &Path {
-        &self.path
     }
 
     pub(crate) fn journal(&self) -> PathBuf {

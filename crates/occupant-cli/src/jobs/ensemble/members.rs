@@ -70,7 +70,7 @@ impl Members<'_> {
     /// Interrupted.
     pub(crate) fn run(&self, engine: &Engine) -> Result<Vec<Member>, Failure> {
         let mut members = Vec::new();
-        let ended = engine.run(self, self.runs.clone(), self.interrupt.flag(), |member| {
+        let ended = engine.run(self, self.runs.clone(), &self.interrupt.asked, |member| {
             members.push(member);
             self.bar.inc(1);
             Ok(())

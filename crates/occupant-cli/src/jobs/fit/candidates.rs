@@ -16,7 +16,7 @@ use occupant_study::search::Stage;
 /// # Errors
 /// The operating system refuses.
 pub(crate) fn write(folder: &Folder, fitting: &Fitting, records: &[Record]) -> Result<(), Failure> {
-    let [parquet, csv] = ["history.parquet", "history.csv"].map(|name| folder.path().join(name));
+    let [parquet, csv] = ["history.parquet", "history.csv"].map(|name| folder.path.join(name));
     let mut table = StudyTable::create(parquet, Some(csv), &manifest(fitting))?;
     rows(fitting, records).iter().try_for_each(|row| table.row(row))?;
     table.publish().map(|_| ())

@@ -117,7 +117,7 @@ impl<'a> Evaluator<'a> {
         let batch = Batch { fitting: self.fitting, first, candidates: &candidates };
         let missing: Vec<u64> = rows.filter(|index| !self.known.contains_key(index)).collect();
         let (journal, known) = (&mut self.journal, &mut self.known);
-        self.engine.run(&batch, missing.into_iter(), self.interrupt.flag(), |row| {
+        self.engine.run(&batch, missing.into_iter(), &self.interrupt.asked, |row| {
             journal.append(&row)?;
             known.insert(row.index, row);
             Ok(())

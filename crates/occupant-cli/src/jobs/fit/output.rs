@@ -95,7 +95,7 @@ impl Output<'_> {
 
     /// Writes a file of the folder, whole or not at all.
     fn put(&self, name: &Path, bytes: &[u8]) -> Result<(), Failure> {
-        let path = self.folder.path().join(name);
+        let path = self.folder.path.join(name);
         let made = path.parent().map_or(Ok(()), fs::create_dir_all);
         made.map_err(|e| broke_off(format!("cannot write {}: {e}", path.display())))?;
         write_whole(&path, Existing::Replace, bytes).map(|_| ()).map_err(broke_off)

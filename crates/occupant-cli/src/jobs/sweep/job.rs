@@ -62,7 +62,7 @@ impl Sweep {
                 self.shard,
                 samples.end - samples.start,
                 progress.computed,
-                folder.path().display()
+                folder.path.display()
             ));
         }
         Ok(Done::Well)
@@ -79,7 +79,7 @@ impl Sweep {
         let mut journal = JournalWriter::new(&self.folder, sha256, self.shard)?;
         let simulation = Simulation { plan: &self.plan, keep: &self.keep, folder: &self.folder };
         let missing = samples.clone().filter(|index| !finished.has(*index));
-        let ended = self.engine.run(&simulation, missing, self.interrupt.flag(), |row| {
+        let ended = self.engine.run(&simulation, missing, &self.interrupt.asked, |row| {
             journal.append(&row)?;
             progress.see(&row);
             Ok(())
@@ -95,7 +95,7 @@ impl Sweep {
 
     /// Writes whole runs of finished samples.
     fn write_kept(&self, samples: &[u64]) -> Result<(), Failure> {
-        kept::write(&self.plan, &self.folder, samples, &self.engine, self.interrupt.flag())?;
+        kept::write(&self.plan, &self.folder, samples, &self.engine, &self.interrupt.asked)?;
         self.interrupt.refuse("all samples are finished; the same command resumes the sweep")
     }
 

@@ -95,7 +95,7 @@ impl Stable {
         let tables = forms
             .into_iter()
             .take(1 + usize::from(csv))
-            .map(|(form, name)| TableFile::create(folder.path().join(name), form, Existing::Replace, &columns, &about));
+            .map(|(form, name)| TableFile::create(folder.path.join(name), form, Existing::Replace, &columns, &about));
         Ok(Some(Stable { sample, figures, present: None, tables: tables.collect::<Result<_, _>>()?, found }))
     }
 

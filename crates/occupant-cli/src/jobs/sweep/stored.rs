@@ -50,7 +50,7 @@ pub(crate) fn open(folders: &[PathBuf], by: MadeBy) -> Result<Stored, Failure> {
     let plan = Plan::open(Path::new(&study.name), &manifest.overrides, &texts, made_by)?;
     if !same(&plan.manifest, &manifest) {
         return Err(Failure::from(Problem::Differs {
-            folder: first.path().to_owned(),
+            folder: first.path.to_owned(),
             holds: Holds::Sweep,
             differences: manifest.differences(&plan.manifest, |_| None, |_| None),
         }));
@@ -76,7 +76,7 @@ fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
     let mut common: Option<(&Folder, Manifest)> = None;
     for folder in folders {
         let found = folder.manifest()?;
-        let shown = folder.path().display();
+        let shown = folder.path.display();
         let found = found.ok_or_else(|| {
             Failure::with_help(
                 format!("{shown} holds no sweep"),
@@ -91,7 +91,7 @@ fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
                 let lines = first.differences(&found, |t| text(there, t), |t| text(folder, t));
                 return Err(Failure::plain(format!(
                     "{} and {shown} hold parts of different sweeps:\n   {}",
-                    there.path().display(),
+                    there.path.display(),
                     lines.join("\n   ")
                 )));
             }

@@ -32,7 +32,7 @@ pub(crate) struct Layout {
     /// Height of the sheet.
     pub(crate) height: f64,
     views: Vec<View>,
-    column: f64,
+    pub(crate) column: f64,
     columns: usize,
     block: f64,
 }
@@ -73,11 +73,6 @@ impl Layout {
     pub(crate) fn head(&self, moment: usize) -> [f64; 2] {
         let (block, column) = (moment / self.columns, moment % self.columns);
         [LEFT + column as f64 * (self.column + GAP), TOP + block as f64 * self.block]
-    }
-
-    /// Width of a column.
-    pub(crate) fn column(&self) -> f64 {
-        self.column
     }
 
     /// Whether a moment is the first of its block.

@@ -43,7 +43,7 @@ fn draw_moment(svg: &mut Svg, layout: &Layout, pen: &Pen<'_>, moment: usize) {
     let snapshot = &pen.strip.moments[moment];
     let [x, y] = layout.head(moment);
     let label = Text { size: 13.0, weight: Weight::Bold, anchor: Anchor::Middle, ..Text::default() };
-    let middle = x + 0.5 * layout.column();
+    let middle = x + 0.5 * layout.column;
     svg.text([middle, y + 16.0], &time_label(snapshot.time_s), &label);
     for (row, &view) in pen.strip.views.iter().enumerate() {
         let (corner, [width, height]) = layout.panel(moment, row);

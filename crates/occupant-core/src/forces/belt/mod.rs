@@ -189,7 +189,7 @@ impl Element for Belts {
             // −gradient of the length with respect to the centre
             let gradient = at.frames[VEHICLE].axes.out(action.free[0] + action.free[1]).to_vector();
             let site = &at.spheres[belt.sphere];
-            let (_, centre, _) = site.place(mobility.kinematics());
+            let (_, centre, _) = site.place(&mobility.kinematics);
             let give = gradient.dot(&(mobility.of_point(site.segment, centre) * gradient));
             let by = format!("on {}", body.spheres[belt.sphere].name);
             Rate::of_spring(belt.name.clone(), by, 1.0 / give, belt.webbing.steepest_n_per_m())

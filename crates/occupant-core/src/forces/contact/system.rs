@@ -133,9 +133,11 @@ pub struct Touch<S> {
 /// All pairs of spheres and faces.
 #[derive(Clone, Debug)]
 pub struct ContactSystem<S> {
-    pub(crate) groups: Vec<Group>,
+    /// Groups of pairs by sphere and frame.
+    pub groups: Vec<Group>,
     pub(crate) planes: Vec<Plane<S>>,
-    pub(crate) pairs: Vec<Pair<S>>,
+    /// The pairs.
+    pub pairs: Vec<Pair<S>>,
     /// 1 where the edge force acts at A, 0 at the centre.
     pub(crate) edge_lever: S,
     /// A face farther than this, m, cannot be met within one step.
@@ -143,16 +145,6 @@ pub struct ContactSystem<S> {
 }
 
 impl<S: Scalar> ContactSystem<S> {
-    /// The pairs.
-    pub fn pairs(&self) -> &[Pair<S>] {
-        &self.pairs
-    }
-
-    /// Groups of pairs by sphere and frame.
-    pub fn groups(&self) -> &[Group] {
-        &self.groups
-    }
-
     /// The state of a pair at the initial time: passed where the centre is beyond the plane or beside the face.
     pub(crate) fn initial_history(&self, i: usize, radius: S, centre: V3<S>) -> PairHistory<S> {
         let depth = self.planes[i].depth(centre);

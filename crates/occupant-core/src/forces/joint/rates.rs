@@ -34,7 +34,7 @@ fn ball_rates(
     epsilon: f64,
 ) -> Vec<Rate> {
     let relative = mobility.of_joint(inner, outer);
-    let axes = &mobility.kinematics().axes;
+    let axes = &mobility.kinematics.axes;
     let (z_k, z_l) = (axes[inner].z.to_vector(), axes[outer].z.to_vector());
     let n = z_k.cross(&z_l);
     let sine_squared = (n.norm_squared() + epsilon * epsilon).max(1e-30);

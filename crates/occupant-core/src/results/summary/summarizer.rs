@@ -30,7 +30,7 @@ pub struct Summarizer {
     accelerations: [Option<Peak>; 3],
     elements: ElementPeaks,
     spheres: Vec<SphereTrack>,
-    signals: Signals,
+    pub(super) signals: Signals,
     head_start: Option<Point3<f64>>,
     /// Of the head.
     excursion: Option<Excursion>,
@@ -92,12 +92,6 @@ impl Summarizer {
                 wall_time_s,
             },
         })
-    }
-
-    /// Room for outputs.
-    #[cfg(test)]
-    pub(super) fn room(&mut self) -> Vec<usize> {
-        self.signals.all_mut().map(|values| values.capacity()).collect()
     }
 
     fn acceleration(&self, i: usize, levels: &injury::Acceleration, time: &TimeSpan) -> Acceleration {

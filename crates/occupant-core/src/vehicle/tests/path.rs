@@ -16,7 +16,7 @@ fn a_quarter_turn_by_hand() {
     // 10 m ahead, 3 m to the right, yawed 90° to the right: its nose points to −Y′, its right side to −X′.
     let attitude = Attitude { yaw_rad: std::f64::consts::FRAC_PI_2, ..Attitude::default() };
     let pose = VehiclePose { position_m: Vector3::new(10.0, 3.0, 0.0), attitude };
-    let motion = FixedPath::new(pose).expect("a sound pose").motion();
+    let motion = FixedPath::new(pose).expect("a sound pose").motion;
     let bumper = motion.point_to_space(Vector3::new(2.0, 0.5, -1.0));
     assert_below(
         "bumper",
@@ -37,7 +37,7 @@ fn points_and_vectors_go_to_space_and_back() {
     for _ in 0..100 {
         let attitude = Attitude::from_vector(seeded.vector(-3.0, 3.0));
         let pose = VehiclePose { position_m: seeded.vector(-50.0, 50.0), attitude };
-        let motion = FixedPath::new(pose).expect("a sound pose").motion();
+        let motion = FixedPath::new(pose).expect("a sound pose").motion;
         let point = seeded.vector(-2.0, 2.0);
         worst = worst.max((motion.point_to_frame(motion.point_to_space(point)) - point).amax());
         worst = worst.max((motion.vector_to_frame(motion.vector_to_space(point)) - point).amax());

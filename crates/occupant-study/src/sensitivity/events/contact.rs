@@ -79,7 +79,7 @@ pub(super) struct Lookout {
 
 impl Lookout {
     pub fn new(model: &Model) -> Self {
-        let pairs = model.system().forces.contacts.pairs().len();
+        let pairs = model.system().forces.contacts.pairs.len();
         Lookout { looks: NONE_YET, pairs: vec![PairNow::default(); pairs], touching: Vec::with_capacity(pairs) }
     }
 
@@ -105,7 +105,7 @@ impl Lookout {
         notes: &mut Notes<N>,
     ) {
         let setup = model.setup();
-        let part = &model.system().forces.contacts.pairs()[touch.pair].parts[touch.part.value as usize];
+        let part = &model.system().forces.contacts.pairs[touch.pair].parts[touch.part.value as usize];
         let (sphere, surface) = (touch.sphere, part.surface);
         let material = &setup.materials[setup.surfaces[surface].material];
         let before = self.pairs[touch.pair];
