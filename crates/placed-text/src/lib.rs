@@ -14,7 +14,7 @@ mod toml;
 
 pub use csv::{Cell, cells, lines, name_and_unit, number};
 pub use diagnostic::{Diagnostic, Diagnostics};
-pub use node::{Entry, Format, Node, Table, Value};
+pub use node::{Entry, Format, Node, Table, Value, Written};
 pub use path::{Step, child, children, follow, locate, parse as parse_path, targets, to_text, with_key, with_step};
 pub use problem::{Problem, Problems, Severity};
 pub use source::{Position, SourceId, Sources, Span};

@@ -1,11 +1,12 @@
 //! The tree that a scenario text is read into, TOML and JSON alike: plain values, each with its [`Span`].
 
 use std::borrow::Cow;
+use std::fmt;
 
 use indexmap::IndexMap;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::value::{Error, MapDeserializer, SeqDeserializer};
-use serde::de::{Deserializer, IntoDeserializer, Visitor};
+use serde::de::{Deserializer, IntoDeserializer, SeqAccess, Unexpected, Visitor};
 use serde::{Deserialize, Serialize, forward_to_deserialize_any};
 
 use crate::source::{SourceId, Span};
@@ -39,7 +40,7 @@ pub struct Node {
 }
 
 /// What is written at a place.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 #[serde(untagged)]
 pub enum Value {
     /// JSON's `null`.
@@ -106,6 +107,67 @@ impl Value {
             Value::Table(table) => {
                 visitor.visit_map(MapDeserializer::new(table.iter().map(|(key, entry)| (key.as_str(), &entry.node))))
             }
+        }
+    }
+}
+
+/// A value as a section takes it over, with its value in SI units if the check has read it as a quantity.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Written {
+    /// As it was written.
+    pub value: Value,
+    /// In SI units, angles in radians.
+    pub si: Option<f64>,
+}
+
+impl From<Value> for Written {
+    fn from(value: Value) -> Self {
+        Written { value, si: None }
+    }
+}
+
+impl<'de> Deserialize<'de> for Value {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        Written::deserialize(deserializer).map(|written| written.value)
+    }
+}
+
+impl<'de> Deserialize<'de> for Written {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        deserializer.deserialize_any(PlainOrQuantity)
+    }
+}
+
+/// Takes truth, numbers and texts, and the pair that [`Node`] makes of a quantity.
+struct PlainOrQuantity;
+
+impl<'de> Visitor<'de> for PlainOrQuantity {
+    type Value = Written;
+
+    fn expecting(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str("true, false, a number or a text")
+    }
+
+    fn visit_bool<E>(self, truth: bool) -> Result<Written, E> {
+        Ok(Value::Bool(truth).into())
+    }
+
+    fn visit_i64<E>(self, number: i64) -> Result<Written, E> {
+        Ok(Value::Integer(number).into())
+    }
+
+    fn visit_f64<E>(self, number: f64) -> Result<Written, E> {
+        Ok(Value::Float(number).into())
+    }
+
+    fn visit_str<E>(self, text: &str) -> Result<Written, E> {
+        Ok(Value::String(text.to_owned()).into())
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut pair: A) -> Result<Written, A::Error> {
+        match (pair.next_element()?, pair.next_element()?) {
+            (Some(si), Some(value)) => Ok(Written { value, si: Some(si) }),
+            _ => Err(serde::de::Error::invalid_type(Unexpected::Seq, &self)),
         }
     }
 }

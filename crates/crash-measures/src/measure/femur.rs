@@ -51,13 +51,19 @@ pub fn duration_use(load: &[f64], dt_s: f64, limit: &DurationLimit) -> Result<Du
     const DIVISIONS: u32 = 20;
     let peak = maximum(load, dt_s)?.value;
     let mut worst = DurationUse { ratio: peak / limit.at(0.0), duration_s: 0.0, level: peak };
+    // a longer time is held by a lower level, so that the last level found bounds what is to come
+    let mut highest = peak;
     let record_s = load.len().saturating_sub(1) as f64 * dt_s;
     for k in 1..=DIVISIONS {
         let duration_s = limit.settled_s * f64::from(k) / f64::from(DIVISIONS);
         if duration_s > record_s {
             break;
         }
+        if highest / limit.at(duration_s) <= worst.ratio {
+            continue;
+        }
         let level = clip_cumulative(load, dt_s, duration_s)?.level_mps2;
+        highest = level;
         let ratio = level / limit.at(duration_s);
         if ratio > worst.ratio {
             worst = DurationUse { ratio, duration_s, level };

@@ -80,7 +80,7 @@ pub struct Accelerations<S> {
 }
 
 /// A trunk segment after the inward sweep.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Trunk<S> {
     inverse_inertia: Sym3<S>,
     moment: V3<S>,
@@ -111,53 +111,96 @@ pub fn solve<S: Scalar>(
     hinge_rate: &[S; HINGED.len()],
     wrench: &[Wrench<S>; SEGMENTS],
 ) -> Accelerations<S> {
-    // inward: what carries nothing but itself, then the trunk from its ends
-    let mut demand = [Demand::zero(); SEGMENTS];
-    let mut limbs = [Limb::zero(); LIMBS.len()];
-    for (i, &(upper, _)) in LIMBS.iter().enumerate() {
-        (demand[upper], limbs[i]) = limb::reduce(body, k, i, hinge_rate[i], wrench);
-    }
-    let mut leaves = [Leaf::zero(); LEAVES.len()];
-    for (i, &n) in LEAVES.iter().enumerate() {
-        (demand[n], leaves[i]) = limb::reduce_leaf(body, k, n, wrench);
-    }
-    let mut trunks = [Trunk::zero(); TRUNKS.len()];
-    for (i, &n) in TRUNKS.iter().enumerate().rev() {
-        (demand[n], trunks[i]) = reduce(body, k, n, wrench, &demand);
-    }
+    let mut sweep = Sweep::blank();
+    sweep.solve(body, k, hinge_rate, wrench);
+    sweep.accelerations
+}
 
-    // root: the forces that all halves ask of T1 vanish together
-    let (mut mass, mut bias) = (demand[ROOTS[0]].mass, demand[ROOTS[0]].bias);
-    for &n in &ROOTS[1..] {
-        mass = mass + demand[n].mass;
-        bias += demand[n].bias;
-    }
-    let a_root = -mass.inverse().mul(bias);
+/// Both sweeps through the tree, with what the one outward takes over from the one inward. Every number that is read was
+/// written before in the same call, so that one may be used again without being cleared.
+#[derive(Clone, Debug)]
+pub(crate) struct Sweep<S> {
+    demand: [Demand<S>; SEGMENTS],
+    limbs: [Limb<S>; LIMBS.len()],
+    leaves: [Leaf<S>; LEAVES.len()],
+    trunks: [Trunk<S>; TRUNKS.len()],
+    /// Of the last call of [`Sweep::solve`].
+    pub accelerations: Accelerations<S>,
+}
 
-    // outward
-    let mut out =
-        Accelerations { joint: [a_root; SEGMENTS], alpha: [V3::zero(); SEGMENTS], hinge: [S::zero(); HINGED.len()] };
-    for (&n, trunk) in TRUNKS.iter().zip(&trunks) {
-        out.alpha[n] = trunk.alpha(out.joint[n]);
-        for &(child, _) in hung_from(n) {
-            out.carry(k, child, n);
+impl<S: Scalar> Sweep<S> {
+    /// Nothing solved yet.
+    #[inline(always)]
+    pub(crate) fn blank() -> Self {
+        let o = V3::zero();
+        Sweep {
+            demand: [Demand::zero(); SEGMENTS],
+            limbs: [Limb::zero(); LIMBS.len()],
+            leaves: [Leaf::zero(); LEAVES.len()],
+            trunks: [Trunk::zero(); TRUNKS.len()],
+            accelerations: Accelerations {
+                joint: [o; SEGMENTS],
+                alpha: [o; SEGMENTS],
+                hinge: [S::zero(); HINGED.len()],
+            },
         }
     }
-    for (&n, leaf) in LEAVES.iter().zip(&leaves) {
-        out.alpha[n] = leaf.alpha(k, n, out.joint[n]);
+
+    /// As [`solve`].
+    #[inline(always)]
+    pub(crate) fn solve(
+        &mut self,
+        body: &Skeleton<S>,
+        k: &Kinematics<S>,
+        hinge_rate: &[S; HINGED.len()],
+        wrench: &[Wrench<S>; SEGMENTS],
+    ) {
+        let Sweep { demand, limbs, leaves, trunks, accelerations: out } = self;
+        // inward: what carries nothing but itself, then the trunk from its ends
+        for (i, &(upper, _)) in LIMBS.iter().enumerate() {
+            (demand[upper], limbs[i]) = limb::reduce(body, k, i, hinge_rate[i], wrench);
+        }
+        for (i, &n) in LEAVES.iter().enumerate() {
+            (demand[n], leaves[i]) = limb::reduce_leaf(body, k, n, wrench);
+        }
+        for (i, &n) in TRUNKS.iter().enumerate().rev() {
+            (demand[n], trunks[i]) = reduce(body, k, n, wrench, demand);
+        }
+
+        // root: the forces that all halves ask of T1 vanish together
+        let (mut mass, mut bias) = (demand[ROOTS[0]].mass, demand[ROOTS[0]].bias);
+        for &n in &ROOTS[1..] {
+            mass = mass + demand[n].mass;
+            bias += demand[n].bias;
+        }
+        let a_root = -mass.inverse().mul(bias);
+
+        // outward
+        for &n in ROOTS {
+            out.joint[n] = a_root;
+        }
+        for (&n, trunk) in TRUNKS.iter().zip(&*trunks) {
+            out.alpha[n] = trunk.alpha(out.joint[n]);
+            for &(child, _) in hung_from(n) {
+                out.carry(k, child, n);
+            }
+        }
+        for (&n, leaf) in LEAVES.iter().zip(&*leaves) {
+            out.alpha[n] = leaf.alpha(k, n, out.joint[n]);
+        }
+        for (i, (&(upper, lower), limb)) in LIMBS.iter().zip(&*limbs).enumerate() {
+            out.alpha[upper] = limb.alpha(k, upper, out.joint[upper]);
+            out.carry(k, lower, upper);
+            out.hinge[i] = limb.hinge_acceleration(k, upper, out.alpha[upper], out.joint[lower]);
+            out.alpha[lower] = out.alpha[upper]
+                + k.axes[upper].y * out.hinge[i]
+                + k.omega[upper].cross(k.axes[upper].y) * hinge_rate[i];
+        }
+        let gravity = v3(S::zero(), S::zero(), -body.gravity);
+        for a in &mut out.joint {
+            *a += gravity;
+        }
     }
-    for (i, (&(upper, lower), limb)) in LIMBS.iter().zip(&limbs).enumerate() {
-        out.alpha[upper] = limb.alpha(k, upper, out.joint[upper]);
-        out.carry(k, lower, upper);
-        out.hinge[i] = limb.hinge_acceleration(k, upper, out.alpha[upper], out.joint[lower]);
-        out.alpha[lower] =
-            out.alpha[upper] + k.axes[upper].y * out.hinge[i] + k.omega[upper].cross(k.axes[upper].y) * hinge_rate[i];
-    }
-    let gravity = v3(S::zero(), S::zero(), -body.gravity);
-    for a in &mut out.joint {
-        *a += gravity;
-    }
-    out
 }
 
 impl<S: Scalar> Accelerations<S> {

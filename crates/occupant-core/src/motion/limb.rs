@@ -14,7 +14,7 @@ use crate::motion::skeleton::Skeleton;
 use crate::motion::vector::{M3, Sym3, V3, v3};
 
 /// A limb after the inward sweep, in axes of its upper segment.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Limb<S> {
     /// J⁻¹(τ − β_τ).
     alpha_free: V3<S>,
@@ -28,7 +28,7 @@ pub(crate) struct Limb<S> {
 }
 
 /// The four elements of B J⁻¹ that do not vanish.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 struct Gain<S> {
     xy: S,
     zy: S,
@@ -172,7 +172,7 @@ impl<S: Scalar> PlaneMass<S> {
 }
 
 /// A leaf after the inward sweep: a ball joint with nothing beyond, so that J and M̃ are diagonal in its own axes.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, Debug)]
 pub(crate) struct Leaf<S> {
     alpha_free: V3<S>,
     gain: Gain<S>,

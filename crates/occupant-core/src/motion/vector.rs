@@ -133,7 +133,8 @@ impl<S: Scalar> M3<S> {
     /// The same constant matrix in every lane.
     #[inline(always)]
     pub fn of(m: &Matrix3<f64>) -> Self {
-        M3 { x: V3::of(&m.column(0).into()), y: V3::of(&m.column(1).into()), z: V3::of(&m.column(2).into()) }
+        let column = |x, y, z| v3(S::of(x), S::of(y), S::of(z));
+        M3 { x: column(m.m11, m.m21, m.m31), y: column(m.m12, m.m22, m.m32), z: column(m.m13, m.m23, m.m33) }
     }
 
     /// The unit matrix.

@@ -96,9 +96,10 @@ impl Draft {
         // where the words are right, names are looked up when the plain data are built
         if problems.has_errors() {
             let root = self.explicit();
-            let whole = Document { root, ..self.document.clone() };
-            for problem in references(&whole.root, &TTI12.sphere_names()) {
-                problems.push(whole.place(problem));
+            let unknown = references(&root, &TTI12.sphere_names());
+            if !unknown.is_empty() {
+                let whole = Document { root, ..self.document.clone() };
+                unknown.into_iter().for_each(|problem| problems.push(whole.place(problem)));
             }
         }
         problems

@@ -9,10 +9,10 @@ use super::machine::{Bench, Machine};
 use super::place::{Next, Place, Witness};
 use super::{Jobs, Kernel, run_alone};
 use crate::forces::History;
+use crate::kernel::Scratch;
 use crate::model::Model;
 use crate::model::setup::Integrator;
 use crate::motion::frame::{Moving, VEHICLE};
-use crate::motion::kinematics::Kinematics;
 use crate::motion::state::State;
 use crate::results::outcome::{RecordingFailed, Status};
 use crate::run::Run;
@@ -202,5 +202,5 @@ fn new_bench<L: Machine>(model: &Model) -> Option<Bench<L>> {
     let start_s = model.setup().time.start_s;
     let frames = model.frames(start_s, start_s, &mut cursor);
     let frames = frames.map(|frame| frame.zip(&frame, &|x, _| L::of(x)));
-    Some(Bench { system, history, frames: [frames; 3], kinematics: Kinematics::blank() })
+    Some(Bench { system, history, frames: [frames; 3], scratch: Scratch::blank() })
 }

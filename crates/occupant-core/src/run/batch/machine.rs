@@ -6,10 +6,9 @@
 
 use super::place::Witness;
 use crate::forces::{History, Observer};
-use crate::kernel::System;
+use crate::kernel::{Scratch, System};
 use crate::motion::frame::Frames;
 use crate::motion::integrate::rk4::{self, Stage};
-use crate::motion::kinematics::Kinematics;
 use crate::motion::lanes::Lanes;
 use crate::motion::state::State;
 
@@ -20,8 +19,7 @@ pub(crate) struct Bench<L: Lanes> {
     pub history: History<L>,
     /// At the step's start, middle and end.
     pub frames: [Frames<L>; 3],
-    /// Of the last evaluation.
-    pub kinematics: Kinematics<L>,
+    pub scratch: Scratch<L>,
 }
 
 /// Lanes that some processors can compute with.
@@ -36,7 +34,7 @@ impl<L: Lanes> Bench<L> {
     #[inline(always)]
     fn rate<const START: bool>(&mut self, stage: Stage, state: &State<L>, observer: &mut impl Observer<L>) -> State<L> {
         let frames = &self.frames[stage as usize];
-        self.system.rate_with::<START>(&mut self.kinematics, state, frames, &mut self.history, observer)
+        self.system.rate_with::<START>(&mut self.scratch, state, frames, &mut self.history, observer)
     }
 
     /// One step, in the instructions of the caller; `rate` is [`Bench::rate`] compiled for them.

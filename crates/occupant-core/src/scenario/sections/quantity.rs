@@ -9,7 +9,7 @@ use serde_json::json;
 
 use super::Length;
 use crate::scenario::kind::{KINDS, Kind, UnitSystem};
-use placed_text::Value;
+use placed_text::{Value, Written};
 
 /// Any number.
 pub(crate) const ANY: usize = 0;
@@ -26,26 +26,16 @@ const RANGES: [&[(&str, i32)]; 4] =
 
 /// A quantity of kind `KINDS[KIND]` in a range: as it was written, and what that is in SI units.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
-#[serde(from = "Read")]
+#[serde(from = "Written")]
 pub struct Quantity<const KIND: usize, const RANGE: usize = ANY> {
     written: Value,
     si: f64,
 }
 
-/// A quantity of a tree that has passed the check has its value in SI units beside what is written.
-#[derive(Deserialize)]
-#[serde(untagged)]
-enum Read {
-    Checked(f64, Value),
-    Written(Value),
-}
-
-impl<const KIND: usize, const RANGE: usize> From<Read> for Quantity<KIND, RANGE> {
-    fn from(read: Read) -> Self {
-        match read {
-            Read::Checked(si, written) => Quantity { written, si },
-            Read::Written(written) => Quantity { written, si: f64::NAN },
-        }
+impl<const KIND: usize, const RANGE: usize> From<Written> for Quantity<KIND, RANGE> {
+    /// One of a tree that has not passed the check is not a number.
+    fn from(Written { value, si }: Written) -> Self {
+        Quantity { written: value, si: si.unwrap_or(f64::NAN) }
     }
 }
 
