@@ -156,6 +156,10 @@ impl<'de> Visitor<'de> for PlainOrQuantity {
         Ok(Value::Integer(number).into())
     }
 
+    fn visit_u64<E>(self, number: u64) -> Result<Written, E> {
+        Ok(i64::try_from(number).map_or(Value::Float(number as f64), Value::Integer).into())
+    }
+
     fn visit_f64<E>(self, number: f64) -> Result<Written, E> {
         Ok(Value::Float(number).into())
     }
