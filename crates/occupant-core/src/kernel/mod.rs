@@ -99,6 +99,7 @@ impl<S: Scalar> System<S> {
     ) -> State<S> {
         k.follow(&self.skeleton, state);
         let Load { wrench, power } = self.load::<COMMIT>(k, state, frames, history, observer);
+        // q̈ from q̇ and q (114)
         let accelerations = dynamics::solve(&self.skeleton, k, &state.hinge_rate, &wrench);
         let mut rate = State {
             t1: state.velocity,
@@ -141,7 +142,7 @@ impl<S: Scalar> System<S> {
         observer: &mut impl Observer<S>,
     ) -> Load<S> {
         let at = Instant { k, state, frames, spheres: &self.spheres };
-        self.forces.apply::<COMMIT>(&at, history, observer)
+        self.forces.apply::<COMMIT>(&at, history, observer) // Q_f + R (48), and F_s
     }
 
     /// A sphere's centre seen from its segment's joint, in space, and its velocity; all in space axes.
