@@ -4,7 +4,8 @@
 //! documentation of a commercial program; formulas from general knowledge of the method, so compare
 //! with the original before quoting a rating as CORA's. Ours: the automatic interval is that between
 //! the first and last sample above the thresholds, lengthened by `extension` on both sides; the
-//! original's further shortening at the end is left out. Give the interval to be certain.
+//! original's further shortening at the end is left out. Give the interval to be certain. Also ours: shifts whose
+//! correlations differ by 1e−12 or less are equal, and the smallest is taken.
 
 use super::{require_pair, shift::best_shift};
 use crate::signal::{SignalError, require_positive};
@@ -214,7 +215,7 @@ fn largest(values: &[f64]) -> f64 {
 /// K = Σxy/√(Σx²·Σy²)
 fn cross_correlation(x: &[f64], y: &[f64]) -> f64 {
     let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
-    dot(x, y) / (dot(x, x) * dot(y, y)).sqrt()
+    (dot(x, y) / (dot(x, x) * dot(y, y)).sqrt()).clamp(-1.0, 1.0)
 }
 
 /// Smaller over larger of Σx² and Σy².

@@ -2,6 +2,10 @@
 //!
 //! R = 0.4 Z + 0.2 EP + 0.2 EM + 0.2 ES. Formulas and constants as in the open-source OpenVT
 //! implementation of the 2024 edition; the document itself was not read.
+//!
+//! Ours, where the formulas give no number or leave it to rounding: lags whose correlations differ by 1e−12 or less are
+//! equal, and the smallest is taken; a constant computed signal correlates with nothing and is rated unshifted; a
+//! constant reference is refused, since the slope score would divide by its slope of zero.
 
 use super::{require_pair, shift::best_shift};
 use crate::signal::{SignalError, require_positive};
@@ -63,7 +67,7 @@ impl Iso18571 {
 ///
 /// # Errors
 /// Fewer than 20 or more than 20 000 samples, different lengths, a sample that is not finite, an interval other than
-/// 0.1 ms (the slope score depends on it: resample first), a reference without content.
+/// 0.1 ms (the slope score depends on it: resample first), a reference of zeros or without slope.
 pub fn iso18571(reference: &[f64], computed: &[f64], dt_s: f64) -> Result<Iso18571, SignalError> {
     require_positive("sample interval (s)", dt_s)?;
     if (dt_s / INTERVAL_S - 1.0).abs() > 1e-3 {
@@ -134,7 +138,7 @@ fn pearson(x: &[f64], y: &[f64]) -> f64 {
     if constant(xx, mean_x) || constant(yy, mean_y) {
         return f64::NAN;
     }
-    xy / (xx.sqrt() * yy.sqrt())
+    (xy / (xx.sqrt() * yy.sqrt())).clamp(-1.0, 1.0)
 }
 
 /// Derivative per sample (central differences, one-sided at the ends), averaged over nine samples;

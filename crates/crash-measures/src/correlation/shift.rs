@@ -13,7 +13,10 @@ pub(super) struct Shifted<'a> {
     pub agreement: f64,
 }
 
-/// Tries lags of 0, then ±1, ±2 … up to `most` and keeps the best agreement; among equals the
+/// What a lag must have over the best one before it: agreements that differ by less are equal but for rounding.
+const TIE: f64 = 1e-12;
+
+/// Tries lags of 0, then ±1, ±2 … up to `most` and keeps the best agreement; among equals (to 1e−12) the
 /// smallest lag, and late before early.
 pub(super) fn best_shift<'a>(
     reference: &'a [f64],
@@ -25,7 +28,7 @@ pub(super) fn best_shift<'a>(
     let mut best = Shifted { reference, computed, lag: 0, agreement: agreement(reference, computed) };
     let mut consider = |reference: &'a [f64], computed: &'a [f64], lag: isize| {
         let agreement = agreement(reference, computed);
-        if agreement > best.agreement {
+        if agreement > best.agreement + TIE {
             best = Shifted { reference, computed, lag, agreement };
         }
     };

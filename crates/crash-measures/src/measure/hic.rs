@@ -4,12 +4,16 @@
 //! resultant acceleration of the head's c.g. in g, its components filtered CFC 1000 first, and t in
 //! seconds.
 //!
-//! Windows on samples are searched first, without pow in the inner loop: with I = ∫ a dt and
-//! τ = t₂ − t₁, HIC^0.4 = I·τ^−0.6, so a window beats the best so far if I exceeds best^0.4·τ^0.6.
-//! One sample more adds at most a_max·dt to I while the amount needed only grows: the shortfall says
-//! how many samples can be skipped. The best window is then refined between samples, on the straight
-//! line through them. Known property of the optimum, used as a test: a(t₁) = a(t₂) = 0.6 · mean, or
-//! a(t₁) = a(t₂) where the window is at its limit.
+//! The value is that of the straight line through the samples, over all windows and not only those
+//! that start and end on samples: for a smooth pulse the same to many digits; for a spike of a single
+//! sample, which the line makes a triangle, up to 39 % more than programs that try pairs of samples.
+//!
+//! The maximum is found, not approached. With I = ∫ a dt and τ = t₂ − t₁, HIC^0.4 = I·τ^−0.6. The best
+//! window either has the length W and a(t₁) = a(t₂), or it starts where the line rises through
+//! h = 0.6·I/τ, or with the record above it, and ends where the line falls through h, or with the
+//! record. On two straight flanks h follows from a quadratic equation. Most pairs of flanks need no
+//! look: a window beats the best so far only if I exceeds best^0.4·τ^0.6, and one sample more adds at
+//! most a_max·dt to I, so the shortfall says how many samples can be skipped.
 
 use crate::signal::{CumulativeIntegral, STANDARD_GRAVITY_MPS2, SignalError, require_positive, whole_steps};
 
@@ -47,7 +51,8 @@ pub struct Hic {
     pub end_s: f64,
 }
 
-/// Head injury criterion of a resultant acceleration in m/s².
+/// Head injury criterion of a resultant acceleration in m/s²: the greatest over all windows of the straight line through the
+/// samples, wherever they start and end.
 ///
 /// A signal shorter than the window is searched as a whole. A signal with no positive window gives
 /// zero with an empty window.
@@ -59,15 +64,11 @@ pub fn hic(resultant_mps2: &[f64], dt_s: f64, window: HicWindow) -> Result<Hic, 
     let limit_s = window.seconds();
     require_positive("HIC window (s)", limit_s)?;
     let integral = CumulativeIntegral::new(resultant_mps2, dt_s)?;
-    let longest = whole_steps(limit_s, dt_s).min(resultant_mps2.len() - 1);
-    if longest == 0 {
+    if whole_steps(limit_s, dt_s) == 0 {
         return Err(SignalError::TooBrief { what: "HIC window", found_s: limit_s, needed_s: dt_s });
     }
-    let Some((start, end)) = best_sampled_window(resultant_mps2, integral.at_samples(), dt_s, longest) else {
-        return Ok(Hic { value: 0.0, start_s: 0.0, end_s: 0.0 });
-    };
-    let sampled = hic_of_window(&integral, start as f64 * dt_s, end as f64 * dt_s);
-    Ok(refine(&integral, sampled, dt_s, limit_s.min(integral.duration_s())))
+    let limit_s = limit_s.min(integral.duration_s());
+    Ok(Search::new(resultant_mps2, integral, dt_s, limit_s).best())
 }
 
 /// HIC of a free-motion headform, HIC(d) = 0.75446·HIC + 166.4.
@@ -76,50 +77,142 @@ pub fn hic_d(hic: f64) -> f64 {
     0.754_46 * hic + 166.4
 }
 
-/// Best window that starts and ends on samples, as indices; none if no window has a positive integral.
-fn best_sampled_window(a: &[f64], integral: &[f64], dt_s: f64, longest: usize) -> Option<(usize, usize)> {
-    let peak = a.iter().copied().fold(0.0, f64::max);
-    if peak <= 0.0 {
-        return None;
-    }
-    let tau_06: Vec<f64> = (0..=longest).map(|lag| libm::pow(lag as f64 * dt_s, 0.6)).collect();
-    let mut search =
-        WindowSearch { integral, tau_06: &tau_06, per_gain: 1.0 / (peak * dt_s), best_04: 0.0, window: None };
-    // a coarse pass first: a good best lets the full pass skip most windows
-    let coarse = (longest / 16).max(1);
-    for start in (0..a.len() - 1).step_by(coarse) {
-        search.try_start(start, coarse);
-    }
-    for start in 0..a.len() - 1 {
-        search.try_start(start, 1);
-    }
-    search.window
-}
-
-struct WindowSearch<'a> {
-    integral: &'a [f64],
-    /// τ^0.6 by lag.
-    tau_06: &'a [f64],
-    /// 1/(a_max·dt): samples per unit of integral at most.
-    per_gain: f64,
-    /// HIC^0.4 of the best window so far.
+/// The search for the best window of a line.
+struct Search<'a> {
+    a: &'a [f64],
+    integral: CumulativeIntegral<'a>,
+    dt_s: f64,
+    limit_s: f64,
+    peak: f64,
+    /// τ^0.6 by lag in samples.
+    tau_06: Vec<f64>,
+    best: Hic,
+    /// I·τ^−0.6 of the best window.
     best_04: f64,
-    window: Option<(usize, usize)>,
 }
 
-impl WindowSearch<'_> {
-    /// Tries the windows from `start` whose lags are `stride` apart, skipping those that cannot win.
+/// A rising or falling interval of the line as functions of its level h: t = time + slowness·h, ∫ a dt = integral +
+/// ½·slowness·h². At an end of the record the slowness is 0: every level up to the end value stands there.
+#[derive(Clone, Copy)]
+struct Flank {
+    slowness: f64,
+    time_s: f64,
+    integral: f64,
+    lowest: f64,
+    highest: f64,
+}
+
+impl<'a> Search<'a> {
+    fn new(a: &'a [f64], integral: CumulativeIntegral<'a>, dt_s: f64, limit_s: f64) -> Self {
+        let longest = whole_steps(limit_s, dt_s);
+        Search {
+            a,
+            integral,
+            dt_s,
+            limit_s,
+            peak: a.iter().copied().fold(0.0, f64::max),
+            tau_06: (0..=longest).map(|lag| libm::pow(lag as f64 * dt_s, 0.6)).collect(),
+            best: Hic { value: 0.0, start_s: 0.0, end_s: 0.0 },
+            best_04: 0.0,
+        }
+    }
+
+    fn best(mut self) -> Hic {
+        if self.peak > 0.0 {
+            self.try_longest();
+            // a coarse pass first: a good best lets the full pass skip most windows
+            let coarse = (self.tau_06.len() / 16).max(1);
+            for stride in [coarse, 1] {
+                (0..self.a.len()).step_by(stride).for_each(|start| self.try_start(start, stride));
+            }
+        }
+        self.best
+    }
+
+    /// Takes a window if it is the best so far.
+    fn offer(&mut self, start_s: f64, end_s: f64) {
+        let tried = hic_of_window(&self.integral, start_s, end_s);
+        if tried.value > self.best.value {
+            self.best = tried;
+            self.best_04 = libm::pow(tried.value, 0.4) * STANDARD_GRAVITY_MPS2;
+        }
+    }
+
+    /// The windows of the greatest length. While neither end passes a sample the integral over them is a parabola in time.
+    fn try_longest(&mut self) {
+        let last_s = self.integral.duration_s() - self.limit_s;
+        let samples_s = (0..self.a.len()).map(|i| i as f64 * self.dt_s);
+        let starts_s = samples_s.flat_map(|t_s| [t_s, t_s - self.limit_s]).chain([last_s]);
+        let mut starts_s: Vec<f64> = starts_s.filter(|t_s| (0.0..=last_s).contains(t_s)).collect();
+        starts_s.sort_by(f64::total_cmp);
+        let (mut before_s, mut growth_before) = (0.0, 0.0);
+        for start_s in starts_s {
+            let growth = self.integral.value_at(start_s + self.limit_s) - self.integral.value_at(start_s);
+            if growth_before > 0.0 && growth < 0.0 {
+                let crest_s = before_s + (start_s - before_s) * growth_before / (growth_before - growth);
+                self.offer(crest_s, crest_s + self.limit_s);
+            }
+            self.offer(start_s, start_s + self.limit_s);
+            (before_s, growth_before) = (start_s, growth);
+        }
+    }
+
+    /// Tries windows from sample `start` to samples `stride` apart, and those whose ends stand on the flanks before and
+    /// after, which reach at most one interval farther at each end; skips what cannot win.
     fn try_start(&mut self, start: usize, stride: usize) {
-        let longest = (self.tau_06.len() - 1).min(self.integral.len() - 1 - start);
-        let mut lag = stride;
+        let one_interval = self.peak * self.dt_s;
+        let rise = self.flank(start, start.checked_sub(1));
+        let longest = (self.tau_06.len() - 1).min(self.a.len() - 1 - start);
+        let mut lag = 0;
         while lag <= longest {
-            let gain = self.integral[start + lag] - self.integral[start];
+            let end = start + lag;
+            let gain = self.integral.at_samples()[end] - self.integral.at_samples()[start];
             let shortfall = self.best_04 * self.tau_06[lag] - gain;
             if shortfall < 0.0 {
-                self.best_04 = gain / self.tau_06[lag];
-                self.window = Some((start, start + lag));
+                self.offer(start as f64 * self.dt_s, end as f64 * self.dt_s);
             }
-            lag = lag.saturating_add(((shortfall * self.per_gain) as usize).max(stride));
+            let shortfall = shortfall - 2.0 * one_interval;
+            if shortfall < 0.0
+                && let (Some(rise), Some(fall)) = (rise, self.flank(end, Some(end + 1).filter(|&i| i < self.a.len())))
+            {
+                self.try_flanks(rise, fall);
+            }
+            lag = lag.saturating_add(((shortfall / one_interval) as usize).max(stride));
+        }
+    }
+
+    /// The flank from sample `top` down to the sample beside it, or the end of the record; none if it is no way down, or too
+    /// flat for the end of a best window, where |ȧ| ≥ 0.4·h/τ.
+    fn flank(&self, top: usize, beside: Option<usize>) -> Option<Flank> {
+        let highest = self.a[top];
+        let (slowness, lowest) = match beside {
+            None => (0.0, f64::NEG_INFINITY),
+            Some(foot) => ((top as f64 - foot as f64) * self.dt_s / (highest - self.a[foot]), self.a[foot]),
+        };
+        let falls = highest > lowest && slowness.abs() * 0.4 * lowest.max(0.0) <= self.limit_s * (1.0 + 1e-9);
+        (falls && highest > 0.0).then(|| Flank {
+            slowness,
+            time_s: top as f64 * self.dt_s - slowness * highest,
+            integral: self.integral.at_samples()[top] - 0.5 * slowness * highest * highest,
+            lowest,
+            highest,
+        })
+    }
+
+    /// The best window that starts on a rising flank and ends on a falling one: with τ = A + Bh and I = C + ½Bh² the
+    /// condition h·τ = 0.6·I has the roots of 0.7Bh² + Ah − 0.6C = 0, of which the smaller is the maximum.
+    fn try_flanks(&mut self, rise: Flank, fall: Flank) {
+        let (a, b, c) = (fall.time_s - rise.time_s, fall.slowness - rise.slowness, fall.integral - rise.integral);
+        let level = 1.2 * c / (a + (a * a + 1.68 * b * c).sqrt());
+        let (lowest, highest) = (rise.lowest.max(fall.lowest), rise.highest.min(fall.highest));
+        // a level between two flanks must not fall through the gap that rounding leaves: a window tried in vain does no harm
+        let near = 1e-6 * self.peak;
+        if level > 0.0 && level >= lowest - near && level <= highest + near {
+            let level = level.min(highest).max(lowest);
+            let [start_s, end_s] = [rise, fall].map(|flank| flank.time_s + flank.slowness * level);
+            if end_s - start_s <= self.limit_s {
+                self.offer(start_s.max(0.0), end_s.min(self.integral.duration_s()));
+            }
         }
     }
 }
@@ -133,32 +226,6 @@ fn hic_of_window(integral: &CumulativeIntegral, start_s: f64, end_s: f64) -> Hic
     }
     let mean_g = gain_mps / (tau_s * STANDARD_GRAVITY_MPS2);
     Hic { value: tau_s * mean_g * mean_g * mean_g.sqrt(), start_s, end_s }
-}
-
-/// Moves both ends between samples by steps that halve while no move helps.
-fn refine(integral: &CumulativeIntegral, sampled: Hic, dt_s: f64, limit_s: f64) -> Hic {
-    const MOVES: [(f64, f64); 8] =
-        [(-1., 0.), (1., 0.), (0., -1.), (0., 1.), (-1., -1.), (1., 1.), (-1., 1.), (1., -1.)];
-    let mut best = sampled;
-    let mut step_s = 0.5 * dt_s;
-    while step_s > 1e-6 * dt_s {
-        let mut moved = best;
-        let mut improved = false;
-        for (at_start, at_end) in MOVES {
-            let end_s = (best.end_s + at_end * step_s).min(integral.duration_s());
-            let start_s = (best.start_s + at_start * step_s).max(end_s - limit_s).max(0.0);
-            let tried = hic_of_window(integral, start_s, end_s.min(start_s + limit_s));
-            if tried.value > moved.value {
-                moved = tried;
-                improved = true;
-            }
-        }
-        if !improved {
-            step_s *= 0.5;
-        }
-        best = moved;
-    }
-    best
 }
 
 #[cfg(test)]

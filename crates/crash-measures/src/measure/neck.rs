@@ -3,8 +3,11 @@
 //! Nij = F_z/F_zc + M_ocy/M_yc at every sample, with the intercepts of the quadrant the signs choose:
 //! tension +, compression −, flexion +, extension − (SAE J1733 polarity). M_ocy is the moment about
 //! the occipital condyles; an upper load cell a distance D below them measures M_y and
-//! M_ocy = M_y − D·F_x. A joint reaction taken at the condyles needs no correction. Secondary sources
-//! disagree whether force or moment is filtered CFC 1000 or 600; say which was used.
+//! M_ocy = M_y − D·F_x. A joint reaction taken at the condyles needs no correction.
+//!
+//! Filters: [`crate::injury`] takes CFC 1000 for the force and CFC 600 for the moment, the classes of
+//! SAE J211's table for a neck as a vendor of filters quotes it. Other programs take CFC 600 for both;
+//! whoever needs that filters so and calls [`nij`]. The rules themselves were not at hand.
 
 use super::{Dummy, Peak};
 use crate::signal::{SignalError, require_same_length, require_samples};

@@ -41,6 +41,7 @@ impl<S: Scalar> Site<S> {
     pub(crate) fn place(&self, k: &Kinematics<S>) -> (V3<S>, V3<S>, V3<S>) {
         let n = self.segment;
         let arm = k.axes[n].out(self.offset);
+        // the centre; A of (65) lies r̄ = −r N̂ from it
         (arm, k.joint[n] + arm, k.joint_velocity[n] + k.omega[n].cross(arm))
     }
 }

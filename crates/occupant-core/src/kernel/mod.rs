@@ -115,6 +115,7 @@ impl<S: Scalar> System<S> {
         let Scratch { kinematics: k, sweep } = scratch;
         k.follow(&self.skeleton, state);
         let Load { wrench, power } = self.load::<COMMIT>(k, state, frames, history, observer);
+        // q̈ from q̇ and q (114)
         sweep.solve(&self.skeleton, k, &state.hinge_rate, &wrench);
         let accelerations = &sweep.accelerations;
         let mut rate = State {
@@ -158,7 +159,7 @@ impl<S: Scalar> System<S> {
         observer: &mut impl Observer<S>,
     ) -> Load<S> {
         let at = Instant { k, state, frames, spheres: &self.spheres };
-        self.forces.apply::<COMMIT>(&at, history, observer)
+        self.forces.apply::<COMMIT>(&at, history, observer) // Q_f + R (48), and F_s
     }
 
     /// A sphere's centre seen from its segment's joint, in space, and its velocity; all in space axes.

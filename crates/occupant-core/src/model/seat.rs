@@ -82,6 +82,7 @@ pub(crate) fn seat(
     state.t1 = V3::of(&vehicle.point_to_space(t1));
     let mut lean = |segment: Segment, gamma: f64| {
         if let Some(slot) = free_slot(segment.index()) {
+            // Bⁿ (111), which is Tⁿ at the start: X′ = Bⁿ X_n (110)
             state.orientation[slot] = quaternion(&(vehicle.rotation * leaned(gamma)));
         }
     };

@@ -103,7 +103,7 @@ impl<S: Scalar> Trunk<S> {
     }
 }
 
-/// Accelerations under the loads `wrench` (without gravity, which is added here).
+/// Accelerations under the loads `wrench` (without gravity, which is added here): solves (53).
 #[inline(always)]
 pub fn solve<S: Scalar>(
     body: &Skeleton<S>,
@@ -196,6 +196,7 @@ impl<S: Scalar> Sweep<S> {
                 + k.axes[upper].y * out.hinge[i]
                 + k.omega[upper].cross(k.axes[upper].y) * hinge_rate[i];
         }
+        // F_p (51a), (56): a uniform acceleration of all joints
         let gravity = v3(S::zero(), S::zero(), -body.gravity);
         for a in &mut out.joint {
             *a += gravity;

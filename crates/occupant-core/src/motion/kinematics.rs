@@ -62,14 +62,15 @@ impl<S: Scalar> Kinematics<S> {
         self.place_joints(body);
     }
 
-    /// X_j = R_y(α) X_m (Eq. 8), ω_j = ω_m + α̇ Y_m.
+    /// X_j = R_y(α) X_m (8) for the lower segment m of a limb on its upper segment j, and its angular velocity.
     #[inline(always)]
     fn turn_hinge(&mut self, limb: usize, upper: usize, lower: usize, state: &State<S>) {
         let (s, c) = state.hinge[limb].sin_cos();
         let M3 { x, y, z } = self.axes[upper];
         self.hinge_sin_cos[limb] = (s, c);
+        // T^nm = Tⁿ R_y(α) (9), (10) by columns: from those of Tⁿ X_m = c X_j − s Z_j and Z_m = s X_j + c Z_j (11)
         self.axes[lower] = M3 { x: x * c - z * s, y, z: x * s + z * c };
-        self.omega[lower] = self.omega[upper] + y * state.hinge_rate[limb];
+        self.omega[lower] = self.omega[upper] + y * state.hinge_rate[limb]; // (45), in space axes
     }
 
     /// Joints from the root outwards, each at (0, y, z) of the segment that carries it.
@@ -83,15 +84,17 @@ impl<S: Scalar> Kinematics<S> {
         }
     }
 
-    /// Centre of gravity of segment `n`.
+    /// Centre of gravity of segment `n`; (13) is that of segment 1, (14) that of segment 8.
     #[inline(always)]
     pub fn cg(&self, body: &Skeleton<S>, n: usize) -> V3<S> {
+        // segments 1 to 12: (15), (16), (17), (18), (19), (20), (21), (22), (23), (24), (25), (26)
         self.joint[n] + self.axes[n].z * body.links[n].cg
     }
 
     /// Velocity of the centre of gravity of segment `n`.
     #[inline(always)]
     pub fn cg_velocity(&self, body: &Skeleton<S>, n: usize) -> V3<S> {
+        // its square is, for segments 1 to 12: (27), (28), (29), (30), (31), (32), (33), (34), (35), (36), (37), (38)
         self.joint_velocity[n] + self.omega[n].cross(self.axes[n].z * body.links[n].cg)
     }
 }

@@ -92,23 +92,23 @@ impl ReportCoordinates {
     }
 }
 
-/// T = R_z(φ) R_y(θ) R_z(ψ) (Eq. 6).
+/// T = R_z(φ) R_y(θ) R_z(ψ), the product of the turns (2), (3) and (4).
 pub(crate) fn euler_rotation([phi, theta, psi]: [f64; 3]) -> Matrix3<f64> {
     let ((sf, cf), (st, ct), (sp, cp)) = (sin_cos(phi), sin_cos(theta), sin_cos(psi));
     Matrix3::new(
-        cf * ct * cp - sf * sp,
-        -cf * ct * sp - sf * cp,
-        cf * st,
-        sf * ct * cp + cf * sp,
-        -sf * ct * sp + cf * cp,
-        sf * st,
-        -st * cp,
-        st * sp,
-        ct,
+        cf * ct * cp - sf * sp,  // (6a)
+        -cf * ct * sp - sf * cp, // (6b)
+        cf * st,                 // (6c)
+        sf * ct * cp + cf * sp,  // (6d)
+        -sf * ct * sp + cf * cp, // (6e)
+        sf * st,                 // (6f)
+        -st * cp,                // (6g)
+        st * sp,                 // (6h)
+        ct,                      // (6i)
     )
 }
 
-/// ω = φ̇ Z′ + θ̇ Y₁ + ψ̇ Z_n, space axes (the space form of Eq. 44).
+/// ω = φ̇ Z′ + θ̇ Y₁ + ψ̇ Z_n, the sum of three turns (39), in space axes; its components along the segment's are (44).
 fn angular_velocity([phi, theta, _]: [f64; 3], rates: [f64; 3]) -> Vector3<f64> {
     let ((sf, cf), (st, ct)) = (sin_cos(phi), sin_cos(theta));
     let turned_y = Vector3::new(-sf, cf, 0.0);

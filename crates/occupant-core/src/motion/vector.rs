@@ -110,14 +110,15 @@ impl<S: Scalar> Mul<S> for V3<S> {
 
 in_place!([S: Scalar] V3<S>);
 
-/// A 3 × 3 matrix by columns; for an orientation the columns are the axes X, Y, Z of the turned frame.
+/// A 3 × 3 matrix by columns; for an orientation the columns are the axes X, Y, Z of the turned frame, ī, j̄, k̄ of a segment
+/// (59).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct M3<S> {
     /// First column.
     pub x: V3<S>,
     /// Second column.
     pub y: V3<S>,
-    /// Third column.
+    /// Third column; of a segment k̄, its Z axis (60).
     pub z: V3<S>,
 }
 
@@ -143,13 +144,13 @@ impl<S: Scalar> M3<S> {
         M3::of(&Matrix3::identity())
     }
 
-    /// M v: components in the frame → components outside it.
+    /// M v: components in the frame → components outside it; X′ = Tⁿ X_n (1).
     #[inline(always)]
     pub fn out(&self, v: V3<S>) -> V3<S> {
         self.x * v.x + self.y * v.y + self.z * v.z
     }
 
-    /// Mᵀ v: components outside → components in the frame.
+    /// Mᵀ v: components outside → components in the frame; X_n = Tⁿᵀ X′ (7), X_m = T^nmᵀ X′ (12).
     #[inline(always)]
     pub fn into_frame(&self, v: V3<S>) -> V3<S> {
         v3(self.x.dot(v), self.y.dot(v), self.z.dot(v))

@@ -75,6 +75,7 @@ impl EnergyLedger {
 
     /// Kinetic and gravity energy and what is stored without a work sum.
     fn mechanical_j(&self) -> f64 {
+        // U + V with V = V_p + V_s (49)
         let without = STORED.iter().filter(|energy| energy.held_by.is_none());
         without.fold(self.kinetic_j + self.gravity_j, |sum, energy| sum + self.stored_j[energy.at])
     }

@@ -52,6 +52,7 @@ impl Iterator for Stretch {
             return None;
         }
         self.done = i + 1.0;
+        // t_i = t_{i−1} + Δt (125), counted from the last output
         let end_s = if self.done < self.count { self.from_s + self.done * self.step_s } else { self.target_s };
         let start_s = self.from_s + i * self.step_s;
         Some(Step { start_s, end_s })

@@ -26,7 +26,7 @@ pub struct Attitude {
 const LOCKED_COSINE: f64 = 1e-9;
 
 impl Attitude {
-    /// The matrix A (3×3) that turns vehicle components into vehicle-space components (Eqs 78, 79).
+    /// The matrix A (3×3) that turns vehicle components into vehicle-space components (78).
     pub(crate) fn matrix(&self) -> Matrix3<f64> {
         Trigonometry::of(self.to_vector()).matrix()
     }

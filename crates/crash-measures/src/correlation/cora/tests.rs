@@ -18,6 +18,18 @@ fn identical_signals_rate_one() {
 }
 
 #[test]
+fn rounding_does_not_shift_signals_that_correlate_alike_at_every_lag() {
+    // exponentials correlate by 1 whatever the lag, but for the last digits
+    for rate_per_s in [0.0, 1.0, -7.0, 30.0] {
+        let reference = sampled(|t| 3.7 * (rate_per_s * t).exp());
+        let computed: Vec<f64> = reference.iter().map(|m| 1.1 * m).collect();
+        let found = cora(&reference, &computed, 1e-4, &CoraSettings::default()).unwrap();
+        assert_eq!((found.lag_s, found.phase), (0.0, 1.0), "{rate_per_s}/s");
+        assert!(found.progression <= 1.0, "{rate_per_s}/s: {}", found.progression);
+    }
+}
+
+#[test]
 fn a_scaled_signal_loses_size_by_the_square_and_corridor_only() {
     let reference = sampled(pulse);
     let computed: Vec<f64> = reference.iter().map(|m| 1.25 * m).collect();

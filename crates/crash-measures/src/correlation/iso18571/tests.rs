@@ -62,6 +62,20 @@ fn identical_signals_rate_one_and_opposite_ones_low() {
 }
 
 #[test]
+fn rounding_does_not_shift_signals_that_correlate_alike_at_every_lag() {
+    // a line correlates with a line by 1 whatever the lag, but for the last digits
+    for (slope, offset) in [(1.0, 0.0), (0.1, 7.3), (-9.806_65, 1e3), (1.0 / 3.0, -40.0)] {
+        for n in [20, 137, 500, 1000] {
+            let line = sampled(n, |t| offset + slope * t);
+            let same = iso18571(&line, &line, 1e-4).unwrap();
+            assert_eq!((same.overall, same.lag_s), (1.0, 0.0), "{slope} t + {offset}, {n} samples");
+            let steeper: Vec<f64> = line.iter().map(|y| 1.1 * y).collect();
+            assert_eq!(iso18571(&line, &steeper, 1e-4).unwrap().lag_s, 0.0, "{slope} t + {offset}, {n} samples");
+        }
+    }
+}
+
+#[test]
 fn unusable_pairs_are_named() {
     let signal = sampled(100, |t| t);
     assert!(matches!(iso18571(&signal, &signal, 1e-3), Err(SignalError::OutOfRange { .. })));

@@ -98,13 +98,14 @@ impl<S: Scalar> BeltLaw<S> {
         let on_the_line = area.lt(l_1 * l_2 * S::of(1e-12));
         let normal = unit(V3::select(backward, -cross, cross));
         let normal = V3::select(on_the_line, history.normal, normal);
-        // θ₃ in (0, 2π), measured about the remembered normal
+        // θ₃ (97), measured about the remembered normal: from 0 to 2π
         let sine = S::select(backward, -area, area);
         let angle = sine.atan2(to_1.dot(to_2));
         let theta_3 = S::select(angle.lt(S::zero()), angle + S::of(TAU), angle);
 
         let side_1 = Side::new(self.radius, l_1, to_1, normal.cross(to_1));
         let side_2 = Side::new(self.radius, l_2, to_2, to_2.cross(normal));
+        // W = 2β (98), L_Bt (101), ΔL_B (102)
         let wrap = S::of(TAU) - side_1.theta - side_2.theta - theta_3;
         let length = side_1.free_length + side_2.free_length + self.radius * wrap;
         let elongation = length - self.rest_length;
@@ -115,7 +116,7 @@ impl<S: Scalar> BeltLaw<S> {
             length,
             elongation,
             loop_force,
-            force: (side_1.direction + side_2.direction) * loop_force,
+            force: (side_1.direction + side_2.direction) * loop_force, // of length 2F_L cos α (103)
             stored: S::select(pulls, stored, S::zero()),
             free: [side_1.direction, side_2.direction],
             wrap,
@@ -167,7 +168,7 @@ impl<S: Scalar> Side<S> {
         let sine = (S::one() - cosine * cosine).max(S::zero()).sqrt();
         let inverse = S::one() / distance.max(S::of(1e-12));
         Side {
-            theta: cosine.acos(),
+            theta: cosine.acos(), // (95), (96)
             free_length: l * sine,
             direction: to_anchor * (sine * inverse) + towards_other * (cosine * inverse),
         }

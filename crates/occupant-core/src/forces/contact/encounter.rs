@@ -51,7 +51,7 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         let (site, frame, k) = (&at.spheres[group.sphere], &at.frames[group.frame], at.k);
         let arm = k.axes[site.segment].out(site.offset);
         let centre = k.joint[site.segment] + arm;
-        let centre_f = frame.axes.into_frame(centre - frame.origin);
+        let centre_f = frame.axes.into_frame(centre - frame.origin); // (83)
         Sphere { contacts, group, site, frame, k, arm, centre, centre_f, load: None }
     }
 
@@ -98,13 +98,14 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         };
         let on = t.weight.gt(S::zero());
         let press = t.normal * t.normal_force + t.edge;
-        let arm = t.normal * -self.site.radius;
+        let arm = t.normal * -self.site.radius; // r̄ of (65)
         let edge_twist = arm.cross(t.edge) * self.contacts.edge_lever;
-        let force = load.force + (press + t.friction);
+        let force = load.force + (press + t.friction); // F_N + F_f (93)
         let twist = load.twist + (arm.cross(t.friction) + edge_twist);
         load.force = V3::select(on, force, load.force);
         load.twist = V3::select(on, twist, load.twist);
         load.lanes = load.lanes | on;
+        // work of the contact forces, relative to the frame, as a power (63)
         let pressing = press.dot(approach.velocity) + edge_twist.dot(approach.omega);
         let rubbing = t.friction.dot(t.slip);
         let sums = &mut power.sums;
@@ -113,13 +114,13 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         show(&t);
     }
 
-    /// Puts the gathered load on the sphere's segment (Eqs 94, 63–68).
+    /// Puts the gathered load on the sphere's segment.
     #[inline(always)]
     pub(super) fn load(self, all: &mut AllLoads<S>) {
         let Some(load) = self.load else { return };
         let frame = self.frame;
-        let (force, twist) = (frame.axes.out(load.force), frame.axes.out(load.twist));
-        let moment = self.arm.cross(force) + twist;
+        let (force, twist) = (frame.axes.out(load.force), frame.axes.out(load.twist)); // (94)
+        let moment = self.arm.cross(force) + twist; // with the force, Q_f (68)
         // F·v of the frame at the centre, and the lever about it
         let carrying = force.dot(frame.velocity_at(self.centre)) + twist.dot(frame.omega);
         let on = &mut all.wrench[self.site.segment];

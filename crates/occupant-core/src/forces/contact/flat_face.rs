@@ -17,7 +17,7 @@ pub struct FlatFace {
     pub frame: Frame,
     /// N̂, towards the open side.
     pub normal: Vector3<f64>,
-    /// G = N̂·x for the points x of the plane, m.
+    /// G of the plane's equation N̂·x = G (86), m.
     pub offset_m: f64,
     /// Outline; polygon corners run counter-clockwise seen from the open side.
     pub outline: Outline,
@@ -42,6 +42,7 @@ impl FlatFace {
             problems.error(path, "a normal of length zero", "a direction");
             return None;
         };
+        // N̂ (84)
         let normal = match surface.facing {
             Facing::Order => normal,
             Facing::Towards(inside) => {
@@ -67,6 +68,7 @@ impl FlatFace {
             }
             other => other,
         };
+        // G from a point of the plane (87)
         Some(FlatFace { frame: surface.frame, normal, offset_m: normal.dot(&point.coords), outline })
     }
 

@@ -72,7 +72,7 @@ pub(crate) struct Plane<S> {
 }
 
 impl<S: Scalar> Plane<S> {
-    /// Δ for a centre in the face's frame (Eqs 89, 92).
+    /// Δ = r + L (92) with L = G − N̂·x_c (89), for a centre in the face's frame.
     #[inline(always)]
     pub(crate) fn depth(&self, centre: V3<S>) -> S {
         self.reach - self.normal.dot(centre)
@@ -222,6 +222,7 @@ impl<S: Scalar> Pair<S> {
     /// Offset from the union of the parts, and the index of the nearest part in each lane (as a number).
     #[inline(always)]
     fn nearest(&self, centre: V3<S>) -> (Offset<S>, S) {
+        // P (88), in coordinates of the plane
         let point = V2 { u: self.u.dot(centre), v: self.v.dot(centre) };
         let mut best = self.parts[0].outline.offset(point);
         let mut index = S::zero();

@@ -157,14 +157,16 @@ impl<S: Scalar> JointSystem<S> {
         for (i, &(inner, outer)) in BALLS.iter().enumerate() {
             let action = self.ball(i, k);
             show(&action);
+            // R (76), and F_s
             wrench[outer].moment += action.moment;
             wrench[inner].moment -= action.moment;
             dissipated += action.dissipated;
         }
         for (i, &(upper, lower)) in LIMBS.iter().enumerate() {
             let rate = state.hinge_rate[i];
-            let torque = self.hinges[i].torque(state.hinge[i], rate);
+            let torque = self.hinges[i].torque(state.hinge[i], rate); // β is α (72)
             let moment = k.axes[upper].y * torque;
+            // R of elbows and knees (77)
             wrench[lower].moment += moment;
             wrench[upper].moment -= moment;
             dissipated -= torque * rate;
@@ -180,7 +182,7 @@ impl<S: Scalar> JointSystem<S> {
         let (z_k, z_l) = (k.axes[inner].z, k.axes[outer].z);
         let omega = k.omega[outer] - k.omega[inner];
         let normal = z_k.cross(z_l);
-        let cosine = z_k.dot(z_l);
+        let cosine = z_k.dot(z_l); // (58)
         // s² + ε², kept off zero for ε = 0 at β = 0, where n = 0 makes every moment vanish
         let sine_squared = (normal.norm_squared() + self.epsilon_squared).max(S::of(1e-30));
         let inverse = S::one() / sine_squared;
@@ -188,15 +190,17 @@ impl<S: Scalar> JointSystem<S> {
 
         let stopping = cosine.lt(joint.stop_cosine) & bending.gt(S::zero());
         let near_stop = S::any(stopping);
+        // β as an arc tangent (61), (71)
         let beta = if near_stop || joint.has_spring { sine_squared.sqrt().atan2(cosine) } else { S::zero() };
         let mut damping = joint.damping;
         if near_stop {
             damping = S::select(stopping, damping + joint.stop.extra(beta), damping);
         }
-        // T = −J [n (n·ω) + ε² ω_⊥]/(s² + ε²)
+        // T = −J [n (n·ω) + ε² ω_⊥]/(s² + ε²) (69)
         let across = omega - z_k * z_k.dot(omega);
         let scale = damping * inverse;
         let mut moment = -(normal * (scale * bending) + across * (scale * self.epsilon_squared));
+        // −T·ω (70)
         let mut dissipated = scale * (bending * bending + self.epsilon_squared * across.norm_squared());
         // T = −J_t Z_l (Z_l·ω)
         let twisting = z_l.dot(omega);
@@ -204,7 +208,7 @@ impl<S: Scalar> JointSystem<S> {
         dissipated += joint.twist * twisting * twisting;
         let mut stored = S::zero();
         if joint.has_spring {
-            // V = ½K(β − β₀)², T = −K(β − β₀) n/√(s² + ε²)
+            // V = ½K(β − β₀)² (57), T = −K(β − β₀) n/√(s² + ε²) (51b), (62)
             let bent = joint.stiffness * (beta - joint.rest);
             moment -= normal * (bent * inverse.sqrt());
             stored = S::of(0.5) * bent * (beta - joint.rest);

@@ -28,7 +28,7 @@ pub fn step<S: Scalar>(state: &State<S>, h: S, mut rate: impl FnMut(Stage, &Stat
     sum = sum.advanced(two, &k3);
     let k4 = rate(Stage::End, &state.advanced(h, &k3)); // (121), (122)
     sum = sum.advanced(S::one(), &k4);
-    let mut next = state.advanced(h / S::of(6.0), &sum); // (123)–(127)
+    let mut next = state.advanced(h / S::of(6.0), &sum); // (123), (124), (126), (127)
     next.normalize();
     next
 }
