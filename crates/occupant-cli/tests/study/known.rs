@@ -126,11 +126,11 @@ fn half_of_a_study_and_failed_runs_leave_whole_points_only() {
     samples.responses[0].values[7] = f64::NAN;
     let found = sobol(&samples, &study);
     assert_eq!((found.points, found.dropped), (31, 1));
-    assert_eq!(caution::index(&Estimate { value: 0.3, low: 0.26, high: 0.34 }, &found), None);
+    assert_eq!(caution::index(&Estimate { value: 0.3, low: 0.26, high: 0.34 }, 0, &found), None);
     samples.responses[0].values[12] = f64::NAN;
     let found = sobol(&samples, &study);
     // 2 of 32 are more than 5 %: however narrow the interval, the index is marked
-    assert!(caution::index(&found.first[0], &found).is_some());
+    assert!(caution::index(&found.first[0], 0, &found).is_some());
     let few = table(&study, 70, ishigami);
     let ByDesign::Sobol(Err(why)) = Analysis::of(&few, 0, &study).by_design else { panic!("14 points are too few") };
     assert_eq!(why, "14 complete points; at least 16 are needed");

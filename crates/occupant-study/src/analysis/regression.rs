@@ -54,8 +54,8 @@ pub fn rank_correlation(parameter: &[f64], figure: &[f64]) -> Result<RankCorrela
         let kept: Vec<f64> = rows.iter().map(|&r| column[r]).collect();
         ranks(&kept)
     });
-    let (x, _) = standardised(&x).ok_or(AnalysisError::Constant { parameter: Some(0) })?;
-    let (y, _) = standardised(&y).ok_or(AnalysisError::Constant { parameter: None })?;
+    let x = standardised(&x).ok_or(AnalysisError::Constant { parameter: Some(0) })?;
+    let y = standardised(&y).ok_or(AnalysisError::Constant { parameter: None })?;
     let n = rows.len() as f64;
     let rho = x.iter().zip(&y).map(|(x, y)| x * y).sum::<f64>() / (n - 1.0);
     let rho = rho.clamp(-1.0, 1.0);
@@ -76,16 +76,21 @@ pub fn regression(parameters: &[Vec<f64>], figure: &[f64], seed: u64) -> Result<
     let column = |values: &[f64]| -> Vec<f64> { rows.iter().map(|&r| values[r]).collect() };
     let mut x = Vec::with_capacity(parameters.len());
     for (i, values) in parameters.iter().enumerate() {
-        let (standard, _) = standardised(&column(values)).ok_or(AnalysisError::Constant { parameter: Some(i) })?;
-        x.push(standard);
+        x.push(standardised(&column(values)).ok_or(AnalysisError::Constant { parameter: Some(i) })?);
     }
-    let (y, _) = standardised(&column(figure)).ok_or(AnalysisError::Constant { parameter: None })?;
+    let y = standardised(&column(figure)).ok_or(AnalysisError::Constant { parameter: None })?;
     let every: Vec<usize> = (0..rows.len()).collect();
     let fitted = least_squares(&x, &y, &every).ok_or(AnalysisError::Dependent)?;
     let error: f64 =
         every.iter().map(|&r| (y[r] - (0..x.len()).map(|i| fitted[i] * x[i][r]).sum::<f64>()).powi(2)).sum();
     let nothing = vec![f64::NAN; x.len()];
-    let of = |rows: &[usize]| least_squares(&x, &y, rows).unwrap_or_else(|| nothing.clone());
+    // a resample has standard deviations of its own: what the figure owes to its largest values goes with them
+    let of = |rows: &[usize]| {
+        let drawn = |column: &[f64]| deviation(&rows.iter().map(|&r| column[r]).collect::<Vec<f64>>());
+        let found = least_squares(&x, &y, rows).unwrap_or_else(|| nothing.clone());
+        let of_figure = drawn(&y);
+        found.iter().zip(&x).map(|(slope, x)| slope * drawn(x) / of_figure).collect()
+    };
     Ok(Regression {
         coefficients: bootstrap::intervals(seed, rows.len(), x.len(), of),
         explained: 1.0 - error / (rows.len() - 1) as f64,
@@ -98,16 +103,19 @@ fn enough<'a>(columns: impl Iterator<Item = &'a [f64]> + Clone, needed: usize) -
     if rows.len() >= needed { Ok(rows) } else { Err(AnalysisError::TooFew { found: rows.len(), needed }) }
 }
 
-/// Values less their mean over their standard deviation, and that deviation; none for a constant column.
-fn standardised(values: &[f64]) -> Option<(Vec<f64>, f64)> {
-    let middle = mean(values);
-    let squares: f64 = values.iter().map(|v| (v - middle).powi(2)).sum();
-    let deviation = (squares / (values.len() - 1) as f64).sqrt();
+/// Values less their mean over their standard deviation; none for a constant column.
+fn standardised(values: &[f64]) -> Option<Vec<f64>> {
+    let (middle, deviation) = (mean(values), deviation(values));
     if deviation.is_nan() || deviation <= 1e-12 * middle.abs() || deviation == 0.0 {
         return None;
     }
-    let standard = values.iter().map(|v| (v - middle) / deviation).collect();
-    Some((standard, deviation))
+    Some(values.iter().map(|v| (v - middle) / deviation).collect())
+}
+
+fn deviation(values: &[f64]) -> f64 {
+    let middle = mean(values);
+    let squares: f64 = values.iter().map(|v| (v - middle).powi(2)).sum();
+    (squares / (values.len() - 1) as f64).sqrt()
 }
 
 /// Coefficients of y on the columns x (with a constant) over some rows; none if the columns depend on one another there.

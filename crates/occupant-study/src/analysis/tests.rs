@@ -166,3 +166,55 @@ fn regression_gives_each_parameter_its_part() {
     let twice = vec![column(0), column(0)];
     assert_eq!(regression(&twice, &figure, 1).unwrap_err(), AnalysisError::Dependent);
 }
+
+/// y = exp(k u₁) + c u₂, of which the standardised coefficients are known. A percentile bootstrap of 100 rows is somewhat
+/// narrow: measured 185 to 194 of 200 intervals, and 67 to 171 with the standard deviations of the whole sample in all
+/// resamples.
+#[test]
+fn intervals_of_coefficients_hold_the_truth_where_one_parameter_dominates() {
+    for (k, c) in [(0.5_f64, 0.3), (1.0, 0.5), (2.0, 3.0)] {
+        let mean_exp = |k: f64| (k.exp() - 1.0) / k;
+        let sd_u = (1.0_f64 / 12.0).sqrt();
+        let sd_y = (mean_exp(2.0 * k) - mean_exp(k).powi(2) + c * c / 12.0).sqrt();
+        let covariance = (k.exp() * (k - 1.0) + 1.0) / (k * k) - 0.5 * mean_exp(k);
+        let truth = [covariance / (sd_u * sd_y), c * sd_u / sd_y];
+        let mut held = [0; 2];
+        for seed in 0..200 {
+            let column = |d: u32| -> Vec<f64> { (0..100).map(|i| unit(seed, Purpose::MonteCarlo, i, d)).collect() };
+            let (x, z) = (column(0), column(1));
+            let figure: Vec<f64> = x.iter().zip(&z).map(|(x, z)| (k * x).exp() + c * z).collect();
+            let found = regression(&[x, z], &figure, seed).unwrap();
+            for ((held, estimate), truth) in held.iter_mut().zip(&found.coefficients).zip(truth) {
+                *held += usize::from(estimate.low <= truth && truth <= estimate.high);
+            }
+        }
+        assert!(held.iter().all(|held| *held >= 180), "{k} {c}: {held:?} of 200 intervals hold {truth:?}");
+    }
+}
+
+/// y = u₁ + u₂ᵖ: with p = 60 u₂ acts in a few points only, with p = 4 in many. An interval of an index knows no more than the points that carry it have met:
+/// of those with 10 or more nearly all hold the truth, with fewer than 5 too few, with none none.
+#[test]
+fn intervals_that_few_points_carry_do_not_hold_the_truth() {
+    // carried by no point, by fewer than 5, by 10 or more: how many intervals, and how many hold the truth
+    let mut counts = [[0.0; 2]; 3];
+    for seed in 0..300 {
+        let p = [60.0_f64, 4.0][seed as usize % 2];
+        let of_second: f64 = 1.0 / (2.0 * p + 1.0) - 1.0 / (p + 1.0).powi(2);
+        let truth = of_second / (of_second + 1.0 / 12.0);
+        let (a, b, ab) = saltelli(2, 16 << (seed % 5), seed, |u| u[0] + u[1].powf(p));
+        let found = sobol_indices(&a, &b, &ab, seed).unwrap();
+        let at = match found.carrying[1] {
+            n if n < 0.5 => 0,
+            n if n < 5.0 => 1,
+            n if n < 10.0 => continue,
+            _ => 2,
+        };
+        let total = found.total[1];
+        counts[at][0] += 1.0;
+        counts[at][1] += f64::from(u8::from(total.low <= truth && truth <= total.high));
+    }
+    let [none, few, many] = counts.map(|[all, held]| held / all);
+    assert!(none.is_nan() || none == 0.0, "{counts:?}");
+    assert!(few < 0.85 && many > 0.95, "{counts:?}");
+}

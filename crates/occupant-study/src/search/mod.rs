@@ -17,7 +17,7 @@ mod refine;
 mod scan;
 mod shape;
 
-use nalgebra::{DMatrix, Dyn, SymmetricEigen};
+use nalgebra::{DMatrix, DVector, Dyn, SymmetricEigen};
 
 pub use bounds::{Side, fold};
 pub use cma::{Cma, Ending};
@@ -66,9 +66,13 @@ impl Point {
     }
 }
 
-/// Eigenvalues and eigenvectors; those of the unit matrix for one that holds numbers that are none.
+/// Eigenvalues and eigenvectors; those of the unit matrix for one that holds numbers that are none. An empty matrix has none:
+/// every coordinate stands at a wall.
 fn eigen(matrix: DMatrix<f64>) -> SymmetricEigen<f64, Dyn> {
     let n = matrix.nrows();
+    if n == 0 {
+        return SymmetricEigen { eigenvectors: matrix, eigenvalues: DVector::zeros(0) };
+    }
     if matrix.iter().all(|x| x.is_finite()) {
         matrix.symmetric_eigen()
     } else {

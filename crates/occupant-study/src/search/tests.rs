@@ -242,3 +242,14 @@ fn a_search_is_the_same_for_the_same_seed_and_another_for_another() {
     assert_ne!(run(1), run(2));
     assert_eq!(run(1).len(), 200);
 }
+
+#[test]
+fn a_corner_in_which_every_coordinate_stands_has_ends_and_no_shape() {
+    // falls towards 0 in every coordinate and beyond
+    for n in 1..=3 {
+        let (centre, _, shape, profiles) = look(|p| p.iter().sum(), &vec![0.02; n], 1e-2);
+        assert_eq!(centre.at, vec![0.0; n]);
+        assert!(shape.free.is_empty() && shape.directions.is_empty());
+        assert!(profiles.ends.iter().all(|[low, high]| low.open && !high.open && high.at > 0.0));
+    }
+}

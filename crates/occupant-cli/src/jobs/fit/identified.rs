@@ -104,7 +104,8 @@ fn descents(fitting: &Fitting, evaluator: &mut Evaluator<'_>) -> Result<Global, 
 fn rise(fitting: &Fitting, best: &Point) -> Result<(f64, Near), Failure> {
     let misfit = fitting.fit.misfit;
     let score = misfit.of_cost(best.value);
-    let above = |near: f64| misfit.cost(score + near) - misfit.cost(score);
+    // never nothing, however small `near` is beside the score
+    let above = |near: f64| (misfit.cost(score + near) - misfit.cost(score)).max(1e-12 * (1.0 + best.value));
     if let Some(near) = fitting.fit.near {
         return Ok((above(near), Near { by: "the study", unrelated_residuals: None }));
     }

@@ -14,6 +14,10 @@ use crate::jobs::sweep::stored::Stored;
 
 /// A Sobol index is marked if its 95 % interval is wider.
 const INDEX_WIDTH: f64 = 0.1;
+/// A Sobol index is marked if fewer points carry it: of intervals carried by fewer than 5 one in five misses the truth.
+const CARRYING: f64 = 10.0;
+/// An effect that no point shows may be there in fewer than 3 of so many, with 95 % confidence.
+const UNSEEN: usize = 300;
 /// A regression is marked with fewer rows for each parameter.
 const ROWS_PER_PARAMETER: usize = 10;
 /// A regression is marked if it explains a smaller part of the variance.
@@ -30,9 +34,12 @@ const TOGETHER: f64 = 0.3;
 const NAMED: usize = 3;
 
 /// The rules, for the page and the documentation.
-pub(crate) fn rules() -> [String; 6] {
+pub(crate) fn rules() -> [String; 7] {
     [
         format!("a Sobol index whose 95 % interval is wider than {INDEX_WIDTH}: its first digit is not known"),
+        format!(
+            "a Sobol index that fewer than {CARRYING} points carry: its interval does not know what they have missed"
+        ),
         format!(
             "a Morris effect with fewer than {TRAJECTORIES} trajectories, or whose interval is wider than the effect"
         ),
@@ -62,14 +69,21 @@ pub fn regression(found: &Regression) -> Option<String> {
     (found.explained < EXPLAINED).then(|| format!("R² is below {EXPLAINED}"))
 }
 
-/// Why an index is marked.
-pub fn index(index: &Estimate, found: &SobolIndices) -> Option<String> {
+/// Why an index of a parameter is marked.
+pub fn index(index: &Estimate, parameter: usize, found: &SobolIndices) -> Option<String> {
     if part(found.dropped, found.points + found.dropped) > MISSING {
         let all = found.points + found.dropped;
         return Some(format!("{} of {all} points have runs without a figure", found.dropped));
     }
     let unknown = !index.width().is_finite() || index.width() > INDEX_WIDTH;
-    unknown.then(|| format!("interval wider than {INDEX_WIDTH}"))
+    if unknown {
+        return Some(format!("interval wider than {INDEX_WIDTH}"));
+    }
+    match found.carrying.get(parameter) {
+        Some(0.0) if found.points < UNSEEN => Some(format!("none of {} points shows an effect", found.points)),
+        Some(few) if (0.5..CARRYING).contains(few) => Some(format!("carried by {few:.0} of {} points", found.points)),
+        _ => None,
+    }
 }
 
 /// Why an effect is marked.
@@ -160,15 +174,19 @@ mod tests {
         let found = |points, dropped| SobolIndices {
             first: Vec::new(),
             total: Vec::new(),
+            carrying: vec![20.0, 4.0, 0.0],
             mean: 0.0,
             variance: 1.0,
             points,
             dropped,
         };
-        assert_eq!(index(&estimate(0.25, 0.35), &found(100, 5)), None);
-        assert!(index(&estimate(0.25, 0.36), &found(100, 0)).is_some());
-        assert!(index(&estimate(0.25, f64::NAN), &found(100, 0)).is_some());
-        assert!(index(&estimate(0.3, 0.3), &found(94, 6)).is_some());
+        assert_eq!(index(&estimate(0.25, 0.35), 0, &found(100, 5)), None);
+        assert!(index(&estimate(0.25, 0.36), 0, &found(100, 0)).is_some());
+        assert!(index(&estimate(0.25, f64::NAN), 0, &found(100, 0)).is_some());
+        assert!(index(&estimate(0.3, 0.3), 0, &found(94, 6)).is_some());
+        assert_eq!(index(&estimate(0.0, 0.01), 1, &found(300, 0)).as_deref(), Some("carried by 4 of 300 points"));
+        assert!(index(&estimate(0.0, 0.0), 2, &found(299, 0)).is_some());
+        assert_eq!(index(&estimate(0.0, 0.0), 2, &found(300, 0)), None);
         let effect_of = |effects, high| Effect {
             mean: estimate(0.0, 0.0),
             mean_magnitude: estimate(1.0, high),

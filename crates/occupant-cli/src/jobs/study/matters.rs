@@ -1,6 +1,6 @@
 //! The tables of what matters: indices, effects, reaches, correlations, coefficients.
 
-use occupant_study::analysis::SobolIndices;
+use occupant_study::analysis::{Estimate, SobolIndices};
 
 use super::analysis::{ByDesign, Linear};
 use super::numbers::Number;
@@ -147,16 +147,30 @@ pub(crate) fn linear(html: &mut Html, of: &Finding<'_>) {
     html.raw("</div></div>\n");
 }
 
+/// Which way the response goes with a parameter, by every number without a mark whose interval leaves zero out: the rank
+/// correlation, and the coefficient, which knows what the other parameters do.
+pub(crate) const SIGN_RULE: &str = "The reading of a sign rests on the rank correlation and the coefficient alike: it is that of the      numbers without † whose interval leaves zero out. The coefficient sees a small effect beside great ones, the rank correlation      any rising or falling curve; where the two contradict each other, or neither is clear, the sign is not known.";
+
 fn reading(linear: &Linear, parameter: usize) -> String {
-    match linear.ranks.get(parameter) {
-        Some(Ok(found)) => match (found.rho.is_clear(), found.rho.value > 0.0) {
-            (false, _) => "sign not known".to_owned(),
-            (true, true) => "rises with it".to_owned(),
-            (true, false) => "falls".to_owned(),
-        },
-        Some(Err(why)) => why.clone(),
-        None => String::new(),
+    let rank = match linear.ranks.get(parameter) {
+        Some(Ok(found)) => Some(found.rho).filter(|_| caution::rank(found).is_none()),
+        Some(Err(why)) => return why.clone(),
+        None => return String::new(),
+    };
+    let fitted = linear.regression.as_ref().ok().filter(|(_, found)| caution::regression(found).is_none());
+    let slope = fitted.and_then(|(which, found)| {
+        let at = which.iter().position(|i| *i == parameter)?;
+        found.coefficients.get(at).copied()
+    });
+    let clear = [rank, slope].into_iter().flatten().filter(Estimate::is_clear);
+    let mut signs = clear.map(|e| e.value > 0.0);
+    match (signs.next(), signs.next()) {
+        (None, _) => "sign not known",
+        (Some(one), Some(other)) if one != other => "sign not known: the two contradict each other",
+        (Some(true), _) => "rises with it",
+        (Some(false), _) => "falls",
     }
+    .to_owned()
 }
 
 fn regression_words(linear: &Linear) -> String {
@@ -171,5 +185,29 @@ fn regression_words(linear: &Linear) -> String {
             )
         }
         Err(why) => format!("No regression: {why}."),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use occupant_study::analysis::{RankCorrelation, Regression};
+
+    use super::*;
+
+    #[test]
+    fn a_sign_rests_on_all_numbers_that_can_be_relied_on() {
+        let estimate = |value: f64, half: f64| Estimate { value, low: value - half, high: value + half };
+        let read = |rho: f64, rows: usize, slope: f64, explained: f64| {
+            let fit = Regression { coefficients: vec![estimate(slope, 0.014)], explained, rows: 40 };
+            let ranks = vec![Ok(RankCorrelation { rho: estimate(rho, 0.2), rows })];
+            reading(&Linear { without: None, ranks, regression: Ok((vec![0], fit)) }, 0)
+        };
+        // a small effect beside great ones, which a rank correlation alone does not see
+        assert_eq!(read(-0.12, 40, -0.179, 0.991), "falls");
+        assert_eq!(read(0.4, 40, 0.01, 0.991), "rises with it");
+        assert_eq!(read(0.4, 40, -0.179, 0.5), "rises with it", "a marked regression does not count");
+        assert_eq!(read(0.4, 19, 0.0, 0.991), "sign not known", "nor does a marked rank correlation");
+        assert_eq!(read(0.1, 40, 0.01, 0.991), "sign not known");
+        assert!(read(0.4, 40, -0.179, 0.991).contains("contradict"));
     }
 }

@@ -137,7 +137,7 @@ impl List {
             ByDesign::Sobol(Ok(found)) => {
                 for (quantity, estimates) in [("sobol_first", &found.first), ("sobol_total", &found.total)] {
                     for (i, estimate) in estimates.iter().enumerate() {
-                        let mark = caution::index(estimate, found);
+                        let mark = caution::index(estimate, i, found);
                         self.found((quantity, false), Some(i), *estimate, found.points, mark);
                     }
                 }

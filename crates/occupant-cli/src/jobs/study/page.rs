@@ -1,7 +1,7 @@
 //! The page: one HTML file that needs no network and no script.
 
 use super::shown::shown_unit;
-use super::{Report, caution, sections};
+use super::{Report, caution, matters, sections};
 use crate::base::names::program;
 use crate::pictures::html::Html;
 use crate::pictures::svg::escape;
@@ -81,6 +81,7 @@ fn about(html: &mut Html, report: &Report) {
         html.text("li", &rule);
     }
     html.raw("</ul>\n");
+    html.text("p", matters::SIGN_RULE);
     html.text(
         "p",
         "Commands are for a POSIX shell in the folder of the study, the one with sweep.json. They give the figures of the row to the last bit. \

@@ -70,7 +70,7 @@ pub(crate) fn sobol(samples: &Samples, analysis: &Analysis, indices: &SobolIndic
     let of = |label: &str, colour: &'static str, estimates: &[Estimate], lower: f64| {
         let shown = analysis.order.iter().enumerate().filter_map(|(at, i)| {
             let estimate = estimates.get(*i)?;
-            Some(Entry::of(at, estimate, 1.0, caution::index(estimate, indices)))
+            Some(Entry::of(at, estimate, 1.0, caution::index(estimate, *i, indices)))
         });
         entries(label, colour, shown, lower)
     };

@@ -12,7 +12,6 @@ use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::journal::Journal;
 use crate::files::study_folder::manifest::Manifest;
 use crate::files::study_folder::problem::Problem;
-use crate::files::study_folder::row::Status;
 use crate::files::study_folder::table::{StudyTable, write_columns};
 use crate::files::table::Cell;
 
@@ -79,7 +78,7 @@ fn write_files(
     journal.each_row(|row| {
         let counts = census.see(&row);
         let value = figure.and_then(|at| row.cells.get(at)).and_then(Cell::number);
-        if let (Status::Completed, Some(value)) = (row.status, value) {
+        if let (true, Some(value)) = (counts, value) {
             extremes.see(row.index, value);
         }
         if let Some(stable) = &mut stable {
