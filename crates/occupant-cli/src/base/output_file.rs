@@ -1,10 +1,12 @@
 //! A results file that carries its name only when it is complete: `run.partial.mcap` becomes `run.mcap`.
 //!
-//! The provisional name keeps the ending, so that viewers open what an interrupted run has left.
+//! The provisional name keeps the ending, so that viewers open what an interrupted run has left. It belongs to one process
+//! as long as that is at work: another one that may replace files takes `run.partial-2.mcap`. Nobody gives or takes away
+//! the name of a file that it has not written. Links are followed: what they point to is replaced, not they.
 
 use std::ffi::OsString;
-use std::fs::{self, File};
-use std::io::{self, BufWriter, Seek, SeekFrom, Write};
+use std::fs::{self, File, OpenOptions, TryLockError};
+use std::io::{self, BufWriter, ErrorKind, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
@@ -25,12 +27,17 @@ impl Existing {
     }
 }
 
-/// A file under its provisional name, buffered.
+/// A file under its provisional name, buffered. Dropped before it is complete, it is taken away.
 #[derive(Debug)]
 pub(crate) struct PartialFile {
+    /// The name asked for.
     target: PathBuf,
+    /// Where it leads.
+    place: PathBuf,
     partial: PathBuf,
     existing: Existing,
+    /// Whether it is of use although it is not complete.
+    stays: bool,
     writer: BufWriter<File>,
 }
 
@@ -47,13 +54,32 @@ pub(crate) enum FileProblem {
     NotAFile { path: PathBuf },
     #[error("{} is what the run reads and is not replaced; -o gives another name", .path.display())]
     IsInput { path: PathBuf },
+    /// Somebody has removed it, or put another in its place.
+    #[error("{} was removed or replaced while it was written", .path.display())]
+    Gone { path: PathBuf },
     #[error("cannot {doing} {}: {source}", .path.display())]
     Io { doing: &'static str, path: PathBuf, source: io::Error },
 }
 
 impl From<FileProblem> for Failure {
     fn from(problem: FileProblem) -> Self {
-        Failure::plain(problem.to_string())
+        let message = format!("error: {problem}");
+        if problem.broke_off() { Failure::BrokeOff(message) } else { Failure::CouldNotRun(message) }
+    }
+}
+
+impl FileProblem {
+    /// Whether the file was begun, or there is no room for it: then there was something to write.
+    pub(crate) fn broke_off(&self) -> bool {
+        use ErrorKind::{FileTooLarge, QuotaExceeded, StorageFull};
+        match self {
+            FileProblem::Gone { .. } => true,
+            FileProblem::Io { doing, source, .. } => {
+                ["write", "rename to"].contains(doing)
+                    || matches!(source.kind(), StorageFull | QuotaExceeded | FileTooLarge)
+            }
+            _ => false,
+        }
     }
 }
 
@@ -74,12 +100,26 @@ pub(crate) fn refuse_input(target: &Path, input: &Path) -> Result<(), FileProble
     Ok(())
 }
 
-/// Refuses what a rename would destroy although it is no file of results.
-fn refuse_irregular(target: &Path) -> Result<(), FileProblem> {
+/// Links that lead to one another are followed so far.
+const MOST_LINKS: usize = 40;
+
+/// Where a name leads.
+///
+/// # Errors
+/// To something that is no ordinary file.
+fn place_of(target: &Path) -> Result<PathBuf, FileProblem> {
+    let refused = || FileProblem::NotAFile { path: target.to_owned() };
     if target.file_name().is_none() || fs::metadata(target).is_ok_and(|found| !found.is_file()) {
-        return Err(FileProblem::NotAFile { path: target.to_owned() });
+        return Err(refused());
     }
-    Ok(())
+    let mut place = target.to_owned();
+    for _ in 0..MOST_LINKS {
+        match fs::read_link(&place) {
+            Ok(to) => place = place.parent().unwrap_or(Path::new("")).join(to),
+            Err(_no_link) => return Ok(place),
+        }
+    }
+    Err(refused())
 }
 
 /// Removes a file, for which `doing` is the word.
@@ -88,7 +128,7 @@ fn refuse_irregular(target: &Path) -> Result<(), FileProblem> {
 /// The operating system refuses.
 pub(crate) fn remove_if_there(path: &Path, doing: &'static str) -> Result<(), FileProblem> {
     match fs::remove_file(path) {
-        Err(source) if source.kind() != io::ErrorKind::NotFound => {
+        Err(source) if source.kind() != ErrorKind::NotFound => {
             Err(FileProblem::Io { doing, path: path.to_owned(), source })
         }
         _ => Ok(()),
@@ -101,23 +141,25 @@ impl PartialFile {
     /// # Errors
     /// A file is there and may not be replaced; the operating system refuses.
     pub(crate) fn create(target: &Path, existing: Existing) -> Result<Self, FileProblem> {
-        let partial = partial_path(target);
-        match existing {
-            Existing::Keep => refuse_existing(target)?,
-            Existing::Replace => {
-                refuse_irregular(target)?;
-                // a run that still writes the old one keeps it, without its name
-                remove_if_there(&partial, "replace")?;
-            }
+        let place = place_of(target)?;
+        if existing == Existing::Keep {
+            refuse_existing(&place)?;
         }
-        let file = File::create_new(&partial).map_err(|source| {
-            let path = partial.clone();
-            match source.kind() {
-                io::ErrorKind::AlreadyExists => FileProblem::PartialExists { path },
-                _ => FileProblem::Io { doing: "create", path, source },
-            }
+        let (partial, file) = begun(&place, existing, |name| {
+            let file = made(name);
+            let is_taken = file.as_ref().is_err_and(|e| e.kind() == ErrorKind::AlreadyExists);
+            // only the usual name: under another one may stand what the user kept
+            let left = existing == Existing::Replace && is_taken && name == partial_path(&place);
+            if left { taken_over(name).or(file) } else { file }
         })?;
-        Ok(PartialFile { target: target.to_owned(), partial, existing, writer: BufWriter::new(file) })
+        let (target, writer) = (target.to_owned(), BufWriter::new(file));
+        Ok(PartialFile { target, place, partial, existing, stays: false, writer })
+    }
+
+    /// The file stays under its provisional name also if it is not completed.
+    pub(crate) fn that_stays(mut self) -> Self {
+        self.stays = true;
+        self
     }
 
     /// The provisional name.
@@ -130,30 +172,122 @@ impl PartialFile {
     /// # Errors
     /// A file of that name has come meanwhile and may not be replaced; the operating system refuses. The file then keeps
     /// its provisional name.
-    pub(crate) fn publish(self) -> Result<PathBuf, FileProblem> {
-        let (target, existing) = (self.target.clone(), self.existing);
-        let partial = self.keep()?;
-        if existing == Existing::Keep {
-            refuse_existing(&target)?;
-        }
-        fs::rename(&partial, &target).map_err(|source| FileProblem::Io {
-            doing: "rename to",
-            path: target.clone(),
-            source,
+    pub(crate) fn publish(mut self) -> Result<PathBuf, FileProblem> {
+        self.finish()?;
+        let PartialFile { target, place, partial, existing, .. } = &self;
+        let named = match existing {
+            Existing::Replace => fs::rename(partial, place),
+            Existing::Keep => name_anew(partial, place),
+        };
+        named.map_err(|source| match source.kind() {
+            ErrorKind::AlreadyExists => FileProblem::Exists { path: target.clone() },
+            _ => FileProblem::Io { doing: "rename to", path: target.clone(), source },
         })?;
-        sync_folder(&target);
-        Ok(target)
+        sync_folder(place);
+        Ok(target.clone())
     }
 
     /// Leaves the file under its provisional name, safe against a loss of power, and gives the name.
     ///
     /// # Errors
     /// The operating system refuses.
-    pub(crate) fn keep(mut self) -> Result<PathBuf, FileProblem> {
+    pub(crate) fn keep(self) -> Result<PathBuf, FileProblem> {
+        let mut file = self.that_stays();
+        file.finish()?;
+        Ok(file.partial.clone())
+    }
+
+    fn finish(&mut self) -> Result<(), FileProblem> {
+        let path = || self.partial.clone();
         let written = self.writer.flush();
         let synced = written.and_then(|()| self.writer.get_ref().sync_all());
-        synced.map_err(|source| FileProblem::Io { doing: "write", path: self.partial.clone(), source })?;
-        Ok(self.partial)
+        synced.map_err(|source| FileProblem::Io { doing: "write", path: path(), source })?;
+        if is_at(self.writer.get_ref(), &self.partial) { Ok(()) } else { Err(FileProblem::Gone { path: path() }) }
+    }
+}
+
+impl Drop for PartialFile {
+    fn drop(&mut self) {
+        if !self.stays && is_at(self.writer.get_ref(), &self.partial) {
+            let _it_may_stay = fs::remove_file(&self.partial);
+        }
+    }
+}
+
+/// A new file of this name, locked to tell others that it is being written.
+fn made(path: &Path) -> io::Result<File> {
+    let file = File::create_new(path)?;
+    match file.try_lock() {
+        // another process was faster and writes it
+        Err(TryLockError::WouldBlock) => Err(ErrorKind::AlreadyExists.into()),
+        // a file system without locks: nobody takes over a file that he cannot lock
+        Ok(()) | Err(TryLockError::Error(_)) => Ok(file),
+    }
+}
+
+/// What an interrupted run has left under this name, emptied.
+fn taken_over(name: &Path) -> io::Result<File> {
+    let left = OpenOptions::new().write(true).open(name)?;
+    if left.try_lock().is_err() || !is_at(&left, name) {
+        return Err(ErrorKind::AlreadyExists.into());
+    }
+    left.set_len(0).map(|()| left)
+}
+
+/// Makes a provisional file or folder for `place`; where others may be replaced under the first name that is free.
+///
+/// # Errors
+/// It is there and may not be replaced; the operating system refuses.
+pub(crate) fn begun<T>(
+    place: &Path,
+    existing: Existing,
+    make: impl Fn(&Path) -> io::Result<T>,
+) -> Result<(PathBuf, T), FileProblem> {
+    let mut number = 1;
+    loop {
+        let path = match number {
+            1 => partial_path(place),
+            _ => numbered(place, &format!(".partial-{number}")),
+        };
+        match make(&path) {
+            Ok(made) => return Ok((path, made)),
+            Err(error) if error.kind() != ErrorKind::AlreadyExists => {
+                return Err(FileProblem::Io { doing: "create", path, source: error });
+            }
+            Err(_) if existing == Existing::Keep || number == MOST_AT_WORK => {
+                return Err(FileProblem::PartialExists { path });
+            }
+            Err(_) => number += 1,
+        }
+    }
+}
+
+/// Provisional names of one file.
+const MOST_AT_WORK: usize = 1000;
+
+/// Whether the file is the one of this name.
+#[cfg(unix)]
+pub(crate) fn is_at(file: &File, path: &Path) -> bool {
+    use std::os::unix::fs::MetadataExt;
+    let identity = |found: fs::Metadata| (found.dev(), found.ino());
+    let here = fs::symlink_metadata(path).map(identity);
+    here.is_ok_and(|here| file.metadata().map(identity).is_ok_and(|own| own == here))
+}
+
+/// Whether the file is the one of this name; where that cannot be known, whether there is one.
+#[cfg(not(unix))]
+pub(crate) fn is_at(_file: &File, path: &Path) -> bool {
+    path.exists()
+}
+
+/// Gives a file a name that is free, and only then.
+fn name_anew(partial: &Path, place: &Path) -> io::Result<()> {
+    match fs::hard_link(partial, place) {
+        Ok(()) => fs::remove_file(partial),
+        Err(error) if error.kind() == ErrorKind::AlreadyExists => Err(error),
+        // a file system without such links
+        Err(_) if fs::symlink_metadata(place).is_ok() => Err(ErrorKind::AlreadyExists.into()),
+        Err(_) => fs::rename(partial, place),
     }
 }
 
@@ -183,23 +317,28 @@ impl Seek for PartialFile {
 /// # Errors
 /// A file is there and may not be replaced; the operating system refuses.
 pub(crate) fn publish(path: &Path, force: bool, bytes: &[u8]) -> Result<(), Failure> {
-    write_whole(path, Existing::by(force), bytes).map(|_| ()).map_err(Failure::plain)
+    Ok(write_whole(path, Existing::by(force), bytes).map(|_| ())?)
 }
 
 /// The same, with the reason alone.
 ///
 /// # Errors
 /// As [`publish`].
-pub(crate) fn write_whole(path: &Path, existing: Existing, bytes: &[u8]) -> Result<PathBuf, String> {
-    let mut file = PartialFile::create(path, existing).map_err(|e| e.to_string())?;
-    file.write_all(bytes).map_err(|e| format!("{} cannot be written: {e}", path.display()))?;
-    file.publish().map_err(|e| e.to_string())
+pub(crate) fn write_whole(path: &Path, existing: Existing, bytes: &[u8]) -> Result<PathBuf, FileProblem> {
+    let mut file = PartialFile::create(path, existing)?;
+    file.write_all(bytes).map_err(|source| FileProblem::Io { doing: "write", path: path.to_owned(), source })?;
+    file.publish()
 }
 
 /// `dir/run.mcap` → `dir/run.partial.mcap`.
 pub(crate) fn partial_path(target: &Path) -> PathBuf {
+    numbered(target, ".partial")
+}
+
+/// The name with a word before its ending.
+fn numbered(target: &Path, word: &str) -> PathBuf {
     let mut name = OsString::from(target.file_stem().unwrap_or_default());
-    name.push(".partial");
+    name.push(word);
     if let Some(extension) = target.extension() {
         name.push(".");
         name.push(extension);

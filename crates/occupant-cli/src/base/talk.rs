@@ -1,14 +1,17 @@
 //! The two voices: results on standard output, talk on standard error.
 
-use std::io::{ErrorKind, Write, stderr, stdout};
+use std::io::{self, ErrorKind, Write, stderr, stdout};
 
 use super::failure::Failure;
 
 /// Writes a result. A reader that has gone away is no failure.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
-    let mut out = stdout().lock();
-    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
-    match written {
+    written(stdout().write_all(text.as_bytes()))
+}
+
+/// What became of a result that was written to standard output.
+pub(crate) fn written(result: io::Result<()>) -> Result<(), Failure> {
+    match result.and_then(|()| stdout().flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(Failure::BrokeOff(format!("error: the result could not be written to standard output: {error}")))
         }

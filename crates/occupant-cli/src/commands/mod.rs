@@ -32,7 +32,7 @@ use std::process::ExitCode;
 use clap::{Parser, Subcommand};
 
 use crate::base::failure::{Done, Failure};
-use crate::base::talk::say;
+use crate::base::talk::{say, written};
 
 /// Simulates the occupant of a car in a crash or a violent manoeuvre.
 #[derive(Debug, Parser)]
@@ -68,7 +68,15 @@ enum Command {
 
 /// Reads the command line and does what it says.
 pub fn main() -> ExitCode {
-    let result = match Cli::parse().command {
+    match Cli::try_parse() {
+        Ok(cli) => exit_code(done(cli.command)),
+        Err(wrong) if wrong.use_stderr() => wrong.exit(),
+        Err(help) => exit_code(written(help.print()).map(|()| Done::Well)),
+    }
+}
+
+fn done(command: Command) -> Result<Done, Failure> {
+    match command {
         Command::Run(args) => run::run(&args),
         Command::Sweep(args) => sweep::sweep(&args),
         Command::Study(args) => study::study(&args),
@@ -87,8 +95,7 @@ pub fn main() -> ExitCode {
         Command::Risk(args) => risk::risk(&args),
         Command::Sensitivity(args) => sensitivity::sensitivity(&args),
         Command::Completions(args) => completions::print(&args),
-    };
-    exit_code(result)
+    }
 }
 
 /// Says what went wrong, if anything, and gives the exit code.

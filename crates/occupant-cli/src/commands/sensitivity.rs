@@ -66,9 +66,8 @@ pub(crate) fn sensitivity(args: &Args) -> Result<Done, Failure> {
     // names that are taken are refused before the work
     let begin = |(path, form): (&PathBuf, Form)| TableFiles::begin(path, form, scenario, Existing::by(args.force));
     let files = args.output.as_ref().zip(form).map(begin).transpose()?;
-    let asked = ask(&base, &opened.model, &resolver, &words);
-    let analysed = asked.and_then(|asked| Ok((analyse(&opened.model, &asked)?, asked)));
-    let (analysis, asked) = analysed.inspect_err(|_| files.iter().for_each(TableFiles::discard))?;
+    let asked = ask(&base, &opened.model, &resolver, &words)?;
+    let analysis = analyse(&opened.model, &asked)?;
     let name = file_name(scenario);
     if let Some(files) = files {
         let about = about(&opened.model, &asked, &analysis, [&name, &sha256(&opened.bytes)]);

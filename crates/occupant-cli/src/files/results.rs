@@ -31,6 +31,8 @@ pub struct Results {
     pub(crate) sha256: String,
     /// What the file says of the run before its start.
     pub(crate) run: BTreeMap<String, String>,
+    /// What the file has lost of the run, in words.
+    lost: Option<String>,
     /// What it says of the run's end; none if the run was cut off.
     pub(crate) result: Option<BTreeMap<String, String>>,
     /// The scenario, overrides included.
@@ -52,7 +54,7 @@ impl Results {
         let bytes = input_file::read(path)?;
         let run = StoredRun::read(&bytes).map_err(|e| no_results(path, &e))?;
         if run.run.is_empty() || run.checkpoints.is_empty() {
-            return Err(no_results(path, "it holds no outputs of a run"));
+            return Err(no_results(path, &format!("it holds no outputs of a run{}", run.because())));
         }
         let (loaded, model, _) = stored(path, &run)?;
         for checkpoint in &run.checkpoints {
@@ -62,6 +64,7 @@ impl Results {
         Ok(Results {
             path: path.to_owned(),
             sha256: sha256(&bytes),
+            lost: run.lost(),
             scenario_text: text.map(|t| String::from_utf8_lossy(t).into_owned()),
             run: run.run,
             result: run.result,
@@ -81,9 +84,10 @@ impl Results {
         self.result.as_ref()?.get(key).map(String::as_str)
     }
 
-    /// How the run ended; one that was cut off counts as interrupted.
+    /// How the run ended; one that was cut off, or of which outputs are lost, counts as interrupted.
     pub(crate) fn status(&self) -> RunStatus {
         match self.said("status") {
+            _ if self.lost.is_some() => RunStatus::Interrupted,
             Some("completed") => RunStatus::Completed,
             Some("failed") => RunStatus::Failed,
             _ => RunStatus::Interrupted,
@@ -101,6 +105,11 @@ impl Results {
         }
     }
 
+    /// Why the run is not complete.
+    fn reason(&self) -> &str {
+        self.lost.as_deref().or_else(|| self.said("reason")).unwrap_or("it was cut off")
+    }
+
     /// How well the run kept its energy, up to its last output.
     pub(crate) fn balance(&self) -> Balance {
         Balance::of(self.outcome().balance_error)
@@ -110,9 +119,10 @@ impl Results {
     pub(crate) fn notes(&self) -> Vec<String> {
         let name = self.path.display();
         let mut notes = Vec::new();
-        if !self.is_complete() {
-            let reason = self.said("reason").unwrap_or("it was cut off");
-            notes.push(format!("{name} holds a run that did not complete: {reason}"));
+        if self.lost.is_some() {
+            notes.push(format!("{name} has lost outputs: peaks may lie between those that are there"));
+        } else if !self.is_complete() {
+            notes.push(format!("{name} holds a run that did not complete: {}", self.reason()));
         }
         let theirs = self.run.get("program").map_or("?", String::as_str);
         if theirs != program() {
@@ -169,7 +179,7 @@ impl Results {
         let mut summary = summary.ok_or_else(|| refused("the run left no summary"))?;
         summary.status = self.status();
         if !self.is_complete() {
-            summary.reason = Some(self.said("reason").unwrap_or("the run was cut off").to_owned());
+            summary.reason = Some(self.reason().to_owned());
         }
         Ok(summary)
     }

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 
 use crate::base::failure::Failure;
 use crate::base::names::file_name;
-use crate::base::output_file::{Existing, PartialFile, refuse_input};
+use crate::base::output_file::{Existing, PartialFile, begun, refuse_input};
 use crate::base::talk::json;
 use crate::files::export::{About, metadata, table};
 use crate::files::history::{Histories, UnitChoice};
@@ -33,21 +33,10 @@ impl TableFiles {
         };
         let table = create(path)?;
         let beside = match form {
-            Form::Parquet => Ok(None),
-            Form::Csv => create(&beside(path)).map(Some),
+            Form::Parquet => None,
+            Form::Csv => Some(create(&beside(path))?),
         };
-        match beside {
-            Ok(beside) => Ok(TableFiles { path: path.to_owned(), form, table, beside }),
-            Err(problem) => {
-                remove_provisional(&table);
-                Err(problem.into())
-            }
-        }
-    }
-
-    /// Takes the provisional files away.
-    pub(crate) fn discard(&self) {
-        [Some(&self.table), self.beside.as_ref()].into_iter().flatten().for_each(remove_provisional);
+        Ok(TableFiles { path: path.to_owned(), form, table, beside })
     }
 
     /// Writes the table, and gives the files their names.
@@ -55,13 +44,8 @@ impl TableFiles {
     /// # Errors
     /// What the writer or the file system refuses.
     pub(crate) fn write(mut self, histories: &Histories, about: &About, units: UnitChoice) -> Result<(), Failure> {
-        let bytes = match table(histories, about, units, self.form) {
-            Ok(bytes) => bytes,
-            Err(error) => {
-                self.discard();
-                return Err(Failure::plain(format!("{} cannot be made: {error}", self.path.display())));
-            }
-        };
+        let bytes = table(histories, about, units, self.form)
+            .map_err(|error| Failure::plain(format!("{} cannot be made: {error}", self.path.display())))?;
         self.table.write_all(&bytes).map_err(|e| unwritten(&self.path, &e))?;
         if let Some(file) = &mut self.beside {
             let description = json(&metadata(about, &file_name(&self.path)))?;
@@ -72,10 +56,6 @@ impl TableFiles {
         }
         Ok(())
     }
-}
-
-fn remove_provisional(file: &PartialFile) {
-    let _it_may_stay = fs::remove_file(file.partial_path());
 }
 
 fn unwritten(path: &Path, error: &std::io::Error) -> Failure {
@@ -99,35 +79,31 @@ pub(crate) fn publish_folder(
     files: &[(PathBuf, String)],
     force: bool,
 ) -> Result<(), Failure> {
-    let mut partial = folder.as_os_str().to_owned();
-    partial.push(".partial");
-    let partial = PathBuf::from(partial);
-    let is_there = |path: &Path| fs::symlink_metadata(path).is_ok();
-    if is_there(folder) {
-        refuse_other_folder(folder, test, force)?;
+    let place = fs::canonicalize(folder).unwrap_or_else(|_| folder.to_owned());
+    let is_there = || fs::symlink_metadata(&place).is_ok();
+    if is_there() {
+        refuse_other_folder(&place, test, force)?;
     }
-    match (is_there(&partial), force) {
-        (false, _) => {}
-        (true, true) => remove(&partial)?,
-        (true, false) => {
-            return Err(Failure::with_help(
-                format!("{} exists, of an export that was interrupted", partial.display()),
-                "--force replaces it, -o gives another name",
-            ));
-        }
-    }
+    let (partial, ()) = begun(&place, Existing::by(force), |name| fs::create_dir(name))?;
+    let written = write_files(&partial, files).and_then(|()| {
+        let replaced = if is_there() { fs::remove_dir_all(&place) } else { Ok(()) };
+        replaced.and_then(|()| fs::rename(&partial, &place)).map_err(|e| unwritten(folder, &e))
+    });
+    written.inspect_err(|_| {
+        let _it_may_stay = fs::remove_dir_all(&partial);
+    })
+}
+
+fn write_files(partial: &Path, files: &[(PathBuf, String)]) -> Result<(), Failure> {
     for (name, text) in files {
         let path = partial.join(name);
-        let parent = path.parent().unwrap_or(&partial);
+        let parent = path.parent().unwrap_or(partial);
         fs::create_dir_all(parent).map_err(|e| unwritten(parent, &e))?;
         let mut file = fs::File::create_new(&path).map_err(|e| unwritten(&path, &e))?;
         let written = file.write_all(text.as_bytes()).and_then(|()| file.sync_all());
         written.map_err(|e| unwritten(&path, &e))?;
     }
-    if is_there(folder) {
-        remove(folder)?;
-    }
-    fs::rename(&partial, folder).map_err(|e| unwritten(folder, &e))
+    Ok(())
 }
 
 /// A folder that stands there is replaced only if asked, and only if it is a test of the same name and nothing else.
@@ -147,8 +123,4 @@ fn refuse_other_folder(folder: &Path, test: &str, force: bool) -> Result<(), Fai
         }
     }
     Ok(())
-}
-
-fn remove(folder: &Path) -> Result<(), Failure> {
-    fs::remove_dir_all(folder).map_err(|e| Failure::plain(format!("{} cannot be replaced: {e}", folder.display())))
 }

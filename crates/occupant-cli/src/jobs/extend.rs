@@ -59,7 +59,8 @@ pub(crate) fn extend_run(
     let name = file.display();
     let stored = StoredRun::read(bytes).map_err(|e| Failure::plain(format!("{name}: {e}")))?;
     let last = stored.checkpoints.last();
-    let last = last.ok_or_else(|| Failure::plain(format!("{name} holds no checkpoint")))?;
+    let lacking = || Failure::plain(format!("{name} holds no checkpoint{}", stored.because()));
+    let last = last.ok_or_else(lacking)?;
     refuse_early(final_s, last.time_s)?;
     let (loaded, model, _) = scenario::stored(file, &stored)?;
     let cards = Deck::from_scenario(&loaded, layout);

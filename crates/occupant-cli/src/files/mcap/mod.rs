@@ -15,6 +15,7 @@ mod layout;
 mod log;
 mod press;
 mod recorder;
+mod records;
 pub mod scene;
 mod stored;
 pub(crate) mod topics;

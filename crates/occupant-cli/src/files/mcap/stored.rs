@@ -1,13 +1,14 @@
 //! Reading a result file back as far as a run can resume it: what it says of itself, its documents, its checkpoints.
 
 use std::collections::BTreeMap;
+use std::ops::Range;
 
-use mcap::read::ChunkFlattener;
-use mcap::records::{MessageHeader, Record};
+use mcap::records::op;
 use occupant_core::results::checkpoint::Checkpoint;
 
 use super::about::{RESULT, RUN};
 use super::checkpoint::{self, TOPIC};
+use super::records::{Frame, Index, Record};
 
 /// What a result file holds, or what a run that was cut off has left of it.
 #[derive(Clone, Debug, Default)]
@@ -19,10 +20,29 @@ pub struct StoredRun {
     pub(crate) attachments: BTreeMap<String, Vec<u8>>,
     /// Checkpoints in the file's order.
     pub checkpoints: Vec<Checkpoint>,
+    /// First byte at which the file is not what was written, and what is wrong there.
+    damage: Option<(usize, &'static str)>,
+    /// The byte at which a file that has lost its end breaks off.
+    end: Option<usize>,
+}
+
+/// How reading ends early.
+enum Refused {
+    /// The record is damaged.
+    Damaged(&'static str),
+    /// The file is of no use to this version.
+    Unknown(String),
+}
+
+impl From<&'static str> for Refused {
+    fn from(what: &'static str) -> Self {
+        Refused::Damaged(what)
+    }
 }
 
 impl StoredRun {
-    /// Reads a file up to its end, or up to where it is cut off. A chunk counts whole or not at all.
+    /// Reads a file up to its end, or up to where it is cut off. A chunk counts whole or not at all; behind a record that
+    /// is damaged reading resumes with the next one that is whole.
     ///
     /// # Errors
     /// A file that is not MCAP, or a checkpoint that cannot be read, in words.
@@ -31,43 +51,128 @@ impl StoredRun {
             return Err("it is not an MCAP file".to_owned());
         }
         let mut stored = StoredRun::default();
-        let (mut channel, mut in_chunk) = (None, Vec::new());
-        let checked = mcap::read::Options::ValidateChunkCrcs.into();
-        for record in ChunkFlattener::new_with_options(bytes, checked).map_err(|e| e.to_string())? {
-            match record {
-                // indices follow a chunk that is whole
-                Ok(Record::MessageIndex(_)) => stored.checkpoints.append(&mut in_chunk),
-                Ok(record) => stored.take(record, &mut channel, &mut in_chunk)?,
-                // a file that was cut off ends with an error
-                Err(_) => break,
+        let index = Index::of(bytes);
+        let mut wanted = index.channels.iter().find(|(_, topic)| topic == TOPIC).map(|(id, _)| *id);
+        let mut at = mcap::MAGIC.len();
+        loop {
+            let landmark = index.after(at);
+            // no record reaches over the beginning of another one
+            let frame = Frame::at(bytes, at).filter(|frame| landmark.is_none_or(|landmark| frame.next <= landmark));
+            let Some(frame) = frame else {
+                let Some(landmark) = landmark else {
+                    stored.end = Some(at);
+                    return Ok(stored);
+                };
+                stored.damaged(at, "a record whose length does not fit");
+                at = landmark;
+                continue;
+            };
+            match stored.take(frame, &mut wanted) {
+                Ok(()) => {}
+                Err(Refused::Damaged(what)) => stored.damaged(at, what),
+                Err(Refused::Unknown(why)) => return Err(why),
             }
+            if frame.opcode == op::DATA_END {
+                let fits = [0, crc32fast::hash(&bytes[..at])].contains(&frame.checksum());
+                if !fits {
+                    stored.damaged(at, "a checksum of all that stands before, which does not fit");
+                }
+                return Ok(stored);
+            }
+            at = frame.next;
         }
-        Ok(stored)
     }
 
-    /// Takes what counts from a record; `wanted` is the channel of checkpoints, which go to `found`.
-    fn take(
-        &mut self,
-        record: Record<'_>,
-        wanted: &mut Option<u16>,
-        found: &mut Vec<Checkpoint>,
-    ) -> Result<(), String> {
-        match record {
-            Record::Channel(channel) if channel.topic == TOPIC => {
-                *wanted = Some(channel.id);
+    fn damaged(&mut self, at: usize, what: &'static str) {
+        self.damage.get_or_insert((at, what));
+    }
+
+    /// Takes what counts from a record; `wanted` is the channel of checkpoints.
+    fn take(&mut self, frame: Frame<'_>, wanted: &mut Option<u16>) -> Result<(), Refused> {
+        match frame.record()? {
+            Record::Chunk(content) => {
+                let before = self.checkpoints.len();
+                let taken = self.take_all(&content, wanted);
+                if taken.is_err() {
+                    self.checkpoints.truncate(before);
+                }
+                return taken;
             }
-            Record::Message { header: MessageHeader { channel_id, .. }, data } if *wanted == Some(channel_id) => {
-                found.push(checkpoint::read(data.as_ref())?);
+            Record::Channel { id, topic } if topic == TOPIC => *wanted = Some(id),
+            Record::Message { channel, data } if *wanted == Some(channel) => {
+                let found = checkpoint::read(data).map_err(Refused::Unknown)?;
+                if self.checkpoints.last().is_some_and(|last| last.index >= found.index) {
+                    return Err("an output that is out of order".into());
+                }
+                self.checkpoints.push(found);
             }
-            Record::Metadata(metadata) if metadata.name == RUN => self.run = metadata.metadata,
-            Record::Metadata(metadata) if metadata.name == RESULT => {
-                self.result = Some(metadata.metadata);
-            }
-            Record::Attachment { header, data, .. } => {
-                self.attachments.insert(header.name, data.into_owned());
-            }
+            Record::Metadata { name, entries } if name == RUN => self.run = entries,
+            Record::Metadata { name, entries } if name == RESULT => self.result = Some(entries),
+            Record::Attachment { name, data } => _ = self.attachments.insert(name, data.to_owned()),
             _ => {}
         }
         Ok(())
     }
+
+    /// The records of a chunk, which hold no chunks.
+    fn take_all(&mut self, content: &[u8], wanted: &mut Option<u16>) -> Result<(), Refused> {
+        let mut at = 0;
+        while at < content.len() {
+            let frame = Frame::at(content, at).ok_or("a chunk with a record that is not whole")?;
+            if frame.opcode == op::CHUNK {
+                return Err("a chunk within a chunk".into());
+            }
+            self.take(frame, wanted)?;
+            at = frame.next;
+        }
+        Ok(())
+    }
+
+    /// Numbers of the outputs that the file has lost.
+    fn gaps(&self) -> Vec<Range<usize>> {
+        let number = |entries: &BTreeMap<String, String>, key| entries.get(key)?.parse::<usize>().ok();
+        let first = number(&self.run, "resumed_output").unwrap_or(0);
+        let count = self.result.as_ref().and_then(|result| number(result, "outputs"));
+        let end = count.map(|count| first.saturating_add(count));
+        let there = self.checkpoints.iter().map(|checkpoint| checkpoint.index);
+        let mut next = first;
+        let mut gaps = Vec::new();
+        for index in there.chain(end) {
+            if index > next {
+                gaps.push(next..index);
+            }
+            next = index.saturating_add(1);
+        }
+        gaps
+    }
+
+    /// What the file has lost of a run; none if every output up to the last is there.
+    pub(crate) fn lost(&self) -> Option<String> {
+        let name = |gap: &Range<usize>| match gap.end - gap.start {
+            1 => gap.start.to_string(),
+            _ => format!("{} to {}", gap.start, gap.end - 1),
+        };
+        let gaps: Vec<String> = self.gaps().iter().map(name).collect();
+        let found = self.damage.map_or_else(|| "damaged".to_owned(), damaged_at);
+        (!gaps.is_empty()).then(|| format!("{found}; outputs {} are missing", gaps.join(", ")))
+    }
+
+    /// What is wrong with the file; none for one that is whole or was cut off.
+    pub(crate) fn flaw(&self) -> Option<String> {
+        let unharmed = || self.damage.map(|damage| format!("{}; all outputs are there", damaged_at(damage)));
+        self.lost().or_else(unharmed)
+    }
+
+    /// Why something may be missing, to be added to the message that says so.
+    pub(crate) fn because(&self) -> String {
+        match (self.damage, self.end) {
+            (Some(damage), _) => format!("; it is {}", damaged_at(damage)),
+            (None, Some(end)) => format!("; it breaks off at byte {end}"),
+            (None, None) => String::new(),
+        }
+    }
+}
+
+fn damaged_at((byte, what): (usize, &str)) -> String {
+    format!("damaged at byte {byte}: {what}")
 }

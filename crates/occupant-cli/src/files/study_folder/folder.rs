@@ -84,6 +84,15 @@ impl Folder {
         self.path.join(self.holds.manifest())
     }
 
+    /// What was done, unless the folder was taken away with it.
+    pub(crate) fn still(&self, done: String) -> String {
+        if self.manifest_path().exists() {
+            done
+        } else {
+            format!("nothing is left: {} was removed", self.path.display())
+        }
+    }
+
     pub(crate) fn journal(&self) -> PathBuf {
         self.path.join(JOURNAL)
     }

@@ -19,6 +19,7 @@ use super::problem::Problem;
 use super::row::Row;
 use super::shard::Shard;
 use crate::base::failure::Failure;
+use crate::base::output_file::{FileProblem, is_at};
 
 /// What was written is made safe against a loss of power at least so often.
 const SYNC_EVERY: Duration = Duration::from_secs(10);
@@ -68,7 +69,9 @@ impl OpenPiece {
     }
 
     fn sync(&self) -> Result<(), Problem> {
-        self.file.sync_data().map_err(Problem::io("write", &self.path))
+        self.file.sync_data().map_err(Problem::io("write", &self.path))?;
+        let gone = || Problem::File(FileProblem::Gone { path: self.path.clone() });
+        is_at(&self.file, &self.path).then_some(()).ok_or_else(gone)
     }
 }
 
@@ -130,7 +133,7 @@ impl JournalWriter {
             piece.append(&Head { rows_of: self.manifest_sha256.clone() })?;
             Ok(piece)
         };
-        begin().map_err(Problem::io("create", &path))
+        begin().map_err(Problem::io("write", &path))
     }
 }
 

@@ -84,9 +84,8 @@ impl From<Problem> for Failure {
         let help = problem.help().map(|h| format!("\n = help: {h}")).unwrap_or_default();
         let message = format!("error: {problem}{help}");
         match problem {
-            Problem::File(FileProblem::Io { doing: "write", .. }) | Problem::Incomplete { .. } => {
-                Failure::BrokeOff(message)
-            }
+            Problem::Incomplete { .. } => Failure::BrokeOff(message),
+            Problem::File(file) if file.broke_off() => Failure::BrokeOff(message),
             _ => Failure::CouldNotRun(message),
         }
     }

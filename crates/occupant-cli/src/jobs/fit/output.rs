@@ -98,7 +98,7 @@ impl Output<'_> {
         let path = self.folder.path.join(name);
         let made = path.parent().map_or(Ok(()), fs::create_dir_all);
         made.map_err(|e| broke_off(format!("cannot write {}: {e}", path.display())))?;
-        write_whole(&path, Existing::Replace, bytes).map(|_| ()).map_err(broke_off)
+        write_whole(&path, Existing::Replace, bytes).map(|_| ()).map_err(|e| broke_off(e.to_string()))
     }
 }
 

@@ -90,7 +90,7 @@ impl Case {
     /// Whether the run reached its end.
     pub(crate) fn is_complete(&self) -> bool {
         let status = self.file.result.as_ref().and_then(|r| r.get("status"));
-        status.is_some_and(|s| s == "completed")
+        status.is_some_and(|s| s == "completed") && self.file.lost().is_none()
     }
 
     /// A surface by its number and name.

@@ -1,6 +1,7 @@
 //! The MCAP file of a run, from its first byte to its name.
 
 use std::collections::BTreeMap;
+use std::error::Error;
 use std::path::{Path, PathBuf};
 
 use occupant_core::model::Model;
@@ -78,10 +79,10 @@ impl Recording {
             let folder = args.scenario.parent().unwrap_or(Path::new(""));
             refuse_input(name, &folder.join(table))?;
         }
-        let file = PartialFile::create(name, existing)?;
+        let file = PartialFile::create(name, existing)?.that_stays();
         let partial = file.partial_path().to_owned();
         let recorder = McapRecorder::new(file, about, McapOptions::default());
-        let recorder = recorder.map_err(|e| Failure::plain(format!("{} cannot be written: {e}", partial.display())))?;
+        let recorder = recorder.map_err(|e| unwritten(&partial, &e))?;
         let recorder = match opened.loaded.table() {
             Some((name, text)) => {
                 recorder.with_table(document(&file_name(Path::new(name)), "text/csv", text.as_bytes().to_vec()))
@@ -93,8 +94,7 @@ impl Recording {
 
     /// Where the outputs of a run that broke off are.
     pub(crate) fn left(&self) -> String {
-        let partial = self.0.iter().map(|open| open.partial.display());
-        partial.map(|partial| format!("\n = done: what was written before is in {partial}")).collect()
+        self.0.iter().map(|open| there("what was written before", &open.partial)).collect()
     }
 
     /// Closes the file; it gets its name only if the run is complete.
@@ -105,35 +105,52 @@ impl Recording {
         let Some(open) = self.0 else {
             return Ok(Written::Nothing);
         };
-        let partial = open.partial.display();
-        let file = open.recorder.into_inner();
-        let file = file.map_err(|e| Failure::BrokeOff(format!("error: {partial} cannot be closed: {e}")))?;
+        let file = open.recorder.into_inner().map_err(|e| unwritten(&open.partial, &e))?;
         let closed = if completed { file.publish().map(Written::Complete) } else { file.keep().map(Written::Partial) };
-        closed.map_err(|e| Failure::BrokeOff(format!("error: {e}\n = done: the run is in {partial}")))
+        closed.map_err(|e| Failure::BrokeOff(format!("error: {e}{}", there("the run", &open.partial))))
+    }
+
+    /// Lets the recorder of the file, if there is one, do its part.
+    fn let_it<T>(
+        &mut self,
+        nothing: T,
+        part: impl FnOnce(&mut McapRecorder<PartialFile>) -> Result<T, RecorderError>,
+    ) -> Result<T, RecorderError> {
+        let Some(open) = &mut self.0 else { return Ok(nothing) };
+        part(&mut open.recorder).map_err(|error| reason(&open.partial, &*error).into())
     }
 }
 
 impl Recorder for Recording {
     fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
-        match &mut self.0 {
-            Some(open) => open.recorder.begin(model),
-            None => Ok(()),
-        }
+        self.let_it((), |recorder| recorder.begin(model))
     }
 
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
-        match &mut self.0 {
-            Some(open) => open.recorder.record(sample),
-            None => Ok(Flow::Continue),
-        }
+        self.let_it(Flow::Continue, |recorder| recorder.record(sample))
     }
 
     fn end(&mut self, outcome: &Outcome) -> Result<(), RecorderError> {
-        match &mut self.0 {
-            Some(open) => open.recorder.end(outcome),
-            None => Ok(()),
-        }
+        self.let_it((), |recorder| recorder.end(outcome))
     }
+}
+
+/// Where something is, if it is still there.
+fn there(what: &str, partial: &Path) -> String {
+    if partial.exists() { format!("\n = done: {what} is in {}", partial.display()) } else { String::new() }
+}
+
+/// Why a file could not be written, in the operating system's words.
+fn reason(partial: &Path, error: &(dyn Error + 'static)) -> String {
+    let mut root = error;
+    while let Some(source) = root.source() {
+        root = source;
+    }
+    format!("cannot write {}: {root}", partial.display())
+}
+
+fn unwritten(partial: &Path, error: &(dyn Error + 'static)) -> Failure {
+    Failure::BrokeOff(format!("error: {}", reason(partial, error)))
 }
 
 /// What the file says of where it comes from. Nothing in it depends on the day or the machine.

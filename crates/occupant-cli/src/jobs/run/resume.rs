@@ -52,7 +52,7 @@ impl Resumption {
         let stored = StoredRun::read(&bytes).map_err(|e| Failure::plain(format!("{name} cannot be resumed: {e}")))?;
         let Some(last) = stored.checkpoints.last() else {
             return Err(Failure::with_help(
-                format!("{name} holds no checkpoint"),
+                format!("{name} holds no checkpoint{}", stored.because()),
                 "only a results file of `occupant run` does, from its first complete chunk on; run the scenario from its start",
             ));
         };

@@ -88,6 +88,7 @@ impl Sweep {
         let ended = ended.and_then(|()| Ok(journal.close()?));
         let done = before + progress.computed;
         let kept = format!("{done} of {count} samples are finished and kept; the same command resumes the sweep");
+        let kept = self.folder.still(kept);
         ended.map_err(|failure| failure.with_done(&kept))?;
         self.interrupt.refuse(&kept)?;
         Ok(progress)
