@@ -18,6 +18,7 @@ use crate::base::talk::{json, print, say};
 use crate::files::scenario::{self, Opened, ScenarioArgs};
 use crate::jobs::ensemble::report::Report;
 use crate::jobs::ensemble::text::text as ensemble_text;
+use crate::jobs::run::estimate::{ErrorEstimate, estimate};
 use crate::jobs::run::recording::{Recording, Written};
 use crate::jobs::run::resume::{Resumed, Resumption};
 use crate::jobs::run::{Simulated, run as simulate};
@@ -48,6 +49,10 @@ pub(crate) struct Args {
     /// Write no file, only the summary
     #[arg(long, conflicts_with = "output")]
     no_mcap: bool,
+
+    /// Run once more, with a quarter of the step or a tenth of the tolerances, and say how far the results are from that
+    #[arg(long, conflicts_with = "resume")]
+    estimate_error: bool,
 
     /// Replace files that exist
     #[arg(short, long)]
@@ -82,6 +87,9 @@ struct Answer<'a> {
     /// Absent without `--ensemble`, and where the run itself did not complete.
     #[serde(skip_serializing_if = "Option::is_none")]
     ensemble: Option<&'a Report>,
+    /// Absent without `--estimate-error`, and where the run itself did not complete.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    error_estimate: Option<&'a ErrorEstimate>,
     warnings: Vec<String>,
 }
 
@@ -114,7 +122,11 @@ pub(crate) fn run(args: &Args) -> Result<Done, Failure> {
         }
         _ => None,
     };
-    show(args, &chosen, &opened, from.as_ref(), &run, ensemble.as_ref())?;
+    let estimate = (args.estimate_error && run.completed)
+        .then(|| estimate(&opened, &run.summary, &run.head, &interrupt))
+        .transpose()
+        .map_err(|failure| failure.with_done(&run.written.left()))?;
+    show(args, &chosen, &opened, from.as_ref(), &run, (ensemble.as_ref(), estimate.as_ref()))?;
     if !args.quiet || balance == Balance::Lost {
         say_balance(balance, &run.summary);
     }
@@ -170,7 +182,7 @@ fn show(
     opened: &Opened,
     from: Option<&Resumption>,
     run: &Simulated,
-    ensemble: Option<&Report>,
+    (ensemble, estimate): (Option<&Report>, Option<&ErrorEstimate>),
 ) -> Result<(), Failure> {
     // the forces of a run that has failed say nothing about its friction
     let unstable = match run.summary.status {
@@ -190,18 +202,20 @@ fn show(
             summary: &run.summary,
             unstable_friction: run.friction.found(&opened.model),
             ensemble,
+            error_estimate: estimate,
             warnings: opened.warnings.iter().chain(unstable.iter()).map(ToString::to_string).collect(),
         })?);
     }
     if args.quiet {
         return Ok(());
     }
+    let error = estimate.map(ErrorEstimate::text).unwrap_or_default();
     let Some(ensemble) = ensemble else {
-        return print(&summary_table(&run.summary, &run.written, &Marks::none()));
+        return print(&(summary_table(&run.summary, &run.written, &Marks::none()) + &error));
     };
     let summary = summary_table(&run.summary, &run.written, &Marks::of(ensemble.unstable()));
     let files: String = ensemble.files.iter().map(|f| format!("written   {f}\n")).collect();
-    print(&format!("{summary}\n{}{files}", ensemble_text(ensemble)))
+    print(&format!("{summary}{error}\n{}{files}", ensemble_text(ensemble)))
 }
 
 fn broke_off(run: &Simulated) -> String {

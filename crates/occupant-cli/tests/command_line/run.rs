@@ -69,6 +69,28 @@ fn a_run_keeps_its_energy_balance() {
 }
 
 #[test]
+fn the_error_of_a_run_is_estimated_by_a_finer_one() {
+    let folder = folder_with_case();
+    let estimate = |step: &str| {
+        let words = ["run", "case.toml", "--no-mcap", "--json", "--estimate-error", "--set", step];
+        let output = answer(folder.path(), &words);
+        assert_eq!(code(&output), 0, "{}", err(&output));
+        json(&output)
+    };
+    let [coarse, fine] = ["integrator.step=0.4 ms", "integrator.step=0.1 ms"].map(estimate);
+    let off = |json: &serde_json::Value| json["error_estimate"]["head_path_m"].as_f64().unwrap();
+    // the coarse run's finer one is the fine run: its estimate is their difference
+    let figure = |json: &serde_json::Value| json["accelerations"]["head"]["peak_m_s2"].as_f64().unwrap();
+    let figures = coarse["error_estimate"]["figures"].as_array().unwrap();
+    let peak = figures.iter().find(|f| f["name"] == "head.peak").unwrap();
+    assert_eq!(peak["difference"].as_f64().unwrap(), figure(&coarse) - figure(&fine));
+    assert!(off(&fine) > 0.0 && off(&fine) < off(&coarse), "{} {}", off(&fine), off(&coarse));
+    let table = out(&answer(folder.path(), &["run", "case.toml", "--no-mcap", "--estimate-error"]));
+    assert!(table.contains("integration error   head path 0.003 mm; no figure by more than 0.1 %"), "{table}");
+    assert!(table.contains("estimated against rk4 at a quarter of the step"), "{table}");
+}
+
+#[test]
 fn values_are_changed_from_the_command_line() {
     let folder = folder_with_case();
     let run = |words: &[&str]| {

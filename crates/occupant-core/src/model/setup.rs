@@ -65,10 +65,10 @@ impl Default for Integrator {
     /// Error control as `docs/accuracy.md` chooses it.
     fn default() -> Self {
         Integrator::Adaptive {
-            relative: 3e-6,
-            absolute_m: 3e-7,
-            absolute_m_s: 3e-5,
-            min_step_s: 1e-8,
+            relative: 3e-8,
+            absolute_m: 3e-9,
+            absolute_m_s: 3e-7,
+            min_step_s: 1e-10,
             max_step_s: 2e-3,
         }
     }

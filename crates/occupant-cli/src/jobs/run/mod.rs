@@ -1,6 +1,7 @@
 //! One run: the file that it writes, the file that it resumes, and who watches it. The integration itself is the core's.
 
 mod difference;
+pub(crate) mod estimate;
 pub(crate) mod recording;
 pub(crate) mod resume;
 
@@ -16,6 +17,7 @@ use crate::base::failure::Failure;
 use crate::base::interrupt::Interrupt;
 use crate::base::progress::Progress;
 use crate::files::scenario::Opened;
+use estimate::HeadPath;
 use recording::{Recording, Written};
 use resume::{Resumption, WithEarlier};
 
@@ -25,6 +27,7 @@ pub(crate) struct Simulated {
     pub(crate) summary: Summary,
     pub(crate) friction: FrictionWatch,
     pub(crate) histories: Series,
+    pub(crate) head: HeadPath,
     pub(crate) written: Written,
 }
 
@@ -41,12 +44,12 @@ pub(crate) fn run(
     quiet: bool,
 ) -> Result<Simulated, Failure> {
     let (mut summarizer, mut friction) = (Summarizer::new(), FrictionWatch::new());
-    let mut histories = Series::new(channels);
+    let (mut histories, mut head) = (Series::new(channels), HeadPath::default());
     let whole = WithEarlier {
         earlier: from.map(|f| f.earlier.clone()).unwrap_or_default(),
         recorder: (&mut summarizer, &mut friction),
     };
-    let recorders = ((interrupt.clone(), Progress::new(quiet)), (whole, (&mut histories, &mut recording)));
+    let recorders = ((interrupt.clone(), Progress::new(quiet)), (whole, (&mut histories, (&mut head, &mut recording))));
     let began = Instant::now();
     let ended = match from {
         Some(from) => resume(&opened.model, &from.checkpoint, recorders),
@@ -57,5 +60,5 @@ pub(crate) fn run(
     let completed = outcome.status == Status::Completed;
     let written = recording.close(completed)?;
     let summary = summarizer.summary(Some(wall_time_s)).ok_or_else(|| Failure::plain("the run left no summary"))?;
-    Ok(Simulated { completed, summary, friction, histories, written })
+    Ok(Simulated { completed, summary, friction, histories, head, written })
 }

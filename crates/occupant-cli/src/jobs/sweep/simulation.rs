@@ -75,8 +75,7 @@ impl Simulation<'_> {
         let columns = &self.plan.manifest.columns;
         let first = columns.iter().take_while(|c| c.role != Role::Figure).count();
         for (i, figure) in summary.figures(model).iter().enumerate() {
-            let of_work = figure.name.starts_with("solver.") || figure.name.starts_with("run.");
-            if row.status != Status::Completed && !of_work {
+            if row.status != Status::Completed && !figure.is_of_work() {
                 continue;
             }
             let is_it = |at: &usize| columns.get(*at).is_some_and(|c| c.name == figure.name);

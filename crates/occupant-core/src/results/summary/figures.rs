@@ -18,6 +18,13 @@ pub struct Figure {
     pub value: Option<f64>,
 }
 
+impl Figure {
+    /// True of what tells of the work of a run and how far it came, not of the motion.
+    pub fn is_of_work(&self) -> bool {
+        self.name.starts_with("solver.") || self.name.starts_with("run.")
+    }
+}
+
 impl Summary {
     /// Every measure of this summary of a run of `model`. The names and their order depend only on which force elements
     /// and spheres the model has, so that they are the same for all runs of a study.

@@ -46,13 +46,13 @@ pub(crate) enum IntegratorSection {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct AdaptiveSection {
-    /// Relative tolerance of velocities; 3e-6 if absent.
+    /// Relative tolerance of velocities; 3e-8 if absent.
     pub(crate) relative: Option<Ratio<NOT_NEGATIVE>>,
-    /// Absolute tolerance of positions; 3e-7 m if absent.
+    /// Absolute tolerance of positions; 3e-9 m if absent.
     pub(crate) absolute_length: Option<Length<POSITIVE>>,
-    /// Absolute tolerance of velocities; 3e-5 m/s if absent.
+    /// Absolute tolerance of velocities; 3e-7 m/s if absent.
     pub(crate) absolute_speed: Option<Speed<POSITIVE>>,
-    /// Smallest step, and the first; 1e-8 s if absent.
+    /// Smallest step, and the first; 1e-10 s if absent.
     pub(crate) min_step: Option<Time<POSITIVE>>,
     /// Largest step; 2 ms if absent.
     pub(crate) max_step: Option<Time<POSITIVE>>,

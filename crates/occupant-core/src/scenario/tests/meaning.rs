@@ -66,10 +66,10 @@ fn defaults_are_those_of_the_description() {
     let setup = build(super::SHORT);
     assert_eq!(setup.gravity_m_s2, STANDARD_GRAVITY_M_S2);
     let adaptive = Integrator::Adaptive {
-        relative: 3e-6,
-        absolute_m: 3e-7,
-        absolute_m_s: 3e-5,
-        min_step_s: 1e-8,
+        relative: 3e-8,
+        absolute_m: 3e-9,
+        absolute_m_s: 3e-7,
+        min_step_s: 1e-10,
         max_step_s: 2e-3,
     };
     assert_eq!(setup.integrator, adaptive);
