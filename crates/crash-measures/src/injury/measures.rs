@@ -104,13 +104,13 @@ pub(super) struct Definition {
 #[derive(Clone, Copy)]
 enum Made {
     /// Of signals of this filter class.
-    Of(ChannelClass, fn(&Readings) -> Result<Found, SignalError>),
+    Of(ChannelClass, fn(&Readings) -> Result<Finding, SignalError>),
     /// Not at all, for this reason.
     Never(&'static str),
 }
 
 /// A value and the window where it stands, counted from the first sample.
-struct Found {
+struct Finding {
     value: f64,
     from_s: Option<f64>,
     to_s: Option<f64>,
@@ -122,7 +122,7 @@ const fn measure(
     label: &'static str,
     unit: Unit,
     class: ChannelClass,
-    of: fn(&Readings) -> Result<Found, SignalError>,
+    of: fn(&Readings) -> Result<Finding, SignalError>,
 ) -> Definition {
     let figure = Some(name);
     let (made, limited, risks) = (Made::Of(class, of), None, &[]);
@@ -134,7 +134,7 @@ const fn lacking(name: &'static str, label: &'static str, unit: Unit, reason: &'
     Definition { name, label, unit, figure: None, brief: false, made, limited, risks, curve: |_, _, _| None }
 }
 
-type Make = fn(&Readings) -> Result<Found, SignalError>;
+type Make = fn(&Readings) -> Result<Finding, SignalError>;
 
 const fn femur(name: &'static str, label: &'static str, of: Make) -> Definition {
     measure(name, label, Newton, Cfc600, of)
@@ -179,27 +179,27 @@ impl Definition {
 
     /// The measure of a run.
     pub(super) fn of(&self, readings: &Readings) -> Measure {
-        let (filter_class, found) = match self.made {
+        let (filter_class, finding) = match self.made {
             Made::Never(reason) => (0, Err(reason.to_owned())),
             Made::Of(class, of) => {
                 let class = if readings.options.filtering == Filtering::None { 0 } else { class.hertz() as u32 };
                 (class, of(readings).map_err(|e| e.to_string()))
             }
         };
-        let time_s = |of: fn(&Found) -> Option<f64>| Some(readings.start_s + of(found.as_ref().ok()?)?);
+        let time_s = |of: fn(&Finding) -> Option<f64>| Some(readings.start_s + of(finding.as_ref().ok()?)?);
         let mut measure = Measure {
             name: self.name,
             label: self.label,
             figure: self.figure,
             brief: self.brief,
             unit: self.unit,
-            value: found.as_ref().ok().map(|f| f.value),
+            value: finding.as_ref().ok().map(|f| f.value),
             from_s: time_s(|f| f.from_s),
             to_s: time_s(|f| f.to_s),
             filter_class,
             limits: Vec::new(),
             risks: Vec::new(),
-            remark: found.map_or_else(Some, |f| f.remark),
+            remark: finding.map_or_else(Some, |f| f.remark),
         };
         let Some(value) = measure.value else {
             return measure;
@@ -217,62 +217,62 @@ impl Definition {
 }
 
 impl Readings {
-    fn hic(&self, window: HicWindow) -> Result<Found, SignalError> {
+    fn hic(&self, window: HicWindow) -> Result<Finding, SignalError> {
         let hic = hic(own(&self.head.resultant_m_s2)?, self.interval_s, window)?;
-        Ok(Found { value: hic.value, from_s: Some(hic.start_s), to_s: Some(hic.end_s), remark: None })
+        Ok(Finding { value: hic.value, from_s: Some(hic.start_s), to_s: Some(hic.end_s), remark: None })
     }
 
-    fn severity(&self, resultant_m_s2: &Result<Vec<f64>, SignalError>) -> Result<Found, SignalError> {
+    fn severity(&self, resultant_m_s2: &Result<Vec<f64>, SignalError>) -> Result<Finding, SignalError> {
         severity_index(own(resultant_m_s2)?, self.interval_s).map(whole)
     }
 
-    fn bric(&self) -> Result<Found, SignalError> {
+    fn bric(&self) -> Result<Finding, SignalError> {
         let [x, y, z] = own(&self.head_rad_s)?;
         let bric = bric(x, y, z, self.interval_s, BricBasis::Average)?;
         let [x, y, z] = bric.peaks_rps.map(|p| p.value);
         let remark = Some(format!("peaks {x:.1}, {y:.1}, {z:.1} rad/s about x, y, z"));
-        Ok(Found { remark, ..whole(bric.value) })
+        Ok(Finding { remark, ..whole(bric.value) })
     }
 
-    fn damage(&self) -> Result<Found, SignalError> {
+    fn damage(&self) -> Result<Finding, SignalError> {
         let [x, y, z] = own(&self.head_rad_s2)?;
         damage(x, y, z, self.interval_s).map(at)
     }
 
-    fn nij(&self) -> Result<Found, SignalError> {
+    fn nij(&self) -> Result<Finding, SignalError> {
         let ([_, _, fz], [_, my, _]) = (own(&self.neck_n)?, own(&self.neck_n_m)?);
         let n = nij(fz, my, self.interval_s, &NeckIntercepts::of(self.options.dummy))?;
-        Ok(Found { value: n.value, from_s: Some(n.time_s), to_s: None, remark: Some(format!("in {}", mode(n.mode))) })
+        Ok(Finding { value: n.value, from_s: Some(n.time_s), to_s: None, remark: Some(format!("in {}", mode(n.mode))) })
     }
 
     /// Tension and compression.
-    fn neck_axial(&self) -> Result<(Found, Found), SignalError> {
+    fn neck_axial(&self) -> Result<(Finding, Finding), SignalError> {
         let (tension, compression) = neck_axial_peaks(&own(&self.neck_n)?[2], self.interval_s)?;
         Ok((at(not_negative(tension)), at(not_negative(compression))))
     }
 
-    fn neck_shear(&self) -> Result<Found, SignalError> {
+    fn neck_shear(&self) -> Result<Finding, SignalError> {
         let [x, y, _] = own(&self.neck_n)?;
         maximum(&resultant(x, y, &vec![0.0; x.len()])?, self.interval_s).map(at)
     }
 
-    fn neck_flexion(&self) -> Result<Found, SignalError> {
+    fn neck_flexion(&self) -> Result<Finding, SignalError> {
         maximum(&own(&self.neck_n_m)?[1], self.interval_s).map(|p| at(not_negative(p)))
     }
 
-    fn neck_extension(&self) -> Result<Found, SignalError> {
+    fn neck_extension(&self) -> Result<Finding, SignalError> {
         let p = minimum(&own(&self.neck_n_m)?[1], self.interval_s)?;
         Ok(at(not_negative(Peak { value: -p.value, ..p })))
     }
 
-    fn femur_peak(&self, side: usize) -> Result<Found, SignalError> {
+    fn femur_peak(&self, side: usize) -> Result<Finding, SignalError> {
         maximum(own(&self.femur_n[side])?, self.interval_s).map(|p| at(not_negative(p)))
     }
 
-    fn femur_use(&self, side: usize) -> Result<Found, SignalError> {
+    fn femur_use(&self, side: usize) -> Result<Finding, SignalError> {
         let used = duration_use(own(&self.femur_n[side])?, self.interval_s, &DurationLimit::FEMUR_R94_N)?;
         let remark = Some(format!("{:.0} N for {:.1} ms", used.level.max(0.0), used.duration_s * 1e3));
-        Ok(Found { remark, ..whole(used.ratio.max(0.0)) })
+        Ok(Finding { remark, ..whole(used.ratio.max(0.0)) })
     }
 }
 
@@ -281,21 +281,21 @@ fn own<T>(signal: &Result<T, SignalError>) -> Result<&T, SignalError> {
 }
 
 /// A measure of the whole record.
-fn whole(value: f64) -> Found {
-    Found { value, from_s: None, to_s: None, remark: None }
+fn whole(value: f64) -> Finding {
+    Finding { value, from_s: None, to_s: None, remark: None }
 }
 
-fn at(peak: Peak) -> Found {
-    Found { from_s: Some(peak.time_s), ..whole(peak.value) }
+fn at(peak: Peak) -> Finding {
+    Finding { from_s: Some(peak.time_s), ..whole(peak.value) }
 }
 
-fn peak(of: &Result<Peak, SignalError>) -> Result<Found, SignalError> {
+fn peak(of: &Result<Peak, SignalError>) -> Result<Finding, SignalError> {
     of.clone().map(at)
 }
 
-fn level(of: &Result<ThreeMs, SignalError>) -> Result<Found, SignalError> {
+fn level(of: &Result<ThreeMs, SignalError>) -> Result<Finding, SignalError> {
     let level = of.clone()?;
-    Ok(Found { from_s: Some(level.start_s), to_s: Some(level.end_s), ..whole(level.level_mps2) })
+    Ok(Finding { from_s: Some(level.start_s), to_s: Some(level.end_s), ..whole(level.level_mps2) })
 }
 
 /// A peak in the other direction counts as none.

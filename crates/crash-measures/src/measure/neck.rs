@@ -89,16 +89,16 @@ pub fn nij(force_z_n: &[f64], moment_y_nm: &[f64], dt_s: f64, intercepts: &NeckI
     require_samples("neck axial force", force_z_n, dt_s, 1)?;
     require_samples("neck moment", moment_y_nm, dt_s, 1)?;
     require_same_length("neck moment", moment_y_nm, force_z_n)?;
-    let mut found = Nij { value: 0.0, time_s: 0.0, mode: NeckMode::TensionFlexion, by_mode: [0.0; 4] };
+    let mut greatest = Nij { value: 0.0, time_s: 0.0, mode: NeckMode::TensionFlexion, by_mode: [0.0; 4] };
     for (i, (&force_n, &moment_nm)) in force_z_n.iter().zip(moment_y_nm).enumerate() {
         let (value, mode) = nij_of_sample(force_n, moment_nm, intercepts);
-        let of_mode = &mut found.by_mode[mode as usize];
+        let of_mode = &mut greatest.by_mode[mode as usize];
         *of_mode = of_mode.max(value);
-        if value > found.value {
-            (found.value, found.time_s, found.mode) = (value, i as f64 * dt_s, mode);
+        if value > greatest.value {
+            (greatest.value, greatest.time_s, greatest.mode) = (value, i as f64 * dt_s, mode);
         }
     }
-    Ok(found)
+    Ok(greatest)
 }
 
 /// Largest tension and largest compression (as a positive number) with their times.

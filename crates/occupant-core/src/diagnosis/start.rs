@@ -154,7 +154,7 @@ pub(super) fn seat(model: &Model) -> Option<SeatStart> {
 pub(super) fn behind(model: &Model, mobility: &Mobility<'_>) -> Vec<SphereBehind> {
     let (setup, contacts) = (model.setup(), &model.system().forces.contacts);
     let vehicle = vehicle_at_start(model);
-    let mut found = Vec::new();
+    let mut behind = Vec::new();
     for group in &contacts.groups {
         let (_, centre, _) = model.system().sphere(&mobility.kinematics, group.sphere);
         let radius_m = setup.body.spheres[group.sphere].radius_m;
@@ -168,7 +168,7 @@ pub(super) fn behind(model: &Model, mobility: &Mobility<'_>) -> Vec<SphereBehind
             let behind_m = plane.offset_m - plane.normal.dot(&place);
             let overlaps = behind_m > 0.0 && behind_m < radius_m;
             if overlaps && beside_m(plane, &V3::of(&place)) < radius_m {
-                found.push(SphereBehind {
+                behind.push(SphereBehind {
                     sphere: setup.body.spheres[group.sphere].name.clone(),
                     surface: setup.surfaces[part.surface].name.clone(),
                     behind_m,
@@ -176,7 +176,7 @@ pub(super) fn behind(model: &Model, mobility: &Mobility<'_>) -> Vec<SphereBehind
             }
         }
     }
-    found
+    behind
 }
 
 /// Distance of a point's projection from the face, in the face's frame, m.

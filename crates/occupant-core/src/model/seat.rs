@@ -180,11 +180,11 @@ fn place_pelvis(
     let rows =
         Matrix3::from_rows(&[seat.cushion.normal.transpose(), seat.back.normal.transpose(), Vector3::y().transpose()]);
     let places = Vector3::new(seat.cushion.offset_m + radius_m - sink_m, seat.back.offset_m + radius_m, lateral_m);
-    let found = (rows.determinant().abs() > 1e-3).then(|| rows.lu().solve(&places)).flatten();
-    if found.is_none() {
+    let centre = (rows.determinant().abs() > 1e-3).then(|| rows.lu().solve(&places)).flatten();
+    if centre.is_none() {
         problems.error("seat", "a cushion and a back that are parallel", "planes that meet");
     }
-    found
+    centre
 }
 
 /// Lean of thigh and lower leg, rad.

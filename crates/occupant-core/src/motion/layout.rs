@@ -26,19 +26,19 @@ macro_rules! collect {
             }
             count
         };
-        const FOUND: [$type; COUNT] = {
+        const KEPT: [$type; COUNT] = {
             let (mut at, mut $n) = (0, 0);
-            let mut found = [$value; COUNT];
+            let mut kept = [$value; COUNT];
             while $n < $bound {
                 if $keep {
-                    found[at] = $value;
+                    kept[at] = $value;
                     at += 1;
                 }
                 $n += 1;
             }
-            found
+            kept
         };
-        &FOUND
+        &KEPT
     }};
 }
 

@@ -107,7 +107,7 @@ impl<S: Scalar> Hints for ContactHints<S> {
     }
 }
 
-/// The near pairs of a group, being found.
+/// The near pairs of a group, being collected.
 pub(super) struct Nearing {
     first: usize,
     count: usize,
