@@ -2,6 +2,7 @@
 //! running it.
 
 mod command_line;
+mod common;
 mod convert;
 mod ensembles;
 mod fit;

@@ -112,6 +112,12 @@ pub struct FitTest {
     pub to: Option<Time>,
     /// Time added to the clock of the test; 0 if absent.
     pub shift: Option<Time>,
+    /// What may be wrong with that clock: a time, looked for together with the parameters, that is added as well; none if
+    /// absent.
+    pub offset: Option<OffsetRange>,
+    /// What may be wrong with its amplifiers: all its measured values over the true ones, looked for together with the
+    /// parameters; 1 if absent.
+    pub gain: Option<GainRange>,
     /// How much the test counts; 1 if absent.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub weight: Option<f64>,
@@ -120,6 +126,27 @@ pub struct FitTest {
     pub map: Vec<String>,
     /// Position of the occupant in ISO-MME codes, one character; "1" if absent.
     pub seat: Option<String>,
+}
+
+/// Between which times an offset is looked for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct OffsetRange {
+    /// Least.
+    pub from: Time,
+    /// Greatest.
+    pub to: Time,
+}
+
+/// Between which numbers a gain is looked for.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct GainRange {
+    /// Least, above 0.
+    #[schemars(extend("exclusiveMinimum" = 0))]
+    pub from: f64,
+    /// Greatest.
+    pub to: f64,
 }
 
 impl FitChannel {
@@ -138,6 +165,12 @@ impl FitTest {
     /// Added to its clock, s.
     pub fn shift_s(&self) -> f64 {
         self.shift.as_ref().map_or(0.0, Time::si)
+    }
+
+    /// Between which ends its offset, s, and its gain are looked for.
+    pub fn nuisances(&self) -> [Option<[f64; 2]>; 2] {
+        let offset = self.offset.as_ref().map(|range| [range.from.si(), range.to.si()]);
+        [offset, self.gain.as_ref().map(|range| [range.from, range.to])]
     }
 
     /// How much it counts.

@@ -77,7 +77,7 @@ mod text;
 pub use design::{Design, Role};
 pub use ensemble::{Change, Ensemble, Perturbation, Tolerances};
 pub use fit::{Bounds, Fit};
-pub use fit_section::{FilterChoice, FitChannel, FitSection, FitTest, Misfit};
+pub use fit_section::{FilterChoice, FitChannel, FitSection, FitTest, GainRange, Misfit, OffsetRange};
 pub use keep::Keep;
 pub use law::{Law, Value};
 pub use parameter::{Assignment, Parameter, Target};

@@ -8,7 +8,9 @@ use crate::base::interrupt::Interrupt;
 use crate::base::names::program;
 use crate::base::talk::{json, print, say};
 use crate::files::measured::MapArgument;
+use crate::files::study_folder::checksums::Checksums;
 use crate::files::study_folder::folder::Folder;
+use crate::files::study_folder::journal::Journal;
 use crate::files::study_folder::shard::Shard;
 use crate::jobs::fit::evaluator::Evaluator;
 use crate::jobs::fit::fitting::Fitting;
@@ -18,7 +20,7 @@ use crate::jobs::fit::output::Output;
 use crate::jobs::fit::progress::Progress;
 use crate::jobs::fit::report;
 use crate::jobs::sweep::stored::sha256_of;
-use crate::jobs::sweep::words::warn_unlocked;
+use crate::jobs::sweep::words::{tell_damaged, warn_unlocked};
 
 /// Find the parameters of a study with which runs follow a test best
 ///
@@ -78,15 +80,19 @@ pub(crate) fn fit(args: &Args) -> Result<Done, Failure> {
     let sha256 = sha256_of(&fitting.manifest)?;
     let held = folder.claim(&fitting.manifest, &fitting.texts, Shard::WHOLE, args.restart)?;
     warn_unlocked(&held, "fitting into one folder", args.quiet);
+    let sums = Checksums::open(&folder.path, |_| true)?;
     let interrupt = Interrupt::listen_for("stopping; once more to stop at once");
     let progress = Progress::new(fitting.fit.budget, args.quiet);
-    let mut evaluator = Evaluator::new(&fitting, &folder, &sha256, &engine, &interrupt, progress)?;
+    let mut evaluator = Evaluator::new(&fitting, (&folder, &sums), &sha256, &engine, &interrupt, progress)?;
+    tell_damaged(&[held.mended, sums.damaged()].concat());
     if evaluator.known() > 0 && !args.quiet {
         say(&format!("resuming: {} runs are there", evaluator.known()));
     }
     let answer = search(&fitting, &mut evaluator)?;
     let records = evaluator.close()?;
-    let found = Output { fitting: &fitting, folder: &folder }.write(&answer, &records)?;
+    let found = Output { fitting: &fitting, folder: &folder, sums: &sums }.write(&answer, &records)?;
+    Journal::list(&folder, Shard::WHOLE, &sums)?;
+    sums.close()?;
     match (args.json, args.quiet) {
         (true, _) => print(&json(&found)?)?,
         (false, true) => {}

@@ -97,3 +97,27 @@ fn another_test_or_study_in_the_same_folder_is_refused_with_what_differs() {
     let refused = answer(at, &["sweep", "sweep.toml", "-o", "out"]);
     assert!(err(&refused).contains("no sweep's"), "{}", err(&refused));
 }
+
+#[test]
+fn damage_in_a_finished_folder_is_named_and_made_again() {
+    let folder = folder_with(&STUDY.replace("budget = 160", "budget = 16"));
+    let at = folder.path();
+    measure(at, "test.csv", &HIDDEN, 0.03, 1);
+    let fit = ["fit", "study.toml", "--to", "test.csv", "-o", "out", "--quiet"];
+    done(at, &fit);
+    let whole = results(at, "out");
+    for name in ["fit.json", "fitted.toml", "history.csv", "plots/test.svg", "search.json", "inputs/2-test.csv"] {
+        damage(&at.join("out").join(name), true);
+        let told = spoken(at, &fit);
+        assert!(told.starts_with("damaged: ") && told.contains(name), "{name}: {told}");
+        assert_eq!(results(at, "out"), whole, "{name}");
+    }
+    let piece = at.join("out/journal/shard-0001-of-0001.000000.rows");
+    let text = fs::read_to_string(&piece).unwrap();
+    let (before, score) = text.rsplit_once("],\"wall").unwrap();
+    let (before, _) = before.split_at(before.len() - 1);
+    fs::write(&piece, format!("{before}0],\"wall{score}")).unwrap();
+    assert!(spoken(at, &fit).contains("rows was not what had been written"));
+    assert_eq!(results(at, "out"), whole);
+    assert_eq!(spoken(at, &fit), "");
+}

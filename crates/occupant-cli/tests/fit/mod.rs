@@ -5,12 +5,14 @@ mod killed;
 mod recovered;
 mod refused;
 mod written;
+mod wrong;
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
 
 use serde_json::Value;
+
+use crate::common::{answer, damage, done, err, folder_with, occupant, spoken};
 
 /// The starter scenario up to the end of its belt loads.
 const TIME: &str = "time.end=80 ms";
@@ -41,36 +43,6 @@ from = "5 ms"
 to = "75 ms"
 budget = 160
 "#;
-
-/// The command, in a folder.
-fn occupant(folder: &Path) -> Command {
-    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("occupant"));
-    command.current_dir(folder);
-    command
-}
-
-fn answer(folder: &Path, words: &[&str]) -> Output {
-    occupant(folder).args(words).output().expect("the command starts")
-}
-
-/// It does its work; what it prints.
-fn done(folder: &Path, words: &[&str]) -> String {
-    let output = answer(folder, words);
-    assert_eq!(output.status.code(), Some(0), "{words:?}: {}", err(&output));
-    String::from_utf8(output.stdout).expect("UTF-8")
-}
-
-fn err(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-/// A fresh folder with the starter scenario as case.toml and the study.
-fn folder_with(study: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a folder");
-    done(folder.path(), &["new", "case.toml"]);
-    fs::write(folder.path().join("study.toml"), study).expect("a study");
-    folder
-}
 
 /// Measures a run of the starter scenario with these changes into a table: belt forces and pelvis acceleration, each with
 /// noise of `noise` of its greatest value, the same for the same seed.

@@ -7,7 +7,8 @@ use std::path::Path;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 use parquet::record::Field;
 
-use super::{answer, done, err, occupant, swept};
+use super::{answer, done, err, occupant, spoken, swept};
+use crate::common::damage;
 
 const STUDY: &str = r#"
     seed = 2
@@ -117,7 +118,7 @@ fn what_was_killed_goes_on_to_the_same_files() {
     done(at, &["study", "bands", "out", "--threads", "2", "--quiet"]);
     assert!(files(at) == whole, "the files differ");
     // nothing is left to do: nothing is said
-    assert_eq!(done(at, &["study", "bands", "out"]), "");
+    assert_eq!(spoken(at, &["study", "bands", "out"]), "");
 }
 
 #[test]
@@ -137,4 +138,20 @@ fn what_cannot_have_bands_is_refused() {
     let output = answer(plain.path(), &["study", "bands", "out"]);
     assert_eq!(output.status.code(), Some(2));
     assert!(err(&output).contains("has no ensemble"), "{}", err(&output));
+}
+
+#[test]
+fn damaged_bands_are_named_and_made_again() {
+    let folder = swept(STUDY);
+    let at = folder.path();
+    let words = ["study", "bands", "out", "--channels", "belt.*.force", "--quiet"];
+    done(at, &words);
+    let whole = files(at);
+    for (name, cut) in [("000000.parquet", true), ("000001.parquet", false), ("000002.parquet", false)] {
+        damage(&at.join("out/bands").join(name), cut);
+    }
+    let told = spoken(at, &words);
+    assert_eq!(told.matches("damaged: ").count(), 3, "{told}");
+    assert!(files(at) == whole, "the files differ");
+    assert_eq!(spoken(at, &words), "");
 }

@@ -9,44 +9,14 @@ mod refused;
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
 
 use occupant_cli::results::Results;
 
-/// The command, in a folder, without what the surroundings say of shards.
-fn occupant(folder: &Path) -> Command {
-    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("occupant"));
-    command.current_dir(folder);
-    for name in ["OCCUPANT_SHARD", "SLURM_ARRAY_TASK_ID"] {
-        command.env_remove(name);
-    }
-    command
-}
-
-/// Runs the command with these words.
-fn answer(folder: &Path, words: &[&str]) -> Output {
-    let output = occupant(folder).args(words).output();
-    output.expect("the command starts")
-}
-
-/// The same, and it does its work; what it said on standard error.
-fn done(folder: &Path, words: &[&str]) -> String {
-    let output = answer(folder, words);
-    assert_eq!(output.status.code(), Some(0), "{words:?}: {}", err(&output));
-    err(&output)
-}
-
-fn err(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
+use crate::common::{self, answer, done, err, occupant, spoken};
 
 /// A fresh folder with the starter scenario as case.toml and a study of it, whose runs are short.
 fn folder_with(study: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a folder");
-    done(folder.path(), &["new", "case.toml"]);
-    let text = format!("base = \"case.toml\"\n{study}");
-    fs::write(folder.path().join("study.toml"), text).expect("a study");
-    folder
+    common::folder_with(&format!("base = \"case.toml\"\n{study}"))
 }
 
 /// The same, swept into out/.

@@ -1,5 +1,6 @@
 //! Sweeps as sentences: what a user types, what is killed, and what the table says afterwards.
 
+mod damaged;
 mod interrupted;
 mod kept;
 mod refused;
@@ -8,7 +9,8 @@ mod table;
 
 use std::fs;
 use std::path::Path;
-use std::process::{Command, Output};
+
+use crate::common::{answer, done, err, folder_with, occupant, spoken};
 
 /// A short case on the cart, without time for the first contact to take long.
 const STUDY: &str = r#"
@@ -29,41 +31,6 @@ name = "speed"
 path = "path.speed"
 range = { from = "15 mph", to = "25 mph" }
 "#;
-
-/// The command, in a folder, without what the surroundings say of shards.
-fn occupant(folder: &Path) -> Command {
-    let mut command = Command::new(assert_cmd::cargo::cargo_bin!("occupant"));
-    command.current_dir(folder);
-    for name in ["OCCUPANT_SHARD", "SLURM_ARRAY_TASK_ID"] {
-        command.env_remove(name);
-    }
-    command
-}
-
-/// Runs the command with these words.
-fn answer(folder: &Path, words: &[&str]) -> Output {
-    let output = occupant(folder).args(words).output();
-    output.expect("the command starts")
-}
-
-/// The same, and it does its work.
-fn done(folder: &Path, words: &[&str]) -> String {
-    let output = answer(folder, words);
-    assert_eq!(output.status.code(), Some(0), "{words:?}: {}", err(&output));
-    String::from_utf8(output.stdout).expect("UTF-8")
-}
-
-fn err(output: &Output) -> String {
-    String::from_utf8_lossy(&output.stderr).into_owned()
-}
-
-/// A fresh folder with the starter scenario as case.toml and the study.
-fn folder_with(study: &str) -> tempfile::TempDir {
-    let folder = tempfile::tempdir().expect("a folder");
-    done(folder.path(), &["new", "case.toml"]);
-    fs::write(folder.path().join("study.toml"), study).expect("a study");
-    folder
-}
 
 /// The table as CSV, line by line, without wall time and kernel, which stand last.
 fn rows(folder: &Path, name: &str) -> Vec<String> {

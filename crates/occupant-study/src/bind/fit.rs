@@ -148,6 +148,13 @@ impl Binder<'_> {
             self.error(&format!("{at}.seat"), format!("\"{seat}\" is no position"), expected, None);
         }
         self.check_window(test.window_s(), at);
+        let [offset, gain] = test.nuisances();
+        for (key, ends, least) in [("offset", offset, f64::NEG_INFINITY), ("gain", gain, 0.0)] {
+            if ends.is_some_and(|[from, to]| !(least < from && from < to && to.is_finite())) {
+                let expected = "`from` below `to`, of a gain both above 0";
+                self.error(&format!("{at}.{key}"), "ends between which nothing lies", expected, None);
+            }
+        }
         self.check_weight(test.weight(), at);
     }
 

@@ -10,6 +10,7 @@ use crate::base::interrupt::Interrupt;
 use crate::base::output_file::Existing;
 use crate::base::talk::say;
 use crate::commands::flags::sweep::engine;
+use crate::files::study_folder::checksums::Checksums;
 use crate::jobs::ensemble::bands::choose;
 use crate::jobs::study::bands::StudyBands;
 use crate::jobs::sweep::stored::{MadeBy, open};
@@ -67,6 +68,7 @@ pub(crate) fn bands(args: &BandsArgs) -> Result<Done, Failure> {
         folder: args.folder.join("bands"),
         engine: &engine(args.threads, Kernel::best())?,
         interrupt: &interrupt,
+        sums: Checksums::open(&args.folder, |name| name.starts_with("bands/"))?,
     };
     bands.write_all(Existing::by(args.force), args.quiet)?;
     Ok(Done::Well)

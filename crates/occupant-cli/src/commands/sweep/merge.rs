@@ -8,11 +8,12 @@ use occupant_core::run::batch::Kernel;
 
 use crate::base::failure::{Done, Failure};
 use crate::commands::flags::sweep::{engine, keep};
+use crate::files::study_folder::checksums::Checksums;
 use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::problem::Problem;
 use crate::jobs::sweep::results::refuse_gaps;
 use crate::jobs::sweep::stored::{MadeBy, Stored, open};
-use crate::jobs::sweep::words::tell;
+use crate::jobs::sweep::words::{tell, tell_damaged};
 use crate::jobs::sweep::{kept, results};
 
 /// Make one table of a sweep's shards
@@ -57,9 +58,13 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     target.refuse_other_results(&manifest)?;
     let keep = keep(args.keep.as_deref(), &plan)?;
     kept::prepare(&keep, &target)?;
-    let found = results::write(&target, &journal, &manifest, &keep, args.csv || plan.study.csv)?;
-    let lacking = kept::missing(&target, &journal, found.worst.iter().copied())?;
+    let sums = Checksums::open(&target.path, |name| !name.starts_with("bands/"))?;
+    tell_damaged(&sums.damaged());
+    let runs = kept::among(&sums.damaged(), &target, 0..manifest.samples);
+    let found = results::write((&target, &sums), &journal, &manifest, &keep, args.csv || plan.study.csv)?;
+    let lacking = kept::missing(&target, &journal, &sums, found.worst.iter().copied().chain(runs))?;
     let engine = engine(args.threads, Kernel::best())?;
-    kept::write(&plan, &target, &lacking, &engine, &AtomicBool::new(false))?;
+    kept::write(&plan, (&target, &sums), &lacking, &engine, &AtomicBool::new(false))?;
+    sums.close()?;
     if args.quiet { Ok(Done::Well) } else { tell(&found, None) }
 }

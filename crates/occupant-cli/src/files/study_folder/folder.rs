@@ -6,6 +6,7 @@
 //! journal/*.rows           finished samples, in pieces
 //! journal/*.lock           locked while a process works on that shard
 //! results.parquet          the table, when all samples are finished
+//! SHA256SUMS               what the files of results were when they were complete
 //! runs/000123.mcap         whole runs that are kept
 //! ```
 
@@ -13,6 +14,8 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use super::checksums::SUMS;
+use super::journal::is_named_by_rows;
 use super::manifest::{Manifest, Text};
 use super::problem::Problem;
 use super::shard::Shard;
@@ -67,6 +70,8 @@ pub(crate) struct Held {
     _file: File,
     /// What the file system says that knows no locks.
     pub(crate) unlocked: Option<String>,
+    /// Manifest and copies that were damaged and were written again.
+    pub(crate) mended: Vec<PathBuf>,
 }
 
 impl Folder {
@@ -161,19 +166,29 @@ impl Folder {
     ) -> Result<Held, Problem> {
         fs::create_dir_all(&self.path).map_err(Problem::io("create", &self.path))?;
         let _one_at_a_time = self.wait()?;
-        self.refuse_other_files()?;
+        // the rows say whose they are, whatever has become of the manifest
+        let ours = !restart && is_named_by_rows(self, manifest)?;
+        if !ours {
+            self.refuse_other_files()?;
+        }
         self.refuse_others(shard, restart)?;
         if restart {
             self.clear()?;
         }
-        match self.manifest()? {
-            Some(there) if there == *manifest => {}
-            Some(there) => return Err(self.differs(&there, manifest, texts)),
-            None => self.begin(manifest, texts)?,
+        let mut mended = Vec::new();
+        match self.manifest() {
+            Ok(Some(there)) if there == *manifest => mended = self.mend_copies(manifest, texts)?,
+            _ if ours => {
+                self.begin(manifest, texts)?;
+                mended.push(self.manifest_path());
+            }
+            Ok(Some(there)) => return Err(self.differs(&there, manifest, texts)),
+            Ok(None) => self.begin(manifest, texts)?,
+            Err(problem) => return Err(problem),
         }
         let name = format!("{}.lock", shard.file_stem());
         match self.lock(&self.journal().join(name))? {
-            Some(held) => Ok(held),
+            Some(held) => Ok(Held { mended, ..held }),
             None => Err(self.busy(format!("computes shard {shard}"))),
         }
     }
@@ -272,7 +287,14 @@ impl Folder {
             Err(TryLockError::WouldBlock) => return Ok(None),
             Err(TryLockError::Error(error)) => Some(error.to_string()),
         };
-        Ok(Some(Held { _file: file, unlocked }))
+        Ok(Some(Held { _file: file, unlocked, mended: Vec::new() }))
+    }
+
+    /// Writes copies again that are not what was read; which.
+    fn mend_copies(&self, manifest: &Manifest, texts: &[Vec<u8>]) -> Result<Vec<PathBuf>, Problem> {
+        let copies = manifest.texts.iter().map(|text| self.path.join(&text.copy)).zip(texts);
+        let changed = copies.filter(|(path, bytes)| fs::read(path).ok().as_ref() != Some(*bytes));
+        changed.map(|(path, bytes)| write_whole(&path, bytes).map(|()| path)).collect()
     }
 
     /// Copies first, the manifest last: a folder with a manifest is whole.
@@ -308,7 +330,8 @@ impl Folder {
             Holds::Fit => (&FIT_RESULTS, &FIT_FOLDERS),
         };
         let mut files = self.files(results);
-        for (folder, ending) in [(JOURNAL, ".rows"), (INPUTS, "")].iter().chain(folders) {
+        files.push(self.path.join(SUMS));
+        for (folder, ending) in [(JOURNAL, ".rows"), (JOURNAL, ".damaged"), (INPUTS, "")].iter().chain(folders) {
             let folder = self.path.join(folder);
             if folder.exists() {
                 let names = names_in(&folder)?;

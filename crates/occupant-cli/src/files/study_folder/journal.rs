@@ -6,15 +6,17 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, File};
-use std::io::{self, Write};
+use std::io::{self, BufRead, BufReader, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use serde::{Deserialize, Serialize};
 
+use super::checksums::Checksums;
 use super::finished::Finished;
 use super::folder::{Folder, names_in};
+use super::manifest::Manifest;
 use super::problem::Problem;
 use super::row::Row;
 use super::shard::Shard;
@@ -158,7 +160,56 @@ struct Piece {
     samples: Range<u64>,
 }
 
+/// Whether some piece of a folder's journal names this manifest.
+///
+/// # Errors
+/// The operating system refuses.
+pub(crate) fn is_named_by_rows(folder: &Folder, manifest: &Manifest) -> Result<bool, Problem> {
+    let (journal, sha256) = (folder.journal(), manifest.sha256().unwrap_or_default());
+    let names = if journal.exists() { names_in(&journal)? } else { Vec::new() };
+    let named = |name: &String| {
+        let mut line = String::new();
+        let read = File::open(journal.join(name)).and_then(|file| BufReader::new(file).read_line(&mut line));
+        read.is_ok() && serde_json::from_str(&line).is_ok_and(|head: Head| head.rows_of == sha256)
+    };
+    Ok(names.iter().any(|name| name.ends_with(".rows") && named(name)))
+}
+
 impl Journal {
+    /// Reads through the journal of a folder that is claimed. Pieces that are damaged are put aside and given back: their
+    /// samples are not finished.
+    ///
+    /// # Errors
+    /// The operating system refuses.
+    pub(crate) fn mend(
+        folder: &Folder,
+        manifest: (&str, u64),
+        sums: &Checksums,
+    ) -> Result<(Self, Vec<PathBuf>), Problem> {
+        let mut aside: Vec<PathBuf> = sums.damaged();
+        aside.retain(|path| path.starts_with(folder.journal()));
+        aside.iter().try_for_each(|path| sums.put_aside(path))?;
+        loop {
+            match Journal::read(std::slice::from_ref(folder), manifest.0, manifest.1) {
+                Err(Problem::Damaged { path, .. }) => {
+                    sums.put_aside(&path)?;
+                    aside.push(path);
+                }
+                read => return read.map(|journal| (journal, aside)),
+            }
+        }
+    }
+
+    /// Lists the pieces of a shard that has ended.
+    ///
+    /// # Errors
+    /// The operating system refuses.
+    pub(crate) fn list(folder: &Folder, shard: Shard, sums: &Checksums) -> Result<(), Problem> {
+        let own = |name: &String| name.ends_with(".rows") && Shard::of_file(name) == Some(shard);
+        let pieces = names_in(&folder.journal())?.into_iter().filter(own).map(|name| folder.journal().join(name));
+        pieces.filter(|piece| !sums.holds(piece)).try_for_each(|piece| sums.add(&piece))
+    }
+
     /// Reads through the journals of folders that hold parts of one sweep of `samples`.
     ///
     /// # Errors

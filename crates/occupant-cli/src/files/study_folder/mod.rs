@@ -3,6 +3,7 @@
 //! Runs nothing: jobs hand rows in and read them back. What a folder holds stands in [`folder`], what a piece of the journal
 //! is in [`journal`].
 
+pub(crate) mod checksums;
 pub(crate) mod finished;
 pub(crate) mod folder;
 pub(crate) mod journal;

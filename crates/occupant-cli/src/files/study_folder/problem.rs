@@ -29,6 +29,9 @@ pub(crate) enum Problem {
     /// A file of the folder is not what it should be.
     #[error("{} {found}", .path.display())]
     Damaged { path: PathBuf, found: String },
+    /// A file of results was damaged, and what came after has not made it again.
+    #[error("{} is not what was written and was not made again", .path.display())]
+    Unmended { path: PathBuf },
     #[error("another process is at work in {}: it {doing}", .folder.display())]
     Busy { folder: PathBuf, doing: String },
     /// Samples are not finished; shards that have begun and how many samples each lacks.
@@ -53,7 +56,10 @@ impl Problem {
             Problem::Differs { .. } => Some(
                 "name another folder, or compute everything anew with --restart, which removes the results that are there",
             ),
-            Problem::Damaged { .. } => Some("remove the file: its samples are computed again by the same sweep"),
+            Problem::Damaged { .. } => {
+                Some("give the same command of `occupant sweep` or `occupant fit` again: what is damaged is made again")
+            }
+            Problem::Unmended { .. } => Some("remove the file, or compute everything anew with --restart"),
             Problem::Busy { .. } => Some("wait for it, or name another folder"),
             Problem::Incomplete { .. } => {
                 Some("give the same command of `occupant sweep` again: it resumes with what is there")
@@ -84,7 +90,7 @@ impl From<Problem> for Failure {
         let help = problem.help().map(|h| format!("\n = help: {h}")).unwrap_or_default();
         let message = format!("error: {problem}{help}");
         match problem {
-            Problem::Incomplete { .. } => Failure::BrokeOff(message),
+            Problem::Incomplete { .. } | Problem::Unmended { .. } => Failure::BrokeOff(message),
             Problem::File(file) if file.broke_off() => Failure::BrokeOff(message),
             _ => Failure::CouldNotRun(message),
         }

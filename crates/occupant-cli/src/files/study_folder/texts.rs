@@ -100,7 +100,8 @@ impl Texts {
                 let text = text.ok_or("the sweep holds no copy of it")?;
                 let bytes = folder.copy_of(text).map_err(|e| e.to_string())?;
                 if sha256(&bytes) != text.sha256 {
-                    return Err(format!("the copy {} was changed", text.copy));
+                    let mends = "the same command of `occupant sweep` writes it again";
+                    return Err(format!("the copy {} was changed; {mends}", text.copy));
                 }
                 Ok(bytes)
             }

@@ -1,5 +1,7 @@
 //! Every candidate of a fit in the order in which the search asked for it, as a table: history.parquet and history.csv.
 
+use std::path::PathBuf;
+
 use super::evaluator::Record;
 use super::fitting::Fitting;
 use super::progress::words_of;
@@ -11,15 +13,15 @@ use crate::files::study_folder::table::StudyTable;
 use crate::files::table::Cell;
 use occupant_study::search::Stage;
 
-/// Writes both tables.
+/// Writes both tables; their names.
 ///
 /// # Errors
 /// The operating system refuses.
-pub(crate) fn write(folder: &Folder, fitting: &Fitting, records: &[Record]) -> Result<(), Failure> {
+pub(crate) fn write(folder: &Folder, fitting: &Fitting, records: &[Record]) -> Result<Vec<PathBuf>, Failure> {
     let [parquet, csv] = ["history.parquet", "history.csv"].map(|name| folder.path.join(name));
     let mut table = StudyTable::create(parquet, Some(csv), &manifest(fitting))?;
     rows(fitting, records).iter().try_for_each(|row| table.row(row))?;
-    table.publish().map(|_| ())
+    table.publish()
 }
 
 fn manifest(fitting: &Fitting) -> Manifest {

@@ -17,12 +17,14 @@ use super::fitting::Fitting;
 use super::progress::Progress;
 use crate::base::failure::Failure;
 use crate::base::interrupt::Interrupt;
+use crate::files::study_folder::checksums::Checksums;
 use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::journal::{Journal, JournalWriter};
 use crate::files::study_folder::problem::Problem;
 use crate::files::study_folder::row::{Row, Status};
 use crate::files::study_folder::shard::Shard;
 use crate::files::table::Cell;
+use crate::jobs::sweep::words::tell_damaged;
 
 /// The score of a candidate that could not be run: worse than any that could.
 pub(crate) const WORST: f64 = 1e6;
@@ -64,14 +66,15 @@ impl<'a> Evaluator<'a> {
     /// The operating system refuses; a journal of something else.
     pub(crate) fn new(
         fitting: &'a Fitting,
-        folder: &Folder,
+        (folder, sums): (&Folder, &Checksums),
         sha256: &str,
         engine: &'a Engine,
         interrupt: &'a Interrupt,
         progress: Progress,
     ) -> Result<Self, Failure> {
         let samples = fitting.manifest.samples;
-        let journal = Journal::read(std::slice::from_ref(folder), sha256, samples)?;
+        let (journal, aside) = Journal::mend(folder, (sha256, samples), sums)?;
+        tell_damaged(&aside);
         let mut known = BTreeMap::new();
         journal.each_row(|row| {
             known.insert(row.index, row);
@@ -230,7 +233,11 @@ impl Source for Batch<'_> {
         };
         let mut row = Row::of(&run, cells);
         let misfits = match (run.ending, run.ran) {
-            (Ending::Completed, Some(ran)) => experiment.misfits(self.fitting.fit.misfit, &ran.recorder),
+            (Ending::Completed, Some(ran)) => {
+                let values = candidate.map(|at| self.fitting.values(at));
+                let corrections = self.fitting.corrections(values.as_deref());
+                experiment.misfits(self.fitting.fit.misfit, &ran.recorder, &corrections)
+            }
             // what it would be compared with means nothing
             (ending @ Ending::OutOfBalance(_), _) => Err(ending.reason().unwrap_or_default()),
             _ => return Ok(row),

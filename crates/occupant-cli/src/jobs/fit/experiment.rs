@@ -3,15 +3,19 @@
 use std::path::PathBuf;
 
 use occupant_core::model::Model;
+use occupant_core::model::setup::Integrator;
 use occupant_core::results::channel::{Channel, Series};
 use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Diagnostics, Loaded};
 use occupant_study::ending::Ending;
 use occupant_study::{Misfit, Study};
 
+use super::accord::Accord;
+use super::report::short;
 use super::target::{FAMILY, Target};
 use crate::files::history::{Filter, Histories, Treatment, Untreated, asked, treated};
 use crate::files::scenario::Tables;
+use crate::jobs::compare::RATE_HZ;
 
 /// A scenario with the parameters of the study.
 pub(crate) struct Experiment {
@@ -30,6 +34,15 @@ pub(crate) struct Experiment {
     pub(crate) targets: Vec<(usize, Target)>,
     groups: Vec<(Filter, Vec<Channel>)>,
     pub(crate) recorded: Vec<Channel>,
+    /// Time between the outputs of its runs, s, where they are denser than the scenario's.
+    pub(crate) dense_s: Option<f64>,
+}
+
+/// What stands between a test and the truth: a time that is added to its clock, and its values over the true ones.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Correction {
+    pub(crate) offset_s: f64,
+    pub(crate) gain: f64,
 }
 
 impl Experiment {
@@ -54,6 +67,7 @@ impl Experiment {
             targets: Vec::new(),
             groups: Vec::new(),
             recorded: Vec::new(),
+            dense_s: None,
         };
         Ok((experiment, warnings))
     }
@@ -80,6 +94,32 @@ impl Experiment {
         }
     }
 
+    /// Has the runs write outputs as densely as the tests were sampled: what is compared is then no chord between the
+    /// scenario's outputs. Not denser than 10 kHz, at which all is compared, nor than fixed steps are; a
+    /// study that varies integrator or outputs has them as it says. Gives the note of it.
+    pub(crate) fn write_densely(&mut self) -> Option<String> {
+        let interval_s = self.targets.iter().map(|(_, target)| target.interval_s()).fold(f64::INFINITY, f64::min);
+        let setup = self.model.setup();
+        let step_s = match setup.integrator {
+            Integrator::Rk4 { step_s } => step_s,
+            Integrator::Adaptive { .. } => 0.0,
+        };
+        let mut places = self.study.parameters.iter().flat_map(|p| &p.targets);
+        let is_varied = places.any(|t| t.path.starts_with("integrator") || t.path.starts_with("output"));
+        let (own_s, dense_s) = (setup.time.output_s, interval_s.max(1.0 / RATE_HZ).max(step_s));
+        if is_varied || dense_s > 0.99 * own_s {
+            return None;
+        }
+        self.dense_s = Some(dense_s);
+        Some(format!(
+            "note: the runs of this fit write outputs every {} ms, as the tests were sampled, not every {} ms as {} says: each takes \
+             longer",
+            short(1e3 * dense_s),
+            short(1e3 * own_s),
+            self.scenario.display()
+        ))
+    }
+
     /// First and last output that can be compared, s.
     pub(crate) fn run_s(&self) -> [f64; 2] {
         let time = self.model.setup().time;
@@ -103,25 +143,37 @@ impl Experiment {
         self.tables.open(draft)
     }
 
+    /// The model of a run of the fit with these texts at these places: its outputs may be denser.
+    ///
+    /// # Errors
+    /// What is wrong with the scenario then.
+    pub(crate) fn model_with(
+        &self,
+        changes: impl IntoIterator<Item = (impl Into<String>, impl Into<String>)>,
+    ) -> Result<Model, Diagnostics> {
+        let dense = self.dense_s.map(|s| ("output.interval".to_owned(), format!("{s:?} s")));
+        let changes = changes.into_iter().map(|(path, text)| (path.into(), text.into())).chain(dense);
+        self.scenario_with(changes).map(|(_, model, _)| model)
+    }
+
     /// The model with these values of all parameters, or without any.
     ///
     /// # Errors
     /// What is wrong with the scenario then.
     pub(crate) fn model_of(&self, values: Option<&[f64]>) -> Result<Model, Diagnostics> {
         let assignments = values.map_or(Vec::new(), |v| self.study.assignments_of(v));
-        let texts: Vec<String> = assignments.iter().map(|a| a.text()).collect();
-        self.scenario_with(assignments.iter().map(|a| &a.path).zip(&texts)).map(|(_, model, _)| model)
+        self.model_with(assignments.iter().map(|a| (&a.path, a.text())))
     }
 
-    /// The recorded channels of a run of a model of it.
+    /// The recorded channels of a run of a model of it, and by how much its energy balance is off.
     ///
     /// # Errors
     /// An integration that fails; a run whose results mean nothing.
-    pub(crate) fn run(&self, model: &Model) -> Result<Series, String> {
+    pub(crate) fn run(&self, model: &Model) -> Result<(Series, f64), String> {
         let mut series = Series::new(self.recorded.clone());
         let outcome = simulate(model, &mut series).map_err(|e| e.to_string())?;
         match Ending::of(&outcome).and_then(|ending| ending.reason()) {
-            None => Ok(series),
+            None => Ok((series, outcome.balance_error)),
             Some(reason) => Err(reason),
         }
     }
@@ -131,7 +183,7 @@ impl Experiment {
     /// # Errors
     /// A scenario that is refused; as [`Experiment::run`].
     pub(crate) fn run_with(&self, values: Option<&[f64]>) -> Result<Series, String> {
-        self.run(&self.model_of(values).map_err(|e| e.to_string())?)
+        self.run(&self.model_of(values).map_err(|e| e.to_string())?).map(|(series, _)| series)
     }
 
     /// The histories of a run that count, by filter.
@@ -154,16 +206,29 @@ impl Experiment {
     ///
     /// # Errors
     /// Histories that cannot be compared.
-    pub(crate) fn misfits(&self, misfit: Misfit, series: &Series) -> Result<Vec<f64>, String> {
-        self.compared(series, |target, computed| target.misfit(misfit, computed))
+    pub(crate) fn misfits(
+        &self,
+        misfit: Misfit,
+        series: &Series,
+        corrections: &[Correction],
+    ) -> Result<Vec<f64>, String> {
+        self.compared(series, corrections, |target, computed| target.misfit(misfit, computed))
+    }
+
+    /// How each target and a run go together.
+    ///
+    /// # Errors
+    /// Histories that cannot be compared.
+    pub(crate) fn accords(&self, series: &Series, corrections: &[Correction]) -> Result<Vec<Accord>, String> {
+        self.compared(series, corrections, |target, computed| Ok(Accord::of(&target.reference, computed)))
     }
 
     /// Computed less measured of each target, over the greatest measured value.
     ///
     /// # Errors
     /// Histories that cannot be compared.
-    pub(crate) fn residuals(&self, series: &Series) -> Result<Vec<Vec<f64>>, String> {
-        self.compared(series, |target, computed| {
+    pub(crate) fn residuals(&self, series: &Series, corrections: &[Correction]) -> Result<Vec<Vec<f64>>, String> {
+        self.compared(series, corrections, |target, computed| {
             let peak = target.reference.iter().fold(0.0, |g: f64, m| g.max(m.abs()));
             let pairs = computed.iter().zip(&target.reference);
             Ok(pairs.map(|(c, m)| (c - m) / peak).collect())
@@ -174,11 +239,13 @@ impl Experiment {
     fn compared<T>(
         &self,
         series: &Series,
+        corrections: &[Correction],
         compare: impl Fn(&Target, &[f64]) -> Result<T, String>,
     ) -> Result<Vec<T>, String> {
         let histories = self.histories(series)?;
-        let of =
-            |(_, target): &(usize, Target)| compare(target, &target.computed(in_group(&histories, target.filter)?)?);
+        let of = |(test, target): &(usize, Target)| {
+            compare(target, &target.computed(in_group(&histories, target.filter)?, corrections[*test])?)
+        };
         self.targets.iter().map(of).collect()
     }
 }

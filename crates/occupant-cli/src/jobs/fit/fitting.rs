@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use occupant_study::{Bounds, Fit, Parameter, StudyText};
+use occupant_study::{ApplyChoice, Bounds, Fit, Law, Parameter, StudyText};
 use serde::Serialize;
 
-use super::experiment::Experiment;
+use super::experiment::{Correction, Experiment};
 use super::opening::{Given, Opening};
 use super::target::Target;
 use crate::base::names::{file_name, file_stem};
@@ -22,6 +22,8 @@ pub(crate) struct Fitting {
     pub(crate) fit: Fit,
     pub(crate) experiments: Vec<Experiment>,
     pub(crate) tests: Vec<Test>,
+    /// What is looked for: the parameters of the study, then offsets and gains of tests.
+    parameters: Vec<Parameter>,
     /// Between which ends the parameters are looked for.
     pub(crate) bounds: Vec<Bounds>,
     /// Changes from the command line.
@@ -49,6 +51,9 @@ pub(crate) struct Test {
     /// Which experiment that scenario is.
     #[serde(skip)]
     pub(crate) experiment: usize,
+    /// Between which ends its offset and its gain are looked for.
+    #[serde(skip)]
+    pub(crate) nuisances: [Option<[f64; 2]>; 2],
 }
 
 impl Fitting {
@@ -68,24 +73,36 @@ impl Fitting {
         let folder = name.parent().unwrap_or(Path::new(""));
         let mut opening = Opening::new(folder, &text, &texts, given);
         let tests = opening.tests(&fit);
-        let Opening { problems, mut experiments, warnings, .. } = opening;
+        let Opening { problems, mut experiments, mut warnings, .. } = opening;
         if !problems.is_empty() || experiments.is_empty() {
             return Err(ended(&problems));
         }
-        let bounds = experiments[0].study.parameters.iter();
-        let bounds: Option<Vec<Bounds>> = bounds.map(Parameter::bounds).collect();
+        warnings.extend(experiments.iter_mut().filter_map(Experiment::write_densely));
+        let mut parameters = experiments[0].study.parameters.clone();
+        parameters.extend(tests.iter().flat_map(nuisances));
+        let bounds: Option<Vec<Bounds>> = parameters.iter().map(Parameter::bounds).collect();
         // bind_fit has refused parameters without ends
         let bounds = bounds.ok_or("error: a parameter without ends")?;
         let tests = name_fitted(&mut experiments, tests);
         let samples = experiments.len() as u64 * fit.budget.saturating_add(ON_TOP);
         let (manifest, texts) = manifest(&text, &texts, given, samples, program);
         let overrides = given.overrides.to_vec();
-        Ok(Fitting { fit, experiments, tests, bounds, overrides, manifest, texts, warnings })
+        Ok(Fitting { fit, experiments, tests, parameters, bounds, overrides, manifest, texts, warnings })
     }
 
     /// What is fitted.
     pub(crate) fn parameters(&self) -> &[Parameter] {
-        &self.experiments[0].study.parameters
+        &self.parameters
+    }
+
+    /// What stands between each test and the truth with these values of all parameters, or without any.
+    pub(crate) fn corrections(&self, values: Option<&[f64]>) -> Vec<Correction> {
+        let own = self.experiments[0].study.parameters.len();
+        let mut found = values.and_then(|values| values.get(own..)).unwrap_or_default().iter();
+        let mut next = |ends: Option<[f64; 2]>, none: f64| ends.and_then(|_| found.next().copied()).unwrap_or(none);
+        let of =
+            |test: &Test| Correction { offset_s: next(test.nuisances[0], 0.0), gain: next(test.nuisances[1], 1.0) };
+        self.tests.iter().map(of).collect()
     }
 
     /// Values of the parameters, SI, at a point of the unit cube.
@@ -115,6 +132,16 @@ impl Fitting {
         };
         self.parameters().iter().zip(&self.bounds).map(start).collect()
     }
+}
+
+/// Offset and gain of a test, as far as they are looked for. They act nowhere in a scenario.
+fn nuisances(test: &Test) -> impl Iterator<Item = Parameter> {
+    let kinds = [("offset", "s", ApplyChoice::Offset), ("gain", "", ApplyChoice::Factor)];
+    kinds.into_iter().zip(test.nuisances).filter_map(|((word, unit, apply), ends)| {
+        let [from, to] = ends?;
+        let name = format!("{}.{word}", test.name);
+        Some(Parameter { name, unit, apply, law: Law::Uniform { from, to }, targets: Vec::new() })
+    })
 }
 
 /// Names the fitted scenarios: `fitted.toml`, or a file for each experiment, after its first test.

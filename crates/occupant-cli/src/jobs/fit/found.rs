@@ -1,14 +1,15 @@
 //! What a fit has found, in the form of fit.json. Nothing in it depends on the day, the machine or the number of threads.
 
 use occupant_study::ApplyChoice;
+use occupant_study::ending::Balance;
 use occupant_study::search::{Descent, Stage};
 use serde::Serialize;
 
+use super::accord::Accord;
 use super::evaluator::Record;
 use super::fitting::{Fitting, Test};
 use super::identified::{Answer, Near};
 use super::scenario_text::Fitted;
-use super::target::Target;
 use super::verdict::{Verdict, verdicts};
 use crate::files::history::class_name;
 
@@ -83,6 +84,9 @@ pub(crate) struct ChannelFound {
     pub(crate) before: Option<f64>,
     /// Misfit of the fitted scenario.
     pub(crate) after: f64,
+    /// How it and the fitted scenario go together.
+    #[serde(flatten)]
+    pub(crate) accord: Accord,
 }
 
 /// What the intervals hold.
@@ -177,14 +181,14 @@ pub(crate) struct Evaluations {
     pub(crate) reason: Option<String>,
 }
 
-/// Puts everything together; `written` are the fitted numbers and `parts` the misfits of runs with them, experiment by
-/// experiment.
+/// Puts everything together; `written` are the fitted numbers and `parts` the misfits of runs with them and how they go together
+/// with the tests, experiment by experiment.
 pub(crate) fn found(
     fitting: &Fitting,
     answer: &Answer,
     records: &[Record],
     written: Vec<Fitted>,
-    parts: &[f64],
+    (parts, balance_error): (&[(f64, Accord)], f64),
 ) -> Found {
     let (misfit, study) = (fitting.fit.misfit, &fitting.manifest.texts[0]);
     let before = (answer.before.reason.is_none()).then_some(answer.before.score);
@@ -194,6 +198,9 @@ pub(crate) fn found(
     let parameters = verdicts(fitting, answer, &sets);
     let mut warnings = fitting.warnings.clone();
     warnings.extend(remarks(fitting, answer, &parameters, &evaluations));
+    let channels = channels(fitting, answer, parts);
+    warnings.extend(doubts(&channels, balance_error));
+    let after: Vec<f64> = parts.iter().map(|(misfit, _)| *misfit).collect();
     Found {
         program: fitting.manifest.program.clone(),
         title: fitting.manifest.title.clone(),
@@ -204,7 +211,7 @@ pub(crate) fn found(
         budget: fitting.fit.budget,
         tolerance: fitting.fit.tolerance,
         tests: fitting.tests.clone(),
-        score: Score { before, after: fitting.score(parts), channels: channels(fitting, answer, parts) },
+        score: Score { before, after: fitting.score(&after), channels },
         near: NearFound { score: limit, near: answer.near, sets: sets.len() },
         parameters,
         correlations: correlations(fitting, answer),
@@ -226,8 +233,9 @@ impl DescentFound {
     }
 }
 
-fn channels(fitting: &Fitting, answer: &Answer, parts: &[f64]) -> Vec<ChannelFound> {
-    let channel = |(i, ((test, target), after)): (usize, (&(usize, Target), &f64))| ChannelFound {
+fn channels(fitting: &Fitting, answer: &Answer, parts: &[(f64, Accord)]) -> Vec<ChannelFound> {
+    let channels = fitting.targets().zip(parts).enumerate();
+    let channels = channels.map(|(i, ((test, target), (after, accord)))| ChannelFound {
         test: fitting.tests[*test].name.clone(),
         channel: target.channel.name.clone(),
         signal: target.measured.signal.clone(),
@@ -236,8 +244,9 @@ fn channels(fitting: &Fitting, answer: &Answer, parts: &[f64]) -> Vec<ChannelFou
         window_s: target.window_s,
         before: answer.before.parts.get(i).copied(),
         after: *after,
-    };
-    fitting.targets().zip(parts).enumerate().map(channel).collect()
+        accord: *accord,
+    });
+    channels.collect()
 }
 
 fn correlations(fitting: &Fitting, answer: &Answer) -> Vec<Correlation> {
@@ -304,6 +313,16 @@ fn remarks(
     let same = descents.iter().filter(|d| d.best.value <= limit.max(best + fitting.fit.tolerance));
     if descents.len() > 1 && same.count() < 2 {
         all.push("only one descent has found this score: a greater budget may find a better one".to_owned());
+    }
+    all
+}
+
+/// What makes the tests or the fitted run doubtful.
+fn doubts(channels: &[ChannelFound], balance_error: f64) -> Vec<String> {
+    let mut all: Vec<String> = channels.iter().filter_map(|c| c.accord.caution(&c.test, &c.channel)).collect();
+    if Balance::of(balance_error) != Balance::Kept {
+        let percent = 100.0 * balance_error;
+        all.push(format!("the energy balance of the fitted run is off by {percent:.1} %: the results are doubtful"));
     }
     all
 }

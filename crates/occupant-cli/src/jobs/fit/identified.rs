@@ -115,7 +115,8 @@ fn rise(fitting: &Fitting, best: &Point) -> Result<(f64, Near), Failure> {
     let values = fitting.values(&best.at);
     let mut unrelated = 0.0;
     for experiment in &fitting.experiments {
-        let residuals = experiment.run_with(Some(&values)).and_then(|s| experiment.residuals(&s));
+        let run = experiment.run_with(Some(&values));
+        let residuals = run.and_then(|series| experiment.residuals(&series, &fitting.corrections(Some(&values))));
         let residuals = residuals
             .map_err(|reason| Failure::BrokeOff(format!("error: the best candidate cannot be run again: {reason}")))?;
         unrelated += residuals.iter().map(|r| unrelated_samples(r)).sum::<f64>();

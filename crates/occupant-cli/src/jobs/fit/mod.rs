@@ -7,6 +7,7 @@
 //! The search asks for values of whole generations; the evaluator runs what the journal does not hold yet. As both depend on
 //! nothing but study, tests and program, a fit that was killed ends at the same answer when it is resumed.
 
+mod accord;
 mod candidates;
 pub(crate) mod evaluator;
 mod experiment;

@@ -128,6 +128,7 @@ impl<'a> Opening<'a> {
                 scenario: file_name(&self.experiments[experiment].scenario),
                 fitted: String::new(),
                 experiment,
+                nuisances: named.test.nuisances(),
             });
         }
         if self.problems.is_empty() {
@@ -234,7 +235,11 @@ impl<'a> Opening<'a> {
         let Some(wanted) = self.wanted(fit, experiment) else {
             return Vec::new();
         };
-        let run_s = self.experiments[experiment].run_s();
+        // the run must have values wherever the offset may put the window
+        let [from_s, to_s] = self.experiments[experiment].run_s();
+        let [offset, _] = named.test.nuisances();
+        let [early_s, late_s] = offset.unwrap_or_default();
+        let run_s = [from_s - early_s.min(0.0), to_s - late_s.max(0.0)];
         let window_s = [0, 1].map(|i| named.test.window_s()[i].or(fit.window_s[i]));
         let mut targets = Vec::new();
         for pair in self.pairs(named, recording, &wanted) {

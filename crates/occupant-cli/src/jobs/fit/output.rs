@@ -3,6 +3,7 @@
 use std::fs;
 use std::path::Path;
 
+use super::accord::Accord;
 use super::evaluator::Record;
 use super::fitting::Fitting;
 use super::found::{Found, found};
@@ -14,12 +15,14 @@ use crate::base::failure::Failure;
 use crate::base::names::{file_name, file_stem};
 use crate::base::output_file::{Existing, write_whole};
 use crate::base::talk::{json, say};
+use crate::files::study_folder::checksums::Checksums;
 use crate::files::study_folder::folder::Folder;
 
 /// Writes the results of a fit.
 pub(crate) struct Output<'a> {
     pub(crate) fitting: &'a Fitting,
     pub(crate) folder: &'a Folder,
+    pub(crate) sums: &'a Checksums,
 }
 
 /// What the fitted scenarios came to.
@@ -27,22 +30,27 @@ pub(crate) struct Output<'a> {
 struct FittedRuns {
     /// The numbers as they are written.
     written: Vec<Fitted>,
-    /// Misfits of all targets, experiment by experiment.
-    parts: Vec<f64>,
+    /// Misfit of each target, and how it and its run go together, experiment by experiment.
+    parts: Vec<(f64, Accord)>,
     /// The runs of each experiment.
     runs: Vec<Pair>,
+    /// The greatest of their balance errors.
+    balance_error: f64,
 }
 
 impl Output<'_> {
     /// Fitted scenarios, history, plots, and fit.json last.
     pub(crate) fn write(&self, answer: &Answer, records: &[Record]) -> Result<Found, Failure> {
         let values = self.fitting.values(&answer.best.at);
-        let FittedRuns { written, parts, runs } = self.run_fitted(&values).map_err(broke_off)?;
-        let found = found(self.fitting, answer, records, written, &parts);
+        let FittedRuns { written, parts, runs, balance_error } = self.run_fitted(&values).map_err(broke_off)?;
+        let found = found(self.fitting, answer, records, written, (&parts, balance_error));
         self.write_scenarios(&found)?;
-        candidates::write(self.folder, self.fitting, records)?;
+        let tables = candidates::write(self.folder, self.fitting, records)?;
+        tables.iter().try_for_each(|table| self.sums.add(table))?;
         let lines = [format!("{}: {} score {:.5}", found.study.file, found.objective, found.score.after)];
-        for (name, svg) in sheets(self.fitting, &runs, &lines).map_err(broke_off)? {
+        for (name, svg) in
+            sheets(self.fitting, &self.fitting.corrections(Some(&values)), &runs, &lines).map_err(broke_off)?
+        {
             self.put(Path::new(&format!("plots/{}.svg", file_stem(&name))), svg.as_bytes())?;
         }
         self.put(Path::new("fit.json"), json(&found)?.as_bytes())?;
@@ -51,17 +59,19 @@ impl Output<'_> {
 
     /// Runs the scenarios with the numbers as they will be written, and without.
     fn run_fitted(&self, values: &[f64]) -> Result<FittedRuns, String> {
-        let FittedRuns { mut written, mut parts, mut runs } = FittedRuns::default();
+        let FittedRuns { mut written, mut parts, mut runs, mut balance_error } = FittedRuns::default();
+        let corrections = self.fitting.corrections(Some(values));
         for experiment in &self.fitting.experiments {
             let numbers = numbers(experiment, values)?;
-            let opened = experiment.scenario_with(numbers.iter().map(|n| (&n.path, &n.text)));
-            let (_, model, _) = opened.map_err(|e| e.to_string())?;
-            let after = experiment.run(&model)?;
-            parts.extend(experiment.misfits(self.fitting.fit.misfit, &after)?);
+            let model = experiment.model_with(numbers.iter().map(|n| (&n.path, &n.text)));
+            let (after, off) = experiment.run(&model.map_err(|e| e.to_string())?)?;
+            balance_error = off.abs().max(balance_error);
+            let misfits = experiment.misfits(self.fitting.fit.misfit, &after, &corrections)?;
+            parts.extend(misfits.into_iter().zip(experiment.accords(&after, &corrections)?));
             written.extend(numbers);
             runs.push(Pair { before: experiment.run_with(None).ok(), after });
         }
-        Ok(FittedRuns { written, parts, runs })
+        Ok(FittedRuns { written, parts, runs, balance_error })
     }
 
     fn write_scenarios(&self, found: &Found) -> Result<(), Failure> {
@@ -98,7 +108,8 @@ impl Output<'_> {
         let path = self.folder.path.join(name);
         let made = path.parent().map_or(Ok(()), fs::create_dir_all);
         made.map_err(|e| broke_off(format!("cannot write {}: {e}", path.display())))?;
-        write_whole(&path, Existing::Replace, bytes).map(|_| ()).map_err(|e| broke_off(e.to_string()))
+        let written = write_whole(&path, Existing::Replace, bytes).map_err(|e| broke_off(e.to_string()))?;
+        Ok(self.sums.add(&written)?)
     }
 }
 

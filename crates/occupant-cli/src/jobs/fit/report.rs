@@ -64,7 +64,7 @@ impl ParameterFound {
 }
 
 /// A number with five significant digits.
-fn short(value: f64) -> String {
+pub(super) fn short(value: f64) -> String {
     let rounded: f64 = format!("{value:.4e}").parse().unwrap_or(value);
     rounded.to_string()
 }

@@ -2,8 +2,10 @@
 
 use crash_measures::signal::{ChannelClass, whole_steps};
 use occupant_core::results::channel::Channel;
+use occupant_study::spread::median;
 use occupant_study::{FilterChoice, Misfit};
 
+use super::experiment::Correction;
 use crate::base::failure::Failure;
 use crate::files::history::{Family, Filter, Histories};
 use crate::files::measured::Pair;
@@ -76,16 +78,24 @@ impl Target {
         Ok(Target { channel, class, filter, weight, measured, window_s: [from_s, to_s], reference })
     }
 
-    /// The computed values on the grid of the measured ones.
+    /// The median time between the samples of the measured signal, s.
+    pub(crate) fn interval_s(&self) -> f64 {
+        let pairs = self.measured.time_s.windows(2).map(|pair| pair[1] - pair[0]);
+        median(&pairs.collect::<Vec<_>>()).unwrap_or(f64::INFINITY)
+    }
+
+    /// The computed values on the grid of the measured ones, as the test would have measured them.
     ///
     /// # Errors
     /// Histories without this channel, or with values missing in the window.
-    pub(crate) fn computed(&self, histories: &Histories) -> Result<Vec<f64>, String> {
+    pub(crate) fn computed(&self, histories: &Histories, test: Correction) -> Result<Vec<f64>, String> {
         let found = histories.columns.iter().find(|c| c.channel.name == self.channel.name);
         let column = found.ok_or_else(|| format!("no history of {}", self.channel.name))?;
-        let [from_s, to_s] = self.window_s;
+        let [from_s, to_s] = self.window_s.map(|t| t + test.offset_s);
         let track = Track { time_s: &histories.time_s, values: &column.values };
-        sampled(track, from_s, to_s, self.reference.len(), "the computed history")
+        let mut values = sampled(track, from_s, to_s, self.reference.len(), "the computed history")?;
+        values.iter_mut().for_each(|v| *v *= test.gain);
+        Ok(values)
     }
 
     /// How far computed values are from the measured ones.

@@ -17,10 +17,12 @@ use crate::base::failure::Failure;
 use crate::base::interrupt::Interrupt;
 use crate::base::output_file::Existing;
 use crate::base::talk::say;
+use crate::files::study_folder::checksums::Checksums;
 use crate::files::table::{Cell, Form, Kind, TableFile, columns};
 use crate::jobs::ensemble::bands::{Bands, choose, refuse_too_much};
 use crate::jobs::ensemble::members::{Left, Member, Members};
 use crate::jobs::sweep::plan::Plan;
+use crate::jobs::sweep::words::tell_damaged;
 
 /// What a file says of itself.
 const ABOUT: &str = "occupant.bands";
@@ -36,6 +38,8 @@ pub(crate) struct StudyBands<'a> {
     pub(crate) engine: &'a Engine,
     /// What stops it.
     pub(crate) interrupt: &'a Interrupt,
+    /// Which of the files are as they were written.
+    pub(crate) sums: Checksums,
 }
 
 /// What is there of a sample.
@@ -65,6 +69,7 @@ impl StudyBands<'_> {
         }
         fs::create_dir_all(&self.folder)
             .map_err(|e| Failure::plain(format!("{} cannot be made: {e}", self.folder.display())))?;
+        tell_damaged(&self.sums.damaged());
         for sample in (0..samples).filter(|s| self.there(*s) != There::Bands) {
             let done = format!("the bands of {sample} of {samples} samples are there; the same command resumes");
             self.write(sample).map_err(|failure| failure.with_done(&done))?;
@@ -81,10 +86,15 @@ impl StudyBands<'_> {
 
     fn there(&self, sample: u64) -> There {
         let path = self.file(sample);
-        match (path.exists(), said_of_itself(&path)) {
-            (false, _) => There::Nothing,
-            (true, Some(text)) if text == self.about() => There::Bands,
-            (true, _) => There::Other,
+        if !path.exists() || self.sums.damaged().contains(&path) {
+            return There::Nothing;
+        }
+        match said_of_itself(&path) {
+            Some(text) if text != self.about() => There::Other,
+            Some(_) if self.sums.holds(&path) => There::Bands,
+            // one that a killed process has not listed
+            Some(_) => There::Nothing,
+            None => There::Other,
         }
     }
 
@@ -152,7 +162,7 @@ impl StudyBands<'_> {
             row.extend(counts.clone());
             table.row(row)?;
         }
-        table.publish().map(|_| ())
+        Ok(self.sums.add(&table.publish()?)?)
     }
 }
 

@@ -9,14 +9,16 @@ use super::plan::Plan;
 use super::progress::Progress;
 use super::simulation::Simulation;
 use super::stored::sha256_of;
-use super::words::{tell, warn_unlocked};
+use super::words::{tell, tell_damaged, warn_unlocked};
 use super::{kept, results};
 use crate::base::failure::{Done, Failure};
 use crate::base::interrupt::Interrupt;
 use crate::base::talk::say;
+use crate::files::study_folder::checksums::Checksums;
 use crate::files::study_folder::finished::Finished;
 use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::journal::{Journal, JournalWriter};
+use crate::files::study_folder::problem::Problem;
 use crate::files::study_folder::shard::Shard;
 
 /// A sweep, or one part of it.
@@ -48,13 +50,17 @@ impl Sweep {
         kept::prepare(&self.keep, folder)?;
         let samples = self.shard.range(manifest.samples);
         let sha256 = sha256_of(manifest)?;
-        let journal = || Journal::read(std::slice::from_ref(folder), &sha256, manifest.samples);
-        let progress = self.compute(&journal()?.finished, &samples, &sha256)?;
-        let journal = journal()?;
-        let lacking = kept::missing(folder, &journal, kept::wanted(&self.keep, samples.clone()))?;
-        self.write_kept(&lacking)?;
+        let sums = self.look_over(&samples)?;
+        let (journal, aside) = Journal::mend(folder, (&sha256, manifest.samples), &sums)?;
+        tell_damaged(&[held.mended, aside, sums.damaged()].concat());
+        let runs = kept::among(&sums.damaged(), folder, samples.clone());
+        let progress = self.compute(&journal.finished, &samples, (&sha256, &sums))?;
+        let journal = Journal::read(std::slice::from_ref(folder), &sha256, manifest.samples)?;
+        let wanted = kept::wanted(&self.keep, samples.clone()).chain(runs);
+        self.write_kept(&sums, &kept::missing(folder, &journal, &sums, wanted)?)?;
+        Journal::list(folder, self.shard, &sums)?;
         if self.shard.is_whole() {
-            return self.finish(&journal, &progress);
+            return self.finish(&journal, &progress, sums);
         }
         if !self.quiet {
             say(&format!(
@@ -68,8 +74,24 @@ impl Sweep {
         Ok(Done::Well)
     }
 
+    /// Which of the files that this shard has made are as they were written.
+    fn look_over(&self, samples: &Range<u64>) -> Result<Checksums, Problem> {
+        let run = |name: &str| name.strip_prefix("runs/")?.split('.').next()?.parse::<u64>().ok();
+        Checksums::open(&self.folder.path, |name| match (run(name), name.rsplit_once('/')) {
+            (Some(index), _) => samples.contains(&index),
+            (None, Some(("journal", piece))) => Shard::of_file(piece) == Some(self.shard),
+            // bands are looked after by those who make them
+            (None, folder) => folder.is_none() && self.shard.is_whole(),
+        })
+    }
+
     /// Computes what is not finished.
-    fn compute(&self, finished: &Finished, samples: &Range<u64>, sha256: &str) -> Result<Progress, Failure> {
+    fn compute(
+        &self,
+        finished: &Finished,
+        samples: &Range<u64>,
+        (sha256, sums): (&str, &Checksums),
+    ) -> Result<Progress, Failure> {
         let before = finished.count(samples.clone());
         let count = samples.end - samples.start;
         if before > 0 && before < count && !self.quiet {
@@ -77,7 +99,7 @@ impl Sweep {
         }
         let mut progress = Progress::new(count, before, self.quiet);
         let mut journal = JournalWriter::new(&self.folder, sha256, self.shard)?;
-        let simulation = Simulation { plan: &self.plan, keep: &self.keep, folder: &self.folder };
+        let simulation = Simulation { plan: &self.plan, keep: &self.keep, folder: &self.folder, sums };
         let missing = samples.clone().filter(|index| !finished.has(*index));
         let ended = self.engine.run(&simulation, missing, &self.interrupt.asked, |row| {
             journal.append(&row)?;
@@ -95,15 +117,16 @@ impl Sweep {
     }
 
     /// Writes whole runs of finished samples.
-    fn write_kept(&self, samples: &[u64]) -> Result<(), Failure> {
-        kept::write(&self.plan, &self.folder, samples, &self.engine, &self.interrupt.asked)?;
+    fn write_kept(&self, sums: &Checksums, samples: &[u64]) -> Result<(), Failure> {
+        kept::write(&self.plan, (&self.folder, sums), samples, &self.engine, &self.interrupt.asked)?;
         self.interrupt.refuse("all samples are finished; the same command resumes the sweep")
     }
 
     /// The tables, and the worst.
-    fn finish(&self, journal: &Journal, progress: &Progress) -> Result<Done, Failure> {
-        let found = results::write(&self.folder, journal, &self.plan.manifest, &self.keep, self.csv)?;
-        self.write_kept(&kept::missing(&self.folder, journal, found.worst.iter().copied())?)?;
+    fn finish(&self, journal: &Journal, progress: &Progress, sums: Checksums) -> Result<Done, Failure> {
+        let found = results::write((&self.folder, &sums), journal, &self.plan.manifest, &self.keep, self.csv)?;
+        self.write_kept(&sums, &kept::missing(&self.folder, journal, &sums, found.worst.iter().copied())?)?;
+        sums.close()?;
         if self.quiet {
             return Ok(Done::Well);
         }

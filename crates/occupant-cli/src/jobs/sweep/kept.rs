@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::ops::Range;
+use std::path::PathBuf;
 use std::sync::atomic::AtomicBool;
 
 use occupant_study::Keep;
@@ -11,6 +12,7 @@ use super::plan::Plan;
 use super::simulation::{Simulation, is_kept};
 use crate::base::failure::Failure;
 use crate::base::output_file::partial_path;
+use crate::files::study_folder::checksums::Checksums;
 use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::journal::Journal;
 use crate::files::study_folder::problem::Problem;
@@ -36,26 +38,27 @@ pub(crate) fn prepare(keep: &Keep, folder: &Folder) -> Result<(), Problem> {
     fs::create_dir_all(&runs).map_err(Problem::io("create", &runs))
 }
 
-/// Of these samples, all of them finished, those whose file is missing. A run that failed has a partial file, a sample that
-/// was refused none.
+/// Of these samples, all of them finished, those whose file is missing or damaged. A run that failed has a partial file, a
+/// sample that was refused none.
 ///
 /// # Errors
 /// A journal that cannot be read.
 pub(crate) fn missing(
     folder: &Folder,
     journal: &Journal,
+    sums: &Checksums,
     samples: impl IntoIterator<Item = u64>,
 ) -> Result<Vec<u64>, Problem> {
     let mut missing = Vec::new();
     for index in samples {
         let file = folder.run(index);
-        if file.exists() {
+        if sums.holds(&file) {
             continue;
         }
         let rows = journal.rows(index..index + 1)?;
         let lacks = match rows.first().map(|row| row.status) {
             Some(Status::Completed) => true,
-            Some(Status::Failed) => !partial_path(&file).exists(),
+            Some(Status::Failed) => !sums.holds(&partial_path(&file)),
             Some(Status::Refused | Status::Broken) | None => false,
         };
         if lacks {
@@ -63,6 +66,12 @@ pub(crate) fn missing(
         }
     }
     Ok(missing)
+}
+
+/// The samples of a range whose runs are among these files.
+pub(crate) fn among(files: &[PathBuf], folder: &Folder, samples: Range<u64>) -> Vec<u64> {
+    let is_there = |i: &u64| files.contains(&folder.run(*i)) || files.contains(&partial_path(&folder.run(*i)));
+    if files.is_empty() { Vec::new() } else { samples.filter(is_there).collect() }
 }
 
 /// Those of a range that are kept beforehand.
@@ -76,12 +85,12 @@ pub(crate) fn wanted(keep: &Keep, samples: Range<u64>) -> impl Iterator<Item = u
 /// A file that cannot be written.
 pub(crate) fn write(
     plan: &Plan,
-    folder: &Folder,
+    (folder, sums): (&Folder, &Checksums),
     samples: &[u64],
     engine: &Engine,
     stop: &AtomicBool,
 ) -> Result<(), Failure> {
-    let simulation = Simulation { plan, keep: &Keep::All, folder };
+    let simulation = Simulation { plan, keep: &Keep::All, folder, sums };
     engine.run(&simulation, samples.iter().copied(), stop, |_row| Ok(()))
 }
 

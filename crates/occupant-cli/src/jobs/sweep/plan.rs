@@ -56,7 +56,7 @@ impl Plan {
         let scenario = name.parent().unwrap_or(Path::new("")).join(text.base());
         let bytes = texts.get(NamedBy::StudyAsBase, text.base()).map_err(|e| {
             let base = scenario.display();
-            Failure::plain(format!("the scenario {base}, which the study {shown} varies, cannot be read: {e}"))
+            Failure::plain(format!("the scenario {base} cannot be read: {e}"))
         })?;
         let scenario_name = scenario.display().to_string();
         let draft = Draft::read_bytes(&bytes, format_of(&scenario), &scenario_name)

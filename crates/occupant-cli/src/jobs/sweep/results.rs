@@ -8,6 +8,7 @@ use super::census::Census;
 use super::extremes::Extremes;
 use super::stable::{Ensembles, Stable};
 use crate::base::failure::Failure;
+use crate::files::study_folder::checksums::Checksums;
 use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::journal::Journal;
 use crate::files::study_folder::manifest::Manifest;
@@ -32,7 +33,7 @@ pub(crate) struct Results {
 /// Samples that are missing or disagree; another process at the same work; the operating system refuses. A table that was
 /// there stays until the new one is complete.
 pub(crate) fn write(
-    folder: &Folder,
+    (folder, sums): (&Folder, &Checksums),
     journal: &Journal,
     manifest: &Manifest,
     keep: &Keep,
@@ -40,12 +41,16 @@ pub(crate) fn write(
 ) -> Result<Results, Failure> {
     refuse_gaps(journal, manifest)?;
     let _alone = folder.claim_table()?;
+    // a table that is damaged is made again, whatever is asked for today
+    let csv = csv || sums.damaged().iter().any(|file| file.extension().is_some_and(|e| e == "csv"));
     let written = write_files(folder, journal, manifest, keep, csv);
     if written.is_err() {
         // what a full disk has left of a table is of no use, and the disk is full
         folder.remove_partial_tables();
     }
-    written
+    let written = written?;
+    written.files.iter().try_for_each(|file| sums.add(file))?;
+    Ok(written)
 }
 
 /// Refuses journals that lack samples.

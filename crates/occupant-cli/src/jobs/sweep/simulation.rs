@@ -8,11 +8,12 @@ use occupant_study::engine::{Finished, NotBegun, Source};
 use super::plan::Plan;
 use crate::base::failure::Failure;
 use crate::base::output_file::Existing;
+use crate::files::study_folder::checksums::Checksums;
 use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::manifest::Role;
 use crate::files::study_folder::row::{Row, Status};
 use crate::files::table::Cell;
-use crate::jobs::run::recording::Recording;
+use crate::jobs::run::recording::{Recording, Written};
 
 /// Runs the samples of a plan.
 pub(crate) struct Simulation<'a> {
@@ -20,6 +21,7 @@ pub(crate) struct Simulation<'a> {
     /// Of which samples the whole run is written.
     pub(crate) keep: &'a Keep,
     pub(crate) folder: &'a Folder,
+    pub(crate) sums: &'a Checksums,
 }
 
 /// Whether a keep says, beforehand, that the run of a sample is written.
@@ -55,7 +57,11 @@ impl Source for Simulation<'_> {
         let mut row = Row::of(&run, cells);
         if let Some(ran) = run.ran {
             let (summarizer, recording) = ran.recorder;
-            recording.close(row.status == Status::Completed)?;
+            if let Written::Complete(path) | Written::Partial(path) =
+                recording.close(row.status == Status::Completed)?
+            {
+                self.sums.add(&path)?;
+            }
             if let Some(summary) = summarizer.summary(None) {
                 self.fill(&mut row, &summary, &ran.model);
             }

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use crate::base::failure::Failure;
 use crate::base::names::program;
+use crate::files::study_folder::checksums::Checksums;
 use crate::files::study_folder::folder::{Folder, Holds};
 use crate::files::study_folder::journal::Journal;
 use crate::files::study_folder::manifest::{Manifest, Role, Text};
@@ -56,6 +57,13 @@ pub(crate) fn open(folders: &[PathBuf], by: MadeBy) -> Result<Stored, Failure> {
         }));
     }
     let manifest_sha256 = sha256_of(&manifest)?;
+    for folder in &folders {
+        let sums = Checksums::open(&folder.path, |name| name.starts_with("journal/"))?;
+        if let Some(path) = sums.damaged().into_iter().next() {
+            let found = "is not what was written".to_owned();
+            return Err(Problem::Damaged { path, found }.into());
+        }
+    }
     let journal = Journal::read(&folders, &manifest_sha256, manifest.samples)?;
     let mut notes = Vec::new();
     if manifest.program != program() {

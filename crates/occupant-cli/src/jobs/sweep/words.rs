@@ -1,5 +1,7 @@
 //! What a sweep says it came to.
 
+use std::path::PathBuf;
+
 use super::results::Results;
 use super::stable::Ensembles;
 use crate::base::failure::{Done, Failure};
@@ -15,6 +17,13 @@ pub(crate) fn warn_unlocked(held: &Held, doing: &str, quiet: bool) {
         talk::say(&format!(
             "warning: this file system has no locks ({reason}): nothing but you keeps two processes from {doing}"
         ));
+    }
+}
+
+/// Says which files of a folder were damaged. Nobody should overlook that, however quiet a command is to be.
+pub(crate) fn tell_damaged(files: &[PathBuf]) {
+    for file in files {
+        talk::say(&format!("damaged: {} was not what had been written; it is made again", file.display()));
     }
 }
 

@@ -1,0 +1,154 @@
+//! What the files of a folder were when they were complete: `SHA256SUMS`, as `sha256sum -c` reads it.
+//!
+//! A line is appended as soon as a file has its name; of two lines for one file the later holds. A file without a line was
+//! not complete when its process was killed, and is made again; one that is not what its line says is damaged.
+
+use std::collections::{BTreeMap, BTreeSet};
+use std::fs::{self, OpenOptions};
+use std::io::{self, ErrorKind, Write};
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, MutexGuard};
+
+use super::problem::Problem;
+use crate::base::output_file::{Existing, write_whole};
+use crate::base::sha256::sha256;
+
+/// The name of the list.
+pub(crate) const SUMS: &str = "SHA256SUMS";
+
+/// The list of a folder, and which of its files are as they were written.
+#[derive(Debug)]
+pub(crate) struct Checksums {
+    folder: PathBuf,
+    state: Mutex<State>,
+}
+
+/// Names are relative to the folder.
+#[derive(Debug, Default)]
+struct State {
+    listed: BTreeMap<String, String>,
+    sound: BTreeSet<String>,
+    damaged: BTreeSet<String>,
+}
+
+impl Checksums {
+    /// Reads the list of a folder and looks at those of its files whose names `wanted` says.
+    ///
+    /// # Errors
+    /// The operating system refuses.
+    pub(crate) fn open(folder: &Path, wanted: impl Fn(&str) -> bool) -> Result<Checksums, Problem> {
+        let path = folder.join(SUMS);
+        let text = match fs::read(&path) {
+            Err(error) if error.kind() == ErrorKind::NotFound => Vec::new(),
+            read => read.map_err(Problem::io("read", &path))?,
+        };
+        let text = String::from_utf8_lossy(&text);
+        // what a killed process has left of its last line has no end; the next one is appended to it and is lost as well
+        let lines = text.split_inclusive('\n').filter_map(|line| line.strip_suffix('\n')?.split_once("  "));
+        let mut state = State::default();
+        state.listed.extend(lines.map(|(sum, name)| (name.to_owned(), sum.to_owned())));
+        for (name, sum) in state.listed.iter().filter(|(name, _)| wanted(name)) {
+            match fs::read(folder.join(name)) {
+                Ok(bytes) if sha256(&bytes) == *sum => state.sound.insert(name.clone()),
+                Err(error) if error.kind() == ErrorKind::NotFound => false,
+                Ok(_) | Err(_) => state.damaged.insert(name.clone()),
+            };
+        }
+        Ok(Checksums { folder: folder.to_owned(), state: Mutex::new(state) })
+    }
+
+    fn state(&self) -> MutexGuard<'_, State> {
+        self.state.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+    }
+
+    fn name(&self, path: &Path) -> String {
+        let parts = path.strip_prefix(&self.folder).unwrap_or(path).components();
+        parts.map(|part| part.as_os_str().to_string_lossy()).collect::<Vec<_>>().join("/")
+    }
+
+    /// Files that are not what was written, and were not made again.
+    pub(crate) fn damaged(&self) -> Vec<PathBuf> {
+        self.state().damaged.iter().map(|name| self.folder.join(name)).collect()
+    }
+
+    /// Whether a file is there as it was written.
+    pub(crate) fn holds(&self, path: &Path) -> bool {
+        path.exists() && self.state().sound.contains(&self.name(path))
+    }
+
+    /// Lists a file that is complete.
+    ///
+    /// # Errors
+    /// The operating system refuses.
+    pub(crate) fn add(&self, path: &Path) -> Result<(), Problem> {
+        let sum = sha256(&fs::read(path).map_err(Problem::io("read", path))?);
+        let (name, list) = (self.name(path), self.folder.join(SUMS));
+        let mut state = self.state();
+        if state.listed.get(&name) != Some(&sum) {
+            let appended = OpenOptions::new().create(true).append(true).open(&list);
+            let line = format!("{sum}  {name}\n");
+            appended.and_then(|mut file| file.write_all(line.as_bytes())).map_err(Problem::io("write", &list))?;
+        }
+        state.damaged.remove(&name);
+        state.listed.insert(name.clone(), sum);
+        state.sound.insert(name);
+        Ok(())
+    }
+
+    /// Puts a damaged file aside, under a name that nobody reads: what it held is computed again.
+    ///
+    /// # Errors
+    /// The operating system refuses.
+    pub(crate) fn put_aside(&self, path: &Path) -> Result<(), Problem> {
+        fs::rename(path, path.with_extension("damaged")).map_err(Problem::io("rename", path))?;
+        let (name, mut state) = (self.name(path), self.state());
+        state.damaged.remove(&name);
+        state.listed.remove(&name);
+        Ok(())
+    }
+
+    /// Writes the list anew, a line for each file that is there.
+    ///
+    /// # Errors
+    /// Files that are damaged still; the operating system refuses.
+    pub(crate) fn close(self) -> Result<(), Problem> {
+        if let Some(path) = self.damaged().into_iter().next() {
+            return Err(Problem::Unmended { path });
+        }
+        let state = self.state();
+        let there = state.listed.iter().filter(|(name, _)| self.folder.join(name).exists());
+        let lines: String = there.map(|(name, sum)| format!("{sum}  {name}\n")).collect();
+        let path = self.folder.join(SUMS);
+        let written = write_whole(&path, Existing::Replace, lines.as_bytes());
+        written.map(|_| ()).map_err(|e| Problem::io("write", &path)(io::Error::other(e.to_string())))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_changed_file_is_damaged_until_it_is_made_again_and_a_torn_line_lists_nothing() {
+        let there = tempfile::tempdir().unwrap();
+        let [a, b] = ["a", "b"].map(|name| there.path().join(name));
+        let open = || Checksums::open(there.path(), |_| true).unwrap();
+        for path in [&a, &b] {
+            fs::write(path, "whole").unwrap();
+            open().add(path).unwrap();
+        }
+        assert!(open().holds(&a) && open().damaged().is_empty());
+        fs::write(&a, "whola").unwrap();
+        let sums = open();
+        assert!(!sums.holds(&a) && sums.holds(&b));
+        assert_eq!(sums.damaged(), std::slice::from_ref(&a));
+        assert!(matches!(open().close(), Err(Problem::Unmended { .. })));
+        sums.add(&a).unwrap();
+        assert!(sums.holds(&a) && sums.damaged().is_empty());
+        sums.close().unwrap();
+        let list = fs::read_to_string(there.path().join(SUMS)).unwrap();
+        assert_eq!(list.lines().count(), 2);
+        fs::write(there.path().join(SUMS), &list[..list.len() - 1]).unwrap();
+        assert!(open().holds(&a) && !open().holds(&b));
+    }
+}
