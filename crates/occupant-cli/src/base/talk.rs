@@ -5,9 +5,9 @@ use std::io::{ErrorKind, Write, stderr, stdout};
 use super::failure::Failure;
 
 /// Writes a result. A reader that has gone away is no failure.
-pub(crate) fn print(text: &str) -> Result<(), Failure> {
+pub(crate) fn print(text: impl AsRef<[u8]>) -> Result<(), Failure> {
     let mut out = stdout().lock();
-    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    let written = out.write_all(text.as_ref()).and_then(|()| out.flush());
     match written {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(Failure::BrokeOff(format!("error: the result could not be written to standard output: {error}")))
