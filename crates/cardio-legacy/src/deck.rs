@@ -270,15 +270,15 @@ impl Deck {
         shown.insert("title card 1".into(), self.titles[0].clone());
         shown.insert("title card 2".into(), self.titles[1].clone());
         shown.insert("plot option".into(), self.plot.word().into());
-        shown.insert("passed pairs".into(), format!("{:?}", self.passed_pairs()));
+        let mut pairs = self.passed_pairs();
+        pairs.sort_unstable();
+        shown.insert("passed pairs".into(), format!("{pairs:?}"));
         shown
     }
 
-    /// The pairs (sphere, surface) of series 14 that have passed the surface's edge.
+    /// The pairs (sphere, surface) of series 14 that have passed the surface's edge, in the order of the cards.
     pub fn passed_pairs(&self) -> Vec<(u8, u8)> {
         let pair = |card: &DeckCard| Some((card.numbers.first()?.value as u8, card.numbers.get(1)?.value as u8));
-        let mut pairs: Vec<_> = self.cards_of(14, 'b').filter_map(pair).collect();
-        pairs.sort_unstable();
-        pairs
+        self.cards_of(14, 'b').filter_map(pair).collect()
     }
 }

@@ -38,6 +38,9 @@ pub(crate) fn kept_of(deck: &Deck) -> Kept {
     }
     if deck.value("NPOS") == Some(1.0) {
         fields.extend(spring_angles(deck));
+        // has no effect, and is kept for the person who reads the cards
+        let is_punched = |name: &String| !deck.is_unused(name) && deck.value(name).is_some_and(|slack| slack != 0.0);
+        fields.extend(["SLACK(1)", "SLACK(2)"].map(str::to_owned).into_iter().filter(is_punched));
     }
     for name in fields {
         if let Some(number) = deck.number(&name) {

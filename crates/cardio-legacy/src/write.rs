@@ -22,13 +22,13 @@ impl Deck {
         text
     }
 
-    /// The deck without what has no effect: series that its switches make superfluous, numbers of the belt that is not in use,
-    /// SLACK if NPOS = 1. It is what a way through a scenario keeps.
+    /// The deck without what has no effect: series that its switches make superfluous, numbers of the belt that is not in use.
+    /// It is what a way through a scenario keeps.
     pub fn normalised(&self) -> Deck {
         let used = self.cards().iter().filter(|card| !self.is_superfluous(card.id.series));
         let blanked = used.map(|card| {
             let kept = |(name, _, number): (String, _, &Number)| {
-                if self.has_no_effect(&name) { Number::blank() } else { number.clone() }
+                if self.is_unused(&name) { Number::blank() } else { number.clone() }
             };
             DeckCard { numbers: card.named().map(kept).collect(), ..card.clone() }
         });

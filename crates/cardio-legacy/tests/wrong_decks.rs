@@ -97,7 +97,7 @@ fn missing_cards_are_missed_where_they_should_be() {
     assert_eq!(errors(&without(4)), [found(Rule::SeriesMissing, 3, "")]);
     assert_eq!(errors(&without(8)), [found(Rule::IndexMissing, 5, "")]);
     assert_eq!(errors(&without(19)), [found(Rule::SeriesTooShort, 18, "")]);
-    assert_eq!(errors(&without(70)), [found(Rule::CountDiffers, 62, "")]);
+    assert_eq!(errors(&without(70)), [found(Rule::CountDiffers, 62, "NVPOS")]);
     assert_eq!(errors(&without(117)), [found(Rule::NoTerminator, 117, "")]);
     assert_eq!(errors(&without(118)), [found(Rule::NoPlotCard, 118, "")]);
     assert_eq!(warnings(&without(119)), [found(Rule::NoFinalCard, 118, "")]);
@@ -123,7 +123,7 @@ fn doubled_surplus_and_unordered_cards_are_named() {
     assert_eq!(errors(&doubled(4)), [found(Rule::SeriesTwice, 5, "")]);
     assert_eq!(errors(&doubled(8)), [found(Rule::IndexTwice, 9, "NSEG")]);
     assert_eq!(errors(&doubled(21)), [found(Rule::UnexpectedCard, 22, "")]);
-    assert_eq!(errors(&doubled(80))[0], found(Rule::CountDiffers, 62, ""));
+    assert_eq!(errors(&doubled(80))[0], found(Rule::CountDiffers, 62, "NVPOS"));
     let swapped = driver(|lines| {
         let series_4 = lines.remove(3);
         lines.insert(16, series_4);
@@ -229,10 +229,84 @@ fn counts_must_count() {
         let found = errors(&punched("12", 0, 1, text));
         assert!(found.iter().any(|f| matches!(f.0, Rule::NotAWholeNumber | Rule::CountDiffers)), "{text}: {found:?}");
     }
-    assert_eq!(
-        errors(&punched("12", 0, 1, "       52.")),
-        [found(Rule::CountDiffers, line_of("12"), "NVPOS")].map(|f| (f.0, f.1, String::new()))
-    );
+    assert_eq!(errors(&punched("12", 0, 1, "       52.")), [found(Rule::CountDiffers, line_of("12"), "NVPOS")]);
+}
+
+#[test]
+fn a_count_too_large_is_named_however_far_it_reaches() {
+    // 110 pairs; the card 1000, the plot card and FINI stand behind them
+    for count in ["111.", "112.", "113.", "114.", "500."] {
+        let text = extended(|lines| {
+            let at = first_card(lines, "14");
+            punch(&mut lines[at], 1, &format!("{count:>10}"));
+        });
+        assert_eq!(errors(&text), [found(Rule::CountDiffers, 123, "NOCRD")], "{count}");
+        let (_, diagnostics) = parse(&text);
+        assert!(diagnostics.to_string().contains("as many cards as NOCRD says"), "{diagnostics}");
+        let (decks, diagnostics) = parse_as(&text, Strictness::Lenient);
+        assert_eq!(decks.len(), 1, "{diagnostics}");
+        assert_eq!(decks[0].value("NOCRD"), Some(110.0));
+    }
+}
+
+#[test]
+fn the_card_number_10_that_reads_as_1000_is_the_one_error() {
+    let text = punched("10", 0, 71, "      10  ");
+    assert_eq!(errors(&text), [found(Rule::CardNumber, line_of("10"), "NCARD")]);
+    let (_, diagnostics) = parse(&text);
+    let said = diagnostics.to_string();
+    assert!(said.contains("the card number reads as 1000") && said.contains("10 ending in column 80"), "{said}");
+    let (decks, diagnostics) = parse_as(&text, Strictness::Lenient);
+    assert_eq!(decks.len(), 1, "{diagnostics}");
+    assert_eq!(decks[0].value("GAMA1"), Some(15.0));
+}
+
+#[test]
+fn the_occupant_begins_with_the_velocity_that_the_vehicle_has_at_t1() {
+    assert_eq!(warnings(&punched("4", 0, 1, "        0.        0.      352.")), [found(Rule::Inconsistent, 4, "VZVC")]);
+    assert_eq!(warnings(&punched("4", 0, 11, "       99.")), [found(Rule::Inconsistent, 4, "VYVC")]);
+    // At 0.06 s the half sine has slowed the vehicle down to 60.22 in/s.
+    let later = |speed: &str| {
+        driver(|lines| {
+            punch(&mut lines[2], 1, "       .06");
+            punch(&mut lines[3], 1, speed);
+        })
+    };
+    assert_eq!(warnings(&later("      352.")), [found(Rule::Inconsistent, 4, "VXVC")]);
+    let (_, diagnostics) = parse(&later("      352."));
+    let vehicle = "the vehicle has (";
+    let said = diagnostics.to_string();
+    let speed: f64 = said.split_once(vehicle).and_then(|(_, rest)| rest.split(',').next()?.parse().ok()).expect(&said);
+    assert!((30.0..80.0).contains(&speed), "{said}");
+    assert_eq!(warnings(&later(&format!("{speed:>10}"))), []);
+}
+
+#[test]
+fn a_small_fini_ends_the_file() {
+    let small = driver(|lines| lines[118] = "fini".into());
+    for strictness in [Strictness::Default, Strictness::Lenient] {
+        let (decks, diagnostics) = parse_as(&small, strictness);
+        assert_eq!(decks.len(), 1, "{diagnostics}");
+        assert_eq!(rules(&diagnostics, Severity::Warning), [Rule::NoFinalCard]);
+    }
+}
+
+#[test]
+fn a_blank_card_before_the_titles_is_shown_where_it_stands() {
+    let blank = driver(|lines| lines.insert(0, String::new()));
+    assert_eq!(errors(&blank), [found(Rule::UnexpectedCard, 1, "")]);
+    let between = driver(|lines| lines.insert(2, "A THIRD TITLE".into()));
+    assert_eq!(errors(&between), [found(Rule::UnexpectedCard, 3, "")]);
+}
+
+#[test]
+fn plots_of_data_that_go_to_no_disk_are_doubted() {
+    assert_eq!(warnings(&punched("3", 0, 61, "        1.")), [found(Rule::Inconsistent, 3, "NDISK")]);
+    let none = driver(|lines| {
+        punch(&mut lines[2], 61, "        1.");
+        lines[117] = "NONE".into();
+    });
+    assert_eq!(warnings(&none), []);
 }
 
 #[test]

@@ -105,6 +105,32 @@ fn a_run_is_extended_by_cards() {
         "{out}"
     );
     assert_eq!(convert(folder.path(), &[deck, "--extend", "0.1"]).0, 2);
+    let (code, out, said) = convert(folder.path(), &[deck, "--extend", "0.3"]);
+    assert_eq!((code, out.as_str()), (2, ""), "no deck without a path to its end");
+    assert!(said.contains("--extend 0.3 s lies beyond the last station of the vehicle's path, 0.25 s"), "{said}");
+}
+
+#[test]
+fn a_path_file_that_the_deck_does_not_ask_for_is_said_to_be_unused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let name = |file: &str| decks().join(file).to_str().expect("UTF-8").to_owned();
+    let arguments = [&name("driver-lap-torso.dat"), "--path", &name("driver-path-from-disk.csv"), "-o", "case.toml"];
+    let (code, _, said) = convert(folder.path(), &arguments);
+    assert_eq!(code, 0, "{said}");
+    assert!(said.contains("  - the path file: MREAD = 0 (card 3)"), "{said}");
+}
+
+#[test]
+fn a_deck_goes_to_standard_output_in_the_bytes_of_a_file() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = std::fs::read_to_string(decks().join("driver-lap-torso.toml")).expect("committed");
+    let text = text.replacen("title = \"DRIVER", "title = \"FÄHRER —", 1);
+    std::fs::write(folder.path().join("case.toml"), text).expect("written");
+    let mut command = Command::cargo_bin("occupant").expect("built");
+    let output = command.current_dir(folder.path()).args(["convert", "case.toml"]).output().expect("runs");
+    assert_eq!(output.stdout[..10], *b"F\xc4HRER ? ", "Latin-1");
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("the title's `—` cannot be punched and became ?"), "{said}");
 }
 
 #[test]
@@ -136,9 +162,11 @@ fn a_recorded_run_is_extended_by_the_same_cards_as_the_deck() {
     assert_eq!(code, 0, "{said}");
     assert!(said.contains("approximate"), "{said}");
     assert_eq!(by_run, by_deck);
-    for (words, expected) in
-        [(&["run.mcap"][..], "--extend TIME"), (&["run.mcap", "--extend", "0.1"], "not after the end")]
-    {
+    for (words, expected) in [
+        (&["run.mcap"][..], "--extend TIME"),
+        (&["run.mcap", "--extend", "0.1"], "not after the end"),
+        (&["run.mcap", "--extend", "0.3"], "beyond the last station"),
+    ] {
         let (code, _, said) = convert(folder.path(), words);
         assert!(code == 2 && said.contains(expected), "{said}");
     }

@@ -59,6 +59,16 @@ fn row(text: &str, output: usize, title: &str, name: &str) -> Vec<f64> {
     after.skip(1).map_while(|w| w.parse().ok()).collect()
 }
 
+/// The numbers below the heads of the energies of output `output`.
+fn energies(text: &str, output: usize) -> Vec<f64> {
+    let section = format!("OUTPUT {output}");
+    let of_output = |p: &&&str| p.lines().nth(2).is_some_and(|l| l.ends_with(&section));
+    let all = pages(text);
+    let mut lines = all.iter().filter(of_output).flat_map(|p| p.lines()).skip_while(|l| !l.starts_with("ENERGY"));
+    let numbers = lines.nth(2).expect("a row").split_whitespace();
+    numbers.map(|word| word.parse().expect("a number")).collect()
+}
+
 /// A vector or a number of a recorded message.
 fn value(folder: &Path, topic: &str, output: usize, field: &str) -> Vec<f64> {
     let bytes = fs::read(folder.join("short.mcap")).expect("recorded");
@@ -152,6 +162,9 @@ fn printed_numbers_are_the_recorded_ones() {
         assert_printed(&cells, &turn, 1.0, 2);
         let turn = of(head, output, "angular_velocity_segment_rad_s");
         assert_printed(&cells[3..], &turn, 1.0, 3);
+        let stored = ["kinetic_j", "kinetic_relative_j", "gravity_j", "spine_j", "contacts_j", "belts_j"];
+        let stored: Vec<f64> = stored.iter().flat_map(|field| of("/energy", output, field)).collect();
+        assert_printed(&energies(&text, output), &stored, 1.0, 2);
         let cells = row(&text, output, "5. FORCE", "pelvis");
         let force = of("/occupant/sphere/pelvis", output, "contact_force_vehicle_n");
         assert_printed(&cells, &force, 1.0, 1);
@@ -253,12 +266,47 @@ fn a_deck_is_printed_in_inches_with_its_cards_numbers_and_both_titles() {
         assert!(title.starts_with("DRIVER WITH LAP AND TORSO BELT, 20 MPH"), "{title}");
         assert_eq!(lines.next(), Some("COMPARTMENT AND BODY COMPOSED FROM PUBLISHED FIGURES"));
     }
+    let cards = fs::read_to_string(decks.join("driver-lap-torso.dat")).expect("a deck");
+    let listed: Vec<&str> = text.lines().collect();
+    for card in cards.lines().filter(|card| *card != "FINI") {
+        // the final time was changed
+        let card = card.replacen("        0.        .2     .0001", "        0.       .02     .0001", 1);
+        assert!(listed.contains(&card.as_str()), "{card}");
+    }
+    assert!(text.contains("GRAVITY        386.04 IN/S2"), "as on the card");
     assert!(text.contains("CHANGED BY     --set time.end='20 ms'"));
     assert!(text.contains("END            0.02 SEC"), "the change is in the echo");
     assert!(text.contains("SURFACE NUMBERS ARE THOSE OF THE CARDS"));
     assert!(text.contains("25 steering_wheel"));
     assert!(!text.contains("DIFFERS"), "the rebuilt model is the one that ran");
     assert!(text.contains("PAIRS WITH NARRY(J,K) = 0: "));
+}
+
+#[test]
+fn an_exact_state_is_echoed_with_the_digits_of_its_cards() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let decks = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../scenarios/decks");
+    let text = fs::read_to_string(decks.join("driver-exact-state.toml")).expect("committed");
+    let text = text.replacen("-5.283158, 14", "-5.28315849, 14", 1).replacen("\"36.4436 in\"", "\"36.44361 in\"", 1);
+    fs::write(folder.path().join("short.toml"), text).expect("written");
+    let run = ["run", "short.toml", "-q", "--until", "0.002"];
+    let (code, _, said) = occupant(folder.path(), &run);
+    assert_eq!(code, 0, "{said}");
+    let text = printed(folder.path(), &["short.mcap", "--every", "1"]);
+    let start = text.split("GENERALIZED COORDINATES AT THE START").nth(1).expect("coordinates");
+    for digits in ["-5.28315849", "-0.261799", "-0.349066"] {
+        assert!(start.lines().take(14).any(|line| line.contains(digits)), "{digits}: {start}");
+    }
+    assert!(text.contains("lap: UNSTRETCHED LENGTH 36.44361 IN"), "{text}");
+    assert!(text.contains("UNSTRETCHED LENGTH OF THE BELT lap: 36.443610 IN"));
+}
+
+#[test]
+fn print_times_that_are_no_outputs_are_said_to_be_uneven() {
+    let folder = recorded();
+    let said = |every: &str| occupant(folder.path(), &["print", "short.mcap", "-o", "p.txt", "-f", "--every", every]).2;
+    assert_eq!(said("2 ms"), "");
+    assert!(said("2.5 ms").starts_with("note: the print interval, 0.0025 s, is no multiple"), "{}", said("2.5 ms"));
 }
 
 #[test]

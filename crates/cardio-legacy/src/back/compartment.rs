@@ -4,7 +4,7 @@ use nalgebra::{Point3, Vector3};
 use occupant_core::forces::contact::material::{DEFAULT_FRICTION_SPEED_M_S, Material, Memory};
 use occupant_core::forces::contact::surface::{Frame, Outline, Surface};
 
-use super::digits::{digits, factor};
+use super::digits::factor;
 use super::points::{Polygon, place_points};
 use super::{Back, unit_of};
 use crate::compartment::{CompartmentLayout, Corner};
@@ -90,9 +90,12 @@ fn polygon(back: &mut Back<'_>, layout: &CompartmentLayout, surface: &Surface, n
     let orders = (0..count).flat_map(|start| [false, true].map(|turned| order(count, start, turned)));
     let on_their_sides =
         orders.filter(|order| order.iter().zip(wanted).all(|(at, corner)| on_its_side(corner, &corners[*at])));
-    let reading = |order: Vec<usize>| {
-        order.iter().zip(wanted).flat_map(|(at, corner)| fields_at(corner, &corners[*at])).collect()
-    };
+    // each coordinate once, whatever the order of the corners
+    let mut inches = |(name, si): (&str, f64)| back.fitting(name, unit_of("VCW"), si);
+    let place = |at: &Point3<f64>| [("XV", at.x), ("ZV", at.z), ("VCW and VRW", at.y.abs())].map(&mut inches);
+    let places: Vec<[String; 3]> = corners.iter().map(place).collect();
+    let reading =
+        |order: Vec<usize>| order.iter().zip(wanted).flat_map(|(at, corner)| fields_at(corner, &places[*at])).collect();
     let readings: Vec<_> = on_their_sides.map(reading).collect();
     if readings.is_empty() {
         back.misfit(format!(
@@ -111,12 +114,11 @@ fn on_its_side(corner: &Corner, place: &Point3<f64>) -> bool {
 }
 
 /// A corner's place as the fields of series 8.
-fn fields_at(corner: &Corner, place: &Point3<f64>) -> [(String, String); 3] {
-    let inches = |si: f64| digits(si, unit_of("VCW")).0;
+fn fields_at(corner: &Corner, [x, z, width]: &[String; 3]) -> [(String, String); 3] {
     [
-        (format!("XV({})", corner.x_of), inches(place.x)),
-        (format!("ZV({})", corner.z_of), inches(place.z)),
-        (corner.wall.half_width().0.to_owned(), inches(place.y.abs())),
+        (format!("XV({})", corner.x_of), x.clone()),
+        (format!("ZV({})", corner.z_of), z.clone()),
+        (corner.wall.half_width().0.to_owned(), width.clone()),
     ]
 }
 

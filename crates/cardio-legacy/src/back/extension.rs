@@ -3,11 +3,17 @@
 use super::digits::{digits, factor};
 use super::motion::RunEnd;
 use super::unit_of;
+use crate::check::check_deck;
 use crate::deck::{Deck, DeckCard};
+use crate::diagnostics::{Diagnostics, Sink};
+use crate::rule::Strictness;
 
 impl Deck {
     /// The deck that extends this one's run from where it ended to `final_s`: NPOS = 1, series 6 and 14 in place of seating.
-    pub fn extended(&self, end: &RunEnd, final_s: f64) -> Deck {
+    ///
+    /// # Errors
+    /// What a reader would refuse in it, such as a final time beyond the last station of the path.
+    pub fn extended(&self, end: &RunEnd, final_s: f64) -> Result<Deck, Diagnostics> {
         let cards = self.cards().iter().filter(|card| ![4, 10].contains(&card.id.series));
         let cards = cards.map(|card| DeckCard { line: None, raw: None, ..card.clone() });
         let mut deck = Deck::assemble(self.titles().clone(), cards.collect(), self.plot());
@@ -25,7 +31,10 @@ impl Deck {
         deck.set("SLACK(2)", "");
         let pairs: Vec<_> = end.passed.iter().map(|(j, k)| (j.to_string(), k.to_string())).collect();
         deck.set_pairs(&pairs);
-        deck
+        let mut sink = Sink::new("the deck that extends the run", Strictness::Default);
+        check_deck(&deck, 1, &mut sink);
+        let found = sink.into_diagnostics();
+        if found.has_errors() { Err(found) } else { Ok(deck) }
     }
 }
 

@@ -9,10 +9,12 @@ mod motion;
 mod path;
 mod points;
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use occupant_core::forces::contact::EdgeForce;
 use occupant_core::model::seating::InitialPosture;
 use occupant_core::model::setup::{Integrator, Setup};
-use occupant_core::scenario::{Diagnostics as ScenarioDiagnostics, Loaded};
+use occupant_core::scenario::{Diagnostics as ScenarioDiagnostics, Loaded, Scenario};
 use thiserror::Error;
 
 pub use motion::{RunEnd, passed_pairs, spine_rest};
@@ -21,7 +23,7 @@ use crate::cards::{Unit, field_named};
 use crate::compartment::CompartmentLayout;
 use crate::deck::{Deck, Plot};
 use crate::notes::{self, Kept};
-use crate::punched::CARD_WIDTH;
+use crate::punched::{CARD_WIDTH, is_control};
 
 /// A deck made from a scenario.
 #[derive(Debug, Clone, PartialEq)]
@@ -56,6 +58,7 @@ impl Deck {
         let layout = CompartmentLayout::or_reconstruction(layout).map_err(NoDeck::Compartment)?;
         let kept = notes::from_notes(scenario.scenario.notes.as_deref().unwrap_or_default());
         let mut back = Back::new(&setup, kept);
+        left_behind(&mut back, &scenario.scenario);
         times(&mut back);
         body::read(&mut back);
         joints::read(&mut back);
@@ -73,6 +76,8 @@ struct Back<'a> {
     deck: Deck,
     /// Passed pairs (sphere, surface), by the report's numbers.
     passed: Vec<(String, String)>,
+    /// Numbers that ten columns cannot hold, by the variable: what became of the first of them, and which they are.
+    rounded: BTreeMap<String, (String, BTreeSet<String>)>,
     remarks: Vec<String>,
     misfits: Vec<String>,
 }
@@ -85,19 +90,27 @@ impl<'a> Back<'a> {
         for series in [3, 5, 7, 8, 9, 11].iter().chain(of_start) {
             deck.add_series(*series, 0);
         }
-        Self { setup, kept, deck, passed: Vec::new(), remarks: Vec::new(), misfits: Vec::new() }
+        let (passed, rounded) = (Vec::new(), BTreeMap::new());
+        Self { setup, kept, deck, passed, rounded, remarks: Vec::new(), misfits: Vec::new() }
     }
 
     /// Sets a field from an SI number.
     fn set(&mut self, name: impl Into<String>, si: f64) {
         let name = name.into();
-        let unit = unit_of(&name);
+        let digits = self.fitting(&name, unit_of(&name), si);
+        self.deck.set(&name, &digits);
+    }
+
+    /// The digits of an SI number in the unit of a field; where they are rounded, that is noted by the variable.
+    fn fitting(&mut self, name: &str, unit: Unit, si: f64) -> String {
         let (digits, exact) = digits::digits(si, unit);
         if let Some(exact) = exact {
-            let exact = format!("{exact} {}", unit.symbol);
-            self.remarks.push(format!("{name}: {exact} does not fit into ten columns and was rounded to {digits}"));
+            let base = name.split_once('(').map_or(name, |(base, _)| base);
+            let symbol = unit.symbol;
+            let first = format!("{name}: {exact} {symbol} does not fit into ten columns and was rounded to {digits}");
+            self.rounded.entry(base.to_owned()).or_insert((first, BTreeSet::new())).1.insert(exact);
         }
-        self.deck.set(&name, &digits);
+        digits
     }
 
     /// The digits of a field, if it has been set.
@@ -122,8 +135,12 @@ impl<'a> Back<'a> {
         }
     }
 
+    /// What has no place on cards; said once, however many cards show it.
     fn misfit(&mut self, text: impl Into<String>) {
-        self.misfits.push(text.into());
+        let text = text.into();
+        if !self.misfits.contains(&text) {
+            self.misfits.push(text);
+        }
     }
 
     fn misfit_if(&mut self, wrong: bool, text: impl Into<String>) {
@@ -136,6 +153,13 @@ impl<'a> Back<'a> {
         if !self.misfits.is_empty() {
             return Err(NoDeck::Misfits(self.misfits));
         }
+        for (base, (first, all)) in &self.rounded {
+            let more = match all.len() - 1 {
+                0 => String::new(),
+                more => format!(", and so were {more} more numbers of {base}"),
+            };
+            self.remarks.push(format!("{first}{more}"));
+        }
         let titles = self.titles();
         let plot = self.kept.get(notes::PLOT).and_then(|word| Plot::of_word(word)).unwrap_or(Plot::None);
         self.keep();
@@ -144,13 +168,21 @@ impl<'a> Back<'a> {
     }
 
     fn titles(&mut self) -> [String; 2] {
-        let first = self.kept.get(notes::TITLE_1).unwrap_or(&self.setup.title).lines().next().unwrap_or_default();
-        let second = self.kept.get(notes::TITLE_2).map_or("", String::as_str);
-        if first.chars().count() > CARD_WIDTH {
+        let first = self.kept.get(notes::TITLE_1).unwrap_or(&self.setup.title).as_str();
+        let titles = [first, self.kept.get(notes::TITLE_2).map_or("", String::as_str)];
+        let mut strange: Vec<char> =
+            titles.iter().flat_map(|title| title.chars()).filter(|c| !is_punchable(*c)).collect();
+        strange.sort_unstable();
+        strange.dedup();
+        if !strange.is_empty() {
+            let shown: Vec<_> = strange.iter().map(|c| c.escape_debug().to_string()).collect();
+            self.remarks.push(format!("the title's `{}` cannot be punched and became ?", shown.join("`, `")));
+        }
+        if titles.iter().any(|title| title.chars().count() > CARD_WIDTH) {
             self.remarks.push(format!("the title is cut to {CARD_WIDTH} columns"));
         }
-        let cut = |title: &str| title.chars().take(CARD_WIDTH).collect::<String>().trim_end_matches(' ').to_owned();
-        [first, second].map(cut)
+        let punchable = |c: char| if is_punchable(c) { c } else { '?' };
+        titles.map(|t| t.chars().take(CARD_WIDTH).map(punchable).collect::<String>().trim_end_matches(' ').to_owned())
     }
 
     /// Fields that the scenario could not say and its notes kept.
@@ -181,6 +213,25 @@ impl<'a> Back<'a> {
             let floor = self.digits("ZV(8)").unwrap_or("0").to_owned();
             self.deck.set("ZV(14)", &floor);
         }
+    }
+}
+
+/// Whether Latin-1 has a character that takes one column.
+fn is_punchable(c: char) -> bool {
+    u8::try_from(u32::from(c)).is_ok_and(|byte| !is_control(byte))
+}
+
+/// What a scenario says for its readers and cards have no place for.
+fn left_behind(back: &mut Back<'_>, scenario: &Scenario) {
+    let notes = scenario.notes.as_deref().unwrap_or_default();
+    let own = notes.split_once(notes::MARKER).map_or(notes, |(own, _)| own);
+    if !own.trim().is_empty() {
+        back.remarks.push("notes: cards have no place for them but two titles".to_owned());
+    }
+    back.misfit_if(scenario.title.starts_with("FINI"), "title: a first card that begins with FINI ends the file");
+    if !scenario.provenance.is_empty() {
+        let count = scenario.provenance.len();
+        back.remarks.push(format!("provenance: cards have no place for its {count} sources"));
     }
 }
 

@@ -1,5 +1,8 @@
 //! The vehicle's path (series 12): order, cover of the run, unwrapped angles, speed of the occupant.
 
+use nalgebra::Vector3;
+use occupant_core::vehicle::{AfterEnd, Interpolation, PathCursor, Station, TablePath, VehiclePath};
+
 use super::Check;
 use crate::deck::DeckCard;
 use crate::rule::Rule;
@@ -18,9 +21,7 @@ pub(super) fn check(c: &mut Check<'_>) {
         check_step(c, index + 2, &pair[0], &pair[1]);
     }
     check_cover(c, &stations);
-    if let [first, second, ..] = stations.as_slice() {
-        check_speed(c, first, second);
-    }
+    check_speed(c, &stations);
 }
 
 fn check_step(c: &mut Check<'_>, station: usize, before: &[f64], after: &[f64]) {
@@ -65,25 +66,37 @@ fn check_cover(c: &mut Check<'_>, stations: &[Vec<f64>]) {
     }
 }
 
-/// The occupant usually begins with the vehicle's speed; a factor of 12 or 17.6 between them is a unit.
-fn check_speed(c: &mut Check<'_>, first: &[f64], second: &[f64]) {
-    let duration = second[0] - first[0];
-    if c.value("NPOS") != 0.0 || duration <= 0.0 {
-        return;
-    }
-    let vehicle = (1..=3).map(|axis| ((second[axis] - first[axis]) / duration).powi(2)).sum::<f64>().sqrt();
-    let occupant = ["VXVC", "VYVC", "VZVC"].map(|name| c.value(name).powi(2)).iter().sum::<f64>().sqrt();
-    let near = |factor: f64| (vehicle / occupant / factor - 1.0).abs() < 0.05;
+/// The occupant usually begins with the vehicle's velocity; a factor of 12 or 17.6 between their speeds is a unit.
+fn check_speed(c: &mut Check<'_>, stations: &[Vec<f64>]) {
+    let Some(vehicle) = velocity_at(stations, c.value("T1")).filter(|_| c.value("NPOS") == 0.0) else { return };
+    let names = ["VXVC", "VYVC", "VZVC"];
+    let occupant = Vector3::from(names.map(|name| c.value(name)));
+    let apart = vehicle - occupant;
+    let near = |factor: f64| (vehicle.norm() / occupant.norm() / factor - 1.0).abs() < 0.05;
     let (rule, message) = if near(12.0) {
         (Rule::LooksLikeOtherUnit, "this looks like ft/s")
     } else if near(17.6) {
         (Rule::LooksLikeOtherUnit, "this looks like miles per hour")
-    } else if (vehicle - occupant).abs() > SPEED_TOLERANCE * vehicle.max(occupant) {
-        (Rule::Inconsistent, "occupant and vehicle begin at different speeds")
+    } else if apart.norm() > SPEED_TOLERANCE * vehicle.norm().max(occupant.norm()) {
+        (Rule::Inconsistent, "occupant and vehicle begin at different velocities")
     } else {
         return;
     };
-    let message = format!("{message}: the vehicle's first interval has {vehicle:.2} in/s, the occupant {occupant:.2}");
+    let shown = |v: Vector3<f64>| format!("({:.2}, {:.2}, {:.2}) in/s", v.x + 0.0, v.y + 0.0, v.z + 0.0);
+    let (vehicle, occupant) = (shown(vehicle), shown(occupant));
+    let message = format!("{message}: along its axes the vehicle has {vehicle} at T1, the occupant {occupant}");
     let remedy = "give the occupant the vehicle's velocity unless the difference is meant";
-    c.wrong_if(true, rule, "VXVC", message).expected("the initial velocity in vehicle axes, in in/s", remedy);
+    c.wrong_if(true, rule, names[apart.iamax()], message)
+        .expected("the initial velocity in vehicle axes, in in/s", remedy);
+}
+
+/// Velocity of the vehicle along its own axes in the interval that begins at `start_s` or holds it, in/s; none where the
+/// stations make no path or do not cover that time.
+fn velocity_at(stations: &[Vec<f64>], start_s: f64) -> Option<Vector3<f64>> {
+    let station = |n: &Vec<f64>| Station::new(n[0], [n[1], n[2], n[3]], [n[4], n[5], n[6]].map(f64::to_radians));
+    let table = TablePath::new(stations.iter().map(station).collect(), Interpolation::Linear, AfterEnd::Error).ok()?;
+    let (first_s, last_s) = table.span_s();
+    let covered = (first_s..last_s).contains(&start_s);
+    let motion = covered.then(|| VehiclePath::Table(table).motion(start_s, start_s, &mut PathCursor::default()))?;
+    Some(motion.vector_to_frame(motion.velocity_m_s))
 }

@@ -14,7 +14,7 @@ mod report;
 mod writer;
 
 use occupant_core::scenario::Format;
-use occupant_core::scenario::{Diagnostics as ScenarioDiagnostics, Scenario};
+use occupant_core::scenario::{Diagnostics as ScenarioDiagnostics, Loaded, Scenario};
 use thiserror::Error;
 
 pub use path::PathSource;
@@ -95,20 +95,27 @@ impl Deck {
         let layout = layout.map_err(ConversionError::Compartment)?;
         let path = path::read(self, options.path.as_ref())?;
         let mut writer = Writer::new(self);
+        if options.path.is_some() && self.value("MREAD") == Some(0.0) {
+            let text = "the path file: MREAD = 0 (card 3) takes the vehicle's path from series 12";
+            writer.report.ignored.push(text.to_owned());
+        }
         head::write(&mut writer, options, &layout)?;
         path.write(&mut writer);
         body::write(&mut writer);
         joints::write(&mut writer);
         motion::write(&mut writer, &layout);
         compartment::write(&mut writer, &layout)?;
-        let conversion = writer.finish()?;
-        check(&conversion.toml, path.beside())?;
+        let mut conversion = writer.finish()?;
+        let loaded = check(&conversion.toml, path.beside())?;
+        if self.has_series(14) {
+            conversion.report.ignored.extend(pairs_apart(&loaded));
+        }
         Ok(conversion)
     }
 }
 
 /// Reads the text as the program will: nothing that it refuses is handed out.
-fn check(toml: &str, beside: Option<&str>) -> Result<(), ConversionError> {
+fn check(toml: &str, beside: Option<&str>) -> Result<Loaded, ConversionError> {
     let resolver = |name: &str| match beside {
         Some(text) => Ok(text.as_bytes().to_vec()),
         None => Err(format!("there is no file {name}")),
@@ -116,5 +123,12 @@ fn check(toml: &str, beside: Option<&str>) -> Result<(), ConversionError> {
     let refused = |diagnostics| ConversionError::Refused(Box::new(diagnostics));
     let loaded = Scenario::from_text(toml, Format::Toml, "converted scenario", &resolver).map_err(refused)?;
     loaded.build().map_err(refused)?;
-    Ok(())
+    Ok(loaded)
+}
+
+/// The pairs of series 14 that do not overlap at the start, in words; they show only where the body is placed.
+fn pairs_apart(loaded: &Loaded) -> Option<String> {
+    let (_, warnings) = loaded.model().ok()?;
+    let apart = warnings.iter().find(|warning| warning.problem.path == "initial_state.passed")?;
+    Some(format!("series 14, {}", apart.problem.found))
 }

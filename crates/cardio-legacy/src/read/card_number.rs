@@ -39,8 +39,13 @@ pub(super) fn card_number(card: &PunchedCard) -> CardNumber {
     if reading.blank {
         return CardNumber::Blank;
     }
+    let punched = text.trim().parse::<u32>().ok().and_then(series_with_ncard);
     if let Some(series) = with_number(reading.value) {
-        return CardNumber::Series(series);
+        return match punched.filter(|punched| punched.number != series.number) {
+            // `10  ` reads as 1000
+            Some(series) => CardNumber::Misplaced { series, read_as: reading.digits },
+            None => CardNumber::Series(series),
+        };
     }
     if let Ok(by_format) = read_integer(card.field(NCARD_BY_I8)) {
         let known = with_number(by_format.value).filter(|s| matches!(s.number, 7 | 8 | 10));
@@ -48,7 +53,7 @@ pub(super) fn card_number(card: &PunchedCard) -> CardNumber {
             return CardNumber::ByFormat(series);
         }
     }
-    match text.trim().parse::<u32>().ok().and_then(series_with_ncard) {
+    match punched {
         Some(series) => CardNumber::Misplaced { series, read_as: reading.digits },
         None => CardNumber::Other(text),
     }

@@ -34,7 +34,7 @@ impl Reader<'_> {
         let here = &self.cards[self.at..];
         match place_of_third(here) {
             Some(place) if place != 2 => {
-                self.report_titles(&here[place], place);
+                self.report_titles(here, place);
                 self.at += place;
                 None
             }
@@ -46,15 +46,18 @@ impl Reader<'_> {
         }
     }
 
-    fn report_titles(&mut self, third: &PunchedCard, found: usize) {
-        let (rule, remedy) = if found < 2 {
-            (Rule::MissingTitle, "add the missing title cards; they may be blank, but they must be there")
+    fn report_titles(&mut self, here: &[PunchedCard], found: usize) {
+        let blank_before = found > 2 && here[..found - 2].iter().all(PunchedCard::is_blank);
+        let (rule, at, remedy) = if found < 2 {
+            (Rule::MissingTitle, found, "add the missing title cards; they may be blank, but they must be there")
+        } else if blank_before {
+            (Rule::UnexpectedCard, 0, "remove the blank cards before the titles")
         } else {
-            (Rule::UnexpectedCard, "remove the cards between the titles and series 3")
+            (Rule::UnexpectedCard, 2, "remove the cards between the titles and series 3")
         };
         let cards = if found == 1 { "card stands" } else { "cards stand" };
         Diagnostic::new(rule, format!("{found} {cards} before the first card with a card number"))
-            .on(third)
+            .on(&here[at])
             .expected("exactly two title cards at the beginning of a deck")
             .remedy(remedy)
             .report(self.sink);

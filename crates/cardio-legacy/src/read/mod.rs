@@ -16,12 +16,14 @@ use crate::punched::{Columns, PunchedCard};
 use crate::rule::{Rule, Strictness};
 use fields::read_fields;
 use lines::read_cards;
+use series::is_word;
 
 /// The series read so far of a deck, by number.
 type SeriesRead = BTreeMap<u8, Vec<DeckCard>>;
 
 /// Columns of the words STAN, NONE and FINI.
 const WORD: Columns = Columns::new(1, 4);
+const FINI: &str = "FINI";
 const PLOT_SERIES: u8 = 16;
 
 /// How a file of decks is read.
@@ -79,8 +81,10 @@ fn read_file(bytes: &[u8], sink: &mut Sink) -> Vec<Deck> {
     decks
 }
 
+/// Whether a card is the final one: its word in capitals, or alone in any letters.
 fn starts_with_fini(card: &PunchedCard) -> bool {
-    card.field(WORD) == b"FINI"
+    let word = card.text_of(WORD);
+    word == FINI || (is_word(card) && word.eq_ignore_ascii_case(FINI))
 }
 
 /// A file under reading: its cards, where it stands, what was found.
@@ -103,7 +107,17 @@ impl<'a> Reader<'a> {
                 .remedy("change the first word of the title if the card is meant to be one")
                 .report(self.sink);
         }
-        self.check_rest_of_word_card(card, CardId { series: FINAL_CARD, letter: None, number: None });
+        let id = CardId { series: FINAL_CARD, letter: None, number: None };
+        let word = card.text_of(WORD);
+        if word != FINI {
+            Diagnostic::new(Rule::NoFinalCard, format!("`{word}` was taken for the final card"))
+                .on(card)
+                .in_card(id)
+                .at(WORD)
+                .remedy("punch the word in capitals")
+                .report(self.sink);
+        }
+        self.check_rest_of_word_card(card, id);
         let behind = self.cards.get(self.at + 1..).unwrap_or_default();
         if let Some(card) = behind.iter().find(|c| !c.is_blank()) {
             Diagnostic::new(Rule::AfterFinalCard, "something stands behind the final card; it is not read")

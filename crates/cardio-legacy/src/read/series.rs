@@ -2,10 +2,10 @@
 
 use std::iter::repeat_n;
 
-use super::WORD;
 use super::card_number::{CardNumber, card_number, looks_like_first_card, series_by_number};
 use super::fields::read_fields;
-use crate::cards::{CardId, CardLayout, Field, NCARD, Repeat, SeriesLayout};
+use super::{FINI, WORD};
+use crate::cards::{CardId, CardLayout, END_OF_NUMBERS, Field, NCARD, Repeat, SeriesLayout};
 use crate::deck::{DeckCard, Number};
 use crate::diagnostics::{Diagnostic, Sink};
 use crate::fortran::read_integer;
@@ -130,7 +130,8 @@ impl SeriesReader<'_> {
         let Some(wanted) = wanted else { return standing };
         let fixed = self.series.cards_behind_first().is_some();
         let next = self.behind.get(wanted);
-        let in_place = next.is_some_and(|card| series_by_number(card).is_some() || is_word(card));
+        let in_place = next.is_some_and(|card| series_by_number(card).is_some() || is_word(card))
+            && !self.behind.iter().take(wanted).any(ends_numbers);
         if standing == wanted || in_place || (fixed && standing > wanted) {
             return wanted.min(self.behind.len());
         }
@@ -146,11 +147,14 @@ impl SeriesReader<'_> {
         };
         let message =
             format!("{} should have {wanted} cards behind this one and has {standing}: then {end}", self.series);
-        Diagnostic::new(rule, message)
-            .on(self.first)
-            .in_card(CardId::first_of(self.series))
-            .expected(format!("{wanted} more cards"))
-            .report(self.sink);
+        let problem = Diagnostic::new(rule, message).on(self.first).in_card(CardId::first_of(self.series));
+        let count = &self.series.cards[0].fields[0];
+        let problem = if fixed {
+            problem.expected(format!("{wanted} more cards"))
+        } else {
+            problem.in_field(count).expected(format!("as many cards as {} says, {wanted}", count.variable))
+        };
+        problem.report(self.sink);
     }
 }
 
@@ -199,8 +203,13 @@ pub(super) fn begins_something(card: &PunchedCard) -> bool {
     looks_like_first_card(card).is_some() || is_word(card)
 }
 
-/// STAN, NONE or FINI alone on a card.
+/// Whether a card can be no other than the card 1000 or a word behind it.
+fn ends_numbers(card: &PunchedCard) -> bool {
+    looks_like_first_card(card).is_some_and(|series| series.number == END_OF_NUMBERS) || is_word(card)
+}
+
+/// STAN, NONE or FINI alone on a card, in capitals or not.
 pub(super) fn is_word(card: &PunchedCard) -> bool {
-    let word = card.text_of(WORD);
-    matches!(word.as_str(), "STAN" | "NONE" | "FINI") && card.is_blank_in(Columns::new(5, 72))
+    let word = card.text_of(WORD).to_ascii_uppercase();
+    matches!(word.as_str(), "STAN" | "NONE" | FINI) && card.is_blank_in(Columns::new(5, 72))
 }

@@ -5,8 +5,8 @@ use std::io::{self, ErrorKind, Write, stderr, stdout};
 use super::failure::Failure;
 
 /// Writes a result. A reader that has gone away is no failure.
-pub(crate) fn print(text: &str) -> Result<(), Failure> {
-    written(stdout().write_all(text.as_bytes()))
+pub(crate) fn print(text: impl AsRef<[u8]>) -> Result<(), Failure> {
+    written(stdout().write_all(text.as_ref()))
 }
 
 /// What became of a result that was written to standard output.

@@ -191,8 +191,8 @@ fn scenario_to_deck(
     format: Format,
     layout: Option<&CompartmentLayout>,
 ) -> Result<FromScenario, Failure> {
-    if args.extend.is_some() {
-        return Err(Failure::plain("--extend takes a deck"));
+    if args.extend.is_some() || args.path.is_some() {
+        return Err(Failure::plain("--extend and --path take a deck"));
     }
     let loaded = load(&args.input, bytes, format)?;
     Deck::from_scenario(&loaded, layout).map_err(|error| Failure::plain(format!("{}: {error}", args.input.display())))
@@ -215,7 +215,7 @@ fn load(path: &Path, bytes: &[u8], format: Format) -> Result<Loaded, Failure> {
 fn deliver(args: &Args, output: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
     match output {
         Some(file) => write(args, file, bytes),
-        None => print(&String::from_utf8_lossy(bytes)),
+        None => print(bytes),
     }
 }
 

@@ -8,8 +8,8 @@ use occupant_core::scenario::kind::UnitSystem;
 use super::flags::history::interval;
 use crate::base::failure::{Done, Failure};
 use crate::base::output_file::{publish, refuse_input};
-use crate::base::talk::{print, say};
-use crate::jobs::print::{Case, Units, printout};
+use crate::base::talk::{note, print, say};
+use crate::jobs::print::{Case, printout, uneven};
 
 /// Print a run as paged text, as the report's program did
 ///
@@ -52,8 +52,8 @@ pub(crate) fn print_run(args: &Args) -> Result<Done, Failure> {
     let name = args.run.display();
     let case = Case::read(&args.run)?;
     let units = match args.units {
-        Some(UnitsChoice::Si) => Units(UnitSystem::Si),
-        Some(UnitsChoice::InchPound) => Units(UnitSystem::InchPound),
+        Some(UnitsChoice::Si) => UnitSystem::Si.into(),
+        Some(UnitsChoice::InchPound) => UnitSystem::InchPound.into(),
         None => case.units(),
     };
     let text = printout(&case, units, args.every).map_err(|e| Failure::plain(format!("{name}: {e}")))?;
@@ -63,6 +63,9 @@ pub(crate) fn print_run(args: &Args) -> Result<Done, Failure> {
             publish(path, args.force, text.as_bytes())?;
         }
         None => print(&text)?,
+    }
+    if let Some(words) = args.every.and_then(|every_s| uneven(&case, every_s)) {
+        note(&words);
     }
     if !case.is_complete() {
         say(&format!("{name} is partial; the last page says so"));

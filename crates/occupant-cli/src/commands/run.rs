@@ -42,7 +42,8 @@ pub(crate) struct Args {
     #[arg(long, value_name = "TIME")]
     until: Option<String>,
 
-    /// Resume the last checkpoint of this file, of a run of the same scenario that ended, was interrupted or killed
+    /// Resume the last checkpoint of this file, of a run of the same scenario that ended, was interrupted or killed; a
+    /// killed run leaves whole groups of 50 outputs, and nothing to resume before the first 50
     #[arg(long, value_name = "FILE.mcap")]
     resume: Option<PathBuf>,
 

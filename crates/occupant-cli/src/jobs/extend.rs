@@ -11,6 +11,7 @@ use occupant_core::results::recorder::{Flow, Recorder, RecorderError, Watch};
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::{replay, simulate};
 use occupant_core::scenario::{Draft, Format};
+use occupant_core::vehicle::VehiclePath;
 
 use crate::base::failure::Failure;
 use crate::base::talk::say;
@@ -20,7 +21,7 @@ use crate::files::scenario;
 /// Runs a deck's scenario and gives the file of the deck that continues it.
 ///
 /// # Errors
-/// A scenario that is refused, a run that does not reach its end, a time before that end.
+/// A scenario that is refused, a run that does not reach its end, a time before that end or beyond the vehicle's path.
 pub(crate) fn extend(
     deck: &Deck,
     toml: &str,
@@ -38,18 +39,20 @@ pub(crate) fn extend(
     let loaded =
         Draft::read(toml, Format::Toml, "converted scenario").and_then(|d| d.load(&resolver)).map_err(refused)?;
     let (model, _) = loaded.model().map_err(refused)?;
+    refuse_time(final_s, model.setup().time.end_s, &model)?;
     let end = run_end(&model, &layout)?;
-    refuse_early(final_s, end.time_s)?;
     if !quiet {
         say(&format!("ran to {} s; cards carry no greatest deformations, so the extension is approximate", end.time_s));
     }
-    Ok(write_file(&[deck.extended(&end, final_s)]))
+    let next = deck.extended(&end, final_s).map_err(|found| Failure::CouldNotRun(found.to_string()))?;
+    Ok(write_file(&[next]))
 }
 
 /// The deck that continues from the last checkpoint of a results file, with remarks.
 ///
 /// # Errors
-/// A file without checkpoint or scenario, a scenario that does not fit on cards, a time before the file's end.
+/// A file without checkpoint or scenario, a scenario that does not fit on cards, a time before the file's end or beyond the
+/// vehicle's path.
 pub(crate) fn extend_run(
     file: &Path,
     bytes: &[u8],
@@ -61,8 +64,8 @@ pub(crate) fn extend_run(
     let last = stored.checkpoints.last();
     let lacking = || Failure::plain(format!("{name} holds no checkpoint{}", stored.because()));
     let last = last.ok_or_else(lacking)?;
-    refuse_early(final_s, last.time_s)?;
     let (loaded, model, _) = scenario::stored(file, &stored)?;
+    refuse_time(final_s, last.time_s, &model)?;
     let cards = Deck::from_scenario(&loaded, layout);
     let mut cards = cards.map_err(|e| Failure::CouldNotRun(format!("error: {name}: {e}")))?;
     let layout = layout_or_ours(layout)?;
@@ -74,7 +77,8 @@ pub(crate) fn extend_run(
     let mut watch = Watch(|s: &Sample<'_>| end = Some(RunEnd::after(rest, s, &layout)));
     replay(&model, last, &mut watch).map_err(|e| broke(&e))?;
     let end = end.ok_or_else(|| Failure::plain(format!("{name} holds no checkpoint")))?;
-    cards.deck = cards.deck.extended(&end, final_s);
+    let next = cards.deck.extended(&end, final_s);
+    cards.deck = next.map_err(|found| Failure::CouldNotRun(format!("{name}: {found}")))?;
     cards.remarks.push(format!(
         "continues from t = {} s; cards carry no greatest deformations, so the extension is approximate, `occupant run --resume` is exact",
         end.time_s
@@ -97,7 +101,15 @@ impl Recorder for First {
     }
 }
 
-fn refuse_early(final_s: f64, end_s: f64) -> Result<(), Failure> {
+/// Refuses a time that does not lie behind the end of the run, or for which the path has no stations.
+fn refuse_time(final_s: f64, end_s: f64, model: &Model) -> Result<(), Failure> {
+    if let VehiclePath::Table(path) = &model.setup().path
+        && final_s > path.span_s().1
+    {
+        let last_s = path.span_s().1;
+        let found = format!("--extend {final_s} s lies beyond the last station of the vehicle's path, {last_s} s");
+        return Err(Failure::with_help(found, "add stations to the path, or give an earlier time"));
+    }
     if final_s.is_nan() || final_s <= end_s {
         let found = format!("--extend {final_s} s lies not after the end of the run, {end_s} s");
         return Err(Failure::with_help(found, "give a later time"));

@@ -7,6 +7,7 @@ pub mod setup;
 mod validate;
 
 use crate::body::Body;
+use crate::forces::contact::OPEN;
 use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::sphere::Site;
 use crate::forces::{Forces, History, Instant};
@@ -166,8 +167,33 @@ fn begin(setup: &Setup, faces: &[FlatFace], problems: &mut Problems) -> Option<(
     let mut history = forces.start(&at);
     if let InitialPosture::Continued { passed, .. } = &setup.posture {
         history.memory.contacts = forces.contacts.continued(&at, passed);
+        warn_apart(setup, forces, &history, passed, problems);
     }
     Some((system, Start { state, history, seated, settled }))
+}
+
+/// Names the pairs that are said to have passed each other and do not overlap: they are open, as if they were not listed.
+fn warn_apart(
+    setup: &Setup,
+    forces: &Forces<f64>,
+    history: &History<f64>,
+    passed: &[(usize, usize)],
+    problems: &mut Problems,
+) {
+    let (contacts, pairs) = (&forces.contacts, &history.memory.contacts);
+    let is_apart = |&&(sphere, surface): &&(usize, usize)| {
+        let groups = contacts.groups.iter().filter(|group| group.sphere == sphere);
+        let open = |i: usize| pairs[i].phase == OPEN && contacts.pairs[i].parts.iter().any(|p| p.surface == surface);
+        groups.flat_map(|group| group.pairs.clone()).any(open)
+    };
+    let names = |&(sphere, surface): &(usize, usize)| {
+        Some(format!("{} and {}", setup.body.spheres.get(sphere)?.name, setup.surfaces.get(surface)?.name))
+    };
+    let apart: Vec<String> = passed.iter().filter(is_apart).filter_map(names).collect();
+    if !apart.is_empty() {
+        let found = format!("pairs that do not overlap at the start, and so have no effect: {}", apart.join(", "));
+        problems.warning("initial_state.passed", found, "pairs that overlap where the earlier run ended");
+    }
 }
 
 fn seat_of<'a>(

@@ -1,6 +1,6 @@
 //! Belts: as read, as laid, and item 7, their forces.
 
-use crash_measures::unit::Unit::{Metre, Newton, NewtonPerMetre};
+use crash_measures::unit::Unit::{Metre, Newton, NewtonPerMetre, One};
 use occupant_core::forces::belt::RestLength;
 use occupant_core::results::sample::Sample;
 
@@ -8,27 +8,30 @@ use super::Element;
 use super::case::Case;
 use super::page::Pages;
 use super::table::Table;
-use super::unit::{Units, degree, ratio};
+use super::unit::{Units, degree};
 
 /// The sections on belts.
 pub(crate) const BELTS: Element = Element {
     heading: "BELTS",
     input,
     start: |pages, case, units| {
-        for (name, length) in lengths(case, units) {
-            pages.fact("BELT", format!("{name}: UNSTRETCHED LENGTH {length}"));
+        for (name, length_m) in lengths(case) {
+            pages.fact("BELT", format!("{name}: UNSTRETCHED LENGTH {}", units.of(Metre).say(length_m)));
         }
     },
     output,
     end: |pages, case, units| {
-        for (name, length) in lengths(case, units) {
-            pages.say(&format!("UNSTRETCHED LENGTH OF THE BELT {name}: {length}"));
+        let unit = units.of(Metre);
+        for (name, length_m) in lengths(case) {
+            // six decimals, as cards have them
+            let length = length_m / unit.size();
+            pages.say(&format!("UNSTRETCHED LENGTH OF THE BELT {name}: {length:.6} {}", unit.name()));
         }
     },
 };
 
 fn input(pages: &mut Pages, case: &Case, units: Units) {
-    let (k, l) = (units.of(NewtonPerMetre), units.of(Metre));
+    let (k, l, ratio) = (units.of(NewtonPerMetre), units.of(Metre), units.of(One));
     let mut table = Table::new(
         units.heading("BELTS ({}, {}); ANCHORS IN VEHICLE COORDINATES", &[NewtonPerMetre, Metre]),
         "<BELT|<ROUND|ANCHOR 1 X|Y|Z|ANCHOR 2 X|Y|Z|K1|K2|BREAK AT|RET 1|RET 2|<LENGTH",
@@ -43,7 +46,7 @@ fn input(pages: &mut Pages, case: &Case, units: Units) {
             &[belt.name.clone(), case.sphere(belt.sphere)],
             &belt.anchors_m.map(|a| l.vector(a.coords)).concat(),
             &[w.k1_n_per_m, w.k2_n_per_m].map(|x| k.show(x)),
-            &[l.show(w.break_m), ratio().show(w.returned_1), ratio().show(w.returned_2), rest],
+            &[l.show(w.break_m), ratio.show(w.returned_1), ratio.show(w.returned_2), rest],
         ]);
     }
     table.write_or(pages, &["NO BELTS"]);
@@ -70,8 +73,8 @@ fn output(pages: &mut Pages, units: Units, s: &Sample<'_>) {
     table.write_or(pages, &["7. NO BELTS"]);
 }
 
-/// Names and unstretched lengths.
-fn lengths(case: &Case, units: Units) -> impl Iterator<Item = (&str, String)> {
+/// Names and unstretched lengths, m.
+fn lengths(case: &Case) -> impl Iterator<Item = (&str, f64)> {
     let laid = case.model.setup().belts.iter().zip(&case.model.system().forces.belts);
-    laid.map(move |(belt, law)| (belt.name.as_str(), units.of(Metre).say(law.rest_length)))
+    laid.map(|(belt, law)| (belt.name.as_str(), law.rest_length))
 }

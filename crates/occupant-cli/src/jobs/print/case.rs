@@ -66,7 +66,7 @@ impl Case {
 
     /// The units of the scenario.
     pub(crate) fn units(&self) -> Units {
-        Units(self.loaded.scenario.units.unwrap_or_default())
+        self.loaded.scenario.units.unwrap_or_default().into()
     }
 
     /// A fact about the run from its record; `-` where it has none.

@@ -90,16 +90,14 @@ fn joint_head(name: &str) -> String {
     name.replace("RIGHT ", "R ").replace("LEFT ", "L ")
 }
 
-/// The ledger, but for what the elements have stored, the spine apart.
+/// The whole ledger.
 fn energy(pages: &mut Pages, units: Units, s: &Sample<'_>) {
-    const STATE: [&str; 6] = ["kinetic", "kinetic_relative", "gravity", "spine", "vehicle_work", "balance"];
-    let all = matching(s.model, "energy.*").into_iter();
-    let named = all.filter_map(|c| Some((c.name.strip_prefix("energy.")?.to_owned(), c)));
-    let columns: Vec<_> = named.filter(|(name, _)| STATE.contains(&&**name) || name.starts_with("lost_")).collect();
-    let heads: Vec<String> = columns.iter().map(|(name, _)| energy_head(name)).collect();
-    let title = units.heading("ENERGY ({}); THE BALANCE IS 0 FOR AN EXACT INTEGRATION;", &[Joule]);
+    let all = matching(s.model, "energy.*");
+    let heads: Vec<String> = all.iter().map(|c| energy_head(c.name.trim_start_matches("energy."))).collect();
+    let title =
+        units.heading("ENERGY ({}), SPINE, CONT AND BELTS STORED; BALANCE 0 FOR AN EXACT INTEGRATION;", &[Joule]);
     let mut table = Table::new(format!("{title} {} STEPS SO FAR", s.effort.steps), &heads.join("|"));
-    table.row(columns.iter().map(|(_, channel)| units.of(Joule).show(channel.value(s))));
+    table.row(all.iter().map(|channel| units.of(Joule).show(channel.value(s))));
     table.write(pages);
 }
 

@@ -16,12 +16,12 @@ mod unit;
 mod vehicle;
 
 pub(crate) use case::Case;
-pub(crate) use unit::Units;
 
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::replay;
 use page::Pages;
+use unit::Units;
 
 /// What a kind of force elements adds to the printout, beside contact surfaces and joints.
 pub(crate) struct Element {
@@ -66,6 +66,18 @@ pub(crate) fn printout(case: &Case, units: Units, every_s: Option<f64>) -> Resul
     }
     end_sheet::write(&mut pages, case, units);
     Ok(pages.text())
+}
+
+/// That a print interval is no multiple of the recorded one, so that the printed times are not evenly spaced.
+pub(crate) fn uneven(case: &Case, every_s: f64) -> Option<String> {
+    let output_s = case.model.setup().time.output_s;
+    let outputs = every_s / output_s;
+    ((outputs - outputs.round()).abs() > 1e-6).then(|| {
+        format!(
+            "the print interval, {every_s} s, is no multiple of the recorded one, {output_s} s: the first output at or after \
+             each print time is printed, at uneven times"
+        )
+    })
 }
 
 /// Numbers of the outputs to print: the first at or after each print time, and the last.

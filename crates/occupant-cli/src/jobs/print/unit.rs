@@ -9,30 +9,45 @@ use occupant_core::scenario::kind::UnitSystem;
 pub(crate) struct Unit {
     shown: Shown,
     decimals: usize,
+    as_read: bool,
 }
 
 /// The units of a printout: metre, kilogram, newton; or inch, pound-force, second with masses as weights in pounds.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct Units(pub(crate) UnitSystem);
+pub(crate) struct Units {
+    system: UnitSystem,
+    as_read: bool,
+}
 
 pub(crate) fn degree() -> Unit {
-    Units(UnitSystem::Si).of(Measured::Radian)
+    Units::from(UnitSystem::Si).of(Measured::Radian)
 }
 
 /// Of accelerations in units of standard gravity.
 pub(crate) fn g() -> Unit {
-    Unit { shown: Measured::MetrePerSecondSquared.shown_in("g"), decimals: 3 }
+    Unit { shown: Measured::MetrePerSecondSquared.shown_in("g"), decimals: 3, as_read: false }
 }
 
 /// Of plain numbers.
 pub(crate) fn ratio() -> Unit {
-    Units(UnitSystem::Si).of(Measured::One)
+    Units::from(UnitSystem::Si).of(Measured::One)
+}
+
+impl From<UnitSystem> for Units {
+    fn from(system: UnitSystem) -> Self {
+        Units { system, as_read: false }
+    }
 }
 
 impl Units {
+    /// The same units, for numbers that were read: with all their digits.
+    pub(crate) fn as_read(self) -> Self {
+        Units { as_read: true, ..self }
+    }
+
     /// Name of the system.
     pub(crate) fn name(self) -> &'static str {
-        match self.0 {
+        match self.system {
             UnitSystem::Si => "SI",
             UnitSystem::InchPound => "INCH-POUND",
         }
@@ -54,12 +69,13 @@ impl Units {
             M::One => [4, 4],
             M::Second => [6, 6],
         };
-        match (measured, self.0) {
-            (M::Radian, _) => Unit { shown: measured.shown_in("deg"), decimals: si },
-            (_, UnitSystem::Si) => Unit { shown: measured.shown(), decimals: si },
-            (M::Kilogram, UnitSystem::InchPound) => Unit { shown: measured.shown_in("lb"), decimals: inch_pound },
-            (_, UnitSystem::InchPound) => Unit { shown: measured.shown_in_inch_pound(), decimals: inch_pound },
-        }
+        let (shown, decimals) = match (measured, self.system) {
+            (M::Radian, _) => (measured.shown_in("deg"), si),
+            (_, UnitSystem::Si) => (measured.shown(), si),
+            (M::Kilogram, UnitSystem::InchPound) => (measured.shown_in("lb"), inch_pound),
+            (_, UnitSystem::InchPound) => (measured.shown_in_inch_pound(), inch_pound),
+        };
+        Unit { shown, decimals, as_read: self.as_read }
     }
 
     /// A heading with the names of units in the place of its `{}`.
@@ -79,9 +95,21 @@ impl Unit {
         let (value, decimals) = (si / self.shown.si, self.decimals);
         if value == 0.0 || value.abs() < 1e7 && value.abs() >= 0.5 * 0.1_f64.powi(decimals as i32) {
             // minus zero is zero
-            return format!("{:.decimals$}", value + 0.0);
+            return self.in_full(si, format!("{:.decimals$}", value + 0.0));
         }
-        if value.is_finite() { format!("{value:.3E}") } else { value.to_string().to_uppercase() }
+        if value.is_finite() { self.in_full(si, format!("{value:.3E}")) } else { value.to_string().to_uppercase() }
+    }
+
+    /// A number that was read and that `rounded` does not give: the shortest decimal of at most ten digits that does. `rounded`
+    /// where there is none, as of numbers that were computed or written in another unit.
+    pub(crate) fn in_full(self, si: f64, rounded: String) -> String {
+        let gives = |text: &String| text.parse::<f64>().is_ok_and(|number| number * self.shown.si == si);
+        if !self.as_read || gives(&rounded) {
+            return rounded;
+        }
+        let value = si / self.shown.si;
+        let found = (0..10).map(|places| format!("{value:.places$e}")).find(gives);
+        found.and_then(|text| text.parse::<f64>().ok()).map_or(rounded, |number| number.to_string())
     }
 
     /// The same with the name of the unit.
@@ -116,7 +144,7 @@ mod tests {
 
     #[test]
     fn numbers_keep_their_digits() {
-        let (si, inch_pound) = (Units(UnitSystem::Si), Units(UnitSystem::InchPound));
+        let (si, inch_pound) = (Units::from(UnitSystem::Si), Units::from(UnitSystem::InchPound));
         assert_eq!(inch_pound.of(Measured::Metre).show(0.254), "10.000");
         assert_eq!(inch_pound.of(Measured::Newton).say(inch_pound.of(Measured::Newton).size()), "1.00 LBF");
         assert_eq!(si.of(Measured::Metre).show(-0.12344), "-0.1234");
@@ -127,8 +155,21 @@ mod tests {
     }
 
     #[test]
+    fn numbers_that_were_read_keep_every_digit() {
+        let length = Units::from(UnitSystem::InchPound).as_read().of(Measured::Metre);
+        let inch = length.size();
+        for (number, shown) in
+            [(10.0, "10.000"), (3.7525, "3.7525"), (0.123_456_789, "0.123456789"), (2.5e-6, "0.0000025")]
+        {
+            assert_eq!(length.show(number * inch), shown);
+        }
+        assert_eq!(length.show(1.0 / 3.0), "13.123", "computed");
+        assert_eq!(length.show(f64::NAN), "NAN");
+    }
+
+    #[test]
     fn names_are_those_of_a_line_printer() {
-        let (si, inch_pound) = (Units(UnitSystem::Si), Units(UnitSystem::InchPound));
+        let (si, inch_pound) = (Units::from(UnitSystem::Si), Units::from(UnitSystem::InchPound));
         let names = |measured| [si.of(measured).name(), inch_pound.of(measured).name()];
         assert_eq!(names(Measured::Kilogram), ["KG", "LB"]);
         assert_eq!(names(Measured::KilogramMetreSquared), ["KG-M2", "LBF-IN-S2"]);

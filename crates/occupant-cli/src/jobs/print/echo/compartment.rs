@@ -1,6 +1,6 @@
 //! Materials and surfaces.
 
-use crash_measures::unit::Unit::{Metre, MetrePerSecond, NewtonPerMetre};
+use crash_measures::unit::Unit::{Metre, MetrePerSecond, NewtonPerMetre, One};
 use nalgebra::Point3;
 use occupant_core::forces::contact::flat_face::FlatFace;
 use occupant_core::forces::contact::material::Memory;
@@ -32,7 +32,7 @@ fn materials(case: &Case, units: Units) -> Table {
         };
         table.row_of(&[
             &[material.name.clone(), k.show(s.k1_n_per_m), k.show(s.k2_n_per_m), l.show(s.break_m)],
-            &ratio().vector([s.returned_1, s.returned_2, material.friction]),
+            &units.of(One).vector([s.returned_1, s.returned_2, material.friction]),
             &[v.show(material.friction_speed_m_s), memory.to_owned()],
         ]);
     }

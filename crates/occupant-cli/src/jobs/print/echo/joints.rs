@@ -1,13 +1,13 @@
 //! Dampers, stops and springs of the joints.
 
-use crash_measures::unit::Unit::{NewtonMetrePerRadian, NewtonMetreSecondPerRadian};
+use crash_measures::unit::Unit::{NewtonMetrePerRadian, NewtonMetreSecondPerRadian, Radian};
 use occupant_core::body::Joint;
 use occupant_core::forces::joint::{Joints, Stop};
 
 use crate::jobs::print::case::Case;
 use crate::jobs::print::page::Pages;
 use crate::jobs::print::table::Table;
-use crate::jobs::print::unit::{Units, degree};
+use crate::jobs::print::unit::Units;
 
 /// Writes the joints.
 pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {
@@ -27,7 +27,7 @@ fn balls(joints: &Joints, units: Units) -> Table {
             continue;
         };
         let rest = ball.spring.map(|s| match s.rest_rad {
-            Some(rest) => degree().show(rest),
+            Some(rest) => units.of(Radian).show(rest),
             None => "AS AT THE START".to_owned(),
         });
         let damping = [d.show(ball.damping_n_m_s), d.show(ball.twist_damping_n_m_s)];
@@ -59,8 +59,8 @@ fn label(joints: &Joints, joint: Joint) -> [String; 2] {
 
 fn stop(stop: Option<Stop>, units: Units) -> [String; 3] {
     [
-        degree().perhaps(stop.map(|s| s.begin_rad)),
-        degree().perhaps(stop.map(|s| s.full_rad)),
+        units.of(Radian).perhaps(stop.map(|s| s.begin_rad)),
+        units.of(Radian).perhaps(stop.map(|s| s.full_rad)),
         units.of(NewtonMetreSecondPerRadian).perhaps(stop.map(|s| s.damping_n_m_s)),
     ]
 }

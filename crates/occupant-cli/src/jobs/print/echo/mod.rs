@@ -1,6 +1,7 @@
 //! The echo of everything read, and of what was computed from it before the first step (the report's PRNTIN).
 
 mod body;
+mod cards;
 mod compartment;
 mod joints;
 mod path;
@@ -17,7 +18,9 @@ use super::{ELEMENTS, headings};
 
 /// Writes the echo.
 pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {
+    let units = units.as_read();
     run::write(pages, case, units);
+    cards::write(pages, case);
     pages.begin("INPUT: OCCUPANT");
     body::write(pages, case, units);
     joints::write(pages, case, units);

@@ -1,6 +1,6 @@
 //! The path of the vehicle.
 
-use crash_measures::unit::Unit::{Metre, MetrePerSecond};
+use crash_measures::unit::Unit::{Metre, MetrePerSecond, Radian, Second};
 use occupant_core::vehicle::{
     AfterEnd, Interpolation, PulsePath, PulseShape, Strength, TablePath, TravelDirection, VehiclePath, VehiclePose,
 };
@@ -9,7 +9,7 @@ use super::sensors;
 use crate::jobs::print::case::Case;
 use crate::jobs::print::page::Pages;
 use crate::jobs::print::table::Table;
-use crate::jobs::print::unit::{Units, degree, g, ratio};
+use crate::jobs::print::unit::{Units, g, ratio};
 
 pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {
     match &case.model.setup().path {
@@ -25,7 +25,7 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {
 
 pub(crate) fn pose(pose: &VehiclePose, units: Units) -> String {
     let a = &pose.attitude;
-    let [roll, pitch, yaw] = degree().vector([a.roll_rad, a.pitch_rad, a.yaw_rad]);
+    let [roll, pitch, yaw] = units.of(Radian).vector([a.roll_rad, a.pitch_rad, a.yaw_rad]);
     let l = units.of(Metre);
     format!("AT {} {}, ROLL {roll}, PITCH {pitch}, YAW {yaw} DEG", l.point(pose.position_m), l.name())
 }
@@ -101,8 +101,8 @@ fn stations(pages: &mut Pages, path: &TablePath, units: Units) {
     let mut table = Table::new(title, "SEC|X FORWARD|Y RIGHT|Z DOWN|ROLL|PITCH|YAW");
     for station in path.stations() {
         let a = &station.pose.attitude;
-        let angles = degree().vector([a.roll_rad, a.pitch_rad, a.yaw_rad]);
-        table.row_of(&[&[format!("{:.6}", station.time_s)], &l.vector(station.pose.position_m), &angles]);
+        let angles = units.of(Radian).vector([a.roll_rad, a.pitch_rad, a.yaw_rad]);
+        table.row_of(&[&[units.of(Second).show(station.time_s)], &l.vector(station.pose.position_m), &angles]);
     }
     table.write(pages);
 }

@@ -1,6 +1,6 @@
 //! How the occupant starts: the seating as read and as computed, the coordinates, the elements laid, the pairs passed.
 
-use crash_measures::unit::Unit::{Metre, MetrePerSecond, Newton, NewtonMetre};
+use crash_measures::unit::Unit::{Metre, MetrePerSecond, Newton, NewtonMetre, One, Radian};
 use occupant_core::model::seat::Seated;
 use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating};
 use occupant_core::model::settle::Settled;
@@ -36,19 +36,23 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {
         pages.say("*** THE RECORDED START DIFFERS FROM THE ONE COMPUTED HERE: ANOTHER VERSION OF THE PROGRAM ***");
     }
     ELEMENTS.iter().for_each(|element| (element.start)(pages, case, units));
-    let q = ReportCoordinates::from_state(&start.state);
-    coordinates(pages, units, "GENERALIZED COORDINATES AT THE START", &q);
+    let q = match &setup.posture {
+        InitialPosture::Seated(_) => &ReportCoordinates::from_state(&start.state),
+        // as read: the angles of a state are normalised
+        InitialPosture::Coordinates(q) | InitialPosture::Continued { coordinates: q, .. } => q,
+    };
+    coordinates(pages, units, "GENERALIZED COORDINATES AT THE START", q);
     let passed = case.passed(&start.history.memory.contacts);
     pairs(pages, case, "PAIRS WITH NARRY(J,K) = 0 AT THE START", &passed);
 }
 
 fn read(pages: &mut Pages, case: &Case, units: Units, seating: &Seating) {
-    let l = units.of(Metre);
+    let (l, angle) = (units.of(Metre), units.of(Radian));
     pages.fact("CUSHION", case.surface(seating.cushion));
     pages.fact("SEAT BACK", case.surface(seating.back));
     pages.fact("LATERAL PLACE", l.say(seating.lateral_m));
-    let [middle, upper, head, lower] = seating.lean_rad.map(|x| degree().show(x));
-    let [arms, elbows] = [seating.upper_arms_rad, seating.elbows_rad].map(|x| degree().show(x));
+    let [middle, upper, head, lower] = seating.lean_rad.map(|x| angle.show(x));
+    let [arms, elbows] = [seating.upper_arms_rad, seating.elbows_rad].map(|x| angle.show(x));
     pages.fact(
         "LEAN (DEG)",
         format!(
@@ -85,15 +89,15 @@ fn came_to_rest(pages: &mut Pages, units: Units, settled: &Settled) {
     pages.fact("SETTLED", format!("MOVED {moved} AND TURNED {turned}; {left}"));
 }
 
-/// q and their rates, four to a line, with the six decimals of cards.
+/// q and their rates, four to a line, with the six decimals of cards; with all their digits if they were read.
 pub(crate) fn coordinates(pages: &mut Pages, units: Units, title: &str, at: &ReportCoordinates) {
     let title = units.heading(&format!("{title}: Q(1) TO Q(3) ({{}}), THE REST (RAD), AND RATES (PER SEC)"), &[Metre]);
     let mut table = Table::new(title, "NO|Q|RATE|NO|Q|RATE|NO|Q|RATE|NO|Q|RATE");
     let rows = DOF.div_ceil(4);
     for row in 0..rows {
         let cell = |i: usize| {
-            let scale = if i < 3 { units.of(Metre).size() } else { 1.0 };
-            let show = |si: f64| format!("{:.6}", si / scale + 0.0);
+            let unit = units.of(if i < 3 { Metre } else { One });
+            let show = |si: f64| unit.in_full(si, format!("{:.6}", si / unit.size() + 0.0));
             [(i + 1).to_string(), show(at.q[i]), show(at.rates[i])]
         };
         let places = (0..4).map(|k| row + k * rows).filter(|&i| i < DOF);
