@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use occupant_core::results::summary::Summarizer;
+
 use super::evaluator::Record;
 use super::fitting::Fitting;
 use super::found::{Found, found};
@@ -31,14 +33,17 @@ struct FittedRuns {
     parts: Vec<f64>,
     /// The runs of each experiment.
     runs: Vec<Pair>,
+    /// What is to know of their figures.
+    caveats: Vec<String>,
 }
 
 impl Output<'_> {
     /// Fitted scenarios, history, plots, and fit.json last.
     pub(crate) fn write(&self, answer: &Answer, records: &[Record]) -> Result<Found, Failure> {
         let values = self.fitting.values(&answer.best.at);
-        let FittedRuns { written, parts, runs } = self.run_fitted(&values).map_err(broke_off)?;
-        let found = found(self.fitting, answer, records, written, &parts);
+        let FittedRuns { written, parts, runs, caveats } = self.run_fitted(&values).map_err(broke_off)?;
+        let mut found = found(self.fitting, answer, records, written, &parts);
+        found.warnings.extend(caveats);
         self.write_scenarios(&found)?;
         candidates::write(self.folder, self.fitting, records)?;
         let lines = [format!("{}: {} score {:.5}", found.study.file, found.objective, found.score.after)];
@@ -51,17 +56,21 @@ impl Output<'_> {
 
     /// Runs the scenarios with the numbers as they will be written, and without.
     fn run_fitted(&self, values: &[f64]) -> Result<FittedRuns, String> {
-        let FittedRuns { mut written, mut parts, mut runs } = FittedRuns::default();
+        let FittedRuns { mut written, mut parts, mut runs, mut caveats } = FittedRuns::default();
         for experiment in &self.fitting.experiments {
             let numbers = numbers(experiment, values)?;
             let opened = experiment.scenario_with(numbers.iter().map(|n| (&n.path, &n.text)));
             let (_, model, _) = opened.map_err(|e| e.to_string())?;
-            let after = experiment.run(&model)?;
+            let mut summarizer = Summarizer::new();
+            let after = experiment.run(&model, &mut summarizer)?;
+            let summary = summarizer.summary(None);
+            let of_run = summary.iter().flat_map(|summary| &summary.caveats);
+            caveats.extend(of_run.map(|caveat| format!("{}: {}", experiment.fitted, caveat.text)));
             parts.extend(experiment.misfits(self.fitting.fit.misfit, &after)?);
             written.extend(numbers);
             runs.push(Pair { before: experiment.run_with(None).ok(), after });
         }
-        Ok(FittedRuns { written, parts, runs })
+        Ok(FittedRuns { written, parts, runs, caveats })
     }
 
     fn write_scenarios(&self, found: &Found) -> Result<(), Failure> {
