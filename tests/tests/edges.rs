@@ -251,3 +251,31 @@ fn a_bead_that_goes_round_an_edge_is_not_caught_by_the_planes_extension() {
     // Measured: 2.2e-16.
     assert_below("place less free flight, m", (end - v(0.25, 0.0, -0.8)).norm(), 1e-12);
 }
+
+#[test]
+fn moments_rebuilt_from_the_contact_records_are_those_of_the_run() {
+    for edge_force in [EdgeForce::AtCentre, EdgeForce::AtContactPoint] {
+        let mut setup = over_the_edge(edge_force, 6.0, 1e-4);
+        setup.time.output_s = 0.005;
+        let model = Model::new(setup).unwrap();
+        let (mut off, mut on_edge) = (0.0_f64, 0);
+        simulate(
+            &model,
+            Watch(|s: &Sample<'_>| {
+                for c in s.contacts() {
+                    let segment = model.body().spheres[c.sphere].segment.index();
+                    let joint = s.vehicle.point_to_frame(s.evaluation.kinematics.joint[segment].to_vector());
+                    let rest = (c.point_m.coords - joint).cross(&(c.force_n - c.edge_n));
+                    let rebuilt = rest + (c.edge_point_m.coords - joint).cross(&c.edge_n);
+                    let moment = s.vehicle.vector_to_frame(s.evaluation.wrench[segment].moment.to_vector());
+                    off = off.max((rebuilt - moment).norm());
+                    on_edge += usize::from(c.edge_n.norm() > 1.0);
+                }
+            }),
+        )
+        .unwrap();
+        assert!(on_edge > 3, "{on_edge} outputs on the edge");
+        // of some 10 N·m
+        assert_below("moment less that of the records, N·m", off, 1e-9);
+    }
+}

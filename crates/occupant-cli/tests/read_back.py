@@ -114,6 +114,7 @@ def check_checkpoint(message):
             message.first_touch_surface,
             message.first_touch_time_s,
             message.first_touch_closing_m_s,
+            message.first_touch_speed_m_s,
         )
     }
     expect(len(touches) == 1, "first touches")

@@ -6,27 +6,7 @@ use occupant_core::results::outcome::{Outcome, Status};
 use occupant_core::scenario::{Diagnostic, Diagnostics};
 use placed_text::Severity;
 
-/// How well a run kept its energy: greatest imbalance over greatest kinetic energy.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Balance {
-    /// Off by 1 % at most.
-    Kept,
-    /// Off by more than 1 %: results are doubtful.
-    Doubtful,
-    /// Off by more than 10 %, or by what is no number: results mean nothing.
-    Lost,
-}
-
-impl Balance {
-    /// Of a `balance_error` as outcomes, summaries and tables hold it.
-    pub fn of(error: f64) -> Balance {
-        match error.abs() {
-            error if error <= 0.01 => Balance::Kept,
-            error if error <= 0.1 => Balance::Doubtful,
-            _ => Balance::Lost,
-        }
-    }
-}
+pub use occupant_core::results::outcome::Balance;
 
 /// How a run of many ended.
 #[derive(Clone, Debug, PartialEq)]
@@ -78,6 +58,7 @@ impl Ending {
     pub fn reason(&self) -> Option<String> {
         match self {
             Ending::Completed => None,
+            Ending::OutOfBalance(error) if error.is_nan() => Some("its energy balance is not known".to_owned()),
             Ending::OutOfBalance(error) => Some(format!("its energy balance is off by {:.0} %", 100.0 * error.abs())),
             Ending::Failed(reason) | Ending::Refused(reason) | Ending::Broken(reason) => Some(reason.clone()),
         }

@@ -77,6 +77,7 @@ fn seating(w: &mut Writer<'_>, layout: &CompartmentLayout) {
     POSTURE.into_iter().for_each(|angle| w.field(angle));
     let heels = ["XHPV", "ZHPV"].map(|n| w.quantity(n)).join(", ");
     w.set_with("heels", &format!("[{heels}]"), "card 10b, XHPV, ZHPV");
+    w.set("settle", "false");
     let velocity = ["VXVC", "VYVC", "VZVC"].map(|n| w.quantity(n)).join(", ");
     w.set_with("velocity", &format!("[{velocity}]"), "card 4, VXVC, VYVC, VZVC: of every point, vehicle axes");
     w.report.assumptions.push(

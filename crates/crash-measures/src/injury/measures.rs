@@ -183,7 +183,7 @@ impl Definition {
             Made::Never(reason) => (0, Err(reason.to_owned())),
             Made::Of(class, of) => {
                 let class = if readings.options.filtering == Filtering::None { 0 } else { class.hertz() as u32 };
-                (class, of(readings).map_err(|e| e.to_string()))
+                (class, of(readings).map_err(|e| why(&e)))
             }
         };
         let time_s = |of: fn(&Finding) -> Option<f64>| Some(readings.start_s + of(finding.as_ref().ok()?)?);
@@ -273,6 +273,17 @@ impl Readings {
         let used = duration_use(own(&self.femur_n[side])?, self.interval_s, &DurationLimit::FEMUR_R94_N)?;
         let remark = Some(format!("{:.0} N for {:.1} ms", used.level.max(0.0), used.duration_s * 1e3));
         Ok(Finding { remark, ..whole(used.ratio.max(0.0)) })
+    }
+}
+
+/// Why there is no value; the same words for all classes of filters.
+fn why(error: &SignalError) -> String {
+    match error {
+        SignalError::CornerAboveNyquist { nyquist_hz, .. } => {
+            let every_ms = (5e8 / nyquist_hz).round() / 1e6;
+            format!("outputs every {every_ms} ms are too coarse for the filter: run with output.interval = \"0.1 ms\"")
+        }
+        error => error.to_string(),
     }
 }
 

@@ -109,6 +109,21 @@ pub fn assess(signals: &Signals, options: &Options) -> Vec<Measure> {
     Readings::new(signals, options).measures()
 }
 
+/// By which part of its value each of `measures`, made of `signals`, changes when every other sample is left out, at most: what
+/// the interval between samples costs a measure is less. 0 where that is not known, or less than 1 % of all limits.
+pub fn coarseness(signals: &Signals, options: &Options, measures: &[Measure]) -> Vec<f64> {
+    let halves = [0, 1].map(|first| assess(&signals.every_other(first), options));
+    let change = |i: usize, m: &Measure| {
+        let part = |half: &Vec<Measure>| {
+            let (value, change) = (m.value?, (half[i].value? - m.value?).abs());
+            let matters = m.limits.iter().all(|limit| change > 0.01 * limit.most);
+            matters.then_some(change / value.abs())
+        };
+        halves.iter().filter_map(part).filter(|part| part.is_finite()).fold(0.0, f64::max)
+    };
+    measures.iter().enumerate().map(|(i, m)| change(i, m)).collect()
+}
+
 /// Rules whose limits apply to an occupant.
 pub const RULES: [Rule; 4] = [Rule::Fmvss208, Rule::UnR94, Rule::UnR137, Rule::SeverityIndex];
 

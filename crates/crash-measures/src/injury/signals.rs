@@ -46,6 +46,16 @@ impl Signals {
         self.len() == 0
     }
 
+    /// Half of the samples, from `first` on.
+    pub(super) fn every_other(&self, first: usize) -> Signals {
+        let mut half = self.clone();
+        half.interval_s *= 2.0;
+        for values in half.all_mut() {
+            *values = values.iter().skip(first).step_by(2).copied().collect();
+        }
+        half
+    }
+
     /// Every channel.
     pub fn all_mut(&mut self) -> impl Iterator<Item = &mut Vec<f64>> {
         [

@@ -21,4 +21,14 @@ impl Dummy {
             Self::Thor50M => "THOR 50M",
         }
     }
+
+    /// Its mass, kg, as generally known.
+    #[must_use]
+    pub fn mass_kg(self) -> f64 {
+        match self {
+            Self::HybridIii50M => 77.7,
+            Self::HybridIii5F => 49.0,
+            Self::Thor50M => 76.7,
+        }
+    }
 }

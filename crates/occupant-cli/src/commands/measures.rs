@@ -3,12 +3,15 @@
 use std::path::PathBuf;
 
 use clap::ValueEnum;
-use crash_measures::injury::{Filtering, Measure, Options, Signals, assess};
+use crash_measures::injury::{Filtering, Measure, Options};
 use crash_measures::measure::Dummy;
 use crash_measures::signal::CfcFamily;
 use serde::Serialize;
 
+use occupant_core::results::summary::{Caveat, Summary};
+
 use super::tables::measures::{long, remarks, risks};
+use super::tables::summary::Marks;
 use crate::base::failure::{Done, Failure};
 use crate::base::talk::{self, note, print};
 use crate::base::text_table::plain;
@@ -71,6 +74,7 @@ struct Answer<'a> {
     complete: bool,
     dummy: &'static str,
     measures: &'a [Measure],
+    caveats: &'a [Caveat],
     notes: Vec<String>,
 }
 
@@ -78,9 +82,7 @@ struct Answer<'a> {
 pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
     let results = Results::open(&args.run)?;
     let options = options(args);
-    let mut signals = Signals::new();
-    results.replay(&mut signals)?;
-    let measures = assess(&signals, &options);
+    let summary = results.summary_judged(options)?;
     let notes = results.notes();
     if args.json {
         print(&talk::json(&Answer {
@@ -88,14 +90,15 @@ pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
             title: &results.model.setup().title,
             complete: results.is_complete(),
             dummy: options.dummy.name(),
-            measures: &measures,
+            measures: &summary.measures,
+            caveats: &summary.caveats,
             notes,
         })?)?;
     } else {
         notes.iter().for_each(note);
-        print(&text(&results, &options, &measures))?;
+        print(&text(&results, &options, &summary))?;
     }
-    let exceeded = measures.iter().any(|m| m.limits.iter().any(|l| !l.passed));
+    let exceeded = summary.measures.iter().any(|m| m.limits.iter().any(|l| !l.passed));
     Ok(if exceeded && args.strict { Done::Unwell } else { Done::Well })
 }
 
@@ -114,7 +117,8 @@ fn options(args: &Args) -> Options {
     }
 }
 
-fn text(results: &Results, options: &Options, measures: &[Measure]) -> String {
+fn text(results: &Results, options: &Options, Summary { measures, caveats, .. }: &Summary) -> String {
+    let marks = Marks::of(caveats);
     let interval_ms = results.model.setup().time.output_s * 1e3;
     let filter = match options.filtering {
         Filtering::None => "unfiltered",
@@ -127,7 +131,8 @@ fn text(results: &Results, options: &Options, measures: &[Measure]) -> String {
         format!(
             "{title}\noutputs every {interval_ms} ms, {filter}; limits and risks of a {dummy}\n"
         ),
-        long(measures),
+        long(measures, &marks),
+        marks.explained().unwrap_or_default(),
         risks(measures),
         remarks(measures),
         "Limits and curves were read where others quote them, not in the rules: check the rule before a legal statement.\n"

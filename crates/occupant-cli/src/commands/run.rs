@@ -138,15 +138,11 @@ pub(crate) fn run(args: &Args) -> Result<Done, Failure> {
 }
 
 fn say_balance(balance: Balance, summary: &Summary) {
-    let percent = 100.0 * summary.energy.balance_error.abs();
-    let (word, means) = match balance {
-        Balance::Kept => return,
-        Balance::Doubtful => ("warning", "the results are doubtful"),
-        Balance::Lost => ("error", "the results mean nothing"),
-    };
-    say(&format!(
-        "{word}: the energy balance is off by {percent:.1} %: {means}\n = help: a smaller step or tolerance; `occupant check` shows the fastest time scale"
-    ));
+    let word = if balance == Balance::Lost { "error" } else { "warning" };
+    let help = "a smaller step or tolerance; `occupant check` shows the fastest time scale";
+    for caveat in summary.caveats.iter().filter(|caveat| caveat.name.starts_with("energy_balance")) {
+        say(&format!("{word}: {}\n = help: {help}", caveat.text));
+    }
 }
 
 /// The scenario with its end as `--until` has it.
@@ -212,9 +208,11 @@ fn show(
     }
     let error = estimate.map(ErrorEstimate::text).unwrap_or_default();
     let Some(ensemble) = ensemble else {
-        return print(&(summary_table(&run.summary, &run.written, &Marks::none()) + &error));
+        let table = summary_table(&run.summary, &run.written, &Marks::of(&run.summary.caveats));
+        return print(&(table + &error));
     };
-    let summary = summary_table(&run.summary, &run.written, &Marks::of(ensemble.unstable()));
+    let marks = Marks::of(&run.summary.caveats).and_unstable(ensemble.unstable());
+    let summary = summary_table(&run.summary, &run.written, &marks);
     let files: String = ensemble.files.iter().map(|f| format!("written   {f}\n")).collect();
     print(&format!("{summary}{error}\n{}{files}", ensemble_text(ensemble)))
 }

@@ -6,10 +6,11 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use crash_measures::injury::Options;
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, Series};
 use occupant_core::results::checkpoint::Checkpoint;
-use occupant_core::results::outcome::{Outcome, Status};
+use occupant_core::results::outcome::Outcome;
 use occupant_core::results::recorder::{Recorder, Watch};
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{RunStatus, Summarizer, Summary};
@@ -171,7 +172,15 @@ impl Results {
     /// # Errors
     /// None for a file that was opened.
     pub fn summary(&self) -> Result<Summary, Failure> {
-        let mut summarizer = Summarizer::new();
+        self.summary_judged(Options::default())
+    }
+
+    /// The same with measures that are filtered and judged as `options` say.
+    ///
+    /// # Errors
+    /// None for a file that was opened.
+    pub(crate) fn summary_judged(&self, options: Options) -> Result<Summary, Failure> {
+        let mut summarizer = Summarizer::judging(options);
         self.replay(&mut summarizer)?;
         let refused = |what: &str| Failure::plain(format!("{}: {what}", self.path.display()));
         summarizer.end(&self.outcome()).map_err(|e| refused(&e.to_string()))?;
@@ -186,17 +195,9 @@ impl Results {
 
     /// The outcome up to the last output.
     fn outcome(&self) -> Outcome {
-        let last = &self.checkpoints[self.checkpoints.len() - 1];
-        let progress = last.progress;
-        let greatest_j = progress.greatest_kinetic_j;
-        Outcome {
-            status: Status::Completed,
-            time_s: last.time_s,
-            effort: progress.effort,
-            first_touches: last.first_touches.clone(),
-            greatest_kinetic_j: greatest_j,
-            balance_error: if greatest_j > 0.0 { progress.greatest_imbalance_j / greatest_j } else { 0.0 },
-        }
+        let outcome = self.checkpoints[self.checkpoints.len() - 1].outcome(&self.model);
+        let is_known = self.status() != RunStatus::Failed;
+        Outcome { balance_error: if is_known { outcome.balance_error } else { f64::NAN }, ..outcome }
     }
 }
 

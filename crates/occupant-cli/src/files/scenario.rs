@@ -118,7 +118,13 @@ pub(crate) fn stored(file: &Path, run: &StoredRun) -> Result<(Loaded, Model, Dia
         found.cloned().ok_or_else(|| format!("{name} does not hold it"))
     };
     let loaded = Draft::read_bytes(bytes, Some(Format::Toml), RESOLVED)
-        .and_then(|draft| draft.load(&resolver))
+        .and_then(|mut draft| {
+            // files of version 0.1.0 do not say it, and then it was false
+            if !draft.get("posture.seat")?.is_empty() && draft.get("posture.settle")?.is_empty() {
+                draft.set_value("posture.settle", "false")?;
+            }
+            draft.load(&resolver)
+        })
         .map_err(|problems| Failure::plain(format!("the scenario in {name} cannot be read:\n{problems}")))?;
     let model = loaded.model();
     let (model, warnings) =

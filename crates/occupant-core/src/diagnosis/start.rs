@@ -5,13 +5,12 @@ use serde::Serialize;
 use super::rates::vehicle_at_start;
 use crate::forces::Instant;
 use crate::forces::contact::PASSED;
-use crate::forces::contact::face;
-use crate::forces::contact::flat_face::FlatFace;
-use crate::forces::contact::surface::{Frame, Outline};
+use crate::forces::contact::surface::Frame;
 use crate::forces::rate::Rate;
 use crate::forces::table::Tables;
 use crate::model::Model;
 use crate::model::seating::InitialPosture;
+use crate::model::settle::Settled;
 use crate::motion::mobility::Mobility;
 use crate::motion::vector::V3;
 use crate::results::recorder::{Flow, Recorder, RecorderError};
@@ -37,6 +36,8 @@ pub struct SeatStart {
     pub lower_legs_deg: f64,
     /// Outcome of settling, if it was asked for.
     pub settled: Option<SettleStart>,
+    /// What is left over without it.
+    pub unsettled: Option<SettleStart>,
 }
 
 /// How far settling moved the body, space axes, and what it left over.
@@ -131,13 +132,7 @@ pub(super) fn seat(model: &Model) -> Option<SeatStart> {
     let (InitialPosture::Seated(seating), Some(seated)) = (&setup.posture, &start.seated) else {
         return None;
     };
-    let settled = start.settled.map(|s| SettleStart {
-        moved_m: s.moved_m.norm(),
-        turned_deg: s.turned_rad.norm().to_degrees(),
-        residual_force_n: s.residual_force_n,
-        residual_moment_n_m: s.residual_moment_n_m,
-        weight_n: s.weight_n,
-    });
+    let [settled, unsettled] = [start.settled, start.unsettled].map(|s| s.map(settle_start));
     Some(SeatStart {
         cushion: setup.surfaces[seating.cushion].name.clone(),
         back: setup.surfaces[seating.back].name.clone(),
@@ -147,7 +142,18 @@ pub(super) fn seat(model: &Model) -> Option<SeatStart> {
         thighs_deg: seated.legs_rad[0].to_degrees(),
         lower_legs_deg: seated.legs_rad[1].to_degrees(),
         settled,
+        unsettled,
     })
+}
+
+fn settle_start(s: Settled) -> SettleStart {
+    SettleStart {
+        moved_m: s.moved_m.norm(),
+        turned_deg: s.turned_rad.norm().to_degrees(),
+        residual_force_n: s.residual_force_n,
+        residual_moment_n_m: s.residual_moment_n_m,
+        weight_n: s.weight_n,
+    }
 }
 
 /// Passed pairs whose sphere overlaps the face itself, not only its plane.
@@ -159,7 +165,8 @@ pub(super) fn behind(model: &Model, mobility: &Mobility<'_>) -> Vec<SphereBehind
         let (_, centre, _) = model.system().sphere(&mobility.kinematics, group.sphere);
         let radius_m = setup.body.spheres[group.sphere].radius_m;
         let passed = group.pairs.clone().filter(|&i| model.start().history.memory.contacts[i].phase == PASSED);
-        for part in passed.flat_map(|i| &contacts.pairs[i].parts) {
+        let pairs = passed.map(|i| &contacts.pairs[i]);
+        for (pair, part) in pairs.flat_map(|pair| pair.parts.iter().map(move |part| (pair, part))) {
             let plane = &model.faces()[part.surface];
             let place = match plane.frame {
                 Frame::Space => centre.to_vector(),
@@ -167,7 +174,7 @@ pub(super) fn behind(model: &Model, mobility: &Mobility<'_>) -> Vec<SphereBehind
             };
             let behind_m = plane.offset_m - plane.normal.dot(&place);
             let overlaps = behind_m > 0.0 && behind_m < radius_m;
-            if overlaps && beside_m(plane, &V3::of(&place)) < radius_m {
+            if overlaps && pair.beside(part, V3::of(&place)) < radius_m {
                 behind.push(SphereBehind {
                     sphere: setup.body.spheres[group.sphere].name.clone(),
                     surface: setup.surfaces[part.surface].name.clone(),
@@ -177,23 +184,4 @@ pub(super) fn behind(model: &Model, mobility: &Mobility<'_>) -> Vec<SphereBehind
         }
     }
     behind
-}
-
-/// Distance of a point's projection from the face, in the face's frame, m.
-fn beside_m(plane: &FlatFace, point: &V3<f64>) -> f64 {
-    let (u, v) = plane.plane_axes();
-    let flat = |p: &nalgebra::Vector3<f64>| [u.dot(p), v.dot(p)];
-    let outline = match &plane.outline {
-        Outline::Polygon(corners) => {
-            let corners: Vec<[f64; 2]> = corners.iter().map(|c| flat(&c.coords)).collect();
-            face::Outline::polygon(&corners)
-        }
-        Outline::Disc { centre_m, radius_m, .. } => {
-            let [u, v] = flat(&centre_m.coords);
-            face::Outline::Disc { centre: face::V2 { u, v }, radius: *radius_m }
-        }
-        Outline::Unbounded { .. } => face::Outline::Unbounded,
-    };
-    let [u, v] = flat(&point.to_vector());
-    outline.offset(face::V2 { u, v }).distance
 }

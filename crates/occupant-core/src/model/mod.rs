@@ -14,7 +14,7 @@ use crate::forces::{Forces, History, Instant};
 use crate::kernel::System;
 use crate::model::seat::{Seat, Seated, seat};
 use crate::model::seating::{InitialPosture, InitialVelocity, Seating};
-use crate::model::settle::{Settled, settle};
+use crate::model::settle::{Settled, kept, settle};
 use crate::model::setup::Setup;
 use crate::motion::frame::{Frames, Moving};
 use crate::motion::kinematics::Kinematics;
@@ -46,6 +46,8 @@ pub struct Start {
     pub seated: Option<Seated>,
     /// Outcome of settling, if it was asked for.
     pub settled: Option<Settled>,
+    /// What is left over of a seated body that was not to settle.
+    pub unsettled: Option<Settled>,
 }
 
 impl Model {
@@ -138,17 +140,20 @@ fn begin(setup: &Setup, faces: &[FlatFace], problems: &mut Problems) -> Option<(
     let data = setup.forces(faces);
     let forces = Forces::new(&data, &setup.body);
     let mut system = System { skeleton, spheres: Site::all(&setup.body), forces };
-    let (mut state, seated, settled) = match &setup.posture {
-        InitialPosture::Coordinates(q) | InitialPosture::Continued { coordinates: q, .. } => (q.to_state(), None, None),
+    let (mut state, seated, settled, unsettled) = match &setup.posture {
+        InitialPosture::Coordinates(q) | InitialPosture::Continued { coordinates: q, .. } => {
+            (q.to_state(), None, None, None)
+        }
         InitialPosture::Seated(seating) => {
             let place = seat_of(setup, faces, seating, problems)?;
             let (state, seated) = seat(&setup.body, seating, &place, &vehicle, setup.gravity_m_s2, problems)?;
             if seating.settle {
                 let (state, settled) = settle(setup, &data, &system, &vehicle, state);
                 settled.warn(problems);
-                (state, Some(seated), Some(settled))
+                (state, Some(seated), Some(settled), None)
             } else {
-                (state, Some(seated), None)
+                let unsettled = kept(setup, &data, &system, &vehicle, &state);
+                (state, Some(seated), None, Some(unsettled))
             }
         }
     };
@@ -169,7 +174,7 @@ fn begin(setup: &Setup, faces: &[FlatFace], problems: &mut Problems) -> Option<(
         history.memory.contacts = forces.contacts.continued(&at, passed);
         warn_apart(setup, forces, &history, passed, problems);
     }
-    Some((system, Start { state, history, seated, settled }))
+    Some((system, Start { state, history, seated, settled, unsettled }))
 }
 
 /// Names the pairs that are said to have passed each other and do not overlap: they are open, as if they were not listed.

@@ -54,6 +54,27 @@ impl Settled {
     }
 }
 
+/// What is left over where the body is.
+pub(crate) fn kept(
+    setup: &Setup,
+    data: &Data<'_>,
+    system: &System<f64>,
+    vehicle: &FrameMotion,
+    state: &State<f64>,
+) -> Settled {
+    settled(setup, &Vector6::zeros(), &load(setup, data, system, vehicle, state))
+}
+
+fn settled(setup: &Setup, x: &Vector6<f64>, r: &Vector6<f64>) -> Settled {
+    Settled {
+        moved_m: x.fixed_rows::<3>(0).into(),
+        turned_rad: x.fixed_rows::<3>(3) / LEVER_M,
+        residual_force_n: r.fixed_rows::<3>(0).norm(),
+        residual_moment_n_m: r.fixed_rows::<3>(3).norm() * LEVER_M,
+        weight_n: setup.body.mass_kg() * setup.gravity_m_s2,
+    }
+}
+
 /// Moves `state` as one piece to where contacts and belts balance its weight.
 pub(crate) fn settle(
     setup: &Setup,
@@ -87,14 +108,7 @@ pub(crate) fn settle(
             damping *= 4.0;
         }
     }
-    let settled = Settled {
-        moved_m: x.fixed_rows::<3>(0).into(),
-        turned_rad: x.fixed_rows::<3>(3) / LEVER_M,
-        residual_force_n: r.fixed_rows::<3>(0).norm(),
-        residual_moment_n_m: r.fixed_rows::<3>(3).norm() * LEVER_M,
-        weight_n,
-    };
-    (moved(&state, &x), settled)
+    (moved(&state, &x), settled(setup, &x, &r))
 }
 
 /// At most 2 cm (or the like in rotation) at a time: the forces are stiff and only piecewise smooth.

@@ -8,8 +8,8 @@ use crate::forces::{History, Memory, Misfit, STORED};
 use crate::model::Model;
 use crate::motion::state::State;
 use crate::quantity::FieldWords;
-use crate::results::energy::EnergyStart;
-use crate::results::outcome::FirstTouch;
+use crate::results::energy::{EnergyStart, balance_error};
+use crate::results::outcome::{FirstTouch, Outcome, Status};
 use crate::results::sample::Effort;
 
 /// A run at one of its outputs.
@@ -195,11 +195,13 @@ impl Checkpoint {
         let surfaces = touches.iter().map(|touch| touch.surface as u32).collect();
         let times_s = touches.iter().map(|touch| touch.time_s).collect();
         let closing_m_s = touches.iter().map(|touch| touch.closing_m_s).collect();
+        let speed_m_s = touches.iter().map(|touch| touch.speed_m_s).collect();
         let meaning = "index of the sphere of each first touch so far";
         let spheres = file.indices(words(11, "first_touch_sphere", meaning), spheres);
         let surfaces = file.indices(words(12, "first_touch_surface", "index of its surface"), surfaces);
         let times_s = file.numbers(words(13, "first_touch_time_s", "its time"), times_s);
         let closing_m_s = file.numbers(words(14, "first_touch_closing_m_s", "its closing speed"), closing_m_s);
+        let speed_m_s = file.numbers(words(37, "first_touch_speed_m_s", "its speed"), speed_m_s);
         if [surfaces.len(), times_s.len(), closing_m_s.len()] != [spheres.len(); 3] {
             return file.refuse("lists of first touches that do not fit each other");
         }
@@ -207,6 +209,8 @@ impl Checkpoint {
             sphere: sphere as usize,
             surface: surfaces[i] as usize,
             time_s: times_s[i],
+            // files of 0.1.0 have none
+            speed_m_s: speed_m_s.get(i).copied().unwrap_or(f64::NAN),
             closing_m_s: closing_m_s[i],
         };
         self.first_touches = spheres.into_iter().enumerate().map(touch).collect();
@@ -228,6 +232,19 @@ impl Checkpoint {
                 self.under_way = Some(StepStart { start_s, end_s, state: to_state(&state, file), memory });
             }
             _ => file.refuse("other than two times of a step"),
+        }
+    }
+
+    /// The outcome of a run of `model` that ends here.
+    pub fn outcome(&self, model: &Model) -> Outcome {
+        let Progress { effort, greatest_kinetic_j, greatest_imbalance_j, .. } = self.progress;
+        Outcome {
+            status: Status::Completed,
+            time_s: self.time_s,
+            effort,
+            first_touches: self.first_touches.clone(),
+            greatest_kinetic_j,
+            balance_error: balance_error(greatest_imbalance_j, greatest_kinetic_j, model.body().mass_kg()),
         }
     }
 

@@ -4,6 +4,7 @@
 //! weights. With W_v the work of the moving vehicle on the occupant, kinetic + gravity + what is stored without a work
 //! sum + Σ work sums − W_v stays what it was at the start.
 
+use crate::forces::contact::FASTEST_M_S;
 use crate::forces::{HeldBy, KINDS, STORED, StoredEnergy};
 use crate::motion::frame::Moving;
 use crate::motion::kinematics::Kinematics;
@@ -78,6 +79,18 @@ impl EnergyLedger {
         // U + V with V = V_p + V_s (49)
         let without = STORED.iter().filter(|energy| energy.held_by.is_none());
         without.fold(self.kinetic_j + self.gravity_j, |sum, energy| sum + self.stored_j[energy.at])
+    }
+}
+
+/// The greatest imbalance of a run as a fraction of the greatest kinetic energy relative to the vehicle. Not a number where a
+/// body of `mass_kg` has that energy only at speeds beyond those that contacts follow: it is no measure then.
+pub fn balance_error(imbalance_j: f64, kinetic_j: f64, mass_kg: f64) -> f64 {
+    if kinetic_j > 0.5 * mass_kg * FASTEST_M_S.powi(2) {
+        f64::NAN
+    } else if kinetic_j > 0.0 {
+        imbalance_j / kinetic_j
+    } else {
+        0.0
     }
 }
 

@@ -17,8 +17,31 @@ pub struct Outcome {
     pub first_touches: Vec<FirstTouch>,
     /// Greatest kinetic energy relative to the vehicle among the outputs, J.
     pub greatest_kinetic_j: f64,
-    /// Greatest energy imbalance among the outputs as a fraction of it.
+    /// Greatest energy imbalance among the outputs as a fraction of it; not a number where it is not known: the run failed, or
+    /// that kinetic energy is one of speeds above 100 m/s, which contacts do not follow.
     pub balance_error: f64,
+}
+
+/// How well a run kept its energy: greatest imbalance over greatest kinetic energy.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Balance {
+    /// Off by 1 % at most.
+    Kept,
+    /// Off by more than 1 %: results are doubtful.
+    Doubtful,
+    /// Off by more than 10 %, or by what is not known: results mean nothing.
+    Lost,
+}
+
+impl Balance {
+    /// Of a `balance_error` as outcomes, summaries and tables hold it.
+    pub fn of(error: f64) -> Balance {
+        match error.abs() {
+            error if error <= 0.01 => Balance::Kept,
+            error if error <= 0.1 => Balance::Doubtful,
+            _ => Balance::Lost,
+        }
+    }
 }
 
 /// Why a run ended.
@@ -41,7 +64,9 @@ pub struct FirstTouch {
     pub surface: usize,
     /// Time of the step's end, s; the start of the run for what touches at the start.
     pub time_s: f64,
-    /// Speed of the sphere's centre towards the surface, relative to it, m/s.
+    /// Speed of the sphere's centre relative to the surface, m/s.
+    pub speed_m_s: f64,
+    /// The part of it towards the surface, m/s.
     pub closing_m_s: f64,
 }
 

@@ -82,8 +82,12 @@ pub struct Contact {
     pub force_n: Vector3<f64>,
     /// Friction alone, vehicle axes, N.
     pub friction_n: Vector3<f64>,
-    /// Where the force acts: centre − r N̂, vehicle axes, m; the edge band by choice at the centre.
+    /// Where all of it but the edge force acts: centre − r N̂, vehicle axes, m.
     pub point_m: Point3<f64>,
+    /// The edge force alone, vehicle axes, N.
+    pub edge_n: Vector3<f64>,
+    /// Where the edge force acts, by choice `point_m` or the centre, vehicle axes, m.
+    pub edge_point_m: Point3<f64>,
     /// Speed of slip, m/s.
     pub slip_m_s: f64,
 }
@@ -230,7 +234,7 @@ impl<'a> Sample<'a> {
             }
         };
         let part = &system.forces.contacts.pairs[t.pair].parts[t.part as usize];
-        let normal = to_vehicle(t.normal);
+        let (normal, centre_m) = (to_vehicle(t.normal), self.sphere_centre_m(t.sphere));
         Contact {
             sphere: t.sphere,
             surface: part.surface,
@@ -238,7 +242,9 @@ impl<'a> Sample<'a> {
             normal_force_n: t.normal_force,
             force_n: to_vehicle(t.normal * t.normal_force + t.edge + t.friction),
             friction_n: to_vehicle(t.friction),
-            point_m: self.sphere_centre_m(t.sphere) - normal * site.radius,
+            point_m: centre_m - normal * site.radius,
+            edge_n: to_vehicle(t.edge),
+            edge_point_m: centre_m - normal * (site.radius * system.forces.contacts.edge_lever),
             slip_m_s: t.slip.norm_squared().sqrt(),
         }
     }

@@ -23,7 +23,7 @@ use crate::motion::integrate::bogacki_shampine::Tolerance;
 use crate::motion::layout::{FREE, HINGED, TREE};
 use crate::motion::state::State;
 use crate::results::checkpoint::{Checkpoint, CheckpointError, Progress};
-use crate::results::energy::{EnergyLedger, EnergyStart};
+use crate::results::energy::{EnergyLedger, EnergyStart, balance_error};
 use crate::results::outcome::{Outcome, RecordingFailed, Status, StepError};
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::{Effort, Sample};
@@ -49,6 +49,7 @@ pub struct Run {
     energy_start: Option<EnergyStart>,
     greatest_kinetic_j: f64,
     greatest_imbalance_j: f64,
+    mass_kg: f64,
     actions: Actions<f64>,
     /// Times at which the motion of the vehicle jumps, s.
     pub breaks_s: Vec<f64>,
@@ -79,6 +80,7 @@ impl Run {
             energy_start: None,
             greatest_kinetic_j: 0.0,
             greatest_imbalance_j: 0.0,
+            mass_kg: model.body().mass_kg(),
             actions: Actions::with_room(&model.system().forces),
             seen: Seen::new(model),
             breaks_s: model.setup().path.breaks_s(),
@@ -233,14 +235,17 @@ impl Run {
     }
 
     fn outcome(self, status: Status) -> Outcome {
-        let greatest = self.greatest_kinetic_j;
+        let balance_error = match status {
+            Status::Failed(_) => f64::NAN,
+            _ => balance_error(self.greatest_imbalance_j, self.greatest_kinetic_j, self.mass_kg),
+        };
         Outcome {
             status,
             time_s: self.time_s,
             effort: self.effort,
             first_touches: self.seen.touches,
-            greatest_kinetic_j: greatest,
-            balance_error: if greatest > 0.0 { self.greatest_imbalance_j / greatest } else { 0.0 },
+            greatest_kinetic_j: self.greatest_kinetic_j,
+            balance_error,
         }
     }
 

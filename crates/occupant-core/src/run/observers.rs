@@ -3,6 +3,7 @@
 use crate::forces::Observer;
 use crate::forces::contact::Touch;
 use crate::model::Model;
+use crate::motion::vector::V3;
 use crate::results::outcome::FirstTouch;
 
 /// A sphere against a part of a face, as first touches tell it.
@@ -13,12 +14,15 @@ pub(super) struct Meeting {
     /// Which of the pair's parts.
     pub part: usize,
     pub closing_m_s: f64,
+    /// Relative to the face.
+    pub velocity_m_s: V3<f64>,
 }
 
 impl From<&Touch<f64>> for Meeting {
     #[inline(always)]
     fn from(touch: &Touch<f64>) -> Self {
-        Meeting { sphere: touch.sphere, pair: touch.pair, part: touch.part as usize, closing_m_s: touch.closing }
+        let (sphere, pair, part) = (touch.sphere, touch.pair, touch.part as usize);
+        Meeting { sphere, pair, part, closing_m_s: touch.closing, velocity_m_s: touch.velocity }
     }
 }
 
@@ -53,7 +57,8 @@ impl Seen {
         let known = &mut self.known[sphere * self.surfaces + surface];
         if !*known {
             *known = true;
-            self.touches.push(FirstTouch { sphere, surface, time_s, closing_m_s: meeting.closing_m_s });
+            let speed_m_s = meeting.velocity_m_s.norm_squared().sqrt();
+            self.touches.push(FirstTouch { sphere, surface, time_s, speed_m_s, closing_m_s: meeting.closing_m_s });
         }
     }
 }

@@ -48,7 +48,11 @@ impl Loaded {
         let mut document = draft.document;
         let scenario: Scenario = document.sections("scenario")?;
         document.root = expand(&mut document.sources, &document.root);
-        let explicit = document.sections("scenario")?;
+        let mut explicit: Scenario = document.sections("scenario")?;
+        // result files hold the explicit form, and what it leaves out was false in version 0.1.0
+        if let Some(posture) = &mut explicit.posture {
+            posture.settle.get_or_insert(true);
+        }
         let path_table = read_path_table(&mut document, &scenario, resolver)?;
         Ok(Loaded { scenario, explicit, document, path_table })
     }

@@ -14,7 +14,7 @@ pub(crate) fn check_text(d: &Diagnosis) -> String {
         parts.push(seating(seat));
     }
     parts.push(contacts(d));
-    parts.extend(elements::texts(&d.elements, &Marks::none()));
+    parts.extend(elements::texts(&d.elements, &Marks::default()));
     parts.push(sphere_rates(d));
     if !d.other_rates.is_empty() {
         parts.push(other_rates(d));
@@ -90,6 +90,10 @@ fn seating(seat: &SeatStart) -> String {
                 s.weight_n
             ),
         ));
+    }
+    if let Some(s) = seat.unsettled.filter(|s| s.residual_force_n > 0.1 * s.weight_n) {
+        let left = format!("{:.0} N left over of a weight of {:.0} N", s.residual_force_n, s.weight_n);
+        lines.push(("unsettled", format!("{left} spoil the first 50 ms; posture.settle = true mends it")));
     }
     facts(&lines)
 }

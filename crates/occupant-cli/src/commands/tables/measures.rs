@@ -15,14 +15,20 @@ pub(crate) fn short(measures: &[Measure], marks: &Marks) -> String {
 }
 
 /// All measures; each limit on a line of its own.
-pub(crate) fn long(measures: &[Measure]) -> String {
-    table(measures.iter(), &Marks::none())
+pub(crate) fn long(measures: &[Measure], marks: &Marks) -> String {
+    table(measures.iter(), marks)
 }
 
-/// What to know of measures, a line each.
+/// What to know of measures, a line for all of which the same is to know.
 pub(crate) fn remarks(measures: &[Measure]) -> String {
-    let remark = |m: &Measure| Some(format!("{}: {}\n", m.label, m.remark.as_ref()?));
-    measures.iter().filter_map(remark).collect()
+    let mut remarks: Vec<(&str, Vec<&str>)> = Vec::new();
+    for (label, remark) in measures.iter().filter_map(|m| Some((m.label, m.remark.as_ref()?))) {
+        match remarks.iter_mut().find(|known| known.0 == remark) {
+            Some((_, labels)) => labels.push(label),
+            None => remarks.push((remark, vec![label])),
+        }
+    }
+    remarks.iter().map(|(remark, labels)| format!("{}: {remark}\n", labels.join(", "))).collect()
 }
 
 /// Risks of injury, a line for each curve.

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use occupant_core::results::summary::{
-    Acceleration, ContactBegin, FirstContact, Level, Peak, RunStatus, Summary, word,
+    Acceleration, Caveat, ContactBegin, FirstContact, Level, Peak, RunStatus, Summary, word,
 };
 
 use super::{elements, measures};
@@ -11,32 +11,41 @@ use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, Table, facts, number, plain, without_zeros};
 use crate::jobs::run::recording::Written;
 
-/// Results that are not stable in an ensemble: they carry a star.
+/// Figures that are not to be quoted as they stand: those that a caveat touches carry a `!`, those that are not stable in an
+/// ensemble a star.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Marks(Option<BTreeSet<String>>);
+pub(crate) struct Marks<'a> {
+    caveats: &'a [Caveat],
+    /// None if no ensemble was run.
+    unstable: Option<BTreeSet<&'a str>>,
+}
 
-impl Marks {
-    /// No ensemble was run.
-    pub(crate) fn none() -> Self {
-        Marks(None)
+impl<'a> Marks<'a> {
+    pub(crate) fn of(caveats: &'a [Caveat]) -> Self {
+        Marks { caveats, unstable: None }
     }
 
-    pub(crate) fn of<'a>(unstable: impl IntoIterator<Item = &'a str>) -> Self {
-        Marks(Some(unstable.into_iter().map(str::to_owned).collect()))
+    pub(crate) fn and_unstable(self, unstable: impl IntoIterator<Item = &'a str>) -> Self {
+        Marks { unstable: Some(unstable.into_iter().collect()), ..self }
     }
 
-    /// The text of a figure with its star, or with the room for one, so that columns stay in line.
-    pub(crate) fn put(&self, figure: &str, text: String) -> String {
-        match &self.0 {
-            None => text,
-            Some(marked) if marked.contains(figure) => text + "*",
-            Some(_) => text + " ",
+    /// The text of a figure with its marks, or with the room for them, so that columns stay in line.
+    pub(crate) fn put(&self, figure: &str, mut text: String) -> String {
+        if !self.caveats.is_empty() {
+            text.push(if self.caveats.iter().any(|caveat| caveat.touches(figure)) { '!' } else { ' ' });
         }
+        if let Some(unstable) = &self.unstable {
+            text.push(if unstable.contains(figure) { '*' } else { ' ' });
+        }
+        text
     }
 
-    fn explained(&self) -> Option<String> {
-        let marked = self.0.as_ref()?;
-        (!marked.is_empty()).then(|| "* NOT STABLE under small changes, see below\n".to_owned())
+    /// What the marks mean, a line for each caveat; none if nothing is marked.
+    pub(crate) fn explained(&self) -> Option<String> {
+        let star = self.unstable.iter().filter(|unstable| !unstable.is_empty());
+        let star = star.map(|_| "* NOT STABLE under small changes, see below\n".to_owned());
+        let lines: Vec<_> = self.caveats.iter().map(|caveat| format!("! {}\n", caveat.text)).chain(star).collect();
+        (!lines.is_empty()).then(|| lines.concat())
     }
 }
 
@@ -95,7 +104,7 @@ fn acceleration(name: &str, part: &Acceleration, marks: &Marks) -> [String; 6] {
 fn first_contacts(summary: &Summary, marks: &Marks) -> String {
     let mut table = Table::new(&[
         (Left, &["contact", "surface"]),
-        (Right, &["at, ms", "speed, m/s", "greatest force, N", "at, ms"]),
+        (Right, &["at, ms", "speed, m/s", "closing, m/s", "greatest force, N", "at, ms"]),
         (Left, &["on"]),
     ]);
     for first in &summary.first_contacts {
@@ -105,7 +114,7 @@ fn first_contacts(summary: &Summary, marks: &Marks) -> String {
 }
 
 /// A row for each surface that a sphere touched; the greatest force of the whole run stands in the first.
-fn rows_of(summary: &Summary, first: &FirstContact, marks: &Marks) -> Vec<[String; 7]> {
+fn rows_of(summary: &Summary, first: &FirstContact, marks: &Marks) -> Vec<[String; 8]> {
     let peak = summary.sphere_forces.iter().find(|p| p.sphere == first.sphere);
     let none = || NONE.to_owned();
     let name = word(&first.sphere);
@@ -115,34 +124,35 @@ fn rows_of(summary: &Summary, first: &FirstContact, marks: &Marks) -> Vec<[Strin
         None => [none(), none(), none()],
     };
     let own = summary.contacts.iter().filter(|c| c.sphere == first.sphere);
-    let mut touches: Vec<[String; 3]> = own.map(touch).collect();
-    let is_first = |t: &&[String; 3]| Some(&t[1]) == first.contact.as_ref().map(|c| ms(c.time_s)).as_ref();
+    let mut touches: Vec<[String; 4]> = own.map(touch).collect();
+    let is_first = |t: &&[String; 4]| Some(&t[1]) == first.contact.as_ref().map(|c| ms(c.time_s)).as_ref();
     let at = touches.iter().position(|t| is_first(&t));
-    if let Some([_, time, speed]) = at.and_then(|i| touches.get_mut(i)) {
-        *time = mark("first_time", std::mem::take(time));
-        *speed = mark("first_speed", std::mem::take(speed));
+    if let Some([_, texts @ ..]) = at.and_then(|i| touches.get_mut(i)) {
+        for (text, figure) in texts.iter_mut().zip(["first_time", "first_speed", "first_closing"]) {
+            *text = mark(figure, std::mem::take(text));
+        }
     }
     if touches.is_empty() {
-        touches.push([none(), none(), none()]);
+        touches.push([none(), none(), none(), none()]);
     }
-    let row = |(i, [surface, at, speed]): (usize, [String; 3])| {
+    let row = |(i, [surface, at, speed, closing]): (usize, [String; 4])| {
         let (name, [n, when, on]) = match i {
             0 => (first.sphere.clone(), force.clone()),
             _ => (String::new(), [String::new(), String::new(), String::new()]),
         };
-        [name, surface, at, speed, n, when, on]
+        [name, surface, at, speed, closing, n, when, on]
     };
     touches.into_iter().enumerate().map(row).collect()
 }
 
-/// Surface, time and closing speed; what touches at the start has not arrived.
-fn touch(contact: &ContactBegin) -> [String; 3] {
-    let [time, speed] = if contact.at_start {
-        ["at start".to_owned(), NONE.to_owned()]
+/// Surface, time, speed and its part towards the surface; what touches at the start has not arrived.
+fn touch(contact: &ContactBegin) -> [String; 4] {
+    let [time, speed, closing] = if contact.at_start {
+        ["at start", NONE, NONE].map(str::to_owned)
     } else {
-        [ms(contact.time_s), number(contact.closing_m_s, 2)]
+        [ms(contact.time_s), number(contact.speed_m_s, 2), number(contact.closing_m_s, 2)]
     };
-    [contact.surface.clone(), time, speed]
+    [contact.surface.clone(), time, speed, closing]
 }
 
 fn trust(summary: &Summary, written: &Written, marks: &Marks) -> String {
@@ -162,14 +172,12 @@ fn trust(summary: &Summary, written: &Written, marks: &Marks) -> String {
         ];
         lines.push(("head excursion", ways.join(", ")));
     }
-    lines.push((
-        "energy balance",
-        format!(
-            "error {:.1e} of the greatest kinetic energy in the vehicle, {} J",
-            summary.energy.balance_error,
-            number(summary.energy.greatest_kinetic_j, 0)
-        ),
-    ));
+    let error = match summary.energy.balance_error {
+        error if error.is_nan() => "not known".to_owned(),
+        error => format!("error {error:.1e}"),
+    };
+    let kinetic_j = number(summary.energy.greatest_kinetic_j, 0);
+    lines.push(("energy balance", format!("{error} of the greatest kinetic energy in the vehicle, {kinetic_j} J")));
     lines.push(("integration", integration(summary)));
     match written {
         Written::Nothing => {}

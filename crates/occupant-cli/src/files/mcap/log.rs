@@ -35,8 +35,8 @@ impl Names {
 
     pub(crate) fn first_touch(&self, touch: &FirstTouch) -> String {
         format!(
-            "{} touches {} first at t = {:.6} s, closing at {:.3} m/s",
-            self.spheres[touch.sphere], self.surfaces[touch.surface], touch.time_s, touch.closing_m_s
+            "{} touches {} first at t = {:.6} s, at {:.3} m/s, closing at {:.3} m/s",
+            self.spheres[touch.sphere], self.surfaces[touch.surface], touch.time_s, touch.speed_m_s, touch.closing_m_s
         )
     }
 }

@@ -41,6 +41,9 @@ pub(crate) struct Row {
     pub(crate) status: Status,
     /// Why, where it did not complete; else empty.
     pub(crate) reason: String,
+    /// Names of the caveats on its figures, by blanks.
+    #[serde(default)]
+    pub(crate) caveats: String,
     /// Values, by [`super::manifest::Column`]: inputs, then figures.
     pub(crate) cells: Vec<Cell>,
     /// Time it took, s. It differs from run to run.
@@ -59,7 +62,7 @@ impl Row {
             Ending::Broken(reason) => (Status::Broken, reason.clone()),
         };
         let kernel = run.ran.as_ref().map_or("", |ran| ran.kernel.name()).to_owned();
-        Row { index: run.index, status, reason, cells, wall_time_s: run.wall_time_s, kernel }
+        Row { index: run.index, status, reason, caveats: String::new(), cells, wall_time_s: run.wall_time_s, kernel }
     }
 
     /// Whether two rows are the same bits, wall time and kernel aside.
@@ -69,7 +72,7 @@ impl Row {
             _ => a == b,
         };
         self.index == other.index
-            && (self.status, &self.reason) == (other.status, &other.reason)
+            && (self.status, &self.reason, &self.caveats) == (other.status, &other.reason, &other.caveats)
             && self.cells.len() == other.cells.len()
             && self.cells.iter().zip(&other.cells).all(same)
     }
@@ -84,6 +87,7 @@ pub(crate) mod tests {
             index,
             status: [Status::Completed, Status::Failed, Status::Refused, Status::Broken][(index % 4) as usize],
             reason: "ä reason, \"quoted\"\nin two lines".repeat((index % 3) as usize),
+            caveats: "neck_beyond_stop".repeat((index % 2) as usize),
             cells: vec![
                 Cell::Number(index as f64 * 0.1),
                 Cell::Absent,

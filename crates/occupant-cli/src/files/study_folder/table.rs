@@ -1,6 +1,6 @@
 //! Rows of a study as tables: Parquet for pyarrow, DuckDB and the like, CSV where asked for.
 //!
-//! `index`, the inputs, `status`, `reason`, the figures, `wall_time_s`, `kernel`. The metadata of a Parquet file hold the
+//! `index`, the inputs, `status`, `reason`, `caveats`, the figures, `wall_time_s`, `kernel`. The metadata of a Parquet file hold the
 //! manifest (`occupant.sweep`) and the units (`occupant.units`: a JSON object, column → unit).
 
 use std::path::PathBuf;
@@ -44,9 +44,10 @@ impl StudyTable {
     /// The operating system refuses.
     pub(crate) fn row(&mut self, row: &Row) -> Result<(), Failure> {
         let (inputs, figures) = row.cells.split_at_checked(self.inputs).unwrap_or((&[], &[]));
-        let reason = if row.reason.is_empty() { Cell::Absent } else { Cell::text(&row.reason) };
+        let [reason, caveats] =
+            [&row.reason, &row.caveats].map(|text| if text.is_empty() { Cell::Absent } else { Cell::text(text) });
         let begin = [Cell::count(row.index)];
-        let ending = [Cell::text(row.status.word()), reason];
+        let ending = [Cell::text(row.status.word()), reason, caveats];
         let work = [Cell::Number(row.wall_time_s), Cell::text(&row.kernel)];
         let cells = [&begin[..], inputs, &ending, figures, &work].concat();
         self.files.iter_mut().try_for_each(|file| file.row(cells.clone()))
@@ -69,7 +70,7 @@ fn columns(manifest: &Manifest, inputs: usize) -> Vec<(&str, Kind)> {
     };
     let named: Vec<(&str, Kind)> = manifest.columns.iter().map(|c| (c.name.as_str(), of(c))).collect();
     let (inputs, figures) = named.split_at(inputs);
-    let ending = [("status", Kind::Text), ("reason", Kind::MaybeText)];
+    let ending = [("status", Kind::Text), ("reason", Kind::MaybeText), ("caveats", Kind::MaybeText)];
     let work = [("wall_time_s", Kind::Number), ("kernel", Kind::Text)];
     [&[("index", Kind::Count)][..], inputs, &ending, figures, &work].concat()
 }

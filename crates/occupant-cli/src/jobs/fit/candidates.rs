@@ -72,6 +72,7 @@ fn rows(fitting: &Fitting, records: &[Record]) -> Vec<Row> {
                 Some(_) => Status::Failed,
             },
             reason: record.reason.clone().unwrap_or_default(),
+            caveats: String::new(),
             cells,
             wall_time_s: record.wall_time_s,
             kernel: record.kernel.clone(),

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
 use occupant_core::results::channel::{Channel, Series};
+use occupant_core::results::recorder::Recorder;
 use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Diagnostics, Loaded};
 use occupant_study::ending::Ending;
@@ -165,15 +166,15 @@ impl Experiment {
         self.model_with(assignments.iter().map(|a| (&a.path, a.text())))
     }
 
-    /// The recorded channels of a run of a model of it, and by how much its energy balance is off.
+    /// The recorded channels of a run of a model of it, which `also` sees too.
     ///
     /// # Errors
     /// An integration that fails; a run whose results mean nothing.
-    pub(crate) fn run(&self, model: &Model) -> Result<(Series, f64), String> {
+    pub(crate) fn run(&self, model: &Model, also: impl Recorder) -> Result<Series, String> {
         let mut series = Series::new(self.recorded.clone());
-        let outcome = simulate(model, &mut series).map_err(|e| e.to_string())?;
+        let outcome = simulate(model, (&mut series, also)).map_err(|e| e.to_string())?;
         match Ending::of(&outcome).and_then(|ending| ending.reason()) {
-            None => Ok((series, outcome.balance_error)),
+            None => Ok(series),
             Some(reason) => Err(reason),
         }
     }
@@ -183,7 +184,7 @@ impl Experiment {
     /// # Errors
     /// A scenario that is refused; as [`Experiment::run`].
     pub(crate) fn run_with(&self, values: Option<&[f64]>) -> Result<Series, String> {
-        self.run(&self.model_of(values).map_err(|e| e.to_string())?).map(|(series, _)| series)
+        self.run(&self.model_of(values).map_err(|e| e.to_string())?, ())
     }
 
     /// The histories of a run that count, by filter.

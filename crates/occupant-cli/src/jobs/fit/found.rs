@@ -1,7 +1,6 @@
 //! What a fit has found, in the form of fit.json. Nothing in it depends on the day, the machine or the number of threads.
 
 use occupant_study::ApplyChoice;
-use occupant_study::ending::Balance;
 use occupant_study::search::{Descent, Stage};
 use serde::Serialize;
 
@@ -188,7 +187,7 @@ pub(crate) fn found(
     answer: &Answer,
     records: &[Record],
     written: Vec<Fitted>,
-    (parts, balance_error): (&[(f64, Accord)], f64),
+    parts: &[(f64, Accord)],
 ) -> Found {
     let (misfit, study) = (fitting.fit.misfit, &fitting.manifest.texts[0]);
     let before = (answer.before.reason.is_none()).then_some(answer.before.score);
@@ -199,7 +198,7 @@ pub(crate) fn found(
     let mut warnings = fitting.warnings.clone();
     warnings.extend(remarks(fitting, answer, &parameters, &evaluations));
     let channels = channels(fitting, answer, parts);
-    warnings.extend(doubts(&channels, balance_error));
+    warnings.extend(channels.iter().filter_map(|c| c.accord.caution(&c.test, &c.channel)));
     let after: Vec<f64> = parts.iter().map(|(misfit, _)| *misfit).collect();
     Found {
         program: fitting.manifest.program.clone(),
@@ -313,16 +312,6 @@ fn remarks(
     let same = descents.iter().filter(|d| d.best.value <= limit.max(best + fitting.fit.tolerance));
     if descents.len() > 1 && same.count() < 2 {
         all.push("only one descent has found this score: a greater budget may find a better one".to_owned());
-    }
-    all
-}
-
-/// What makes the tests or the fitted run doubtful.
-fn doubts(channels: &[ChannelFound], balance_error: f64) -> Vec<String> {
-    let mut all: Vec<String> = channels.iter().filter_map(|c| c.accord.caution(&c.test, &c.channel)).collect();
-    if Balance::of(balance_error) != Balance::Kept {
-        let percent = 100.0 * balance_error;
-        all.push(format!("the energy balance of the fitted run is off by {percent:.1} %: the results are doubtful"));
     }
     all
 }

@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::Path;
 
+use occupant_core::results::summary::Summarizer;
+
 use super::accord::Accord;
 use super::evaluator::Record;
 use super::fitting::Fitting;
@@ -34,16 +36,17 @@ struct FittedRuns {
     parts: Vec<(f64, Accord)>,
     /// The runs of each experiment.
     runs: Vec<Pair>,
-    /// The greatest of their balance errors.
-    balance_error: f64,
+    /// What is to know of their figures.
+    caveats: Vec<String>,
 }
 
 impl Output<'_> {
     /// Fitted scenarios, history, plots, and fit.json last.
     pub(crate) fn write(&self, answer: &Answer, records: &[Record]) -> Result<Found, Failure> {
         let values = self.fitting.values(&answer.best.at);
-        let FittedRuns { written, parts, runs, balance_error } = self.run_fitted(&values).map_err(broke_off)?;
-        let found = found(self.fitting, answer, records, written, (&parts, balance_error));
+        let FittedRuns { written, parts, runs, caveats } = self.run_fitted(&values).map_err(broke_off)?;
+        let mut found = found(self.fitting, answer, records, written, &parts);
+        found.warnings.extend(caveats);
         self.write_scenarios(&found)?;
         let tables = candidates::write(self.folder, self.fitting, records)?;
         tables.iter().try_for_each(|table| self.sums.add(table))?;
@@ -59,19 +62,22 @@ impl Output<'_> {
 
     /// Runs the scenarios with the numbers as they will be written, and without.
     fn run_fitted(&self, values: &[f64]) -> Result<FittedRuns, String> {
-        let FittedRuns { mut written, mut parts, mut runs, mut balance_error } = FittedRuns::default();
+        let FittedRuns { mut written, mut parts, mut runs, mut caveats } = FittedRuns::default();
         let corrections = self.fitting.corrections(Some(values));
         for experiment in &self.fitting.experiments {
             let numbers = numbers(experiment, values)?;
             let model = experiment.model_with(numbers.iter().map(|n| (&n.path, &n.text)));
-            let (after, off) = experiment.run(&model.map_err(|e| e.to_string())?)?;
-            balance_error = off.abs().max(balance_error);
+            let mut summarizer = Summarizer::new();
+            let after = experiment.run(&model.map_err(|e| e.to_string())?, &mut summarizer)?;
+            let summary = summarizer.summary(None);
+            let of_run = summary.iter().flat_map(|summary| &summary.caveats);
+            caveats.extend(of_run.map(|caveat| format!("{}: {}", experiment.fitted, caveat.text)));
             let misfits = experiment.misfits(self.fitting.fit.misfit, &after, &corrections)?;
             parts.extend(misfits.into_iter().zip(experiment.accords(&after, &corrections)?));
             written.extend(numbers);
             runs.push(Pair { before: experiment.run_with(None).ok(), after });
         }
-        Ok(FittedRuns { written, parts, runs, balance_error })
+        Ok(FittedRuns { written, parts, runs, caveats })
     }
 
     fn write_scenarios(&self, found: &Found) -> Result<(), Failure> {

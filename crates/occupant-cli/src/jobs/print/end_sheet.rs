@@ -6,6 +6,7 @@ use occupant_core::motion::kinematics::Kinematics;
 use occupant_core::motion::layout::BALL_JOINTS;
 use occupant_core::motion::report_coordinates::ReportCoordinates;
 use occupant_core::results::checkpoint::Checkpoint;
+use occupant_core::results::summary::Caveat;
 
 use super::ELEMENTS;
 use super::case::Case;
@@ -15,9 +16,10 @@ use super::table::Table;
 use super::unit::Units;
 
 /// Writes the last sheet.
-pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {
+pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units, caveats: &[Caveat]) {
     pages.begin("END OF SOLUTION");
     ending(pages, case);
+    caveats.iter().for_each(|caveat| pages.say(&format!("*** {}", caveat.text)));
     if let Some(last) = case.file.checkpoints.last() {
         extension(pages, case, units, last);
     }

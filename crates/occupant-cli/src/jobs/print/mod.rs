@@ -17,8 +17,9 @@ mod vehicle;
 
 pub(crate) use case::Case;
 
-use occupant_core::results::recorder::Watch;
+use occupant_core::results::recorder::{Recorder, Watch};
 use occupant_core::results::sample::Sample;
+use occupant_core::results::summary::{Caveat, Summarizer};
 use occupant_core::run::simulate::replay;
 use page::Pages;
 use unit::Units;
@@ -64,7 +65,7 @@ pub(crate) fn printout(case: &Case, units: Units, every_s: Option<f64>) -> Resul
         });
         replay(&case.model, &case.file.checkpoints[output], &mut page).map_err(|e| e.to_string())?;
     }
-    end_sheet::write(&mut pages, case, units);
+    end_sheet::write(&mut pages, case, units, &caveats(case)?);
     Ok(pages.text())
 }
 
@@ -78,6 +79,20 @@ pub(crate) fn uneven(case: &Case, every_s: f64) -> Option<String> {
              each print time is printed, at uneven times"
         )
     })
+}
+
+/// What is to know of the figures of the run.
+fn caveats(case: &Case) -> Result<Vec<Caveat>, String> {
+    let Some(last) = case.file.checkpoints.last() else {
+        return Ok(Vec::new());
+    };
+    let mut summarizer = Summarizer::new();
+    summarizer.begin(&case.model).map_err(|e| e.to_string())?;
+    for checkpoint in &case.file.checkpoints {
+        replay(&case.model, checkpoint, &mut summarizer).map_err(|e| e.to_string())?;
+    }
+    summarizer.end(&last.outcome(&case.model)).map_err(|e| e.to_string())?;
+    Ok(summarizer.summary(None).map_or_else(Vec::new, |summary| summary.caveats))
 }
 
 /// Numbers of the outputs to print: the first at or after each print time, and the last.

@@ -110,6 +110,7 @@ impl Run {
         let summary = results.summary()?;
         let name = results.path.file_name().unwrap_or_default();
         let mut notes = results.notes();
+        notes.extend(summary.caveats.iter().map(|caveat| caveat.text.clone()));
         notes.extend(model.warnings().iter().map(|w| w.to_string()));
         Ok(Run {
             label: name.to_string_lossy().into_owned(),

@@ -3,7 +3,7 @@
 use crash_measures::injury;
 use crash_measures::unit::{Shown, Unit};
 use occupant_core::forces::table::{Holds, Table};
-use occupant_core::results::summary::{Peak, Summary};
+use occupant_core::results::summary::{Caveat, Peak, Summary};
 use serde::Serialize;
 
 /// A row of the table.
@@ -43,7 +43,7 @@ impl Measure {
 
 /// All rows, group by group.
 pub(crate) fn measures(summary: &Summary) -> Vec<Measure> {
-    let mut rows: Vec<_> = summary.measures.iter().flat_map(injury_rows).collect();
+    let mut rows: Vec<_> = summary.measures.iter().flat_map(|m| injury_rows(m, &summary.caveats)).collect();
     add_loads(&mut rows, summary);
     add_excursion(&mut rows, summary);
     let energy = &summary.energy;
@@ -60,11 +60,13 @@ pub(crate) fn measures(summary: &Summary) -> Vec<Measure> {
 }
 
 /// A row for each limit of an injury measure, or one without.
-fn injury_rows(m: &injury::Measure) -> Vec<Measure> {
+fn injury_rows(m: &injury::Measure, caveats: &[Caveat]) -> Vec<Measure> {
     let unit = engineering(m.unit);
     let group = "Injury measures, unfiltered";
     let mut first = Measure::new(group, m.label, m.value.map(|v| v * unit.per_si()), unit, m.from_s);
-    first.remark.clone_from(&m.remark);
+    let touching = caveats.iter().filter(|caveat| caveat.touches(m.name)).map(|caveat| &caveat.text);
+    let remarks: Vec<_> = touching.chain(&m.remark).map(String::as_str).collect();
+    first.remark = (!remarks.is_empty()).then(|| remarks.join("; "));
     if m.limits.is_empty() {
         return vec![first];
     }
@@ -81,7 +83,7 @@ fn injury_rows(m: &injury::Measure) -> Vec<Measure> {
             format!("{}, as generally known", judgement.rule)
         }),
         verdict: Some(if judgement.passed { "passed" } else { "failed" }),
-        remark: m.remark.clone(),
+        remark: first.remark.clone(),
     };
     m.limits.iter().map(row).collect()
 }

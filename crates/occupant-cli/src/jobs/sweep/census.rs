@@ -1,5 +1,7 @@
 //! How the runs of a study ended, and of which the figures count.
 
+use std::collections::BTreeMap;
+
 use occupant_study::ending::Balance;
 
 use crate::files::study_folder::manifest::Manifest;
@@ -30,6 +32,8 @@ pub(crate) struct Census {
     pub(crate) first: Vec<(u64, String)>,
     /// Reasons of runs that did not complete: words, how many, the first run.
     pub(crate) reasons: Vec<(String, u64, u64)>,
+    /// Caveats on figures of completed runs: how many runs have each, and the first.
+    pub(crate) caveats: BTreeMap<String, (u64, u64)>,
     /// Runs with other reasons still.
     pub(crate) other_reasons: u64,
     /// Column of the energy balance.
@@ -64,11 +68,23 @@ impl Census {
             self.remember(row);
             return false;
         }
+        for name in row.caveats.split_whitespace() {
+            let (count, first) = self.caveats.entry(name.to_owned()).or_insert((0, row.index));
+            (*count, *first) = (*count + 1, row.index.min(*first));
+        }
         let error = |at: usize| row.cells.get(at).and_then(Cell::number);
         let balanced = |at: usize| error(at).is_some_and(|error| Balance::of(error) != Balance::Lost);
         let counts = self.balance.is_none_or(balanced);
         self.doubtful += u64::from(!counts);
         counts
+    }
+
+    /// A line for each caveat.
+    pub(crate) fn caveats(&self) -> impl Iterator<Item = String> {
+        let line = |(name, (count, first)): (&String, &(u64, u64))| {
+            format!("{name}: {count} of {} runs, the first is {first}", self.completed)
+        };
+        self.caveats.iter().map(line)
     }
 
     fn remember(&mut self, row: &Row) {

@@ -44,6 +44,7 @@ pub(crate) fn tell(results: &Results, work: Option<String>) -> Result<Done, Fail
         let found = "samples whose energy balance is off by more than 10 %: their figures mean nothing";
         lines.push(("doubtful", format!("{} {found}", census.doubtful)));
     }
+    lines.extend(census.caveats().map(|caveat| ("caveat", caveat)));
     lines.extend(work.map(|work| ("computed", work)));
     let names: Vec<String> = results.files.iter().map(|f| f.display().to_string()).collect();
     lines.push(("written", names.join(", ")));

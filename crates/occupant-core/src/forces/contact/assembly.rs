@@ -15,7 +15,7 @@ use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
 
 /// No sphere approaches a face faster than this, m/s: several times any crash.
-const FASTEST_M_S: f64 = 100.0;
+pub(crate) const FASTEST_M_S: f64 = 100.0;
 
 impl<S: Scalar> ContactSystem<S> {
     /// All pairs of `body` with surfaces whose planes are known.

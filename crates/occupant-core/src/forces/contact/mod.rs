@@ -12,6 +12,7 @@ pub mod surface;
 mod system;
 mod zip;
 
+pub(crate) use assembly::FASTEST_M_S;
 pub(crate) use hints::ContactHints;
 pub use system::*;
 

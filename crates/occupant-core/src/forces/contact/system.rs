@@ -118,6 +118,8 @@ pub struct Touch<S> {
     pub depth: S,
     /// Δ̇, speed of the centre towards the face, m/s.
     pub closing: S,
+    /// Velocity of the centre relative to the face, m/s.
+    pub velocity: V3<S>,
     /// wF, N.
     pub normal_force: S,
     /// Edge force, N.
@@ -219,6 +221,11 @@ impl<S: Scalar> ContactSystem<S> {
 }
 
 impl<S: Scalar> Pair<S> {
+    /// How far the projection of a centre is from a part, in the frame of the face, m.
+    pub(crate) fn beside(&self, part: &Part<S>, centre: V3<S>) -> S {
+        part.outline.offset(V2 { u: self.u.dot(centre), v: self.v.dot(centre) }).distance
+    }
+
     /// Offset from the union of the parts, and the index of the nearest part in each lane (as a number).
     #[inline(always)]
     fn nearest(&self, centre: V3<S>) -> (Offset<S>, S) {
@@ -276,6 +283,7 @@ impl<S: Scalar> Pair<S> {
             normal: self.normal,
             depth,
             closing: -self.normal.dot(approach.velocity),
+            velocity: approach.velocity,
             normal_force,
             edge,
             friction,

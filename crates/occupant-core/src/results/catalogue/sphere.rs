@@ -59,6 +59,8 @@ const TOUCH: &[Part] = &[
     Part::vector(Newton, Axes::Vehicle, |(_, c)| c.friction_n).field(5, "friction", ""),
     Part::vector(Metre, Axes::Vehicle, |(_, c)| c.point_m.coords).field(6, "point", ""),
     Part::number(MetrePerSecond, |(_, c)| c.slip_m_s).field(7, "slip", ""),
+    Part::vector(Newton, Axes::Vehicle, |(_, c)| c.edge_n).field(8, "edge_force", ""),
+    Part::vector(Metre, Axes::Vehicle, |(_, c)| c.edge_point_m.coords).field(9, "edge_point", ""),
 ];
 
 /// Number, name and type of the fields of the message `Touch`.

@@ -3,10 +3,12 @@
 //! A [`Summarizer`] is a [`crate::results::recorder::Recorder`]; it looks at every output and keeps little. Peaks and levels are those of the
 //! output times, straight lines between them: an output interval of 1 ms or less does them justice. Nothing is filtered.
 
+mod caveat;
 mod elements;
 mod excursion;
 mod figures;
 mod peak;
+mod signs;
 mod summarizer;
 
 use serde::Serialize;
@@ -15,6 +17,7 @@ use crash_measures::injury::Measure;
 
 use crate::forces::table::Tables;
 
+pub use caveat::Caveat;
 pub(crate) use excursion::Excursion;
 pub use figures::{Figure, word};
 pub use peak::Peak;
@@ -48,8 +51,10 @@ pub struct Summary {
     pub sphere_forces: Vec<SpherePeak>,
     /// How far the head's centre went from where it was at the start; absent without a sphere `head`.
     pub head_excursion: Option<Excursion>,
-    /// Injury measures for a Hybrid III 50M, unfiltered.
+    /// Injury measures, unless asked otherwise for a Hybrid III 50M and unfiltered.
     pub measures: Vec<Measure>,
+    /// Which figures are not to be quoted as they stand, and why.
+    pub caveats: Vec<Caveat>,
     /// Energy balance.
     pub energy: EnergyCheck,
     /// Work of the integrator.
@@ -125,7 +130,9 @@ pub struct ContactBegin {
     pub surface: String,
     /// Time; the start of the run for what touches at the start.
     pub time_s: f64,
-    /// Speed of the sphere's centre towards the surface.
+    /// Speed of the sphere's centre relative to the surface; not a number in files of version 0.1.0.
+    pub speed_m_s: f64,
+    /// The part of it towards the surface.
     pub closing_m_s: f64,
     /// True for what touches at the start.
     pub at_start: bool,
@@ -151,7 +158,8 @@ pub struct SpherePeak {
 /// Whether the energies add up.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct EnergyCheck {
-    /// Greatest imbalance among the outputs as a fraction of the greatest kinetic energy relative to the vehicle.
+    /// Greatest imbalance among the outputs as a fraction of the greatest kinetic energy relative to the vehicle; not a number,
+    /// `null` in JSON, where it is not known: the run failed, or that energy is none of an occupant.
     pub balance_error: f64,
     /// That kinetic energy.
     pub greatest_kinetic_j: f64,

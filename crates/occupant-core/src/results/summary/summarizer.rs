@@ -3,27 +3,31 @@
 use nalgebra::{Point3, Vector3};
 
 use super::elements::ElementPeaks;
+use super::signs::Signs;
 use super::{
-    Acceleration, Accelerations, ContactBegin, EnergyCheck, Excursion, FirstContact, Level, Peak, RunStatus, Solver,
-    SpherePeak, Summary,
+    Acceleration, Accelerations, Caveat, ContactBegin, EnergyCheck, Excursion, FirstContact, Level, Peak, RunStatus,
+    Solver, SpherePeak, Summary,
 };
+use crate::body::Body;
 use crate::model::Model;
 use crate::model::setup::{Integrator, STANDARD_GRAVITY_M_S2, TimeSpan};
 use crate::results::outcome::{FirstTouch, Outcome, Status};
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
-use crash_measures::injury::{self, Readings, Signals};
+use crash_measures::injury::{self, Measure, Options, Readings, Signals};
 use crash_measures::measure::ThreeMs;
 
 /// Spheres whose first contacts are summarised.
 const STRUCK: [&str; 4] = ["head", "chest", "left_knee", "right_knee"];
 
+/// Measures that change by more of their value without every other output are not quoted to a per cent.
+const COARSE: f64 = 0.02;
+
 /// Collects a [`Summary`]. Allocates at the start of a run and at its end, never between.
 #[derive(Clone, Debug, Default)]
 pub struct Summarizer {
-    names: Names,
-    integrator: &'static str,
-    time: Option<TimeSpan>,
+    options: Options,
+    case: Option<Case>,
     head: Option<usize>,
     outputs: usize,
     /// Of head, chest and pelvis.
@@ -35,13 +39,17 @@ pub struct Summarizer {
     /// Of the head.
     excursion: Option<Excursion>,
     outcome: Option<Outcome>,
+    signs: Signs,
 }
 
-#[derive(Clone, Debug, Default)]
-struct Names {
+/// What is known of a run before its start.
+#[derive(Clone, Debug)]
+struct Case {
     title: String,
-    spheres: Vec<String>,
+    body: Body,
     surfaces: Vec<String>,
+    integrator: &'static str,
+    time: TimeSpan,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -57,16 +65,25 @@ impl Summarizer {
         Summarizer::default()
     }
 
+    /// Nothing seen yet; measures will be compared with what `options` say.
+    pub fn judging(options: Options) -> Self {
+        Summarizer { options, ..Summarizer::default() }
+    }
+
     /// The summary of the run that has ended; `None` before its end. `wall_time_s` is what the caller's clock says.
     pub fn summary(&self, wall_time_s: Option<f64>) -> Option<Summary> {
-        let (outcome, time) = (self.outcome.as_ref()?, self.time?);
-        let readings = Readings::new(&self.signals, &injury::Options::default());
+        let (outcome, case) = (self.outcome.as_ref()?, self.case.as_ref()?);
+        let time = &case.time;
+        let readings = Readings::new(&self.signals, &self.options);
         let parts = [&readings.head, &readings.chest, &readings.pelvis];
-        let [head, chest, pelvis] = std::array::from_fn(|i| self.acceleration(i, parts[i], &time));
-        let contacts = self.contacts(outcome, time.start_s);
+        let [head, chest, pelvis] = std::array::from_fn(|i| self.acceleration(i, parts[i], time));
+        let contacts = contacts(outcome, case);
         let (status, reason) = ending(&outcome.status);
+        let energy =
+            EnergyCheck { balance_error: outcome.balance_error, greatest_kinetic_j: outcome.greatest_kinetic_j };
+        let measures = readings.measures();
         Some(Summary {
-            title: self.names.title.clone(),
+            title: case.title.clone(),
             status,
             reason,
             start_s: time.start_s,
@@ -74,17 +91,15 @@ impl Summarizer {
             end_s: time.end_s,
             accelerations: Accelerations { head, chest, pelvis },
             elements: self.elements.tables(),
-            first_contacts: self.first_contacts(&contacts),
+            first_contacts: first_contacts(&contacts, &case.body),
             contacts,
-            sphere_forces: self.sphere_forces(),
+            sphere_forces: self.sphere_forces(case),
             head_excursion: self.excursion,
-            measures: readings.measures(),
-            energy: EnergyCheck {
-                balance_error: outcome.balance_error,
-                greatest_kinetic_j: outcome.greatest_kinetic_j,
-            },
+            caveats: Caveat::of_balance(&energy, status).into_iter().chain(self.caveats(case, &measures)).collect(),
+            measures,
+            energy,
             solver: Solver {
-                integrator: self.integrator,
+                integrator: case.integrator,
                 steps: outcome.effort.steps,
                 rejected: outcome.effort.rejected,
                 evaluations: outcome.effort.evaluations,
@@ -111,35 +126,28 @@ impl Summarizer {
         }
     }
 
-    fn contacts(&self, outcome: &Outcome, start_s: f64) -> Vec<ContactBegin> {
-        let contact = |t: &FirstTouch| ContactBegin {
-            sphere: self.names.spheres[t.sphere].clone(),
-            surface: self.names.surfaces[t.surface].clone(),
-            time_s: t.time_s,
-            closing_m_s: t.closing_m_s,
-            at_start: t.time_s <= start_s,
-        };
-        outcome.first_touches.iter().map(contact).collect()
+    /// What the outputs show of the body, then what is to know of measures alone.
+    fn caveats(&self, case: &Case, measures: &[Measure]) -> Vec<Caveat> {
+        let mut caveats = self.signs.caveats(&case.body, &case.surfaces);
+        let off = injury::coarseness(&self.signals, &self.options, measures);
+        let off: Vec<_> = measures.iter().zip(off).filter(|(_, off)| *off > COARSE).collect();
+        let of_measures = [
+            Caveat::too_coarse(self.signals.interval_s, &off),
+            Caveat::other_dummy(self.options.dummy, case.body.mass_kg(), measures),
+        ];
+        caveats.extend(of_measures.into_iter().flatten());
+        caveats
     }
 
-    fn first_contacts(&self, contacts: &[ContactBegin]) -> Vec<FirstContact> {
-        let present = STRUCK.iter().filter(|name| self.names.spheres.iter().any(|s| s == *name));
-        let first = |name: &&str| FirstContact {
-            sphere: (*name).to_owned(),
-            contact: contacts.iter().find(|c| c.sphere == *name && !c.at_start).cloned(),
-        };
-        present.map(first).collect()
-    }
-
-    fn sphere_forces(&self) -> Vec<SpherePeak> {
-        let named = self.names.spheres.iter().zip(&self.spheres);
+    fn sphere_forces(&self, case: &Case) -> Vec<SpherePeak> {
+        let named = case.body.spheres.iter().zip(&self.spheres);
         named
             .filter(|(_, track)| track.force.value > 0.0)
             .map(|(sphere, track)| SpherePeak {
-                sphere: sphere.clone(),
+                sphere: sphere.name.clone(),
                 force_n: track.force.value,
                 time_s: track.force.time_s,
-                surface: self.names.surfaces[track.surface].clone(),
+                surface: case.surfaces[track.surface].clone(),
                 penetration_m: track.penetration.value.max(0.0),
                 penetration_time_s: track.penetration.time_s,
             })
@@ -193,23 +201,25 @@ impl Summarizer {
 impl Recorder for Summarizer {
     fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
         let setup = model.setup();
-        let names = Names {
+        let case = Case {
             title: setup.title.clone(),
-            spheres: setup.body.spheres.iter().map(|s| s.name.clone()).collect(),
+            body: setup.body.clone(),
             surfaces: setup.surfaces.iter().map(|s| s.name.clone()).collect(),
-        };
-        let sphere = SphereTrack { force: Peak::NONE, penetration: Peak::NONE, surface: 0 };
-        *self = Summarizer {
-            signals: begun(model)?,
             integrator: match setup.integrator {
                 Integrator::Rk4 { .. } => "rk4",
                 Integrator::Adaptive { .. } => "adaptive",
             },
-            time: Some(setup.time),
+            time: setup.time,
+        };
+        let sphere = SphereTrack { force: Peak::NONE, penetration: Peak::NONE, surface: 0 };
+        *self = Summarizer {
+            signals: begun(model)?,
+            options: self.options,
             head: setup.body.sphere("head"),
             elements: ElementPeaks::new(model),
-            spheres: vec![sphere; names.spheres.len()],
-            names,
+            spheres: vec![sphere; setup.body.spheres.len()],
+            signs: Signs::new(model),
+            case: Some(case),
             ..Summarizer::default()
         };
         Ok(())
@@ -221,6 +231,7 @@ impl Recorder for Summarizer {
         self.see_contacts(sample);
         self.elements.see(sample);
         self.see_head(sample);
+        self.signs.see(sample);
         self.signals.record(sample)?;
         Ok(Flow::Continue)
     }
@@ -229,6 +240,27 @@ impl Recorder for Summarizer {
         self.outcome = Some(outcome.clone());
         Ok(())
     }
+}
+
+fn contacts(outcome: &Outcome, case: &Case) -> Vec<ContactBegin> {
+    let contact = |t: &FirstTouch| ContactBegin {
+        sphere: case.body.spheres[t.sphere].name.clone(),
+        surface: case.surfaces[t.surface].clone(),
+        time_s: t.time_s,
+        speed_m_s: t.speed_m_s,
+        closing_m_s: t.closing_m_s,
+        at_start: t.time_s <= case.time.start_s,
+    };
+    outcome.first_touches.iter().map(contact).collect()
+}
+
+fn first_contacts(contacts: &[ContactBegin], body: &Body) -> Vec<FirstContact> {
+    let present = STRUCK.iter().filter(|name| body.sphere(name).is_some());
+    let first = |name: &&str| FirstContact {
+        sphere: (*name).to_owned(),
+        contact: contacts.iter().find(|c| c.sphere == *name && !c.at_start).cloned(),
+    };
+    present.map(first).collect()
 }
 
 fn ending(status: &Status) -> (RunStatus, Option<String>) {

@@ -5,6 +5,9 @@ use crate::model::Model;
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
 use crate::run::simulate::simulate;
+use crate::scenario::{Draft, Format};
+use crash_measures::injury::Options;
+use crash_measures::measure::Dummy;
 
 fn falling(floor: &str, end_s: f64) -> Model {
     let q: Vec<String> = (0..31).map(|i| format!("{:.2}", 0.3 + 0.07 * f64::from(i))).collect();
@@ -204,4 +207,87 @@ fn the_list_of_figures_holds_the_summary_under_the_same_names_for_every_run() {
 /// Room for outputs.
 fn room(summarizer: &mut Summarizer) -> Vec<usize> {
     summarizer.signals.all_mut().map(|values| values.capacity()).collect()
+}
+
+/// The caveats of a scenario of this repository with changes.
+fn caveats_of(scenario: &str, changes: &[(&str, &str)]) -> (Summary, Vec<String>) {
+    let mut draft = Draft::read(scenario, Format::Toml, "shipped").unwrap();
+    for (path, value) in changes {
+        draft.set_value(path, value).unwrap_or_else(|problems| panic!("{problems}"));
+    }
+    let (model, _) =
+        draft.load(&|_| Err("none".into())).unwrap().model().unwrap_or_else(|problems| panic!("{problems}"));
+    let summary = summary_of(&model);
+    let names = summary.caveats.iter().map(|caveat| caveat.name.clone()).collect();
+    (summary, names)
+}
+
+const BELTED: &str = include_str!("../../../../../scenarios/cart-lap-torso.toml");
+
+#[test]
+fn a_neck_beyond_its_stop_takes_the_neck_figures_with_it_and_no_others() {
+    let (summary, names) = caveats_of(BELTED, &[]);
+    let neck = summary.caveats.iter().find(|caveat| caveat.name == "neck_beyond_stop").unwrap();
+    assert!(neck.text.starts_with("neck beyond its stop: 119° at 132.0 ms"), "{}", neck.text);
+    assert!(["nij", "neck_tension", "neck_flexion"].iter().all(|figure| neck.touches(figure)));
+    assert!(!["hic15", "head.peak", "chest.peak", "left_femur"].iter().any(|figure| neck.touches(figure)));
+    // a pelvis 181 mm deep in its cushion, shins behind the panel
+    for name in ["pelvis_too_deep", "left_shin_passed", "right_lower_leg_cut"] {
+        assert!(names.iter().any(|found| found == name), "{name} is not among {names:?}");
+    }
+    let json = serde_json::to_value(&summary).unwrap();
+    assert_eq!(json["caveats"][0]["figures"], serde_json::json!(["nij", "neck_*"]));
+    // stops that reach further
+    let far = "{ begin = \"45 deg\", full = \"170 deg\", damping = \"120 in lbf s/rad\" }";
+    let (_, names) = caveats_of(BELTED, &[("joints.neck.stop", far)]);
+    assert!(!names.iter().any(|name| name == "neck_beyond_stop"), "{names:?}");
+}
+
+#[test]
+fn a_head_that_flies_through_a_seat_takes_its_figures_with_it() {
+    let seat = include_str!("../../../../../scenarios/rear-seat.toml");
+    let lap = &seat[seat.find("[belts.lap]").unwrap()..seat.find("[materials]").unwrap()];
+    let (summary, _) = caveats_of(&seat.replace(lap, ""), &[]);
+    let head = summary.caveats.iter().find(|caveat| caveat.name == "head_passed").unwrap();
+    assert!(head.text.contains("through front_seat") && head.text.contains("without force"), "{}", head.text);
+    assert!(["hic15", "head.peak", "head_3ms_cumulative", "contacts.head.peak"].iter().all(|f| head.touches(f)));
+    assert!(!head.touches("chest.peak") && !head.touches("left_femur"));
+    let (_, names) = caveats_of(seat, &[]);
+    assert!(!names.iter().any(|name| name == "head_passed"), "{names:?}");
+}
+
+#[test]
+fn outputs_too_coarse_say_so_and_closer_ones_do_not() {
+    let found = |interval: &str| {
+        let (summary, _) = caveats_of(BELTED, &[("output.interval", interval)]);
+        summary.caveats.into_iter().find(|caveat| caveat.name == "outputs_too_coarse")
+    };
+    let coarse = found("5 ms").unwrap();
+    assert!(coarse.touches("nij") && coarse.touches("hic15") && coarse.touches("head.peak"), "{coarse:?}");
+    assert!(coarse.text.contains("outputs every 5 ms"), "{}", coarse.text);
+    assert_eq!(found("0.1 ms"), None);
+}
+
+#[test]
+fn an_energy_balance_that_nobody_knows_is_not_a_good_one() {
+    // 1000 km/s: the kinetic energy in the vehicle hides any error
+    let away = ("path", "{ kind = \"pulse\", shape = \"half_sine\", speed = 0, delta_v = -1e6, duration = \"0.1 s\" }");
+    let (summary, names) = caveats_of(BELTED, &[away, ("time.end", "5 ms"), ("output.interval", "5 ms")]);
+    assert!(summary.energy.balance_error.is_nan(), "{:?}", summary.energy);
+    assert!(names[0] == "energy_balance_lost" && summary.caveats[0].touches("hic15"), "{names:?}");
+    assert!(serde_json::to_value(&summary).unwrap()["energy"]["balance_error"].is_null());
+}
+
+#[test]
+fn limits_of_another_dummy_are_marked() {
+    let model = falling(&floor(), 0.02);
+    let caveats = |dummy| {
+        let mut summarizer = Summarizer::judging(Options { dummy, ..Options::default() });
+        simulate(&model, &mut summarizer).unwrap();
+        summarizer.summary(None).unwrap().caveats
+    };
+    assert!(caveats(Dummy::HybridIii50M).iter().all(|caveat| caveat.name != "other_dummy"));
+    let found = caveats(Dummy::HybridIii5F);
+    let other = found.iter().find(|caveat| caveat.name == "other_dummy").unwrap();
+    assert!(other.touches("nij") && other.text.contains("Hybrid III 5F of 49 kg"), "{}", other.text);
 }

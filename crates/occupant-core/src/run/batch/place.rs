@@ -4,6 +4,7 @@ use crate::forces::Observer;
 use crate::forces::contact::Touch;
 use crate::model::Model;
 use crate::motion::lanes::Lanes;
+use crate::motion::vector::v3;
 use crate::results::outcome::{Outcome, RecordingFailed, Status};
 use crate::results::recorder::{Flow, Recorder};
 use crate::run::observers::Meeting;
@@ -94,6 +95,7 @@ impl<L: Lanes> Observer<L> for Witness<'_> {
                     pair: touch.pair,
                     part: touch.part.lane(i) as usize,
                     closing_m_s: touch.closing.lane(i),
+                    velocity_m_s: v3(touch.velocity.x.lane(i), touch.velocity.y.lane(i), touch.velocity.z.lane(i)),
                 };
                 let time_s = place.step.start_s;
                 place.run.seen.note(&place.model, time_s, meeting);

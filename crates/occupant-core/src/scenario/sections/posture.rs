@@ -47,7 +47,7 @@ pub(crate) struct PostureSection {
     pub(crate) elbows: Angle,
     /// [x, z] of both heels, vehicle axes.
     pub(crate) heels: [Length; 2],
-    /// Move the seated body as one piece until cushion, back and belts carry it; false if absent.
+    /// Move the seated body as one piece until cushion, back and belts carry it; true if absent. False is the report's seating.
     pub(crate) settle: Option<bool>,
     /// True: every point starts with the velocity of the vehicle there. False: all start with the velocity of the
     /// vehicle's origin. True if absent.
@@ -93,7 +93,7 @@ fn seating(s: &Scenario, p: &PostureSection) -> Option<Seating> {
         upper_arms_rad: p.upper_arms.si(),
         elbows_rad: p.elbows.si(),
         heels_m: all_si(&p.heels),
-        settle: p.settle.unwrap_or(false),
+        settle: p.settle.unwrap_or(true),
     })
 }
 

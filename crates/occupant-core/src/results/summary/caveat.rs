@@ -1,0 +1,164 @@
+//! Caveats: which figures of a run are not to be quoted as they stand, and why. All their words stand here.
+
+use crash_measures::injury::Measure;
+use crash_measures::measure::Dummy;
+use serde::Serialize;
+
+use super::{EnergyCheck, Peak, RunStatus, word};
+use crate::body::{Body, Joint, Limb, Segment};
+use crate::results::outcome::Balance;
+
+/// Why some figures of a run are not to be quoted as they stand.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Caveat {
+    /// A word for tables of many runs, such as `neck_beyond_stop`.
+    pub name: String,
+    /// What was seen, and which figures it spoils.
+    pub text: String,
+    /// Their names, of figures and of measures; one that ends with `*` stands for all that begin like it.
+    pub figures: Vec<String>,
+}
+
+impl Caveat {
+    fn new(name: impl Into<String>, text: String, figures: Vec<String>) -> Self {
+        Caveat { name: name.into(), text, figures }
+    }
+
+    /// Whether it spoils the figure or measure of this name.
+    pub fn touches(&self, figure: &str) -> bool {
+        self.figures.iter().any(|of| of.strip_suffix('*').map_or(of == figure, |stem| figure.starts_with(stem)))
+    }
+
+    /// A run that did not keep its energy; none for one that did, nor for one that failed and says so.
+    pub(super) fn of_balance(energy: &EnergyCheck, status: RunStatus) -> Option<Self> {
+        let error = energy.balance_error;
+        let (name, means) = match Balance::of(error) {
+            Balance::Kept => return None,
+            _ if status == RunStatus::Failed => return None,
+            Balance::Doubtful => ("energy_balance_doubtful", "the results are doubtful"),
+            Balance::Lost => ("energy_balance_lost", "the results mean nothing"),
+        };
+        let found = if error.is_nan() {
+            let kinetic_j = energy.greatest_kinetic_j;
+            format!("not known: a kinetic energy of {kinetic_j:.1e} J in the vehicle is none of an occupant")
+        } else {
+            format!("off by {:.1} %", 100.0 * error.abs())
+        };
+        Some(Caveat::new(name, format!("the energy balance is {found}: {means}"), vec!["*".to_owned()]))
+    }
+
+    /// A joint that turned to `turned` beyond the end of a stop.
+    pub(super) fn beyond_stop(body: &Body, joint: Joint, turned: &Turned) -> Self {
+        let row = &body.tree[joint];
+        let is_neck = body.tree.landmarks().neck == joint;
+        let figures = if is_neck { owned(&["nij", "neck_*"]) } else { figures_of(body, row.distal) };
+        let [angle, stop] = [turned.angle_rad, turned.stop_rad].map(f64::to_degrees);
+        let (at, end) = (at(turned.beyond), format!("the stop ends at {stop:.0}°"));
+        let name = row.name.replace('_', " ");
+        let text = format!("{name} beyond its stop: {angle:.0}° {at}, {end}; {}", not_to_be_quoted(&name));
+        Caveat::new(format!("{}_beyond_stop", row.name), text, figures)
+    }
+
+    /// A sphere that overlapped a surface by `overlap` and felt nothing.
+    pub(super) fn passed(body: &Body, sphere: usize, surface: &str, overlap: Peak) -> Self {
+        let seen = format!("passed {} deep through {surface} {} without force", mm(overlap.value), at(overlap));
+        Caveat::of_sphere(body, sphere, "passed", seen)
+    }
+
+    /// A sphere that went deeper into a surface than anything gives way.
+    pub(super) fn too_deep(body: &Body, sphere: usize, surface: &str, depth: Peak, most_m: f64) -> Self {
+        let seen = format!("{} deep in {surface} {}, where {} is the most", mm(depth.value), at(depth), mm(most_m));
+        Caveat::of_sphere(body, sphere, "too_deep", seen)
+    }
+
+    fn of_sphere(body: &Body, sphere: usize, sign: &str, seen: String) -> Self {
+        let own = &body.spheres[sphere];
+        let name = own.name.replace('_', " ");
+        let text = format!("{name} {seen}; {}", not_to_be_quoted(&name));
+        Caveat::new(format!("{}_{sign}", word(&own.name)), text, figures_of(body, own.segment))
+    }
+
+    /// A limb that went through a surface between its spheres, the nearest of which was `clear` away.
+    pub(super) fn cut(body: &Body, limb: Segment, surface: &str, clear: Peak) -> Self {
+        let row = &body.tree[limb];
+        let name = row.name.replace('_', " ");
+        let quoted = not_to_be_quoted(&name);
+        let text = format!("{name} went through {surface} between its spheres {} without force; {quoted}", at(clear));
+        Caveat::new(format!("{}_cut", row.name), text, figures_of(body, limb))
+    }
+
+    /// Measures that change by a part of their value when every other output is left out; none if there are none.
+    pub(super) fn too_coarse(interval_s: f64, off: &[(&Measure, f64)]) -> Option<Self> {
+        let (worst, most) = off.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let text = format!(
+            "outputs every {} ms are too coarse for {} measures: without every other output {} changes by {:.0} %; a \
+             shorter output.interval mends it",
+            (1e9 * interval_s).round() / 1e6,
+            off.len(),
+            worst.label,
+            100.0 * most
+        );
+        let names = off.iter().flat_map(|(m, _)| [Some(m.name), m.figure]).flatten();
+        Some(Caveat::new("outputs_too_coarse", text, names.map(str::to_owned).collect()))
+    }
+
+    /// A body that the dummy of limits and risks is not.
+    pub(super) fn other_dummy(dummy: Dummy, mass_kg: f64, measures: &[Measure]) -> Option<Self> {
+        let differs = (mass_kg / dummy.mass_kg() - 1.0).abs() > 0.2;
+        let text = format!(
+            "limits and risks are those of a {} of {:.0} kg, the body has {mass_kg:.0} kg: neither holds for it",
+            dummy.name(),
+            dummy.mass_kg()
+        );
+        let judged = measures.iter().filter(|m| !(m.limits.is_empty() && m.risks.is_empty()));
+        differs.then(|| Caveat::new("other_dummy", text, judged.map(|m| m.name.to_owned()).collect()))
+    }
+}
+
+/// How far a joint went beyond a stop.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Turned {
+    /// Angle beyond the stop's end, rad.
+    pub beyond: Peak,
+    pub angle_rad: f64,
+    /// Where the stop ends.
+    pub stop_rad: f64,
+}
+
+fn not_to_be_quoted(of: &str) -> String {
+    format!("{of} figures are not to be quoted")
+}
+
+fn at(peak: Peak) -> String {
+    format!("at {:.1} ms", 1e3 * peak.time_s)
+}
+
+fn mm(length_m: f64) -> String {
+    format!("{:.0} mm", 1e3 * length_m)
+}
+
+fn owned(names: &[&str]) -> Vec<String> {
+    names.iter().map(|name| (*name).to_owned()).collect()
+}
+
+/// What is measured of a segment, and of the spheres on it.
+fn figures_of(body: &Body, segment: Segment) -> Vec<String> {
+    let marks = body.tree.landmarks();
+    let is_of = |leg: &Limb| [leg.upper, leg.lower].contains(&segment);
+    let measured: &[&str] = if segment == marks.head {
+        &["hic15", "hic36", "gsi", "bric", "damage", "head*", "nij", "neck_*"]
+    } else if segment == marks.chest {
+        &["chest*", "csi"]
+    } else if segment == marks.pelvis {
+        &["pelvis*"]
+    } else if is_of(&marks.legs.right) {
+        &["right_femur*"]
+    } else if is_of(&marks.legs.left) {
+        &["left_femur*"]
+    } else {
+        &[]
+    };
+    let spheres = body.spheres.iter().filter(|sphere| sphere.segment == segment);
+    let touched = spheres.map(|sphere| format!("contacts.{}.*", word(&sphere.name)));
+    owned(measured).into_iter().chain(touched).collect()
+}

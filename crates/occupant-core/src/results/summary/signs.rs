@@ -1,0 +1,206 @@
+//! What the outputs of a run show that no body does: the signs from which caveats are made.
+
+use super::caveat::{Caveat, Turned};
+use super::peak::Peak;
+use crate::body::{Body, Segment};
+use crate::forces::contact::{ContactSystem, Group, PASSED, Part, Plane};
+use crate::forces::joint::JointLaw;
+use crate::model::Model;
+use crate::model::seating::InitialPosture;
+use crate::motion::vector::V3;
+use crate::results::sample::Sample;
+
+/// Spheres that overlap by less have grazed an edge, m; limbs whose spheres are nearer have not gone between them.
+const GRAZE_M: f64 = 0.01;
+
+/// Joints a little beyond the end of a stop are at it, rad: 10°.
+const AT_STOP_RAD: f64 = 0.175;
+/// What a seat's cushion gives way at most, m. Anything else gives way by the diameter of what presses on it.
+const CUSHION_M: f64 = 0.15;
+
+/// The signs seen so far. Allocates at the start of a run only.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Signs {
+    /// By joint.
+    joints: Vec<Turned>,
+    /// By sphere: overlap without force, depth, and the surfaces where.
+    passed: Vec<Sunk>,
+    deep: Vec<Sunk>,
+    /// By segment: how far from its spheres it went through a surface.
+    cuts: Vec<Sunk>,
+    /// By pair: whether it had passed at the start, whether the sphere's limb went through it.
+    begun: Vec<[bool; 2]>,
+    is_begun: bool,
+    /// The surface that the body was seated on.
+    cushion: Option<usize>,
+}
+
+#[derive(Clone, Copy, Debug)]
+struct Sunk {
+    most: Peak,
+    surface: usize,
+}
+
+impl Sunk {
+    const NONE: Sunk = Sunk { most: Peak::NONE, surface: 0 };
+
+    fn see(&mut self, length_m: f64, surface: usize, time_s: f64) {
+        if self.most.see(length_m, time_s) {
+            self.surface = surface;
+        }
+    }
+
+    /// The same of the first surface alone where it is more than a graze.
+    fn see_first(&mut self, length_m: f64, surface: usize, time_s: f64) {
+        if self.most.value < GRAZE_M || surface == self.surface {
+            self.see(length_m, surface, time_s);
+        }
+    }
+}
+
+impl Signs {
+    pub(super) fn new(model: &Model) -> Self {
+        let body = model.body();
+        let turned = Turned { beyond: Peak::NONE, angle_rad: 0.0, stop_rad: 0.0 };
+        let spheres = vec![Sunk::NONE; body.spheres.len()];
+        Signs {
+            joints: vec![turned; body.tree.joints().len()],
+            passed: spheres.clone(),
+            deep: spheres,
+            cuts: vec![Sunk::NONE; body.tree.segments().len()],
+            begun: vec![[false; 2]; model.system().forces.contacts.pairs.len()],
+            is_begun: false,
+            cushion: match &model.setup().posture {
+                InitialPosture::Seated(seating) => Some(seating.cushion),
+                _ => None,
+            },
+        }
+    }
+
+    pub(super) fn see(&mut self, sample: &Sample<'_>) {
+        let (model, time_s) = (sample.model, sample.time_s);
+        for (turned, joint) in self.joints.iter_mut().zip(model.body().tree.joints()) {
+            turned.see(&model.setup().joints[joint], sample.joint_angle_rad(joint), time_s);
+        }
+        for contact in sample.contacts() {
+            self.deep[contact.sphere].see(contact.depth_m, contact.surface, time_s);
+        }
+        for group in &model.system().forces.contacts.groups {
+            self.see_group(sample, group);
+        }
+        self.is_begun = true;
+    }
+
+    /// A sphere among the faces of a frame.
+    fn see_group(&mut self, sample: &Sample<'_>, group: &Group) {
+        let contacts = &sample.model.system().forces.contacts;
+        let sphere = &sample.model.body().spheres[group.sphere];
+        let feels = sample.actions.contacts.iter().any(|touch| touch.sphere == group.sphere);
+        let limb = limb(sample, sphere.segment).map(|ends| ends.map(|end| into_frame(sample, group.frame, end)));
+        for i in group.pairs.clone() {
+            let has_passed = sample.history.memory.contacts[i].phase == PASSED;
+            if has_passed && !self.begun[i][0] {
+                let (overlap_m, surface) =
+                    overlap(contacts, i, centre(sample, group.frame, group.sphere), sphere.radius_m);
+                if !self.is_begun {
+                    self.begun[i][0] = true;
+                } else if !feels {
+                    self.passed[group.sphere].see_first(overlap_m, surface, sample.time_s);
+                }
+            }
+            self.begun[i][0] &= has_passed;
+            let Some(ends) = limb else { continue };
+            for part in &contacts.pairs[i].parts {
+                let Some(place) = crossing(contacts, i, part, sphere.radius_m, ends) else { continue };
+                if !self.is_begun {
+                    self.begun[i][1] = true;
+                } else if !self.begun[i][1] {
+                    let clear_m = clear_m(sample, group.frame, place);
+                    self.cuts[sphere.segment.index()].see_first(clear_m, part.surface, sample.time_s);
+                }
+            }
+        }
+    }
+
+    /// What to know of the figures.
+    pub(super) fn caveats(&self, body: &Body, surfaces: &[String]) -> Vec<Caveat> {
+        let name = |sunk: &Sunk| surfaces[sunk.surface].as_str();
+        let joints = body.tree.joints().zip(&self.joints).filter(|(_, turned)| turned.beyond.value > AT_STOP_RAD);
+        let joints = joints.map(|(joint, turned)| Caveat::beyond_stop(body, joint, turned));
+        let passed = self.passed.iter().enumerate().filter(|(_, sunk)| sunk.most.value > GRAZE_M);
+        let passed = passed.map(|(sphere, sunk)| Caveat::passed(body, sphere, name(sunk), sunk.most));
+        let most_m = |(sphere, sunk): &(usize, &Sunk)| {
+            let diameter_m = 2.0 * body.spheres[*sphere].radius_m;
+            if self.cushion == Some(sunk.surface) { diameter_m.min(CUSHION_M) } else { diameter_m }
+        };
+        let deep = self.deep.iter().enumerate().map(|one| (one.0, one.1, most_m(&one)));
+        let deep = deep.filter(|(_, sunk, most_m)| sunk.most.value > *most_m);
+        let deep = deep.map(|(sphere, sunk, most_m)| Caveat::too_deep(body, sphere, name(sunk), sunk.most, most_m));
+        let cuts = body.tree.segments().zip(&self.cuts).filter(|(_, sunk)| sunk.most.value > GRAZE_M);
+        let cuts = cuts.map(|(limb, sunk)| Caveat::cut(body, limb, name(sunk), sunk.most));
+        joints.chain(passed).chain(deep).chain(cuts).collect()
+    }
+}
+
+impl Turned {
+    fn see(&mut self, law: &JointLaw, angle_rad: f64, time_s: f64) {
+        let stops = match law {
+            JointLaw::Ball(ball) => [ball.stop, None],
+            JointLaw::Hinge(hinge) => [hinge.upper_stop, hinge.lower_stop],
+        };
+        for stop in stops.into_iter().flatten() {
+            // a lower stop ends below its begin
+            let beyond_rad = (angle_rad - stop.full_rad) * (stop.full_rad - stop.begin_rad).signum();
+            if self.beyond.see(beyond_rad, time_s) {
+                (self.angle_rad, self.stop_rad) = (angle_rad, stop.full_rad);
+            }
+        }
+    }
+}
+
+/// Both ends of an arm's or a leg's segment, space axes, m; none of the trunk's and the head's.
+fn limb(sample: &Sample<'_>, segment: Segment) -> Option<[V3<f64>; 2]> {
+    let (body, k, n) = (sample.model.body(), &sample.evaluation.kinematics, segment.index());
+    let far = k.joint[n] + k.axes[n].z * sample.model.system().skeleton.links[n].far;
+    let marks = body.tree.landmarks();
+    let limbs = [&marks.arms.left, &marks.arms.right, &marks.legs.left, &marks.legs.right];
+    limbs.iter().any(|limb| [limb.upper, limb.lower].contains(&segment)).then_some([k.joint[n], far])
+}
+
+fn into_frame(sample: &Sample<'_>, frame: usize, point: V3<f64>) -> V3<f64> {
+    let frame = &sample.frames[frame];
+    frame.axes.into_frame(point - frame.origin)
+}
+
+fn centre(sample: &Sample<'_>, frame: usize, sphere: usize) -> V3<f64> {
+    into_frame(sample, frame, sample.model.system().sphere(&sample.evaluation.kinematics, sphere).1)
+}
+
+/// How far a sphere about `centre` overlaps the nearest part of pair `i`, m, and the part's surface.
+fn overlap(contacts: &ContactSystem<f64>, i: usize, centre: V3<f64>, radius_m: f64) -> (f64, usize) {
+    let behind_m = contacts.planes[i].depth(centre) - radius_m;
+    let pair = &contacts.pairs[i];
+    let parts = pair.parts.iter().map(|part| (radius_m - behind_m.hypot(pair.beside(part, centre)), part.surface));
+    parts.max_by(|a, b| a.0.total_cmp(&b.0)).unwrap_or((f64::NEG_INFINITY, 0))
+}
+
+/// Where a line goes through a part of pair `i` of a sphere.
+fn crossing(
+    contacts: &ContactSystem<f64>,
+    i: usize,
+    part: &Part<f64>,
+    radius_m: f64,
+    [from, to]: [V3<f64>; 2],
+) -> Option<V3<f64>> {
+    let plane: &Plane<f64> = &contacts.planes[i];
+    let [begin, end] = [from, to].map(|point| plane.depth(point) - radius_m);
+    let place = from + (to - from) * (begin / (begin - end));
+    (begin * end < 0.0 && contacts.pairs[i].beside(part, place) == 0.0).then_some(place)
+}
+
+/// Distance of a place from the nearest sphere of the body, m.
+fn clear_m(sample: &Sample<'_>, frame: usize, place: V3<f64>) -> f64 {
+    let spheres = sample.model.body().spheres.iter().enumerate();
+    let away = spheres.map(|(i, sphere)| (centre(sample, frame, i) - place).norm_squared().sqrt() - sphere.radius_m);
+    away.fold(f64::INFINITY, f64::min)
+}
