@@ -2,12 +2,14 @@
 
 use std::io::{ErrorKind, Write, stderr, stdout};
 
+use placed_text::plain;
+
 use super::failure::Failure;
 
-/// Writes a result. A reader that has gone away is no failure.
+/// Writes a result, its control characters escaped. A reader that has gone away is no failure.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
     let mut out = stdout().lock();
-    let written = out.write_all(text.as_bytes()).and_then(|()| out.flush());
+    let written = out.write_all(plain(text).as_bytes()).and_then(|()| out.flush());
     match written {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(Failure::BrokeOff(format!("error: the result could not be written to standard output: {error}")))
@@ -16,9 +18,9 @@ pub(crate) fn print(text: &str) -> Result<(), Failure> {
     }
 }
 
-/// Writes a message to standard error. That it cannot be written is no failure.
+/// Writes a message to standard error, its control characters escaped. That it cannot be written is no failure.
 pub(crate) fn say(text: &str) {
-    let _unwritten = writeln!(stderr().lock(), "{text}");
+    let _unwritten = writeln!(stderr().lock(), "{}", plain(text));
 }
 
 /// Says what to know of a result.

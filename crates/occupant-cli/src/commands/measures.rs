@@ -9,9 +9,10 @@ use crash_measures::signal::CfcFamily;
 use serde::Serialize;
 
 use super::tables::measures::{long, remarks, risks};
+use placed_text::shown;
+
 use crate::base::failure::{Done, Failure};
 use crate::base::talk::{self, note, print};
-use crate::base::text_table::plain;
 use crate::files::results::Results;
 
 /// Injury measures of a run against limits and risk curves
@@ -121,7 +122,7 @@ fn text(results: &Results, options: &Options, measures: &[Measure]) -> String {
         Filtering::Classes(CfcFamily::SaeJ211) => "filtered by SAE J211 classes",
         Filtering::Classes(CfcFamily::Iso6487) => "filtered by ISO 6487 classes",
     };
-    let title = plain(&results.model.setup().title);
+    let title = shown(&results.model.setup().title);
     let dummy = options.dummy.name();
     [
         format!(

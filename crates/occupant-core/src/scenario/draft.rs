@@ -98,7 +98,7 @@ impl Draft {
             let root = self.explicit();
             let whole = Document { root, ..self.document.clone() };
             for problem in references(&whole.root, &TTI12.sphere_names()) {
-                problems.push(whole.place(problem));
+                problems.add(problem, |problem| whole.place(problem));
             }
         }
         problems
