@@ -74,6 +74,7 @@ mod sobol;
 pub mod spread;
 mod text;
 
+pub use bind::MOST_RUNS;
 pub use design::{Design, Role};
 pub use ensemble::{Change, Ensemble, Perturbation, Tolerances};
 pub use fit::{Bounds, Fit};

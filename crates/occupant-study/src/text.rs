@@ -54,6 +54,6 @@ impl StudyText {
 
     /// Adds a problem at a path of the study, such as `parameters[2].grid`.
     pub(super) fn report(&self, problems: &mut Diagnostics, problem: Problem) {
-        problems.push(self.document.place(problem));
+        problems.add(problem, |problem| self.document.place(problem));
     }
 }

@@ -1,5 +1,6 @@
 //! Lines and cells of a CSV text, with their places. Cells hold numbers and column names, so there is no quoting.
 
+use crate::shown::shortened;
 use crate::source::{SourceId, Sources, Span};
 
 /// A cell: its words and place.
@@ -9,6 +10,9 @@ pub struct Cell<'a> {
     /// Their place.
     pub span: Span,
 }
+
+/// Characters of a cell that messages show.
+pub const CELL: usize = 40;
 
 /// `x[m]` → `x` and `m`.
 pub fn name_and_unit(text: &str) -> (&str, Option<&str>) {
@@ -65,6 +69,6 @@ pub fn number(cell: &Cell) -> Result<f64, String> {
     match (cell.text, cell.text.parse::<f64>()) {
         (_, Ok(x)) if x.is_finite() => Ok(x),
         ("", _) => Err("an empty cell".to_owned()),
-        (text, _) => Err(format!("`{text}`")),
+        (text, _) => Err(format!("`{}`", shortened(text, CELL))),
     }
 }

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::problem::{Problem, Severity};
+use crate::shown::{blanked, shown};
 use crate::source::{Position, Sources, Span};
 
 /// A problem and where it is.
@@ -14,15 +15,22 @@ pub struct Diagnostic {
     pub source: String,
     /// Line and column, from 1; `None` where no text can be pointed at.
     pub position: Option<Position>,
-    /// The offending words.
-    pub words: String,
-    /// The line they stand in.
-    pub line: String,
+    /// The line of the offending words, shortened around them if it is long; `None` where no line is shown.
+    pub line: Option<String>,
+    /// The characters of the line between which the words stand.
+    words: [usize; 2],
 }
 
-/// All problems of a scenario, in the order in which they were found.
+/// The problems of a scenario, in the order in which they were found: of each severity the first 50, the rest is counted.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Diagnostics(Vec<Diagnostic>);
+pub struct Diagnostics {
+    kept: Vec<Diagnostic>,
+    /// How many there are besides, warnings and errors.
+    more: [usize; 2],
+}
+
+/// Problems of one severity that are kept.
+const MOST: usize = 50;
 
 /// Characters of a long line shown on each side of the offending words.
 const CONTEXT_CHARS: usize = 60;
@@ -30,34 +38,29 @@ const CONTEXT_CHARS: usize = 60;
 impl Diagnostic {
     /// A problem whose words are known.
     pub fn at(sources: &Sources, span: Span, problem: Problem) -> Self {
-        let line = sources.line(span);
-        let words = sources.slice(span).lines().next().unwrap_or("");
-        Diagnostic {
-            problem,
-            source: sources.name(span.source).to_owned(),
-            position: Some(sources.position(span)),
-            words: words.to_owned(),
-            line: line.to_owned(),
-        }
+        let position = sources.position(span);
+        let words = sources.slice(span).lines().next().unwrap_or("").chars().take(2 * CONTEXT_CHARS).count();
+        let quoted = sources.quotes(span.source).then(|| excerpt(sources.line(span), position.column - 1, words));
+        let (line, words) = quoted.map_or((None, [0; 2]), |(line, words)| (Some(line), words));
+        Diagnostic { position: Some(position), line, words, ..Diagnostic::of(sources.name(span.source), problem) }
     }
 
     /// A problem of a text as a whole.
     pub fn of(source: impl Into<String>, problem: Problem) -> Self {
-        Diagnostic { problem, source: source.into(), position: None, words: String::new(), line: String::new() }
+        Diagnostic { problem, source: source.into(), position: None, line: None, words: [0; 2] }
     }
+}
 
-    /// The line, shortened around the words if long, and the two columns (characters) between which the caret runs.
-    fn excerpt(&self, column: usize) -> (String, usize, usize) {
-        let chars: Vec<char> = self.line.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
-        let start = (column - 1).min(chars.len());
-        let end = (start + self.words.chars().count()).min(chars.len());
-        let from = if chars.len() > 2 * CONTEXT_CHARS { start.saturating_sub(CONTEXT_CHARS) } else { 0 };
-        let to = chars.len().min(end.min(start + CONTEXT_CHARS) + CONTEXT_CHARS);
-        let (lead, tail) = (if from > 0 { "…" } else { "" }, if to < chars.len() { "…" } else { "" });
-        let text: String = chars[from..to].iter().collect();
-        let shift = lead.chars().count();
-        (format!("{lead}{text}{tail}").trim_end().to_owned(), start - from + shift, end.min(to) - from + shift)
-    }
+/// A line, shortened around its words if it is long, and the characters between which they then stand.
+fn excerpt(line: &str, start: usize, words: usize) -> (String, [usize; 2]) {
+    let is_long = line.chars().nth(2 * CONTEXT_CHARS).is_some();
+    let from = if is_long { start.saturating_sub(CONTEXT_CHARS) } else { 0 };
+    let mut rest = blanked(line).skip(from);
+    let most = start - from + words.min(CONTEXT_CHARS) + CONTEXT_CHARS;
+    let text: String = rest.by_ref().take(if is_long { most } else { usize::MAX }).collect();
+    let (lead, tail) = (if from > 0 { "…" } else { "" }, if rest.next().is_some() { "…" } else { "" });
+    let [start, end] = [start, start + words].map(|at| (at - from).min(text.chars().count()) + lead.chars().count());
+    (format!("{lead}{text}{tail}").trim_end().to_owned(), [start, end])
 }
 
 impl fmt::Display for Diagnostic {
@@ -68,34 +71,26 @@ impl fmt::Display for Diagnostic {
             Severity::Warning => "warning",
             Severity::Error => "error",
         };
-        write!(f, "{word}: {}", problem.found)?;
-        let margin = match self.position {
-            None => {
-                write!(f, "\n --> {}", self.source)?;
-                1
-            }
-            Some(position) => {
-                let number = position.line.to_string();
-                let margin = number.len();
-                let (line, start, end) = self.excerpt(position.column);
-                let carets = "^".repeat((end - start).max(1));
-                let (pad, gap) = (" ".repeat(margin), " ".repeat(start));
-                let Position { line: row, column } = position;
-                write!(f, "\n{pad}--> {}:{row}:{column}", self.source)?;
-                let bar = if line.is_empty() { " |" } else { " | " };
-                write!(f, "\n{pad} |\n{number}{bar}{line}\n{pad} | {gap}{carets}")?;
-                margin
-            }
-        };
-        let pad = " ".repeat(margin);
-        if !problem.path.is_empty() {
-            write!(f, "\n{pad} = in: {}", problem.path)?;
+        write!(f, "{word}: {}", shown(&problem.found))?;
+        let source = shown(&self.source);
+        let pad = " ".repeat(self.position.map_or(1, |p| p.line.to_string().len()));
+        match self.position {
+            None => write!(f, "\n --> {source}")?,
+            Some(Position { line, column }) => write!(f, "\n{pad}--> {source}:{line}:{column}")?,
         }
-        if !problem.expected.is_empty() {
-            write!(f, "\n{pad} = expected: {}", problem.expected)?;
+        if let (Some(line), Some(Position { line: number, .. })) = (&self.line, self.position) {
+            let [start, end] = self.words;
+            let (gap, carets) = (" ".repeat(start), "^".repeat((end - start).max(1)));
+            let bar = if line.is_empty() { " |" } else { " | " };
+            write!(f, "\n{pad} |\n{number}{bar}{line}\n{pad} | {gap}{carets}")?;
+        }
+        for (word, text) in [("in", &problem.path), ("expected", &problem.expected)] {
+            if !text.is_empty() {
+                write!(f, "\n{pad} = {word}: {}", shown(text))?;
+            }
         }
         match &problem.hint {
-            Some(hint) => write!(f, "\n{pad} = help: {hint}"),
+            Some(hint) => write!(f, "\n{pad} = help: {}", shown(hint)),
             None => Ok(()),
         }
     }
@@ -115,51 +110,79 @@ impl Diagnostics {
                 && d.source == diagnostic.source
                 && d.problem.found == diagnostic.problem.found
         };
-        if !self.0.iter().any(same) {
-            self.0.push(diagnostic);
+        if self.kept.iter().any(same) {
+        } else if self.is_full(diagnostic.problem.severity) {
+            self.more[diagnostic.problem.severity as usize] += 1;
+        } else {
+            self.kept.push(diagnostic);
         }
+    }
+
+    /// Adds a problem, whose place is only looked for while problems of its severity are kept.
+    pub fn add(&mut self, problem: Problem, place: impl FnOnce(Problem) -> Diagnostic) {
+        if self.is_full(problem.severity) {
+            self.more[problem.severity as usize] += 1;
+        } else {
+            self.push(place(problem));
+        }
+    }
+
+    /// Whether more problems of a severity are only counted.
+    pub fn is_full(&self, severity: Severity) -> bool {
+        self.kept.iter().filter(|d| d.problem.severity == severity).count() >= MOST
     }
 
     /// Adds all of `other`.
     pub fn extend(&mut self, other: Diagnostics) {
-        self.0.extend(other.0);
+        for (more, others) in self.more.iter_mut().zip(other.more) {
+            *more += others;
+        }
+        for diagnostic in other.kept {
+            self.push(diagnostic);
+        }
+    }
+
+    /// How many there are of a severity.
+    pub fn count(&self, severity: Severity) -> usize {
+        self.kept.iter().filter(|d| d.problem.severity == severity).count() + self.more[severity as usize]
     }
 
     /// True if any is an error.
     pub fn has_errors(&self) -> bool {
-        self.0.iter().any(|d| d.problem.severity == Severity::Error)
+        self.count(Severity::Error) > 0
     }
 
     /// True if there is none.
     pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.kept.is_empty()
     }
 
-    /// How many.
+    /// How many there are.
     pub fn len(&self) -> usize {
-        self.0.len()
+        self.kept.len() + self.more.iter().sum::<usize>()
     }
 
-    /// Each in turn.
+    /// Each that is kept in turn.
     pub fn iter(&self) -> std::slice::Iter<'_, Diagnostic> {
-        self.0.iter()
+        self.kept.iter()
     }
 }
 
 impl From<Diagnostic> for Diagnostics {
     fn from(one: Diagnostic) -> Self {
-        Diagnostics(vec![one])
+        Diagnostics { kept: vec![one], more: [0; 2] }
     }
 }
 
 impl fmt::Display for Diagnostics {
-    /// Each as in [`Diagnostic`], an empty line between two.
+    /// Each as in [`Diagnostic`], an empty line between two, and how many more there are.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        for (i, diagnostic) in self.0.iter().enumerate() {
-            if i > 0 {
-                write!(f, "\n\n")?;
-            }
-            write!(f, "{diagnostic}")?;
+        for (i, diagnostic) in self.kept.iter().enumerate() {
+            let gap = if i > 0 { "\n\n" } else { "" };
+            write!(f, "{gap}{diagnostic}")?;
+        }
+        for (more, what) in self.more.iter().zip(["warnings", "errors"]).filter(|(more, _)| **more > 0) {
+            write!(f, "\n\nand {more} more {what}, not shown")?;
         }
         Ok(())
     }

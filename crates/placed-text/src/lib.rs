@@ -9,14 +9,16 @@ mod node;
 mod path;
 mod problem;
 mod reader;
+mod shown;
 mod source;
 mod toml;
 
-pub use csv::{Cell, cells, lines, name_and_unit, number};
+pub use csv::{CELL, Cell, cells, lines, name_and_unit, number};
 pub use diagnostic::{Diagnostic, Diagnostics};
 pub use node::{Entry, Format, Node, Table, Value, Written};
 pub use path::{Step, child, children, follow, locate, parse as parse_path, targets, to_text, with_key, with_step};
 pub use problem::{Problem, Problems, Severity};
+pub use shown::{plain, shortened, shown};
 pub use source::{Position, SourceId, Sources, Span};
 pub use toml::parse_value;
 
@@ -108,12 +110,16 @@ pub fn refuse(source: &str, found: String, expected: &str) -> Diagnostics {
     Diagnostic::of(source, Problem::error("", found, expected)).into()
 }
 
-/// `"a", "b" or "c"`.
+/// Names of a long list that are shown.
+const NAMES: usize = 40;
+
+/// `"a", "b" or "c"`; of a long list the first.
 pub fn one_of(names: &[&str], quote: char) -> String {
     match names {
         [] => "no key at all".to_owned(),
         [only] => format!("{quote}{only}{quote}"),
-        [first @ .., last] => format!("{} or {quote}{last}{quote}", quoted(first, quote)),
+        [first @ .., last] if names.len() <= NAMES => format!("{} or {quote}{last}{quote}", quoted(first, quote)),
+        _ => format!("{} or one of {} more", quoted(&names[..NAMES], quote), names.len() - NAMES),
     }
 }
 

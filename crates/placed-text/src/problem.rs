@@ -1,5 +1,6 @@
 //! What is wrong with an input: values that name the place, what was found, what was expected and how to mend it.
 
+use std::collections::HashSet;
 use std::fmt;
 
 /// How bad a problem is.
@@ -73,6 +74,11 @@ impl Problems {
         Problems(Vec::new())
     }
 
+    /// Adds one.
+    pub fn push(&mut self, problem: Problem) {
+        self.0.push(problem);
+    }
+
     /// Adds an error.
     pub fn error(&mut self, path: impl Into<String>, found: impl Into<String>, expected: impl Into<String>) {
         self.0.push(Problem::error(path, found, expected));
@@ -107,6 +113,14 @@ impl Problems {
     pub fn check_at_least_zero(&mut self, path: &str, value: f64, unit: &str) {
         if !(value >= 0.0 && value.is_finite()) {
             self.error(path, format!("{value} {unit}").trim_end(), "zero or a positive number");
+        }
+    }
+
+    /// Adds an error for every thing (`what`, such as a belt, under `path`) whose name another one has already.
+    pub fn check_unique<'n>(&mut self, path: &str, what: &str, names: impl Iterator<Item = &'n str>) {
+        let mut known = HashSet::new();
+        for name in names.filter(|name| !known.insert(*name)) {
+            self.error(format!("{path}.{name}"), format!("a second {what} named {name}"), "unique names");
         }
     }
 

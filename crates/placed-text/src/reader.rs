@@ -27,7 +27,8 @@ impl<'a> Reader<'a> {
 
     /// Reports what stands at a place; what is read there is `null`.
     pub(super) fn reject(&mut self, span: Span, found: &str, expected: &str) -> Value {
-        self.problems.push(Diagnostic::at(self.sources, span, Problem::error("", found, expected)));
+        let problem = Problem::error("", found, expected);
+        self.problems.add(problem, |problem| Diagnostic::at(self.sources, span, problem));
         Value::Null
     }
 }

@@ -32,6 +32,8 @@ struct Source {
     name: String,
     /// The text.
     text: String,
+    /// Whether messages quote its lines.
+    is_quoted: bool,
 }
 
 /// Line and column of a place, both counted from 1; the column counts characters.
@@ -55,8 +57,20 @@ impl Sources {
 
     /// Adds a text.
     pub fn add(&mut self, name: impl Into<String>, text: impl Into<String>) -> SourceId {
-        self.0.push(Source { name: name.into(), text: text.into() });
+        self.0.push(Source { name: name.into(), text: text.into(), is_quoted: true });
         SourceId(self.0.len() - 1)
+    }
+
+    /// Adds a text that another one names. It may be any file of the user's, so that messages name places in it but
+    /// quote no line.
+    pub fn add_named(&mut self, name: impl Into<String>, text: impl Into<String>) -> SourceId {
+        self.0.push(Source { name: name.into(), text: text.into(), is_quoted: false });
+        SourceId(self.0.len() - 1)
+    }
+
+    /// Whether messages quote lines of the text.
+    pub(crate) fn quotes(&self, id: SourceId) -> bool {
+        self.0.get(id.0).is_some_and(|s| s.is_quoted)
     }
 
     /// The text with this name, if there is one already.

@@ -2,11 +2,18 @@
 
 use std::io::{self, ErrorKind, Write, stderr, stdout};
 
+use placed_text::plain;
+
 use super::failure::Failure;
 
-/// Writes a result. A reader that has gone away is no failure.
-pub(crate) fn print(text: impl AsRef<[u8]>) -> Result<(), Failure> {
-    written(stdout().write_all(text.as_ref()))
+/// Writes a result, its control characters escaped. A reader that has gone away is no failure.
+pub(crate) fn print(text: &str) -> Result<(), Failure> {
+    print_file(plain(text).as_bytes())
+}
+
+/// Writes the bytes of a file, as they are. A reader that has gone away is no failure.
+pub(crate) fn print_file(bytes: &[u8]) -> Result<(), Failure> {
+    written(stdout().write_all(bytes))
 }
 
 /// What became of a result that was written to standard output.
@@ -19,9 +26,9 @@ pub(crate) fn written(result: io::Result<()>) -> Result<(), Failure> {
     }
 }
 
-/// Writes a message to standard error. That it cannot be written is no failure.
+/// Writes a message to standard error, its control characters escaped. That it cannot be written is no failure.
 pub(crate) fn say(text: &str) {
-    let _unwritten = writeln!(stderr().lock(), "{text}");
+    let _unwritten = writeln!(stderr().lock(), "{}", plain(text));
 }
 
 /// Says what to know of a result.

@@ -81,11 +81,6 @@ pub(crate) fn facts(facts: &[(&str, String)]) -> String {
     lines.collect()
 }
 
-/// A name without characters that would speak to the terminal instead of the reader.
-pub(crate) fn plain(name: &str) -> String {
-    name.chars().map(|c| if c.is_control() { ' ' } else { c }).collect()
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -21,6 +21,6 @@ pub(crate) struct Args {
 pub(crate) fn print(args: &Args) -> Result<Done, Failure> {
     let mut script = Vec::new();
     generate(args.shell, &mut Cli::command(), "occupant", &mut script);
-    talk::print(&script)?;
+    talk::print_file(&script)?;
     Ok(Done::Well)
 }

@@ -12,7 +12,7 @@ use crate::base::failure::{Done, Failure};
 use crate::base::input_file::read;
 use crate::base::names::{ending, file_name};
 use crate::base::output_file::{publish, refuse_input};
-use crate::base::talk::{print, say};
+use crate::base::talk::{print_file, say};
 use crate::files::scenario::{files_beside, format_of};
 use crate::jobs::extend::{extend, extend_run};
 
@@ -215,7 +215,7 @@ fn load(path: &Path, bytes: &[u8], format: Format) -> Result<Loaded, Failure> {
 fn deliver(args: &Args, output: Option<&Path>, bytes: &[u8]) -> Result<(), Failure> {
     match output {
         Some(file) => write(args, file, bytes),
-        None => print(bytes),
+        None => print_file(bytes),
     }
 }
 

@@ -10,11 +10,12 @@ use serde::Serialize;
 
 use occupant_core::results::summary::{Caveat, Summary};
 
+use placed_text::shown;
+
 use super::tables::measures::{long, remarks, risks};
 use super::tables::summary::Marks;
 use crate::base::failure::{Done, Failure};
 use crate::base::talk::{self, note, print};
-use crate::base::text_table::plain;
 use crate::files::results::Results;
 
 /// Injury measures of a run against limits and risk curves
@@ -125,7 +126,7 @@ fn text(results: &Results, options: &Options, Summary { measures, caveats, .. }:
         Filtering::Classes(CfcFamily::SaeJ211) => "filtered by SAE J211 classes",
         Filtering::Classes(CfcFamily::Iso6487) => "filtered by ISO 6487 classes",
     };
-    let title = plain(&results.model.setup().title);
+    let title = shown(&results.model.setup().title);
     let dummy = options.dummy.name();
     [
         format!(

@@ -10,6 +10,7 @@ use placed_text::Severity;
 use super::mcap::StoredRun;
 use super::mcap::about::RESOLVED;
 use crate::base::failure::Failure;
+use crate::base::input_file;
 use crate::base::names::{ending, file_name};
 use crate::base::talk::note;
 
@@ -51,7 +52,7 @@ pub(crate) fn open(args: &ScenarioArgs) -> Result<Opened, Failure> {
 /// A file that cannot be read; everything that is wrong with its words.
 pub(crate) fn draft(args: &ScenarioArgs) -> Result<(Vec<u8>, Draft), Failure> {
     let path = &args.scenario;
-    let bytes = std::fs::read(path).map_err(|error| unreadable(path, &error))?;
+    let bytes = input_file::bytes(path).map_err(|error| unreadable(path, &error))?;
     let name = path.display().to_string();
     let refuse = |problems: Diagnostics| refused(&name, &problems);
     let mut draft = Draft::read_bytes(&bytes, format_of(path), &name).map_err(refuse)?;
@@ -76,7 +77,7 @@ pub(crate) fn open_draft(args: &ScenarioArgs, bytes: Vec<u8>, draft: Draft) -> R
 /// Reads the files that a scenario names, from the folder that it stands in.
 pub(crate) fn files_beside(scenario: &Path) -> impl Fn(&str) -> Result<Vec<u8>, String> {
     let folder = scenario.parent().unwrap_or(Path::new("")).to_owned();
-    move |file| std::fs::read(folder.join(file)).map_err(|error| error.to_string())
+    move |file| input_file::bytes(&folder.join(file)).map_err(|error| error.to_string())
 }
 
 /// Files that scenarios name, as they were when the work began: names and bytes.
@@ -153,8 +154,7 @@ fn unreadable(path: &Path, error: &std::io::Error) -> Failure {
 
 /// The end of a command that a text with problems does not let begin.
 pub(crate) fn refused(name: &str, problems: &Diagnostics) -> Failure {
-    let errors = problems.iter().filter(|d| d.problem.severity == Severity::Error).count();
-    Failure::CouldNotRun(nothing_was_run(&problems.to_string(), name, errors))
+    Failure::CouldNotRun(nothing_was_run(&problems.to_string(), name, problems.count(Severity::Error)))
 }
 
 /// So many errors, in words.

@@ -11,6 +11,7 @@ use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
 use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter, SerializedRowGroupWriter};
 use parquet::schema::types::Type;
+use placed_text::plain;
 use serde::{Deserialize, Serialize};
 
 use crate::base::failure::Failure;
@@ -72,7 +73,7 @@ impl Cell {
         match self {
             Cell::Absent => String::new(),
             Cell::Number(x) => x.to_string(),
-            Cell::Text(text) => text.to_string(),
+            Cell::Text(text) => harmless(text),
         }
     }
 
@@ -82,6 +83,14 @@ impl Cell {
             Cell::Absent | Cell::Number(_) => None,
         }
     }
+}
+
+/// A text that no spreadsheet takes for a formula: one that begins like it gets an apostrophe. Hidden characters are
+/// escaped.
+fn harmless(text: &str) -> String {
+    let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r']) && text.parse::<f64>().is_err();
+    let mark = if is_formula { "'" } else { "" };
+    format!("{mark}{}", plain(text))
 }
 
 /// The form of a file.
@@ -134,7 +143,7 @@ impl<W: Write + Send> Table<W> {
         let writer = match form {
             Form::Csv => {
                 let mut writer = csv::Writer::from_writer(to);
-                writer.write_record(columns.iter().map(|(name, _)| name.as_ref()))?;
+                writer.write_record(columns.iter().map(|(name, _)| harmless(name.as_ref())))?;
                 Writer::Csv(Box::new(writer))
             }
             Form::Parquet => Writer::Parquet(Box::new(begin(to, columns, about).map_err(reason)?)),

@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use placed_text::shown;
+
 use crate::base::failure::Failure;
 
 /// One problem.
@@ -25,12 +27,14 @@ impl Trouble {
 
     /// In a file as a whole.
     pub(crate) fn of(path: &Path, found: impl Into<String>, expected: impl Into<String>) -> Self {
-        Trouble { place: path.display().to_string(), found: found.into(), expected: expected.into(), hint: None }
+        let [place, found, expected] =
+            [path.display().to_string(), found.into(), expected.into()].map(|text| shown(&text));
+        Trouble { place, found, expected, hint: None }
     }
 
     /// How to mend it.
     pub(crate) fn hint(mut self, hint: impl Into<String>) -> Self {
-        self.hint = Some(hint.into());
+        self.hint = Some(shown(&hint.into()));
         self
     }
 }

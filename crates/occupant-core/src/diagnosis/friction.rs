@@ -8,7 +8,6 @@ use serde::Serialize;
 use super::mobility_of;
 use super::rates::FrictionMasses;
 use crate::model::Model;
-use crate::model::setup::Integrator;
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
 use placed_text::Problems;
@@ -134,10 +133,7 @@ fn warn(problems: &mut Problems, worst: &UnstableFriction, others: &[&str]) {
 impl Recorder for FrictionWatch {
     fn begin(&mut self, model: &Model) -> Result<(), RecorderError> {
         let setup = model.setup();
-        let step_s = match setup.integrator {
-            Integrator::Rk4 { step_s } => step_s,
-            Integrator::Adaptive { .. } => 0.0,
-        };
+        let step_s = setup.fixed_step_s().unwrap_or(0.0);
         *self = FrictionWatch {
             masses: Some(FrictionMasses::new(model, &mobility_of(model))),
             step_s,

@@ -125,10 +125,7 @@ impl Diagnosis {
 /// Looks at the start of a run.
 pub fn diagnose(model: &Model) -> Diagnosis {
     let setup = model.setup();
-    let step_s = match setup.integrator {
-        Integrator::Rk4 { step_s } => Some(step_s),
-        Integrator::Adaptive { .. } => None,
-    };
+    let step_s = setup.fixed_step_s();
     let mobility = mobility_of(model);
     let masses = FrictionMasses::new(model, &mobility);
     let sphere_rates = rates::of_spheres(model, &mobility, &masses, step_s);

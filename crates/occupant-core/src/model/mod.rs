@@ -60,9 +60,7 @@ impl Model {
         validate::check(&setup, &mut problems);
         let faces: Vec<Option<FlatFace>> =
             setup.surfaces.iter().map(|s| FlatFace::new(s, &format!("surfaces.{}", s.name), &mut problems)).collect();
-        if let Err(problem) = setup.path.check_span(setup.time.start_s, setup.time.end_s) {
-            problems.error("path", problem.to_string(), "a path for the whole run");
-        }
+        validate::check_path(&setup, &mut problems);
         if problems.has_errors() {
             return Err(problems);
         }

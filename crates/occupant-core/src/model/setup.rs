@@ -125,6 +125,15 @@ pub struct Setup {
 }
 
 impl Setup {
+    /// The longest step that a fixed step comes to, s: none is longer than an output interval; none under error control.
+    pub(crate) fn fixed_step_s(&self) -> Option<f64> {
+        let longest_s = self.time.output_s.min(self.time.end_s - self.time.start_s);
+        match self.integrator {
+            Integrator::Rk4 { step_s } => Some(step_s.min(longest_s)),
+            Integrator::Adaptive { .. } => None,
+        }
+    }
+
     /// What it says of force elements; `faces` are the planes of its surfaces.
     pub(crate) fn forces<'a>(&'a self, faces: &'a [FlatFace]) -> Data<'a> {
         let contacts = ContactData {

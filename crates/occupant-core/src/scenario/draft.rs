@@ -99,7 +99,7 @@ impl Draft {
             let unknown = references(&root, &TTI12.sphere_names());
             if !unknown.is_empty() {
                 let whole = Document { root, ..self.document.clone() };
-                unknown.into_iter().for_each(|problem| problems.push(whole.place(problem)));
+                unknown.into_iter().for_each(|problem| problems.add(problem, |problem| whole.place(problem)));
             }
         }
         problems

@@ -87,7 +87,7 @@ impl Loaded {
     pub fn diagnose(&self, problems: &Problems) -> Diagnostics {
         let mut placed = Diagnostics::new();
         for problem in problems.iter() {
-            placed.push(self.document.place(problem.clone()));
+            placed.add(problem.clone(), |problem| self.document.place(problem));
         }
         placed
     }
@@ -116,5 +116,5 @@ fn read_path_table(
         document.place(Problem::error("path.file", found, "a CSV file, its name relative to the scenario"))
     })?;
     let text = text_of(&bytes, file)?;
-    Ok(Some(document.sources.add(file, text)))
+    Ok(Some(document.sources.add_named(file, text)))
 }

@@ -32,6 +32,18 @@ pub enum PathProblem {
         /// What was found.
         value: f64,
     },
+    /// A number at a station is greater than any of a vehicle.
+    #[error("station {}: found {quantity} = {value}, expected at most {largest:e}", station + 1)]
+    StationTooLarge {
+        /// The station.
+        station: usize,
+        /// Which of its quantities.
+        quantity: &'static str,
+        /// What was found.
+        value: f64,
+        /// The largest magnitude.
+        largest: f64,
+    },
     /// An angle changes by more than half a turn from one station to the next.
     #[error(
         "station {}: {angle} goes from {:.3}° to {:.3}°, expected less than half a turn between stations; unwrap the angles (add \
@@ -240,8 +252,11 @@ pub(super) fn check_row(
     largest: f64,
 ) {
     let all = std::iter::once(("t", time_s)).chain(numbers);
-    let wrong = all.filter(|(_, value)| value.is_nan() || value.abs() > largest);
-    problems.extend(wrong.map(|(quantity, value)| PathProblem::StationNotFinite { station, quantity, value }));
+    problems.extend(all.filter_map(|(quantity, value)| match value {
+        _ if !value.is_finite() => Some(PathProblem::StationNotFinite { station, quantity, value }),
+        _ if value.abs() > largest => Some(PathProblem::StationTooLarge { station, quantity, value, largest }),
+        _ => None,
+    }));
     if let Some(previous_s) = previous_s.filter(|previous_s| time_s <= *previous_s) {
         problems.push(PathProblem::TimeNotIncreasing { station, time_s, previous_s });
     }

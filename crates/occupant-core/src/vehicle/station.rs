@@ -31,6 +31,9 @@ impl Station {
     }
 }
 
+/// The largest magnitude of a time, place or angle, s, m and rad: places beyond it lose the digits that forces are made of.
+const LARGEST: f64 = 1e8;
+
 const COLUMNS: [&str; 6] = ["x", "y", "z", "roll", "pitch", "yaw"];
 
 /// Adds whole turns (or the other name of the same attitude) to the angles of `stations`, so that each is nearest to the
@@ -51,7 +54,7 @@ pub(super) fn problems_of(stations: &[Station]) -> Vec<PathProblem> {
         let values = here.channels();
         let numbers = COLUMNS.into_iter().zip(values.iter().copied());
         let previous = station.checked_sub(1).map(|before| &stations[before]);
-        check_row(&mut problems, station, here.time_s, previous.map(|p| p.time_s), numbers, f64::MAX);
+        check_row(&mut problems, station, here.time_s, previous.map(|p| p.time_s), numbers, LARGEST);
         if let Some(previous) = previous {
             compare_with_previous(station, previous, here, &mut problems);
         }

@@ -8,6 +8,9 @@ use crate::sobol::MAX_DIMENSIONS;
 use occupant_core::scenario::Resolver;
 use placed_text::Problem;
 
+/// More runs than this are a slip of the pen: they take months.
+pub const MOST_RUNS: u64 = 10_000_000;
+
 impl Binder<'_> {
     /// The design of the study; columns of a table of samples may become parameters.
     pub(super) fn design(&mut self, parameters: &mut Vec<Parameter>, resolver: Resolver) -> Design {
@@ -56,8 +59,9 @@ impl Binder<'_> {
         self.limits(parameters.len(), design);
         let members = ensemble.map_or(1, |e| e.members);
         let runs = design.len(&levels).and_then(|n| n.checked_mul(members));
-        if runs.is_none_or(|n| n > 1 << 52) {
-            self.error("design", "more runs than can be counted", "at most 2^52 runs", None);
+        if runs.is_none_or(|n| n > MOST_RUNS) {
+            let found = runs.map_or("more runs than can be counted".to_owned(), |n| format!("{n} runs"));
+            self.error("design", found, format!("at most {MOST_RUNS} runs"), None);
         }
         self.power_of_two(design);
     }

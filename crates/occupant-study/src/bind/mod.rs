@@ -9,6 +9,7 @@ mod law;
 mod parameters;
 mod table;
 
+pub use design::MOST_RUNS;
 use indexmap::IndexMap;
 
 use super::Study;

@@ -40,7 +40,7 @@ pub(super) fn rows(
         }
     };
     let mut sources = Sources::new();
-    let id = sources.add(file, text);
+    let id = sources.add_named(file, text);
     let mut reader = Reader { sources: &sources, binder };
     let mut lines = lines(&sources, id);
     let Some(header) = lines.next() else {
@@ -67,7 +67,8 @@ impl Reader<'_, '_, '_> {
     }
 
     fn report(&mut self, span: Span, problem: Problem) {
-        self.binder.problems.push(Diagnostic::at(self.sources, span, problem));
+        let sources = self.sources;
+        self.binder.problems.add(problem, |problem| Diagnostic::at(sources, span, problem));
     }
 
     fn header(&mut self, line: Span, parameters: &mut Vec<Parameter>) -> Vec<Option<Column>> {

@@ -185,7 +185,11 @@ fn a_design_that_cannot_be_counted_is_refused() {
         )
     };
     let text = format!("design.kind = \"full_factorial\"\n{}{}{}", grid(0), grid(1), grid(2));
-    assert!(bind(&text).unwrap_err().to_string().contains("more runs than can be counted"));
+    assert!(bind(&text).unwrap_err().to_string().contains("1000000000000000000 runs"));
+    for samples in ["1099511627776", "1000000000000", "9223372036854775807"] {
+        let text = format!("design = {{ kind = \"latin_hypercube\", samples = {samples} }}\n{}", grid(0));
+        assert!(bind(&text).unwrap_err().to_string().contains("at most 10000000 runs"));
+    }
 }
 
 #[test]

@@ -41,38 +41,23 @@ fn everything_wrong_with_a_table_is_told_at_once() {
         words.to_string(),
         r#"error: `belts.lap` has nothing named `slck`
  --> samples.csv:1:1
-  |
-1 | belts.lap.slck[mm], path.shape, posture.head
-  | ^^^^^^^^^^^^^^^^^^
   = expected: the name of a parameter, or a path: one of anchors, delta_b, k1, k2, length, mu1, mu2, slack, sphere
   = help: did you mean `slack`?
 
 error: column `posture.head` without a unit
  --> samples.csv:1:33
-  |
-1 | belts.lap.slck[mm], path.shape, posture.head
-  |                                 ^^^^^^^^^^^^
   = expected: the unit of an angle in brackets, such as `posture.head[deg]`
 
 error: no column `damping`
  --> samples.csv:1:1
-  |
-1 | belts.lap.slck[mm], path.shape, posture.head
-  | ^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^^
   = expected: a column for each parameter
 
 error: `sine`
  --> samples.csv:2:4
-  |
-2 | 1, sine, 2
-  |    ^^^^
   = expected: "half_sine", "haversine", "triangle", "trapezoid", "square" or "tabulated"
 
 error: 2 values
  --> samples.csv:3:1
-  |
-3 | 1, square
-  | ^^^^^^^^^
   = expected: 3, one for each column"#
     );
     let none = with("damping\n").unwrap_err().to_string();

@@ -25,7 +25,7 @@ use crate::pictures::Format;
 pub(crate) struct EnsembleArgs {
     /// Run the scenario N times, all but the first with small changes of posture, place, pulse and stiffness, and say which
     /// figures are stable
-    #[arg(long, value_name = "N", conflicts_with = "resume", value_parser = clap::value_parser!(u32).range(2..))]
+    #[arg(long, value_name = "N", conflicts_with = "resume", value_parser = clap::value_parser!(u32).range(2..=100_000))]
     ensemble: Option<u32>,
 
     /// Names the random numbers of the changes

@@ -64,11 +64,18 @@ pub(crate) fn keep(given: Option<&str>, plan: &Plan) -> Result<Keep, Failure> {
     Ok(keep)
 }
 
+/// More threads than this only cost memory.
+const MOST_THREADS: usize = 1024;
+
 /// As many threads as the command line says, or one for each core.
 pub(crate) fn engine(threads: Option<NonZeroUsize>, kernel: Kernel) -> Result<Engine, Failure> {
     let cores = || available_parallelism().unwrap_or(NonZeroUsize::MIN);
-    Engine::new(threads.unwrap_or_else(cores).get(), kernel)
-        .map_err(|e| Failure::plain(format!("no thread can be started: {e}")))
+    let threads = threads.unwrap_or_else(cores).get();
+    if threads > MOST_THREADS {
+        let found = format!("--threads {threads}: more than a machine has cores");
+        return Err(Failure::with_help(found, &format!("give at most {MOST_THREADS}, or leave it out")));
+    }
+    Engine::new(threads, kernel).map_err(|e| Failure::plain(format!("no thread can be started: {e}")))
 }
 
 /// What computes many runs.

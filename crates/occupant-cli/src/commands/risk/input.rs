@@ -83,7 +83,7 @@ fn path_of(args: &Args, name: &str, extension: &str, wanted: &Preparation) -> Re
 fn recorded(args: &Args, name: &str) -> Result<RecordFile, Failure> {
     let bytes = input_file::read(&args.file)?;
     let mut file = read_record(&bytes, name).map_err(|problems| {
-        let count = scenario::counted(problems.iter().count());
+        let count = scenario::counted(problems.len());
         Failure::CouldNotRun(format!("{problems}\n\n{name}: {count}, nothing was measured"))
     })?;
     if args.z_up {

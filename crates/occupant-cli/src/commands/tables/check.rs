@@ -4,12 +4,14 @@ use occupant_core::diagnosis::{Diagnosis, Rate, SeatStart};
 
 use super::elements;
 use super::summary::Marks;
+use placed_text::shown;
+
 use crate::base::text_table::Align::{Left, Right};
-use crate::base::text_table::{NONE, Table, facts, plain, trimmed};
+use crate::base::text_table::{NONE, Table, facts, trimmed};
 
 /// Everything that a user should see before a run.
 pub(crate) fn check_text(d: &Diagnosis) -> String {
-    let mut parts = vec![format!("{}\n", plain(&d.title)), overview(d), segments(d)];
+    let mut parts = vec![format!("{}\n", shown(&d.title)), overview(d), segments(d)];
     if let Some(seat) = &d.seat {
         parts.push(seating(seat));
     }

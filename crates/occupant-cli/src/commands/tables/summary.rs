@@ -7,8 +7,10 @@ use occupant_core::results::summary::{
 };
 
 use super::{elements, measures};
+use placed_text::shown;
+
 use crate::base::text_table::Align::{Left, Right};
-use crate::base::text_table::{NONE, Table, facts, number, plain, without_zeros};
+use crate::base::text_table::{NONE, Table, facts, number, without_zeros};
 use crate::jobs::run::recording::Written;
 
 /// Figures that are not to be quoted as they stand: those that a caveat touches carry a `!`, those that are not stable in an
@@ -71,7 +73,7 @@ fn title(summary: &Summary) -> String {
     };
     let every = (summary.reached_s - summary.start_s) / summary.solver.outputs.saturating_sub(1).max(1) as f64;
     let peaks = format!("peaks are those of outputs every {} ms", without_zeros(&number(every * 1e3, 3)));
-    format!("{}\n{ending}; {peaks}\n", plain(&summary.title))
+    format!("{}\n{ending}; {peaks}\n", shown(&summary.title))
 }
 
 fn accelerations(summary: &Summary, marks: &Marks) -> String {

@@ -137,9 +137,20 @@ fn too_coarse(results: &Results, channel: &str, reason: &str) -> Failure {
     )
 }
 
+/// More values than this are a slip of the pen: they take a gigabyte.
+const MOST_VALUES: f64 = 5e7;
+
 fn resample(histories: &mut Histories, interval_s: f64) -> Result<(), String> {
     let time_s = std::mem::take(&mut histories.time_s);
     let recorded_s = (time_s.len() > 1).then(|| (time_s[time_s.len() - 1] - time_s[0]) / (time_s.len() - 1) as f64);
+    let samples = time_s.last().zip(time_s.first()).map_or(0.0, |(last, first)| (last - first) / interval_s);
+    if samples * histories.columns.len() as f64 > MOST_VALUES {
+        let of = histories.columns.len();
+        return Err(format!(
+            "samples {interval_s} s apart are {samples:.1e} of {of} channels each; give an interval that makes at most \
+             {MOST_VALUES:.0e} values"
+        ));
+    }
     for column in &mut histories.columns {
         let line = Interpolant::new(&time_s, &column.values, Interpolation::Linear);
         let line = line.map_err(|e| format!("{}: {e}", column.channel.name))?;

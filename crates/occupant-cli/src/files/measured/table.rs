@@ -8,6 +8,7 @@ use std::path::Path;
 
 use crash_measures::unit::parse;
 use csv::{ReaderBuilder, StringRecord, Trim};
+use placed_text::{CELL, shortened};
 
 use crate::base::failure::Failure;
 use crate::files::signals::{Recording, Signal, scale_of, seconds_in};
@@ -175,7 +176,12 @@ impl Reader<'_> {
             for (column, cell) in columns.iter_mut().zip(cells) {
                 let value = number(cell, self.separator);
                 if value.is_none() {
-                    self.problems.push(Trouble::at(self.path, *line, format!("`{cell}`"), "a number"));
+                    self.problems.push(Trouble::at(
+                        self.path,
+                        *line,
+                        format!("`{}`", shortened(cell, CELL)),
+                        "a number",
+                    ));
                 }
                 column.push(value.unwrap_or(f64::NAN));
             }

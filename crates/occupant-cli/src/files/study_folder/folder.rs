@@ -14,6 +14,8 @@ use std::fs::{self, File, OpenOptions, TryLockError};
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 
+use occupant_study::MOST_RUNS;
+
 use super::checksums::SUMS;
 use super::journal::is_named_by_rows;
 use super::manifest::{Manifest, Text};
@@ -146,8 +148,12 @@ impl Folder {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             read => read.map_err(Problem::io("read", &path))?,
         };
-        let read = serde_json::from_slice(&bytes);
-        read.map(Some).map_err(|error| Problem::Damaged {
+        let read = serde_json::from_slice(&bytes).map_err(|error| error.to_string());
+        let possible = |manifest: Manifest| match manifest.samples {
+            0..=MOST_RUNS => Ok(manifest),
+            n => Err(format!("`samples` is {n}, and there are at most {MOST_RUNS}")),
+        };
+        read.and_then(possible).map(Some).map_err(|error| Problem::Damaged {
             found: format!("is no manifest of a {}: {error}", self.holds.word()),
             path,
         })

@@ -1,13 +1,13 @@
 //! Everything that a sweep reads, read once and remembered, from where it was named or from the copies in a folder.
 
 use std::cell::RefCell;
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
 use super::folder::Folder;
 use super::manifest::{Manifest, Text};
+use crate::base::input_file;
 use crate::base::names::file_name;
 use crate::base::sha256::sha256;
 
@@ -93,7 +93,7 @@ impl Texts {
                         path
                     }
                 };
-                fs::read(path).map_err(|error| error.to_string())
+                input_file::bytes(&path).map_err(|error| error.to_string())
             }
             Source::Copies { folder, texts } => {
                 let text = texts.iter().find(|t| t.by == by && t.name == name);

@@ -11,12 +11,13 @@ use super::bands::Bands;
 use super::members::{Left, Members};
 use super::plot;
 use super::report::Report;
+use placed_text::shown;
+
 use crate::base::failure::Failure;
 use crate::base::interrupt::Interrupt;
 use crate::base::names::program;
 use crate::base::output_file::{Existing, write_whole};
 use crate::base::progress::bar;
-use crate::base::text_table::plain;
 use crate::files::scenario::Opened;
 use crate::files::table::{Form, TableFile};
 use crate::pictures::Format;
@@ -81,7 +82,7 @@ impl Wanted {
         let runs: Vec<&[Vec<f64>]> = std::iter::once(nominal.values.as_slice()).chain(completed).collect();
         let bands = Bands::of(&self.channels, time_s, &runs, self.within);
         let mut report = Report::of(&nominal, &others, self.within, bands, (self.seed, self.changes));
-        let title = plain(&summary.title);
+        let title = shown(&summary.title);
         let files = self.files.iter().map(|file| self.write(&report, file, &title));
         report.files = files.collect::<Result<_, _>>()?;
         Ok(report)

@@ -14,6 +14,7 @@ use serde::Serialize;
 
 use super::difference::differences;
 use crate::base::failure::Failure;
+use crate::base::input_file;
 use crate::base::names::{file_name, program};
 use crate::base::sha256::sha256;
 use crate::base::talk::say;
@@ -48,7 +49,8 @@ impl Resumption {
     /// A file that cannot be read or holds no checkpoint; another scenario; an end that lies not after the file's.
     pub(crate) fn find(file: &Path, opened: &Opened) -> Result<Self, Failure> {
         let name = file.display();
-        let bytes = fs::read(file).map_err(|e| Failure::plain(format!("{name}, to resume, cannot be read: {e}")))?;
+        let bytes =
+            input_file::bytes(file).map_err(|e| Failure::plain(format!("{name}, to resume, cannot be read: {e}")))?;
         let stored = StoredRun::read(&bytes).map_err(|e| Failure::plain(format!("{name} cannot be resumed: {e}")))?;
         let Some(last) = stored.checkpoints.last() else {
             return Err(Failure::with_help(

@@ -4,14 +4,12 @@ use crate::body::Body;
 use crate::forces::belt::Belt;
 use crate::forces::belt::law::BeltLaw;
 use crate::motion::vector::V3;
-use placed_text::Problems;
+use placed_text::{Problem, Problems};
 
 pub(super) fn data(belts: &[Belt], body: &Body, problems: &mut Problems) {
-    for (i, belt) in belts.iter().enumerate() {
+    problems.check_unique("belts", "belt", belts.iter().map(|b| b.name.as_str()));
+    for belt in belts {
         let path = format!("belts.{}", belt.name);
-        if belts[..i].iter().any(|b| b.name == belt.name) {
-            problems.error(&path, format!("a second belt named {}", belt.name), "unique names");
-        }
         if belt.sphere >= body.spheres.len() {
             problems.error(format!("{path}.sphere"), "no such sphere", "a sphere of the body");
         }
@@ -24,24 +22,35 @@ pub(super) fn data(belts: &[Belt], body: &Body, problems: &mut Problems) {
     }
 }
 
-/// A belt round a sphere whose centre is at `centre`, vehicle axes.
-pub(super) fn laid(law: &BeltLaw<f64>, belt: &Belt, body: &Body, centre: V3<f64>, problems: &mut Problems) {
-    let (path, sphere) = (format!("belts.{}", belt.name), &body.spheres[belt.sphere]);
+/// A belt as it lies at the start, among the spheres that belts go round and their centres, vehicle axes.
+pub(super) fn laid(
+    law: &BeltLaw<f64>,
+    belt: &Belt,
+    body: &Body,
+    spheres: &[(usize, V3<f64>)],
+    problems: &mut Problems,
+) {
+    let path = format!("belts.{}", belt.name);
     for (i, anchor) in belt.anchors_m.iter().enumerate() {
-        let distance = (anchor.coords - centre.to_vector()).norm();
-        if distance <= sphere.radius_m {
-            problems.error_with_hint(
-                format!("{path}.anchors"),
-                format!(
-                    "anchor {} lies {:.4} m from the centre of the sphere {} of radius {:.4} m",
-                    i + 1,
-                    distance,
-                    sphere.name,
-                    sphere.radius_m
-                ),
-                "an anchor outside the sphere that the belt goes round",
-                "move the anchor, or check the seat's lateral place and the anchor's sign of y",
+        for (index, centre) in spheres {
+            let (sphere, distance) = (&body.spheres[*index], (anchor.coords - centre.to_vector()).norm());
+            if distance > sphere.radius_m {
+                continue;
+            }
+            let found = format!(
+                "anchor {} lies {distance:.4} m from the centre of the sphere {} of radius {:.4} m",
+                i + 1,
+                sphere.name,
+                sphere.radius_m
             );
+            let problem = if *index == belt.sphere {
+                let problem = Problem::error(&path, found, "an anchor outside the sphere that the belt goes round");
+                problem.with_hint(Some("move the anchor, or check the seat's lateral place and the anchor's sign of y"))
+            } else {
+                let hint = "check the anchor's height and its sign of y";
+                Problem::warning(&path, found, "an anchor outside the body").with_hint(Some(hint))
+            };
+            problems.push(Problem { path: format!("{path}.anchors"), ..problem });
         }
     }
     let rest_length_m = law.rest_length;

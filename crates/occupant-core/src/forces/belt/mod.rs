@@ -108,8 +108,12 @@ impl Element for Belts {
     }
 
     fn begin(law: &mut Vec<BeltLaw<f64>>, data: &[Belt], body: &Body, at: &Instant<'_, f64>, problems: &mut Problems) {
+        let mut spheres: Vec<usize> = data.iter().map(|belt| belt.sphere).collect();
+        spheres.sort_unstable();
+        spheres.dedup();
+        let spheres: Vec<_> = spheres.iter().map(|&sphere| (sphere, at.centre_in(sphere, VEHICLE))).collect();
         for (law, belt) in law.iter().zip(data) {
-            check::laid(law, belt, body, at.centre_in(belt.sphere, VEHICLE), problems);
+            check::laid(law, belt, body, &spheres, problems);
         }
     }
 

@@ -5,7 +5,7 @@ use nalgebra::Point3;
 use super::{ContactData, EdgeForce};
 use crate::body::Body;
 use crate::forces::contact::face::{Outline, V2};
-use crate::forces::contact::flat_face::FlatFace;
+use crate::forces::contact::flat_face::{FlatFace, SAME_M};
 use crate::forces::contact::material::{Material, Memory};
 use crate::forces::contact::surface::{Frame, Outline as FaceOutline, Surface};
 use crate::forces::contact::{ContactSystem, Group, Pair, Part, Plane};
@@ -31,10 +31,11 @@ impl<S: Scalar> ContactSystem<S> {
             }),
             reach_of_a_step: S::of(FASTEST_M_S * longest_step_s),
         };
+        let seams = seams(faces);
         for (sphere, data) in body.spheres.iter().enumerate() {
             for (frame, index) in [(Frame::Vehicle, VEHICLE), (Frame::Space, SPACE)] {
                 let first = system.pairs.len();
-                for parts in joined(sphere, frame, surfaces, faces) {
+                for parts in joined(sphere, frame, surfaces, &seams) {
                     system.planes.push(plane(&faces[parts[0]], data.radius_m));
                     system.pairs.push(pair(&parts, surfaces, faces, materials));
                 }
@@ -48,23 +49,45 @@ impl<S: Scalar> ContactSystem<S> {
     }
 }
 
-/// Faces of `frame` that `sphere` can touch, in groups that act as one; in order of their first surface.
-fn joined(sphere: usize, frame: Frame, surfaces: &[Surface], faces: &[FlatFace]) -> Vec<Vec<usize>> {
-    let mut groups: Vec<Vec<usize>> = Vec::new();
-    for (i, surface) in surfaces.iter().enumerate() {
-        let reachable = surface.spheres.as_ref().is_none_or(|s| s.contains(&sphere));
-        if surface.frame != frame || !reachable {
-            continue;
+/// For each face those before it that it joins. Faces of one plane are next to each other in the order of their offsets.
+fn seams(faces: &[FlatFace]) -> Vec<Vec<usize>> {
+    let mut order: Vec<usize> = (0..faces.len()).collect();
+    order.sort_by(|&i, &j| faces[i].offset_m.total_cmp(&faces[j].offset_m));
+    let mut seams = vec![Vec::new(); faces.len()];
+    for (at, &i) in order.iter().enumerate() {
+        for &j in order[at + 1..].iter().take_while(|&&j| faces[j].offset_m - faces[i].offset_m < SAME_M) {
+            let (first, second) = (i.min(j), i.max(j));
+            if faces[first].joins(&faces[second]) {
+                seams[second].push(first);
+            }
         }
-        let touches = |g: &Vec<usize>| g.iter().any(|&j| faces[j].joins(&faces[i]));
-        let (mut same, other): (Vec<_>, Vec<_>) = groups.into_iter().partition(touches);
-        groups = other;
-        same.push(vec![i]);
-        let mut group = same.concat();
-        group.sort_unstable();
-        groups.push(group);
-        groups.sort_unstable();
     }
+    seams
+}
+
+/// Faces of `frame` that `sphere` can touch, in groups that act as one; in order of their first surface.
+fn joined(sphere: usize, frame: Frame, surfaces: &[Surface], seams: &[Vec<usize>]) -> Vec<Vec<usize>> {
+    let reaches = |s: &Surface| s.frame == frame && s.spheres.as_ref().is_none_or(|s| s.contains(&sphere));
+    // an earlier face of the same group, at last its first; the face itself where there is none
+    let mut earlier: Vec<usize> = (0..surfaces.len()).collect();
+    let first_of = |earlier: &mut Vec<usize>, mut i: usize| {
+        while earlier[i] != i {
+            earlier[i] = earlier[earlier[i]];
+            i = earlier[i];
+        }
+        i
+    };
+    let mut groups: Vec<Vec<usize>> = vec![Vec::new(); surfaces.len()];
+    for (i, _) in surfaces.iter().enumerate().filter(|(_, s)| reaches(s)) {
+        for &j in seams[i].iter().filter(|&&j| reaches(&surfaces[j])) {
+            let (a, b) = (first_of(&mut earlier, i), first_of(&mut earlier, j));
+            earlier[a.max(b)] = a.min(b);
+        }
+    }
+    for (i, _) in surfaces.iter().enumerate().filter(|(_, s)| reaches(s)) {
+        groups[first_of(&mut earlier, i)].push(i);
+    }
+    groups.retain(|group| !group.is_empty());
     groups
 }
 

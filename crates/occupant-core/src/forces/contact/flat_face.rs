@@ -8,7 +8,7 @@ use crate::forces::contact::surface::{Facing, Frame, Outline, Surface};
 use placed_text::Problems;
 
 /// Points closer than this are the same point, m.
-const SAME_M: f64 = 1e-6;
+pub(super) const SAME_M: f64 = 1e-6;
 
 /// A surface whose plane and open side are known, in the axes of its frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -88,8 +88,17 @@ impl FlatFace {
         let (Outline::Polygon(a), Outline::Polygon(b)) = (&self.outline, &other.outline) else {
             return false;
         };
-        coplanar && sides(a).any(|s| sides(b).any(|t| overlap(s, t)))
+        let apart = |axis: usize| {
+            let [a, b] = [a, b].map(|corners| corners.iter().map(|p| p[axis]).fold((f64::MAX, f64::MIN), range));
+            a.0 > b.1 + SAME_M || b.0 > a.1 + SAME_M
+        };
+        coplanar && !(0..3).any(apart) && sides(a).any(|s| sides(b).any(|t| overlap(s, t)))
     }
+}
+
+/// A range with one more number.
+fn range((least, most): (f64, f64), x: f64) -> (f64, f64) {
+    (least.min(x), most.max(x))
 }
 
 type Side = (Point3<f64>, Point3<f64>);
@@ -159,9 +168,12 @@ fn polygon_plane(corners: &[Point3<f64>], path: &str, problems: &mut Problems) -
             return None;
         }
     }
-    // turning one way at every corner is not enough: a star does so too
-    let beyond = |(p, q): Side, r: &Point3<f64>| (q - p).cross(&(r - p)).dot(&normal) < -1e-9 * size * size;
-    if sides(corners).any(|side| corners.iter().any(|r| beyond(side, r))) {
+    // turning one way at every corner is not enough: a star does so too, but turns by more than once round
+    let turn = |i: usize| {
+        let (p, q, r) = (corners[i], corners[(i + 1) % n], corners[(i + 2) % n]);
+        (q - p).cross(&(r - q)).dot(&normal).atan2((q - p).dot(&(r - q)))
+    };
+    if (0..n).map(turn).sum::<f64>() > 1.5 * std::f64::consts::TAU {
         problems.error_with_hint(
             path,
             "an outline that goes round more than once",

@@ -1,6 +1,8 @@
 //! Dampers, stops and springs of the joints.
 
-use crate::forces::joint::{BallJoint, HingeJoint, JointLaw, Joints, Stop};
+use crate::forces::element::Instant;
+use crate::forces::joint::{BallJoint, HingeJoint, JointLaw, JointSystem, Joints, Stop};
+use crate::motion::layout::{BALL_JOINTS, HINGE_JOINTS};
 use placed_text::Problems;
 
 pub(super) fn check(j: &Joints, problems: &mut Problems) {
@@ -76,5 +78,30 @@ fn check_stop(stop: &Stop, sign: f64, damping: f64, path: &str, problems: &mut P
             format!("damping at the stop {} N·m·s below the joint's own {damping} N·m·s", stop.damping_n_m_s),
             "a stop that resists more than the free joint",
         );
+    }
+}
+
+/// A joint may begin this far beyond its stop, rad: postures are rounded.
+const BEYOND_RAD: f64 = 0.01;
+
+/// Joints that begin beyond their stops, in a posture that the body cannot take.
+pub(super) fn start(joints: &Joints, law: &JointSystem<f64>, at: &Instant<'_, f64>, problems: &mut Problems) {
+    let balls = BALL_JOINTS.iter().enumerate().map(|(i, joint)| (*joint, law.beta(i, at.k)));
+    let hinges = HINGE_JOINTS.iter().zip(&at.state.hinge).map(|(joint, angle_rad)| (*joint, *angle_rad));
+    for (joint, angle_rad) in balls.chain(hinges) {
+        let (lower, upper) = match &joints[joint] {
+            JointLaw::Ball(ball) => (None, ball.stop),
+            JointLaw::Hinge(hinge) => (hinge.lower_stop, hinge.upper_stop),
+        };
+        let lower = lower.filter(|stop| angle_rad < stop.full_rad - BEYOND_RAD);
+        if let Some(stop) = lower.or(upper.filter(|stop| angle_rad > stop.full_rad + BEYOND_RAD)) {
+            let (angle, full) = (angle_rad.to_degrees(), stop.full_rad.to_degrees());
+            let found = format!("{angle:.1}° at the start, beyond its stop, which is full at {full:.1}°");
+            problems.warning(
+                format!("joints.{}", joints.tree()[joint].name),
+                found,
+                "a posture that the body can take",
+            );
+        }
     }
 }

@@ -60,7 +60,8 @@ impl Element for JointMoments {
     }
 
     /// The springs are at rest where the body begins, unless they give their own angles.
-    fn begin(law: &mut JointSystem<f64>, data: &Joints, _body: &Body, at: &Instant<'_, f64>, _problems: &mut Problems) {
+    fn begin(law: &mut JointSystem<f64>, data: &Joints, _body: &Body, at: &Instant<'_, f64>, problems: &mut Problems) {
+        check::start(data, law, at, problems);
         let rest = std::array::from_fn(|i| law.beta(i, at.k));
         *law = JointSystem::new(data, &rest);
     }

@@ -15,13 +15,10 @@ pub(super) fn check_body(body: &Body, problems: &mut Problems) {
     {
         problems.check_at_least_zero(&format!("body.{key}"), value, "m");
     }
-    for (i, sphere) in body.spheres.iter().enumerate() {
+    problems.check_unique("body.spheres", "sphere", body.spheres.iter().map(|s| s.name.as_str()));
+    for sphere in &body.spheres {
         let path = format!("body.spheres.{}", sphere.name);
         problems.check_positive(&format!("{path}.radius"), sphere.radius_m, "m");
-        let twin = body.spheres[..i].iter().any(|s| s.name == sphere.name);
-        if twin {
-            problems.error(&path, format!("a second sphere named {}", sphere.name), "unique names");
-        }
         let length = body.segment(sphere.segment).length_m;
         let centre = sphere.centre_from_lower_end_m;
         let z = centre.z;

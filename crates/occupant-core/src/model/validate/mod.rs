@@ -1,9 +1,14 @@
 //! Checks of a [`Setup`] that need no geometry: every number finite and in its admissible range, every reference good.
 
 mod body;
+mod path;
 mod time;
 
+use std::f64::consts::PI;
+
+use crate::model::seating::InitialPosture;
 use crate::model::setup::Setup;
+pub(super) use path::check_path;
 use placed_text::Problems;
 
 /// Reports every problem of the numbers of `setup`.
@@ -11,11 +16,29 @@ pub(crate) fn check(setup: &Setup, problems: &mut Problems) {
     body::check_body(&setup.body, problems);
     setup.forces(&[]).check(&setup.body, problems);
     time::check_time(&setup.time, &setup.integrator, problems);
+    check_posture(&setup.posture, problems);
     if !(setup.gravity_m_s2 >= 0.0 && setup.gravity_m_s2.is_finite()) {
         problems.error(
             "gravity",
             format!("{} m/s²", setup.gravity_m_s2),
             "zero or a positive acceleration (it acts downwards)",
         );
+    }
+}
+
+/// Angles of more than half a turn, which a slip of the pen makes.
+fn check_posture(posture: &InitialPosture, problems: &mut Problems) {
+    let InitialPosture::Seated(seating) = posture else { return };
+    let [middle, upper, head, lower] = seating.lean_rad;
+    let angles = [
+        ("middle_torso", middle),
+        ("upper_torso", upper),
+        ("head", head),
+        ("lower_torso", lower),
+        ("upper_arms", seating.upper_arms_rad),
+        ("elbows", seating.elbows_rad),
+    ];
+    for (key, angle_rad) in angles.into_iter().filter(|(_, angle)| !(angle.abs() <= PI)) {
+        problems.error(format!("posture.{key}"), format!("{}°", angle_rad.to_degrees()), "an angle from −180° to 180°");
     }
 }

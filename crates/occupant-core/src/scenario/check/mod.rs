@@ -235,7 +235,7 @@ impl Checker<'_> {
     }
 
     fn report(&mut self, span: Span, problem: Problem) {
-        self.problems.push(Diagnostic::at(self.sources, span, problem));
+        self.problems.add(problem, |problem| Diagnostic::at(self.sources, span, problem));
     }
 }
 

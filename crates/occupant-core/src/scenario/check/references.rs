@@ -1,5 +1,6 @@
 //! Names that refer to other parts of a scenario.
 
+use indexmap::IndexSet;
 use placed_text::{Node, Problem, did_you_mean, follow, one_of, parse_path, targets, to_text};
 
 /// Where a name stands, what it names, and the table that has things of that kind.
@@ -15,24 +16,31 @@ const REFERENCES: [(&str, &str, &str); 9] = [
     ("initial_state.passed[*][1]", "surface", "surfaces"),
 ];
 
+/// So many problems are shown.
+const SHOWN: usize = 50;
+
 /// Names in an explicit scenario that lead nowhere; `spheres` are known besides those that it has.
 pub(in crate::scenario) fn references(explicit: &Node, spheres: &[&str]) -> Vec<Problem> {
     let mut problems = Vec::new();
     for (pattern, what, table) in REFERENCES {
-        let mut names = names_in(explicit, table);
+        let mut names: IndexSet<&str> = names_in(explicit, table).collect();
         if what == "sphere" {
-            names.extend(spheres.iter().filter(|s| !names.contains(s)).copied().collect::<Vec<_>>());
+            names.extend(spheres);
         }
+        let listed: Vec<&str> = names.iter().copied().collect();
         for steps in targets(explicit, &parse_path(pattern).unwrap_or_default()) {
             let Some(name) = follow(explicit, &steps).and_then(Node::as_str) else { continue };
-            if !names.contains(&name) {
-                let expected = match names.as_slice() {
-                    [] => format!("a {what}; the scenario has none"),
-                    names => one_of(names, '"'),
-                };
+            if !names.contains(name) {
                 let found = format!("no {what} is named \"{name}\"");
-                let hint = did_you_mean(name, &names, '"');
-                problems.push(Problem::error(to_text(&steps), found, expected).with_hint(hint));
+                let problem = Problem::error(to_text(&steps), found, format!("a {what} of the scenario"));
+                // a search for what was meant looks at all names: not for problems that are only counted
+                problems.push(match listed.as_slice() {
+                    _ if problems.len() > SHOWN => problem,
+                    [] => Problem { expected: format!("a {what}; the scenario has none"), ..problem },
+                    names => {
+                        Problem { expected: one_of(names, '"'), ..problem }.with_hint(did_you_mean(name, names, '"'))
+                    }
+                });
             }
         }
     }
@@ -40,8 +48,8 @@ pub(in crate::scenario) fn references(explicit: &Node, spheres: &[&str]) -> Vec<
 }
 
 /// The keys of a table, without those of things that are taken away.
-fn names_in<'n>(explicit: &'n Node, table: &str) -> Vec<&'n str> {
+fn names_in<'n>(explicit: &'n Node, table: &str) -> impl Iterator<Item = &'n str> {
     let node = follow(explicit, &parse_path(table).unwrap_or_default());
     let entries = node.and_then(Node::as_table).into_iter().flatten();
-    entries.filter(|(_, e)| !e.node.is_removed()).map(|(key, _)| key.as_str()).collect()
+    entries.filter(|(_, e)| !e.node.is_removed()).map(|(key, _)| key.as_str())
 }

@@ -49,7 +49,8 @@ impl Builder<'_> {
 
     /// Adds a problem at the words that its path points at.
     pub(super) fn report(&mut self, problem: Problem) {
-        self.problems.push(self.document.place(problem));
+        let document = self.document;
+        self.problems.add(problem, |problem| document.place(problem));
     }
 }
 

@@ -5,8 +5,8 @@
 
 use crate::scenario::kind::{KINDS, UnitSystem};
 use placed_text::{
-    Cell, Diagnostic, Diagnostics, Node, Problem, SourceId, Sources, Span, cells, did_you_mean, lines, name_and_unit,
-    number, one_of,
+    CELL, Cell, Diagnostic, Diagnostics, Node, Problem, SourceId, Sources, Span, cells, did_you_mean, lines,
+    name_and_unit, number, one_of, shortened,
 };
 
 /// A column that a table may have.
@@ -114,7 +114,7 @@ impl<'a> Reader<'a> {
     }
 
     fn report(&mut self, span: Span, problem: Problem) {
-        self.problems.push(Diagnostic::at(self.sources, span, problem));
+        self.problems.add(problem, |problem| Diagnostic::at(self.sources, span, problem));
     }
 
     fn header(&mut self, cells: &[Cell], span: Span) {
@@ -139,7 +139,8 @@ impl<'a> Reader<'a> {
         let names: Vec<&str> = self.wanted.iter().map(|c| c.name).collect();
         let wanted = |c: &Column| c.name == name || (c.alias == name && !name.is_empty());
         let Some(i) = self.wanted.iter().position(wanted) else {
-            let problem = Problem::error("", format!("unknown column `{name}`"), one_of(&names, '`'));
+            let problem =
+                Problem::error("", format!("unknown column `{}`", shortened(name, CELL)), one_of(&names, '`'));
             self.report(cell.span, problem.with_hint(did_you_mean(name, &names, '`')));
             return None;
         };

@@ -146,7 +146,7 @@ pub(super) fn refuse(b: &mut Builder, problems: &[PathProblem], table: Option<&N
         let problem = Problem::error("path", found, expected);
         match span {
             None => b.report(problem),
-            Some(span) => b.problems.push(Diagnostic::at(&b.document.sources, span, problem)),
+            Some(span) => b.problems.add(problem, |problem| Diagnostic::at(&b.document.sources, span, problem)),
         }
     }
 }
@@ -156,6 +156,7 @@ fn station_of(problem: &PathProblem) -> Option<usize> {
     match problem {
         PathProblem::TimeNotIncreasing { station, .. }
         | PathProblem::StationNotFinite { station, .. }
+        | PathProblem::StationTooLarge { station, .. }
         | PathProblem::AngleJump { station, .. }
         | PathProblem::TooSteep { station, .. }
         | PathProblem::NotUniform { station, .. }

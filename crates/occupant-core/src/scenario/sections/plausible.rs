@@ -22,9 +22,13 @@ struct Usual {
     slip: &'static str,
 }
 
+const LEAN: &str = "positive angles lean the top back; 0 is upright";
 const METRES: &str = "bare numbers are metres unless units = \"in-lbf-s\" says inches";
 
-const USUAL: [Usual; 6] = [
+/// Of angles; SI has radians.
+const DEGREES: &str = "°";
+
+const USUAL: [Usual; 10] = [
     Usual {
         paths: &["gravity"],
         values: 9.5..=10.1,
@@ -73,12 +77,45 @@ const USUAL: [Usual; 6] = [
         what: "a place in a vehicle",
         slip: METRES,
     },
+    Usual {
+        paths: &["posture.middle_torso", "posture.upper_torso", "posture.lower_torso"],
+        values: -45.0..=90.0,
+        unit: DEGREES,
+        in_words: "−45° to 90°",
+        what: "the lean of a person who sits",
+        slip: LEAN,
+    },
+    Usual {
+        paths: &["posture.head"],
+        values: -60.0..=90.0,
+        unit: DEGREES,
+        in_words: "−60° to 90°",
+        what: "the lean of a head",
+        slip: LEAN,
+    },
+    Usual {
+        paths: &["posture.upper_arms"],
+        values: -90.0..=180.0,
+        unit: DEGREES,
+        in_words: "−90° to 180°",
+        what: "the angle of upper arms",
+        slip: "positive angles bring the elbows ahead of the shoulders",
+    },
+    Usual {
+        paths: &["posture.elbows"],
+        values: -150.0..=10.0,
+        unit: DEGREES,
+        in_words: "−150° to 10°",
+        what: "the angle of elbows",
+        slip: "negative angles bring the hands forward",
+    },
 ];
 
 /// Adds a warning for every kind of number that looks like a slip.
 pub(super) fn check(b: &mut Builder, setup: &Setup, scenario: &Scenario) {
     for usual in &USUAL {
-        let values = usual.paths.iter().flat_map(|path| values(b, setup, path)).collect();
+        let factor = if usual.unit == DEGREES { 1f64.to_degrees() } else { 1.0 };
+        let values = usual.paths.iter().flat_map(|path| values(b, setup, path)).map(|(p, x)| (p, x * factor)).collect();
         warn_unless(b, values, usual);
     }
     if let Some(posture) = &scenario.posture {
@@ -93,9 +130,9 @@ fn values(b: &Builder, setup: &Setup, path: &str) -> Vec<(String, f64)> {
     let of_place = |steps: Vec<Step>| {
         let above = follow(root, &steps[..steps.len() - 1])?;
         let node = child(above, steps.last()?)?;
-        let norm =
-            node.si.into_iter().chain(node.items().iter().filter_map(|n| n.si)).map(|x| x * x).sum::<f64>().sqrt();
-        (norm != 0.0 && !above.is_removed()).then(|| (to_text(&steps), norm))
+        let norm = || node.items().iter().filter_map(|n| n.si).map(|x| x * x).sum::<f64>().sqrt();
+        let value = node.si.unwrap_or_else(norm);
+        (value != 0.0 && !above.is_removed()).then(|| (to_text(&steps), value))
     };
     match path {
         "body.segments" => vec![(path.to_owned(), setup.body.mass_kg())],

@@ -43,8 +43,12 @@ pub fn read_record(bytes: &[u8], name: &str) -> Result<RecordFile, Diagnostics> 
 impl RecordFile {
     /// A problem of the sample `station`, at its line.
     pub fn at(&self, station: usize, found: String, expected: &str, hint: Option<&str>) -> Diagnostic {
+        self.place(station, Problem::error("", found, expected).with_hint(hint))
+    }
+
+    fn place(&self, station: usize, problem: Problem) -> Diagnostic {
         let span = self.rows.get(station).copied().unwrap_or(self.header);
-        Diagnostic::at(&self.sources, span, Problem::error("", found, expected).with_hint(hint))
+        Diagnostic::at(&self.sources, span, problem)
     }
 
     fn problems(&self) -> Diagnostics {
@@ -62,7 +66,7 @@ impl RecordFile {
         for (i, pair) in time_s.windows(2).enumerate() {
             if pair[1] <= pair[0] {
                 let found = format!("t = {} s after {} s", pair[1], pair[0]);
-                problems.push(self.at(i + 1, found, "times that increase", None));
+                problems.add(Problem::error("", found, "times that increase"), |problem| self.place(i + 1, problem));
             }
         }
         problems

@@ -205,6 +205,42 @@ fn slips_of_units_are_warned_of() {
 }
 
 #[test]
+fn what_no_person_and_no_vehicle_does_is_said() {
+    let belt = |y: &str| {
+        let belt = |name, y| {
+            format!("{name} = {{ sphere = \"{name}\", anchors = [[-0.09, {y}, 0.05], [0, 0.3, 0.2]], k1 = 60000 }}\n")
+        };
+        format!("[belts]\n{}{}[body]", belt("pelvis", "-0.3"), belt("chest", y))
+    };
+    let rows =
+        |x: &str| format!("kind = \"table\"\ncolumns = [\"t[s]\", \"x[m]\"]\nrows = [[0, 0], [0.1, {x}], [0.2, 2]]");
+    for (old, new, said) in [
+        ("head = 5", "head = 180".to_owned(), "warning: 180 ° is unusual for the lean of a head"),
+        ("head = 5", "head = 1e9".to_owned(), "error: 1000000000"),
+        ("head = 5", "head = 85".to_owned(), "warning: 67.0° at the start, beyond its stop, which is full at 60.0°"),
+        (
+            "middle_torso = 15",
+            "middle_torso = -90".to_owned(),
+            "warning: -90 ° is unusual for the lean of a person who sits",
+        ),
+        ("elbows = -60", "elbows = 90".to_owned(), "warning: 90 ° is unusual for the angle of elbows"),
+        ("[body]", belt("-0.3"), ""),
+        ("[body]", belt("0.0"), "warning: anchor 1 lies 0."),
+        (super::tables::PULSE, rows("1"), ""),
+        (super::tables::PULSE, rows("20"), "warning: the vehicle's speed is "),
+        (super::tables::PULSE, rows("20"), "warning: the vehicle's acceleration is "),
+        (super::tables::PULSE, rows("1e7"), "error: the vehicle's speed is "),
+        (super::tables::PULSE, rows("1e12"), "error: station 2: found x = 1000000000000"),
+    ] {
+        let found = match load(&short_with(old, &new)).and_then(|loaded| loaded.model()) {
+            Ok((_, warnings)) => warnings.to_string(),
+            Err(problems) => problems.to_string(),
+        };
+        assert!(if said.is_empty() { found.is_empty() } else { found.contains(said) }, "{new}: {found}");
+    }
+}
+
+#[test]
 fn provenance_of_nothing_is_warned_of() {
     let text =
         short_with("[body]", "[provenance]\n\"materials.foan.k1\" = \"a guess\"\n\"the pulse\" = \"sled\"\n[body]");

@@ -169,3 +169,48 @@ fn deep_nesting() {
     let mut draft = Draft::read_bytes(SHORT.as_bytes(), None, "s").unwrap();
     let _ = draft.set(&format!("{}=1", "a.".repeat(20_000) + "b"));
 }
+
+/// What stands a great many times in a text takes time and words in proportion to it: before, minutes and megabytes.
+#[test]
+fn a_megabyte_is_read_in_seconds_and_refused_in_a_few_words() {
+    let many = |n: usize, one: &dyn Fn(usize) -> String| SHORT.to_owned() + "\n" + &(0..n).map(one).collect::<String>();
+    let surface = |material: &'static str| {
+        move |i: usize| {
+            format!(
+                "q{i} = {{ material = \"{material}\", edge = [[-8, {}], [12, {}]], half_width = 10 }}\n",
+                40 + i,
+                40 + i
+            )
+        }
+    };
+    let surfaces = many(9000, &surface("foam"));
+    for (text, stage, said) in [
+        (many(60_000, &|i| format!("[x{i}]\na = 1\n")), 1, "and 59950 more errors, not shown"),
+        (many(9000, &surface("foan")), 2, "and 8950 more errors, not shown"),
+        (surfaces.clone(), 3, ""),
+        (surfaces + &many(9000, &surface("foam"))[SHORT.len()..], 0, "duplicate key"),
+        (many(1, &|_| format!("a{} = 1", "b".repeat(1_000_000))), 1, "…"),
+        (many(1, &|_| format!("a = {}", "[1,".repeat(300_000))), 0, ""),
+        (
+            SHORT.replace("{ material", &format!("{{ spheres = [{}], material", "\"xxx\",".repeat(60_000))),
+            2,
+            "more errors",
+        ),
+    ] {
+        let from = std::time::Instant::now();
+        let found =
+            Draft::read_bytes(text.as_bytes(), None, "s").and_then(|d| d.load(&no_files)).and_then(|l| l.model());
+        let words = found.map_or_else(|problems| problems.to_string(), |_| String::new());
+        assert!(words.len() < 80_000 && words.contains(said), "{}", words.chars().take(2000).collect::<String>());
+        assert_eq!(stage == 3, words.is_empty());
+        assert!(from.elapsed().as_secs() < 20, "{:?} for stage {stage}: {said}", from.elapsed());
+    }
+}
+
+#[test]
+fn what_speaks_to_a_terminal_is_written_out() {
+    let words = Draft::read_bytes(b"title = \"a\"\n\"\\u001b[31m\\u202e\" = 1\ngravity = \"\\u0007\"", None, "s\u{1b}");
+    let words = words.unwrap().check().to_string();
+    assert!(words.contains("unknown key `\\u001b[31m\\u202e`"), "{words}");
+    assert!(words.lines().all(|line| !line.chars().any(char::is_control)), "{words}");
+}

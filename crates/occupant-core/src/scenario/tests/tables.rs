@@ -7,7 +7,7 @@ use super::{build, complaint, short_with};
 use crate::model::setup::Setup;
 use crate::vehicle::{Interpolation, VehiclePath};
 
-const PULSE: &str = "kind = \"pulse\"
+pub(super) const PULSE: &str = "kind = \"pulse\"
 shape = \"half_sine\"
 speed = \"30 km/h\"
 delta_v = \"30 km/h\"
@@ -61,68 +61,44 @@ fn mistakes_name_the_file_line_and_column() {
             "t[s],x[m],q[m]\n0,0,0\n",
             "error: unknown column `q`
  --> path.csv:1:11
-  |
-1 | t[s],x[m],q[m]
-  |           ^^^^
   = expected: `t`, `x`, `y`, `z`, `roll`, `pitch` or `yaw`",
         ),
         (
             "t[s],x\n0,0\n",
             "error: column `x` without a unit
  --> path.csv:1:6
-  |
-1 | t[s],x
-  |      ^
   = expected: the unit of a length in brackets, such as `x[m]`",
         ),
         (
             "t[m],x[m]\n0,0\n",
             "error: `m` is not the unit of a time
  --> path.csv:1:1
-  |
-1 | t[m],x[m]
-  | ^^^^
   = expected: the unit of a time in brackets, such as `t[s]`",
         ),
         (
             "x[m]\n0\n",
             "error: no column `t`
  --> path.csv:1:1
-  |
-1 | x[m]
-  | ^^^^
   = expected: a column `t[s]`",
         ),
         (
             "t[s],x[m]\n0,0\n\n0.1,abc\n0.2,,1\n",
             "error: `abc`
  --> path.csv:4:5
-  |
-4 | 0.1,abc
-  |     ^^^
   = expected: a number
 
 error: an empty cell
  --> path.csv:5:5
-  |
-5 | 0.2,,1
-  |     ^
   = expected: a number
 
 error: 3 numbers
  --> path.csv:5:1
-  |
-5 | 0.2,,1
-  | ^^^^^^
   = expected: 2, one for each column",
         ),
         (
             "t[s],x[m]\n0,0\n0,1\n",
             "error: station 2: found t = 0 s
  --> path.csv:3:1
-  |
-3 | 0,1
-  | ^^^
   = in: path
   = expected: a time after that of the station before (0 s)",
         ),
@@ -130,9 +106,6 @@ error: 3 numbers
             "",
             "error: an empty table
  --> path.csv:1:1
-  |
-1 |
-  | ^
   = expected: a line that names the columns",
         ),
     ] {

@@ -1,0 +1,78 @@
+//! Place and pace of the vehicle during the run.
+
+use crate::model::setup::{STANDARD_GRAVITY_M_S2, Setup};
+use crate::vehicle::{FrameMotion, PathCursor};
+use placed_text::{Problem, Problems};
+
+/// What is usual of a vehicle, and what numbers can carry.
+struct Pace {
+    of: fn(&FrameMotion) -> f64,
+    what: &'static str,
+    /// In SI units, as messages show it and how many SI units that is.
+    unit: (&'static str, f64),
+    usual: f64,
+    /// Beyond this, SI, the places of the body lose the digits that forces are made of.
+    most: f64,
+    slip: &'static str,
+}
+
+const PACES: [Pace; 4] = [
+    Pace {
+        of: |motion| motion.origin_m.norm(),
+        what: "distance from the origin",
+        unit: ("m", 1.0),
+        usual: f64::INFINITY,
+        most: 1e8,
+        slip: "shift the path so that it starts near the origin",
+    },
+    Pace {
+        of: |motion| motion.velocity_m_s.norm(),
+        what: "speed",
+        unit: ("m/s", 1.0),
+        usual: 100.0,
+        most: 1e6,
+        slip: "look at the units of times and places",
+    },
+    Pace {
+        of: |motion| motion.acceleration_m_s2.norm(),
+        what: "acceleration",
+        unit: ("g", STANDARD_GRAVITY_M_S2),
+        usual: 100.0 * STANDARD_GRAVITY_M_S2,
+        most: 1e9,
+        slip: "look at the units of times, places and accelerations",
+    },
+    Pace {
+        of: |motion| motion.angular_velocity_rad_s.norm(),
+        what: "rate of turning",
+        unit: ("rad/s", 1.0),
+        usual: 50.0,
+        most: 1e6,
+        slip: "look at the units of angles and rates; bare angles are degrees",
+    },
+];
+
+/// So many instants of a run are looked at.
+const INSTANTS: u32 = 256;
+
+/// Reports a path that does not reach as far as the run, and one that no vehicle takes.
+pub(in crate::model) fn check_path(setup: &Setup, problems: &mut Problems) {
+    let (time, path) = (&setup.time, &setup.path);
+    if let Err(problem) = path.check_span(time.start_s, time.end_s) {
+        return problems.error("path", problem.to_string(), "a path for the whole run");
+    }
+    let mut cursor = PathCursor::default();
+    let instants =
+        (0..=INSTANTS).map(|i| time.start_s + (time.end_s - time.start_s) * f64::from(i) / f64::from(INSTANTS));
+    let motions: Vec<(f64, FrameMotion)> = instants.map(|t_s| (t_s, path.motion(t_s, t_s, &mut cursor))).collect();
+    for Pace { of, what, unit: (unit, si), usual, most, slip } in PACES {
+        let greatest = motions.iter().map(|(t_s, motion)| (*t_s, of(motion))).max_by(|a, b| a.1.total_cmp(&b.1));
+        let Some((t_s, value)) = greatest.filter(|(_, value)| !(*value <= usual.min(most))) else { continue };
+        let found = format!("the vehicle's {what} is {:.3e} {unit} at t = {t_s} s", value / si);
+        let problem = if value <= most {
+            Problem::warning("path", found, format!("at most {} {unit} in a crash", usual / si))
+        } else {
+            Problem::error("path", found, format!("at most {:.1e} {unit}, which the numbers can carry", most / si))
+        };
+        problems.push(problem.with_hint(Some(slip)));
+    }
+}

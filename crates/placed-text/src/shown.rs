@@ -1,0 +1,63 @@
+//! Text from outside as messages and tables show it.
+
+/// Characters of a message that are shown at most.
+const LONGEST: usize = 600;
+
+/// Whether a character speaks to the terminal instead of the reader: control characters, and marks that turn the
+/// direction of writing.
+fn is_hidden(c: char) -> bool {
+    c.is_control()
+        || matches!(c, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+}
+
+/// A text whose hidden characters are written as JSON writes them, `\u001b`, but for line ends, tabs and form feeds.
+pub fn plain(text: &str) -> String {
+    escaped(text.chars(), |c| is_hidden(c) && !matches!(c, '\n' | '\t' | '\u{c}'))
+}
+
+/// A text in one line: all hidden characters as in [`plain`], the middle of a long one left out.
+pub fn shown(text: &str) -> String {
+    shortened(text, LONGEST)
+}
+
+/// As [`shown`], in so many characters.
+pub fn shortened(text: &str, most: usize) -> String {
+    let half = most / 2;
+    if text.len() <= most || text.chars().nth(most).is_none() {
+        return escaped(text.chars(), is_hidden);
+    }
+    let end: Vec<char> = text.chars().rev().take(half).collect();
+    let ends = text.chars().take(most - half - 1).chain(['…']).chain(end.into_iter().rev());
+    escaped(ends, is_hidden)
+}
+
+/// The characters of a line, each hidden one as a blank, so that columns stay where they are.
+pub(crate) fn blanked(line: &str) -> impl Iterator<Item = char> + '_ {
+    line.chars().map(|c| if is_hidden(c) { ' ' } else { c })
+}
+
+fn escaped(chars: impl Iterator<Item = char>, is_hidden: impl Fn(char) -> bool) -> String {
+    let mut text = String::new();
+    for c in chars {
+        if is_hidden(c) {
+            text.push_str(&format!("\\u{:04x}", u32::from(c)));
+        } else {
+            text.push(c);
+        }
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_hidden_is_shown_and_nothing_is_long() {
+        assert_eq!(shown("a\u{1b}[31m\u{202e}\n\u{9b}é"), "a\\u001b[31m\\u202e\\u000a\\u009bé");
+        assert_eq!(plain("a\n\tb\u{c}\r\u{7f}"), "a\n\tb\u{c}\\u000d\\u007f");
+        assert_eq!(shortened(&"é".repeat(9), 9), "é".repeat(9));
+        assert_eq!(shortened("0123456789", 5), "01…89");
+        assert_eq!(shown(&"x".repeat(100_000_000)).chars().count(), LONGEST);
+    }
+}
