@@ -25,8 +25,9 @@ fn every_damaged_file_of_a_finished_sweep_is_named_and_made_again() {
         let whole = fs::read(&file).unwrap();
         for cut in [true, false] {
             damage(&file, cut);
-            // neither the runs nor the tables are asked for today
-            let said = spoken(at, &words);
+            // runs and tables are asked for today, or not
+            let asked = if cut { &kept[..] } else { &[] };
+            let said = spoken(at, &[&words[..], asked].concat());
             assert!(said.starts_with("damaged: ") && said.contains(name), "{name}: {said}");
             assert_eq!(said.lines().count(), 1, "{said}");
             assert!(whole == fs::read(&file).unwrap(), "{name} is not as it was");

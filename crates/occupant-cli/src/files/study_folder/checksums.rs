@@ -100,7 +100,11 @@ impl Checksums {
     /// # Errors
     /// The operating system refuses.
     pub(crate) fn put_aside(&self, path: &Path) -> Result<(), Problem> {
-        fs::rename(path, path.with_extension("damaged")).map_err(Problem::io("rename", path))?;
+        match fs::rename(path, path.with_extension("damaged")) {
+            // another process was quicker
+            Err(error) if error.kind() == ErrorKind::NotFound => {}
+            renamed => renamed.map_err(Problem::io("rename", path))?,
+        }
         let (name, mut state) = (self.name(path), self.state());
         state.damaged.remove(&name);
         state.listed.remove(&name);

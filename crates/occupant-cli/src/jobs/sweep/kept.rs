@@ -1,5 +1,6 @@
 //! Whole runs of chosen samples, written after the sweep: those of the worst, and those whose file is missing.
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::ops::Range;
 use std::path::PathBuf;
@@ -50,7 +51,8 @@ pub(crate) fn missing(
     samples: impl IntoIterator<Item = u64>,
 ) -> Result<Vec<u64>, Problem> {
     let mut missing = Vec::new();
-    for index in samples {
+    // each once, however many want it
+    for index in samples.into_iter().collect::<BTreeSet<u64>>() {
         let file = folder.run(index);
         if sums.holds(&file) {
             continue;
