@@ -159,7 +159,7 @@ mod tests {
         let length = Units::from(UnitSystem::InchPound).as_read().of(Measured::Metre);
         let inch = length.size();
         for (number, shown) in
-            [(10.0, "10.000"), (3.7525, "3.7525"), (0.123_456_789, "0.123456789"), (2.5e-6, "0.0000025")]
+            [(10.0, "10.000"), (3.7525, "3.7525"), (0.123_456_789, "0.123456789"), (2.5e-6, "2.500E-6")]
         {
             assert_eq!(length.show(number * inch), shown);
         }
