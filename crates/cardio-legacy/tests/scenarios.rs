@@ -254,7 +254,7 @@ fn every_change_that_cards_cannot_hold_is_refused() {
         ("slack = \"0 in\"", "mu1 = 0.5\nslack = \"0 in\"", "belts.lap.mu1"),
         ("[joints]", "[joints]\nepsilon = 0", "joints.epsilon"),
         ("head.radius", "head.centre = [1, 0, 9.81]\nhead.radius", "body.spheres.head"),
-        ("seat = \"driver\"", "seat = \"driver\"\nsettle = true", "posture.settle"),
+        ("settle = false", "settle = true", "posture.settle"),
         ("[[38, 5], [22, 2]]", "[[38, 5], [22, 3]]", "surfaces.fire_wall does not meet"),
         ("friction = 0.2 }", "friction = 0.2, memory = \"retain\" }", "memory"),
     ];

@@ -121,7 +121,7 @@ pub(crate) fn stored(file: &Path, run: &StoredRun) -> Result<(Loaded, Model, Dia
     let loaded = Draft::read_bytes(bytes, Some(Format::Toml), RESOLVED)
         .and_then(|mut draft| {
             // files of version 0.1.0 do not say it, and then it was false
-            if !draft.get("posture.seat")?.is_empty() && draft.get("posture.settle")?.is_empty() {
+            if draft.get("posture.seat").is_ok() && draft.get("posture.settle").is_err() {
                 draft.set_value("posture.settle", "false")?;
             }
             draft.load(&resolver)

@@ -97,7 +97,13 @@ fn figures_that_cannot_be_trusted_say_so_wherever_they_stand() {
 #[test]
 fn a_run_that_fails_does_not_know_its_energy_balance() {
     let folder = folder_with_case();
-    let words = ["run", "case.toml", "--no-mcap", "--set", "integrator={kind=\"rk4\", step=\"40 ms\"}"];
+    let words = [
+        "run",
+        "case.toml",
+        "--no-mcap",
+        "--set",
+        "integrator={kind=\"adaptive\", min_step=\"1 ms\", max_step=\"1 ms\"}",
+    ];
     let output = answer(folder.path(), &words);
     assert_ne!(code(&output), 0);
     assert!(out(&output).contains("not known of the greatest kinetic energy"), "{}{}", out(&output), err(&output));
