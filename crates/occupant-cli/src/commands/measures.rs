@@ -6,11 +6,10 @@ use clap::ValueEnum;
 use crash_measures::injury::{Filtering, Measure, Options, Signals, assess};
 use crash_measures::measure::Dummy;
 use crash_measures::signal::CfcFamily;
+use placed_text::shown;
 use serde::Serialize;
 
 use super::tables::measures::{long, remarks, risks};
-use placed_text::shown;
-
 use crate::base::failure::{Done, Failure};
 use crate::base::talk::{self, note, print};
 use crate::files::results::Results;
