@@ -111,7 +111,9 @@ impl Diagnostics {
                 && d.problem.found == diagnostic.problem.found
         };
         if self.kept.iter().any(same) {
-        } else if self.is_full(diagnostic.problem.severity) {
+            return;
+        }
+        if self.is_full(diagnostic.problem.severity) {
             self.more[diagnostic.problem.severity as usize] += 1;
         } else {
             self.kept.push(diagnostic);

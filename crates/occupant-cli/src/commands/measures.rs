@@ -6,11 +6,9 @@ use clap::ValueEnum;
 use crash_measures::injury::{Filtering, Measure, Options};
 use crash_measures::measure::Dummy;
 use crash_measures::signal::CfcFamily;
-use serde::Serialize;
-
 use occupant_core::results::summary::{Caveat, Summary};
-
 use placed_text::shown;
+use serde::Serialize;
 
 use super::tables::measures::{long, remarks, risks};
 use super::tables::summary::Marks;

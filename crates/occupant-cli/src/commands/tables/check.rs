@@ -1,11 +1,10 @@
 //! The tables of `occupant check`.
 
 use occupant_core::diagnosis::{Diagnosis, Rate, SeatStart};
+use placed_text::shown;
 
 use super::elements;
 use super::summary::Marks;
-use placed_text::shown;
-
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, Table, facts, trimmed};
 

@@ -5,10 +5,9 @@ use std::collections::BTreeSet;
 use occupant_core::results::summary::{
     Acceleration, Caveat, ContactBegin, FirstContact, Level, Peak, RunStatus, Summary, word,
 };
-
-use super::{elements, measures};
 use placed_text::shown;
 
+use super::{elements, measures};
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, Table, facts, number, without_zeros};
 use crate::jobs::run::recording::Written;

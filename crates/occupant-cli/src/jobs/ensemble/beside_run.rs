@@ -6,13 +6,12 @@ use occupant_core::results::channel::{Channel, Series};
 use occupant_core::results::summary::Summary;
 use occupant_study::engine::Engine;
 use occupant_study::{Study, Tolerances};
+use placed_text::shown;
 
 use super::bands::Bands;
 use super::members::{Left, Members};
 use super::plot;
 use super::report::Report;
-use placed_text::shown;
-
 use crate::base::failure::Failure;
 use crate::base::interrupt::Interrupt;
 use crate::base::names::program;

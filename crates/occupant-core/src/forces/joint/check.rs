@@ -81,8 +81,8 @@ fn check_stop(stop: &Stop, sign: f64, damping: f64, path: &str, problems: &mut P
     }
 }
 
-/// A joint may begin this far beyond its stop, rad: postures are rounded.
-const BEYOND_RAD: f64 = 0.01;
+/// A joint may begin this far beyond its stop, rad: stops are dampers, and people stretch their arms.
+const BEYOND_RAD: f64 = 0.2;
 
 /// Joints that begin beyond their stops, in a posture that the body cannot take.
 pub(super) fn start(joints: &Joints, law: &JointSystem<f64>, at: &Instant<'_, f64>, problems: &mut Problems) {

@@ -71,7 +71,7 @@ const USUAL: [Usual; 10] = [
     },
     Usual {
         paths: &["belts.*.anchors[*]", "posture.heels[*]"],
-        values: 0.0..=10.0,
+        values: -10.0..=10.0,
         unit: "m",
         in_words: "within 10 m of the origin",
         what: "a place in a vehicle",

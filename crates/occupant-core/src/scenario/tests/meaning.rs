@@ -217,7 +217,7 @@ fn what_no_person_and_no_vehicle_does_is_said() {
     for (old, new, said) in [
         ("head = 5", "head = 180".to_owned(), "warning: 180 ° is unusual for the lean of a head"),
         ("head = 5", "head = 1e9".to_owned(), "error: 1000000000"),
-        ("head = 5", "head = 85".to_owned(), "warning: 67.0° at the start, beyond its stop, which is full at 60.0°"),
+        ("head = 5", "head = -59".to_owned(), "warning: 77.0° at the start, beyond its stop, which is full at 60.0°"),
         (
             "middle_torso = 15",
             "middle_torso = -90".to_owned(),
