@@ -8,7 +8,7 @@ use occupant_core::scenario::kind::UnitSystem;
 use super::flags::history::interval;
 use crate::base::failure::{Done, Failure};
 use crate::base::output_file::{publish, refuse_input};
-use crate::base::talk::{print, say};
+use crate::base::talk::{note, print, say};
 use crate::jobs::print::{Case, Units, printout};
 
 /// Print a run as paged text, as the report's program did
@@ -63,6 +63,9 @@ pub(crate) fn print_run(args: &Args) -> Result<Done, Failure> {
             publish(path, args.force, text.as_bytes())?;
         }
         None => print(&text)?,
+    }
+    if let Some(flaw) = case.file.flaw() {
+        note(&format!("{name} is {flaw}"));
     }
     if !case.is_complete() {
         say(&format!("{name} is partial; the last page says so"));

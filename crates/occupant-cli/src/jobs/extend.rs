@@ -75,6 +75,7 @@ pub(crate) fn extend_run(
     replay(&model, last, &mut watch).map_err(|e| broke(&e))?;
     let end = end.ok_or_else(|| Failure::plain(format!("{name} holds no checkpoint")))?;
     cards.deck = cards.deck.extended(&end, final_s);
+    cards.remarks.extend(stored.flaw().map(|flaw| format!("{name} is {flaw}")));
     cards.remarks.push(format!(
         "continues from t = {} s; cards carry no greatest deformations, so the extension is approximate, `occupant run --resume` is exact",
         end.time_s
