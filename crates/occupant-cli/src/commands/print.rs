@@ -67,6 +67,9 @@ pub(crate) fn print_run(args: &Args) -> Result<Done, Failure> {
     if let Some(words) = args.every.and_then(|every_s| uneven(&case, every_s)) {
         note(&words);
     }
+    if let Some(flaw) = case.file.flaw() {
+        note(&format!("{name} is {flaw}"));
+    }
     if !case.is_complete() {
         say(&format!("{name} is partial; the last page says so"));
     }

@@ -34,6 +34,8 @@ pub struct Results {
     pub(crate) run: BTreeMap<String, String>,
     /// What the file has lost of the run, in words.
     lost: Option<String>,
+    /// What is wrong with it.
+    flaw: Option<String>,
     /// What it says of the run's end; none if the run was cut off.
     pub(crate) result: Option<BTreeMap<String, String>>,
     /// The scenario, overrides included.
@@ -42,18 +44,18 @@ pub struct Results {
     pub model: Model,
     /// The scenario as its author wrote it, without overrides.
     pub(crate) scenario_text: Option<String>,
-    /// One an output, at least one.
+    /// One an output, at least one, without gaps.
     pub(crate) checkpoints: Vec<Checkpoint>,
 }
 
 impl Results {
-    /// Opens a result file, one of a run that did not complete as far as it goes.
+    /// Opens a result file, one of a run that did not complete as far as it goes, a damaged one as far as it has all outputs.
     ///
     /// # Errors
     /// A file that cannot be read, holds no run, or whose scenario this program refuses.
     pub fn open(path: &Path) -> Result<Self, Failure> {
         let bytes = input_file::read(path)?;
-        let run = StoredRun::read(&bytes).map_err(|e| no_results(path, &e))?;
+        let mut run = StoredRun::read(&bytes).map_err(|e| no_results(path, &e))?;
         if run.run.is_empty() || run.checkpoints.is_empty() {
             return Err(no_results(path, &format!("it holds no outputs of a run{}", run.because())));
         }
@@ -61,11 +63,17 @@ impl Results {
         for checkpoint in &run.checkpoints {
             checkpoint.check(&model).map_err(|e| no_results(path, &e.to_string()))?;
         }
+        let (lost, flaw) = (run.lost(), run.flaw());
+        // nothing is computed over a gap
+        let next_is_there = |pair: &&[Checkpoint]| pair[1].index == pair[0].index + 1;
+        let whole = run.checkpoints.windows(2).take_while(next_is_there).count() + 1;
+        run.checkpoints.truncate(whole);
         let text = run.run.get("scenario").and_then(|n| run.attachments.get(n));
         Ok(Results {
             path: path.to_owned(),
             sha256: sha256(&bytes),
-            lost: run.lost(),
+            lost,
+            flaw,
             scenario_text: text.map(|t| String::from_utf8_lossy(t).into_owned()),
             run: run.run,
             result: run.result,
@@ -120,8 +128,9 @@ impl Results {
     pub(crate) fn notes(&self) -> Vec<String> {
         let name = self.path.display();
         let mut notes = Vec::new();
+        notes.extend(self.flaw.iter().map(|flaw| format!("{name} is {flaw}")));
         if self.lost.is_some() {
-            notes.push(format!("{name} has lost outputs: peaks may lie between those that are there"));
+            notes.push(format!("of {name} only the outputs up to the first that is missing are used"));
         } else if !self.is_complete() {
             notes.push(format!("{name} holds a run that did not complete: {}", self.reason()));
         }

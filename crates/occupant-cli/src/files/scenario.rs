@@ -12,7 +12,6 @@ use super::mcap::about::RESOLVED;
 use crate::base::failure::Failure;
 use crate::base::input_file;
 use crate::base::names::{ending, file_name};
-use crate::base::talk::note;
 
 /// Which scenario, and what is changed in it.
 #[derive(Clone, Debug, Args)]
@@ -103,7 +102,6 @@ impl Tables {
 }
 
 /// The scenario that a results file was made from, all that was changed in it included, its model and warnings about it.
-/// Says what is wrong with the file.
 ///
 /// # Errors
 /// A file without it, or with one that this program cannot read.
@@ -111,9 +109,6 @@ pub(crate) fn stored(file: &Path, run: &StoredRun) -> Result<(Loaded, Model, Dia
     let name = file.display();
     let bytes = run.attachments.get(RESOLVED);
     let bytes = bytes.ok_or_else(|| Failure::plain(format!("{name} holds no scenario{}", run.because())))?;
-    if let Some(flaw) = run.flaw() {
-        note(&format!("{name} is {flaw}"));
-    }
     let resolver = |table: &str| {
         let found = run.attachments.get(&file_name(Path::new(table)));
         found.cloned().ok_or_else(|| format!("{name} does not hold it"))

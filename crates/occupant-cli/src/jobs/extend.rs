@@ -79,6 +79,7 @@ pub(crate) fn extend_run(
     let end = end.ok_or_else(|| Failure::plain(format!("{name} holds no checkpoint")))?;
     let next = cards.deck.extended(&end, final_s);
     cards.deck = next.map_err(|found| Failure::CouldNotRun(format!("{name}: {found}")))?;
+    cards.remarks.extend(stored.flaw().map(|flaw| format!("{name} is {flaw}")));
     cards.remarks.push(format!(
         "continues from t = {} s; cards carry no greatest deformations, so the extension is approximate, `occupant run --resume` is exact",
         end.time_s

@@ -1,3 +1,5 @@
+use std::process::{Command, Stdio};
+
 use super::{answer, code, err, folder_with_case};
 
 #[test]
@@ -42,4 +44,95 @@ fn a_folder_that_is_not_there_is_named() {
     let output = answer(folder.path(), &["run", "case.toml", "-o", "no/such/run.mcap"]);
     assert_eq!(code(&output), 2);
     assert!(err(&output).contains("no/such/run.partial.mcap"), "{}", err(&output));
+}
+
+/// Two processes write one name: the file is a whole run of one that said so, and no provisional one is left.
+#[test]
+fn two_processes_that_write_one_name_leave_one_whole_run() {
+    let folder = folder_with_case();
+    let run = |speed: &str, words: &[&str]| {
+        let mut command = Command::new(assert_cmd::cargo::cargo_bin!("occupant"));
+        command.args(["run", "case.toml", "-q", "-o", "x.mcap", "--set", "time.end=0.02", "--set", speed]).args(words);
+        command.current_dir(folder.path()).stderr(Stdio::null()).spawn().unwrap()
+    };
+    let speeds = ["path.speed='20 mph'", "path.speed='30 mph'"];
+    let whole = speeds.map(|speed| {
+        assert!(run(speed, &["-f"]).wait().unwrap().success());
+        std::fs::read(folder.path().join("x.mcap")).unwrap()
+    });
+    for round in 0..20 {
+        let force: &[&str] = if round % 2 == 0 { &["-f"] } else { &[] };
+        let _ = std::fs::remove_file(folder.path().join("x.mcap"));
+        let done = speeds.map(|speed| run(speed, force)).map(|mut child| child.wait().unwrap().code());
+        let found = std::fs::read(folder.path().join("x.mcap")).unwrap();
+        let theirs = whole.iter().position(|whole| *whole == found).expect("one whole run");
+        assert_eq!(done[theirs], Some(0), "{done:?}");
+        assert!(round % 2 == 0 || done[1 - theirs] != Some(0), "without --force one of them wins: {done:?}");
+        let partial = folder.path().join("x.partial.mcap");
+        let _of_the_one_that_came_too_late = round % 2 == 1 && std::fs::remove_file(&partial).is_ok();
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2);
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn links_keep_pointing_where_they_point_and_devices_are_refused() {
+    use std::os::unix::fs::symlink;
+    let folder = folder_with_case();
+    let at = |name: &str| folder.path().join(name);
+    std::fs::create_dir(at("elsewhere")).unwrap();
+    symlink("elsewhere/run.mcap", at("link.mcap")).unwrap();
+    for words in [&["-q"][..], &["-q", "-f"]] {
+        assert_eq!(code(&answer(folder.path(), &[&["run", "case.toml", "-o", "link.mcap"], words].concat())), 0);
+        assert!(std::fs::symlink_metadata(at("link.mcap")).unwrap().is_symlink());
+        assert!(std::fs::metadata(at("elsewhere/run.mcap")).unwrap().len() > 10_000);
+        assert_eq!(std::fs::read_dir(at("elsewhere")).unwrap().count(), 1);
+    }
+    symlink("/dev/null", at("device.toml")).unwrap();
+    for words in
+        [&["new", "device.toml", "-f"][..], &["new", "device.toml"], &["run", "case.toml", "-f", "-o", "/dev/null"]]
+    {
+        let output = answer(folder.path(), words);
+        assert_eq!(code(&output), 2);
+        assert!(err(&output).contains("is not an ordinary file"), "{}", err(&output));
+    }
+}
+
+/// A limit on the size of files stands for a disk that is full.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_named_and_leaves_nothing_half_written_under_a_final_name() {
+    let folder = folder_with_case();
+    assert_eq!(code(&answer(folder.path(), &["run", "case.toml", "-q", "-o", "run.mcap"])), 0);
+    let before = std::fs::read_dir(folder.path()).unwrap().count();
+    let occupant = assert_cmd::cargo::cargo_bin!("occupant").display();
+    for words in [
+        "new a.toml",
+        "print run.mcap -o a.txt",
+        "report run.mcap -o a.html",
+        "export run.mcap -o a.csv",
+        "run case.toml",
+    ] {
+        let script = format!("trap '' XFSZ; ulimit -f 2; exec {occupant} {words}");
+        let output = Command::new("sh").args(["-c", &script]).current_dir(folder.path()).output().unwrap();
+        assert_eq!(code(&output), 1, "{words}: {}", err(&output));
+        assert!(err(&output).contains("File too large"), "{words}: {}", err(&output));
+        assert!(err(&output).contains("a.") || err(&output).contains("case.partial.mcap"), "{}", err(&output));
+    }
+    // what the run has left can be resumed
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), before + 1);
+    assert!(folder.path().join("case.partial.mcap").exists());
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_result_that_cannot_be_written_to_standard_output_is_a_failure() {
+    let folder = folder_with_case();
+    for words in [&["--help"][..], &["--version"], &["check", "case.toml"], &["schema"]] {
+        let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let mut command = Command::new(assert_cmd::cargo::cargo_bin!("occupant"));
+        let output = command.args(words).stdout(full).current_dir(folder.path()).output().unwrap();
+        assert_eq!(code(&output), 1, "{words:?}");
+        assert!(err(&output).contains("standard output"), "{}", err(&output));
+    }
 }

@@ -8,7 +8,7 @@ use super::Args;
 use crate::base::failure::Failure;
 use crate::base::input_file;
 use crate::base::names::ending;
-use crate::base::talk::say;
+use crate::base::talk::{note, say};
 use crate::files::mcap::StoredRun;
 use crate::files::scenario::{self, ScenarioArgs};
 use crate::jobs::risk::Subject;
@@ -59,6 +59,9 @@ fn path_of(args: &Args, name: &str, extension: &str, wanted: &Preparation) -> Re
             let bytes = input_file::read(&args.file)?;
             let run =
                 StoredRun::read(&bytes).map_err(|reason| Failure::plain(format!("{name} cannot be read: {reason}")))?;
+            if let Some(flaw) = run.flaw() {
+                note(&format!("{name} is {flaw}"));
+            }
             scenario::stored(&args.file, &run)?.1
         }
         _ => {

@@ -18,6 +18,8 @@ mod recorder;
 mod records;
 pub mod scene;
 mod stored;
+#[cfg(test)]
+mod tests;
 pub(crate) mod topics;
 mod transforms;
 pub(crate) mod wire;

@@ -80,7 +80,7 @@ impl Index {
         let footer = bytes.len().checked_sub(FOOTER).filter(|_| bytes.ends_with(mcap::MAGIC));
         let footer = footer.and_then(|at| Frame::at(bytes, at)).filter(|frame| frame.opcode == op::FOOTER);
         let start = footer.and_then(|frame| Fields(frame.body).number()).and_then(|at| usize::try_from(at).ok());
-        let mut at = start.unwrap_or(bytes.len());
+        let Some(mut at) = start else { return index };
         // the end of the data stands before
         index.landmarks.extend(at.checked_sub(9 + 4));
         while let Some(frame) = Frame::at(bytes, at) {

@@ -159,8 +159,8 @@ impl StoredRun {
 
     /// What is wrong with the file; none for one that is whole or was cut off.
     pub(crate) fn flaw(&self) -> Option<String> {
-        let unharmed = || self.damage.map(|damage| format!("{}; all outputs are there", damaged_at(damage)));
-        self.lost().or_else(unharmed)
+        let whole = if self.result.is_some() { "; all outputs are there" } else { "" };
+        self.lost().or_else(|| self.damage.map(|damage| damaged_at(damage) + whole))
     }
 
     /// Why something may be missing, to be added to the message that says so.

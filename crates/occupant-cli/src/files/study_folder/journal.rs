@@ -31,6 +31,8 @@ const AT_ONCE: u64 = 2048;
 /// A piece is closed after so many rows or bytes.
 const ROWS: usize = 1024;
 const BYTES: usize = 4 << 20;
+/// No piece is larger, bytes; its last row comes on top of the limit.
+const LARGEST: u64 = 64 << 20;
 
 /// First line of a piece.
 #[derive(Serialize, Deserialize)]
@@ -250,6 +252,9 @@ impl Journal {
     /// The rows of a piece, and whether one was cut off.
     fn piece(&self, path: &Path) -> Result<(Vec<Row>, bool), Problem> {
         let damaged = |found: &str| Problem::Damaged { path: path.to_owned(), found: found.to_owned() };
+        if fs::metadata(path).is_ok_and(|file| file.len() > LARGEST) {
+            return Err(damaged("is larger than any piece of a journal"));
+        }
         let bytes = fs::read(path).map_err(Problem::io("read", path))?;
         let end = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);
         let mut lines = bytes[..end].split_inclusive(|byte| *byte == b'\n');
@@ -264,9 +269,11 @@ impl Journal {
             }
             Ok(_) => {}
         }
-        let row = |line| serde_json::from_slice(line).ok().filter(|row: &Row| row.index < self.samples);
-        let rows: Option<Vec<Row>> = lines.map(row).collect();
-        Ok((rows.ok_or_else(|| damaged("holds a row that is none of this sweep"))?, torn))
+        let row = |(i, line)| {
+            let row = serde_json::from_slice(line).ok().filter(|row: &Row| row.index < self.samples);
+            row.ok_or_else(|| damaged(&format!("holds a row that is none of this sweep, in line {}", i + 2)))
+        };
+        Ok((lines.enumerate().map(row).collect::<Result<_, _>>()?, torn))
     }
 
     /// The shards that lack samples and how many, as far as the files tell into how many shards the study was cut.
@@ -370,7 +377,7 @@ mod tests {
         assert!(read(&folder, &SHA.replace('0', "f")).unwrap_err().contains("another sweep's"));
         let text = fs::read_to_string(&piece).unwrap();
         fs::write(&piece, text.replacen("\"index\":1", "\"index\":9", 1)).unwrap();
-        assert!(read(&folder, SHA).unwrap_err().contains("none of this sweep"));
+        assert!(read(&folder, SHA).unwrap_err().contains("none of this sweep, in line 3"));
         fs::write(&piece, "occupant rows 1\nhello\n").unwrap();
         assert!(read(&folder, SHA).unwrap_err().contains("no piece of a journal"));
     }

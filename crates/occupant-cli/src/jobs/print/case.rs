@@ -47,7 +47,8 @@ impl Case {
         };
         let file = StoredRun::read(&bytes).map_err(refused)?;
         if file.run.is_empty() {
-            let found = format!("it is an MCAP file without the record `{RUN}`: no result of `occupant run`");
+            let why = file.because();
+            let found = format!("it is an MCAP file without the record `{RUN}`: no result of `occupant run`{why}");
             return Err(refused(found));
         }
         let (loaded, model, warnings) = stored(path, &file)?;

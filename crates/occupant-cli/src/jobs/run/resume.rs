@@ -17,7 +17,7 @@ use crate::base::failure::Failure;
 use crate::base::input_file;
 use crate::base::names::{file_name, program};
 use crate::base::sha256::sha256;
-use crate::base::talk::say;
+use crate::base::talk::{note, say};
 use crate::files::mcap::StoredRun;
 use crate::files::scenario::{self, Opened};
 
@@ -165,6 +165,9 @@ fn same_scenario(file: &Path, stored: &StoredRun, opened: &Opened) -> Result<(),
             format!("{name} is of another scenario: {count} (there → here){lines}"),
             "resume with the same scenario and the same --set, or run from the start",
         ));
+    }
+    if let Some(flaw) = stored.flaw() {
+        note(&format!("{name} is {flaw}"));
     }
     let theirs = stored.run.get("program").map_or("?", String::as_str);
     if theirs != program() {

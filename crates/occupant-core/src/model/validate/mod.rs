@@ -38,7 +38,7 @@ fn check_posture(posture: &InitialPosture, problems: &mut Problems) {
         ("upper_arms", seating.upper_arms_rad),
         ("elbows", seating.elbows_rad),
     ];
-    for (key, angle_rad) in angles.into_iter().filter(|(_, angle)| !(angle.abs() <= PI)) {
+    for (key, angle_rad) in angles.into_iter().filter(|(_, angle)| angle.is_nan() || angle.abs() > PI) {
         problems.error(format!("posture.{key}"), format!("{}°", angle_rad.to_degrees()), "an angle from −180° to 180°");
     }
 }

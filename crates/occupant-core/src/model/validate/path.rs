@@ -66,7 +66,9 @@ pub(in crate::model) fn check_path(setup: &Setup, problems: &mut Problems) {
     let motions: Vec<(f64, FrameMotion)> = instants.map(|t_s| (t_s, path.motion(t_s, t_s, &mut cursor))).collect();
     for Pace { of, what, unit: (unit, si), usual, most, slip } in PACES {
         let greatest = motions.iter().map(|(t_s, motion)| (*t_s, of(motion))).max_by(|a, b| a.1.total_cmp(&b.1));
-        let Some((t_s, value)) = greatest.filter(|(_, value)| !(*value <= usual.min(most))) else { continue };
+        let Some((t_s, value)) = greatest.filter(|(_, value)| value.is_nan() || *value > usual.min(most)) else {
+            continue;
+        };
         let found = format!("the vehicle's {what} is {:.3e} {unit} at t = {t_s} s", value / si);
         let problem = if value <= most {
             Problem::warning("path", found, format!("at most {} {unit} in a crash", usual / si))
