@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 /// Crates with their rooms from the lowest to the highest.
 const ROOMS: [(&str, &[&str]); 5] = [
     ("crash-measures", &["trig", "nearest", "unit", "signal", "correlation", "measure", "injury"]),
-    ("placed-text", &["problem", "source", "diagnostic", "node", "path", "reader", "csv", "json", "toml"]),
+    ("placed-text", &["shown", "problem", "source", "diagnostic", "node", "path", "reader", "csv", "json", "toml"]),
     (
         "occupant-core",
         &[

@@ -110,7 +110,8 @@ fn a_step_far_too_long_for_its_springs_ends_the_run_with_time_step_and_component
     assert!(!diary.times.is_empty());
     assert!(diary.times.iter().all(|&t| t <= time_s));
     assert_eq!(outcome.time_s, time_s);
-    assert_eq!(diary.ended, Some(outcome));
+    // by their words: a balance that is not known equals nothing
+    assert_eq!(format!("{:?}", diary.ended), format!("{:?}", Some(outcome)));
 }
 
 #[test]

@@ -174,8 +174,8 @@ const FAULTS: &[Fault] = &[
                 seating.lean_rad[2] = f64::NAN;
             }
         },
-        "posture",
-        "finite",
+        "posture.head",
+        "an angle from −180° to 180°",
     ),
 ];
 

@@ -109,7 +109,7 @@ fn a_sample_is_the_same_in_any_order_and_for_any_number_of_samples() {
     // a longer Monte Carlo or Sobol study begins with the shorter one
     for design in ["sobol", "monte_carlo"] {
         let of = |n: u64| unit_square(&format!("{{ kind = \"{design}\", samples = {n} }}"));
-        assert_eq!(of(64).sample(63), of(1 << 40).sample(63), "{design}");
+        assert_eq!(of(64).sample(63), of(1 << 23).sample(63), "{design}");
     }
 }
 
@@ -131,11 +131,11 @@ const BITS: [[u64; 2]; 3] = [
 ];
 
 #[test]
-fn a_million_million_samples_need_no_memory() {
+fn ten_million_samples_need_no_memory() {
     for design in ["latin_hypercube", "sobol", "monte_carlo"] {
-        let study = unit_square(&format!("{{ kind = \"{design}\", samples = 1000000000000 }}"));
-        assert_eq!(study.len(), 1_000_000_000_000);
-        assert!(numbers(&study, 999_999_999_999).iter().all(|x| (0.0..1.0).contains(x)));
+        let study = unit_square(&format!("{{ kind = \"{design}\", samples = 10000000 }}"));
+        assert_eq!(study.len(), 10_000_000);
+        assert!(numbers(&study, 9_999_999).iter().all(|x| (0.0..1.0).contains(x)));
     }
 }
 
@@ -185,7 +185,11 @@ fn a_design_that_cannot_be_counted_is_refused() {
         )
     };
     let text = format!("design.kind = \"full_factorial\"\n{}{}{}", grid(0), grid(1), grid(2));
-    assert!(bind(&text).unwrap_err().to_string().contains("1000000000000000000 runs"));
+    let refused = bind(&text).unwrap_err().to_string();
+    assert!(
+        refused.contains("more runs than can be counted") && refused.contains("at most 10000000 runs"),
+        "{refused}"
+    );
     for samples in ["1099511627776", "1000000000000", "9223372036854775807"] {
         let text = format!("design = {{ kind = \"latin_hypercube\", samples = {samples} }}\n{}", grid(0));
         assert!(bind(&text).unwrap_err().to_string().contains("at most 10000000 runs"));

@@ -13,6 +13,9 @@ use crate::results::sample::Sample;
 /// Spheres that overlap by less have grazed an edge, m; limbs whose spheres are nearer have not gone between them.
 const GRAZE_M: f64 = 0.01;
 
+/// Spheres and limbs are looked at so often, s: what passed a surface stays behind it for longer, and runs of sweeps wait for it.
+const LOOK_S: f64 = 1.99e-3;
+
 /// Joints a little beyond the end of a stop are at it, rad: 10°.
 const AT_STOP_RAD: f64 = 0.175;
 /// What a seat's cushion gives way at most, m. Anything else gives way by the diameter of what presses on it.
@@ -31,6 +34,8 @@ pub(super) struct Signs {
     /// By pair: whether it had passed at the start, whether the sphere's limb went through it.
     begun: Vec<[bool; 2]>,
     is_begun: bool,
+    /// When spheres and limbs were looked at last, s.
+    seen_s: f64,
     /// The surface that the body was seated on.
     cushion: Option<usize>,
 }
@@ -70,6 +75,7 @@ impl Signs {
             cuts: vec![Sunk::NONE; body.tree.segments().len()],
             begun: vec![[false; 2]; model.system().forces.contacts.pairs.len()],
             is_begun: false,
+            seen_s: 0.0,
             cushion: match &model.setup().posture {
                 InitialPosture::Seated(seating) => Some(seating.cushion),
                 _ => None,
@@ -85,17 +91,19 @@ impl Signs {
         for contact in sample.contacts() {
             self.deep[contact.sphere].see(contact.depth_m, contact.surface, time_s);
         }
-        for group in &model.system().forces.contacts.groups {
-            self.see_group(sample, group);
+        if !self.is_begun || time_s - self.seen_s >= LOOK_S {
+            for group in &model.system().forces.contacts.groups {
+                self.see_group(sample, group);
+            }
+            (self.is_begun, self.seen_s) = (true, time_s);
         }
-        self.is_begun = true;
     }
 
     /// A sphere among the faces of a frame.
     fn see_group(&mut self, sample: &Sample<'_>, group: &Group) {
         let contacts = &sample.model.system().forces.contacts;
         let sphere = &sample.model.body().spheres[group.sphere];
-        let feels = sample.actions.contacts.iter().any(|touch| touch.sphere == group.sphere);
+        let feels = || sample.actions.contacts.iter().any(|touch| touch.sphere == group.sphere);
         let limb = limb(sample, sphere.segment).map(|ends| ends.map(|end| into_frame(sample, group.frame, end)));
         for i in group.pairs.clone() {
             let has_passed = sample.history.memory.contacts[i].phase == PASSED;
@@ -104,17 +112,17 @@ impl Signs {
                     overlap(contacts, i, centre(sample, group.frame, group.sphere), sphere.radius_m);
                 if !self.is_begun {
                     self.begun[i][0] = true;
-                } else if !feels {
+                } else if !feels() {
                     self.passed[group.sphere].see_first(overlap_m, surface, sample.time_s);
                 }
             }
             self.begun[i][0] &= has_passed;
-            let Some(ends) = limb else { continue };
+            let Some(ends) = limb.filter(|_| !self.begun[i][1]) else { continue };
             for part in &contacts.pairs[i].parts {
                 let Some(place) = crossing(contacts, i, part, sphere.radius_m, ends) else { continue };
                 if !self.is_begun {
                     self.begun[i][1] = true;
-                } else if !self.begun[i][1] {
+                } else {
                     let clear_m = clear_m(sample, group.frame, place);
                     self.cuts[sphere.segment.index()].see_first(clear_m, part.surface, sample.time_s);
                 }
@@ -194,8 +202,11 @@ fn crossing(
 ) -> Option<V3<f64>> {
     let plane: &Plane<f64> = &contacts.planes[i];
     let [begin, end] = [from, to].map(|point| plane.depth(point) - radius_m);
+    if begin * end >= 0.0 {
+        return None;
+    }
     let place = from + (to - from) * (begin / (begin - end));
-    (begin * end < 0.0 && contacts.pairs[i].beside(part, place) == 0.0).then_some(place)
+    (contacts.pairs[i].beside(part, place) == 0.0).then_some(place)
 }
 
 /// Distance of a place from the nearest sphere of the body, m.
