@@ -30,7 +30,7 @@ def check(folder):
     expect(table["index"].to_pylist() == list(range(table.num_rows)), "rows out of order")
     columns = [column["name"] for column in sweep["columns"]]
     inputs = [column["name"] for column in sweep["columns"] if column["role"] != "figure"]
-    frame = ["index", *inputs, "status", "reason", *columns[len(inputs):], "wall_time_s", "kernel"]
+    frame = ["index", *inputs, "status", "reason", "caveats", *columns[len(inputs):], "wall_time_s", "kernel"]
     expect(table.column_names == frame, "columns other than the manifest's")
     expect(set(units) == set(columns), "a column without a unit")
     for text in sweep["texts"]:

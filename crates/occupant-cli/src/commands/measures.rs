@@ -132,7 +132,7 @@ fn text(results: &Results, options: &Options, Summary { measures, caveats, .. }:
         ),
         long(measures, &marks),
         marks.explained().unwrap_or_default(),
-        risks(measures),
+        risks(measures, &marks),
         remarks(measures),
         "Limits and curves were read where others quote them, not in the rules: check the rule before a legal statement.\n"
             .to_owned(),

@@ -31,12 +31,13 @@ pub(crate) fn remarks(measures: &[Measure]) -> String {
     remarks.iter().map(|(remark, labels)| format!("{}: {remark}\n", labels.join(", "))).collect()
 }
 
-/// Risks of injury, a line for each curve.
-pub(crate) fn risks(measures: &[Measure]) -> String {
+/// Risks of injury, a line for each curve; one from a marked measure is marked.
+pub(crate) fn risks(measures: &[Measure], marks: &Marks) -> String {
     let mut table = Table::new(&[(Left, &["injury", "from"]), (Right, &["risk, %"])]);
     for m in measures {
         for risk in &m.risks {
-            table.row([risk.injury.to_owned(), m.label.to_owned(), number(100.0 * risk.probability, 1)]);
+            let percent = marks.put(m.figure.unwrap_or(m.name), number(100.0 * risk.probability, 1));
+            table.row([risk.injury.to_owned(), m.label.to_owned(), percent]);
         }
     }
     table.text()
