@@ -218,6 +218,7 @@ fn contradictions_are_found() {
     assert_eq!(errors(&punched("5", 1, 61, "     .2489")), [found(Rule::Impossible, line_of("5") + 1, "ZIN(1)")]);
     assert_eq!(errors(&punched("9", 4, 41, "       30.")), [found(Rule::Impossible, line_of("9") + 4, "AMU1(4)")]);
     assert_eq!(warnings(&punched("9", 1, 21, "      200.")), [found(Rule::Unlikely, line_of("9") + 1, "STIF2(1)")]);
+    assert_eq!(warnings(&punched("13", 2, 11, "       20.")), [found(Rule::Unlikely, line_of("13") + 2, "SK2(1)")]);
     assert_eq!(errors(&punched("3", 0, 11, "       .26")), [found(Rule::PathTooShort, 113, "CALT(51)")]);
     assert_eq!(errors(&punched("12", 2, 1, "        0.")), [found(Rule::Impossible, line_of("12") + 2, "CALT(2)")]);
     assert_eq!(errors(&punched("11", 0, 31, "    1.1000")), [found(Rule::Impossible, line_of("11"), "AGNN")]);

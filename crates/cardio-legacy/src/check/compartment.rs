@@ -1,6 +1,7 @@
-//! The compartment and its surfaces (series 8 and 9): widths, units, the seven equalities, areas.
+//! The compartment, its surfaces and belts (series 8, 9 and 13): widths, units, the seven equalities, areas, slopes of springs.
 
 use super::Check;
+use crate::cards::BELTS;
 use crate::compartment::CompartmentLayout;
 use crate::rule::Rule;
 
@@ -35,9 +36,8 @@ pub(super) fn check(c: &mut Check<'_>) {
     let narrow = width > 0.0 && width < 8.0;
     c.wrong_if(narrow, Rule::LooksLikeOtherUnit, "VCW", "a compartment narrower than a person")
         .expected("half of the width in inches", "multiply feet by 12");
-    for surface in 1..=25 {
-        check_stiffness(c, surface);
-    }
+    (1..=25).for_each(|surface| check_stiffness(c, "STIF", surface));
+    BELTS.iter().for_each(|belt| check_stiffness(c, "SK", belt.0));
 }
 
 fn check_equality(c: &mut Check<'_>, names: &[&str]) {
@@ -61,9 +61,11 @@ fn check_extents(c: &mut Check<'_>) {
     }
 }
 
-fn check_stiffness(c: &mut Check<'_>, n: u32) {
-    let (soft, stiff) = (c.value(format!("STIF1({n})")), c.value(format!("STIF2({n})")));
-    let message = format!("softer than STIF1({n}) = {}", c.digits(format!("STIF1({n})")));
-    c.wrong_if(soft > stiff && stiff > 0.0, Rule::Unlikely, format!("STIF2({n})"), message)
+/// Springs of which the second slope is the softer; webbing that gives way under load is seldom meant.
+fn check_stiffness(c: &mut Check<'_>, stem: &str, n: u32) {
+    let [first, second] = [1, 2].map(|slope| format!("{stem}{slope}({n})"));
+    let (soft, stiff) = (c.value(&first), c.value(&second));
+    let message = format!("softer than {first} = {}", c.digits(&first));
+    c.wrong_if(soft > stiff && stiff > 0.0, Rule::Unlikely, second, message)
         .expected("the larger of the two", "look whether the two have changed places");
 }
