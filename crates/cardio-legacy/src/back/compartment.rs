@@ -67,16 +67,10 @@ fn read_material(back: &mut Back<'_>, material: &Material, number: u32) {
     );
     let usual = material.friction_speed_m_s == DEFAULT_FRICTION_SPEED_M_S;
     back.misfit_if(!usual, format!("materials.{}.friction_speed: cards cannot choose it", material.name));
-    for (field, si) in [
-        ("STIF1", spring.k1_n_per_m),
-        ("STIF2", spring.k2_n_per_m),
-        ("DELB", spring.break_m),
-        ("AMU1", spring.returned_1),
-        ("AMU2", spring.returned_2),
-        ("COFR", material.friction),
-    ] {
-        back.set(format!("{field}({number})"), si);
-    }
+    let slopes = [("STIF1", spring.k1_n_per_m), ("STIF2", spring.k2_n_per_m), ("DELB", spring.break_m)];
+    let losses = [("AMU1", spring.returned_1), ("AMU2", spring.returned_2), ("COFR", material.friction)];
+    back.set_numbered(number, slopes);
+    back.set_numbered(number, losses);
 }
 
 fn polygon(back: &mut Back<'_>, layout: &CompartmentLayout, surface: &Surface, number: u32) -> Option<Polygon> {
