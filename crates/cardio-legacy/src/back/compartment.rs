@@ -104,7 +104,7 @@ fn order(count: usize, start: usize, turned: bool) -> Vec<usize> {
 }
 
 fn on_its_side(corner: &Corner, place: &Point3<f64>) -> bool {
-    corner.wall.half_width().1 == (place.y < 0.0)
+    corner.wall.is_left == (place.y < 0.0)
 }
 
 /// A corner's place as the fields of series 8.
@@ -112,7 +112,7 @@ fn fields_at(corner: &Corner, [x, z, width]: &[String; 3]) -> [(String, String);
     [
         (format!("XV({})", corner.x_of), x.clone()),
         (format!("ZV({})", corner.z_of), z.clone()),
-        (corner.wall.half_width().0.to_owned(), width.clone()),
+        (corner.wall.half_width.to_owned(), width.clone()),
     ]
 }
 
