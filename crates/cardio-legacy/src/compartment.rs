@@ -2,7 +2,8 @@
 
 use std::collections::BTreeSet;
 
-use serde::Deserialize;
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
 
 use crate::deck::Deck;
 
@@ -33,32 +34,25 @@ struct SurfaceLayout {
     faces: [f64; 3],
 }
 
-/// A side of the compartment: half width and sign.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Deserialize)]
-pub enum Wall {
-    /// Left, at the half width of the compartment.
-    #[serde(rename = "-VCW")]
-    LeftBody,
-    /// Right, at the half width of the compartment.
-    #[serde(rename = "VCW")]
-    RightBody,
-    /// Left, at the half width of the roof.
-    #[serde(rename = "-VRW")]
-    LeftRoof,
-    /// Right, at the half width of the roof.
-    #[serde(rename = "VRW")]
-    RightRoof,
+/// A side of the compartment.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub struct Wall {
+    /// The card's variable of its half width, VCW or VRW.
+    pub half_width: &'static str,
+    /// Whether it lies to the left, where Y is negative.
+    pub is_left: bool,
 }
 
-impl Wall {
-    /// The card's variable, and whether it counts negative (to the left).
-    pub fn half_width(self) -> (&'static str, bool) {
-        match self {
-            Self::LeftBody => ("VCW", true),
-            Self::RightBody => ("VCW", false),
-            Self::LeftRoof => ("VRW", true),
-            Self::RightRoof => ("VRW", false),
-        }
+/// The half widths of the body and of the roof.
+const HALF_WIDTHS: [&str; 2] = ["VCW", "VRW"];
+
+impl<'de> Deserialize<'de> for Wall {
+    fn deserialize<D: Deserializer<'de>>(deserializer: D) -> Result<Self, D::Error> {
+        let name = String::deserialize(deserializer)?;
+        let width = name.strip_prefix('-').unwrap_or(&name);
+        let known = HALF_WIDTHS.into_iter().find(|half_width| *half_width == width);
+        let unknown = || D::Error::unknown_variant(&name, &["-VCW", "VCW", "-VRW", "VRW"]);
+        Ok(Self { half_width: known.ok_or_else(unknown)?, is_left: name.starts_with('-') })
     }
 }
 
@@ -217,16 +211,11 @@ impl CompartmentLayout {
 
 /// The corners of a surface that reaches from left to right at two points.
 fn corners_of_edge([one, two]: [u32; 2], roof_points: &[u32]) -> Vec<Corner> {
-    let corner = |point: u32, right: bool| {
-        let wall = match (roof_points.contains(&point), right) {
-            (true, false) => Wall::LeftRoof,
-            (true, true) => Wall::RightRoof,
-            (false, false) => Wall::LeftBody,
-            (false, true) => Wall::RightBody,
-        };
-        Corner { x_of: point, z_of: point, wall }
+    let corner = |point: u32, is_left: bool| {
+        let half_width = HALF_WIDTHS[usize::from(roof_points.contains(&point))];
+        Corner { x_of: point, z_of: point, wall: Wall { half_width, is_left } }
     };
-    vec![corner(one, false), corner(two, false), corner(two, true), corner(one, true)]
+    vec![corner(one, true), corner(two, true), corner(two, false), corner(one, false)]
 }
 
 fn face(surface: &SurfaceLayout, deck: &Deck) -> Face {
@@ -248,8 +237,8 @@ const SMALLEST_AREA_IN2: f64 = 1e-6;
 /// Place of a corner in vehicle axes, in.
 fn position(corner: &Corner, deck: &Deck) -> [f64; 3] {
     let value = |name: &str| deck.value(name).unwrap_or(f64::NAN);
-    let (width, left) = corner.wall.half_width();
-    let y = if left { -value(width) } else { value(width) };
+    let width = value(corner.wall.half_width);
+    let y = if corner.wall.is_left { -width } else { width };
     [value(&format!("XV({})", corner.x_of)), y, value(&format!("ZV({})", corner.z_of))]
 }
 

@@ -9,7 +9,9 @@
 //! * integers take no point and no exponent.
 //!
 //! So `12` punched at the left of ten columns is 1 200 000 000. That is what the program read, hence what is read here;
-//! the [`Surprise`]s tell the caller where these rules gave something a reader of the card would not expect.
+//! [`Reading::surprises`] tell the caller where these rules gave something a reader of the card would not expect.
+
+use crate::rule::Rule;
 
 /// Largest number that the 360's double precision holds, 16⁶³(1 − 16⁻¹⁴).
 pub const LARGEST_REAL: f64 = 7.237_005_577_332_26e75;
@@ -25,23 +27,10 @@ pub struct Reading {
     pub digits: String,
     /// Nothing is punched in the field.
     pub blank: bool,
-    /// Where the rules gave something that the eye does not see.
-    pub surprises: Vec<Surprise>,
-}
-
-/// A rule of FORTRAN IV that changed or supplied digits of a number.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Surprise {
-    /// Blanks between digits were read as zeros: `1 2.5` is 102.5.
-    EmbeddedBlanks,
-    /// Blanks after the last digit were read as zeros and changed the number: `12` at the left of F10.0.
-    TrailingBlanks,
-    /// The exponent has no letter: `1.5-3`.
-    BareExponent,
-    /// The exponent's letter is a small one, which no card punch had.
-    SmallLetter,
-    /// The number is nearer to zero than the 360 could hold; it was zero there and is read as zero.
-    Underflow,
+    /// Where the rules gave something that the eye does not see: [`Rule::EmbeddedBlanks`], [`Rule::LeftJustified`] for blanks
+    /// behind the last digit that were read as zeros, [`Rule::BareExponent`], [`Rule::SmallLetter`], [`Rule::Underflow`] for a
+    /// number that the 360 read as zero.
+    pub surprises: Vec<Rule>,
 }
 
 /// Why a field holds no number.
@@ -79,7 +68,7 @@ pub fn read_real(field: &[u8]) -> Result<Reading, FieldError> {
     }
     let zero = !parts.whole.bytes().chain(parts.fraction.iter().flat_map(|f| f.bytes())).any(|b| b != b'0');
     if !zero && value.abs() < SMALLEST_REAL {
-        surprises.push(Surprise::Underflow);
+        surprises.push(Rule::Underflow);
         return Ok(Reading { value: 0.0, digits: "0".into(), blank: false, surprises });
     }
     Ok(Reading { value, digits: text, blank: false, surprises })
@@ -107,7 +96,7 @@ struct Parts {
     whole: String,
     fraction: Option<String>,
     exponent: (bool, String),
-    surprises: Vec<Surprise>,
+    surprises: Vec<Rule>,
 }
 
 impl Parts {
@@ -121,9 +110,9 @@ impl Parts {
     fn push_blank(&mut self, rest: &[u8], punched: bool) {
         let next = rest.iter().find(|b| **b != b' ');
         let surprise = match (&self.fraction, next) {
-            (None, None) if punched => Surprise::TrailingBlanks,
-            (None, Some(_)) if punched => Surprise::EmbeddedBlanks,
-            (Some(_), Some(b'0'..=b'9')) => Surprise::EmbeddedBlanks,
+            (None, None) if punched => Rule::LeftJustified,
+            (None, Some(_)) if punched => Rule::EmbeddedBlanks,
+            (Some(_), Some(b'0'..=b'9')) => Rule::EmbeddedBlanks,
             _ => return,
         };
         self.push('0');
@@ -184,8 +173,8 @@ fn split(field: &[u8]) -> Result<Option<Parts>, FieldError> {
 fn read_exponent(rest: &[u8], offset: usize, parts: &mut Parts) -> Result<(), FieldError> {
     match rest[0] {
         b'E' | b'D' => {}
-        b'e' | b'd' => note(&mut parts.surprises, Surprise::SmallLetter),
-        _ => note(&mut parts.surprises, Surprise::BareExponent),
+        b'e' | b'd' => note(&mut parts.surprises, Rule::SmallLetter),
+        _ => note(&mut parts.surprises, Rule::BareExponent),
     }
     let sign_at = usize::from(rest[0].is_ascii_alphabetic());
     let negative = rest.get(sign_at) == Some(&b'-');
@@ -198,7 +187,7 @@ fn read_exponent(rest: &[u8], offset: usize, parts: &mut Parts) -> Result<(), Fi
                 digits.push('0');
                 if digits.bytes().any(|d| d != b'0') {
                     let trailing = rest[index..].iter().all(|b| *b == b' ');
-                    let surprise = if trailing { Surprise::TrailingBlanks } else { Surprise::EmbeddedBlanks };
+                    let surprise = if trailing { Rule::LeftJustified } else { Rule::EmbeddedBlanks };
                     note(&mut parts.surprises, surprise);
                 }
             }
@@ -212,7 +201,7 @@ fn read_exponent(rest: &[u8], offset: usize, parts: &mut Parts) -> Result<(), Fi
     Ok(())
 }
 
-fn note(surprises: &mut Vec<Surprise>, surprise: Surprise) {
+fn note(surprises: &mut Vec<Rule>, surprise: Rule) {
     if !surprises.contains(&surprise) {
         surprises.push(surprise);
     }

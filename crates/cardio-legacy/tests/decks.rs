@@ -126,8 +126,8 @@ fn corners(number: u32) -> Vec<[f64; 3]> {
     let face = layout.faces(&deck).into_iter().find(|f| f.number == number).expect("a face");
     let value = |name: &str| deck.value(name).expect("a field");
     let place = |c: &cardio_legacy::Corner| {
-        let (width, left) = c.wall.half_width();
-        let y = if left { -value(width) } else { value(width) };
+        let width = value(c.wall.half_width);
+        let y = if c.wall.is_left { -width } else { width };
         [value(&format!("XV({})", c.x_of)), y, value(&format!("ZV({})", c.z_of))]
     };
     face.corners.iter().map(place).collect()

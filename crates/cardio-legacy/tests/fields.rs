@@ -1,8 +1,9 @@
 //! The field rules of FORTRAN IV, one sentence a test.
 
-use cardio_legacy::fortran::{FieldError, Surprise, read_integer, read_real};
+use cardio_legacy::Rule;
+use cardio_legacy::fortran::{FieldError, read_integer, read_real};
 
-fn real(text: &str) -> (f64, String, Vec<Surprise>) {
+fn real(text: &str) -> (f64, String, Vec<Rule>) {
     let reading = read_real(format!("{text:10}").as_bytes()).unwrap_or_else(|error| panic!("`{text}`: {error:?}"));
     (reading.value, reading.digits, reading.surprises)
 }
@@ -27,15 +28,15 @@ fn a_point_overrules_the_format() {
 #[test]
 fn without_a_point_a_number_counts_from_the_right_end() {
     assert_eq!(real("        12"), (12.0, "12".into(), vec![]));
-    assert_eq!(real("12"), (1_200_000_000.0, "1200000000".into(), vec![Surprise::TrailingBlanks]));
-    assert_eq!(real("       -5 "), (-50.0, "-50".into(), vec![Surprise::TrailingBlanks]));
+    assert_eq!(real("12"), (1_200_000_000.0, "1200000000".into(), vec![Rule::LeftJustified]));
+    assert_eq!(real("       -5 "), (-50.0, "-50".into(), vec![Rule::LeftJustified]));
 }
 
 #[test]
 fn blanks_inside_a_number_are_zeros() {
-    assert_eq!(real("   1 2.5"), (102.5, "102.5".into(), vec![Surprise::EmbeddedBlanks]));
-    assert_eq!(real("   1. 5"), (1.05, "1.05".into(), vec![Surprise::EmbeddedBlanks]));
-    assert_eq!(real("   1 .5"), (10.5, "10.5".into(), vec![Surprise::EmbeddedBlanks]));
+    assert_eq!(real("   1 2.5"), (102.5, "102.5".into(), vec![Rule::EmbeddedBlanks]));
+    assert_eq!(real("   1. 5"), (1.05, "1.05".into(), vec![Rule::EmbeddedBlanks]));
+    assert_eq!(real("   1 .5"), (10.5, "10.5".into(), vec![Rule::EmbeddedBlanks]));
     assert_eq!(real(" 1.5  "), (1.5, "1.5".into(), vec![]), "behind a fraction they change nothing");
     assert_eq!(real("  -  1.5"), (-1.5, "-1.5".into(), vec![]), "behind a sign they change nothing");
 }
@@ -53,10 +54,10 @@ fn exponents_come_with_e_with_d_and_without_letter() {
     ] {
         assert_eq!(real(text), (value, real(text).1, vec![]), "`{text}`");
     }
-    assert_eq!(real("     1.5-3"), (0.0015, "1.5e-3".into(), vec![Surprise::BareExponent]));
-    assert_eq!(real("     1.5+3"), (1500.0, "1.5e3".into(), vec![Surprise::BareExponent]));
-    assert_eq!(real("     1.5e3"), (1500.0, "1.5e3".into(), vec![Surprise::SmallLetter]));
-    assert_eq!(real("    1.5E3 "), (1.5e30, "1.5e30".into(), vec![Surprise::TrailingBlanks]));
+    assert_eq!(real("     1.5-3"), (0.0015, "1.5e-3".into(), vec![Rule::BareExponent]));
+    assert_eq!(real("     1.5+3"), (1500.0, "1.5e3".into(), vec![Rule::BareExponent]));
+    assert_eq!(real("     1.5e3"), (1500.0, "1.5e3".into(), vec![Rule::SmallLetter]));
+    assert_eq!(real("    1.5E3 "), (1.5e30, "1.5e30".into(), vec![Rule::LeftJustified]));
 }
 
 #[test]
@@ -71,8 +72,8 @@ fn an_exponent_at_the_left_of_its_field_is_too_large() {
 fn numbers_too_small_for_the_machine_are_named() {
     let tiny = real("    1.E-80");
     assert_eq!((tiny.0, tiny.1.as_str()), (0.0, "0"), "as the 360 had it");
-    assert_eq!(tiny.2, [Surprise::Underflow]);
-    assert_eq!(real("   1.E-999").2, [Surprise::Underflow], "zero in our arithmetic too");
+    assert_eq!(tiny.2, [Rule::Underflow]);
+    assert_eq!(real("   1.E-999").2, [Rule::Underflow], "zero in our arithmetic too");
     assert_eq!(real("    0.E-80").2, []);
     assert_eq!(real("    6.E-79").2, []);
 }
@@ -111,7 +112,7 @@ fn integers_count_from_the_right_end_and_take_no_point() {
     let read = |text: &str| read_integer(text.as_bytes()).map(|r| (r.value, r.surprises));
     assert_eq!(read(" 7"), Ok((7.0, vec![])));
     assert_eq!(read("12"), Ok((12.0, vec![])));
-    assert_eq!(read("1 "), Ok((10.0, vec![Surprise::TrailingBlanks])));
+    assert_eq!(read("1 "), Ok((10.0, vec![Rule::LeftJustified])));
     assert_eq!(read("      1000"), Ok((1000.0, vec![])));
     assert_eq!(read("1."), Err(FieldError::Character { offset: 1, found: b'.' }));
     assert_eq!(read("1E"), Err(FieldError::Character { offset: 1, found: b'E' }));

@@ -3,12 +3,12 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::law::{Law, Value};
-use super::morris::{self, Trajectory};
+use super::Study;
+use super::law::Value;
+use super::morris::Trajectory;
 use super::permutation::permute;
 use super::random::{Purpose, unit};
 use super::saltelli::{self, Block};
-use super::sobol::Sobol;
 use occupant_core::scenario::{POSITIVE, Ratio};
 
 /// How the samples are chosen.
@@ -95,7 +95,7 @@ fn usual_levels() -> u64 {
 }
 
 /// What a sample is in its design.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Role {
     /// One of many alike.
     Sample,
@@ -119,8 +119,8 @@ pub enum Role {
         trajectory: u64,
         /// Steps made so far, 0 at its start.
         step: usize,
-        /// The parameter that the last step changed.
-        changed: Option<usize>,
+        /// The parameter that the last step changed, and by which part of its range, with its sign.
+        changed: Option<(usize, f64)>,
     },
 }
 
@@ -137,13 +137,6 @@ pub(super) enum Coordinate {
     Bounded(f64, f64),
     /// A value of the design's own.
     Given(Value),
-}
-
-/// Everything that the coordinates of a sample depend on.
-pub(super) struct Context<'a> {
-    pub(super) seed: u64,
-    pub(super) laws: &'a [&'a Law],
-    pub(super) sobol: &'a Sobol,
 }
 
 impl Design {
@@ -177,32 +170,20 @@ impl Design {
                 Role::Saltelli { point, block }
             }
             Design::Morris { levels, .. } => {
-                let (trajectory, step) = morris::place(index, k);
-                let path = Trajectory::new(trajectory, k, *levels, seed);
-                let changed = step.checked_sub(1).and_then(|last| path.parameter_at(last));
-                Role::Morris { trajectory, step, changed }
+                let (path, step) = Trajectory::of_sample(index, k, *levels, seed);
+                Role::Morris { trajectory: path.number, step, changed: path.change(step) }
             }
             _ => Role::Sample,
         }
     }
 
-    /// The signed change of the coordinate that the last step of a Morris trajectory changed.
-    pub(super) fn morris_step(&self, index: u64, parameters: usize, seed: u64) -> Option<f64> {
-        let Design::Morris { levels, .. } = self else { return None };
-        let (trajectory, step) = morris::place(index, parameters);
-        let path = Trajectory::new(trajectory, parameters, *levels, seed);
-        let before = step.checked_sub(1)?;
-        let changed = path.parameter_at(before)?;
-        Some(path.coordinate(changed, step) - path.coordinate(changed, before))
-    }
-
     /// The coordinates of a sample, one for each parameter.
-    pub(super) fn coordinates(&self, index: u64, of: &Context<'_>) -> Vec<Coordinate> {
-        let k = of.laws.len();
+    pub(super) fn coordinates(&self, index: u64, of: &Study) -> Vec<Coordinate> {
+        let k = of.parameters.len();
         let dimensions = 0..k as u32;
         match self {
             Design::Single => vec![Coordinate::Nominal; k],
-            Design::FullFactorial => full_factorial(index, of.laws),
+            Design::FullFactorial => full_factorial(index, &of.levels()),
             Design::LatinHypercube { samples } => {
                 dimensions.map(|d| Coordinate::Quantile(stratified(index, *samples, d, of.seed))).collect()
             }
@@ -213,7 +194,7 @@ impl Design {
                 .map(|d| if *scramble { of.sobol.scrambled(index, d, of.seed) } else { of.sobol.plain(index, d) })
                 .map(Coordinate::Quantile)
                 .collect(),
-            Design::OneAtATime { tail } => low_and_high(index, tail.si(), of.laws),
+            Design::OneAtATime { tail } => low_and_high(index, tail.si(), &of.levels()),
             Design::Table { rows, .. } => {
                 let row = usize::try_from(index).ok().and_then(|i| rows.get(i));
                 let row = row.cloned().unwrap_or_else(|| vec![Value::Base; k]);
@@ -227,8 +208,7 @@ impl Design {
                     .collect()
             }
             Design::Morris { levels, tail, .. } => {
-                let (trajectory, step) = morris::place(index, k);
-                let path = Trajectory::new(trajectory, k, *levels, of.seed);
+                let (path, step) = Trajectory::of_sample(index, k, *levels, of.seed);
                 (0..k).map(|d| Coordinate::Bounded(path.coordinate(d, step), tail.si())).collect()
             }
         }
@@ -236,13 +216,13 @@ impl Design {
 }
 
 /// The digits of the index in a number system whose digits have as many values as the parameters, last digit first.
-fn full_factorial(index: u64, laws: &[&Law]) -> Vec<Coordinate> {
+fn full_factorial(index: u64, levels: &[Option<u64>]) -> Vec<Coordinate> {
     let mut rest = index;
-    let mut digits: Vec<Coordinate> = laws
+    let mut digits: Vec<Coordinate> = levels
         .iter()
         .rev()
-        .map(|law| {
-            let n = law.levels().unwrap_or(1).max(1);
+        .map(|levels| {
+            let n = levels.unwrap_or(1).max(1);
             let digit = rest % n;
             rest /= n;
             Coordinate::Level(digit)
@@ -274,10 +254,9 @@ fn one_at_a_time(index: u64, levels: &[Option<u64>]) -> Option<(usize, u64)> {
     None
 }
 
-fn low_and_high(index: u64, tail: f64, laws: &[&Law]) -> Vec<Coordinate> {
-    let levels: Vec<Option<u64>> = laws.iter().map(|l| l.levels()).collect();
-    let mut coordinates = vec![Coordinate::Nominal; laws.len()];
-    if let Some((parameter, value)) = one_at_a_time(index, &levels) {
+fn low_and_high(index: u64, tail: f64, levels: &[Option<u64>]) -> Vec<Coordinate> {
+    let mut coordinates = vec![Coordinate::Nominal; levels.len()];
+    if let Some((parameter, value)) = one_at_a_time(index, levels) {
         coordinates[parameter] = match levels[parameter] {
             Some(_) => Coordinate::Level(value),
             None => Coordinate::Bounded(value as f64, tail),

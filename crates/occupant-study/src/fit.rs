@@ -2,9 +2,8 @@
 
 use super::Study;
 use super::fit_section::{FilterChoice, FitChannel, FitTest, Misfit};
-use super::law::{Law, Value, between, log_between};
-use super::parameter::{Assignment, Parameter};
-use crash_measures::trig::ln;
+use super::law::Value;
+use super::parameter::Assignment;
 
 /// A fit as a study says it.
 #[derive(Clone, Debug, PartialEq)]
@@ -29,52 +28,6 @@ pub struct Fit {
     pub tolerance: f64,
     /// Scores worse by no more than this are as good.
     pub near: Option<f64>,
-}
-
-/// The ends between which a parameter is looked for, SI units.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
-    /// Least value.
-    pub from: f64,
-    /// Greatest value.
-    pub to: f64,
-    /// Whether equal ratios are equal steps.
-    pub log: bool,
-}
-
-impl Bounds {
-    /// The ends of a law; none for one that has no ends, or nothing between its values.
-    pub fn of(law: &Law) -> Option<Bounds> {
-        let bounds = |from, to, log| Some(Bounds { from, to, log });
-        match *law {
-            Law::Uniform { from, to } => bounds(from, to, false),
-            Law::LogUniform { from, to } => bounds(from, to, true),
-            Law::Grid { from, to, log, .. } => bounds(from, to, log),
-            Law::TruncatedNormal { from, to, .. } | Law::Triangular { from, to, .. } => bounds(from, to, false),
-            Law::Normal { .. } | Law::List(_) | Law::Table => None,
-        }
-    }
-
-    /// The value at a part of the way, 0 to 1.
-    pub fn value(&self, u: f64) -> f64 {
-        if self.log { log_between(self.from, self.to, u) } else { between(self.from, self.to, u) }
-    }
-
-    /// The part of the way at which a value stands; beyond 0 or 1 for one outside.
-    pub fn part(&self, value: f64) -> f64 {
-        if self.log {
-            (ln(value) - ln(self.from)) / (ln(self.to) - ln(self.from))
-        } else {
-            (value - self.from) / (self.to - self.from)
-        }
-    }
-}
-
-impl Parameter {
-    /// Between which ends it is looked for.
-    pub fn bounds(&self) -> Option<Bounds> {
-        Bounds::of(&self.law)
-    }
 }
 
 impl Study {

@@ -1,5 +1,8 @@
 //! How the values of one parameter are spread: levels to go through, or a distribution to draw from.
 
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
 use super::normal;
 use crash_measures::trig::{exp, ln};
 
@@ -14,6 +17,54 @@ pub enum Value {
     Truth(bool),
     /// What the base scenario says, where that is not one single value.
     Base,
+}
+
+/// How likely each value is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(tag = "kind", rename_all = "snake_case")]
+#[schemars(rename = "DistributionSection")]
+pub enum Distribution<N> {
+    /// Every value between two equally likely.
+    Uniform {
+        /// Least value.
+        from: N,
+        /// Greatest value.
+        to: N,
+    },
+    /// Every ratio between two values equally likely.
+    LogUniform {
+        /// Least value.
+        from: N,
+        /// Greatest value.
+        to: N,
+    },
+    /// Gauss's bell.
+    Normal {
+        /// Mean.
+        mean: N,
+        /// Standard deviation.
+        sd: N,
+    },
+    /// Gauss's bell between two values.
+    TruncatedNormal {
+        /// Mean before it is cut.
+        mean: N,
+        /// Standard deviation before it is cut.
+        sd: N,
+        /// Least value.
+        from: N,
+        /// Greatest value.
+        to: N,
+    },
+    /// Straight lines up to the likeliest value and down again.
+    Triangular {
+        /// Least value.
+        from: N,
+        /// Likeliest value.
+        mode: N,
+        /// Greatest value.
+        to: N,
+    },
 }
 
 /// How the values of one parameter are spread.
@@ -32,47 +83,8 @@ pub enum Law {
         /// Equal ratios instead of equal differences; both ends are then positive.
         log: bool,
     },
-    /// Equally likely between two ends.
-    Uniform {
-        /// Least.
-        from: f64,
-        /// Greatest.
-        to: f64,
-    },
-    /// Equal ratios equally likely between two positive ends.
-    LogUniform {
-        /// Least.
-        from: f64,
-        /// Greatest.
-        to: f64,
-    },
-    /// Normal.
-    Normal {
-        /// Mean.
-        mean: f64,
-        /// Standard deviation.
-        sd: f64,
-    },
-    /// Normal between two ends.
-    TruncatedNormal {
-        /// Mean before it is cut.
-        mean: f64,
-        /// Standard deviation before it is cut.
-        sd: f64,
-        /// Least.
-        from: f64,
-        /// Greatest.
-        to: f64,
-    },
-    /// Triangular.
-    Triangular {
-        /// Least.
-        from: f64,
-        /// Likeliest.
-        mode: f64,
-        /// Greatest.
-        to: f64,
-    },
+    /// As likely as a distribution says.
+    Distribution(Distribution<f64>),
     /// The design's own table says.
     Table,
 }
@@ -95,7 +107,11 @@ impl Law {
                 let at = usize::try_from(i).map_or(last, |i| i.min(last));
                 values.get(at).cloned().unwrap_or(Value::Base)
             }
-            Law::Grid { from, to, steps, log } => Value::Number(grid_value(*from, *to, *steps, *log, i)),
+            Law::Grid { from, to, steps, log } => {
+                let last = steps.saturating_sub(1).max(1);
+                let bounds = Bounds { from: *from, to: *to, log: *log };
+                Value::Number(bounds.value(i.min(last) as f64 / last as f64))
+            }
             _ => Value::Base,
         }
     }
@@ -107,49 +123,87 @@ impl Law {
                 let levels = self.levels().unwrap_or(1);
                 self.level(((p * levels as f64) as u64).min(levels.saturating_sub(1)))
             }
+            Law::Distribution(distribution) => Value::Number(distribution.quantile(p)),
             Law::Table => Value::Base,
-            _ => Value::Number(self.number_at(p)),
         }
     }
 
     /// As [`Law::quantile`], where a distribution without ends is cut off at `tail` and 1 − `tail`.
     pub fn bounded_quantile(&self, p: f64, tail: f64) -> Value {
         match self {
-            Law::Normal { .. } => self.quantile(tail + (1.0 - 2.0 * tail) * p),
+            Law::Distribution(Distribution::Normal { .. }) => self.quantile(tail + (1.0 - 2.0 * tail) * p),
             _ => self.quantile(p),
         }
     }
 
-    fn number_at(&self, p: f64) -> f64 {
+    /// The ends between which a value can be looked for; none for a law that has no ends, or nothing between its values.
+    pub fn bounds(&self) -> Option<Bounds> {
+        let bounds = |from, to, log| Some(Bounds { from, to, log });
         match *self {
-            Law::Uniform { from, to } => between(from, to, p),
-            Law::LogUniform { from, to } => log_between(from, to, p),
-            Law::Normal { mean, sd } => mean + sd * normal::quantile(p),
-            Law::TruncatedNormal { mean, sd, from, to } => truncated(mean, sd, [from, to], p),
-            Law::Triangular { from, mode, to } => triangular(from, mode, to, p),
-            Law::List(_) | Law::Grid { .. } | Law::Table => f64::NAN,
+            Law::Grid { from, to, log, .. } => bounds(from, to, log),
+            Law::Distribution(ref distribution) => match *distribution {
+                Distribution::LogUniform { from, to } => bounds(from, to, true),
+                Distribution::Uniform { from, to }
+                | Distribution::TruncatedNormal { from, to, .. }
+                | Distribution::Triangular { from, to, .. } => bounds(from, to, false),
+                Distribution::Normal { .. } => None,
+            },
+            Law::List(_) | Law::Table => None,
         }
     }
 }
 
+impl Distribution<f64> {
+    /// The number below which a part `p` of all lies.
+    fn quantile(&self, p: f64) -> f64 {
+        match *self {
+            Distribution::Uniform { from, to } => between(from, to, p),
+            Distribution::LogUniform { from, to } => log_between(from, to, p),
+            Distribution::Normal { mean, sd } => mean + sd * normal::quantile(p),
+            Distribution::TruncatedNormal { mean, sd, from, to } => truncated(mean, sd, [from, to], p),
+            Distribution::Triangular { from, mode, to } => triangular(from, mode, to, p),
+        }
+    }
+}
+
+/// The ends between which a parameter is looked for, SI units.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bounds {
+    /// Least value.
+    pub from: f64,
+    /// Greatest value.
+    pub to: f64,
+    /// Whether equal ratios are equal steps.
+    pub log: bool,
+}
+
+impl Bounds {
+    /// The value at a part of the way, 0 to 1.
+    pub fn value(&self, u: f64) -> f64 {
+        if self.log { log_between(self.from, self.to, u) } else { between(self.from, self.to, u) }
+    }
+
+    /// The part of the way at which a value stands; beyond 0 or 1 for one outside.
+    pub fn part(&self, value: f64) -> f64 {
+        if self.log {
+            (ln(value) - ln(self.from)) / (ln(self.to) - ln(self.from))
+        } else {
+            (value - self.from) / (self.to - self.from)
+        }
+    }
+}
 /// a + (b − a)·p, exact at both ends.
-pub(super) fn between(a: f64, b: f64, p: f64) -> f64 {
+fn between(a: f64, b: f64, p: f64) -> f64 {
     a * (1.0 - p) + b * p
 }
 
 /// a·(b/a)^p, exact at both ends.
-pub(super) fn log_between(a: f64, b: f64, p: f64) -> f64 {
+fn log_between(a: f64, b: f64, p: f64) -> f64 {
     match p {
         0.0 => a,
         1.0 => b,
         _ => exp(between(ln(a), ln(b), p)).clamp(a.min(b), a.max(b)),
     }
-}
-
-fn grid_value(from: f64, to: f64, steps: u64, log: bool, i: u64) -> f64 {
-    let last = steps.saturating_sub(1).max(1);
-    let part = i.min(last) as f64 / last as f64;
-    if log { log_between(from, to, part) } else { between(from, to, part) }
 }
 
 /// μ + σ Φ⁻¹(Φ(a) + p(Φ(b) − Φ(a))), taken in the lower half, where Φ keeps its digits.

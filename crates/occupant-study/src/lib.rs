@@ -77,17 +77,17 @@ mod text;
 pub use bind::MOST_RUNS;
 pub use design::{Design, Role};
 pub use ensemble::{Change, Ensemble, Perturbation, Tolerances};
-pub use fit::{Bounds, Fit};
+pub use fit::Fit;
 pub use fit_section::{FilterChoice, FitChannel, FitSection, FitTest, GainRange, Misfit, OffsetRange};
 pub use keep::Keep;
-pub use law::{Law, Value};
+pub use law::{Bounds, Distribution, Law, Value};
 pub use parameter::{Assignment, Parameter, Target};
 pub use saltelli::Block;
 pub use section::{ApplyChoice, StudySection, schema_json};
 pub use text::StudyText;
 
 use self::copula::Copula;
-use self::design::{Context, Coordinate};
+use self::design::Coordinate;
 use self::sobol::Sobol;
 use occupant_core::scenario::{Diagnostics, Draft};
 
@@ -189,9 +189,7 @@ impl Study {
     /// The values of all parameters in a run, in the order of [`Study::parameters`]. Members of one sample share them.
     pub fn sample(&self, index: u64) -> Vec<Setting> {
         let (sample, _) = self.sample_and_member(index);
-        let laws: Vec<&Law> = self.parameters.iter().map(|p| &p.law).collect();
-        let mut coordinates =
-            self.design.coordinates(sample, &Context { seed: self.seed, laws: &laws, sobol: &self.sobol });
+        let mut coordinates = self.design.coordinates(sample, self);
         if let Some(copula) = &self.copula {
             correlate(copula, &mut coordinates);
         }
@@ -223,10 +221,7 @@ impl Study {
     /// # Errors
     /// A path that leads nowhere in this draft; never in a clone of [`Study::base`].
     pub fn apply(&self, index: u64, draft: &mut Draft) -> Result<(), Diagnostics> {
-        for assignment in self.assignments(index) {
-            draft.set_value(&assignment.path, &assignment.text())?;
-        }
-        Ok(())
+        parameter::put(&self.assignments(index), draft)
     }
 
     /// The scenario of a run.
@@ -243,13 +238,6 @@ impl Study {
     pub fn role(&self, index: u64) -> Role {
         let (sample, _) = self.sample_and_member(index);
         self.design.role(sample, &self.levels(), self.seed)
-    }
-
-    /// By how much the last step of a Morris trajectory moved its parameter, as a part of the range, with its sign. None
-    /// for a run that is no such step.
-    pub fn morris_step(&self, index: u64) -> Option<f64> {
-        let (sample, _) = self.sample_and_member(index);
-        self.design.morris_step(sample, self.parameters.len(), self.seed)
     }
 
     fn levels(&self) -> Vec<Option<u64>> {

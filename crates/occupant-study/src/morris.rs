@@ -9,21 +9,17 @@ use super::random::{Purpose, bits};
 
 /// One trajectory.
 pub(super) struct Trajectory {
-    number: u64,
+    pub number: u64,
     parameters: usize,
     levels: u64,
     seed: u64,
 }
 
-/// The trajectory of a sample and how many steps of it have been made.
-pub(super) fn place(index: u64, parameters: usize) -> (u64, usize) {
-    let len = parameters as u64 + 1;
-    (index / len, (index % len) as usize)
-}
-
 impl Trajectory {
-    pub(super) fn new(number: u64, parameters: usize, levels: u64, seed: u64) -> Self {
-        Trajectory { number, parameters, levels, seed }
+    /// The trajectory of a sample and how many steps of it have been made.
+    pub(super) fn of_sample(index: u64, parameters: usize, levels: u64, seed: u64) -> (Self, usize) {
+        let len = parameters as u64 + 1;
+        (Trajectory { number: index / len, parameters, levels, seed }, (index % len) as usize)
     }
 
     /// The step at which a parameter changes, from 0.
@@ -33,9 +29,11 @@ impl Trajectory {
         permute(parameter as u64, self.parameters as u64, seed, 0) as usize
     }
 
-    /// The parameter that changes at a step.
-    pub(super) fn parameter_at(&self, step: usize) -> Option<usize> {
-        (0..self.parameters).find(|d| self.turn(*d) == step)
+    /// The parameter that the last of so many steps changed, and by how much.
+    pub(super) fn change(&self, steps: usize) -> Option<(usize, f64)> {
+        let before = steps.checked_sub(1)?;
+        let changed = (0..self.parameters).find(|d| self.turn(*d) == before)?;
+        Some((changed, self.coordinate(changed, steps) - self.coordinate(changed, before)))
     }
 
     /// The coordinate of a parameter in [0, 1] after so many steps.

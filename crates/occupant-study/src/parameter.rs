@@ -2,7 +2,7 @@
 
 use super::law::{Law, Value};
 use crate::section::ApplyChoice;
-use occupant_core::scenario::{Place, Wanted};
+use occupant_core::scenario::{Diagnostics, Draft, Place, Wanted};
 use placed_text::Value as Written;
 
 /// A parameter that has found its places in the base scenario.
@@ -63,7 +63,7 @@ impl Target {
 }
 
 impl Assignment {
-    /// The value as [`Draft::set_value`](occupant_core::scenario::Draft::set_value) and `--set` read it; it gives the same bits
+    /// The value as [`Draft::set_value`] and `--set` read it; it gives the same bits
     /// back.
     pub fn text(&self) -> String {
         match &self.value {
@@ -74,6 +74,11 @@ impl Assignment {
             Value::Base => String::new(),
         }
     }
+}
+
+/// Puts values into a draft.
+pub(super) fn put(list: &[Assignment], draft: &mut Draft) -> Result<(), Diagnostics> {
+    list.iter().try_for_each(|assignment| draft.set_value(&assignment.path, &assignment.text()))
 }
 
 impl Parameter {

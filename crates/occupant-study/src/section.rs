@@ -12,6 +12,7 @@ use serde_json::Value as Json;
 use super::design::Design;
 use super::fit_section::FitSection;
 use super::keep::KeepSection;
+use super::law::Distribution;
 use occupant_core::scenario::kind::UnitSystem;
 use occupant_core::scenario::schema_of;
 use occupant_core::scenario::{Angle, FRACTION, Length, NOT_NEGATIVE, Ratio};
@@ -88,7 +89,7 @@ pub struct ParameterSection {
     /// Any value between two.
     pub range: Option<RangeSection>,
     /// Values as likely as a distribution says.
-    pub distribution: Option<DistributionSection>,
+    pub distribution: Option<Distribution<Value>>,
 }
 
 /// What is done with the number of a parameter.
@@ -140,53 +141,6 @@ pub enum ScaleChoice {
     Linear,
     /// Equal ratios.
     Log,
-}
-
-/// How likely each value is.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(tag = "kind", rename_all = "snake_case")]
-pub enum DistributionSection {
-    /// Every value between two equally likely.
-    Uniform {
-        /// Least value.
-        from: Value,
-        /// Greatest value.
-        to: Value,
-    },
-    /// Every ratio between two values equally likely.
-    LogUniform {
-        /// Least value.
-        from: Value,
-        /// Greatest value.
-        to: Value,
-    },
-    /// Gauss's bell.
-    Normal {
-        /// Mean.
-        mean: Value,
-        /// Standard deviation.
-        sd: Value,
-    },
-    /// Gauss's bell between two values.
-    TruncatedNormal {
-        /// Mean before it is cut.
-        mean: Value,
-        /// Standard deviation before it is cut.
-        sd: Value,
-        /// Least value.
-        from: Value,
-        /// Greatest value.
-        to: Value,
-    },
-    /// Straight lines up to the likeliest value and down again.
-    Triangular {
-        /// Least value.
-        from: Value,
-        /// Likeliest value.
-        mode: Value,
-        /// Greatest value.
-        to: Value,
-    },
 }
 
 /// A correlation between two parameters.

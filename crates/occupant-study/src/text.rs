@@ -47,11 +47,6 @@ impl StudyText {
         self.document.text()
     }
 
-    /// Whether a text is a study and not a scenario: it names a base.
-    pub fn is_study(text: &str, format: Format) -> bool {
-        Document::read(text, format, "").is_ok_and(|document| document.has("base"))
-    }
-
     /// Adds a problem at a path of the study, such as `parameters[2].grid`.
     pub(super) fn report(&self, problems: &mut Diagnostics, problem: Problem) {
         problems.add(problem, |problem| self.document.place(problem));

@@ -11,13 +11,10 @@ pub(super) fn read(back: &mut Back<'_>) {
     let body = &back.setup.body;
     back.set_all([("XLS", body.shoulder_half_width_m), ("XLH", body.hip_half_width_m)]);
     for segment in TTI12.segments() {
-        let (n, p) = (segment.number(), body.segment(segment));
-        back.set(format!("XLE({n})"), p.length_m);
-        back.set(format!("RHO({n})"), p.cg_from_lower_end_m);
-        back.set(format!("XM({n})"), p.mass_kg);
-        for (axis, inertia) in ["XIN", "YIN", "ZIN"].into_iter().zip(p.inertia_kg_m2.iter()) {
-            back.set(format!("{axis}({n})"), *inertia);
-        }
+        let (p, inertia) = (body.segment(segment), body.segment(segment).inertia_kg_m2);
+        let lengths = [("XLE", p.length_m), ("RHO", p.cg_from_lower_end_m), ("XM", p.mass_kg)];
+        back.set_numbered(segment.number(), lengths);
+        back.set_numbered(segment.number(), [("XIN", inertia.x), ("YIN", inertia.y), ("ZIN", inertia.z)]);
     }
     spheres(back);
 }

@@ -67,16 +67,10 @@ fn read_material(back: &mut Back<'_>, material: &Material, number: u32) {
     );
     let usual = material.friction_speed_m_s == DEFAULT_FRICTION_SPEED_M_S;
     back.misfit_if(!usual, format!("materials.{}.friction_speed: cards cannot choose it", material.name));
-    for (field, si) in [
-        ("STIF1", spring.k1_n_per_m),
-        ("STIF2", spring.k2_n_per_m),
-        ("DELB", spring.break_m),
-        ("AMU1", spring.returned_1),
-        ("AMU2", spring.returned_2),
-        ("COFR", material.friction),
-    ] {
-        back.set(format!("{field}({number})"), si);
-    }
+    let slopes = [("STIF1", spring.k1_n_per_m), ("STIF2", spring.k2_n_per_m), ("DELB", spring.break_m)];
+    let losses = [("AMU1", spring.returned_1), ("AMU2", spring.returned_2), ("COFR", material.friction)];
+    back.set_numbered(number, slopes);
+    back.set_numbered(number, losses);
 }
 
 fn polygon(back: &mut Back<'_>, layout: &CompartmentLayout, surface: &Surface, number: u32) -> Option<Polygon> {
@@ -110,7 +104,7 @@ fn order(count: usize, start: usize, turned: bool) -> Vec<usize> {
 }
 
 fn on_its_side(corner: &Corner, place: &Point3<f64>) -> bool {
-    corner.wall.half_width().1 == (place.y < 0.0)
+    corner.wall.is_left == (place.y < 0.0)
 }
 
 /// A corner's place as the fields of series 8.
@@ -118,7 +112,7 @@ fn fields_at(corner: &Corner, [x, z, width]: &[String; 3]) -> [(String, String);
     [
         (format!("XV({})", corner.x_of), x.clone()),
         (format!("ZV({})", corner.z_of), z.clone()),
-        (corner.wall.half_width().0.to_owned(), width.clone()),
+        (corner.wall.half_width.to_owned(), width.clone()),
     ]
 }
 

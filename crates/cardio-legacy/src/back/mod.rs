@@ -10,6 +10,7 @@ mod path;
 mod points;
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::fmt::Display;
 
 use occupant_core::forces::contact::EdgeForce;
 use occupant_core::model::seating::InitialPosture;
@@ -121,6 +122,11 @@ impl<'a> Back<'a> {
     /// Sets fields from SI numbers.
     fn set_all<const N: usize>(&mut self, numbers: [(&str, f64); N]) {
         numbers.into_iter().for_each(|(name, si)| self.set(name, si));
+    }
+
+    /// Sets the fields of a numbered segment, surface, belt or station from SI numbers.
+    fn set_numbered<const N: usize>(&mut self, number: impl Display + Copy, numbers: [(&str, f64); N]) {
+        numbers.into_iter().for_each(|(name, si)| self.set(format!("{name}({number})"), si));
     }
 
     /// Sets a field that has to be the same wherever the scenario says it.

@@ -122,9 +122,7 @@ fn read_belt(back: &mut Back<'_>, belt: &Belt, number: u32, exact: bool) {
         }
     }
     let w = &belt.webbing;
-    for (field, si) in [("SK1", w.k1_n_per_m), ("SK2", w.k2_n_per_m), ("DELC", w.break_m)] {
-        back.set(format!("{field}({number})"), si);
-    }
+    back.set_numbered(number, [("SK1", w.k1_n_per_m), ("SK2", w.k2_n_per_m), ("DELC", w.break_m)]);
     let returns_all = w.returned_1 == 1.0 && w.returned_2 == 1.0;
     back.misfit_if(!returns_all, format!("belts.{}.mu1, mu2: the cards' webbing gives all its energy back", belt.name));
     match (belt.rest, exact) {

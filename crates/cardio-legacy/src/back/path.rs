@@ -46,16 +46,8 @@ fn stations(back: &mut Back<'_>, stations: &[Station]) {
     back.deck.set("NVPOS", &stations.len().to_string());
     for (n, station) in (1..).zip(stations) {
         let (place, attitude) = (station.pose.position_m, station.pose.attitude);
-        for (name, si) in [
-            ("CALT", station.time_s),
-            ("CALX", place.x),
-            ("CALY", place.y),
-            ("CALZ", place.z),
-            ("CALPH", attitude.roll_rad),
-            ("CALTH", attitude.pitch_rad),
-            ("CALPS", attitude.yaw_rad),
-        ] {
-            back.set(format!("{name}({n})"), si);
-        }
+        back.set_numbered(n, [("CALT", station.time_s), ("CALX", place.x), ("CALY", place.y), ("CALZ", place.z)]);
+        let angles = [("CALPH", attitude.roll_rad), ("CALTH", attitude.pitch_rad), ("CALPS", attitude.yaw_rad)];
+        back.set_numbered(n, angles);
     }
 }

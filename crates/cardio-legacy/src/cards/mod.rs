@@ -29,7 +29,7 @@ use std::sync::LazyLock;
 pub(crate) use card_03_times::{Need, need};
 pub(crate) use card_10_seating::{POSTURE, SEATS};
 pub(crate) use card_11_joints::{JOINTS, Joint};
-pub(crate) use card_13_belts::{BELTS, doubts_of_13, is_of_unused, uses};
+pub(crate) use card_13_belts::{BELTS, is_of_unused, uses};
 pub(crate) use card_15_end::END_OF_NUMBERS;
 pub(crate) use field::NCARD;
 pub use field::{Field, Format, Unit};

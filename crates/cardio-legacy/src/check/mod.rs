@@ -3,6 +3,7 @@
 //! A field that could not be read is NaN here, and every check asks for the violation (`a > b`), so that an unreadable number
 //! is reported once and not again. A check changes no number.
 
+mod belts;
 mod body;
 mod compartment;
 mod path;

@@ -2,19 +2,13 @@
 
 use std::f64::consts::PI;
 
-use super::Check;
-use crate::cards::{POSTURE, doubts_of_13};
+use super::{Check, belts};
+use crate::cards::POSTURE;
 use crate::compartment::CompartmentLayout;
 use crate::rule::Rule;
 
 pub(super) fn check(c: &mut Check<'_>) {
-    if c.deck.has_series(13) {
-        let deck = c.deck;
-        let numbers = |name: &str| deck.number(name).map_or((f64::NAN, String::new()), |n| (n.value, n.digits.clone()));
-        for doubt in doubts_of_13(&numbers) {
-            c.problem(doubt.rule, doubt.name, doubt.message).expected(doubt.expected, doubt.remedy);
-        }
-    }
+    belts::check(c);
     if c.value("NPOS") == 1.0 {
         check_surfaces_of_pairs(c);
     } else {

@@ -142,8 +142,8 @@ fn materials(w: &mut Writer<'_>, surfaces: &[Written]) -> Vec<(String, Vec<u32>)
 fn strip(face: &Face) -> Option<[Corner; 2]> {
     let corners = &face.corners;
     let pair = |a: &Corner, b: &Corner| {
-        let ((width, left), (other, right)) = (a.wall.half_width(), b.wall.half_width());
-        width == other && left && !right && a.x_of == b.x_of && a.z_of == b.z_of && a.x_of == a.z_of
+        let across = a.wall.half_width == b.wall.half_width && a.wall.is_left && !b.wall.is_left;
+        across && a.x_of == b.x_of && a.z_of == b.z_of && a.x_of == a.z_of
     };
     if corners.len() != 4 {
         return None;
@@ -157,7 +157,7 @@ fn edge(w: &mut Writer<'_>, [near, far]: [Corner; 2]) -> String {
     let mut point =
         |c: &Corner| format!("[{}, {}]", w.bare(&format!("XV({})", c.x_of)), w.bare(&format!("ZV({})", c.z_of)));
     let (from, to) = (point(&near), point(&far));
-    let (width, end_width) = (near.wall.half_width().0, far.wall.half_width().0);
+    let (width, end_width) = (near.wall.half_width, far.wall.half_width);
     let mut text = format!("edge = [{from}, {to}], half_width = {}", w.bare(width));
     if width != end_width {
         text.push_str(&format!(", end_half_width = {}", w.bare(end_width)));
@@ -172,9 +172,8 @@ fn points(w: &mut Writer<'_>, face: &Face) -> String {
 
 fn place(w: &mut Writer<'_>, corner: &Corner) -> String {
     let (x, z) = (w.bare(&format!("XV({})", corner.x_of)), w.bare(&format!("ZV({})", corner.z_of)));
-    let (width, left) = corner.wall.half_width();
-    let y = w.bare(width);
-    format!("[{x}, {}, {z}]", if left { negated(&y) } else { y })
+    let y = w.bare(corner.wall.half_width);
+    format!("[{x}, {}, {z}]", if corner.wall.is_left { negated(&y) } else { y })
 }
 
 fn disc(w: &mut Writer<'_>, layout: &CompartmentLayout) -> String {

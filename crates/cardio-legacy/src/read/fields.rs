@@ -3,7 +3,7 @@
 use crate::cards::{CardId, CardLayout, Field, Format};
 use crate::deck::Number;
 use crate::diagnostics::{Diagnostic, Sink};
-use crate::fortran::{FieldError, Surprise, read_integer, read_real};
+use crate::fortran::{FieldError, read_integer, read_real};
 use crate::punched::{Columns, PunchedCard};
 use crate::rule::Rule;
 
@@ -77,30 +77,20 @@ impl FieldOnCard<'_> {
         }
     }
 
-    fn surprising(&self, surprise: Surprise, digits: &str) -> Diagnostic {
+    fn surprising(&self, rule: Rule, digits: &str) -> Diagnostic {
         let shown = self.card.text_of(self.field.columns);
         let reads = format!("`{shown}` reads as {digits}");
-        let (rule, message) = match surprise {
-            Surprise::EmbeddedBlanks => {
-                (Rule::EmbeddedBlanks, format!("{reads}: FORTRAN IV takes blanks inside a number as zeros"))
-            }
-            Surprise::TrailingBlanks => {
-                (Rule::LeftJustified, format!("{reads}: FORTRAN IV takes the blanks behind the last digit as zeros"))
-            }
-            Surprise::BareExponent => (Rule::BareExponent, format!("{reads}: an exponent without its letter")),
-            Surprise::SmallLetter => {
-                (Rule::SmallLetter, format!("`{shown}` has a small exponent letter, which no card punch had"))
-            }
-            Surprise::Underflow => {
-                (Rule::Underflow, format!("`{shown}` was zero on the 360, which held nothing smaller than 5.4e-79"))
-            }
+        let message = match rule {
+            Rule::EmbeddedBlanks => format!("{reads}: FORTRAN IV takes blanks inside a number as zeros"),
+            Rule::LeftJustified => format!("{reads}: FORTRAN IV takes the blanks behind the last digit as zeros"),
+            Rule::BareExponent => format!("{reads}: an exponent without its letter"),
+            Rule::SmallLetter => format!("`{shown}` has a small exponent letter, which no card punch had"),
+            _ => format!("`{shown}` was zero on the 360, which held nothing smaller than 5.4e-79"),
         };
         let problem = self.problem(rule, message);
-        match (surprise, self.field.format) {
-            (Surprise::TrailingBlanks, Format::Integer) => {
-                problem.remedy("punch the integer at the right end of its field")
-            }
-            (Surprise::TrailingBlanks, _) => {
+        match (rule, self.field.format) {
+            (Rule::LeftJustified, Format::Integer) => problem.remedy("punch the integer at the right end of its field"),
+            (Rule::LeftJustified, _) => {
                 problem.remedy("punch a decimal point, or move the number to the right end of its field")
             }
             _ => problem,

@@ -11,7 +11,7 @@
 //! Sᵢ is the part of the variance that parameter i explains alone, STᵢ the part in which it has a hand. An estimate may lie
 //! a little outside 0 to 1; the interval says by how much that can be chance.
 
-use super::{AnalysisError, Estimate, bootstrap, complete_rows, mean};
+use super::{AnalysisError, Estimate, at_rows, bootstrap, complete_rows, mean};
 
 /// Points below which no index is given.
 const LEAST_POINTS: usize = 16;
@@ -37,28 +37,16 @@ pub struct SobolIndices {
     pub dropped: usize,
 }
 
-impl SobolIndices {
-    /// Whether the sample tells the parameters apart: no interval is wider than `most` (0.1 to quote a first digit).
-    pub fn is_settled(&self, most: f64) -> bool {
-        let mut all = self.first.iter().chain(&self.total);
-        all.all(|estimate| estimate.width() <= most)
-    }
-}
-
 /// Indices from the figure at the rows of A, of B, and of AB for each parameter.
 ///
 /// # Errors
 /// Columns of different length, fewer than 16 complete points, a figure that is the same everywhere.
 pub fn sobol_indices(a: &[f64], b: &[f64], ab: &[Vec<f64>], seed: u64) -> Result<SobolIndices, AnalysisError> {
     let columns = [a, b].into_iter().chain(ab.iter().map(Vec::as_slice));
-    let rows = complete_rows(columns)?;
-    if rows.len() < LEAST_POINTS {
-        return Err(AnalysisError::TooFew { found: rows.len(), needed: LEAST_POINTS });
-    }
+    let rows = complete_rows(columns, LEAST_POINTS)?;
     let dropped = a.len() - rows.len();
-    let kept = |column: &[f64]| -> Vec<f64> { rows.iter().map(|&r| column[r]).collect() };
-    let (a, b) = (kept(a), kept(b));
-    let ab: Vec<Vec<f64>> = ab.iter().map(|column| kept(column)).collect();
+    let (a, b) = (at_rows(a, &rows), at_rows(b, &rows));
+    let ab: Vec<Vec<f64>> = ab.iter().map(|column| at_rows(column, &rows)).collect();
     let every: Vec<usize> = (0..rows.len()).collect();
     let (mean, variance) = moments(&a, &b, &every);
     // what rounding leaves of a constant figure is no variance

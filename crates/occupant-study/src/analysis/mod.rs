@@ -68,15 +68,31 @@ pub enum AnalysisError {
     Dependent,
 }
 
-/// Rows in which every column has a finite number.
-fn complete_rows<'a>(columns: impl Iterator<Item = &'a [f64]> + Clone) -> Result<Vec<usize>, AnalysisError> {
+/// Rows in which every column has a finite number, at least so many.
+fn complete_rows<'a>(
+    columns: impl Iterator<Item = &'a [f64]> + Clone,
+    needed: usize,
+) -> Result<Vec<usize>, AnalysisError> {
     let expected = columns.clone().next().map_or(0, <[f64]>::len);
     if let Some(odd) = columns.clone().find(|c| c.len() != expected) {
         let found = odd.len();
         return Err(AnalysisError::Length { found, expected });
     }
     let complete = |row: &usize| columns.clone().all(|c| c[*row].is_finite());
-    Ok((0..expected).filter(complete).collect())
+    let rows: Vec<usize> = (0..expected).filter(complete).collect();
+    if rows.len() >= needed { Ok(rows) } else { Err(AnalysisError::TooFew { found: rows.len(), needed }) }
+}
+
+/// The numbers of a column at some rows.
+fn at_rows(column: &[f64], rows: &[usize]) -> Vec<f64> {
+    rows.iter().map(|&row| column[row]).collect()
+}
+
+/// Standard deviation of a sample.
+fn deviation(values: &[f64]) -> f64 {
+    let middle = mean(values);
+    let squares: f64 = values.iter().map(|v| (v - middle).powi(2)).sum();
+    (squares / (values.len() - 1) as f64).sqrt()
 }
 
 fn mean(values: &[f64]) -> f64 {

@@ -2,7 +2,7 @@
 
 use nalgebra::{DMatrix, DVector};
 
-use super::{AnalysisError, Estimate, bootstrap, complete_rows, mean};
+use super::{AnalysisError, Estimate, at_rows, bootstrap, complete_rows, deviation, mean};
 use crash_measures::trig;
 
 /// Spearman's rank correlation of a parameter and a figure.
@@ -49,11 +49,8 @@ pub fn ranks(values: &[f64]) -> Vec<f64> {
 /// # Errors
 /// Columns of different length, fewer than 5 complete rows, a column that is the same everywhere.
 pub fn rank_correlation(parameter: &[f64], figure: &[f64]) -> Result<RankCorrelation, AnalysisError> {
-    let rows = enough([parameter, figure].into_iter(), 5)?;
-    let [x, y] = [parameter, figure].map(|column| {
-        let kept: Vec<f64> = rows.iter().map(|&r| column[r]).collect();
-        ranks(&kept)
-    });
+    let rows = complete_rows([parameter, figure].into_iter(), 5)?;
+    let [x, y] = [parameter, figure].map(|column| ranks(&at_rows(column, &rows)));
     let x = standardised(&x).ok_or(AnalysisError::Constant { parameter: Some(0) })?;
     let y = standardised(&y).ok_or(AnalysisError::Constant { parameter: None })?;
     let n = rows.len() as f64;
@@ -72,13 +69,12 @@ pub fn rank_correlation(parameter: &[f64], figure: &[f64]) -> Result<RankCorrela
 /// parameters that depend on one another.
 pub fn regression(parameters: &[Vec<f64>], figure: &[f64], seed: u64) -> Result<Regression, AnalysisError> {
     let columns = parameters.iter().map(Vec::as_slice).chain([figure]);
-    let rows = enough(columns, 2 * parameters.len() + 5)?;
-    let column = |values: &[f64]| -> Vec<f64> { rows.iter().map(|&r| values[r]).collect() };
+    let rows = complete_rows(columns, 2 * parameters.len() + 5)?;
     let mut x = Vec::with_capacity(parameters.len());
     for (i, values) in parameters.iter().enumerate() {
-        x.push(standardised(&column(values)).ok_or(AnalysisError::Constant { parameter: Some(i) })?);
+        x.push(standardised(&at_rows(values, &rows)).ok_or(AnalysisError::Constant { parameter: Some(i) })?);
     }
-    let y = standardised(&column(figure)).ok_or(AnalysisError::Constant { parameter: None })?;
+    let y = standardised(&at_rows(figure, &rows)).ok_or(AnalysisError::Constant { parameter: None })?;
     let every: Vec<usize> = (0..rows.len()).collect();
     let fitted = least_squares(&x, &y, &every).ok_or(AnalysisError::Dependent)?;
     let error: f64 =
@@ -86,7 +82,7 @@ pub fn regression(parameters: &[Vec<f64>], figure: &[f64], seed: u64) -> Result<
     let nothing = vec![f64::NAN; x.len()];
     // a resample has standard deviations of its own: what the figure owes to its largest values goes with them
     let of = |rows: &[usize]| {
-        let drawn = |column: &[f64]| deviation(&rows.iter().map(|&r| column[r]).collect::<Vec<f64>>());
+        let drawn = |column: &[f64]| deviation(&at_rows(column, rows));
         let found = least_squares(&x, &y, rows).unwrap_or_else(|| nothing.clone());
         let of_figure = drawn(&y);
         found.iter().zip(&x).map(|(slope, x)| slope * drawn(x) / of_figure).collect()
@@ -98,11 +94,6 @@ pub fn regression(parameters: &[Vec<f64>], figure: &[f64], seed: u64) -> Result<
     })
 }
 
-fn enough<'a>(columns: impl Iterator<Item = &'a [f64]> + Clone, needed: usize) -> Result<Vec<usize>, AnalysisError> {
-    let rows = complete_rows(columns)?;
-    if rows.len() >= needed { Ok(rows) } else { Err(AnalysisError::TooFew { found: rows.len(), needed }) }
-}
-
 /// Values less their mean over their standard deviation; none for a constant column.
 fn standardised(values: &[f64]) -> Option<Vec<f64>> {
     let (middle, deviation) = (mean(values), deviation(values));
@@ -110,12 +101,6 @@ fn standardised(values: &[f64]) -> Option<Vec<f64>> {
         return None;
     }
     Some(values.iter().map(|v| (v - middle) / deviation).collect())
-}
-
-fn deviation(values: &[f64]) -> f64 {
-    let middle = mean(values);
-    let squares: f64 = values.iter().map(|v| (v - middle).powi(2)).sum();
-    (squares / (values.len() - 1) as f64).sqrt()
 }
 
 /// Coefficients of y on the columns x (with a constant) over some rows; none if the columns depend on one another there.

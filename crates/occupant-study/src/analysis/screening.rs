@@ -4,7 +4,7 @@
 //! With r trajectories: μ the mean effect, μ* the mean of its magnitude (F. Campolongo et al., Environ. Model. Softw. 22
 //! (2007)), σ the standard deviation. A large μ* matters; a large σ beside it acts in company or not in proportion.
 
-use super::{AnalysisError, Estimate, bootstrap, mean};
+use super::{AnalysisError, Estimate, bootstrap, deviation};
 
 /// Trajectories below which no effect is given.
 const LEAST_TRAJECTORIES: usize = 4;
@@ -46,12 +46,10 @@ fn effect(all: &[f64], seed: u64) -> Result<Effect, AnalysisError> {
         vec![sum / count, magnitudes / count]
     };
     let both = bootstrap::intervals(seed, found, 2, of);
-    let middle = mean(&effects);
-    let squares: f64 = effects.iter().map(|e| (e - middle).powi(2)).sum();
     Ok(Effect {
         mean: both[0],
         mean_magnitude: both[1],
-        deviation: (squares / (found - 1) as f64).sqrt(),
+        deviation: deviation(&effects),
         effects: found,
         dropped: all.len() - found,
     })

@@ -2,8 +2,8 @@
 //! zero or two keys that exclude each other are reported once, before the first run.
 
 use super::Binder;
-use crate::law::{Law, Value};
-use crate::parameter::{Assignment, Parameter};
+use crate::law::{Distribution, Law, Value};
+use crate::parameter::{Assignment, Parameter, put};
 use crate::section::ApplyChoice;
 use occupant_core::scenario::{Diagnostics, Draft, Place};
 use placed_text::{Problem, Severity};
@@ -22,7 +22,7 @@ pub(super) fn check(binder: &mut Binder, base: &Draft, parameters: &[Parameter],
             let mut list = Vec::new();
             parameter.assign(&value, &mut list);
             if let Err(wrong) = put_in(base, &list) {
-                let rare = matches!(parameter.law, Law::Normal { .. });
+                let rare = matches!(parameter.law, Law::Distribution(Distribution::Normal { .. }));
                 tell(binder, &at, parameter, wrong, rare);
                 break;
             }
@@ -55,9 +55,7 @@ fn extremes(law: &Law) -> Vec<Value> {
 /// The problems of the base scenario with these values in it.
 fn put_in(base: &Draft, list: &[Assignment]) -> Result<(), Diagnostics> {
     let mut draft = base.clone();
-    for assignment in list {
-        draft.set_value(&assignment.path, &assignment.text())?;
-    }
+    put(list, &mut draft)?;
     let wrong = draft.check();
     if wrong.has_errors() { Err(wrong) } else { Ok(()) }
 }

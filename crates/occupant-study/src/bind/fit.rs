@@ -2,8 +2,8 @@
 
 use indexmap::IndexMap;
 
-use super::{Binder, Purpose};
-use crate::fit::{Bounds, Fit};
+use super::Binder;
+use crate::fit::Fit;
 use crate::fit_section::{FitChannel, FitSection, FitTest};
 use crate::{Parameter, Study, StudyText};
 use crash_measures::trig::ln;
@@ -26,7 +26,7 @@ impl StudyText {
     pub fn fit(&self) -> Result<Fit, Diagnostics> {
         let empty = FitSection::default();
         let section = self.section.fit.as_ref().unwrap_or(&empty);
-        let mut binder = Binder::new(self, Purpose::Sweep);
+        let mut binder = Binder::new(self, None);
         if self.section.parameters.is_empty() {
             let hint = "[[parameters]] with `path` and `range`".to_owned();
             let found = "nothing to fit";
@@ -60,8 +60,8 @@ impl StudyText {
         if binder.problems.has_errors() { Err(binder.problems) } else { Ok(fit) }
     }
 
-    /// Checks the study against the base scenario of a test: `set` is what that test's scenario has besides, at `at` in the
-    /// study, then come the `overrides` of a command line. A design, an ensemble and correlations of the study are for
+    /// Checks the study against the base scenario of a `test`: what its scenario has besides, and where that stands in the
+    /// study; then come the `overrides` of a command line. A design, an ensemble and correlations of the study are for
     /// sweeps and count for nothing here.
     ///
     /// # Errors
@@ -69,11 +69,11 @@ impl StudyText {
     pub fn bind_fit(
         &self,
         base: Draft,
-        (set, at): (&IndexMap<String, Value>, &str),
+        test: (&IndexMap<String, Value>, &str),
         overrides: &[String],
         resolver: Resolver,
     ) -> Result<Study, Diagnostics> {
-        self.bind_for(Purpose::Fit { set, at }, base, overrides, resolver)
+        self.bind_for(Some(test), base, overrides, resolver)
     }
 
     /// A problem at a place of the study, such as `fit.channels[2].channel`.
@@ -116,7 +116,7 @@ impl Binder<'_> {
             return;
         }
         for (i, parameter) in parameters.iter().enumerate() {
-            if Bounds::of(&parameter.law).is_none() {
+            if parameter.law.bounds().is_none() {
                 let found = format!("`{}` has no ends between which to look", parameter.name);
                 let expected = "a `range`, a `grid`, or a distribution with `from` and `to`";
                 let hint = "range = { from = …, to = … }".to_owned();

@@ -1,8 +1,8 @@
 //! The written numbers of a parameter as a [`Law`] in SI units.
 
 use super::Binder;
-use crate::law::{Law, Value};
-use crate::section::{ApplyChoice, DistributionSection, GridSection, ParameterSection, ScaleChoice};
+use crate::law::{Distribution, Law, Value};
+use crate::section::{ApplyChoice, GridSection, ParameterSection, ScaleChoice};
 use occupant_core::scenario::Wanted;
 use occupant_core::scenario::kind::{KINDS, Kind, RATIO, UnitSystem};
 use placed_text::{Value as Written, did_you_mean, one_of};
@@ -31,14 +31,14 @@ impl Quantities<'_> {
         if let Some(grid) = &section.grid {
             return self.grid(binder, grid, &format!("{at}.grid"));
         }
-        if let Some(range) = &section.range {
-            let at = format!("{at}.range");
-            let log = range.scale == Some(ScaleChoice::Log);
-            let [from, to] = self.ends(binder, &at, [&range.from, &range.to], log)?;
-            return Some(if log { Law::LogUniform { from, to } } else { Law::Uniform { from, to } });
-        }
-        let distribution = section.distribution.as_ref()?;
-        self.distribution(binder, distribution, &format!("{at}.distribution"))
+        let distribution = match (&section.range, &section.distribution) {
+            (Some(range), _) => {
+                let log = range.scale == Some(ScaleChoice::Log);
+                self.uniform(binder, &format!("{at}.range"), [&range.from, &range.to], log)
+            }
+            (None, written) => self.distribution(binder, written.as_ref()?, &format!("{at}.distribution")),
+        };
+        distribution.map(Law::Distribution)
     }
 
     /// A number in SI units; a wrong one is reported.
@@ -72,21 +72,20 @@ impl Quantities<'_> {
         Some(Law::Grid { from, to, steps: grid.steps, log })
     }
 
-    fn distribution(&self, binder: &mut Binder, section: &DistributionSection, at: &str) -> Option<Law> {
-        match section {
-            DistributionSection::Uniform { from, to } => {
-                let [from, to] = self.ends(binder, at, [from, to], false)?;
-                Some(Law::Uniform { from, to })
-            }
-            DistributionSection::LogUniform { from, to } => {
-                let [from, to] = self.ends(binder, at, [from, to], true)?;
-                Some(Law::LogUniform { from, to })
-            }
-            DistributionSection::Normal { mean, sd } => {
+    fn uniform(&self, binder: &mut Binder, at: &str, ends: [&Written; 2], log: bool) -> Option<Distribution<f64>> {
+        let [from, to] = self.ends(binder, at, ends, log)?;
+        Some(if log { Distribution::LogUniform { from, to } } else { Distribution::Uniform { from, to } })
+    }
+
+    fn distribution(&self, binder: &mut Binder, of: &Distribution<Written>, at: &str) -> Option<Distribution<f64>> {
+        match of {
+            Distribution::Uniform { from, to } => self.uniform(binder, at, [from, to], false),
+            Distribution::LogUniform { from, to } => self.uniform(binder, at, [from, to], true),
+            Distribution::Normal { mean, sd } => {
                 let [mean, sd] = self.mean_and_sd(binder, mean, sd, at)?;
-                Some(Law::Normal { mean, sd })
+                Some(Distribution::Normal { mean, sd })
             }
-            DistributionSection::TruncatedNormal { mean, sd, from, to } => {
+            Distribution::TruncatedNormal { mean, sd, from, to } => {
                 let ends = self.ends(binder, at, [from, to], false);
                 let [mean, sd] = self.mean_and_sd(binder, mean, sd, at)?;
                 let [from, to] = ends?;
@@ -96,9 +95,9 @@ impl Quantities<'_> {
                     binder.error(at, found, "ends that hold a part of the bell", None);
                     return None;
                 }
-                Some(Law::TruncatedNormal { mean, sd, from, to })
+                Some(Distribution::TruncatedNormal { mean, sd, from, to })
             }
-            DistributionSection::Triangular { from, mode, to } => {
+            Distribution::Triangular { from, mode, to } => {
                 let ends = self.ends(binder, at, [from, to], false);
                 let mode = self.number(binder, mode, &format!("{at}.mode"))?;
                 let [from, to] = ends?;
@@ -107,7 +106,7 @@ impl Quantities<'_> {
                     binder.error(&format!("{at}.mode"), "`mode` outside the ends", expected, None);
                     return None;
                 }
-                Some(Law::Triangular { from, mode, to })
+                Some(Distribution::Triangular { from, mode, to })
             }
         }
     }

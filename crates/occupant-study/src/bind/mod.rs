@@ -31,17 +31,17 @@ impl StudyText {
     /// # Errors
     /// Everything that is wrong with the base's words; else everything that is wrong with the study.
     pub fn bind(&self, base: Draft, overrides: &[String], resolver: Resolver) -> Result<Study, Diagnostics> {
-        self.bind_for(Purpose::Sweep, base, overrides, resolver)
+        self.bind_for(None, base, overrides, resolver)
     }
 
     fn bind_for(
         &self,
-        purpose: Purpose,
+        test: Option<(&IndexMap<String, Value>, &str)>,
         mut base: Draft,
         overrides: &[String],
         resolver: Resolver,
     ) -> Result<Study, Diagnostics> {
-        let mut binder = Binder::new(self, purpose);
+        let mut binder = Binder::new(self, test);
         binder.prepare(&mut base, overrides)?;
         binder.base = Some(&base);
         let mut parameters = binder.parameters();
@@ -74,32 +74,19 @@ impl StudyText {
     }
 }
 
-/// What a study is bound for.
-#[derive(Clone, Copy)]
-pub(super) enum Purpose<'a> {
-    /// Its samples are run.
-    Sweep,
-    /// Its parameters are fitted to a test.
-    Fit {
-        /// What the scenario of that test has besides.
-        set: &'a IndexMap<String, Value>,
-        /// Where that stands in the study.
-        at: &'a str,
-    },
-}
-
 /// Work on a study text, with the problems found so far.
 pub(super) struct Binder<'a> {
     pub(super) text: &'a StudyText,
-    pub(super) purpose: Purpose<'a>,
+    /// Of a fit: what the scenario of the test has besides, and where that stands in the study.
+    pub(super) test: Option<(&'a IndexMap<String, Value>, &'a str)>,
     pub(super) base: Option<&'a Draft>,
     pub(super) changes: Vec<(String, String)>,
     pub(super) problems: Diagnostics,
 }
 
 impl<'a> Binder<'a> {
-    fn new(text: &'a StudyText, purpose: Purpose<'a>) -> Self {
-        Binder { text, purpose, base: None, changes: Vec::new(), problems: Diagnostics::new() }
+    fn new(text: &'a StudyText, test: Option<(&'a IndexMap<String, Value>, &'a str)>) -> Self {
+        Binder { text, test, base: None, changes: Vec::new(), problems: Diagnostics::new() }
     }
 
     /// The units of bare numbers in the study.
@@ -129,7 +116,7 @@ impl<'a> Binder<'a> {
         parameters: &mut Vec<Parameter>,
         resolver: Resolver,
     ) -> (Design, Option<Copula>, Option<Ensemble>) {
-        if let Purpose::Fit { .. } = self.purpose {
+        if self.test.is_some() {
             self.have_ends(parameters);
             return (Design::Single, None, None);
         }
@@ -143,7 +130,7 @@ impl<'a> Binder<'a> {
     fn prepare(&mut self, base: &mut Draft, overrides: &[String]) -> Result<(), Diagnostics> {
         let text = self.text;
         self.set(base, &text.section.set, "set");
-        if let Purpose::Fit { set, at } = self.purpose {
+        if let Some((set, at)) = self.test {
             self.set(base, set, at);
         }
         for assignment in overrides {

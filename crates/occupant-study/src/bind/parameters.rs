@@ -1,7 +1,7 @@
 //! The `[[parameters]]` of a study find their places and their laws.
 
+use super::Binder;
 use super::law::{Quantities, kind_of};
-use super::{Binder, Purpose};
 use crate::design::Design;
 use crate::law::Law;
 use crate::parameter::{Parameter, Target, si_unit};
@@ -105,8 +105,7 @@ impl Binder<'_> {
         apply: ApplyChoice,
         wanted: &Wanted,
     ) -> Option<Law> {
-        let by_table =
-            matches!(self.purpose, Purpose::Sweep) && matches!(self.text.section.design, Some(Design::Table { .. }));
+        let by_table = self.test.is_none() && matches!(self.text.section.design, Some(Design::Table { .. }));
         let given = section.grid.is_some()
             || section.list.is_some()
             || section.range.is_some()

@@ -24,7 +24,7 @@ pub struct Angles {
 impl Angles {
     /// The angles that the rates allow.
     pub(super) fn of(signals: &VehicleSignals) -> Self {
-        let of_attitude = signals.rate_rad_s.iter().all(Option::is_some);
+        let of_attitude = signals.channels[3..].iter().all(Option::is_some);
         let histories = if of_attitude {
             match attitudes(signals) {
                 Ok(histories) => histories.map(Ok),
@@ -44,7 +44,7 @@ fn attitudes(signals: &VehicleSignals) -> Measured<[Vec<f64>; 3]> {
         record: SensorRecord::Accelerations(AccelerationRecord {
             time_s: time_s.clone(),
             acceleration_m_s2: [const { None }; 3],
-            rate_rad_s: signals.rate_rad_s.clone(),
+            rate_rad_s: [3, 4, 5].map(|place| signals.channels[place].clone()),
         }),
         initial: VehiclePose { attitude: signals.initial, ..VehiclePose::default() },
         initial_speed_m_s: 0.0,
@@ -74,5 +74,5 @@ fn attitudes(signals: &VehicleSignals) -> Measured<[Vec<f64>; 3]> {
 /// The integral of one rate, from the angle at the start.
 fn alone(signals: &VehicleSignals, axis: usize) -> Measured<Vec<f64>> {
     let start = [signals.initial.roll_rad, signals.initial.pitch_rad, 0.0];
-    Ok(integrate(signals.rate(axis)?, signals.dt_s, start[axis])?)
+    Ok(integrate(signals.channel(3 + axis)?, signals.dt_s, start[axis])?)
 }

@@ -19,13 +19,6 @@ pub enum Missing {
     Turning(String),
 }
 
-impl Missing {
-    /// Needs these channels.
-    pub fn channels(names: &[&'static str]) -> Self {
-        Missing::Channels(names.to_vec())
-    }
-}
-
 /// Two things that are both needed; the channels that both lack are named together.
 pub(super) fn both<A, B>(a: Measured<A>, b: Measured<B>) -> Measured<(A, B)> {
     match (a, b) {

@@ -30,6 +30,9 @@ pub use sampled::sampled;
 /// Names of the axes.
 pub const AXES: [&str; 3] = ["x", "y", "z"];
 
+/// Names of the channels.
+const CHANNELS: [&str; 6] = ["ax", "ay", "az", "wx", "wy", "wz"];
+
 /// Accelerations of the c.g. and turning rates along the vehicle's axes, evenly sampled, filtered, from first contact on.
 #[derive(Clone, Debug, PartialEq)]
 pub struct VehicleSignals {
@@ -37,10 +40,8 @@ pub struct VehicleSignals {
     pub start_s: f64,
     /// Sample interval, s.
     pub dt_s: f64,
-    /// Along x, y, z, m/s²; gravity is not in them.
-    pub acceleration_m_s2: [Option<Vec<f64>>; 3],
-    /// About x, y, z, rad/s.
-    pub rate_rad_s: [Option<Vec<f64>>; 3],
+    /// Accelerations along x, y, z, m/s², gravity not in them; rates about x, y, z, rad/s.
+    pub channels: [Option<Vec<f64>>; 6],
     /// Attitude at the first sample.
     pub initial: Attitude,
 }
@@ -48,8 +49,7 @@ pub struct VehicleSignals {
 impl VehicleSignals {
     /// Number of samples.
     pub fn samples(&self) -> usize {
-        let channels = self.acceleration_m_s2.iter().chain(&self.rate_rad_s);
-        channels.flatten().map(Vec::len).max().unwrap_or(0)
+        self.channels.iter().flatten().map(Vec::len).max().unwrap_or(0)
     }
 
     /// Time of the last sample, s.
@@ -57,14 +57,9 @@ impl VehicleSignals {
         self.start_s + self.samples().saturating_sub(1) as f64 * self.dt_s
     }
 
-    fn acceleration(&self, axis: usize) -> Result<&[f64], Missing> {
-        let channel = self.acceleration_m_s2[axis].as_deref();
-        channel.ok_or_else(|| Missing::channels(&[["ax", "ay", "az"][axis]]))
-    }
-
-    fn rate(&self, axis: usize) -> Result<&[f64], Missing> {
-        let channel = self.rate_rad_s[axis].as_deref();
-        channel.ok_or_else(|| Missing::channels(&[["wx", "wy", "wz"][axis]]))
+    /// A channel by its place.
+    fn channel(&self, place: usize) -> Measured<&[f64]> {
+        self.channels[place].as_deref().ok_or_else(|| Missing::Channels(vec![CHANNELS[place]]))
     }
 }
 
@@ -116,36 +111,36 @@ impl VehicleRisk {
             asi_1998: severity(signals, AsiEdition::Edition1998),
             asi_2010: severity(signals, AsiEdition::Edition2010),
             max_50ms: [0, 1, 2].map(|axis| {
-                let a = signals.acceleration(axis)?;
+                let a = signals.channel(axis)?;
                 Ok(max_50ms_average(a, signals.dt_s)?)
             }),
             velocity_change: [0, 1, 2].map(|axis| velocity_change(signals, axis)),
             angles: Angles::of(signals),
-            olc: signals.acceleration(0).and_then(|a| Ok(olc(a, signals.dt_s)?)),
+            olc: signals.channel(0).and_then(|a| Ok(olc(a, signals.dt_s)?)),
         }
     }
 }
 
 fn flail(signals: &VehicleSignals, flight: &Flight) -> Measured<FlailSpace> {
-    let (ax, ay) = missing::both(signals.acceleration(0), signals.acceleration(1))?;
+    let (ax, ay) = missing::both(signals.channel(0), signals.channel(1))?;
     Ok(flail_space(ax, ay, signals.dt_s, flight.distances)?)
 }
 
 fn head_impact(signals: &VehicleSignals, flight: &Flight) -> Measured<Thiv> {
-    let planar = missing::both(signals.acceleration(0), signals.acceleration(1));
-    let ((ax, ay), yaw_rate) = missing::both(planar, signals.rate(2))?;
+    let planar = missing::both(signals.channel(0), signals.channel(1));
+    let ((ax, ay), yaw_rate) = missing::both(planar, signals.channel(5))?;
     Ok(thiv(ax, ay, yaw_rate, signals.dt_s, flight.head)?)
 }
 
 fn severity(signals: &VehicleSignals, edition: AsiEdition) -> Measured<Peak> {
-    let planar = missing::both(signals.acceleration(0), signals.acceleration(1));
-    let ((ax, ay), az) = missing::both(planar, signals.acceleration(2))?;
+    let planar = missing::both(signals.channel(0), signals.channel(1));
+    let ((ax, ay), az) = missing::both(planar, signals.channel(2))?;
     let Asi { peak, .. } = asi(ax, ay, az, signals.dt_s, edition)?;
     Ok(peak)
 }
 
 fn velocity_change(signals: &VehicleSignals, axis: usize) -> Measured<VelocityChange> {
-    let integral = CumulativeIntegral::new(signals.acceleration(axis)?, signals.dt_s)?;
+    let integral = CumulativeIntegral::new(signals.channel(axis)?, signals.dt_s)?;
     let velocity = integral.at_samples();
     Ok(VelocityChange {
         final_m_s: velocity[velocity.len() - 1],

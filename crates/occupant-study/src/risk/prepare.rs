@@ -2,7 +2,7 @@
 
 use nalgebra::Vector3;
 
-use super::VehicleSignals;
+use super::{CHANNELS, VehicleSignals};
 use crash_measures::signal::{
     CfcFamily, ChannelClass, Interpolant, Interpolation, STANDARD_GRAVITY_MPS2, SignalError, filter_cfc,
     uniform_interval,
@@ -75,41 +75,32 @@ pub enum Unprepared {
     },
 }
 
-/// The six channels of a record, ax, ay, az, wx, wy, wz, evenly sampled.
-struct Channels {
-    first_s: f64,
-    dt_s: f64,
-    samples: [Option<Vec<f64>>; 6],
-}
-
-const NAMES: [&str; 6] = ["ax", "ay", "az", "wx", "wy", "wz"];
-
 /// Signals of the c.g. from a record.
 ///
 /// # Errors
 /// No channel; times that are not even, unless an interval is given; samples too coarse for the filter; an offset without the
 /// rates that it needs; a window outside the record.
 pub fn prepare(record: &AccelerationRecord, preparation: &Preparation) -> Result<VehicleSignals, Unprepared> {
-    let mut channels = even(record, preparation.interval_s)?;
+    let mut signals = even(record, preparation.interval_s)?;
     if let Some((class, family)) = preparation.filter {
-        for (name, channel) in NAMES.into_iter().zip(&mut channels.samples) {
+        for (name, channel) in CHANNELS.into_iter().zip(&mut signals.channels) {
             if let Some(samples) = channel {
-                *samples = filter_cfc(samples, channels.dt_s, class, family)
+                *samples = filter_cfc(samples, signals.dt_s, class, family)
                     .map_err(|error| Unprepared::Channel { name, error })?;
             }
         }
     }
     if preparation.offset_m != [0.0; 3] {
-        move_to_centre(&mut channels, Vector3::from(preparation.offset_m))?;
+        move_to_centre(&mut signals, Vector3::from(preparation.offset_m))?;
     }
-    if let (VerticalGravity::Included, Some(az)) = (preparation.gravity, &mut channels.samples[2]) {
+    if let (VerticalGravity::Included, Some(az)) = (preparation.gravity, &mut signals.channels[2]) {
         az.iter_mut().for_each(|a| *a += STANDARD_GRAVITY_MPS2);
     }
-    window(channels, preparation)
+    window(signals, preparation)
 }
 
-/// The channels, evenly sampled.
-fn even(record: &AccelerationRecord, interval_s: Option<f64>) -> Result<Channels, Unprepared> {
+/// The whole record, evenly sampled.
+fn even(record: &AccelerationRecord, interval_s: Option<f64>) -> Result<VehicleSignals, Unprepared> {
     let of_time = |error| Unprepared::Channel { name: "t", error };
     let mut all = record.acceleration_m_s2.iter().chain(&record.rate_rad_s);
     let given: [Option<&Vec<f64>>; 6] = std::array::from_fn(|_| all.next().and_then(Option::as_ref));
@@ -120,7 +111,7 @@ fn even(record: &AccelerationRecord, interval_s: Option<f64>) -> Result<Channels
         Some(interval_s) => interval_s,
         None => uniform_interval(&record.time_s).map_err(of_time)?,
     };
-    let mut samples: [Option<Vec<f64>>; 6] = [const { None }; 6];
+    let mut channels = [const { None }; 6];
     for (i, channel) in given.into_iter().enumerate() {
         let Some(values) = channel else { continue };
         // the interpolant also checks lengths and numbers
@@ -129,25 +120,25 @@ fn even(record: &AccelerationRecord, interval_s: Option<f64>) -> Result<Channels
             Some(interval_s) => through.resample(interval_s),
             None => Ok(values.clone()),
         });
-        let name = NAMES[i];
-        samples[i] = Some(even.map_err(|error| Unprepared::Channel { name, error })?);
+        let name = CHANNELS[i];
+        channels[i] = Some(even.map_err(|error| Unprepared::Channel { name, error })?);
     }
-    let first_s = record.time_s.first().copied().unwrap_or(0.0);
-    Ok(Channels { first_s, dt_s, samples })
+    let start_s = record.time_s.first().copied().unwrap_or(0.0);
+    Ok(VehicleSignals { start_s, dt_s, channels, initial: Attitude::default() })
 }
 
 /// a_cg = a_s − ω̇ × r − ω × (ω × r), with ω̇ from central differences of the filtered rates.
-fn move_to_centre(channels: &mut Channels, arm_m: Vector3<f64>) -> Result<(), Unprepared> {
-    let [ax, ay, az, wx, wy, wz] = &mut channels.samples;
+fn move_to_centre(signals: &mut VehicleSignals, arm_m: Vector3<f64>) -> Result<(), Unprepared> {
+    let [ax, ay, az, wx, wy, wz] = &mut signals.channels;
     let (Some(wx), Some(wy), Some(wz)) = (wx, wy, wz) else {
-        let missing = (3..6).filter(|&i| channels.samples[i].is_none());
-        return Err(Unprepared::OffsetNeedsRates { missing: missing.map(|i| NAMES[i]).collect() });
+        let missing = (3..6).filter(|&i| signals.channels[i].is_none());
+        return Err(Unprepared::OffsetNeedsRates { missing: missing.map(|i| CHANNELS[i]).collect() });
     };
     let omega = |i: usize| Vector3::new(wx[i], wy[i], wz[i]);
     let count = wx.len();
     for i in 0..count {
         let (before, after) = (i.saturating_sub(1), (i + 1).min(count - 1));
-        let alpha = (omega(after) - omega(before)) / ((after - before) as f64 * channels.dt_s);
+        let alpha = (omega(after) - omega(before)) / ((after - before) as f64 * signals.dt_s);
         let lever = alpha.cross(&arm_m) + omega(i).cross(&omega(i).cross(&arm_m));
         for (axis, channel) in [&mut *ax, &mut *ay, &mut *az].into_iter().enumerate() {
             if let Some(samples) = channel {
@@ -159,10 +150,8 @@ fn move_to_centre(channels: &mut Channels, arm_m: Vector3<f64>) -> Result<(), Un
 }
 
 /// The part from first contact to the end; it starts at the first sample that is not before first contact.
-fn window(channels: Channels, preparation: &Preparation) -> Result<VehicleSignals, Unprepared> {
-    let Channels { first_s, dt_s, samples } = channels;
-    let count = samples.iter().flatten().map(Vec::len).max().unwrap_or(0);
-    let last_s = first_s + count.saturating_sub(1) as f64 * dt_s;
+fn window(mut signals: VehicleSignals, preparation: &Preparation) -> Result<VehicleSignals, Unprepared> {
+    let (first_s, last_s, dt_s) = (signals.start_s, signals.end_s(), signals.dt_s);
     let start_s = preparation.start_s.unwrap_or(first_s);
     let end_s = preparation.end_s.unwrap_or(last_s);
     // a thousandth of an interval forgives times written with few digits
@@ -170,16 +159,11 @@ fn window(channels: Channels, preparation: &Preparation) -> Result<VehicleSignal
     let to = ((end_s - first_s) / dt_s + 1e-3).floor();
     let slack_s = 1e-3 * dt_s;
     let inside = start_s >= first_s - slack_s && end_s <= last_s + slack_s;
-    if !(inside && to > from && to < count as f64) {
+    if !(inside && to > from && to < signals.samples() as f64) {
         return Err(Unprepared::Window { start_s, end_s, first_s, last_s });
     }
     let (from, to) = (from as usize, to as usize);
-    let [ax, ay, az, wx, wy, wz] = samples.map(|channel| channel.map(|samples| samples[from..=to].to_vec()));
-    Ok(VehicleSignals {
-        start_s: first_s + from as f64 * dt_s,
-        dt_s,
-        acceleration_m_s2: [ax, ay, az],
-        rate_rad_s: [wx, wy, wz],
-        initial: Attitude::default(),
-    })
+    signals.start_s = first_s + from as f64 * dt_s;
+    signals.channels.iter_mut().flatten().for_each(|channel| *channel = channel[from..=to].to_vec());
+    Ok(signals)
 }

@@ -1,33 +1,12 @@
 //! The walls of the unit cube.
 
-/// One of the two directions of a coordinate.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
-    /// Towards 0.
-    Down,
-    /// Towards 1.
-    Up,
-}
+/// The signs of the two directions of a coordinate: towards 0, towards 1.
+pub(super) const SIDES: [f64; 2] = [-1.0, 1.0];
 
-impl Side {
-    /// Both, down first.
-    pub const BOTH: [Side; 2] = [Side::Down, Side::Up];
-
-    /// −1 or 1.
-    pub fn sign(self) -> f64 {
-        match self {
-            Side::Down => -1.0,
-            Side::Up => 1.0,
-        }
-    }
-
-    /// How much room a coordinate has on this side.
-    pub fn room(self, u: f64) -> f64 {
-        match self {
-            Side::Down => u.max(0.0),
-            Side::Up => (1.0 - u).max(0.0),
-        }
-    }
+/// How much room a coordinate has on a side.
+pub(super) fn room(side: f64, u: f64) -> f64 {
+    let room = if side < 0.0 { u } else { 1.0 - u };
+    room.max(0.0)
 }
 
 /// The point of [0, 1] that a coordinate stands for whose line is folded at 0, 1, 2, …: continuous, so that a search without

@@ -19,7 +19,7 @@ mod shape;
 
 use nalgebra::{DMatrix, DVector, Dyn, SymmetricEigen};
 
-pub use bounds::{Side, fold};
+pub use bounds::fold;
 pub use cma::{Cma, Ending};
 pub use descents::{Descent, Descents, Global, descend};
 pub use profile::{End, Profiles, profile};

@@ -7,7 +7,7 @@
 
 use nalgebra::DMatrix;
 
-use super::bounds::Side;
+use super::bounds::{SIDES, room};
 use super::quadratic::lowest_step;
 use super::shape::Shape;
 use super::{Evaluate, Point, Reach, Stage, evaluated};
@@ -41,7 +41,7 @@ const PARTS: [f64; 3] = [0.4, 1.0, 2.0];
 
 struct Chain {
     coordinate: usize,
-    side: Side,
+    side: f64,
     room: f64,
     /// How far the coordinate is set.
     t: f64,
@@ -107,11 +107,11 @@ fn walk<E>(chains: &mut [Chain], shape: &Shape, rise: f64, evaluate: &mut Evalua
     for chain in &active {
         for k in others(chain) {
             let (i, mut pair) = (shape.free[k], [0.0; 2]);
-            for (side, length) in Side::BOTH.into_iter().zip(&mut pair) {
+            for (side, length) in SIDES.into_iter().zip(&mut pair) {
                 let u = chain.best.at[i];
-                *length = (0.5 * shape.lengths[i]).min(side.room(u));
+                *length = (0.5 * shape.lengths[i]).min(room(side, u));
                 let mut at = chain.best.at.clone();
-                at[i] = (u + side.sign() * *length).clamp(0.0, 1.0);
+                at[i] = (u + side * *length).clamp(0.0, 1.0);
                 asked.push(at);
             }
             lengths.push(pair);
@@ -152,8 +152,8 @@ fn walk<E>(chains: &mut [Chain], shape: &Shape, rise: f64, evaluate: &mut Evalua
 
 impl Chain {
     fn new(i: usize, s: usize, centre: &Point, reaches: &[Reach; 2], shape: &Shape) -> Self {
-        let side = Side::BOTH[s];
-        let room = side.room(centre.at[i]);
+        let side = SIDES[s];
+        let room = room(side, centre.at[i]);
         let n = centre.at.len();
         let mut follow = vec![0.0; n];
         let mut t = reaches[s].length;
@@ -179,7 +179,7 @@ impl Chain {
     }
 
     fn guess(&self, centre: &Point) -> Vec<f64> {
-        let t = self.side.sign() * self.t;
+        let t = self.side * self.t;
         let mut at: Vec<f64> = centre.at.iter().zip(&self.follow).map(|(u, f)| (u + f * t).clamp(0.0, 1.0)).collect();
         at[self.coordinate] = (centre.at[self.coordinate] + t).clamp(0.0, 1.0);
         at
@@ -207,7 +207,7 @@ impl Chain {
     fn see(&mut self, centre: &Point, rise: f64) {
         let t = self.t;
         let risen = (self.best.value - centre.value) / rise;
-        let moved = self.side.sign() * t;
+        let moved = self.side * t;
         for (j, f) in self.follow.iter_mut().enumerate() {
             *f = (self.best.at[j] - centre.at[j]) / moved;
         }
@@ -249,7 +249,7 @@ impl Chain {
         };
         let mut end = end.clone();
         if !self.done {
-            end.at = (centre.at[self.coordinate] + self.side.sign() * self.t).clamp(0.0, 1.0);
+            end.at = (centre.at[self.coordinate] + self.side * self.t).clamp(0.0, 1.0);
         }
         end
     }

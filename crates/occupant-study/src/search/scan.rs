@@ -1,6 +1,6 @@
 //! How far each coordinate can go alone until the value has risen by a given amount.
 
-use super::bounds::Side;
+use super::bounds::{SIDES, room};
 use super::{Evaluate, Point, Stage, evaluated};
 
 /// How far a coordinate can go.
@@ -21,7 +21,7 @@ const GOOD: f64 = 1.3;
 /// Search for one reach.
 struct Chain {
     coordinate: usize,
-    side: Side,
+    side: f64,
     room: f64,
     next: f64,
     /// Where the rise is too small and where it is too great.
@@ -36,7 +36,7 @@ struct Chain {
 /// What `evaluate` reports.
 pub fn scan<E>(centre: &Point, rise: f64, evaluate: &mut Evaluate<'_, E>) -> Result<(Vec<[Reach; 2]>, Point), E> {
     let mut chains: Vec<Chain> =
-        (0..centre.at.len()).flat_map(|i| Side::BOTH.map(|side| Chain::new(i, side, centre))).collect();
+        (0..centre.at.len()).flat_map(|i| SIDES.map(|side| Chain::new(i, side, centre))).collect();
     let mut lowest = centre.clone();
     for _ in 0..ROUNDS {
         let mut open: Vec<&mut Chain> = chains.iter_mut().filter(|c| c.found.is_none()).collect();
@@ -52,8 +52,8 @@ pub fn scan<E>(centre: &Point, rise: f64, evaluate: &mut Evaluate<'_, E>) -> Res
 }
 
 impl Chain {
-    fn new(coordinate: usize, side: Side, centre: &Point) -> Self {
-        let room = side.room(centre.at[coordinate]);
+    fn new(coordinate: usize, side: f64, centre: &Point) -> Self {
+        let room = room(side, centre.at[coordinate]);
         let none = Reach { length: 0.0, open: true };
         Chain {
             coordinate,
@@ -68,7 +68,7 @@ impl Chain {
 
     fn point(&self, centre: &Point) -> Vec<f64> {
         let mut at = centre.at.clone();
-        let moved = at[self.coordinate] + self.side.sign() * self.next;
+        let moved = at[self.coordinate] + self.side * self.next;
         at[self.coordinate] = moved.clamp(0.0, 1.0);
         at
     }

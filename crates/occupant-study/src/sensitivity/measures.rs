@@ -36,23 +36,20 @@ pub struct Request {
     pub channels: Vec<Channel>,
 }
 
-/// Values of the figures and channels of a run.
+/// What there is for each figure and for each output of each channel of a run.
 #[derive(Clone, Debug, Default)]
-pub struct Values {
+pub struct Answers<T> {
     /// In the order of [`Request::figures`]; not a number where the run has none.
-    pub figures: Vec<f64>,
+    pub figures: Vec<T>,
     /// By channel, then by output.
-    pub channels: Vec<Vec<f64>>,
+    pub channels: Vec<Vec<T>>,
 }
 
+/// Values of the figures and channels of a run.
+pub type Values = Answers<f64>;
+
 /// Derivatives of the figures and channels of a run by one parameter.
-#[derive(Clone, Debug)]
-pub struct Derivatives {
-    /// In the order of [`Request::figures`]; not a number where the run has none.
-    pub figures: Vec<Slope>,
-    /// By channel, then by output.
-    pub channels: Vec<Vec<Slope>>,
-}
+pub type Derivatives = Answers<Slope>;
 
 /// Derivatives by `parameter`, the one of number `k` of the trajectory.
 ///

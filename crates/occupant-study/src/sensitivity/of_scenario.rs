@@ -1,7 +1,8 @@
 //! Numbers of a scenario as parameters, by the paths that `--set` and studies know.
 
 use super::parameter::{Parameter, size_of};
-use crate::{Assignment, Target, Value};
+use crate::parameter::put;
+use crate::{ApplyChoice, Law, Target, Value};
 use occupant_core::scenario::{Draft, Resolver, Wanted};
 use placed_text::Problem;
 
@@ -31,38 +32,30 @@ pub fn parameter<'a>(draft: &'a Draft, path: &str, resolver: Resolver<'a>) -> Re
         }
     }
     let targets: Vec<Target> = places.iter().map(Target::of).collect();
-    let base = |target: &Target| match target.base {
-        Value::Number(x) => x,
-        _ => f64::NAN,
-    };
-    let (nominal, unit) = match targets.as_slice() {
-        [only] => (base(only), unit_of(only)),
-        several if several.iter().all(|t| base(t) == 0.0) => {
+    let (apply, unit) = match targets.as_slice() {
+        [Target { unit: "", .. }] => (ApplyChoice::Value, "1"),
+        [only] => (ApplyChoice::Value, only.unit),
+        several if several.iter().all(|t| t.base == Value::Number(0.0)) => {
             return Err(refuse(
                 format!("`{path}` leads to {} numbers, all 0, which no factor changes", several.len()),
                 Some("name one of them"),
             ));
         }
-        _ => (1.0, "1".to_owned()),
+        _ => (ApplyChoice::Factor, "1"),
     };
-    let is_factor = targets.len() > 1;
+    let varied = crate::Parameter { name: path.to_owned(), unit, apply, law: Law::Table, targets };
+    let nominal = match varied.nominal() {
+        Value::Number(x) => x,
+        _ => f64::NAN,
+    };
     let model_at = move |value: f64| {
-        let mut draft = draft.clone();
-        for target in &targets {
-            let value = if is_factor { base(target) * value } else { value };
-            let put = Assignment { path: target.path.clone(), value: Value::Number(value), unit: target.unit };
-            draft.set_value(&put.path, &put.text()).map_err(|e| e.to_string())?;
-        }
+        let (mut draft, mut list) = (draft.clone(), Vec::new());
+        varied.assign(&Value::Number(value), &mut list);
+        put(&list, &mut draft).map_err(|e| e.to_string())?;
         let loaded = draft.load(resolver).map_err(|e| e.to_string())?;
         let (model, _) = loaded.model().map_err(|e| e.to_string())?;
         Ok(model)
     };
-    Ok(Parameter { name: path.to_owned(), size: size_of(nominal, &unit), unit, nominal, model_at: Box::new(model_at) })
-}
-
-fn unit_of(target: &Target) -> String {
-    match target.unit {
-        "" => "1".to_owned(),
-        unit => unit.to_owned(),
-    }
+    let size = size_of(nominal, unit);
+    Ok(Parameter { name: path.to_owned(), size, unit: unit.to_owned(), nominal, model_at: Box::new(model_at) })
 }

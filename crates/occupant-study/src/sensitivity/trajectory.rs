@@ -103,14 +103,9 @@ fn pass<const N: usize>(model: &Model, built: &mut [Built]) -> Result<Trajectory
         }
         run.taken = Some(taken);
     }
-    let outcome = run.end(Status::Completed, &mut keeper);
-    Ok(Trajectory {
-        checkpoints: keeper.0,
-        outcome: outcome.map_err(|e| failed(&e))?,
-        events: lookout.events(count),
-        dropped_events: lookout.dropped(),
-        slopes,
-    })
+    let outcome = run.end(Status::Completed, &mut keeper).map_err(|e| failed(&e))?;
+    let (events, dropped_events) = lookout.events(count);
+    Ok(Trajectory { checkpoints: keeper.0, outcome, events, dropped_events, slopes })
 }
 
 /// Room for the steps between two outputs.

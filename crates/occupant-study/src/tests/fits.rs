@@ -65,7 +65,7 @@ fn parts_of_the_way_between_the_ends_lead_to_values_and_back() {
     let text = text("[design]\nkind = \"monte_carlo\"\nsamples = 3");
     let set = IndexMap::new();
     let study = text.bind_fit(base(), (&set, ""), &[], &no_files).unwrap();
-    let bounds: Vec<Bounds> = study.parameters.iter().filter_map(|p| p.bounds()).collect();
+    let bounds: Vec<Bounds> = study.parameters.iter().filter_map(|p| p.law.bounds()).collect();
     assert_eq!(bounds[1], Bounds { from: 0.2, to: 1.0, log: false });
     // the middle of a logarithmic range: √(0.1 · 1.6)
     assert!((bounds[0].value(0.5) - 0.4).abs() < 1e-15);

@@ -1,6 +1,6 @@
 //! Distributions against their moments and quantiles, and correlations.
 
-use super::super::law::{Law, Value};
+use super::super::law::{Distribution, Law, Value};
 use super::{numbers, study};
 
 fn at(law: &Law, p: f64) -> f64 {
@@ -26,15 +26,23 @@ fn distributions_have_their_moments() {
     // φ and Φ at the cuts ±1 of a normal distribution with mean 5 and standard deviation 3
     let (density, inside) = (0.241_970_724_519_143_37, 0.682_689_492_137_085_9);
     for (law, mean, variance) in [
-        (Law::Uniform { from: a, to: b }, 5.0, 3.0),
-        (Law::LogUniform { from: a, to: b }, log_mean, (b * b - a * a) / (2.0 * log) - log_mean.powi(2)),
-        (Law::Normal { mean: -1.0, sd: 2.0 }, -1.0, 4.0),
+        (Law::Distribution(Distribution::Uniform { from: a, to: b }), 5.0, 3.0),
         (
-            Law::Triangular { from: a, mode: c, to: b },
+            Law::Distribution(Distribution::LogUniform { from: a, to: b }),
+            log_mean,
+            (b * b - a * a) / (2.0 * log) - log_mean.powi(2),
+        ),
+        (Law::Distribution(Distribution::Normal { mean: -1.0, sd: 2.0 }), -1.0, 4.0),
+        (
+            Law::Distribution(Distribution::Triangular { from: a, mode: c, to: b }),
             (a + b + c) / 3.0,
             (a * a + b * b + c * c - a * b - a * c - b * c) / 18.0,
         ),
-        (Law::TruncatedNormal { mean: 5.0, sd: 3.0, from: a, to: b }, 5.0, 9.0 * (1.0 - 2.0 * density / inside)),
+        (
+            Law::Distribution(Distribution::TruncatedNormal { mean: 5.0, sd: 3.0, from: a, to: b }),
+            5.0,
+            9.0 * (1.0 - 2.0 * density / inside),
+        ),
     ] {
         let [m, v] = moments(&law);
         // measured: at most 5.8e-9 and 1.4e-5, the latter in the tails of the normal distribution
@@ -46,19 +54,19 @@ fn distributions_have_their_moments() {
 #[test]
 fn quantiles_end_where_they_should() {
     for law in [
-        Law::Uniform { from: 0.1, to: 0.7 },
-        Law::LogUniform { from: 0.1, to: 0.7 },
-        Law::Triangular { from: 0.1, mode: 0.1, to: 0.7 },
-        Law::Triangular { from: 0.1, mode: 0.7, to: 0.7 },
-        Law::TruncatedNormal { mean: -4.0, sd: 0.5, from: 0.1, to: 0.7 },
-        Law::TruncatedNormal { mean: 9.0, sd: 1.0, from: 0.1, to: 0.7 },
+        Law::Distribution(Distribution::Uniform { from: 0.1, to: 0.7 }),
+        Law::Distribution(Distribution::LogUniform { from: 0.1, to: 0.7 }),
+        Law::Distribution(Distribution::Triangular { from: 0.1, mode: 0.1, to: 0.7 }),
+        Law::Distribution(Distribution::Triangular { from: 0.1, mode: 0.7, to: 0.7 }),
+        Law::Distribution(Distribution::TruncatedNormal { mean: -4.0, sd: 0.5, from: 0.1, to: 0.7 }),
+        Law::Distribution(Distribution::TruncatedNormal { mean: 9.0, sd: 1.0, from: 0.1, to: 0.7 }),
     ] {
         assert!((at(&law, 0.0) - 0.1).abs() < 1e-12, "{law:?}");
         assert!((at(&law, 1.0) - 0.7).abs() < 1e-12, "{law:?}");
         let between: Vec<f64> = (0..=50).map(|i| at(&law, f64::from(i) / 50.0)).collect();
         assert!(between.windows(2).all(|w| w[0] < w[1]), "{law:?}");
     }
-    let triangle = Law::Triangular { from: 0.0, mode: 1.0, to: 4.0 };
+    let triangle = Law::Distribution(Distribution::Triangular { from: 0.0, mode: 1.0, to: 4.0 });
     // a quarter of the area lies below the mode
     assert!((at(&triangle, 0.25) - 1.0).abs() < 1e-15);
     let list = Law::List(["a", "b", "c"].map(|t| Value::Text(t.into())).to_vec());

@@ -78,22 +78,20 @@ fn a_morris_trajectory_changes_each_parameter_once_by_one_step() {
                 let moved: Vec<usize> = (0..3).filter(|d| before[*d] != after[*d]).collect();
                 let [d] = moved[..] else { panic!("{moved:?} at {index}") };
                 assert!(((after[d] - before[d]).abs() - step).abs() < 1e-15);
-                let step = study.morris_step(index).unwrap();
-                assert!((after[d] - before[d] - step).abs() < 1e-15);
-                assert_eq!(study.morris_step(trajectory * 4), None);
-                let role = study.role(index);
-                let changed = Some(d);
-                assert_eq!(role, Role::Morris { trajectory, step: i as usize, changed });
+                let Role::Morris { trajectory: of, step, changed: Some((changed, by)) } = study.role(index) else {
+                    panic!("{:?}", study.role(index))
+                };
+                assert_eq!((of, step, changed), (trajectory, i as usize, d));
+                assert!((after[d] - before[d] - by).abs() < 1e-15);
                 order.push(d);
             }
             order.sort_unstable_by_key(|d| *d);
             assert_eq!(order, [0, 1, 2]);
-            orders.insert(
-                (0..3)
-                    .map(|d| study.role(trajectory * 4 + 1 + d))
-                    .map(|r| format!("{r:?}").split("changed").nth(1).map(str::to_owned))
-                    .collect::<Vec<_>>(),
-            );
+            let changed = |i: u64| match study.role(trajectory * 4 + i) {
+                Role::Morris { changed, .. } => changed.map(|(parameter, _)| parameter),
+                other => panic!("{other:?}"),
+            };
+            orders.insert([1, 2, 3].map(changed));
             assert!(matches!(study.role(trajectory * 4), Role::Morris { step: 0, changed: None, .. }));
         }
         // all six orders of three parameters occur

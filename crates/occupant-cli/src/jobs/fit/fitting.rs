@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use occupant_study::{ApplyChoice, Bounds, Fit, Law, Parameter, StudyText};
+use occupant_study::{ApplyChoice, Bounds, Distribution, Fit, Law, Parameter, StudyText};
 use serde::Serialize;
 
 use super::experiment::{Correction, Experiment};
@@ -80,7 +80,7 @@ impl Fitting {
         warnings.extend(experiments.iter_mut().filter_map(Experiment::write_densely));
         let mut parameters = experiments[0].study.parameters.clone();
         parameters.extend(tests.iter().flat_map(nuisances));
-        let bounds: Option<Vec<Bounds>> = parameters.iter().map(Parameter::bounds).collect();
+        let bounds: Option<Vec<Bounds>> = parameters.iter().map(|p| p.law.bounds()).collect();
         // bind_fit has refused parameters without ends
         let bounds = bounds.ok_or("error: a parameter without ends")?;
         let tests = name_fitted(&mut experiments, tests);
@@ -140,7 +140,8 @@ fn nuisances(test: &Test) -> impl Iterator<Item = Parameter> {
     kinds.into_iter().zip(test.nuisances).filter_map(|((word, unit, apply), ends)| {
         let [from, to] = ends?;
         let name = format!("{}.{word}", test.name);
-        Some(Parameter { name, unit, apply, law: Law::Uniform { from, to }, targets: Vec::new() })
+        let law = Law::Distribution(Distribution::Uniform { from, to });
+        Some(Parameter { name, unit, apply, law, targets: Vec::new() })
     })
 }
 

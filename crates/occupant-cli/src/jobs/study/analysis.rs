@@ -242,12 +242,12 @@ fn sobol(samples: &Samples, values: &[f64], seed: u64) -> Result<SobolIndices, S
 fn morris(samples: &Samples, values: &[f64], seed: u64) -> Result<Vec<Effect>, String> {
     let mut effects: Vec<Vec<f64>> = vec![Vec::new(); samples.inputs.len()];
     for (row, role) in samples.roles.iter().enumerate() {
-        let (Role::Morris { changed, .. }, Some(step)) = (role, samples.steps[row]) else {
+        let Role::Morris { changed: Some((parameter, step)), .. } = role else {
             continue;
         };
         let before = samples.numbers[row].checked_sub(1);
         let before = before.and_then(|number| samples.row_of(number));
-        let (Some(parameter), Some(before)) = (changed, before) else {
+        let Some(before) = before else {
             continue;
         };
         effects[*parameter].push((values[row] - values[before]) / step);

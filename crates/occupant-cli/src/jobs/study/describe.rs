@@ -1,6 +1,6 @@
 //! Designs and parameters in words.
 
-use occupant_study::{ApplyChoice, Design, Law, Parameter, Study, Value};
+use occupant_study::{ApplyChoice, Design, Distribution, Law, Parameter, Study, Value};
 
 use super::shown::{given, given_with_unit};
 
@@ -43,15 +43,15 @@ pub(crate) fn law(parameter: &Parameter) -> String {
         Law::Grid { from, to, steps, log } => {
             format!("grid: {}, {steps} values{}", range(*from, *to), if *log { ", equal ratios" } else { "" })
         }
-        Law::Uniform { from, to } => format!("uniform: {}", range(*from, *to)),
-        Law::LogUniform { from, to } => format!("log-uniform: {}", range(*from, *to)),
-        Law::Normal { mean, sd } => {
+        Law::Distribution(Distribution::Uniform { from, to }) => format!("uniform: {}", range(*from, *to)),
+        Law::Distribution(Distribution::LogUniform { from, to }) => format!("log-uniform: {}", range(*from, *to)),
+        Law::Distribution(Distribution::Normal { mean, sd }) => {
             format!("normal: {} ± {}", given(*mean, unit), given_with_unit(*sd, unit))
         }
-        Law::TruncatedNormal { mean, sd, from, to } => {
+        Law::Distribution(Distribution::TruncatedNormal { mean, sd, from, to }) => {
             format!("normal: {} ± {}, cut to {}", given(*mean, unit), given_with_unit(*sd, unit), range(*from, *to))
         }
-        Law::Triangular { from, mode, to } => {
+        Law::Distribution(Distribution::Triangular { from, mode, to }) => {
             format!("triangular: {}, likeliest {}", range(*from, *to), given_with_unit(*mode, unit))
         }
         Law::Table => "as the table says".to_owned(),

@@ -9,8 +9,6 @@ pub struct Samples {
     pub(crate) numbers: Vec<u64>,
     /// What each is in its design.
     pub(crate) roles: Vec<Role>,
-    /// By how much a step of Morris moved its parameter, as a part of its range.
-    pub(crate) steps: Vec<Option<f64>>,
     /// What was varied.
     pub inputs: Vec<Input>,
     /// What came of it.
@@ -79,7 +77,6 @@ impl Samples {
     pub fn add(&mut self, study: &Study, run: u64) {
         self.numbers.push(study.sample_and_member(run).0);
         self.roles.push(study.role(run));
-        self.steps.push(study.morris_step(run));
     }
 }
 

@@ -127,13 +127,10 @@ pub(super) struct Lookout<const N: usize> {
 /// The events of a run.
 struct Notes<const N: usize> {
     time_s: f64,
-    list: Vec<(Event0, [f64; N])>,
+    list: Vec<Event>,
     /// How many were not kept.
     dropped: u64,
 }
-
-/// An event without its shifts.
-type Event0 = (f64, Happening, Change, f64);
 
 impl<const N: usize> Notes<N> {
     /// Notes an event, at which a force may jump.
@@ -149,7 +146,7 @@ impl<const N: usize> Notes<N> {
             _ => (Change::Kink, 0.0),
         };
         if self.list.len() < MOST {
-            self.list.push(((self.time_s, happening, change, jump_n), shift));
+            self.list.push(Event { time_s: self.time_s, happening, change, jump_n, shift: shift.to_vec() });
         } else {
             self.dropped += 1;
         }
@@ -196,21 +193,11 @@ impl<const N: usize> Lookout<N> {
         std::mem::swap(&mut self.before, &mut scene.actions);
     }
 
-    /// How many events were not kept.
-    pub fn dropped(&self) -> u64 {
-        self.notes.dropped
-    }
-
-    /// The events, with the shifts of the first `count` directions.
-    pub fn events(&self, count: usize) -> Vec<Event> {
-        let event = |((time_s, happening, change, jump_n), shift): &(Event0, [f64; N])| Event {
-            time_s: *time_s,
-            happening: *happening,
-            change: *change,
-            jump_n: *jump_n,
-            shift: shift[..count].to_vec(),
-        };
-        self.notes.list.iter().map(event).collect()
+    /// The events, with the shifts of the first `count` directions, and how many were not kept.
+    pub fn events(self, count: usize) -> (Vec<Event>, u64) {
+        let Notes { mut list, dropped, .. } = self.notes;
+        list.iter_mut().for_each(|event| event.shift.truncate(count));
+        (list, dropped)
     }
 }
 
