@@ -59,7 +59,7 @@ impl TableFiles {
 }
 
 fn unwritten(path: &Path, error: &std::io::Error) -> Failure {
-    Failure::BrokeOff(format!("error: cannot write {}: {error}", path.display()))
+    Failure::broke_off(format!("cannot write {}: {error}", path.display()))
 }
 
 /// `out.csv` → `out.csv-metadata.json`.

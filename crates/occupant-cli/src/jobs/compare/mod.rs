@@ -49,10 +49,11 @@ pub(crate) struct Comparison {
     pub(crate) worthless: Vec<String>,
 }
 
+/// A file that was read, and its SHA-256.
 #[derive(Serialize)]
-struct Source {
-    file: String,
-    sha256: String,
+pub(crate) struct Source {
+    pub(crate) file: String,
+    pub(crate) sha256: String,
 }
 
 #[derive(Serialize)]

@@ -98,11 +98,9 @@ impl Wanted {
             }
             BandFile::Picture(format) => {
                 let drawing = plot::svg(&report.bands, title, &words);
-                let bytes = format
-                    .encode(&drawing, PIXELS)
-                    .map_err(|e| Failure::BrokeOff(format!("error: {} cannot be made: {e}", path.display())))?;
-                let written = write_whole(path, self.existing, &bytes);
-                written.map_err(|reason| Failure::BrokeOff(format!("error: {reason}")))?
+                let unmade = |e| Failure::broke_off(format!("{} cannot be made: {e}", path.display()));
+                let bytes = format.encode(&drawing, PIXELS).map_err(unmade)?;
+                write_whole(path, self.existing, &bytes).map_err(Failure::broke_off)?
             }
         };
         Ok(written.display().to_string())

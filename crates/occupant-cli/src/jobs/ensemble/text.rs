@@ -4,7 +4,6 @@ use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
 use occupant_study::Tolerances;
 use occupant_study::spread::Verdict;
 
-use super::bands::ChannelBand;
 use super::judge::Judged;
 use super::report::{Failed, Report};
 use crate::base::text_table::Align::{Left, Right};
@@ -138,48 +137,37 @@ fn channels(report: &Report) -> String {
         (Right, &["members part at, ms", "by more than", "widest", "at, ms"]),
         (Left, &[""]),
     ]);
+    let ms = |t: f64| format!("{:.1}", t * 1e3);
     for band in &report.bands.channels {
-        table.row(channel_row(band));
+        let (per, unit) = shown_unit(band.unit);
+        let size = |x: f64| number(x / per, decimals(x / per));
+        table.row([
+            band.name.clone(),
+            band.lost_at_s.map_or("never".to_owned(), ms),
+            size(band.tolerance),
+            band.widest.map_or(NONE.to_owned(), size),
+            band.widest_at_s.map_or(NONE.to_owned(), ms),
+            unit.to_owned(),
+        ]);
     }
     table.text()
 }
 
-fn channel_row(band: &ChannelBand) -> [String; 6] {
-    let (per, unit) = shown_unit(band.unit);
-    let ms = |t: f64| format!("{:.1}", t * 1e3);
-    let size = |x: f64| number(x / per, decimals(x / per));
-    [
-        band.name.clone(),
-        band.lost_at_s.map_or("never".to_owned(), ms),
-        size(band.tolerance),
-        band.widest.map_or(NONE.to_owned(), size),
-        band.widest_at_s.map_or(NONE.to_owned(), ms),
-        unit.to_owned(),
-    ]
-}
-
 fn conclusion(report: &Report) -> String {
-    let unstable = report.unstable();
-    let all = report.figures.len();
-    match unstable.as_slice() {
-        _ if report.members < ENOUGH => {
-            format!("{} members are too few for a verdict: {ENOUGH} or more\n", report.members)
-        }
-        [] => format!("all {all} figures are stable\n"),
-        some => {
-            let more: Vec<&str> = some.iter().copied().filter(|name| !is_shown(name)).collect();
-            let named = more.iter().take(LISTED).copied();
-            let mut named: Vec<&str> = named.collect();
-            if more.len() > LISTED {
-                named.push("… (--json has all)");
-            }
-            let besides = match named.as_slice() {
-                [] => String::new(),
-                named => format!("; besides those above: {}", named.join(", ")),
-            };
-            format!("NOT STABLE: {} of {all} figures{besides}\n", some.len())
-        }
+    let (unstable, all) = (report.unstable(), report.figures.len());
+    if report.members < ENOUGH {
+        return format!("{} members are too few for a verdict: {ENOUGH} or more\n", report.members);
     }
+    if unstable.is_empty() {
+        return format!("all {all} figures are stable\n");
+    }
+    let mut more: Vec<&str> = unstable.iter().copied().filter(|name| !is_shown(name)).collect();
+    if more.len() > LISTED {
+        more.truncate(LISTED);
+        more.push("… (--json has all)");
+    }
+    let besides = if more.is_empty() { String::new() } else { format!("; besides those above: {}", more.join(", ")) };
+    format!("NOT STABLE: {} of {all} figures{besides}\n", unstable.len())
 }
 
 /// Whether the tables show a figure.

@@ -8,10 +8,12 @@ use serde::Serialize;
 use super::experiment::{Correction, Experiment};
 use super::opening::{Given, Opening};
 use super::target::Target;
+use crate::base::failure::Failure;
 use crate::base::names::{file_name, file_stem};
-use crate::files::scenario::{format_of, nothing_was_run};
+use crate::files::scenario::{nothing_was_run, refused};
 use crate::files::study_folder::manifest::{Manifest, Text};
 use crate::files::study_folder::texts::{NamedBy, Texts};
+use crate::jobs::sweep::plan::study_text;
 
 /// So many evaluations may come on top of the budget.
 const ON_TOP: u64 = 1 << 20;
@@ -61,28 +63,23 @@ impl Fitting {
     ///
     /// # Errors
     /// Everything that is wrong, in words.
-    pub(crate) fn open(name: &Path, given: &Given<'_>, program: String) -> Result<Fitting, String> {
-        let shown = name.display().to_string();
-        let texts = Texts::of_files(name);
-        let bytes = texts.get(NamedBy::CommandLine, &file_name(name));
-        let bytes = bytes.map_err(|e| format!("error: the study {shown} cannot be read: {e}"))?;
-        let ended = |problems: &[String]| ended(problems, &shown);
-        let text = StudyText::read_bytes(&bytes, format_of(name), &shown);
-        let text = text.map_err(|problems| ended(&[problems.to_string()]))?;
-        let fit = text.fit().map_err(|problems| ended(&[problems.to_string()]))?;
+    pub(crate) fn open(name: &Path, given: &Given<'_>, program: String) -> Result<Fitting, Failure> {
+        let (shown, texts) = (name.display().to_string(), Texts::of_files(name));
+        let text = study_text(name, &texts)?;
+        let fit = text.fit().map_err(|problems| refused(&shown, &problems))?;
         let folder = name.parent().unwrap_or(Path::new(""));
         let mut opening = Opening::new(folder, &text, &texts, given);
         let tests = opening.tests(&fit);
         let Opening { problems, mut experiments, mut warnings, .. } = opening;
         if !problems.is_empty() || experiments.is_empty() {
-            return Err(ended(&problems));
+            return Err(Failure::CouldNotRun(ended(&problems, &shown)));
         }
         warnings.extend(experiments.iter_mut().filter_map(Experiment::write_densely));
         let mut parameters = experiments[0].study.parameters.clone();
         parameters.extend(tests.iter().flat_map(nuisances));
         let bounds: Option<Vec<Bounds>> = parameters.iter().map(Parameter::bounds).collect();
         // bind_fit has refused parameters without ends
-        let bounds = bounds.ok_or("error: a parameter without ends")?;
+        let bounds = bounds.ok_or_else(|| Failure::plain("a parameter without ends"))?;
         let tests = name_fitted(&mut experiments, tests);
         let samples = experiments.len() as u64 * fit.budget.saturating_add(ON_TOP);
         let (manifest, texts) = manifest(&text, &texts, given, samples, program);

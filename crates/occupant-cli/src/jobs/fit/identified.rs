@@ -94,8 +94,8 @@ fn descents(fitting: &Fitting, evaluator: &mut Evaluator<'_>) -> Result<Global, 
         return Ok(global);
     }
     let reason = evaluator.records.iter().rev().find_map(|r| r.reason.clone()).unwrap_or_default();
-    Err(Failure::BrokeOff(format!(
-        "error: none of {} candidates could be run; the last: {reason}\n = help: narrow the ranges of the parameters, or try the base scenario with `occupant run`",
+    Err(Failure::broke_off(format!(
+        "none of {} candidates could be run; the last: {reason}\n = help: narrow the ranges of the parameters, or try the base scenario with `occupant run`",
         evaluator.records.len()
     )))
 }
@@ -117,8 +117,8 @@ fn rise(fitting: &Fitting, best: &Point) -> Result<(f64, Near), Failure> {
     for experiment in &fitting.experiments {
         let run = experiment.run_with(Some(&values));
         let residuals = run.and_then(|series| experiment.residuals(&series, &fitting.corrections(Some(&values))));
-        let residuals = residuals
-            .map_err(|reason| Failure::BrokeOff(format!("error: the best candidate cannot be run again: {reason}")))?;
+        let again = |reason| Failure::broke_off(format!("the best candidate cannot be run again: {reason}"));
+        let residuals = residuals.map_err(again)?;
         unrelated += residuals.iter().map(|r| unrelated_samples(r)).sum::<f64>();
     }
     let likely = likelihood_rise(best.value, unrelated);

@@ -6,8 +6,8 @@ use serde::Serialize;
 
 use super::evaluator::Record;
 use super::fitting::Fitting;
-use super::found::{COMPENSATING, EndFound, ParameterFound};
 use super::identified::Answer;
+use super::result::{COMPENSATING, IntervalEnd, ParameterEstimate};
 
 /// An interval of more than this part of the range, both ends of which are bounds, says nothing.
 const WIDE: f64 = 0.25;
@@ -37,12 +37,12 @@ pub(crate) enum Verdict {
 }
 
 /// All parameters with their verdicts; `sets` are the evaluated ones that are as good as the best.
-pub(crate) fn verdicts(fitting: &Fitting, answer: &Answer, sets: &[&Record]) -> Vec<ParameterFound> {
+pub(crate) fn verdicts(fitting: &Fitting, answer: &Answer, sets: &[&Record]) -> Vec<ParameterEstimate> {
     let parameters = 0..fitting.parameters().len();
     parameters.map(|i| parameter(fitting, answer, sets, i)).collect()
 }
 
-fn parameter(fitting: &Fitting, answer: &Answer, sets: &[&Record], i: usize) -> ParameterFound {
+fn parameter(fitting: &Fitting, answer: &Answer, sets: &[&Record], i: usize) -> ParameterEstimate {
     let (of, bounds) = (&fitting.parameters()[i], fitting.bounds[i]);
     let u = answer.best.at[i];
     let ends = &answer.profiles.ends[i];
@@ -50,11 +50,11 @@ fn parameter(fitting: &Fitting, answer: &Answer, sets: &[&Record], i: usize) -> 
     let verdict = verdict(u, ends, open);
     let compensated_by = partners(fitting, answer, i);
     let misfit = fitting.fit.misfit;
-    let end = |end: &End| EndFound { values: fitting.values(&end.point.at), score: misfit.of_cost(end.point.value) };
+    let end = |end: &End| IntervalEnd { values: fitting.values(&end.point.at), score: misfit.of_cost(end.point.value) };
     let [down, up] = answer.reaches[i];
     let among = sets.iter().filter_map(|r| r.at.as_ref()).map(|at| at[i]);
     let [least, most] = among.fold([u, u], |[l, m], v| [l.min(v), m.max(v)]);
-    ParameterFound {
+    ParameterEstimate {
         name: of.name.clone(),
         unit: of.unit,
         shown: shown_unit(fitting, i),

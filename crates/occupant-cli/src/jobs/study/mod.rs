@@ -50,6 +50,27 @@ struct Finding<'a> {
     numbers: &'a [Number],
 }
 
+impl Finding<'_> {
+    /// Parameters, those that matter most first.
+    fn order(&self) -> impl Iterator<Item = usize> + Clone {
+        self.analysis.order.iter().copied()
+    }
+
+    fn number(&self, quantity: &str, parameter: usize) -> Option<&Number> {
+        self.numbers.iter().find(|n| n.quantity == quantity && n.parameter == Some(parameter))
+    }
+
+    /// The value of a quantity; NaN without one.
+    fn value(&self, quantity: &str, parameter: usize) -> f64 {
+        self.number(quantity, parameter).map_or(f64::NAN, |n| n.estimate.value)
+    }
+
+    /// Whether a rule of its own marks a number, not one that marks all of the response.
+    fn is_marked(&self, number: &Number) -> bool {
+        number.mark != caution::lacking(self.analysis.spread.as_ref())
+    }
+}
+
 impl Report {
     /// Reads the rows and analyses the responses that `names` asks for, the customary ones for none.
     ///

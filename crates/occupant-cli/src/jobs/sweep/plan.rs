@@ -3,8 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use occupant_core::model::Model;
-use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
-use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{Figure, Summarizer};
 use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Diagnostics, Draft, Loaded};
@@ -17,6 +15,7 @@ use crate::files::scenario::{Opened, ScenarioArgs, Tables, format_of, refused};
 use crate::files::study_folder::manifest::{Column, Manifest, Role};
 use crate::files::study_folder::texts::{NamedBy, Texts};
 use crate::files::table::Cell;
+use crate::jobs::run::FirstOutput;
 
 /// So many samples are tried to find the columns where the base scenario itself cannot be run.
 const TRIED: u64 = 16;
@@ -48,11 +47,7 @@ impl Plan {
     /// # Errors
     /// Everything that is wrong with it, in words.
     pub(crate) fn open(name: &Path, overrides: &[String], texts: &Texts, program: String) -> Result<Plan, Failure> {
-        let shown = name.display();
-        let bytes = texts.get(NamedBy::CommandLine, &file_name(name));
-        let bytes = bytes.map_err(|e| Failure::plain(format!("the study {shown} cannot be read: {e}")))?;
-        let text = StudyText::read_bytes(&bytes, format_of(name), &shown.to_string())
-            .map_err(|problems| refused(&shown.to_string(), &problems))?;
+        let text = study_text(name, texts)?;
         let scenario = name.parent().unwrap_or(Path::new("")).join(text.base());
         let bytes = texts.get(NamedBy::StudyAsBase, text.base()).map_err(|e| {
             let base = scenario.display();
@@ -62,7 +57,8 @@ impl Plan {
         let draft = Draft::read_bytes(&bytes, format_of(&scenario), &scenario_name)
             .map_err(|problems| refused(&scenario_name, &problems))?;
         let beside = |file: &str| texts.get(NamedBy::Study, file);
-        let study = text.bind(draft, overrides, &beside).map_err(|problems| refused(&shown.to_string(), &problems))?;
+        let shown = name.display().to_string();
+        let study = text.bind(draft, overrides, &beside).map_err(|problems| refused(&shown, &problems))?;
         let mut changes = changes_of(&text);
         changes.extend(overrides.iter().cloned());
         let title = text.section.title.clone().unwrap_or_default();
@@ -201,7 +197,7 @@ impl Plan {
                 Ok((_, model, _)) => {
                     let mut summarizer = Summarizer::new();
                     // one output is enough to know them
-                    let stopped = simulate(&model, (&mut summarizer, Enough));
+                    let stopped = simulate(&model, (&mut summarizer, FirstOutput));
                     if let (Ok(_), Some(summary)) = (stopped, summarizer.summary(None)) {
                         return Ok(summary.figures(&model));
                     }
@@ -214,6 +210,17 @@ impl Plan {
         let scenario = self.scenario.display().to_string();
         Err(refused(&scenario, &first_refusal.unwrap_or_else(Diagnostics::new)))
     }
+}
+
+/// The text of a study; `name` is what messages call it.
+///
+/// # Errors
+/// One that cannot be read; everything that is wrong with its words.
+pub(crate) fn study_text(name: &Path, texts: &Texts) -> Result<StudyText, Failure> {
+    let shown = name.display().to_string();
+    let bytes = texts.get(NamedBy::CommandLine, &file_name(name));
+    let bytes = bytes.map_err(|e| Failure::plain(format!("the study {shown} cannot be read: {e}")))?;
+    StudyText::read_bytes(&bytes, format_of(name), &shown).map_err(|problems| refused(&shown, &problems))
 }
 
 /// What the study puts into its scenario in all samples, as `--set` writes it.
@@ -244,14 +251,5 @@ fn has_texts(study: &Study, at: usize) -> bool {
         (Some(Law::List(values)), _) => values.iter().any(text),
         (Some(Law::Table), Design::Table { rows, .. }) => rows.iter().any(|row| row.get(at).is_some_and(text)),
         _ => false,
-    }
-}
-
-/// Ends a run at its first output.
-struct Enough;
-
-impl Recorder for Enough {
-    fn record(&mut self, _sample: &Sample<'_>) -> Result<Flow, RecorderError> {
-        Ok(Flow::Stop)
     }
 }
