@@ -13,8 +13,7 @@ use occupant_core::run::simulate::{replay, simulate};
 use occupant_core::scenario::{Draft, Format};
 use occupant_core::vehicle::VehiclePath;
 
-use crate::base::failure::Failure;
-use crate::base::talk::say;
+use crate::base::{Failure, say};
 use crate::files::mcap::StoredRun;
 use crate::files::scenario;
 use crate::jobs::run::FirstOutput;

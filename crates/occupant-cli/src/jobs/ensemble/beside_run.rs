@@ -8,15 +8,9 @@ use occupant_study::engine::Engine;
 use occupant_study::{Study, Tolerances};
 use placed_text::shown;
 
-use super::bands::Bands;
-use super::members::{Left, Members};
-use super::plot;
-use super::report::Report;
-use crate::base::failure::Failure;
-use crate::base::interrupt::Interrupt;
-use crate::base::names::program;
-use crate::base::output_file::{Existing, write_whole};
+use super::{Bands, Left, Members, Report, plot};
 use crate::base::progress::bar;
+use crate::base::{Existing, Failure, Interrupt, program, write_whole};
 use crate::files::scenario::Opened;
 use crate::files::table::{Form, TableFile};
 use crate::pictures::Format;

@@ -13,8 +13,7 @@ use occupant_study::Study;
 use occupant_study::engine::{Engine, Finished, NotBegun, Source};
 
 use super::judge::is_result;
-use crate::base::failure::Failure;
-use crate::base::interrupt::Interrupt;
+use crate::base::{Failure, Interrupt};
 
 /// What a run of the ensemble left, or why its figures are none.
 pub(crate) type Member = Result<Left, String>;

@@ -4,9 +4,8 @@ use occupant_study::Tolerances;
 use occupant_study::spread::Verdict;
 use serde::Serialize;
 
-use super::bands::Bands;
-use super::judge::{Judged, judge};
-use super::members::{Left, Member};
+use super::judge::judge;
+use super::{Bands, Judged, Left, Member};
 
 /// An ensemble that has been run; SI units.
 #[derive(Serialize)]

@@ -4,8 +4,7 @@ use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
 use occupant_study::Tolerances;
 use occupant_study::spread::Verdict;
 
-use super::judge::Judged;
-use super::report::{Failed, Report};
+use super::{Failed, Judged, Report};
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, Table, facts, number, trimmed};
 

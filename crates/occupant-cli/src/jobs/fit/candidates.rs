@@ -2,14 +2,10 @@
 
 use std::path::PathBuf;
 
-use super::evaluator::Record;
-use super::fitting::Fitting;
 use super::progress::words_of;
-use crate::base::failure::Failure;
-use crate::files::study_folder::folder::Folder;
-use crate::files::study_folder::manifest::{Column, Manifest, Role};
-use crate::files::study_folder::row::{Row, Status};
-use crate::files::study_folder::table::StudyTable;
+use super::{Fitting, Record};
+use crate::base::Failure;
+use crate::files::study_folder::{Column, Folder, Manifest, Role, Row, Status, StudyTable};
 use crate::files::table::Cell;
 use occupant_study::search::Stage;
 

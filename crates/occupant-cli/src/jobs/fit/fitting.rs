@@ -5,14 +5,11 @@ use std::path::Path;
 use occupant_study::{ApplyChoice, Bounds, Fit, Law, Parameter, StudyText};
 use serde::Serialize;
 
-use super::experiment::{Correction, Experiment};
 use super::opening::{Given, Opening};
-use super::target::Target;
-use crate::base::failure::Failure;
-use crate::base::names::{file_name, file_stem};
+use super::{Correction, Experiment, Target};
+use crate::base::{Failure, file_name, file_stem};
 use crate::files::scenario::{nothing_was_run, refused};
-use crate::files::study_folder::manifest::{Manifest, Text};
-use crate::files::study_folder::texts::{NamedBy, Texts};
+use crate::files::study_folder::{Manifest, NamedBy, Text, Texts};
 use crate::jobs::sweep::plan::study_text;
 
 /// So many evaluations may come on top of the budget.

@@ -5,9 +5,8 @@ use occupant_study::misfit::{likelihood_rise, unrelated_samples};
 use occupant_study::search::{Descents, Global, Point, Profiles, Reach, Shape, Stage, descend, profile, refine, scan};
 use serde::Serialize;
 
-use super::evaluator::{Evaluator, Record, WORST};
-use super::fitting::Fitting;
-use crate::base::failure::Failure;
+use super::{Evaluator, Fitting, Record, WORST};
+use crate::base::Failure;
 
 /// Scores that differ by less are the same where a study says nothing, the likelihood of "rms" apart.
 const SAME: f64 = 0.01;

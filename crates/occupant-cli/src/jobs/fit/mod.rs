@@ -22,3 +22,15 @@ mod result;
 mod scenario_text;
 mod target;
 mod verdict;
+
+use accord::Accord;
+use evaluator::{Evaluator, Record, WORST};
+use experiment::{Correction, Experiment};
+use fitting::{Fitting, Test};
+use identified::{Answer, Near};
+use output::FittedRuns;
+use progress::Progress;
+use result::{COMPENSATING, FitResult, IntervalEnd, ParameterEstimate};
+use scenario_text::Fitted;
+use target::{FAMILY, Target};
+use verdict::Verdict;

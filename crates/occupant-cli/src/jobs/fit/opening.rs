@@ -7,14 +7,13 @@ use occupant_core::results::channel::{Channel, channels, find};
 use occupant_core::scenario::Draft;
 use occupant_study::{Fit, FitChannel, FitTest, Study, StudyText};
 
-use super::experiment::Experiment;
-use super::fitting::Test;
-use super::target::{Target, filter_of};
-use crate::base::names::{ending, file_name};
+use super::target::filter_of;
+use super::{Experiment, Target, Test};
+use crate::base::{ending, file_name};
 use crate::files::measured::{self, MapArgument, Pair, Wanted, pairs};
 use crate::files::scenario::{Tables, format_of};
 use crate::files::signals::Recording;
-use crate::files::study_folder::texts::{NamedBy, Texts};
+use crate::files::study_folder::{NamedBy, Texts};
 use crate::jobs::sweep::plan::named_file;
 
 /// Tests that the command line gives.

@@ -5,21 +5,11 @@ use std::path::{Component, Path};
 
 use occupant_core::results::summary::Summarizer;
 
-use super::accord::Accord;
-use super::evaluator::Record;
-use super::experiment::{Correction, Experiment};
-use super::fitting::Fitting;
-use super::identified::Answer;
 use super::plots::{Pair, sheets};
-use super::result::FitResult;
-use super::scenario_text::{Fitted, fitted, numbers};
-use super::{candidates, report};
-use crate::base::failure::Failure;
-use crate::base::names::{file_name, file_stem};
-use crate::base::output_file::{Existing, write_whole};
-use crate::base::talk::{json, say};
-use crate::files::study_folder::checksums::Checksums;
-use crate::files::study_folder::folder::Folder;
+use super::scenario_text::{fitted, numbers};
+use super::{Accord, Answer, Correction, Experiment, FitResult, Fitted, Fitting, Record, candidates, report};
+use crate::base::{Existing, Failure, file_name, file_stem, json, say, write_whole};
+use crate::files::study_folder::{Checksums, Folder};
 
 /// Writes the results of a fit.
 pub(crate) struct Output<'a> {

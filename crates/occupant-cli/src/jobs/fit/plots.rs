@@ -2,9 +2,8 @@
 
 use occupant_core::results::channel::Series;
 
-use super::experiment::{Correction, Experiment, in_group};
-use super::fitting::Fitting;
-use super::target::Target;
+use super::experiment::in_group;
+use super::{Correction, Experiment, Fitting, Target};
 use crate::files::history::{Filter, Histories, UnitChoice};
 use crate::pictures::plot::{self, Entry, Figure, Material, Overlay, Plot, RunCurves, Sheet, sheet};
 

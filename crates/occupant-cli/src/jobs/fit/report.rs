@@ -2,8 +2,7 @@
 
 use occupant_study::ApplyChoice;
 
-use super::result::{COMPENSATING, FitResult, IntervalEnd, ParameterEstimate};
-use super::verdict::Verdict;
+use super::{COMPENSATING, FitResult, IntervalEnd, ParameterEstimate, Verdict};
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, Table, facts};
 

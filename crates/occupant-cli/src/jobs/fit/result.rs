@@ -4,13 +4,8 @@ use occupant_study::ApplyChoice;
 use occupant_study::search::Stage;
 use serde::Serialize;
 
-use super::accord::Accord;
-use super::evaluator::Record;
-use super::fitting::{Fitting, Test};
-use super::identified::{Answer, Near};
-use super::output::FittedRuns;
-use super::scenario_text::Fitted;
-use super::verdict::{Verdict, verdicts};
+use super::verdict::verdicts;
+use super::{Accord, Answer, Fitted, FittedRuns, Fitting, Near, Record, Test, Verdict};
 use crate::files::history::class_name;
 use crate::jobs::compare::Source;
 

@@ -9,7 +9,7 @@ use placed_text::{Step, parse_path};
 use serde::Serialize;
 use toml_edit::{DocumentMut, InlineTable, Item, Table, TableLike, Value, value};
 
-use super::experiment::Experiment;
+use super::Experiment;
 use crate::files::scenario::format_of;
 
 /// Significant digits of fitted numbers.

@@ -4,10 +4,7 @@ use occupant_study::search::End;
 use occupant_study::{ApplyChoice, Bounds, Value};
 use serde::Serialize;
 
-use super::evaluator::Record;
-use super::fitting::Fitting;
-use super::identified::Answer;
-use super::result::{COMPENSATING, IntervalEnd, ParameterEstimate};
+use super::{Answer, COMPENSATING, Fitting, IntervalEnd, ParameterEstimate, Record};
 
 /// An interval of more than this part of the range, both ends of which are bounds, says nothing.
 const WIDE: f64 = 0.25;

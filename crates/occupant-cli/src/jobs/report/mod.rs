@@ -11,8 +11,7 @@ mod motion;
 mod page;
 mod provenance;
 
-use crate::base::failure::Failure;
-use crate::base::names::program;
+use crate::base::{Failure, program};
 use crate::files::results::Results;
 
 pub(crate) use data::Report;

@@ -10,9 +10,8 @@ use occupant_core::results::summary::{Figure, Summarizer, Summary};
 use occupant_core::run::simulate::simulate;
 use serde::Serialize;
 
-use crate::base::failure::Failure;
-use crate::base::interrupt::Interrupt;
 use crate::base::text_table::{facts, number};
+use crate::base::{Failure, Interrupt};
 use crate::files::scenario::Opened;
 
 /// A figure that differs by more than this part of itself is named in the table.

@@ -16,9 +16,8 @@ use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{Summarizer, Summary};
 use occupant_core::run::simulate::{resume, simulate};
 
-use crate::base::failure::Failure;
-use crate::base::interrupt::Interrupt;
 use crate::base::progress::Progress;
+use crate::base::{Failure, Interrupt};
 use crate::files::scenario::Opened;
 use estimate::head_m;
 use recording::{Recording, Written};

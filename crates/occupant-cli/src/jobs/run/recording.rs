@@ -10,9 +10,7 @@ use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 
 use super::resume::Resumption;
-use crate::base::failure::Failure;
-use crate::base::names::{file_name, program};
-use crate::base::output_file::{Existing, PartialFile, partial_path, refuse_input};
+use crate::base::{Existing, Failure, PartialFile, file_name, partial_path, program, refuse_input};
 use crate::files::mcap::about::RESOLVED;
 use crate::files::mcap::{About, Document, McapOptions, McapRecorder};
 use crate::files::scenario::{Opened, ScenarioArgs};

@@ -13,7 +13,7 @@ use occupant_study::sensitivity::measures::{Derivatives, Request, Values, chosen
 use occupant_study::sensitivity::{Built, Parameter, Trajectory, follow, parameter};
 use placed_text::Problem;
 
-use crate::base::failure::Failure;
+use crate::base::Failure;
 use crate::files::history::choose;
 use crate::files::scenario::counted;
 

@@ -4,7 +4,7 @@ use occupant_core::model::Model;
 
 use super::analysis::{Analysis, Asked};
 use super::units::{ascii, per};
-use crate::base::names::program;
+use crate::base::program;
 use crate::files::export::{About, ColumnAbout};
 use crate::files::history::{Column, Histories, UnitChoice, shown};
 

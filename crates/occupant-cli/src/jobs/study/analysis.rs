@@ -7,7 +7,8 @@ use occupant_study::analysis::{
 use occupant_study::spread::Spread;
 use occupant_study::{Block, Design, Role, Study};
 
-use super::samples::{Input, Samples, varies};
+use super::samples::varies;
+use super::{Input, Samples};
 
 /// The regression of k parameters looks at no more than this over (k + 1)² rows, evenly taken: its intervals are those of
 /// a thousand resamples.

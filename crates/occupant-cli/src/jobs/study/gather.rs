@@ -3,15 +3,12 @@
 use occupant_study::spread::{Rule, Verdict, median};
 use occupant_study::{Law, Study, Value};
 
-use super::samples::Samples;
-use crate::base::failure::Failure;
-use crate::files::study_folder::manifest::Role;
-use crate::files::study_folder::row::Row;
+use super::Samples;
+use crate::base::Failure;
+use crate::files::study_folder::{Role, Row};
 use crate::files::table::Cell;
-use crate::jobs::ensemble::judge::Judged;
-use crate::jobs::sweep::census::Census;
-use crate::jobs::sweep::extremes::Extremes;
-use crate::jobs::sweep::stored::Stored;
+use crate::jobs::ensemble::Judged;
+use crate::jobs::sweep::{Census, Extremes, Stored};
 
 /// So many runs are named at each end of a response.
 const EXTREMES: usize = 3;

@@ -2,9 +2,8 @@
 
 use occupant_study::analysis::{Estimate, SobolIndices};
 
-use super::analysis::{ByDesign, Linear};
 use super::shown::{part, shown};
-use super::{Finding, caution, plots};
+use super::{ByDesign, Finding, Linear, caution, plots};
 use crate::pictures::html::{Cell, Html};
 
 /// A column of a table with a row for each parameter: its head, whose numbers stand in it, and what of them.

@@ -24,12 +24,12 @@ mod tables;
 pub(crate) use page::page;
 pub(crate) use tables::{Tables, write as write_tables};
 
-use crate::base::failure::Failure;
-use crate::jobs::sweep::stored::Stored;
-use analysis::Analysis;
+use crate::base::Failure;
+use crate::jobs::sweep::Stored;
+use analysis::{Analysis, ByDesign, Linear};
 use gather::Gathered;
 use numbers::{Number, numbers};
-use samples::{Response, Samples};
+use samples::{Input, Response, Samples};
 
 /// Everything that a report says of a study.
 pub(crate) struct Report {

@@ -2,11 +2,9 @@
 
 use occupant_study::analysis::Estimate;
 
-use super::analysis::{Analysis, ByDesign};
-use super::caution;
 use super::command::command;
-use super::gather::Gathered;
-use crate::jobs::sweep::stored::Stored;
+use super::{Analysis, ByDesign, Gathered, caution};
+use crate::jobs::sweep::Stored;
 
 /// One number of a response, SI units.
 #[derive(Clone, Debug, PartialEq)]

@@ -1,8 +1,7 @@
 //! The plots of a report, drawn by [`crate::pictures::plot`].
 
-use super::Finding;
-use super::samples::{Input, Response};
 use super::shown::{shown_unit, significant};
+use super::{Finding, Input, Response};
 use crate::pictures::plot::{Axis, Curve, Figure, Style, inline};
 
 /// Size of a plot without its legend.

@@ -2,11 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::numbers::Number;
-use super::samples::Samples;
-use super::{Finding, Report};
-use crate::base::failure::Failure;
-use crate::base::output_file::Existing;
+use super::{Finding, Number, Report, Samples};
+use crate::base::{Existing, Failure};
 use crate::files::table::{Cell, Form, Kind, TableFile, columns};
 
 /// Where the tables of a report go.

@@ -5,21 +5,13 @@ use std::ops::Range;
 use occupant_study::Keep;
 use occupant_study::engine::Engine;
 
-use super::plan::Plan;
 use super::progress::Progress;
-use super::simulation::{Simulation, is_kept};
+use super::simulation::is_kept;
 use super::stored::sha256_of;
 use super::words::{tell, tell_damaged, warn_unlocked};
-use super::{kept, results};
-use crate::base::failure::{Done, Failure};
-use crate::base::interrupt::Interrupt;
-use crate::base::talk::say;
-use crate::files::study_folder::checksums::Checksums;
-use crate::files::study_folder::finished::Finished;
-use crate::files::study_folder::folder::Folder;
-use crate::files::study_folder::journal::{Journal, JournalWriter};
-use crate::files::study_folder::problem::Problem;
-use crate::files::study_folder::shard::Shard;
+use super::{Plan, Simulation, kept, results};
+use crate::base::{Done, Failure, Interrupt, say};
+use crate::files::study_folder::{Checksums, Finished, Folder, Journal, JournalWriter, Problem, Shard};
 
 /// A sweep, or one part of it.
 pub(crate) struct Sweep {

@@ -9,15 +9,9 @@ use std::sync::atomic::AtomicBool;
 use occupant_study::Keep;
 use occupant_study::engine::Engine;
 
-use super::plan::Plan;
-use super::simulation::Simulation;
-use crate::base::failure::Failure;
-use crate::base::output_file::partial_path;
-use crate::files::study_folder::checksums::Checksums;
-use crate::files::study_folder::folder::Folder;
-use crate::files::study_folder::journal::Journal;
-use crate::files::study_folder::problem::Problem;
-use crate::files::study_folder::row::Status;
+use super::{Plan, Simulation};
+use crate::base::{Failure, partial_path};
+use crate::files::study_folder::{Checksums, Folder, Journal, Problem, Status};
 
 /// Reads `none`, `all`, `3, 17` or `worst 5 by head.peak`.
 pub(crate) fn parse(text: &str) -> Option<Keep> {

@@ -9,11 +9,9 @@ use occupant_core::scenario::{Diagnostics, Draft, Loaded};
 use occupant_study::{Design, Law, Parameter, Setting, Study, StudyText, Value};
 use placed_text::Value as Written;
 
-use crate::base::failure::Failure;
-use crate::base::names::file_name;
+use crate::base::{Failure, file_name};
 use crate::files::scenario::{Opened, ScenarioArgs, Tables, format_of, refused};
-use crate::files::study_folder::manifest::{Column, Manifest, Role};
-use crate::files::study_folder::texts::{NamedBy, Texts};
+use crate::files::study_folder::{Column, Manifest, NamedBy, Role, Texts};
 use crate::files::table::Cell;
 use crate::jobs::run::FirstOutput;
 

@@ -8,13 +8,11 @@ use std::path::PathBuf;
 
 use occupant_study::spread::{Rule, Verdict};
 
-use crate::base::failure::Failure;
-use crate::base::output_file::Existing;
-use crate::files::study_folder::folder::Folder;
-use crate::files::study_folder::manifest::{Manifest, Role};
-use crate::files::study_folder::row::Row;
+use crate::base::{Existing, Failure};
+use crate::files::study_folder::{Folder, Manifest, Role, Row};
 use crate::files::table::{Cell, Form, Kind, TableFile, columns};
-use crate::jobs::ensemble::judge::{Judged, is_result, judge};
+use crate::jobs::ensemble::Judged;
+use crate::jobs::ensemble::judge::{is_result, judge};
 
 /// Holds the number of the sample that a run is a member of.
 const SAMPLE: &str = "input.ensemble.sample";

@@ -2,15 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::base::failure::Failure;
-use crate::base::names::program;
-use crate::files::study_folder::checksums::Checksums;
-use crate::files::study_folder::folder::{Folder, Holds};
-use crate::files::study_folder::journal::Journal;
-use crate::files::study_folder::manifest::{Manifest, Role, Text};
-use crate::files::study_folder::problem::Problem;
-use crate::files::study_folder::texts::Texts;
-use crate::jobs::sweep::plan::Plan;
+use super::Plan;
+use crate::base::{Failure, program};
+use crate::files::study_folder::{Checksums, Folder, Holds, Journal, Manifest, Problem, Role, Text, Texts};
 
 /// A sweep, finished or not.
 pub(crate) struct Stored {

@@ -2,13 +2,11 @@
 
 use std::path::PathBuf;
 
-use super::results::Results;
-use super::stable::Ensembles;
-use crate::base::failure::{Done, Failure};
-use crate::base::talk;
+use super::{Ensembles, Results};
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{Table, facts};
-use crate::files::study_folder::folder::Held;
+use crate::base::{Done, Failure, talk};
+use crate::files::study_folder::Held;
 use crate::jobs::ensemble::text::{figure_table, is_shown};
 
 /// Warns where a file system has no locks; `doing` is what two processes could be at in one folder.
