@@ -85,30 +85,19 @@ pub(crate) fn figure_table(figures: &[Judged]) -> String {
     let mut table =
         Table::new(&[(Left, &["figure"]), (Right, &["unchanged", "median", "5 %", "95 %"]), (Left, &["", ""])]);
     for figure in figures.iter().filter(|f| is_shown(&f.name)) {
-        table.row(figure_row(figure));
+        let (s, (per, unit)) = (&figure.spread, shown_unit(&figure.unit));
+        let shown = |x: f64| number(x / per, decimals(s.median / per));
+        let verdict = match (figure.verdict, s.missing) {
+            (Verdict::Stable, _) => "stable".to_owned(),
+            (Verdict::NotStable, 0) => "NOT STABLE".to_owned(),
+            (Verdict::NotStable, n) => format!("NOT STABLE ({n} members have none)"),
+            (Verdict::TooFew, _) => "too few members".to_owned(),
+        };
+        let unchanged = figure.nominal.map_or(NONE.to_owned(), shown);
+        let [median, q05, q95] = [s.median, s.q05, s.q95].map(shown);
+        table.row([figure.name.clone(), unchanged, median, q05, q95, unit.to_owned(), verdict]);
     }
     table.text()
-}
-
-fn figure_row(figure: &Judged) -> [String; 7] {
-    let (per, unit) = shown_unit(&figure.unit);
-    let shown = |x: f64| number(x / per, decimals(figure.spread.median / per));
-    let s = &figure.spread;
-    let verdict = match (figure.verdict, s.missing) {
-        (Verdict::Stable, _) => "stable".to_owned(),
-        (Verdict::NotStable, 0) => "NOT STABLE".to_owned(),
-        (Verdict::NotStable, n) => format!("NOT STABLE ({n} members have none)"),
-        (Verdict::TooFew, _) => "too few members".to_owned(),
-    };
-    [
-        figure.name.clone(),
-        figure.nominal.map_or(NONE.to_owned(), shown),
-        shown(s.median),
-        shown(s.q05),
-        shown(s.q95),
-        unit.to_owned(),
-        verdict,
-    ]
 }
 
 /// SI units in one unit of the tables, and its name there.

@@ -29,7 +29,7 @@ fn manifest(fitting: &Fitting) -> Manifest {
         column("descent".to_owned(), "1", Role::Input),
         column("generation".to_owned(), "1", Role::Input),
     ];
-    let parameters = fitting.parameters().iter();
+    let parameters = fitting.parameters.iter();
     manifest.columns.extend(parameters.map(|p| column(format!("input.{}", p.name), one_if_empty(p.unit), Role::Input)));
     for name in ["score", "best"] {
         manifest.columns.push(column(name.to_owned(), "1", Role::Figure));

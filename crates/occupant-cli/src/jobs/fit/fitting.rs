@@ -22,7 +22,7 @@ pub(crate) struct Fitting {
     pub(crate) experiments: Vec<Experiment>,
     pub(crate) tests: Vec<Test>,
     /// What is looked for: the parameters of the study, then offsets and gains of tests.
-    parameters: Vec<Parameter>,
+    pub(crate) parameters: Vec<Parameter>,
     /// Between which ends the parameters are looked for.
     pub(crate) bounds: Vec<Bounds>,
     /// Changes from the command line.
@@ -84,11 +84,6 @@ impl Fitting {
         Ok(Fitting { fit, experiments, tests, parameters, bounds, overrides, manifest, texts, warnings })
     }
 
-    /// What is fitted.
-    pub(crate) fn parameters(&self) -> &[Parameter] {
-        &self.parameters
-    }
-
     /// What stands between each test and the truth with these values of all parameters, or without any.
     pub(crate) fn corrections(&self, values: Option<&[f64]>) -> Vec<Correction> {
         let own = self.experiments[0].study.parameters.len();
@@ -124,7 +119,7 @@ impl Fitting {
             }
             _ => 0.5,
         };
-        self.parameters().iter().zip(&self.bounds).map(start).collect()
+        self.parameters.iter().zip(&self.bounds).map(start).collect()
     }
 }
 

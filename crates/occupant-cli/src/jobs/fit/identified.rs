@@ -105,11 +105,12 @@ fn rise(fitting: &Fitting, best: &Point) -> Result<(f64, Near), Failure> {
     let score = misfit.of_cost(best.value);
     // never nothing, however small `near` is beside the score
     let above = |near: f64| (misfit.cost(score + near) - misfit.cost(score)).max(1e-12 * (1.0 + best.value));
-    if let Some(near) = fitting.fit.near {
-        return Ok((above(near), Near { by: "the study", unrelated_residuals: None }));
+    let near = |rise: f64, by, unrelated_residuals| Ok((rise, Near { by, unrelated_residuals }));
+    if let Some(given) = fitting.fit.near {
+        return near(above(given), "the study", None);
     }
     if misfit != Misfit::Rms {
-        return Ok((above(SAME), Near { by: "scores that differ by less than 0.01", unrelated_residuals: None }));
+        return near(above(SAME), "scores that differ by less than 0.01", None);
     }
     let values = fitting.values(&best.at);
     let mut unrelated = 0.0;
@@ -122,10 +123,8 @@ fn rise(fitting: &Fitting, best: &Point) -> Result<(f64, Near), Failure> {
     }
     let likely = likelihood_rise(best.value, unrelated);
     let least = NONE * NONE;
-    Ok(match likely > least {
-        true => (likely, Near { by: "95 % likelihood of the residuals", unrelated_residuals: Some(unrelated) }),
-        false => {
-            (least, Near { by: "0.05 % of the measured peaks: the residuals are smaller", unrelated_residuals: None })
-        }
-    })
+    if likely > least {
+        return near(likely, "95 % likelihood of the residuals", Some(unrelated));
+    }
+    near(least, "0.05 % of the measured peaks: the residuals are smaller", None)
 }

@@ -83,11 +83,11 @@ impl Output<'_> {
         let provenance: Vec<(String, String)> = numbers.iter().map(|n| (n.path.clone(), words(n))).collect();
         let head =
             format!("# {} with the numbers of the fit {study}: see [provenance].\n", file_name(&experiment.scenario));
-        let text = fitted(experiment, &numbers, &provenance, &head).map_err(Failure::broke_off)?;
-        if !text.kept {
+        let (text, kept) = fitted(experiment, &numbers, &provenance, &head).map_err(Failure::broke_off)?;
+        if !kept {
             say(&format!("note: {name} is written anew: its comments and order could not be kept"));
         }
-        self.put(Path::new(name), text.text.as_bytes())?;
+        self.put(Path::new(name), text.as_bytes())?;
         let folder = Path::new(name).parent().unwrap_or(Path::new(""));
         // beside the scenario that names them, if that is a place below it
         let is_below = |table: &str| Path::new(table).components().all(|c| matches!(c, Component::Normal(_)));

@@ -228,7 +228,7 @@ fn channels(fitting: &Fitting, answer: &Answer, parts: &[(f64, Accord)]) -> Vec<
 }
 
 fn correlations(fitting: &Fitting, answer: &Answer) -> Vec<Correlation> {
-    let parameters = fitting.parameters();
+    let parameters = &fitting.parameters;
     let pairs = (0..parameters.len()).flat_map(|a| (a + 1..parameters.len()).map(move |b| [a, b]));
     let correlation = |[a, b]: [usize; 2]| {
         let between = [a, b].map(|i| parameters[i].name.clone());

@@ -35,12 +35,12 @@ pub(crate) enum Verdict {
 
 /// All parameters with their verdicts; `sets` are the evaluated ones that are as good as the best.
 pub(crate) fn verdicts(fitting: &Fitting, answer: &Answer, sets: &[&Record]) -> Vec<ParameterEstimate> {
-    let parameters = 0..fitting.parameters().len();
+    let parameters = 0..fitting.parameters.len();
     parameters.map(|i| parameter(fitting, answer, sets, i)).collect()
 }
 
 fn parameter(fitting: &Fitting, answer: &Answer, sets: &[&Record], i: usize) -> ParameterEstimate {
-    let (of, bounds) = (&fitting.parameters()[i], fitting.bounds[i]);
+    let (of, bounds) = (&fitting.parameters[i], fitting.bounds[i]);
     let u = answer.best.at[i];
     let ends = &answer.profiles.ends[i];
     let open = [0, 1].map(|s| is_open(&ends[s], &answer.best.at));
@@ -77,7 +77,7 @@ fn parameter(fitting: &Fitting, answer: &Answer, sets: &[&Record], i: usize) -> 
 
 /// In which unit the values of a parameter are shown, and how many SI units it is: that of its place.
 fn shown_unit(fitting: &Fitting, i: usize) -> (String, f64) {
-    let parameter = &fitting.parameters()[i];
+    let parameter = &fitting.parameters[i];
     let base = &fitting.experiments[0].study.base;
     let place = parameter.targets.first();
     match parameter.apply {
@@ -113,7 +113,7 @@ fn verdict(u: f64, ends: &[End; 2], open: [bool; 2]) -> Verdict {
 
 /// The parameters that make up for this one.
 fn partners(fitting: &Fitting, answer: &Answer, i: usize) -> Vec<String> {
-    let parameters = fitting.parameters().iter().enumerate();
+    let parameters = fitting.parameters.iter().enumerate();
     let makes_up = |j: usize| {
         let correlation = answer.shape.correlation(i, j);
         j != i && correlation.is_some_and(|c| c.abs() > COMPENSATING)

@@ -122,8 +122,8 @@ impl Sweep {
 
     /// The tables, and the worst.
     fn finish(&self, journal: &Journal, progress: &Progress, sums: Checksums) -> Result<Done, Failure> {
-        let found = results::write((&self.folder, &sums), journal, &self.plan.manifest, &self.keep, self.csv)?;
-        self.write_kept(journal, &sums, found.worst.iter().copied())?;
+        let results = results::write((&self.folder, &sums), journal, &self.plan.manifest, &self.keep, self.csv)?;
+        self.write_kept(journal, &sums, results.worst.iter().copied())?;
         sums.close()?;
         if self.quiet {
             return Ok(Done::Well);
@@ -134,6 +134,6 @@ impl Sweep {
             progress.elapsed_s(),
             self.engine.threads()
         );
-        tell(&found, Some(work))
+        tell(&results, Some(work))
     }
 }

@@ -105,13 +105,8 @@ impl Plan {
     /// What is wrong with its scenario.
     pub(crate) fn open_sample(&self, index: u64) -> Result<Opened, Diagnostics> {
         let (loaded, model, warnings) = self.model(Some(index))?;
-        Ok(Opened {
-            // only a run that is kept needs them
-            bytes: Vec::new(),
-            loaded,
-            model,
-            warnings,
-        })
+        // only a run that is kept needs the bytes
+        Ok(Opened { bytes: Vec::new(), loaded, model, warnings })
     }
 
     /// The words with which `occupant run` runs a sample, and the scenario's bytes.
@@ -119,9 +114,7 @@ impl Plan {
         let mut overrides = self.changes.clone();
         let assignments = self.study.assignments(index);
         overrides.extend(assignments.iter().map(|a| format!("{}={}", a.path, a.text())));
-        let scenario = self.scenario.clone();
-        let args = ScenarioArgs { scenario, overrides };
-        (args, self.bytes.clone())
+        (ScenarioArgs { scenario: self.scenario.clone(), overrides }, self.bytes.clone())
     }
 
     /// The model of a sample, or of the base scenario.
@@ -158,18 +151,15 @@ impl Plan {
     fn columns(&self) -> Result<Vec<Column>, Failure> {
         let number = |name: &str, unit: &str| Column {
             name: format!("input.{name}"),
-            unit: match unit {
-                "" => "1".to_owned(),
-                unit => unit.to_owned(),
-            },
+            unit: if unit.is_empty() { "1" } else { unit }.to_owned(),
             role: Role::Input,
         };
         let input = |(at, parameter): (usize, &Parameter)| {
+            let column = number(&parameter.name, parameter.unit);
             if has_texts(&self.study, at) {
-                Column { name: format!("input.{}", parameter.name), unit: String::new(), role: Role::InputText }
-            } else {
-                number(&parameter.name, parameter.unit)
+                return Column { unit: String::new(), role: Role::InputText, ..column };
             }
+            column
         };
         let parameters = self.study.parameters.iter().enumerate();
         let mut columns: Vec<Column> = parameters.map(input).collect();
@@ -177,12 +167,8 @@ impl Plan {
             columns.push(number("ensemble.sample", ""));
             columns.push(number("ensemble.member", ""));
         }
-        let figures = self.figures()?;
-        columns.extend(figures.into_iter().map(|figure| Column {
-            name: figure.name,
-            unit: figure.unit.to_owned(),
-            role: Role::Figure,
-        }));
+        let figure = |f: Figure| Column { name: f.name, unit: f.unit.to_owned(), role: Role::Figure };
+        columns.extend(self.figures()?.into_iter().map(figure));
         Ok(columns)
     }
 
