@@ -1,5 +1,6 @@
 //! How a command ends: done, or why it could not do its work. Each end has its exit code.
 
+use std::fmt::Display;
 use std::path::Path;
 
 use occupant_study::engine::Unrecorded;
@@ -53,6 +54,11 @@ impl Failure {
         }
     }
 
+    /// Ran and broke off.
+    pub(crate) fn broke_off(reason: impl Display) -> Self {
+        Failure::BrokeOff(format!("error: {reason}"))
+    }
+
     /// Could not run.
     pub(crate) fn plain(found: impl Into<String>) -> Self {
         Failure::CouldNotRun(format!("error: {}", found.into()))
@@ -61,6 +67,6 @@ impl Failure {
 
 impl From<Unrecorded> for Failure {
     fn from(error: Unrecorded) -> Self {
-        Failure::BrokeOff(format!("error: {error}"))
+        Failure::broke_off(error)
     }
 }

@@ -13,3 +13,10 @@ pub(crate) mod progress;
 pub(crate) mod sha256;
 pub(crate) mod talk;
 pub(crate) mod text_table;
+
+pub(crate) use failure::{Done, Failure};
+pub(crate) use interrupt::Interrupt;
+pub(crate) use names::{ending, file_name, file_stem, program};
+pub(crate) use output_file::{Existing, PartialFile, begun, partial_path, refuse_input, write_whole};
+pub(crate) use sha256::sha256;
+pub(crate) use talk::{json, note, say};

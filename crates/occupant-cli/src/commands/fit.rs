@@ -72,7 +72,7 @@ pub(crate) struct Args {
 pub(crate) fn fit(args: &Args) -> Result<Done, Failure> {
     let engine = args.engine.engine()?;
     let given = Given { files: &args.to, maps: &args.map, overrides: &args.overrides };
-    let fitting = Fitting::open(&args.study, &given, program()).map_err(Failure::CouldNotRun)?;
+    let fitting = Fitting::open(&args.study, &given, program())?;
     if !args.quiet {
         fitting.warnings.iter().for_each(|w| say(&format!("{w}\n")));
     }

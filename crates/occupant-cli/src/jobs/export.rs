@@ -4,10 +4,7 @@ use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-use crate::base::failure::Failure;
-use crate::base::names::file_name;
-use crate::base::output_file::{Existing, PartialFile, begun, refuse_input};
-use crate::base::talk::json;
+use crate::base::{Existing, Failure, PartialFile, begun, file_name, json, refuse_input};
 use crate::files::export::{About, metadata, table};
 use crate::files::history::{Histories, UnitChoice};
 use crate::files::table::Form;
@@ -59,7 +56,7 @@ impl TableFiles {
 }
 
 fn unwritten(path: &Path, error: &std::io::Error) -> Failure {
-    Failure::BrokeOff(format!("error: cannot write {}: {error}", path.display()))
+    Failure::broke_off(format!("cannot write {}: {error}", path.display()))
 }
 
 /// `out.csv` → `out.csv-metadata.json`.

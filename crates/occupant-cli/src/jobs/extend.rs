@@ -7,16 +7,16 @@ use cardio_legacy::{
 };
 use occupant_core::model::Model;
 use occupant_core::results::outcome::Status;
-use occupant_core::results::recorder::{Flow, Recorder, RecorderError, Watch};
+use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::{replay, simulate};
 use occupant_core::scenario::{Draft, Format};
 use occupant_core::vehicle::VehiclePath;
 
-use crate::base::failure::Failure;
-use crate::base::talk::say;
+use crate::base::{Failure, say};
 use crate::files::mcap::StoredRun;
 use crate::files::scenario;
+use crate::jobs::run::FirstOutput;
 
 /// Runs a deck's scenario and gives the file of the deck that continues it.
 ///
@@ -69,11 +69,9 @@ pub(crate) fn extend_run(
     let cards = Deck::from_scenario(&loaded, layout);
     let mut cards = cards.map_err(|e| Failure::CouldNotRun(format!("error: {name}: {e}")))?;
     let layout = layout_or_ours(layout)?;
-    let broke = |error: &dyn std::error::Error| Failure::BrokeOff(format!("error: {name}: {error}"));
-    let mut first = First(None);
-    simulate(&model, &mut first).map_err(|e| broke(&e))?;
-    let rest = first.0.unwrap_or_default();
-    let mut end = None;
+    let broke = |error: &dyn std::error::Error| Failure::broke_off(format!("{name}: {error}"));
+    let (mut rest, mut end) = ([0.0; 2], None);
+    simulate(&model, (Watch(|s: &Sample<'_>| rest = spine_rest(s)), FirstOutput)).map_err(|e| broke(&e))?;
     let mut watch = Watch(|s: &Sample<'_>| end = Some(RunEnd::after(rest, s, &layout)));
     replay(&model, last, &mut watch).map_err(|e| broke(&e))?;
     let end = end.ok_or_else(|| Failure::plain(format!("{name} holds no checkpoint")))?;
@@ -90,16 +88,6 @@ pub(crate) fn extend_run(
 /// The compartment given, else the built-in reconstruction.
 fn layout_or_ours(given: Option<&CompartmentLayout>) -> Result<CompartmentLayout, Failure> {
     given.cloned().map_or_else(|| CompartmentLayout::reconstruction().map_err(Failure::plain), Ok)
-}
-
-/// Looks at the first output alone, for β₀ of the spine.
-struct First(Option<[f64; 2]>);
-
-impl Recorder for First {
-    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
-        self.0 = Some(spine_rest(sample));
-        Ok(Flow::Stop)
-    }
 }
 
 /// Refuses a time that does not lie behind the end of the run, or for which the path has no stations.
@@ -124,9 +112,9 @@ fn run_end(model: &Model, layout: &CompartmentLayout) -> Result<RunEnd, Failure>
         let rest = *rest.get_or_insert_with(|| spine_rest(sample));
         end = Some(RunEnd::after(rest, sample, layout));
     });
-    let outcome = simulate(model, watch).map_err(|error| Failure::BrokeOff(format!("error: {error}")))?;
+    let outcome = simulate(model, watch).map_err(Failure::broke_off)?;
     match (outcome.status, end) {
         (Status::Completed, Some(end)) => Ok(end),
-        (status, _) => Err(Failure::BrokeOff(format!("error: the run did not reach its end: {status:?}"))),
+        (status, _) => Err(Failure::broke_off(format!("the run did not reach its end: {status:?}"))),
     }
 }

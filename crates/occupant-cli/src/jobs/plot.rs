@@ -5,8 +5,7 @@ use std::path::PathBuf;
 use occupant_core::quantity::Axes;
 use occupant_core::results::channel::{Channel, find};
 
-use crate::base::failure::Failure;
-use crate::base::names::file_name;
+use crate::base::{Failure, file_name};
 use crate::files::history::{Treatment, UnitChoice, choose, load};
 use crate::files::measured::{self, MapArgument, Wanted, pairs};
 use crate::files::results::Results;

@@ -62,9 +62,8 @@ pub(crate) fn merge(args: &MergeArgs) -> Result<Done, Failure> {
     tell_damaged(&sums.damaged());
     let runs = kept::among(&sums.damaged(), &target, 0..manifest.samples);
     let found = results::write((&target, &sums), &journal, &manifest, &keep, args.csv || plan.study.csv)?;
-    let lacking = kept::missing(&target, &journal, &sums, found.worst.iter().copied().chain(runs))?;
-    let engine = engine(args.threads, Kernel::best())?;
-    kept::write(&plan, (&target, &sums), &lacking, &engine, &AtomicBool::new(false))?;
+    let (wanted, engine) = (found.worst.iter().copied().chain(runs), engine(args.threads, Kernel::best())?);
+    kept::write_missing(&plan, (&target, &sums), &journal, wanted, &engine, &AtomicBool::new(false))?;
     sums.close()?;
     if args.quiet { Ok(Done::Well) } else { tell(&found, None) }
 }

@@ -13,3 +13,14 @@ pub(crate) mod row;
 pub(crate) mod shard;
 pub(crate) mod table;
 pub(crate) mod texts;
+
+pub(crate) use checksums::Checksums;
+pub(crate) use finished::Finished;
+pub(crate) use folder::{Folder, Held, Holds};
+pub(crate) use journal::{Journal, JournalWriter};
+pub(crate) use manifest::{Column, Manifest, Role, Text};
+pub(crate) use problem::Problem;
+pub(crate) use row::{Row, Status};
+pub(crate) use shard::Shard;
+pub(crate) use table::StudyTable;
+pub(crate) use texts::{NamedBy, Texts};

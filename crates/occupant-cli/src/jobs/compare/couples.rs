@@ -4,7 +4,7 @@ use crash_measures::signal::ChannelClass;
 use occupant_core::results::channel::{Channel, channels};
 
 use super::{Remarks, Request};
-use crate::base::failure::Failure;
+use crate::base::Failure;
 use crate::files::history::{Filter, choose, load};
 use crate::files::measured::{self, Pair, Wanted, is_recording, pairs};
 use crate::files::results::Results;

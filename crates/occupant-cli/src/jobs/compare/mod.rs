@@ -8,9 +8,8 @@ use std::path::Path;
 use occupant_study::ending::Balance;
 use serde::Serialize;
 
-use crate::base::failure::Failure;
-use crate::base::names::{file_name, program};
 use crate::base::text_table::facts;
+use crate::base::{Failure, file_name, program};
 use crate::files::history::{Treatment, class_name};
 use crate::files::measured::MapArgument;
 use crate::files::results::Results;
@@ -49,10 +48,11 @@ pub(crate) struct Comparison {
     pub(crate) worthless: Vec<String>,
 }
 
+/// A file that was read, and its SHA-256.
 #[derive(Serialize)]
-struct Source {
-    file: String,
-    sha256: String,
+pub(crate) struct Source {
+    pub(crate) file: String,
+    pub(crate) sha256: String,
 }
 
 #[derive(Serialize)]

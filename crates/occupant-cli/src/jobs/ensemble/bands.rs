@@ -8,7 +8,7 @@ use occupant_study::spread::Band;
 use serde::Serialize;
 
 use super::judge::smallest;
-use crate::base::failure::Failure;
+use crate::base::Failure;
 use crate::files::history;
 use crate::files::table::{Cell, Kind, columns};
 

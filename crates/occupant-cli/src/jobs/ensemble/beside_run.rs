@@ -8,15 +8,9 @@ use occupant_study::engine::Engine;
 use occupant_study::{Study, Tolerances};
 use placed_text::shown;
 
-use super::bands::Bands;
-use super::members::{Left, Members};
-use super::plot;
-use super::report::Report;
-use crate::base::failure::Failure;
-use crate::base::interrupt::Interrupt;
-use crate::base::names::program;
-use crate::base::output_file::{Existing, write_whole};
+use super::{Bands, Left, Members, Report, plot};
 use crate::base::progress::bar;
+use crate::base::{Existing, Failure, Interrupt, program, write_whole};
 use crate::files::scenario::Opened;
 use crate::files::table::{Form, TableFile};
 use crate::pictures::Format;
@@ -98,11 +92,9 @@ impl Wanted {
             }
             BandFile::Picture(format) => {
                 let drawing = plot::svg(&report.bands, title, &words);
-                let bytes = format
-                    .encode(&drawing, PIXELS)
-                    .map_err(|e| Failure::BrokeOff(format!("error: {} cannot be made: {e}", path.display())))?;
-                let written = write_whole(path, self.existing, &bytes);
-                written.map_err(|reason| Failure::BrokeOff(format!("error: {reason}")))?
+                let unmade = |e| Failure::broke_off(format!("{} cannot be made: {e}", path.display()));
+                let bytes = format.encode(&drawing, PIXELS).map_err(unmade)?;
+                write_whole(path, self.existing, &bytes).map_err(Failure::broke_off)?
             }
         };
         Ok(written.display().to_string())

@@ -8,13 +8,12 @@ use std::ops::Range;
 use indicatif::ProgressBar;
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, Series};
-use occupant_core::results::summary::{Summarizer, Summary};
+use occupant_core::results::summary::{Figure, Summarizer, Summary};
 use occupant_study::Study;
 use occupant_study::engine::{Engine, Finished, NotBegun, Source};
 
 use super::judge::is_result;
-use crate::base::failure::Failure;
-use crate::base::interrupt::Interrupt;
+use crate::base::{Failure, Interrupt};
 
 /// What a run of the ensemble left, or why its figures are none.
 pub(crate) type Member = Result<Left, String>;
@@ -22,8 +21,7 @@ pub(crate) type Member = Result<Left, String>;
 /// Figures and histories of a run.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(crate) struct Left {
-    /// Name, unit and value of each figure.
-    pub(crate) figures: Vec<(String, &'static str, Option<f64>)>,
+    pub(crate) figures: Vec<Figure>,
     /// By channel: a value for each output.
     pub(crate) values: Vec<Vec<f64>>,
     /// Times of the outputs, s.
@@ -33,18 +31,14 @@ pub(crate) struct Left {
 impl Left {
     /// The value of a figure by its place in the list; NaN if there is none.
     pub(crate) fn value(&self, figure: usize) -> f64 {
-        let value = self.figures.get(figure).and_then(|f| f.2);
-        value.unwrap_or(f64::NAN)
+        self.figures.get(figure).and_then(|f| f.value).unwrap_or(f64::NAN)
     }
 
     /// What the summary of a run and the histories say.
     pub(crate) fn of(summary: &Summary, model: &Model, histories: Series) -> Left {
-        let figures = summary.figures(model).into_iter();
-        Left {
-            figures: figures.filter(|f| is_result(&f.name)).map(|f| (f.name, f.unit, f.value)).collect(),
-            values: histories.values,
-            time_s: histories.time_s,
-        }
+        let mut figures = summary.figures(model);
+        figures.retain(|f| is_result(&f.name));
+        Left { figures, values: histories.values, time_s: histories.time_s }
     }
 }
 
@@ -78,7 +72,7 @@ impl Members<'_> {
         self.bar.finish_and_clear();
         ended?;
         if self.interrupt.is_asked() {
-            return Err(Failure::BrokeOff("error: the ensemble was interrupted".to_owned()));
+            return Err(Failure::broke_off("the ensemble was interrupted"));
         }
         members.sort_unstable_by_key(|(number, _)| *number);
         Ok(members.into_iter().map(|(_, member)| member).collect())

@@ -13,3 +13,8 @@ pub(crate) mod members;
 mod plot;
 pub(crate) mod report;
 pub(crate) mod text;
+
+pub(crate) use bands::{Bands, ChannelBand};
+pub(crate) use judge::Judged;
+pub(crate) use members::{Left, Member, Members};
+pub(crate) use report::{Failed, Report};

@@ -3,8 +3,8 @@
 //! The middle 90 % is pale, the middle half darker, the median a line, the unchanged run a dashed one; a red line stands
 //! where the members part.
 
-use super::bands::{Bands, ChannelBand};
 use super::text::shown_unit;
+use super::{Bands, ChannelBand};
 use crate::pictures::plot::{Axis, Curve, Figure, Sheet, Style, sheet};
 
 const BLUE: &str = "#0072b2";

@@ -4,9 +4,8 @@ use occupant_study::Tolerances;
 use occupant_study::spread::Verdict;
 use serde::Serialize;
 
-use super::bands::Bands;
-use super::judge::{Judged, judge};
-use super::members::{Left, Member};
+use super::judge::judge;
+use super::{Bands, Judged, Left, Member};
 
 /// An ensemble that has been run; SI units.
 #[derive(Serialize)]
@@ -52,7 +51,7 @@ impl Report {
         let values = |i: usize| std::iter::once(nominal.value(i)).chain(others.iter().map(|m| value(i, m))).collect();
         let values: Vec<Vec<f64>> = (0..nominal.figures.len()).map(values).collect();
         let figures = nominal.figures.iter().zip(&values);
-        let figures = judge(figures.map(|((name, unit, _), values)| (name.as_str(), *unit, &values[..])), within);
+        let figures = judge(figures.map(|(f, values)| (f.name.as_str(), f.unit, &values[..])), within);
         let members = others.len() as u64 + 1;
         let completed = members - failed.len() as u64;
         Report { members, completed, seed, changes, within, failed, figures, bands, files: Vec::new() }

@@ -4,9 +4,7 @@ use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
 use occupant_study::Tolerances;
 use occupant_study::spread::Verdict;
 
-use super::bands::ChannelBand;
-use super::judge::Judged;
-use super::report::{Failed, Report};
+use super::{Failed, Judged, Report};
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, Table, facts, number, trimmed};
 
@@ -87,30 +85,19 @@ pub(crate) fn figure_table(figures: &[Judged]) -> String {
     let mut table =
         Table::new(&[(Left, &["figure"]), (Right, &["unchanged", "median", "5 %", "95 %"]), (Left, &["", ""])]);
     for figure in figures.iter().filter(|f| is_shown(&f.name)) {
-        table.row(figure_row(figure));
+        let (s, (per, unit)) = (&figure.spread, shown_unit(&figure.unit));
+        let shown = |x: f64| number(x / per, decimals(s.median / per));
+        let verdict = match (figure.verdict, s.missing) {
+            (Verdict::Stable, _) => "stable".to_owned(),
+            (Verdict::NotStable, 0) => "NOT STABLE".to_owned(),
+            (Verdict::NotStable, n) => format!("NOT STABLE ({n} members have none)"),
+            (Verdict::TooFew, _) => "too few members".to_owned(),
+        };
+        let unchanged = figure.nominal.map_or(NONE.to_owned(), shown);
+        let [median, q05, q95] = [s.median, s.q05, s.q95].map(shown);
+        table.row([figure.name.clone(), unchanged, median, q05, q95, unit.to_owned(), verdict]);
     }
     table.text()
-}
-
-fn figure_row(figure: &Judged) -> [String; 7] {
-    let (per, unit) = shown_unit(&figure.unit);
-    let shown = |x: f64| number(x / per, decimals(figure.spread.median / per));
-    let s = &figure.spread;
-    let verdict = match (figure.verdict, s.missing) {
-        (Verdict::Stable, _) => "stable".to_owned(),
-        (Verdict::NotStable, 0) => "NOT STABLE".to_owned(),
-        (Verdict::NotStable, n) => format!("NOT STABLE ({n} members have none)"),
-        (Verdict::TooFew, _) => "too few members".to_owned(),
-    };
-    [
-        figure.name.clone(),
-        figure.nominal.map_or(NONE.to_owned(), shown),
-        shown(s.median),
-        shown(s.q05),
-        shown(s.q95),
-        unit.to_owned(),
-        verdict,
-    ]
 }
 
 /// SI units in one unit of the tables, and its name there.
@@ -138,48 +125,37 @@ fn channels(report: &Report) -> String {
         (Right, &["members part at, ms", "by more than", "widest", "at, ms"]),
         (Left, &[""]),
     ]);
+    let ms = |t: f64| format!("{:.1}", t * 1e3);
     for band in &report.bands.channels {
-        table.row(channel_row(band));
+        let (per, unit) = shown_unit(band.unit);
+        let size = |x: f64| number(x / per, decimals(x / per));
+        table.row([
+            band.name.clone(),
+            band.lost_at_s.map_or("never".to_owned(), ms),
+            size(band.tolerance),
+            band.widest.map_or(NONE.to_owned(), size),
+            band.widest_at_s.map_or(NONE.to_owned(), ms),
+            unit.to_owned(),
+        ]);
     }
     table.text()
 }
 
-fn channel_row(band: &ChannelBand) -> [String; 6] {
-    let (per, unit) = shown_unit(band.unit);
-    let ms = |t: f64| format!("{:.1}", t * 1e3);
-    let size = |x: f64| number(x / per, decimals(x / per));
-    [
-        band.name.clone(),
-        band.lost_at_s.map_or("never".to_owned(), ms),
-        size(band.tolerance),
-        band.widest.map_or(NONE.to_owned(), size),
-        band.widest_at_s.map_or(NONE.to_owned(), ms),
-        unit.to_owned(),
-    ]
-}
-
 fn conclusion(report: &Report) -> String {
-    let unstable = report.unstable();
-    let all = report.figures.len();
-    match unstable.as_slice() {
-        _ if report.members < ENOUGH => {
-            format!("{} members are too few for a verdict: {ENOUGH} or more\n", report.members)
-        }
-        [] => format!("all {all} figures are stable\n"),
-        some => {
-            let more: Vec<&str> = some.iter().copied().filter(|name| !is_shown(name)).collect();
-            let named = more.iter().take(LISTED).copied();
-            let mut named: Vec<&str> = named.collect();
-            if more.len() > LISTED {
-                named.push("… (--json has all)");
-            }
-            let besides = match named.as_slice() {
-                [] => String::new(),
-                named => format!("; besides those above: {}", named.join(", ")),
-            };
-            format!("NOT STABLE: {} of {all} figures{besides}\n", some.len())
-        }
+    let (unstable, all) = (report.unstable(), report.figures.len());
+    if report.members < ENOUGH {
+        return format!("{} members are too few for a verdict: {ENOUGH} or more\n", report.members);
     }
+    if unstable.is_empty() {
+        return format!("all {all} figures are stable\n");
+    }
+    let mut more: Vec<&str> = unstable.iter().copied().filter(|name| !is_shown(name)).collect();
+    if more.len() > LISTED {
+        more.truncate(LISTED);
+        more.push("… (--json has all)");
+    }
+    let besides = if more.is_empty() { String::new() } else { format!("; besides those above: {}", more.join(", ")) };
+    format!("NOT STABLE: {} of {all} figures{besides}\n", unstable.len())
 }
 
 /// Whether the tables show a figure.

@@ -2,14 +2,10 @@
 
 use std::path::PathBuf;
 
-use super::evaluator::Record;
-use super::fitting::Fitting;
 use super::progress::words_of;
-use crate::base::failure::Failure;
-use crate::files::study_folder::folder::Folder;
-use crate::files::study_folder::manifest::{Column, Manifest, Role};
-use crate::files::study_folder::row::{Row, Status};
-use crate::files::study_folder::table::StudyTable;
+use super::{Fitting, Record};
+use crate::base::Failure;
+use crate::files::study_folder::{Column, Folder, Manifest, Role, Row, Status, StudyTable};
 use crate::files::table::Cell;
 use occupant_study::search::Stage;
 
@@ -33,7 +29,7 @@ fn manifest(fitting: &Fitting) -> Manifest {
         column("descent".to_owned(), "1", Role::Input),
         column("generation".to_owned(), "1", Role::Input),
     ];
-    let parameters = fitting.parameters().iter();
+    let parameters = fitting.parameters.iter();
     manifest.columns.extend(parameters.map(|p| column(format!("input.{}", p.name), one_if_empty(p.unit), Role::Input)));
     for name in ["score", "best"] {
         manifest.columns.push(column(name.to_owned(), "1", Role::Figure));

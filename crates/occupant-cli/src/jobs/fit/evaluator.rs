@@ -12,17 +12,9 @@ use occupant_study::ending::Ending;
 use occupant_study::engine::{Engine, Finished, NotBegun, Source};
 use occupant_study::search::Stage;
 
-use super::experiment::Experiment;
-use super::fitting::Fitting;
-use super::progress::Progress;
-use crate::base::failure::Failure;
-use crate::base::interrupt::Interrupt;
-use crate::files::study_folder::checksums::Checksums;
-use crate::files::study_folder::folder::Folder;
-use crate::files::study_folder::journal::{Journal, JournalWriter};
-use crate::files::study_folder::problem::Problem;
-use crate::files::study_folder::row::{Row, Status};
-use crate::files::study_folder::shard::Shard;
+use super::{Experiment, Fitting, Progress};
+use crate::base::{Failure, Interrupt};
+use crate::files::study_folder::{Checksums, Folder, Journal, JournalWriter, Problem, Row, Shard, Status};
 use crate::files::table::Cell;
 use crate::jobs::sweep::words::tell_damaged;
 

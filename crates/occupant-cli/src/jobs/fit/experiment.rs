@@ -11,9 +11,8 @@ use occupant_core::scenario::{Diagnostics, Loaded};
 use occupant_study::ending::Ending;
 use occupant_study::{Misfit, Study};
 
-use super::accord::Accord;
 use super::report::short;
-use super::target::{FAMILY, Target};
+use super::{Accord, FAMILY, Target};
 use crate::files::history::{Filter, Histories, Treatment, Untreated, asked, treated};
 use crate::files::scenario::Tables;
 use crate::jobs::compare::RATE_HZ;

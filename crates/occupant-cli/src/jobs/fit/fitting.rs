@@ -5,13 +5,12 @@ use std::path::Path;
 use occupant_study::{ApplyChoice, Bounds, Distribution, Fit, Law, Parameter, StudyText};
 use serde::Serialize;
 
-use super::experiment::{Correction, Experiment};
 use super::opening::{Given, Opening};
-use super::target::Target;
-use crate::base::names::{file_name, file_stem};
-use crate::files::scenario::{format_of, nothing_was_run};
-use crate::files::study_folder::manifest::{Manifest, Text};
-use crate::files::study_folder::texts::{NamedBy, Texts};
+use super::{Correction, Experiment, Target};
+use crate::base::{Failure, file_name, file_stem};
+use crate::files::scenario::{nothing_was_run, refused};
+use crate::files::study_folder::{Manifest, NamedBy, Text, Texts};
+use crate::jobs::sweep::plan::study_text;
 
 /// So many evaluations may come on top of the budget.
 const ON_TOP: u64 = 1 << 20;
@@ -23,7 +22,7 @@ pub(crate) struct Fitting {
     pub(crate) experiments: Vec<Experiment>,
     pub(crate) tests: Vec<Test>,
     /// What is looked for: the parameters of the study, then offsets and gains of tests.
-    parameters: Vec<Parameter>,
+    pub(crate) parameters: Vec<Parameter>,
     /// Between which ends the parameters are looked for.
     pub(crate) bounds: Vec<Bounds>,
     /// Changes from the command line.
@@ -61,38 +60,28 @@ impl Fitting {
     ///
     /// # Errors
     /// Everything that is wrong, in words.
-    pub(crate) fn open(name: &Path, given: &Given<'_>, program: String) -> Result<Fitting, String> {
-        let shown = name.display().to_string();
-        let texts = Texts::of_files(name);
-        let bytes = texts.get(NamedBy::CommandLine, &file_name(name));
-        let bytes = bytes.map_err(|e| format!("error: the study {shown} cannot be read: {e}"))?;
-        let ended = |problems: &[String]| ended(problems, &shown);
-        let text = StudyText::read_bytes(&bytes, format_of(name), &shown);
-        let text = text.map_err(|problems| ended(&[problems.to_string()]))?;
-        let fit = text.fit().map_err(|problems| ended(&[problems.to_string()]))?;
+    pub(crate) fn open(name: &Path, given: &Given<'_>, program: String) -> Result<Fitting, Failure> {
+        let (shown, texts) = (name.display().to_string(), Texts::of_files(name));
+        let text = study_text(name, &texts)?;
+        let fit = text.fit().map_err(|problems| refused(&shown, &problems))?;
         let folder = name.parent().unwrap_or(Path::new(""));
         let mut opening = Opening::new(folder, &text, &texts, given);
         let tests = opening.tests(&fit);
         let Opening { problems, mut experiments, mut warnings, .. } = opening;
         if !problems.is_empty() || experiments.is_empty() {
-            return Err(ended(&problems));
+            return Err(Failure::CouldNotRun(ended(&problems, &shown)));
         }
         warnings.extend(experiments.iter_mut().filter_map(Experiment::write_densely));
         let mut parameters = experiments[0].study.parameters.clone();
         parameters.extend(tests.iter().flat_map(nuisances));
         let bounds: Option<Vec<Bounds>> = parameters.iter().map(|p| p.law.bounds()).collect();
         // bind_fit has refused parameters without ends
-        let bounds = bounds.ok_or("error: a parameter without ends")?;
+        let bounds = bounds.ok_or_else(|| Failure::plain("a parameter without ends"))?;
         let tests = name_fitted(&mut experiments, tests);
         let samples = experiments.len() as u64 * fit.budget.saturating_add(ON_TOP);
         let (manifest, texts) = manifest(&text, &texts, given, samples, program);
         let overrides = given.overrides.to_vec();
         Ok(Fitting { fit, experiments, tests, parameters, bounds, overrides, manifest, texts, warnings })
-    }
-
-    /// What is fitted.
-    pub(crate) fn parameters(&self) -> &[Parameter] {
-        &self.parameters
     }
 
     /// What stands between each test and the truth with these values of all parameters, or without any.
@@ -130,7 +119,7 @@ impl Fitting {
             }
             _ => 0.5,
         };
-        self.parameters().iter().zip(&self.bounds).map(start).collect()
+        self.parameters.iter().zip(&self.bounds).map(start).collect()
     }
 }
 

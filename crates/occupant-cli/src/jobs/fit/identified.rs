@@ -5,9 +5,8 @@ use occupant_study::misfit::{likelihood_rise, unrelated_samples};
 use occupant_study::search::{Descents, Global, Point, Profiles, Reach, Shape, Stage, descend, profile, refine, scan};
 use serde::Serialize;
 
-use super::evaluator::{Evaluator, Record, WORST};
-use super::fitting::Fitting;
-use crate::base::failure::Failure;
+use super::{Evaluator, Fitting, Record, WORST};
+use crate::base::Failure;
 
 /// Scores that differ by less are the same where a study says nothing, the likelihood of "rms" apart.
 const SAME: f64 = 0.01;
@@ -94,8 +93,8 @@ fn descents(fitting: &Fitting, evaluator: &mut Evaluator<'_>) -> Result<Global, 
         return Ok(global);
     }
     let reason = evaluator.records.iter().rev().find_map(|r| r.reason.clone()).unwrap_or_default();
-    Err(Failure::BrokeOff(format!(
-        "error: none of {} candidates could be run; the last: {reason}\n = help: narrow the ranges of the parameters, or try the base scenario with `occupant run`",
+    Err(Failure::broke_off(format!(
+        "none of {} candidates could be run; the last: {reason}\n = help: narrow the ranges of the parameters, or try the base scenario with `occupant run`",
         evaluator.records.len()
     )))
 }
@@ -106,27 +105,26 @@ fn rise(fitting: &Fitting, best: &Point) -> Result<(f64, Near), Failure> {
     let score = misfit.of_cost(best.value);
     // never nothing, however small `near` is beside the score
     let above = |near: f64| (misfit.cost(score + near) - misfit.cost(score)).max(1e-12 * (1.0 + best.value));
-    if let Some(near) = fitting.fit.near {
-        return Ok((above(near), Near { by: "the study", unrelated_residuals: None }));
+    let near = |rise: f64, by, unrelated_residuals| Ok((rise, Near { by, unrelated_residuals }));
+    if let Some(given) = fitting.fit.near {
+        return near(above(given), "the study", None);
     }
     if misfit != Misfit::Rms {
-        return Ok((above(SAME), Near { by: "scores that differ by less than 0.01", unrelated_residuals: None }));
+        return near(above(SAME), "scores that differ by less than 0.01", None);
     }
     let values = fitting.values(&best.at);
     let mut unrelated = 0.0;
     for experiment in &fitting.experiments {
         let run = experiment.run_with(Some(&values));
         let residuals = run.and_then(|series| experiment.residuals(&series, &fitting.corrections(Some(&values))));
-        let residuals = residuals
-            .map_err(|reason| Failure::BrokeOff(format!("error: the best candidate cannot be run again: {reason}")))?;
+        let again = |reason| Failure::broke_off(format!("the best candidate cannot be run again: {reason}"));
+        let residuals = residuals.map_err(again)?;
         unrelated += residuals.iter().map(|r| unrelated_samples(r)).sum::<f64>();
     }
     let likely = likelihood_rise(best.value, unrelated);
     let least = NONE * NONE;
-    Ok(match likely > least {
-        true => (likely, Near { by: "95 % likelihood of the residuals", unrelated_residuals: Some(unrelated) }),
-        false => {
-            (least, Near { by: "0.05 % of the measured peaks: the residuals are smaller", unrelated_residuals: None })
-        }
-    })
+    if likely > least {
+        return near(likely, "95 % likelihood of the residuals", Some(unrelated));
+    }
+    near(least, "0.05 % of the measured peaks: the residuals are smaller", None)
 }

@@ -1,7 +1,7 @@
 //! Fits: the parameters within their bounds with which runs follow measured channels best.
 //!
 //! ```text
-//! study + tests ─ Opening ─ Fitting ─ search ⇄ Evaluator (journal, threads, lanes) ─ Found ─ fit.json, fitted.toml, plots, history
+//! study + tests ─ Opening ─ Fitting ─ search ⇄ Evaluator (journal, threads, lanes) ─ FitResult ─ fit.json, fitted.toml, plots, history
 //! ```
 //!
 //! The search asks for values of whole generations; the evaluator runs what the journal does not hold yet. As both depend on
@@ -12,13 +12,25 @@ mod candidates;
 pub(crate) mod evaluator;
 mod experiment;
 pub(crate) mod fitting;
-mod found;
 pub(crate) mod identified;
 pub(crate) mod opening;
 pub(crate) mod output;
 mod plots;
 pub(crate) mod progress;
 pub(crate) mod report;
+mod result;
 mod scenario_text;
 mod target;
 mod verdict;
+
+use accord::Accord;
+use evaluator::{Evaluator, Record, WORST};
+use experiment::{Correction, Experiment};
+use fitting::{Fitting, Test};
+use identified::{Answer, Near};
+use output::FittedRuns;
+use progress::Progress;
+use result::{COMPENSATING, FitResult, IntervalEnd, ParameterEstimate};
+use scenario_text::Fitted;
+use target::{FAMILY, Target};
+use verdict::Verdict;

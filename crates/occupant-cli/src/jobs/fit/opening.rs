@@ -7,14 +7,13 @@ use occupant_core::results::channel::{Channel, channels, find};
 use occupant_core::scenario::Draft;
 use occupant_study::{Fit, FitChannel, FitTest, Study, StudyText};
 
-use super::experiment::Experiment;
-use super::fitting::Test;
-use super::target::{Target, filter_of};
-use crate::base::names::{ending, file_name};
+use super::target::filter_of;
+use super::{Experiment, Target, Test};
+use crate::base::{ending, file_name};
 use crate::files::measured::{self, MapArgument, Pair, Wanted, pairs};
 use crate::files::scenario::{Tables, format_of};
 use crate::files::signals::Recording;
-use crate::files::study_folder::texts::{NamedBy, Texts};
+use crate::files::study_folder::{NamedBy, Texts};
 use crate::jobs::sweep::plan::named_file;
 
 /// Tests that the command line gives.
@@ -33,12 +32,6 @@ struct Named {
     by: (NamedBy, String),
     /// Where it stands in the study; empty for one of the command line.
     at: String,
-}
-
-impl Named {
-    fn by_command_line(file: &Path, test: FitTest, at: String) -> Named {
-        Named { by: (NamedBy::CommandLineTest, file.display().to_string()), file: file.to_owned(), test, at }
-    }
 }
 
 /// Work on a fit that is being opened, with the problems found so far.
@@ -68,15 +61,13 @@ impl<'a> Opening<'a> {
     /// The tests with their files: those of the study, and where it leaves files out those of the command line, in order.
     fn named(&mut self, fit: &Fit) -> Vec<Named> {
         let files = self.given.files;
-        if fit.tests.is_empty() {
-            if files.is_empty() {
-                let hint = "--to test.csv, or [[fit.tests]] with `file`";
-                self.complain("", "no test to fit to".to_owned(), "a test", Some(hint));
-            }
-            let each = files.iter();
-            return each.map(|f| Named::by_command_line(f, FitTest::default(), String::new())).collect();
+        let of_study = !fit.tests.is_empty();
+        let tests = if of_study { fit.tests.clone() } else { vec![FitTest::default(); files.len()] };
+        if tests.is_empty() {
+            let hint = "--to test.csv, or [[fit.tests]] with `file`";
+            self.complain("", "no test to fit to".to_owned(), "a test", Some(hint));
         }
-        let open = fit.tests.iter().filter(|t| t.file.is_none()).count();
+        let open = tests.iter().filter(|t| t.file.is_none()).count();
         if open != files.len() {
             let found = match files.len() {
                 0 => format!("{open} of the study's tests have no file"),
@@ -87,12 +78,13 @@ impl<'a> Opening<'a> {
             return Vec::new();
         }
         let mut files = files.iter();
-        let named = fit.tests.iter().enumerate().filter_map(|(i, test)| {
-            let (test, at) = (test.clone(), format!("fit.tests[{i}]"));
-            let Some(file) = test.file.clone() else {
-                return files.next().map(|f| Named::by_command_line(f, test, at));
+        let named = tests.into_iter().enumerate().filter_map(|(i, test)| {
+            let at = if of_study { format!("fit.tests[{i}]") } else { String::new() };
+            let (file, by) = match &test.file {
+                Some(file) => (self.folder.join(file), (NamedBy::Study, file.clone())),
+                None => files.next().map(|f| (f.clone(), (NamedBy::CommandLineTest, f.display().to_string())))?,
             };
-            Some(Named { file: self.folder.join(&file), by: (NamedBy::Study, file), test, at })
+            Some(Named { file, by, test, at })
         });
         named.collect()
     }
@@ -154,16 +146,11 @@ impl<'a> Opening<'a> {
         if let Some((_, there)) = self.known.iter().find(same) {
             return *there;
         }
-        let there = match self.new_experiment(named) {
-            Ok(experiment) => {
-                self.experiments.push(experiment);
-                Some(self.experiments.len() - 1)
-            }
-            Err(problem) => {
-                self.problems.push(problem);
-                None
-            }
-        };
+        let new = self.new_experiment(named).map_err(|problem| self.problems.push(problem)).ok();
+        let there = new.map(|experiment| {
+            self.experiments.push(experiment);
+            self.experiments.len() - 1
+        });
         self.known.push((test.clone(), there));
         there
     }
@@ -209,25 +196,16 @@ impl<'a> Opening<'a> {
     }
 
     fn recording(&mut self, named: &Named) -> Option<Recording> {
-        match measured::read(&named.file) {
-            Ok(recording) => {
-                for note in &recording.notes {
-                    self.warnings.push(format!("note: {note}"));
-                }
-                // a copy for the folder; of an ISO-MME test its checksum only
-                let mme = ending(&named.file) == "mme";
-                let single = named.file.is_file() && !mme;
-                let copied = single && self.texts.get(named.by.0, &named.by.1).is_ok();
-                if !copied {
-                    self.texts.add(named.by.0, &named.by.1, recording.sha256.clone());
-                }
-                Some(recording)
-            }
-            Err(failure) => {
-                self.problems.push(failure.words());
-                None
-            }
+        let read = measured::read(&named.file).map_err(|failure| self.problems.push(failure.words()));
+        let recording = read.ok()?;
+        self.warnings.extend(recording.notes.iter().map(|note| format!("note: {note}")));
+        // a copy for the folder; of an ISO-MME test its checksum only
+        let single = named.file.is_file() && ending(&named.file) != "mme";
+        let copied = single && self.texts.get(named.by.0, &named.by.1).is_ok();
+        if !copied {
+            self.texts.add(named.by.0, &named.by.1, recording.sha256.clone());
         }
+        Some(recording)
     }
 
     /// The measured channels of a test.
@@ -244,17 +222,10 @@ impl<'a> Opening<'a> {
         let mut targets = Vec::new();
         for pair in self.pairs(named, recording, &wanted) {
             let (channel, of) = &wanted[pair.channel];
+            let filter = filter_of(of.filter.unwrap_or(fit.filter));
             let weight = of.weight() * named.test.weight();
             let shifted = (pair, named.test.shift_s());
-            match Target::new(
-                channel.clone(),
-                filter_of(of.filter.unwrap_or(fit.filter)),
-                weight,
-                shifted,
-                window_s,
-                run_s,
-                fit.misfit,
-            ) {
+            match Target::new(channel.clone(), filter, weight, shifted, window_s, run_s, fit.misfit) {
                 Ok(target) => targets.push(target),
                 Err(reason) => {
                     let found = format!("{} of {} cannot be fitted to: {reason}", channel.name, named.file.display());
@@ -276,30 +247,23 @@ impl<'a> Opening<'a> {
         let mut notes = Vec::new();
         let found = pairs(recording, &names, &maps, named.test.seat(), &mut notes);
         self.warnings.extend(notes.into_iter().map(|n| format!("note: {n}")));
-        let found = match found {
-            Ok(found) => found,
-            Err(failure) => {
-                self.problems.push(failure.words());
-                return Vec::new();
-            }
+        let Ok(pairs) = found.map_err(|failure| self.problems.push(failure.words())) else {
+            return Vec::new();
         };
-        if found.is_empty() {
+        if pairs.is_empty() {
             let found = format!("no signal of {} belongs to a channel that counts", named.file.display());
             let hint = "columns are named as channels are, or map = [\"column[unit]=channel\"]";
             self.complain(&named.at, found, "a signal to fit to", Some(hint));
         }
-        found
+        pairs
     }
 
     /// The channels that count, in this scenario; none if the study names one that there is not.
     fn wanted(&mut self, fit: &Fit, experiment: usize) -> Option<Vec<(Channel, FitChannel)>> {
         let model = self.experiments[experiment].model.clone();
         if fit.channels.is_empty() {
-            let of = |channel: Channel| {
-                let like = FitChannel { name: channel.name.clone(), weight: None, filter: None };
-                (channel, like)
-            };
-            return Some(channels(&model).into_iter().map(of).collect());
+            let plain = |c: &Channel| FitChannel { name: c.name.clone(), weight: None, filter: None };
+            return Some(channels(&model).into_iter().map(|c| (c.clone(), plain(&c))).collect());
         }
         let mut wanted = Vec::new();
         for (i, channel) in fit.channels.iter().enumerate() {

@@ -2,9 +2,8 @@
 
 use occupant_core::results::channel::Series;
 
-use super::experiment::{Correction, Experiment, in_group};
-use super::fitting::Fitting;
-use super::target::Target;
+use super::experiment::in_group;
+use super::{Correction, Fitting, Target};
 use crate::files::history::{Filter, Histories, UnitChoice};
 use crate::pictures::plot::{self, Entry, Figure, Material, Overlay, Plot, RunCurves, Sheet, sheet};
 
@@ -29,43 +28,33 @@ pub(crate) fn sheets(
     let mut sheets = Vec::new();
     for (number, test) in fitting.tests.iter().enumerate() {
         let experiment = &fitting.experiments[test.experiment];
-        let drawn = figures_of(experiment, (number, corrections[number]), &test.file, &runs[test.experiment])?;
+        let Pair { before, after } = &runs[test.experiment];
+        let computed = [("before", before.as_ref()), ("fitted", Some(after))];
+        let computed = computed.into_iter().filter_map(|(label, series)| {
+            let histories = experiment.histories(series?);
+            Some(histories.map(|groups| (label, groups)))
+        });
+        let computed = computed.collect::<Result<Vec<_>, String>>()?;
+        let own = experiment.targets.iter().filter(|(test, _)| *test == number);
+        let figures = own.map(|(_, target)| figure(target, corrections[number], &test.file, &computed));
         let words = Sheet { title: format!("{}: measured and fitted", test.name), lines: lines.to_vec(), columns: 2 };
-        sheets.push((test.name.clone(), sheet(&words, &drawn)));
+        sheets.push((test.name.clone(), sheet(&words, &figures.collect::<Result<Vec<_>, _>>()?)));
     }
     Ok(sheets)
 }
 
-type Groups = Vec<(Filter, Histories)>;
+/// Histories of a run by filter, and how the run is called.
+type Computed = (&'static str, Vec<(Filter, Histories)>);
 
-fn figures_of(
-    experiment: &Experiment,
-    (test, correction): (usize, Correction),
-    file: &str,
-    runs: &Pair,
-) -> Result<Vec<Figure>, String> {
-    let after = experiment.histories(&runs.after)?;
-    let before = runs.before.as_ref().map(|series| experiment.histories(series)).transpose()?;
-    let own = experiment.targets.iter().filter(|(t, _)| *t == test);
-    own.map(|(_, target)| figure(target, correction, file, before.as_ref(), &after)).collect()
-}
-
-fn figure(
-    target: &Target,
-    correction: Correction,
-    file: &str,
-    before: Option<&Groups>,
-    after: &Groups,
-) -> Result<Figure, String> {
+fn figure(target: &Target, correction: Correction, file: &str, computed: &[Computed]) -> Result<Figure, String> {
     let mut pair = target.measured.clone();
     pair.time_s.iter_mut().for_each(|t| *t += correction.offset_s);
     pair.values.iter_mut().for_each(|v| *v /= correction.gain);
-    let shown = [before.map(|groups| ("before", groups)), Some(("fitted", after))].into_iter().flatten();
-    let runs = shown.map(|(label, groups)| {
+    let curves = |(label, groups): &Computed| {
         let histories = in_group(groups, target.filter)?.clone();
-        Ok(RunCurves { label: label.to_owned(), histories })
-    });
-    let runs = runs.collect::<Result<Vec<_>, String>>()?;
+        Ok(RunCurves { label: (*label).to_owned(), histories })
+    };
+    let runs = computed.iter().map(curves).collect::<Result<Vec<_>, String>>()?;
     let overlay = Overlay {
         channel: target.channel.name.clone(),
         file: file.rsplit(['/', '\\']).next().unwrap_or(file).to_owned(),

@@ -4,7 +4,7 @@ use std::time::Duration;
 
 use occupant_study::search::Stage;
 
-use super::evaluator::{Record, WORST};
+use super::{Record, WORST};
 use crate::base::progress::Runs;
 
 /// At most a line so often where there is no terminal, stages apart.

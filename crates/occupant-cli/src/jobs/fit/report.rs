@@ -2,51 +2,50 @@
 
 use occupant_study::ApplyChoice;
 
-use super::found::{COMPENSATING, EndFound, Found, ParameterFound};
-use super::verdict::Verdict;
+use super::{COMPENSATING, FitResult, IntervalEnd, ParameterEstimate, Verdict};
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{NONE, Table, facts};
 
 /// Tables of parameters and channels.
-pub(crate) fn text(found: &Found) -> String {
-    let mut parts = vec![overview(found), parameters(found)];
-    let pairs = compensating(found);
+pub(crate) fn text(result: &FitResult) -> String {
+    let mut parts = vec![overview(result), parameters(result)];
+    let pairs = compensating(result);
     if !pairs.is_empty() {
         parts.push(pairs);
     }
-    parts.push(channels(found));
+    parts.push(channels(result));
     parts.join("\n")
 }
 
-fn overview(found: &Found) -> String {
-    let e = &found.evaluations;
-    let before = found.score.before.map_or(NONE.to_owned(), |b| format!("{b:.5}"));
-    let tests: Vec<&str> = found.tests.iter().map(|t| t.file.as_str()).collect();
+fn overview(result: &FitResult) -> String {
+    let e = &result.evaluations;
+    let before = result.score.before.map_or(NONE.to_owned(), |b| format!("{b:.5}"));
+    let tests: Vec<&str> = result.tests.iter().map(|t| t.file.as_str()).collect();
     let mut lines = vec![
-        ("fit", format!("{} to {}", found.study.file, tests.join(", "))),
+        ("fit", format!("{} to {}", result.study.file, tests.join(", "))),
         (
             "score",
-            format!("{:.5} ({}), before {before}; 0 is a run that is the test", found.score.after, found.objective),
+            format!("{:.5} ({}), before {before}; 0 is a run that is the test", result.score.after, result.objective),
         ),
         (
             "evaluations",
             format!(
                 "{} of the search in {} descents, {} of the refinement, {} for the intervals",
                 e.search,
-                found.descents.len(),
+                result.descents.len(),
                 e.refinement,
                 e.intervals
             ),
         ),
-        ("as good", format!("scores up to {:.5} ({})", found.near.score, found.near.near.by)),
+        ("as good", format!("scores up to {:.5} ({})", result.near.score, result.near.near.by)),
     ];
-    for warning in &found.warnings {
+    for warning in &result.warnings {
         lines.push(("warning", warning.clone()));
     }
     facts(&lines)
 }
 
-impl ParameterFound {
+impl ParameterEstimate {
     /// A value in its shown unit.
     fn number(&self, si: f64) -> String {
         short(si / self.shown.1)
@@ -69,13 +68,13 @@ pub(super) fn short(value: f64) -> String {
     rounded.to_string()
 }
 
-fn parameters(found: &Found) -> String {
+fn parameters(result: &FitResult) -> String {
     let mut table = Table::new(&[
         (Left, &["parameter", "unit"]),
         (Right, &["base", "fitted", "interval", "looked for"]),
         (Left, &[""]),
     ]);
-    for p in &found.parameters {
+    for p in &result.parameters {
         let unit = match (p.apply, p.shown.0.as_str()) {
             (ApplyChoice::Factor, _) => "×",
             (_, "") => NONE,
@@ -95,32 +94,32 @@ fn parameters(found: &Found) -> String {
 }
 
 /// Pairs that make up for each other, and how far.
-fn compensating(found: &Found) -> String {
+fn compensating(result: &FitResult) -> String {
     let mut lines = Vec::new();
-    for pair in found.correlations.iter().filter(|c| c.correlation.abs() > COMPENSATING) {
+    for pair in result.correlations.iter().filter(|c| c.correlation.abs() > COMPENSATING) {
         let [a, b] = &pair.between;
-        let place = |name: &String| found.parameters.iter().position(|p| p.name == *name);
+        let place = |name: &String| result.parameters.iter().position(|p| p.name == *name);
         let (Some(i), Some(j)) = (place(a), place(b)) else {
             continue;
         };
-        let end = |end: &EndFound| {
+        let end = |end: &IntervalEnd| {
             let [one, other] = [i, j].map(|at| {
-                let p = &found.parameters[at];
+                let p = &result.parameters[at];
                 p.with_unit(&p.number(end.values[at]))
             });
             format!("{one} with {other} scores {:.5}", end.score)
         };
-        let [low, high] = found.parameters[i].ends.each_ref().map(end);
+        let [low, high] = result.parameters[i].ends.each_ref().map(end);
         let correlation = pair.correlation;
         lines.push(format!("{a} and {b} compensate each other (correlation {correlation:.3}): {low}, {high}\n"));
     }
     lines.concat()
 }
 
-fn channels(found: &Found) -> String {
+fn channels(result: &FitResult) -> String {
     let mut table =
         Table::new(&[(Left, &["test", "channel", "filter"]), (Right, &["ms", "weight", "before", "fitted"])]);
-    for c in &found.score.channels {
+    for c in &result.score.channels {
         let [from, to] = c.window_s.map(|t| short(t * 1e3));
         table.row([
             c.test.clone(),
@@ -136,7 +135,7 @@ fn channels(found: &Found) -> String {
 }
 
 /// What is said of a fitted number in the scenario.
-pub(crate) fn provenance(found: &Found, p: &ParameterFound) -> String {
+pub(crate) fn provenance(result: &FitResult, p: &ParameterEstimate) -> String {
     let factor = match p.apply {
         ApplyChoice::Value => String::new(),
         ApplyChoice::Factor => format!(" (times {} what the base scenario says)", short(p.value)),
@@ -149,17 +148,17 @@ pub(crate) fn provenance(found: &Found, p: &ParameterFound) -> String {
         Verdict::NotIdentified => format!("{}; any value of {range} is as good", p.words),
         _ => format!("{}, interval {range}", p.words),
     };
-    let tests = found.tests.iter();
+    let tests = result.tests.iter();
     let tests: Vec<String> = tests.map(|t| format!("{} (SHA-256 {})", t.file, t.sha256)).collect();
     format!(
         "fitted by {}{factor}: parameter {} of {} (SHA-256 {}…) to {}; {} score {:.5}; {interval}",
-        found.program,
+        result.program,
         p.name,
-        found.study.file,
-        start(&found.study.sha256),
+        result.study.file,
+        start(&result.study.sha256),
         tests.join(", "),
-        found.objective,
-        found.score.after,
+        result.objective,
+        result.score.after,
     )
 }
 

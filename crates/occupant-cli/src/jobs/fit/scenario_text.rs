@@ -9,7 +9,7 @@ use placed_text::{Step, parse_path};
 use serde::Serialize;
 use toml_edit::{DocumentMut, InlineTable, Item, Table, TableLike, Value, value};
 
-use super::experiment::Experiment;
+use super::Experiment;
 use crate::files::scenario::format_of;
 
 /// Significant digits of fitted numbers.
@@ -26,14 +26,6 @@ pub(crate) struct Fitted {
     /// Which parameter it comes from.
     #[serde(skip)]
     pub(crate) parameter: usize,
-}
-
-#[derive(Clone, Debug)]
-pub(crate) struct FittedText {
-    /// The text, TOML.
-    pub(crate) text: String,
-    /// Whether the author's words were kept.
-    pub(crate) kept: bool,
 }
 
 /// The numbers that values of the parameters (SI) put into the scenario of an experiment, each in the unit of its place and
@@ -58,7 +50,7 @@ pub(crate) fn numbers(experiment: &Experiment, values: &[f64]) -> Result<Vec<Fit
     study.assignments_of(values).into_iter().map(number).collect()
 }
 
-/// The scenario of an experiment with these numbers and their provenance.
+/// The scenario of an experiment with these numbers and their provenance, TOML, and whether the author's words were kept.
 ///
 /// # Errors
 /// Numbers that the scenario refuses.
@@ -67,7 +59,7 @@ pub(crate) fn fitted(
     numbers: &[&Fitted],
     provenance: &[(String, String)],
     head: &str,
-) -> Result<FittedText, String> {
+) -> Result<(String, bool), String> {
     let changes = numbers.iter().map(|n| (&n.path, &n.text));
     let (loaded, ..) = experiment.scenario_with(changes).map_err(|e| e.to_string())?;
     let mut wanted = loaded.scenario;
@@ -79,7 +71,7 @@ pub(crate) fn fitted(
         Some(text) => (text, true),
         None => (wanted.to_toml().map_err(|e| e.to_string())?, false),
     };
-    Ok(FittedText { text: format!("{head}{text}"), kept })
+    Ok((format!("{head}{text}"), kept))
 }
 
 /// Whether a text says this scenario.

@@ -5,8 +5,8 @@ use occupant_core::results::channel::Channel;
 use occupant_study::spread::median;
 use occupant_study::{FilterChoice, Misfit};
 
-use super::experiment::Correction;
-use crate::base::failure::Failure;
+use super::Correction;
+use crate::base::Failure;
 use crate::files::history::{Family, Filter, Histories};
 use crate::files::measured::Pair;
 use crate::jobs::compare::{RATE_HZ, Track, Window, overlap, sampled};

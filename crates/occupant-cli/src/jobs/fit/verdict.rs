@@ -4,10 +4,7 @@ use occupant_study::search::End;
 use occupant_study::{ApplyChoice, Bounds, Value};
 use serde::Serialize;
 
-use super::evaluator::Record;
-use super::fitting::Fitting;
-use super::found::{COMPENSATING, EndFound, ParameterFound};
-use super::identified::Answer;
+use super::{Answer, COMPENSATING, Fitting, IntervalEnd, ParameterEstimate, Record};
 
 /// An interval of more than this part of the range, both ends of which are bounds, says nothing.
 const WIDE: f64 = 0.25;
@@ -37,24 +34,24 @@ pub(crate) enum Verdict {
 }
 
 /// All parameters with their verdicts; `sets` are the evaluated ones that are as good as the best.
-pub(crate) fn verdicts(fitting: &Fitting, answer: &Answer, sets: &[&Record]) -> Vec<ParameterFound> {
-    let parameters = 0..fitting.parameters().len();
+pub(crate) fn verdicts(fitting: &Fitting, answer: &Answer, sets: &[&Record]) -> Vec<ParameterEstimate> {
+    let parameters = 0..fitting.parameters.len();
     parameters.map(|i| parameter(fitting, answer, sets, i)).collect()
 }
 
-fn parameter(fitting: &Fitting, answer: &Answer, sets: &[&Record], i: usize) -> ParameterFound {
-    let (of, bounds) = (&fitting.parameters()[i], fitting.bounds[i]);
+fn parameter(fitting: &Fitting, answer: &Answer, sets: &[&Record], i: usize) -> ParameterEstimate {
+    let (of, bounds) = (&fitting.parameters[i], fitting.bounds[i]);
     let u = answer.best.at[i];
     let ends = &answer.profiles.ends[i];
     let open = [0, 1].map(|s| is_open(&ends[s], &answer.best.at));
     let verdict = verdict(u, ends, open);
     let compensated_by = partners(fitting, answer, i);
     let misfit = fitting.fit.misfit;
-    let end = |end: &End| EndFound { values: fitting.values(&end.point.at), score: misfit.of_cost(end.point.value) };
+    let end = |end: &End| IntervalEnd { values: fitting.values(&end.point.at), score: misfit.of_cost(end.point.value) };
     let [down, up] = answer.reaches[i];
     let among = sets.iter().filter_map(|r| r.at.as_ref()).map(|at| at[i]);
     let [least, most] = among.fold([u, u], |[l, m], v| [l.min(v), m.max(v)]);
-    ParameterFound {
+    ParameterEstimate {
         name: of.name.clone(),
         unit: of.unit,
         shown: shown_unit(fitting, i),
@@ -80,7 +77,7 @@ fn parameter(fitting: &Fitting, answer: &Answer, sets: &[&Record], i: usize) -> 
 
 /// In which unit the values of a parameter are shown, and how many SI units it is: that of its place.
 fn shown_unit(fitting: &Fitting, i: usize) -> (String, f64) {
-    let parameter = &fitting.parameters()[i];
+    let parameter = &fitting.parameters[i];
     let base = &fitting.experiments[0].study.base;
     let place = parameter.targets.first();
     match parameter.apply {
@@ -116,7 +113,7 @@ fn verdict(u: f64, ends: &[End; 2], open: [bool; 2]) -> Verdict {
 
 /// The parameters that make up for this one.
 fn partners(fitting: &Fitting, answer: &Answer, i: usize) -> Vec<String> {
-    let parameters = fitting.parameters().iter().enumerate();
+    let parameters = fitting.parameters.iter().enumerate();
     let makes_up = |j: usize| {
         let correlation = answer.shape.correlation(i, j);
         j != i && correlation.is_some_and(|c| c.abs() > COMPENSATING)

@@ -4,11 +4,8 @@ use crash_measures::unit::Unit::{Metre, Newton, NewtonPerMetre, One};
 use occupant_core::forces::belt::RestLength;
 use occupant_core::results::sample::Sample;
 
-use super::Element;
-use super::case::Case;
-use super::page::Pages;
-use super::table::Table;
-use super::unit::{Units, degree};
+use super::unit::degree;
+use super::{Case, Element, Pages, Table, Units};
 
 /// The sections on belts.
 pub(crate) const BELTS: Element = Element {

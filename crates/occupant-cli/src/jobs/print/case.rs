@@ -8,9 +8,8 @@ use occupant_core::scenario::Loaded;
 
 use cardio_legacy::{CompartmentLayout, passed_pairs};
 
-use super::unit::Units;
-use crate::base::failure::Failure;
-use crate::base::input_file;
+use super::Units;
+use crate::base::{Failure, input_file};
 use crate::files::mcap::StoredRun;
 use crate::files::mcap::about::RUN;
 use crate::files::scenario::stored;

@@ -8,12 +8,8 @@ use occupant_core::motion::report_coordinates::ReportCoordinates;
 use occupant_core::results::checkpoint::Checkpoint;
 use occupant_core::results::summary::Caveat;
 
-use super::ELEMENTS;
-use super::case::Case;
 use super::echo::coordinates;
-use super::page::Pages;
-use super::table::Table;
-use super::unit::Units;
+use super::{Case, ELEMENTS, Pages, Table, Units};
 
 /// Writes the last sheet.
 pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units, caveats: &[Caveat]) {

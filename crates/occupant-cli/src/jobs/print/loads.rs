@@ -5,11 +5,8 @@ use crash_measures::unit::Unit::{Joule, Metre, MetrePerSecond, Newton};
 use occupant_core::results::channel::matching;
 use occupant_core::results::sample::Sample;
 
-use super::case::Case;
-use super::page::Pages;
-use super::table::Table;
-use super::unit::{Units, degree};
-use super::{ELEMENTS, headings};
+use super::unit::degree;
+use super::{Case, ELEMENTS, Pages, Table, Units, headings};
 
 /// The spheres whose point of application the report prints.
 const APPLICATION: [&str; 3] = ["head", "chest", "pelvis"];

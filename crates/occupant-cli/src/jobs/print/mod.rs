@@ -21,7 +21,8 @@ use occupant_core::results::recorder::{Recorder, Watch};
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{Caveat, Summarizer};
 use occupant_core::run::simulate::replay;
-use page::Pages;
+use page::{COLUMNS, Pages};
+use table::Table;
 use unit::Units;
 
 /// What a kind of force elements adds to the printout, beside contact surfaces and joints.

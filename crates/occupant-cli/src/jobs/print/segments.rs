@@ -4,9 +4,8 @@ use crash_measures::unit::Unit::{Metre, MetrePerSecondSquared, RadianPerSecond, 
 use occupant_core::body::{Body, Segment};
 use occupant_core::results::sample::Sample;
 
-use super::page::Pages;
-use super::table::Table;
-use super::unit::{Units, g};
+use super::unit::g;
+use super::{Pages, Table, Units};
 
 /// Writes the segments' tables.
 pub(crate) fn write(pages: &mut Pages, units: Units, s: &Sample<'_>) {

@@ -1,6 +1,7 @@
 //! Tables of the printout: a title with the units, a head, rows; names are cut where a line has no room for them.
 
-use super::page::{COLUMNS, Pages, cut};
+use super::page::cut;
+use super::{COLUMNS, Pages};
 
 /// Columns between columns.
 const GAP: usize = 2;

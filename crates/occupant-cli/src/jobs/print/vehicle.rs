@@ -3,9 +3,8 @@
 use crash_measures::unit::Unit::{Metre, MetrePerSecond, RadianPerSecond, RadianPerSecondSquared};
 use occupant_core::results::sample::Sample;
 
-use super::page::Pages;
-use super::table::Table;
-use super::unit::{Units, degree, g};
+use super::unit::{degree, g};
+use super::{Pages, Table, Units};
 
 /// Writes the vehicle's lines.
 pub(crate) fn write(pages: &mut Pages, units: Units, s: &Sample<'_>) {

@@ -4,32 +4,29 @@ use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 use serde::{Serialize, Serializer};
 
-/// Numbers that travel as base64.
-#[derive(Clone, Debug, Default)]
+/// Numbers of one kind that travel as base64.
+#[derive(Debug, Default)]
 pub(crate) struct Array(Vec<u8>);
 
 impl Array {
-    /// Of single precision: 7 figures, enough for the eye.
-    pub(crate) fn float32(values: impl IntoIterator<Item = f64>) -> Self {
-        let bytes = values.into_iter().flat_map(|v| (v as f32).to_le_bytes());
-        Array(bytes.collect())
+    /// Adds numbers of single precision: 7 figures, enough for the eye.
+    pub(crate) fn float32(&mut self, values: impl IntoIterator<Item = f64>) {
+        self.0.extend(values.into_iter().flat_map(|v| (v as f32).to_le_bytes()));
     }
 
-    /// Of double precision.
-    pub(crate) fn float64(values: impl IntoIterator<Item = f64>) -> Self {
-        Array(values.into_iter().flat_map(f64::to_le_bytes).collect())
+    /// Adds numbers of double precision.
+    pub(crate) fn float64(&mut self, values: &[f64]) {
+        self.0.extend(values.iter().flat_map(|v| v.to_le_bytes()));
     }
 
-    /// Of small counts; a greater one is the greatest.
-    pub(crate) fn uint16(values: impl IntoIterator<Item = usize>) -> Self {
-        let short = |v| u16::try_from(v).unwrap_or(u16::MAX).to_le_bytes();
-        Array(values.into_iter().flat_map(short).collect())
+    /// Adds a small count; a greater one is the greatest.
+    pub(crate) fn uint16(&mut self, value: usize) {
+        self.0.extend(u16::try_from(value).unwrap_or(u16::MAX).to_le_bytes());
     }
 
-    /// Of counts; a greater one is the greatest.
-    pub(crate) fn uint32(values: impl IntoIterator<Item = usize>) -> Self {
-        let long = |v| u32::try_from(v).unwrap_or(u32::MAX).to_le_bytes();
-        Array(values.into_iter().flat_map(long).collect())
+    /// Adds a count; a greater one is the greatest.
+    pub(crate) fn uint32(&mut self, value: usize) {
+        self.0.extend(u32::try_from(value).unwrap_or(u32::MAX).to_le_bytes());
     }
 }
 
@@ -45,10 +42,14 @@ mod tests {
 
     #[test]
     fn numbers_are_little_endian() {
-        let text = |a: &Array| serde_json::to_string(a).unwrap();
-        assert_eq!(text(&Array::float32([1.0])), "\"AACAPw==\"");
-        assert_eq!(text(&Array::float64([1.0])), "\"AAAAAAAA8D8=\"");
-        assert_eq!(text(&Array::uint16([1, 70_000])), "\"AQD//w==\"");
-        assert_eq!(text(&Array::uint32([258])), "\"AgEAAA==\"");
+        let text = |add: &dyn Fn(&mut Array)| {
+            let mut array = Array::default();
+            add(&mut array);
+            serde_json::to_string(&array).unwrap()
+        };
+        assert_eq!(text(&|a| a.float32([1.0])), "\"AACAPw==\"");
+        assert_eq!(text(&|a| a.float64(&[1.0])), "\"AAAAAAAA8D8=\"");
+        assert_eq!(text(&|a| [1, 70_000].into_iter().for_each(|count| a.uint16(count))), "\"AQD//w==\"");
+        assert_eq!(text(&|a| a.uint32(258)), "\"AgEAAA==\"");
     }
 }

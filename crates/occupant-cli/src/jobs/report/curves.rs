@@ -78,11 +78,9 @@ fn find<'a>(wanted: &Curves, series: &'a Series) -> Vec<Found<'a>> {
 
 fn curve((name, channel, values): Found<'_>, unit: &'static str) -> Curve {
     let per_si = channel.unit.shown_in(unit).per_si();
-    Curve {
-        name,
-        meaning: format!("{}: {}", channel.name, channel.meaning),
-        values: Array::float32(values.iter().map(|v| v * per_si)),
-    }
+    let mut shown = Array::default();
+    shown.float32(values.iter().map(|v| v * per_si));
+    Curve { name, meaning: format!("{}: {}", channel.name, channel.meaning), values: shown }
 }
 
 /// Leaves the spheres with the greatest forces, none that touched nothing, in the list's order.

@@ -1,16 +1,14 @@
 //! What the page is made from. The names of the fields are those that `assets/viewer/src` reads.
 
 use occupant_core::forces::contact::surface::{Frame, Outline};
-use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
-use occupant_core::results::sample::Sample;
 use serde::Serialize;
 
 use super::array::Array;
 use super::curves::Plot;
 use super::measures::Measure;
-use super::motion::{Contacts, Motion, MovingLine};
+use super::motion::Motion;
 use super::{curves, measures, provenance};
-use crate::base::failure::Failure;
+use crate::base::{Failure, file_name};
 use crate::files::mcap::scene::compartment::{corners_m, square_m};
 use crate::files::results::Results;
 use crate::pictures::body::{Lump, PATCH_M, Part, Tone, parts, sphere_centre_m};
@@ -46,11 +44,8 @@ pub(crate) struct Run {
     parts: Vec<PartData>,
     spheres: Vec<SphereData>,
     surfaces: Vec<SurfaceData>,
-    #[serde(rename = "belts")]
-    lines: Vec<MovingLine>,
-    poses: Array,
-    vehicle: Array,
-    contacts: Contacts,
+    #[serde(flatten)]
+    motion: Motion,
     plots: Vec<Plot>,
     measures: Vec<Measure>,
     first_contacts: Vec<occupant_core::results::summary::ContactBegin>,
@@ -87,16 +82,6 @@ struct SurfaceData {
     normal: [f64; 3],
 }
 
-/// Two recorders that see the samples together.
-struct Both<'a>(&'a mut Motion, &'a mut occupant_core::results::channel::Series);
-
-impl Recorder for Both<'_> {
-    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
-        self.0.add(sample);
-        self.1.record(sample)
-    }
-}
-
 impl Run {
     /// Gathers a run.
     ///
@@ -104,27 +89,23 @@ impl Run {
     /// None for a file that was opened.
     pub(crate) fn of(results: &Results) -> Result<Self, Failure> {
         let model = &results.model;
-        let mut motion = Motion::new();
-        let mut series = curves::series(model);
-        results.replay(Both(&mut motion, &mut series))?;
+        let (mut motion, mut series, mut times) = (Motion::default(), curves::series(model), Array::default());
+        results.replay((&mut motion, &mut series))?;
+        times.float64(&series.time_s);
         let summary = results.summary()?;
-        let name = results.path.file_name().unwrap_or_default();
         let mut notes = results.notes();
         notes.extend(summary.caveats.iter().map(|caveat| caveat.text.clone()));
         notes.extend(model.warnings().iter().map(|w| w.to_string()));
         Ok(Run {
-            label: name.to_string_lossy().into_owned(),
+            label: file_name(&results.path),
             title: model.setup().title.clone(),
             notes,
-            times: Array::float64(series.time_s.iter().copied()),
+            times,
             segments: model.body().tree.segment_rows().iter().map(|row| row.name.replace('_', " ")).collect(),
             parts: parts(model.body()).iter().map(PartData::of).collect(),
             spheres: spheres(results),
             surfaces: surfaces(results),
-            lines: motion.lines(),
-            poses: motion.poses(),
-            vehicle: motion.vehicle(),
-            contacts: motion.contacts(),
+            motion,
             plots: curves::plots(&series),
             measures: measures::measures(&summary),
             first_contacts: summary.contacts.clone(),
@@ -136,10 +117,7 @@ impl Run {
 
 impl PartData {
     fn of(part: &Part) -> Self {
-        let end = |l: &Lump| {
-            let (c, h) = (l.centre_m, l.half_m);
-            [c.x, c.y, c.z, h.x, h.y, h.z]
-        };
+        let end = |Lump { centre_m: c, half_m: h, .. }: &Lump| [c.x, c.y, c.z, h.x, h.y, h.z];
         PartData {
             segment: part.segment.index(),
             tone: match part.tone {
@@ -147,7 +125,7 @@ impl PartData {
                 Tone::Shirt => "shirt",
                 Tone::Trousers => "trousers",
             },
-            ends: [end(&part.ends[0]), end(&part.ends[1])],
+            ends: part.ends.each_ref().map(end),
         }
     }
 }
@@ -169,9 +147,9 @@ fn surfaces(results: &Results) -> Vec<SurfaceData> {
     all.map(|(surface, face)| {
         let bounded = !matches!(face.outline, Outline::Unbounded { .. });
         // space is Y left, Z up; vehicle-space Y right, Z down
-        let turn = match face.frame {
-            Frame::Vehicle => [1.0, 1.0, 1.0],
-            Frame::Space => [1.0, -1.0, -1.0],
+        let (frame, turn) = match face.frame {
+            Frame::Vehicle => ("vehicle", [1.0, 1.0, 1.0]),
+            Frame::Space => ("space", [1.0, -1.0, -1.0]),
         };
         let turned = |v: [f64; 3]| [0, 1, 2].map(|i| turn[i] * v[i]);
         let follows = !bounded && face.frame == Frame::Space;
@@ -180,10 +158,7 @@ fn surfaces(results: &Results) -> Vec<SurfaceData> {
         let corners = if follows { square_m(face, foot.into(), PATCH_M) } else { corners_m(face) };
         SurfaceData {
             name: surface.name.clone(),
-            frame: match face.frame {
-                Frame::Vehicle => "vehicle",
-                Frame::Space => "space",
-            },
+            frame,
             bounded,
             material: surface.material,
             corners: corners.into_iter().map(|p| turned(p.into())).collect(),

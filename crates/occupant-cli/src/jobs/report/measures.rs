@@ -7,7 +7,7 @@ use occupant_core::results::summary::{Caveat, Peak, Summary};
 use serde::Serialize;
 
 /// A row of the table.
-#[derive(Debug, Serialize)]
+#[derive(Clone, Debug, Default, Serialize)]
 pub(crate) struct Measure {
     group: &'static str,
     name: String,
@@ -27,17 +27,7 @@ pub(crate) struct Measure {
 
 impl Measure {
     fn new(group: &'static str, name: impl Into<String>, value: Option<f64>, unit: Shown, time_s: Option<f64>) -> Self {
-        Measure {
-            group,
-            name: name.into(),
-            value,
-            unit: unit.symbol(),
-            time_s,
-            limit: None,
-            rule: None,
-            verdict: None,
-            remark: None,
-        }
+        Measure { group, name: name.into(), value, unit: unit.symbol(), time_s, ..Measure::default() }
     }
 }
 
@@ -62,8 +52,8 @@ pub(crate) fn measures(summary: &Summary) -> Vec<Measure> {
 /// A row for each limit of an injury measure, or one without.
 fn injury_rows(m: &injury::Measure, caveats: &[Caveat]) -> Vec<Measure> {
     let unit = engineering(m.unit);
-    let group = "Injury measures, unfiltered";
-    let mut first = Measure::new(group, m.label, m.value.map(|v| v * unit.per_si()), unit, m.from_s);
+    let mut first =
+        Measure::new("Injury measures, unfiltered", m.label, m.value.map(|v| v * unit.per_si()), unit, m.from_s);
     let touching = caveats.iter().filter(|caveat| caveat.touches(m.name)).map(|caveat| &caveat.text);
     let remarks: Vec<_> = touching.chain(&m.remark).map(String::as_str).collect();
     first.remark = (!remarks.is_empty()).then(|| remarks.join("; "));
@@ -71,11 +61,6 @@ fn injury_rows(m: &injury::Measure, caveats: &[Caveat]) -> Vec<Measure> {
         return vec![first];
     }
     let row = |judgement: &injury::Judgement| Measure {
-        group,
-        name: m.label.to_owned(),
-        value: first.value,
-        unit: first.unit.clone(),
-        time_s: first.time_s,
         limit: Some(judgement.most * unit.per_si()),
         rule: Some(if judgement.quoted {
             judgement.rule.to_owned()
@@ -83,7 +68,7 @@ fn injury_rows(m: &injury::Measure, caveats: &[Caveat]) -> Vec<Measure> {
             format!("{}, as generally known", judgement.rule)
         }),
         verdict: Some(if judgement.passed { "passed" } else { "failed" }),
-        remark: first.remark.clone(),
+        ..first.clone()
     };
     m.limits.iter().map(row).collect()
 }

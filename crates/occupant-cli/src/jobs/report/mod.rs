@@ -11,8 +11,7 @@ mod motion;
 mod page;
 mod provenance;
 
-use crate::base::failure::Failure;
-use crate::base::names::program;
+use crate::base::{Failure, program};
 use crate::files::results::Results;
 
 pub(crate) use data::Report;
@@ -22,10 +21,6 @@ pub(crate) use data::Report;
 /// # Errors
 /// None for files that were opened.
 pub(crate) fn page(run: &Results, against: Option<&Results>) -> Result<String, Failure> {
-    let mut runs = vec![data::Run::of(run)?];
-    if let Some(other) = against {
-        runs.push(data::Run::of(other)?);
-    }
-    let report = Report { program: program(), runs };
-    page::fill(&report)
+    let runs = std::iter::once(run).chain(against).map(data::Run::of).collect::<Result<_, _>>()?;
+    page::fill(&Report { program: program(), runs })
 }

@@ -1,8 +1,9 @@
 //! The motion, output by output: poses, lines of force elements, contacts.
 
 use nalgebra::{Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
-use occupant_core::results::sample::{Contact, Sample};
-use occupant_core::vehicle::FrameMotion;
+use occupant_core::model::Model;
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::results::sample::Sample;
 use serde::Serialize;
 
 use super::array::Array;
@@ -10,109 +11,81 @@ use super::array::Array;
 /// Points of a line at every output.
 const LINE_POINTS: usize = 20;
 
-/// Gathers what moves.
-#[derive(Debug)]
+/// What moves: places in m and forces in N, in vehicle axes.
+#[derive(Debug, Default, Serialize)]
 pub(crate) struct Motion {
-    poses: Vec<f64>,
-    vehicle: Vec<f64>,
-    lines: Vec<Course>,
-    contacts: Vec<Contact>,
-    starts: Vec<usize>,
+    /// Lines of force elements.
+    #[serde(rename = "belts")]
+    lines: Vec<MovingLine>,
+    /// Poses of the segments: x, y, z, quaternion x, y, z, w.
+    poses: Array,
+    /// Poses of the vehicle in vehicle-space: Y right, Z down.
+    vehicle: Array,
+    contacts: Contacts,
 }
 
-/// A line of a force element at all outputs.
-#[derive(Debug, Default)]
-struct Course {
-    name: String,
-    points: Vec<f64>,
-    forces: Vec<f64>,
-}
-
-/// The same as the page has it; points x, y, z, `count` of them an output, vehicle axes, m.
-#[derive(Debug, Serialize)]
-pub(crate) struct MovingLine {
+/// A line of a force element; points x, y, z, `count` of them an output.
+#[derive(Debug, Default, Serialize)]
+struct MovingLine {
     name: String,
     count: usize,
     points: Array,
-    /// N.
     force: Array,
 }
 
-/// Contacts; those of output i are from `start[i]` to `start[i + 1]`. Points in m, forces on the body in N, vehicle axes.
-#[derive(Debug, Serialize)]
-pub(crate) struct Contacts {
+/// Contacts; those of output i are from `start[i]` to `start[i + 1]`. Forces are those on the body.
+#[derive(Debug, Default, Serialize)]
+struct Contacts {
     start: Array,
     sphere: Array,
     surface: Array,
     point: Array,
     force: Array,
+    #[serde(skip)]
+    count: usize,
 }
 
-impl Motion {
-    pub(crate) fn new() -> Self {
-        Motion { poses: Vec::new(), vehicle: Vec::new(), lines: Vec::new(), contacts: Vec::new(), starts: vec![0] }
+impl Recorder for Motion {
+    fn begin(&mut self, _model: &Model) -> Result<(), RecorderError> {
+        self.contacts.start.uint32(0);
+        Ok(())
     }
 
-    pub(crate) fn add(&mut self, sample: &Sample<'_>) {
+    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
         for segment in sample.model.body().tree.segments() {
-            let turn = sample.orientation(segment);
-            push_pose(&mut self.poses, sample.cg_m(segment).coords, &turn);
+            add_pose(&mut self.poses, sample.cg_m(segment).coords, &sample.orientation(segment));
         }
-        self.add_vehicle(sample.vehicle);
-        let lines = sample.lines();
-        self.lines.resize_with(lines.len(), Course::default);
-        for (course, line) in self.lines.iter_mut().zip(lines) {
-            course.points.extend(evenly(&line.points_m).iter().flat_map(|p| [p.x, p.y, p.z]));
-            course.forces.push(line.force_n);
-            course.name = line.name;
-        }
-        self.contacts.extend(sample.contacts());
-        self.starts.push(self.contacts.len());
-    }
-
-    /// The vehicle in vehicle-space: Y right, Z down.
-    fn add_vehicle(&mut self, motion: &FrameMotion) {
         let turned = Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0));
-        let rotation = Rotation3::from_matrix_unchecked(turned * motion.rotation);
+        let rotation = Rotation3::from_matrix_unchecked(turned * sample.vehicle.rotation);
         let turn = UnitQuaternion::from_rotation_matrix(&rotation);
-        push_pose(&mut self.vehicle, turned * motion.origin_m, &turn);
-    }
-
-    /// Poses of the segments: x, y, z, quaternion x, y, z, w; vehicle axes.
-    pub(crate) fn poses(&self) -> Array {
-        Array::float32(self.poses.iter().copied())
-    }
-
-    /// Poses of the vehicle in vehicle-space.
-    pub(crate) fn vehicle(&self) -> Array {
-        Array::float32(self.vehicle.iter().copied())
-    }
-
-    pub(crate) fn lines(&self) -> Vec<MovingLine> {
-        let line = |course: &Course| MovingLine {
-            name: course.name.clone(),
-            count: LINE_POINTS,
-            points: Array::float32(course.points.iter().copied()),
-            force: Array::float32(course.forces.iter().copied()),
-        };
-        self.lines.iter().map(line).collect()
-    }
-
-    pub(crate) fn contacts(&self) -> Contacts {
-        let all = || self.contacts.iter();
-        Contacts {
-            start: Array::uint32(self.starts.iter().copied()),
-            sphere: Array::uint16(all().map(|c| c.sphere)),
-            surface: Array::uint16(all().map(|c| c.surface)),
-            point: Array::float32(all().flat_map(|c| <[f64; 3]>::from(c.point_m))),
-            force: Array::float32(all().flat_map(|c| <[f64; 3]>::from(c.force_n))),
+        add_pose(&mut self.vehicle, turned * sample.vehicle.origin_m, &turn);
+        let lines = sample.lines();
+        self.lines.resize_with(lines.len(), MovingLine::default);
+        for (moving, line) in self.lines.iter_mut().zip(lines) {
+            moving.points.float32(evenly(&line.points_m).iter().flat_map(|p| [p.x, p.y, p.z]));
+            moving.force.float32([line.force_n]);
+            (moving.name, moving.count) = (line.name, LINE_POINTS);
         }
+        self.contacts.add(sample);
+        Ok(Flow::Continue)
     }
 }
 
-fn push_pose(poses: &mut Vec<f64>, place: Vector3<f64>, turn: &UnitQuaternion<f64>) {
-    poses.extend(place.iter());
-    poses.extend([turn.i, turn.j, turn.k, turn.w]);
+impl Contacts {
+    fn add(&mut self, sample: &Sample<'_>) {
+        for contact in sample.contacts() {
+            self.sphere.uint16(contact.sphere);
+            self.surface.uint16(contact.surface);
+            self.point.float32(<[f64; 3]>::from(contact.point_m));
+            self.force.float32(<[f64; 3]>::from(contact.force_n));
+            self.count += 1;
+        }
+        self.start.uint32(self.count);
+    }
+}
+
+fn add_pose(poses: &mut Array, place: Vector3<f64>, turn: &UnitQuaternion<f64>) {
+    poses.float32([place.x, place.y, place.z, turn.i, turn.j, turn.k, turn.w]);
 }
 
 /// As many points for every course: its first, its last, and between them points that are evenly spaced along the part

@@ -2,7 +2,7 @@
 //! that no `</script>` ends them early.
 
 use super::data::Report;
-use crate::base::failure::Failure;
+use crate::base::Failure;
 use crate::pictures::svg::escape;
 
 const PAGE: &str = include_str!("../../../assets/viewer/src/page.html");

@@ -1,8 +1,11 @@
 //! The measures as a list: name, value, unit, when.
 
+use crash_measures::measure::{FlailSpace, Peak, Thiv};
+use crash_measures::signal::WindowExtreme;
 use crash_measures::unit::Shown;
 use crash_measures::unit::Unit::{MetrePerSecond, MetrePerSecondSquared, One, Radian};
-use occupant_study::risk::{AXES, Measured};
+use occupant_study::risk::{AXES, Measured, VelocityChange};
+use serde::Serialize;
 
 use super::Report;
 
@@ -30,27 +33,31 @@ fn accelerations() -> [Unit; 2] {
     [g(), (MetrePerSecondSquared.shown(), 1)]
 }
 
-/// A measure of the table.
-#[derive(Clone, Debug)]
+/// A measure of the table; in JSON its value, when, and the remark if there is one.
+#[derive(Clone, Debug, Serialize)]
 pub(crate) struct Figure {
     /// Name in the table.
+    #[serde(skip)]
     pub(crate) name: String,
     /// Key in JSON, with its SI unit.
+    #[serde(skip)]
     pub(crate) key: String,
     /// Value, SI, with its sign.
     pub(crate) value: f64,
     /// Its units: that of reports in SI, that of reports in the US.
+    #[serde(skip)]
     pub(crate) units: [Unit; 2],
     /// When, s of the record: an instant, or the ends of a window.
     pub(crate) when_s: Vec<f64>,
     /// What else there is to say.
+    #[serde(skip_serializing_if = "str::is_empty")]
     pub(crate) remark: &'static str,
 }
 
 /// What was left out.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize)]
 pub(crate) struct LeftOut {
-    pub(crate) name: String,
+    pub(crate) measure: String,
     pub(crate) reason: String,
 }
 
@@ -65,139 +72,99 @@ impl Figures {
     /// The measures of a report.
     pub(crate) fn of(report: &Report) -> Self {
         let mut all = Figures { figures: Vec::new(), left_out: Vec::new(), start_s: report.signals.start_s };
-        all.flail(report);
-        all.head_impact(report);
-        all.severity(report);
-        all.averages(report);
-        all.angles(report);
-        all.changes(report);
-        all.load_criterion(report);
+        let risk = &report.risk;
+        all.flail(&risk.flail);
+        all.head_impact(&risk.thiv);
+        for (edition, asi) in [("1998", &risk.asi_1998), ("2010", &risk.asi_2010)] {
+            let name = format!("ASI (EN 1317-1:{edition})");
+            all.peak(&name, &format!("asi_{edition}"), asi, [plain(); 2], "");
+        }
+        for (axis, average) in AXES.iter().zip(&risk.max_50ms) {
+            let name = format!("max 50 ms average {axis}");
+            if let Some(average) = all.measured(&name, average) {
+                all.window(&name, &format!("max_50ms_{axis}_m_s2"), average);
+            }
+        }
+        let remark = if risk.angles.of_attitude { "" } else { "integral of this rate alone" };
+        for (angle, largest) in ["roll", "pitch", "yaw"].into_iter().zip(&risk.angles.largest) {
+            let (name, key) = (format!("max {angle}"), format!("max_{angle}_rad"));
+            all.peak(&name, &key, largest, [(Radian.shown_in("deg"), 1); 2], remark);
+        }
+        for (axis, change) in AXES.iter().zip(&risk.velocity_change) {
+            all.velocity_change(axis, change, report.signals.end_s());
+        }
+        if let Some(olc) = all.measured("OLC", &risk.olc) {
+            all.add("OLC", "olc_m_s2", olc.olc_mps2, accelerations(), &[olc.free_flight_end_s, olc.end_s]);
+        }
         all
     }
 
-    fn add(&mut self, name: &str, key: &str, value: f64, units: [Unit; 2], when_s: &[f64]) {
-        self.figures.push(Figure {
-            name: name.to_owned(),
-            key: key.to_owned(),
-            value,
-            units,
-            when_s: when_s.iter().map(|t| self.start_s + t).collect(),
-            remark: "",
-        });
-    }
-
-    fn remark(&mut self, remark: &'static str) {
-        if let Some(last) = self.figures.last_mut() {
-            last.remark = remark;
-        }
-    }
-
-    fn leave_out(&mut self, name: &str, reason: impl ToString) {
-        self.left_out.push(LeftOut { name: name.to_owned(), reason: reason.to_string() });
+    fn add(&mut self, name: &str, key: &str, value: f64, units: [Unit; 2], when_s: &[f64]) -> &mut Figure {
+        let (name, key) = (name.to_owned(), key.to_owned());
+        let when_s = when_s.iter().map(|t| self.start_s + t).collect();
+        self.figures.push(Figure { name, key, value, units, when_s, remark: "" });
+        let last = self.figures.len() - 1;
+        &mut self.figures[last]
     }
 
     /// The measure, or a line that says why it was left out.
-    fn measured<'a, T>(&mut self, name: &str, measure: &'a Measured<T>) -> Option<&'a T> {
-        match measure {
-            Ok(measure) => Some(measure),
-            Err(reason) => {
-                self.leave_out(name, reason);
-                None
-            }
+    fn measured<'a, T>(&mut self, name: &str, measure: &'a Result<T, impl ToString>) -> Option<&'a T> {
+        let left_out = |reason: &_| LeftOut { measure: name.to_owned(), reason: ToString::to_string(reason) };
+        self.left_out.extend(measure.as_ref().err().map(left_out));
+        measure.as_ref().ok()
+    }
+
+    fn peak(&mut self, name: &str, key: &str, peak: &Measured<Peak>, units: [Unit; 2], remark: &'static str) {
+        if let Some(peak) = self.measured(name, peak) {
+            self.add(name, key, peak.value, units, &[peak.time_s]).remark = remark;
         }
     }
 
-    fn flail(&mut self, report: &Report) {
-        let Some(flail) = self.measured("OIV and ORA", &report.risk.flail) else {
+    /// An average acceleration over a window.
+    fn window(&mut self, name: &str, key: &str, average: &WindowExtreme) {
+        self.add(name, key, average.value, accelerations(), &[average.start_s, average.end_s]);
+    }
+
+    /// An average after the impact of the occupant.
+    fn ridedown(&mut self, name: &str, key: &str, average: Option<WindowExtreme>, impact_s: Option<f64>) {
+        let average = average.ok_or(match impact_s {
+            Some(_) => "the record ends less than 10 ms after the impact of the occupant",
+            None => "the occupant never meets the interior within the record",
+        });
+        if let Some(average) = self.measured(name, &average) {
+            self.window(name, key, average);
+        }
+    }
+
+    fn flail(&mut self, flail: &Measured<FlailSpace>) {
+        let Some(flail) = self.measured("OIV and ORA", flail) else {
             return;
         };
-        let when: Vec<f64> = flail.impact_s.into_iter().collect();
+        let units = [m_s(), (MetrePerSecond.shown_in("ft/s"), 1)];
         for (name, key, value) in [("OIV x", "oiv_x_m_s", flail.oiv_x_mps), ("OIV y", "oiv_y_m_s", flail.oiv_y_mps)] {
-            self.add(name, key, value, [m_s(), (MetrePerSecond.shown_in("ft/s"), 1)], &when);
-            if flail.impact_s.is_none() {
-                self.remark("no impact: velocity change of the record");
-            }
+            let oiv = self.add(name, key, value, units, flail.impact_s.as_slice());
+            oiv.remark = flail.impact_s.map_or("no impact: velocity change of the record", |_| "");
         }
-        for (name, key, ridedown) in [("ORA x", "ora_x_m_s2", flail.ora_x), ("ORA y", "ora_y_m_s2", flail.ora_y)] {
-            match ridedown {
-                Some(w) => self.add(name, key, w.value, accelerations(), &[w.start_s, w.end_s]),
-                None => self.leave_out(name, no_ridedown(flail.impact_s)),
-            }
+        self.ridedown("ORA x", "ora_x_m_s2", flail.ora_x, flail.impact_s);
+        self.ridedown("ORA y", "ora_y_m_s2", flail.ora_y, flail.impact_s);
+    }
+
+    fn head_impact(&mut self, thiv: &Measured<Thiv>) {
+        if let Some(thiv) = self.measured("THIV and PHD", thiv) {
+            self.add("THIV", "thiv_m_s", thiv.speed_mps, [km_h(), m_s()], &[thiv.impact_s]);
+            self.ridedown("PHD", "phd_m_s2", thiv.phd, Some(thiv.impact_s));
         }
     }
 
-    fn head_impact(&mut self, report: &Report) {
-        let Some(thiv) = self.measured("THIV and PHD", &report.risk.thiv) else {
+    fn velocity_change(&mut self, axis: &str, change: &Measured<VelocityChange>, end_s: f64) {
+        let Some(change) = self.measured(&format!("velocity change {axis}"), change) else {
             return;
         };
-        self.add("THIV", "thiv_m_s", thiv.speed_mps, [km_h(), m_s()], &[thiv.impact_s]);
-        match thiv.phd {
-            Some(w) => self.add("PHD", "phd_m_s2", w.value, accelerations(), &[w.start_s, w.end_s]),
-            None => self.leave_out("PHD", no_ridedown(Some(thiv.impact_s))),
+        let last = Peak { value: change.final_m_s, time_s: end_s - self.start_s };
+        for (which, Peak { value, time_s }) in [("max", change.largest), ("final", last)] {
+            let name = format!("{which} velocity change {axis}");
+            let key = format!("{which}_velocity_change_{axis}_m_s");
+            self.add(&name, &key, value, [m_s(), (MetrePerSecond.shown_in("mph"), 1)], &[time_s]);
         }
-    }
-
-    fn severity(&mut self, report: &Report) {
-        for (name, key, measure) in [
-            ("ASI (EN 1317-1:1998)", "asi_1998", &report.risk.asi_1998),
-            ("ASI (EN 1317-1:2010)", "asi_2010", &report.risk.asi_2010),
-        ] {
-            if let Some(peak) = self.measured(name, measure) {
-                self.add(name, key, peak.value, [plain(); 2], &[peak.time_s]);
-            }
-        }
-    }
-
-    fn averages(&mut self, report: &Report) {
-        for (axis, measure) in AXES.iter().zip(&report.risk.max_50ms) {
-            let name = format!("max 50 ms average {axis}");
-            if let Some(w) = self.measured(&name, measure) {
-                let key = format!("max_50ms_{axis}_m_s2");
-                self.add(&name, &key, w.value, accelerations(), &[w.start_s, w.end_s]);
-            }
-        }
-    }
-
-    fn angles(&mut self, report: &Report) {
-        let angles = &report.risk.angles;
-        for (angle, measure) in ["roll", "pitch", "yaw"].into_iter().zip(&angles.largest) {
-            let name = format!("max {angle}");
-            if let Some(peak) = self.measured(&name, measure) {
-                let key = format!("max_{angle}_rad");
-                self.add(&name, &key, peak.value, [(Radian.shown_in("deg"), 1); 2], &[peak.time_s]);
-                if !angles.of_attitude {
-                    self.remark("integral of this rate alone");
-                }
-            }
-        }
-    }
-
-    fn changes(&mut self, report: &Report) {
-        for (axis, measure) in AXES.iter().zip(&report.risk.velocity_change) {
-            let name = format!("velocity change {axis}");
-            if let Some(change) = self.measured(&name, measure) {
-                let (largest, end_s) = (change.largest, report.signals.end_s() - self.start_s);
-                let name = format!("max velocity change {axis}");
-                let key = format!("max_velocity_change_{axis}_m_s");
-                self.add(&name, &key, largest.value, [m_s(), (MetrePerSecond.shown_in("mph"), 1)], &[largest.time_s]);
-                let name = format!("final velocity change {axis}");
-                let key = format!("final_velocity_change_{axis}_m_s");
-                self.add(&name, &key, change.final_m_s, [m_s(), (MetrePerSecond.shown_in("mph"), 1)], &[end_s]);
-            }
-        }
-    }
-
-    fn load_criterion(&mut self, report: &Report) {
-        if let Some(olc) = self.measured("OLC", &report.risk.olc) {
-            let when = [olc.free_flight_end_s, olc.end_s];
-            self.add("OLC", "olc_m_s2", olc.olc_mps2, accelerations(), &when);
-        }
-    }
-}
-
-fn no_ridedown(impact_s: Option<f64>) -> &'static str {
-    match impact_s {
-        Some(_) => "the record ends less than 10 ms after the impact of the occupant",
-        None => "the occupant never meets the interior within the record",
     }
 }

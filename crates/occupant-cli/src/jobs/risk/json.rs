@@ -4,24 +4,13 @@ use serde_json::{Map, Value, json as value};
 
 use super::Report;
 use super::figures::Figures;
-use super::table::{basis_name, family_name, grade_name, source_name, verdict_name};
+use super::table::{basis_name, filter_name, grade_name, source_name, verdict_name};
 use occupant_study::risk::VerticalGravity;
 
 pub(crate) fn json(report: &Report) -> Value {
     let figures = Figures::of(report);
     let (signals, preparation) = (&report.signals, &report.preparation);
-    let measures: Map<String, Value> = figures
-        .figures
-        .iter()
-        .map(|figure| {
-            let mut entry = value!({ "value": figure.value, "when_s": figure.when_s });
-            if !figure.remark.is_empty() {
-                entry["remark"] = figure.remark.into();
-            }
-            (figure.key.clone(), entry)
-        })
-        .collect();
-    let left_out = figures.left_out.iter();
+    let measures: Map<String, Value> = figures.figures.iter().map(|f| (f.key.clone(), value!(f))).collect();
     let limits = report.judgements.iter();
     value!({
         "vehicle": report.subject.name,
@@ -33,9 +22,7 @@ pub(crate) fn json(report: &Report) -> Value {
             "start_s": signals.start_s,
             "end_s": signals.end_s(),
         },
-        "filter": preparation.filter.map(|(class, family)| {
-            format!("CFC {:.0}, {}", class.hertz(), family_name(family))
-        }),
+        "filter": filter_name(preparation),
         "offset_m": preparation.offset_m,
         "gravity_included": preparation.gravity == VerticalGravity::Included,
         "occupant": {
@@ -44,9 +31,7 @@ pub(crate) fn json(report: &Report) -> Value {
             "head_start_x_m": report.flight.head.start_x_m,
         },
         "measures": measures,
-        "left_out": left_out
-            .map(|l| value!({ "measure": l.name, "reason": l.reason }))
-            .collect::<Vec<Value>>(),
+        "left_out": figures.left_out,
         "limits": limits
             .map(|j| value!({
                 "rule": j.limit.rule.name(),

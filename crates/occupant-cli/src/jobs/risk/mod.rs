@@ -38,10 +38,7 @@ impl Report {
         rules: &[Rule],
     ) -> Self {
         let risk = VehicleRisk::of(&signals, &flight);
-        let judgements = match rules {
-            [] => judge(&risk, &ROADSIDE_RULES),
-            rules => judge(&risk, rules),
-        };
+        let judgements = judge(&risk, if rules.is_empty() { &ROADSIDE_RULES } else { rules });
         Report { subject, preparation, flight, signals, risk, judgements }
     }
 }

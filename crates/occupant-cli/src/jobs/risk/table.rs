@@ -2,10 +2,10 @@
 
 use crash_measures::measure::limits::{Basis, Grade, Quantity};
 use crash_measures::signal::CfcFamily;
-use occupant_study::risk::{Judgement, VerticalGravity};
+use occupant_study::risk::{Judgement, Preparation, VerticalGravity};
 
 use super::Report;
-use super::figures::{Figure, Figures, Unit, g, km_h, m_s, plain};
+use super::figures::{Figures, Unit, g, km_h, m_s, plain};
 use super::subject::Source;
 use crate::base::text_table::{Align, NONE, Table, facts, number};
 
@@ -17,7 +17,7 @@ pub(crate) fn text(report: &Report) -> String {
     }
     if !figures.left_out.is_empty() {
         let lines = figures.left_out.iter();
-        let lines: String = lines.map(|l| format!("  {}: {}\n", l.name, l.reason)).collect();
+        let lines: String = lines.map(|l| format!("  {}: {}\n", l.measure, l.reason)).collect();
         parts.push(format!("left out\n{lines}"));
     }
     parts.join("\n")
@@ -25,10 +25,6 @@ pub(crate) fn text(report: &Report) -> String {
 
 fn head(report: &Report) -> String {
     let (signals, preparation) = (&report.signals, &report.preparation);
-    let filter = match preparation.filter {
-        Some((class, family)) => format!("CFC {:.0}, {}", class.hertz(), family_name(family)),
-        None => "none: taken as filtered already".to_owned(),
-    };
     let [x, y, z] = preparation.offset_m;
     let place = match preparation.offset_m {
         [0.0, 0.0, 0.0] => "at the centre of gravity".to_owned(),
@@ -53,7 +49,7 @@ fn head(report: &Report) -> String {
                 signals.start_s
             ),
         ),
-        ("filter", filter),
+        ("filter", filter_name(preparation).unwrap_or_else(|| "none: taken as filtered already".to_owned())),
         ("sensors", place),
         ("gravity", gravity.to_owned()),
         (
@@ -71,12 +67,14 @@ fn head(report: &Report) -> String {
     ])
 }
 
-/// Name of a family of filter coefficients.
-pub(crate) fn family_name(family: CfcFamily) -> &'static str {
-    match family {
+/// Class and coefficients of the filter.
+pub(crate) fn filter_name(preparation: &Preparation) -> Option<String> {
+    let (class, family) = preparation.filter?;
+    let family = match family {
         CfcFamily::Iso6487 => "ISO 6487",
         CfcFamily::SaeJ211 => "SAE J211",
-    }
+    };
+    Some(format!("CFC {:.0}, {family}", class.hertz()))
 }
 
 /// Where the motion comes from, in words.
@@ -101,22 +99,13 @@ fn measures(figures: &Figures) -> String {
     ]);
     for figure in &figures.figures {
         let [first, second] = figure.units;
-        let mut cells = vec![figure.name.clone(), shown(figure.value, first), first.0.symbol()];
-        if first == second {
-            cells.extend([String::new(), String::new()])
-        } else {
-            cells.extend([shown(figure.value, second), second.0.symbol()])
-        }
-        cells.push(when(figure));
-        cells.push(figure.remark.to_owned());
-        table.row(cells);
+        let [value, other] = figure.units.map(|unit| [shown(figure.value, unit), unit.0.symbol()]);
+        let other = if first == second { [const { String::new() }; 2] } else { other };
+        let times: Vec<String> = figure.when_s.iter().map(|t| format!("{t:.4}")).collect();
+        let about = [times.join(" – "), figure.remark.to_owned()];
+        table.row([figure.name.clone()].into_iter().chain(value).chain(other).chain(about));
     }
     table.text()
-}
-
-fn when(figure: &Figure) -> String {
-    let times = figure.when_s.iter().map(|t| format!("{t:.4}"));
-    times.collect::<Vec<String>>().join(" – ")
 }
 
 fn shown(si: f64, (unit, decimals): Unit) -> String {

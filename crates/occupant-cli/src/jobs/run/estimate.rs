@@ -1,17 +1,17 @@
 //! The error of a run's integration, estimated by a second run with a finer one.
 
+use nalgebra::Point3;
 use occupant_core::model::Model;
 use occupant_core::model::setup::{Integrator, Setup};
 use occupant_core::results::outcome::Status;
-use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{Figure, Summarizer, Summary};
 use occupant_core::run::simulate::simulate;
 use serde::Serialize;
 
-use crate::base::failure::Failure;
-use crate::base::interrupt::Interrupt;
 use crate::base::text_table::{facts, number};
+use crate::base::{Failure, Interrupt};
 use crate::files::scenario::Opened;
 
 /// A figure that differs by more than this part of itself is named in the table.
@@ -21,15 +21,9 @@ const MOST_NAMED: usize = 5;
 /// A head whose path differs by so much, m, says that the motion makes much of little.
 const CHAOTIC_M: f64 = 5e-3;
 
-/// Where the head's c.g. is at each output, m, in vehicle axes.
-#[derive(Debug, Default)]
-pub(crate) struct HeadPath(Vec<nalgebra::Point3<f64>>);
-
-impl Recorder for HeadPath {
-    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
-        self.0.push(sample.cg_m(sample.model.body().tree.landmarks().head));
-        Ok(Flow::Continue)
-    }
+/// Where the head's c.g. is, m, in vehicle axes.
+pub(crate) fn head_m(sample: &Sample<'_>) -> Point3<f64> {
+    sample.cg_m(sample.model.body().tree.landmarks().head)
 }
 
 /// How far a run is from one with a finer integration.
@@ -63,29 +57,30 @@ impl FigureError {
     }
 }
 
-/// Runs the scenario of `summary` once more, with a quarter of the step or a tenth of the tolerances.
+/// Runs the scenario of `summary`, with the head along `path`, once more, with a quarter of the step or a tenth of the tolerances.
 ///
 /// # Errors
 /// The finer run does not complete.
 pub(crate) fn estimate(
     opened: &Opened,
     summary: &Summary,
-    path: &HeadPath,
+    path: &[Point3<f64>],
     interrupt: &Interrupt,
 ) -> Result<ErrorEstimate, Failure> {
-    let unfinished = |reason: String| Failure::BrokeOff(format!("error: the error cannot be estimated: {reason}"));
+    let unfinished = |reason: String| Failure::broke_off(format!("the error cannot be estimated: {reason}"));
     let setup = opened.model.setup();
     let (integrator, against) = finer(setup.integrator);
     let model = Model::new(Setup { integrator, ..setup.clone() })
         .map_err(|problems| unfinished(opened.loaded.diagnose(&problems).to_string()))?;
-    let (mut summarizer, mut finer_path) = (Summarizer::new(), HeadPath::default());
-    let outcome = simulate(&model, (interrupt.clone(), (&mut summarizer, &mut finer_path)));
+    let (mut summarizer, mut finer_path) = (Summarizer::new(), Vec::new());
+    let head = Watch(|sample: &Sample<'_>| finer_path.push(head_m(sample)));
+    let outcome = simulate(&model, (interrupt.clone(), (&mut summarizer, head)));
     let outcome = outcome.map_err(|error| unfinished(error.to_string()))?;
     match (outcome.status, summarizer.summary(None)) {
         (Status::Completed, Some(finer)) => Ok(ErrorEstimate {
             against,
             evaluations: outcome.effort.evaluations,
-            head_path_m: path.0.iter().zip(&finer_path.0).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max),
+            head_path_m: path.iter().zip(&finer_path).map(|(a, b)| (a - b).norm()).fold(0.0, f64::max),
             figures: differences(summary.figures(&opened.model), finer.figures(&model)),
         }),
         (Status::Failed(error), _) => Err(unfinished(error.to_string())),

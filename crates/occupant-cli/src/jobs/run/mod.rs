@@ -7,17 +7,19 @@ pub(crate) mod resume;
 
 use std::time::Instant;
 
+use nalgebra::Point3;
 use occupant_core::diagnosis::FrictionWatch;
 use occupant_core::results::channel::{Channel, Series};
 use occupant_core::results::outcome::{ResumeError, Status};
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError, Watch};
+use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{Summarizer, Summary};
 use occupant_core::run::simulate::{resume, simulate};
 
-use crate::base::failure::Failure;
-use crate::base::interrupt::Interrupt;
 use crate::base::progress::Progress;
+use crate::base::{Failure, Interrupt};
 use crate::files::scenario::Opened;
-use estimate::HeadPath;
+use estimate::head_m;
 use recording::{Recording, Written};
 use resume::{Resumption, WithEarlier};
 
@@ -27,8 +29,18 @@ pub(crate) struct Simulated {
     pub(crate) summary: Summary,
     pub(crate) friction: FrictionWatch,
     pub(crate) histories: Series,
-    pub(crate) head: HeadPath,
+    /// Where the head was at each output.
+    pub(crate) head: Vec<Point3<f64>>,
     pub(crate) written: Written,
+}
+
+/// Ends a run at its first output.
+pub(crate) struct FirstOutput;
+
+impl Recorder for FirstOutput {
+    fn record(&mut self, _sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        Ok(Flow::Stop)
+    }
 }
 
 /// Computes a run, from its start or from where another ended, with the histories of `channels`.
@@ -44,18 +56,20 @@ pub(crate) fn run(
     quiet: bool,
 ) -> Result<Simulated, Failure> {
     let (mut summarizer, mut friction) = (Summarizer::new(), FrictionWatch::new());
-    let (mut histories, mut head) = (Series::new(channels), HeadPath::default());
+    let (mut histories, mut head) = (Series::new(channels), Vec::new());
+    let watch_head = Watch(|sample: &Sample<'_>| head.push(head_m(sample)));
     let whole = WithEarlier {
         earlier: from.map(|f| f.earlier.clone()).unwrap_or_default(),
         recorder: (&mut summarizer, &mut friction),
     };
-    let recorders = ((interrupt.clone(), Progress::new(quiet)), (whole, (&mut histories, (&mut head, &mut recording))));
+    let recorders =
+        ((interrupt.clone(), Progress::new(quiet)), (whole, (&mut histories, (watch_head, &mut recording))));
     let began = Instant::now();
     let ended = match from {
         Some(from) => resume(&opened.model, &from.checkpoint, recorders),
         None => simulate(&opened.model, recorders).map_err(ResumeError::Recording),
     };
-    let outcome = ended.map_err(|error| Failure::BrokeOff(format!("error: {error}{}", recording.left())))?;
+    let outcome = ended.map_err(|error| Failure::broke_off(format!("{error}{}", recording.left())))?;
     let wall_time_s = began.elapsed().as_secs_f64();
     let completed = outcome.status == Status::Completed;
     let written = recording.close(completed)?;

@@ -10,9 +10,7 @@ use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
 use occupant_core::results::sample::Sample;
 
 use super::resume::Resumption;
-use crate::base::failure::Failure;
-use crate::base::names::{file_name, program};
-use crate::base::output_file::{Existing, PartialFile, partial_path, refuse_input};
+use crate::base::{Existing, Failure, PartialFile, file_name, partial_path, program, refuse_input};
 use crate::files::mcap::about::RESOLVED;
 use crate::files::mcap::{About, Document, McapOptions, McapRecorder};
 use crate::files::scenario::{Opened, ScenarioArgs};
@@ -107,7 +105,7 @@ impl Recording {
         };
         let file = open.recorder.into_inner().map_err(|e| unwritten(&open.partial, &e))?;
         let closed = if completed { file.publish().map(Written::Complete) } else { file.keep().map(Written::Partial) };
-        closed.map_err(|e| Failure::BrokeOff(format!("error: {e}{}", there("the run", &open.partial))))
+        closed.map_err(|e| Failure::broke_off(format!("{e}{}", there("the run", &open.partial))))
     }
 
     /// Lets the recorder of the file, if there is one, do its part.
@@ -150,7 +148,7 @@ fn reason(partial: &Path, error: &(dyn Error + 'static)) -> String {
 }
 
 fn unwritten(partial: &Path, error: &(dyn Error + 'static)) -> Failure {
-    Failure::BrokeOff(format!("error: {}", reason(partial, error)))
+    Failure::broke_off(reason(partial, error))
 }
 
 /// What the file says of where it comes from. Nothing in it depends on the day or the machine.

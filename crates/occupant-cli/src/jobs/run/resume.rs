@@ -13,11 +13,7 @@ use occupant_core::run::simulate::replay;
 use serde::Serialize;
 
 use super::difference::differences;
-use crate::base::failure::Failure;
-use crate::base::input_file;
-use crate::base::names::{file_name, program};
-use crate::base::sha256::sha256;
-use crate::base::talk::{note, say};
+use crate::base::{Failure, file_name, input_file, note, program, say, sha256};
 use crate::files::mcap::StoredRun;
 use crate::files::scenario::{self, Opened};
 

@@ -13,7 +13,7 @@ use occupant_study::sensitivity::measures::{Derivatives, Request, Values, chosen
 use occupant_study::sensitivity::{Built, Parameter, Trajectory, follow, parameter};
 use placed_text::Problem;
 
-use crate::base::failure::Failure;
+use crate::base::Failure;
 use crate::files::history::choose;
 use crate::files::scenario::counted;
 
@@ -121,10 +121,10 @@ fn described(flag: &str, problem: &Problem) -> String {
 /// The figures of the plain run.
 fn figures(model: &Model) -> Result<Vec<Figure>, Failure> {
     let mut summarizer = Summarizer::new();
-    let outcome =
-        simulate(model, &mut summarizer).map_err(|e| Failure::BrokeOff(format!("error: the run broke off: {e}")))?;
+    let broken = |e| Failure::broke_off(format!("the run broke off: {e}"));
+    let outcome = simulate(model, &mut summarizer).map_err(broken)?;
     if let Status::Failed(reason) = outcome.status {
-        return Err(Failure::BrokeOff(format!("error: the run was not completed, so it has no derivative: {reason}")));
+        return Err(Failure::broke_off(format!("the run was not completed, so it has no derivative: {reason}")));
     }
     let summary = summarizer.summary(None);
     Ok(summary.map_or_else(Vec::new, |s| s.figures(model)))
@@ -145,20 +145,19 @@ pub(crate) fn analyse(model: &Model, asked: &Asked<'_>) -> Result<Analysis, Fail
     if !wrong.is_empty() {
         return Err(Failure::CouldNotRun(wrong.join("\n")));
     }
-    let broke_off = |e: &dyn std::fmt::Display| Failure::BrokeOff(format!("error: {e}"));
     let begun = Instant::now();
-    simulate(model, ()).map_err(|e| broke_off(&e))?;
+    simulate(model, ()).map_err(Failure::broke_off)?;
     let plain_s = begun.elapsed().as_secs_f64();
     let begun = Instant::now();
-    let trajectory = follow(model, &mut built).map_err(|e| broke_off(&e))?;
+    let trajectory = follow(model, &mut built).map_err(Failure::broke_off)?;
     let dual_s = begun.elapsed().as_secs_f64();
-    let values = plain_values(model, &trajectory, &asked.request).map_err(|e| broke_off(&e))?;
+    let values = plain_values(model, &trajectory, &asked.request).map_err(Failure::broke_off)?;
     let changes: &[f64] = if asked.request.figures.is_empty() { &[] } else { &CHANGES };
     let finite = finite_changes(&asked.parameters, changes, &asked.request.figures);
     let (mut all, mut comparisons) = (Vec::new(), Vec::new());
     for (k, (parameter, changes)) in asked.parameters.iter().zip(&finite).enumerate() {
         let found = derivatives(model, parameter, &trajectory, k, &asked.request);
-        let found = found.map_err(|e| broke_off(&e))?;
+        let found = found.map_err(Failure::broke_off)?;
         let one = |i: usize| {
             let value = values.figures[i];
             compare(&found.figures[i], value, parameter.size, changes, i)

@@ -9,7 +9,7 @@ use serde_json::{Value, json};
 
 use super::analysis::{Analysis, Asked, relative};
 use super::units::per;
-use crate::base::names::program;
+use crate::base::program;
 
 /// All results of this analysis of a scenario file.
 pub(crate) fn answer(file: &str, model: &Model, asked: &Asked<'_>, analysis: &Analysis) -> Value {

@@ -4,23 +4,23 @@ use occupant_core::model::Model;
 
 use super::analysis::{Analysis, Asked};
 use super::units::{ascii, per};
-use crate::base::names::program;
+use crate::base::program;
 use crate::files::export::{About, ColumnAbout};
 use crate::files::history::{Column, Histories, UnitChoice, shown};
 
 /// Channels and their derivatives over the outputs.
-pub(crate) fn histories(asked: &Asked<'_>, found: &Analysis) -> Histories {
+pub(crate) fn histories(asked: &Asked<'_>, analysis: &Analysis) -> Histories {
     let mut columns = Vec::new();
     for (c, channel) in asked.request.channels.iter().enumerate() {
         let mut column = |values: Vec<f64>| {
             columns.push(Column { channel: channel.clone(), class: None, values });
         };
-        column(found.values.channels[c].clone());
-        for derivatives in &found.derivatives {
+        column(analysis.values.channels[c].clone());
+        for derivatives in &analysis.derivatives {
             column(derivatives.channels[c].iter().map(|s| s.value).collect());
         }
     }
-    let outputs = &found.trajectory.checkpoints;
+    let outputs = &analysis.trajectory.checkpoints;
     Histories { time_s: outputs.iter().map(|o| o.time_s).collect(), columns, notes: Vec::new() }
 }
 

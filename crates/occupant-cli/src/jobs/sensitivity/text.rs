@@ -14,25 +14,25 @@ const KINK: f64 = 1e-2;
 const LISTED: usize = 30;
 
 /// The whole answer.
-pub(crate) fn text(model: &Model, asked: &Asked<'_>, found: &Analysis) -> String {
-    let mut text = heading(model, asked, found);
+pub(crate) fn text(model: &Model, asked: &Asked<'_>, analysis: &Analysis) -> String {
+    let mut text = heading(model, asked, analysis);
     if !asked.request.figures.is_empty() {
         text.push('\n');
-        text.push_str(&table(asked, found));
+        text.push_str(&table(asked, analysis));
         text.push_str(
             "\nrelative: % of the measure per % of the parameter. holds: finite changes, run in full, differ from the\n\
              derivative by no more than this part of it, for changes of the parameter up to that part of its value.\n",
         );
     }
     text.push('\n');
-    text.push_str(&events(model, &found.trajectory.events));
-    if found.trajectory.dropped_events > 0 {
-        text.push_str(&format!("and {} more\n", found.trajectory.dropped_events));
+    text.push_str(&events(model, &analysis.trajectory.events));
+    if analysis.trajectory.dropped_events > 0 {
+        text.push_str(&format!("and {} more\n", analysis.trajectory.dropped_events));
     }
-    for note in found.built.iter().flat_map(|b| &b.notes) {
+    for note in analysis.built.iter().flat_map(|b| &b.notes) {
         text.push_str(&format!("note: {note}\n"));
     }
-    for (parameter, built) in asked.parameters.iter().zip(&found.built) {
+    for (parameter, built) in asked.parameters.iter().zip(&analysis.built) {
         if let Some((doubt, time_s)) = built.path_doubt().filter(|(doubt, _)| *doubt > KINK) {
             text.push_str(&format!(
                 "note: {}: the vehicle's motion has a kink at this value (at {:.1} ms, by {:.0} %): the two sides differ\n",
@@ -45,21 +45,22 @@ pub(crate) fn text(model: &Model, asked: &Asked<'_>, found: &Analysis) -> String
     text
 }
 
-fn heading(model: &Model, asked: &Asked<'_>, found: &Analysis) -> String {
-    let outcome = &found.trajectory.outcome;
+fn heading(model: &Model, asked: &Asked<'_>, analysis: &Analysis) -> String {
+    let outcome = &analysis.trajectory.outcome;
     let worst = |values: &mut dyn Iterator<Item = f64>| values.fold(0.0_f64, f64::max);
-    let constants = worst(&mut found.built.iter().map(|b| b.doubt));
-    let figures = found.derivatives.iter().flat_map(|d| &d.figures);
+    let constants = worst(&mut analysis.built.iter().map(|b| b.doubt));
+    let figures = analysis.derivatives.iter().flat_map(|d| &d.figures);
     let figures = worst(&mut figures.filter(|s| s.value != 0.0).map(|s| s.doubt / s.value.abs()));
     let mut accuracy = format!("the start and all constants to {constants:.0e}");
-    if let Some((doubt, time_s)) = found.built.iter().filter_map(|b| b.path_doubt()).max_by(|a, b| a.0.total_cmp(&b.0))
+    if let Some((doubt, time_s)) =
+        analysis.built.iter().filter_map(|b| b.path_doubt()).max_by(|a, b| a.0.total_cmp(&b.0))
     {
         accuracy.push_str(&format!(", the vehicle's motion to {doubt:.0e} (worst at {:.1} ms)", time_s * 1e3));
     }
     if !asked.request.figures.is_empty() {
         accuracy.push_str(&format!(", measures to {figures:.0e}"));
     }
-    let [plain, dual] = found.cost_s;
+    let [plain, dual] = analysis.cost_s;
     let count = match asked.parameters.len() {
         1 => "1 parameter".to_owned(),
         n => format!("{n} parameters"),
@@ -79,7 +80,7 @@ fn heading(model: &Model, asked: &Asked<'_>, found: &Analysis) -> String {
     ])
 }
 
-fn table(asked: &Asked<'_>, found: &Analysis) -> String {
+fn table(asked: &Asked<'_>, analysis: &Analysis) -> String {
     let mut table = Table::new(&[
         (Align::Left, &["measure"]),
         (Align::Right, &["value"]),
@@ -90,9 +91,9 @@ fn table(asked: &Asked<'_>, found: &Analysis) -> String {
         (Align::Left, &["holds"]),
     ]);
     for (i, measure) in asked.request.figures.iter().enumerate() {
-        let (value, unit) = (found.values.figures[i], asked.units[i]);
+        let (value, unit) = (analysis.values.figures[i], asked.units[i]);
         for (k, parameter) in asked.parameters.iter().enumerate() {
-            let slope = found.derivatives[k].figures[i];
+            let slope = analysis.derivatives[k].figures[i];
             let relative = relative(slope.value, value, parameter.nominal);
             table.row([
                 measure.clone(),
@@ -102,7 +103,7 @@ fn table(asked: &Asked<'_>, found: &Analysis) -> String {
                 number(slope.value),
                 per(unit, &parameter.unit),
                 relative.map_or_else(|| NONE.to_owned(), |r| format!("{r:+.3}")),
-                words(&found.comparisons[k][i].verdict, parameter.nominal == 0.0),
+                words(&analysis.comparisons[k][i].verdict, parameter.nominal == 0.0),
             ]);
         }
     }

@@ -7,7 +7,8 @@ use occupant_study::analysis::{
 use occupant_study::spread::Spread;
 use occupant_study::{Block, Design, Role, Study};
 
-use super::samples::{Input, Samples, varies};
+use super::samples::varies;
+use super::{Input, Samples};
 
 /// The regression of k parameters looks at no more than this over (k + 1)² rows, evenly taken: its intervals are those of
 /// a thousand resamples.
@@ -136,20 +137,20 @@ fn order(parameters: usize, by_design: &ByDesign, linear: &Linear) -> Vec<usize>
 
 impl Linear {
     fn of(samples: &Samples, values: &[f64], study: &Study) -> Linear {
-        let rows: Vec<usize> = match &study.design {
-            Design::Saltelli { .. } => independent(samples),
+        let without = match &study.design {
             Design::Morris { .. } => {
-                return Linear::without(
-                    "the runs of Morris’s trajectories depend on one another: rank correlation and regression would claim too much",
-                );
+                "the runs of Morris’s trajectories depend on one another: rank correlation and regression would claim too much"
             }
             Design::OneAtATime { .. } => {
-                return Linear::without(
-                    "one parameter at a time says nothing of them together: the tornado is all there is",
-                );
+                "one parameter at a time says nothing of them together: the tornado is all there is"
             }
-            _ => (0..samples.len()).collect(),
+            _ => "",
         };
+        if !without.is_empty() {
+            let why = without.to_owned();
+            return Linear { without: Some(why.clone()), ranks: Vec::new(), regression: Err(why) };
+        }
+        let rows = independent(samples);
         let taken = |column: &[f64]| -> Vec<f64> { rows.iter().map(|r| column[*r]).collect() };
         let y = taken(values);
         let rank = |input: &Input| {
@@ -164,10 +165,6 @@ impl Linear {
             ranks: samples.inputs.iter().map(rank).collect(),
             regression: fit(&samples.inputs, &rows, values, study.seed),
         }
-    }
-
-    fn without(why: &str) -> Linear {
-        Linear { without: Some(why.to_owned()), ranks: Vec::new(), regression: Err(why.to_owned()) }
     }
 }
 
@@ -189,47 +186,29 @@ fn fit(inputs: &[Input], rows: &[usize], values: &[f64], seed: u64) -> Result<(V
     found.map(|found| (which, found)).map_err(|e| said(&e))
 }
 
-/// Rows whose parameters were drawn independently: A and B.
+/// Rows whose parameters were drawn independently: of Saltelli's blocks those of A and B.
 fn independent(samples: &Samples) -> Vec<usize> {
-    let is_one = |row: &usize| matches!(samples.roles[*row], Role::Saltelli { block: Block::A | Block::B, .. });
-    (0..samples.len()).filter(is_one).collect()
+    let is_mixed =
+        |row: &usize| matches!(samples.roles[*row], Role::Saltelli { block: Block::Ab { .. } | Block::Ba { .. }, .. });
+    (0..samples.len()).filter(|row| !is_mixed(row)).collect()
 }
 
 /// Points of which every run is there; a run without a figure is NaN.
 fn sobol(samples: &Samples, values: &[f64], seed: u64) -> Result<SobolIndices, String> {
-    let k = samples.inputs.len();
-    let mut a: Vec<f64> = Vec::new();
-    let mut b: Vec<f64> = Vec::new();
-    let mut ab: Vec<Vec<f64>> = vec![Vec::new(); k];
-    // A, AB₁ … ABₖ, B of the present point
-    let mut point: (u64, Vec<Option<f64>>) = (0, vec![None; k + 2]);
-    let mut close = |runs: &[Option<f64>]| {
-        let there: Option<Vec<f64>> = runs.iter().copied().collect();
-        if let Some(there) = there {
-            a.push(there[0]);
-            b.push(there[k + 1]);
-            for (column, value) in ab.iter_mut().zip(&there[1..=k]) {
-                column.push(*value);
-            }
+    let (mut a, mut b, mut ab) = (Vec::new(), Vec::new(), vec![Vec::new(); samples.inputs.len()]);
+    let runs = samples.roles.iter().zip(values).filter_map(|(role, value)| match role {
+        Role::Saltelli { point, block } => Some((point, block, *value)),
+        _ => None,
+    });
+    for runs in runs.collect::<Vec<_>>().chunk_by(|one, next| one.0 == next.0) {
+        let of = |wanted: Block| runs.iter().find(|(_, block, _)| **block == wanted).map(|run| run.2);
+        let between: Option<Vec<f64>> = (0..ab.len()).map(|parameter| of(Block::Ab { parameter })).collect();
+        if let (Some(first), Some(between), Some(last)) = (of(Block::A), between, of(Block::B)) {
+            a.push(first);
+            b.push(last);
+            ab.iter_mut().zip(between).for_each(|(column, value)| column.push(value));
         }
-    };
-    for (role, value) in samples.roles.iter().zip(values) {
-        let Role::Saltelli { point: number, block } = role else {
-            continue;
-        };
-        if point.0 != *number {
-            close(&point.1);
-            point = (*number, vec![None; k + 2]);
-        }
-        let at = match block {
-            Block::A => 0,
-            Block::Ab { parameter } => 1 + parameter,
-            Block::B => k + 1,
-            Block::Ba { .. } => continue,
-        };
-        point.1[at] = Some(*value);
     }
-    close(&point.1);
     sobol_indices(&a, &b, &ab, seed).map_err(|e| match e {
         AnalysisError::TooFew { found, needed } => {
             format!("{found} complete points; at least {needed} are needed")

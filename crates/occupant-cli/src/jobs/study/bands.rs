@@ -13,15 +13,12 @@ use occupant_study::engine::Engine;
 use occupant_study::spread::Rule;
 use parquet::file::reader::{FileReader, SerializedFileReader};
 
-use crate::base::failure::Failure;
-use crate::base::interrupt::Interrupt;
-use crate::base::output_file::Existing;
-use crate::base::talk::say;
-use crate::files::study_folder::checksums::Checksums;
+use crate::base::{Existing, Failure, Interrupt, say};
+use crate::files::study_folder::Checksums;
 use crate::files::table::{Cell, Form, Kind, TableFile, columns};
-use crate::jobs::ensemble::bands::{Bands, choose, refuse_too_much};
-use crate::jobs::ensemble::members::{Left, Member, Members};
-use crate::jobs::sweep::plan::Plan;
+use crate::jobs::ensemble::bands::{choose, refuse_too_much};
+use crate::jobs::ensemble::{Bands, Left, Member, Members};
+use crate::jobs::sweep::Plan;
 use crate::jobs::sweep::words::tell_damaged;
 
 /// What a file says of itself.

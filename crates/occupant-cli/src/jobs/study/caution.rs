@@ -7,10 +7,9 @@ use occupant_study::Design;
 use occupant_study::analysis::{Effect, Estimate, RankCorrelation, Regression, SobolIndices, rank_correlation};
 use occupant_study::spread::Spread;
 
-use super::gather::Gathered;
-use super::samples::Samples;
 use super::shown::part as shown_part;
-use crate::jobs::sweep::stored::Stored;
+use super::{Gathered, Samples};
+use crate::jobs::sweep::Stored;
 
 /// A Sobol index is marked if its 95 % interval is wider.
 const INDEX_WIDTH: f64 = 0.1;

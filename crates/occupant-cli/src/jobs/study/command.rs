@@ -7,10 +7,9 @@ use std::path::Path;
 
 use placed_text::Value as Node;
 
-use crate::base::names::file_name;
-use crate::files::study_folder::manifest::Manifest;
-use crate::files::study_folder::texts::NamedBy;
-use crate::jobs::sweep::plan::{FILE, Plan};
+use crate::base::file_name;
+use crate::files::study_folder::{Manifest, NamedBy};
+use crate::jobs::sweep::{FILE, Plan};
 
 /// The command that runs a run of the study again, given in the folder of the sweep. None where no shell can say it.
 pub(crate) fn command(plan: &Plan, manifest: &Manifest, run: u64) -> Option<String> {

@@ -3,15 +3,12 @@
 use occupant_study::spread::{Rule, Verdict, median};
 use occupant_study::{Law, Study, Value};
 
-use super::samples::Samples;
-use crate::base::failure::Failure;
-use crate::files::study_folder::manifest::Role;
-use crate::files::study_folder::row::Row;
+use super::Samples;
+use crate::base::Failure;
+use crate::files::study_folder::{Role, Row};
 use crate::files::table::Cell;
-use crate::jobs::ensemble::judge::Judged;
-use crate::jobs::sweep::census::Census;
-use crate::jobs::sweep::extremes::Extremes;
-use crate::jobs::sweep::stored::Stored;
+use crate::jobs::ensemble::Judged;
+use crate::jobs::sweep::{Census, Extremes, Stored};
 
 /// So many runs are named at each end of a response.
 const EXTREMES: usize = 3;
@@ -39,7 +36,7 @@ pub(crate) fn gather(opened: &Stored, figures: &[usize]) -> Result<Gathered, Fai
     let mut gathering = Gathering {
         study,
         figures,
-        found: Gathered {
+        gathered: Gathered {
             samples: Samples::new(study, &named),
             extremes: vec![Extremes::new(EXTREMES); figures.len()],
             ends: Census::new(&opened.manifest),
@@ -52,14 +49,14 @@ pub(crate) fn gather(opened: &Stored, figures: &[usize]) -> Result<Gathered, Fai
         Ok(())
     })?;
     gathering.close();
-    Ok(gathering.found)
+    Ok(gathering.gathered)
 }
 
 struct Gathering<'a> {
     study: &'a Study,
     /// Columns of the responses.
     figures: &'a [usize],
-    found: Gathered,
+    gathered: Gathered,
     /// By response: the members of the present sample so far.
     members: Vec<Vec<f64>>,
 }
@@ -72,7 +69,7 @@ impl Gathering<'_> {
                 continue;
             }
             // those of a table are met as they come
-            let words = self.found.samples.inputs[at].words.insert(Vec::new());
+            let words = self.gathered.samples.inputs[at].words.insert(Vec::new());
             if let Law::List(values) = &parameter.law {
                 for known in values.iter().filter_map(word) {
                     place_of(words, &known);
@@ -83,22 +80,22 @@ impl Gathering<'_> {
 
     fn see(&mut self, row: &Row) {
         let cell = |at: usize| row.cells.get(at).and_then(Cell::number);
-        let counts = self.found.ends.see(row);
+        let counts = self.gathered.ends.see(row);
         let (number, _) = self.study.sample_and_member(row.index);
-        if self.found.samples.numbers.last() != Some(&number) {
+        if self.gathered.samples.numbers.last() != Some(&number) {
             self.close();
             self.open(row);
         }
         for (i, at) in self.figures.iter().enumerate() {
             let value = cell(*at).filter(|_| counts).unwrap_or(f64::NAN);
-            self.found.extremes[i].see(row.index, value);
+            self.gathered.extremes[i].see(row.index, value);
             self.members[i].push(value);
         }
     }
 
     /// Begins the row of a sample.
     fn open(&mut self, row: &Row) {
-        let samples = &mut self.found.samples;
+        let samples = &mut self.gathered.samples;
         samples.add(self.study, row.index);
         for (input, cell) in samples.inputs.iter_mut().zip(&row.cells) {
             let value = match cell {
@@ -112,10 +109,10 @@ impl Gathering<'_> {
 
     /// Ends the row of a sample: the median of its members, if at least half of them have the figure.
     fn close(&mut self) {
-        if self.found.samples.is_empty() {
+        if self.gathered.samples.is_empty() {
             return;
         }
-        for (response, members) in self.found.samples.responses.iter_mut().zip(&mut self.members) {
+        for (response, members) in self.gathered.samples.responses.iter_mut().zip(&mut self.members) {
             let there = members.iter().filter(|x| x.is_finite()).count();
             let value = median(members).filter(|_| 2 * there >= members.len());
             response.values.push(value.unwrap_or(f64::NAN));

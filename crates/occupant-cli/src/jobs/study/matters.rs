@@ -2,10 +2,8 @@
 
 use occupant_study::analysis::{Estimate, SobolIndices};
 
-use super::analysis::{ByDesign, Linear};
-use super::numbers::Number;
 use super::shown::{part, shown};
-use super::{Finding, caution, plots};
+use super::{ByDesign, Finding, Linear, caution, plots};
 use crate::pictures::html::{Cell, Html};
 
 /// A column of a table with a row for each parameter: its head, whose numbers stand in it, and what of them.
@@ -51,10 +49,6 @@ const LINEAR: [Column; 5] = [
 ];
 
 impl Finding<'_> {
-    fn number(&self, quantity: &str, parameter: usize) -> Option<&Number> {
-        self.numbers.iter().find(|n| n.quantity == quantity && n.parameter == Some(parameter))
-    }
-
     fn cell(&self, (_, quantity, what): &Column, parameter: usize) -> Cell {
         if let What::Reading = what {
             return Cell::Words(reading(&self.analysis.linear, parameter));
@@ -68,10 +62,7 @@ impl Finding<'_> {
         match what {
             What::Interval => Cell::Number(format!("{} … {}", text(e.low), text(e.high))),
             What::Rows => Cell::Number(number.rows.to_string()),
-            What::Reach => {
-                let least = self.number("alone_least", parameter).map_or(f64::NAN, |n| n.estimate.value);
-                Cell::of(text(e.value - least), number.mark.clone())
-            }
+            What::Reach => Cell::of(text(e.value - self.value("alone_least", parameter)), number.mark.clone()),
             What::Value | What::Reading => Cell::of(text(e.value), number.mark.clone()),
         }
     }
@@ -79,43 +70,36 @@ impl Finding<'_> {
     /// A row for each parameter, those that matter most first.
     fn table(&self, html: &mut Html, columns: &[Column]) {
         let head: Vec<&str> = std::iter::once("parameter").chain(columns.iter().map(|(head, ..)| *head)).collect();
-        let row = |i: &usize| {
-            let mut row = vec![Cell::Words(self.samples.inputs[*i].name.clone())];
-            row.extend(columns.iter().map(|column| self.cell(column, *i)));
-            row
+        let row = |i: usize| {
+            let name = Cell::Words(self.samples.inputs[i].name.clone());
+            std::iter::once(name).chain(columns.iter().map(|column| self.cell(column, i))).collect()
         };
-        html.table(&head, &self.analysis.order.iter().map(row).collect::<Vec<_>>());
+        html.table(&head, &self.order().map(row).collect::<Vec<_>>());
     }
 }
 
 /// What the design is made for.
 pub(crate) fn by_design(html: &mut Html, of: &Finding<'_>) {
-    let (samples, analysis) = (of.samples, of.analysis);
-    let (what, found) = match &analysis.by_design {
+    let title = |title: &str| title.to_owned();
+    let effects = "Morris’s elementary effects: the change over a parameter’s whole range";
+    let alone = "One parameter at a time";
+    let (what, heading, columns, picture): (_, _, &[Column], fn(&Finding<'_>) -> String) = match &of.analysis.by_design
+    {
         ByDesign::Plain => return,
-        ByDesign::Sobol(found) => {
-            let of = |f| (sobol_title(f), &SOBOL[..], plots::sobol(samples, analysis, f));
-            ("Sobol indices", found.as_ref().map(of))
-        }
+        ByDesign::Sobol(indices) => ("Sobol indices", indices.as_ref().map(sobol_title), &SOBOL, plots::sobol),
         ByDesign::Morris(found) => {
-            let title = "Morris’s elementary effects: the change over a parameter’s whole range";
-            let of = |f: &Vec<_>| (title.to_owned(), &MORRIS[..], plots::morris(samples, analysis, f));
-            ("Elementary effects", found.as_ref().map(of))
+            ("Elementary effects", found.as_ref().map(|_| title(effects)), &MORRIS, plots::morris)
         }
-        ByDesign::OneAtATime(found) => {
-            let title = "One parameter at a time";
-            let of = |f: &Vec<_>| (title.to_owned(), &ALONE[..], plots::tornado(samples, analysis, f));
-            (title, found.as_ref().map(of))
-        }
+        ByDesign::OneAtATime(found) => (alone, found.as_ref().map(|_| title(alone)), &ALONE, plots::tornado),
     };
-    match found {
+    match heading {
         Err(why) => {
             let words = format!("{what}: none, because there are too few numbers to say anything ({why}).");
             html.text("p class=\"note\"", &words);
         }
-        Ok((title, columns, picture)) => {
-            html.text("h3", &title);
-            html.raw(&format!("<div class=\"pair\">\n<figure>{picture}</figure>\n"));
+        Ok(heading) => {
+            html.text("h3", &heading);
+            html.raw(&format!("<div class=\"pair\">\n<figure>{}</figure>\n", picture(of)));
             of.table(html, columns);
             html.raw("</div>\n");
         }
@@ -140,7 +124,7 @@ pub(crate) fn linear(html: &mut Html, of: &Finding<'_>) {
     if let Some(why) = &linear.without {
         return html.text("p", &format!("None: {why}."));
     }
-    let picture = plots::linear(of.samples, of.analysis);
+    let picture = plots::linear(of);
     html.raw(&format!("<div class=\"pair\">\n<figure>{picture}</figure>\n<div>"));
     of.table(html, &LINEAR);
     html.text("p class=\"remark\"", &regression_words(linear));

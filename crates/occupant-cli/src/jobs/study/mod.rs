@@ -24,12 +24,12 @@ mod tables;
 pub(crate) use page::page;
 pub(crate) use tables::{Tables, write as write_tables};
 
-use crate::base::failure::Failure;
-use crate::jobs::sweep::stored::Stored;
-use analysis::Analysis;
+use crate::base::Failure;
+use crate::jobs::sweep::Stored;
+use analysis::{Analysis, ByDesign, Linear};
 use gather::Gathered;
 use numbers::{Number, numbers};
-use samples::{Response, Samples};
+use samples::{Input, Response, Samples};
 
 /// Everything that a report says of a study.
 pub(crate) struct Report {
@@ -48,6 +48,27 @@ struct Finding<'a> {
     response: &'a Response,
     analysis: &'a Analysis,
     numbers: &'a [Number],
+}
+
+impl Finding<'_> {
+    /// Parameters, those that matter most first.
+    fn order(&self) -> impl Iterator<Item = usize> + Clone {
+        self.analysis.order.iter().copied()
+    }
+
+    fn number(&self, quantity: &str, parameter: usize) -> Option<&Number> {
+        self.numbers.iter().find(|n| n.quantity == quantity && n.parameter == Some(parameter))
+    }
+
+    /// The value of a quantity; NaN without one.
+    fn value(&self, quantity: &str, parameter: usize) -> f64 {
+        self.number(quantity, parameter).map_or(f64::NAN, |n| n.estimate.value)
+    }
+
+    /// Whether a rule of its own marks a number, not one that marks all of the response.
+    fn is_marked(&self, number: &Number) -> bool {
+        number.mark != caution::lacking(self.analysis.spread.as_ref())
+    }
 }
 
 impl Report {

@@ -2,11 +2,9 @@
 
 use occupant_study::analysis::Estimate;
 
-use super::analysis::{Analysis, ByDesign};
-use super::caution;
 use super::command::command;
-use super::gather::Gathered;
-use crate::jobs::sweep::stored::Stored;
+use super::{Analysis, ByDesign, Gathered, caution};
+use crate::jobs::sweep::Stored;
 
 /// One number of a response, SI units.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,24 +37,21 @@ pub(crate) struct Run {
 
 /// All numbers of a response.
 pub(crate) fn numbers(opened: &Stored, gathered: &Gathered, analysis: &Analysis) -> Vec<Number> {
-    let mut list = List {
-        rows: analysis.spread.map_or(0, |s| s.members),
-        mark: caution::lacking(analysis.spread.as_ref()),
-        numbers: Vec::new(),
-    };
+    let mut list = List { mark: caution::lacking(analysis.spread.as_ref()), numbers: Vec::new() };
     list.spread(analysis);
     list.linear(analysis);
     list.by_design(&analysis.by_design);
     let extremes = &gathered.extremes[analysis.response];
     for (quantity, runs) in [("worst", &extremes.worst), ("best", &extremes.best)] {
-        for (place, (value, run)) in (0..).zip(runs) {
-            let command = command(&opened.plan, &opened.manifest, *run);
-            let run = Run { number: *run, place, command };
-            let estimate = exactly(*value);
-            let number =
-                Number { quantity, parameter: None, run: Some(run), in_unit: true, estimate, rows: 1, mark: None };
-            list.numbers.push(number);
-        }
+        list.numbers.extend((0..).zip(runs).map(|(place, (value, run))| Number {
+            quantity,
+            parameter: None,
+            run: Some(Run { number: *run, place, command: command(&opened.plan, &opened.manifest, *run) }),
+            in_unit: true,
+            estimate: exactly(*value),
+            rows: 1,
+            mark: None,
+        }));
     }
     list.numbers
 }
@@ -67,23 +62,14 @@ fn exactly(value: f64) -> Estimate {
 }
 
 struct List {
-    /// Samples that have the response.
-    rows: usize,
     /// Why all numbers are marked.
     mark: Option<String>,
     numbers: Vec<Number>,
 }
 
 impl List {
-    fn put(&mut self, quantity: &'static str, in_unit: bool, estimate: Estimate) -> &mut Number {
-        let (rows, mark) = (self.rows, self.mark.clone());
-        self.numbers.push(Number { quantity, parameter: None, run: None, in_unit, estimate, rows, mark });
-        let last = self.numbers.len() - 1;
-        &mut self.numbers[last]
-    }
-
     /// A number of so many rows, marked by its own rule or with all others; of a parameter or of all together.
-    fn found(
+    fn put(
         &mut self,
         (quantity, in_unit): (&'static str, bool),
         parameter: Option<usize>,
@@ -91,28 +77,26 @@ impl List {
         rows: usize,
         mark: Option<String>,
     ) {
-        let number = self.put(quantity, in_unit, estimate);
-        (number.parameter, number.rows) = (parameter, rows);
-        number.mark = mark.or(number.mark.take());
+        let mark = mark.or_else(|| self.mark.clone());
+        self.numbers.push(Number { quantity, parameter, run: None, in_unit, estimate, rows, mark });
     }
 
     fn spread(&mut self, analysis: &Analysis) {
         let Some(s) = analysis.spread else {
             return;
         };
-        for (quantity, count) in [("samples", s.members), ("missing", s.missing)] {
-            self.put(quantity, false, exactly(count as f64));
-        }
-        for (quantity, value) in [
-            ("least", s.least),
-            ("q05", s.q05),
-            ("q25", s.q25),
-            ("median", s.median),
-            ("q75", s.q75),
-            ("q95", s.q95),
-            ("greatest", s.greatest),
+        for (quantity, in_unit, value) in [
+            ("samples", false, s.members as f64),
+            ("missing", false, s.missing as f64),
+            ("least", true, s.least),
+            ("q05", true, s.q05),
+            ("q25", true, s.q25),
+            ("median", true, s.median),
+            ("q75", true, s.q75),
+            ("q95", true, s.q95),
+            ("greatest", true, s.greatest),
         ] {
-            self.put(quantity, true, exactly(value));
+            self.put((quantity, in_unit), None, exactly(value), s.members, None);
         }
     }
 
@@ -120,15 +104,15 @@ impl List {
         let linear = &analysis.linear;
         for (i, rank) in linear.ranks.iter().enumerate() {
             if let Ok(found) = rank {
-                self.found(("rank_correlation", false), Some(i), found.rho, found.rows, caution::rank(found));
+                self.put(("rank_correlation", false), Some(i), found.rho, found.rows, caution::rank(found));
             }
         }
         if let Ok((which, found)) = &linear.regression {
             let mark = caution::regression(found);
             for (i, estimate) in which.iter().zip(&found.coefficients) {
-                self.found(("regression_coefficient", false), Some(*i), *estimate, found.rows, mark.clone());
+                self.put(("regression_coefficient", false), Some(*i), *estimate, found.rows, mark.clone());
             }
-            self.found(("r_squared", false), None, exactly(found.explained), found.rows, mark);
+            self.put(("r_squared", false), None, exactly(found.explained), found.rows, mark);
         }
     }
 
@@ -138,7 +122,7 @@ impl List {
                 for (quantity, estimates) in [("sobol_first", &found.first), ("sobol_total", &found.total)] {
                     for (i, estimate) in estimates.iter().enumerate() {
                         let mark = caution::index(estimate, i, found);
-                        self.found((quantity, false), Some(i), *estimate, found.points, mark);
+                        self.put((quantity, false), Some(i), *estimate, found.points, mark);
                     }
                 }
             }
@@ -149,7 +133,7 @@ impl List {
                         ("morris_mu_star", effect.mean_magnitude),
                         ("morris_sigma", exactly(effect.deviation)),
                     ] {
-                        self.found((quantity, true), Some(i), estimate, effect.effects, caution::effect(effect));
+                        self.put((quantity, true), Some(i), estimate, effect.effects, caution::effect(effect));
                     }
                 }
             }
@@ -164,7 +148,7 @@ impl List {
                         ("alone_at_least_value", low),
                         ("alone_at_greatest_value", high),
                     ] {
-                        self.found((quantity, true), Some(i), exactly(value), reach.levels.len(), None);
+                        self.put((quantity, true), Some(i), exactly(value), reach.levels.len(), None);
                     }
                 }
             }

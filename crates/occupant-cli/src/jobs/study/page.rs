@@ -2,7 +2,7 @@
 
 use super::shown::shown_unit;
 use super::{Report, caution, matters, sections};
-use crate::base::names::program;
+use crate::base::program;
 use crate::pictures::html::Html;
 use crate::pictures::svg::escape;
 

@@ -2,9 +2,7 @@
 
 use occupant_study::spread::quantile;
 
-use super::analysis::ByDesign;
-use super::samples::{Input, Response};
-use super::{Finding, plots};
+use super::{ByDesign, Finding, Input, Response, plots};
 use crate::pictures::html::Html;
 
 /// At most so many scatter plots for each response.

@@ -1,11 +1,7 @@
 //! The plots of a report, drawn by [`crate::pictures::plot`].
 
-use occupant_study::analysis::{Effect, Estimate, SobolIndices};
-
-use super::analysis::{Analysis, Reach};
-use super::caution;
-use super::samples::{Input, Response, Samples};
 use super::shown::{shown_unit, significant};
+use super::{Finding, Input, Response};
 use crate::pictures::plot::{Axis, Curve, Figure, Style, inline};
 
 /// Size of a plot without its legend.
@@ -26,98 +22,59 @@ const PALE: &str = "#a6cbe3";
 /// From the least to the greatest fifth.
 const FIFTHS: [&str; 5] = ["#0d0887", "#6a00a8", "#b12a90", "#e16462", "#fca636"];
 
-/// A number of a parameter with its interval, and whether a rule marks it.
-struct Entry {
-    /// Place of the parameter.
-    at: usize,
-    value: f64,
-    interval: [f64; 2],
-    marked: bool,
-}
-
-impl Entry {
-    fn of(at: usize, estimate: &Estimate, per: f64, mark: Option<String>) -> Self {
-        Entry {
-            at,
-            value: estimate.value / per,
-            interval: [estimate.low / per, estimate.high / per],
-            marked: mark.is_some(),
-        }
-    }
-}
+/// The two kinds of numbers of a plot: colour, how much lower they stand, size of their dots.
+const KINDS: [(&str, f64, f64); 2] = [(BLUE, -0.14, 7.5), (ORANGE, 0.14, 5.0)];
 
 /// Rank correlations and regression coefficients with their intervals.
-pub(crate) fn linear(samples: &Samples, analysis: &Analysis) -> String {
-    let place = |parameter: usize| analysis.order.iter().position(|p| *p == parameter);
-    let ranks = analysis.linear.ranks.iter().enumerate().filter_map(|(i, rank)| {
-        let rank = rank.as_ref().ok()?;
-        Some(Entry::of(place(i)?, &rank.rho, 1.0, caution::rank(rank)))
-    });
-    let mut curves = entries("rank correlation", BLUE, ranks, -0.14);
-    if let Ok((which, regression)) = &analysis.linear.regression {
-        let coefficients = which
-            .iter()
-            .zip(&regression.coefficients)
-            .filter_map(|(i, estimate)| Some(Entry::of(place(*i)?, estimate, 1.0, caution::regression(regression))));
-        curves.extend(entries("regression coefficient", ORANGE, coefficients, 0.14));
-    }
+pub(crate) fn linear(of: &Finding<'_>) -> String {
+    let quantities = [("rank_correlation", "rank correlation"), ("regression_coefficient", "regression coefficient")];
+    let curves = intervals(of, 0..of.samples.inputs.len(), &quantities);
     let x = Axis { includes: Some([-1.0, 1.0]), ..Axis::of("95 % intervals", "") };
-    words_figure("Rank correlation and regression", samples, analysis, x, curves)
+    words_figure("Rank correlation and regression", of, x, curves)
 }
 
 /// First-order and total indices with their intervals.
-pub(crate) fn sobol(samples: &Samples, analysis: &Analysis, indices: &SobolIndices) -> String {
-    let of = |label: &str, colour: &'static str, estimates: &[Estimate], lower: f64| {
-        let shown = analysis.order.iter().enumerate().filter_map(|(at, i)| {
-            let estimate = estimates.get(*i)?;
-            Some(Entry::of(at, estimate, 1.0, caution::index(estimate, *i, indices)))
-        });
-        entries(label, colour, shown, lower)
-    };
-    let curves = [of("first order", BLUE, &indices.first, -0.14), of("total", ORANGE, &indices.total, 0.14)].concat();
+pub(crate) fn sobol(of: &Finding<'_>) -> String {
+    let curves = intervals(of, of.order(), &[("sobol_first", "first order"), ("sobol_total", "total")]);
     let x = Axis { includes: Some([0.0, 1.0]), ..Axis::of("part of the variance, 95 % intervals", "") };
-    words_figure("Sobol indices", samples, analysis, x, curves)
+    words_figure("Sobol indices", of, x, curves)
 }
 
 /// μ* with its interval, and σ.
-pub(crate) fn morris(samples: &Samples, analysis: &Analysis, effects: &[Effect]) -> String {
-    let response = &samples.responses[analysis.response];
-    let (per, unit) = shown_unit(&response.unit);
-    let all = || analysis.order.iter().enumerate().filter_map(|(at, i)| Some((at, effects.get(*i)?)));
-    let magnitudes = all().map(|(at, effect)| Entry::of(at, &effect.mean_magnitude, per, caution::effect(effect)));
-    let mut curves = entries("μ*, mean magnitude", BLUE, magnitudes, -0.14);
-    let deviations = all().map(|(at, effect)| [effect.deviation / per, at as f64 + 0.14]);
+pub(crate) fn morris(of: &Finding<'_>) -> String {
+    let (per, unit) = shown_unit(&of.response.unit);
+    let mut curves = intervals(of, of.order(), &[("morris_mu_star", "μ*, mean magnitude")]);
+    let deviation = |i: usize| of.value("morris_sigma", i) / per;
+    let deviations = of.order().enumerate().map(|(at, i)| [deviation(i), at as f64 + 0.14]);
     curves.push(Curve::new("σ, deviation", Style::dots(ORANGE, 7.0), deviations.collect()));
-    let x = Axis { includes: Some([0.0, 0.0]), ..Axis::of(&response.name, unit) };
-    words_figure("Elementary effects over the whole range", samples, analysis, x, curves)
+    let x = Axis { includes: Some([0.0, 0.0]), ..Axis::of(&of.response.name, unit) };
+    words_figure("Elementary effects over the whole range", of, x, curves)
 }
 
 /// What each parameter alone does.
-pub(crate) fn tornado(samples: &Samples, analysis: &Analysis, reaches: &[Reach]) -> String {
-    let response = &samples.responses[analysis.response];
-    let (per, unit) = shown_unit(&response.unit);
-    let shown = names(samples, analysis).len();
-    let (mut bars, mut at_least, mut at_greatest) = (Vec::new(), Vec::new(), Vec::new());
-    for (at, i) in analysis.order.iter().take(shown).enumerate() {
-        let Some(reach) = reaches.get(*i) else {
-            continue;
-        };
+pub(crate) fn tornado(of: &Finding<'_>) -> String {
+    let (per, unit) = shown_unit(&of.response.unit);
+    let shown = names(of).len();
+    let value = |quantity: &str, i: usize| of.value(quantity, i) / per;
+    let [mut bars, mut at_least, mut at_greatest] = [const { Vec::new() }; 3];
+    for (at, i) in of.order().take(shown).enumerate() {
         let y = at as f64;
-        let [low, high] = reach.range().map(|x| x / per);
-        bars.extend([[low, y], [high, y], [f64::NAN; 2]]);
-        if let Some([least, greatest]) = reach.ends() {
-            at_least.push([least / per, y]);
-            at_greatest.push([greatest / per, y]);
-        }
+        bars.extend([[value("alone_least", i), y], [value("alone_greatest", i), y], [f64::NAN; 2]]);
+        at_least.push([value("alone_at_least_value", i), y]);
+        at_greatest.push([value("alone_at_greatest_value", i), y]);
     }
-    let nominal = reaches.first().map_or(f64::NAN, |r| r.nominal / per);
+    // words have no order, and then neither end
+    for ends in [&mut at_least, &mut at_greatest] {
+        ends.retain(|[x, _]: &[f64; 2]| x.is_finite());
+    }
+    let nominal = value("alone_nominal", 0);
     let curves = vec![
         Curve::new("range", Style::line(PALE, 12.0), bars),
         Curve::new("base", Style::line("#222222", 1.2), vec![[nominal, -0.5], [nominal, shown as f64 - 0.5]]),
         Curve::new("at the least value", Style::dots(BLUE, 7.0), at_least),
         Curve::new("at the greatest", Style::dots(ORANGE, 7.0), at_greatest),
     ];
-    words_figure("One parameter at a time", samples, analysis, Axis::of(&response.name, unit), curves)
+    words_figure("One parameter at a time", of, Axis::of(&of.response.name, unit), curves)
 }
 
 /// A response over a parameter.
@@ -145,25 +102,22 @@ pub(crate) fn map(across: &Input, up: &Input, response: &Response, fifths: &[f64
         }
     }
     let bound = |i: usize| significant(fifths[i] / unit_per);
-    let labels = [
-        format!("below {}", bound(0)),
-        format!("to {}", bound(1)),
-        format!("to {}", bound(2)),
-        format!("to {}", bound(3)),
-        format!("above {} {unit}", bound(3)).trim_end().to_owned(),
-    ];
+    let label = |fifth: usize| match fifth {
+        0 => format!("below {}", bound(0)),
+        4 => format!("above {} {unit}", bound(3)).trim_end().to_owned(),
+        _ => format!("to {}", bound(fifth)),
+    };
     let count = response.values.len() / every;
     let style = |colour| Style::dots(colour, diameter(count) + 1.0);
-    let curves = points.into_iter().zip(labels).zip(FIFTHS);
-    let curves = curves.map(|((points, label), colour)| Curve::new(label, style(colour), points));
+    let curves = points.into_iter().zip(FIFTHS).enumerate();
+    let curves = curves.map(|(fifth, (points, colour))| Curve::new(label(fifth), style(colour), points));
     let title = format!("{} over two parameters", response.name);
     dots_figure(&title, [axis_of(across), axis_of(up)], curves.collect())
 }
 
 /// Names of the parameters that are drawn.
-fn names(samples: &Samples, analysis: &Analysis) -> Vec<String> {
-    let names = analysis.order.iter().map(|i| samples.inputs[*i].name.clone());
-    names.take(MOST_WORDS).collect()
+fn names(of: &Finding<'_>) -> Vec<String> {
+    of.order().map(|i| of.samples.inputs[i].name.clone()).take(MOST_WORDS).collect()
 }
 
 fn per(input: &Input) -> f64 {
@@ -187,30 +141,43 @@ fn diameter(count: usize) -> f64 {
     }
 }
 
-/// Whiskers and dots of one kind of number, what a rule marks in grey.
-fn entries(label: &str, colour: &'static str, all: impl Iterator<Item = Entry>, lower: f64) -> Vec<Curve> {
-    let (marked, sure): (Vec<Entry>, Vec<Entry>) = all.filter(|e| e.at < MOST_WORDS).partition(|e| e.marked);
+/// Whiskers and dots of quantities (name and label) of these parameters, what a rule marks in grey.
+fn intervals(
+    of: &Finding<'_>,
+    parameters: impl Iterator<Item = usize> + Clone,
+    quantities: &[(&str, &str)],
+) -> Vec<Curve> {
     let mut curves = Vec::new();
-    for (entries, label, colour) in [(sure, label.to_owned(), colour), (marked, format!("{label}, marked"), GREY)] {
-        if entries.is_empty() {
-            continue;
+    for ((quantity, label), (colour, lower, size)) in quantities.iter().zip(KINDS) {
+        let placed = parameters.clone().filter_map(|i| {
+            let at = of.order().take(MOST_WORDS).position(|p| p == i)?;
+            Some((at as f64 + lower, of.number(quantity, i)?))
+        });
+        let (marked, sure): (Vec<_>, Vec<_>) = placed.partition(|(_, number)| of.is_marked(number));
+        for (numbers, label, colour) in
+            [(sure, (*label).to_owned(), colour), (marked, format!("{label}, marked"), GREY)]
+        {
+            let Some((_, first)) = numbers.first() else {
+                continue;
+            };
+            let per = if first.in_unit { shown_unit(&of.response.unit).0 } else { 1.0 };
+            let whiskers = numbers.iter().flat_map(|(y, n)| {
+                let e = &n.estimate;
+                [[e.low / per, *y], [e.high / per, *y], [f64::NAN; 2]]
+            });
+            curves.push(Curve::new("", Style::line(colour, 1.6), whiskers.collect()));
+            let dots = numbers.iter().map(|(y, n)| [n.estimate.value / per, *y]);
+            curves.push(Curve::new(label, Style::dots(colour, size), dots.collect()));
         }
-        let y = |e: &Entry| e.at as f64 + lower;
-        let whisker = |e: &Entry| [[e.interval[0], y(e)], [e.interval[1], y(e)], [f64::NAN; 2]];
-        curves.push(Curve::new("", Style::line(colour, 1.6), entries.iter().flat_map(whisker).collect()));
-        // the two kinds of numbers keep their shapes where a rule marks them
-        let size = if lower < 0.0 { 7.5 } else { 5.0 };
-        let dots = entries.iter().map(|e| [e.value, y(e)]).collect();
-        curves.push(Curve::new(label, Style::dots(colour, size), dots));
     }
     curves
 }
 
 /// A plot of the parameters in the order of the analysis, by name.
-fn words_figure(what: &str, samples: &Samples, analysis: &Analysis, x: Axis, curves: Vec<Curve>) -> String {
-    let words = names(samples, analysis);
+fn words_figure(what: &str, of: &Finding<'_>, x: Axis, curves: Vec<Curve>) -> String {
+    let words = names(of);
     let height = HEAD + EACH * words.len().max(2) as f64;
-    let title = format!("{what}: {}", samples.responses[analysis.response].name);
+    let title = format!("{what}: {}", of.response.name);
     inline(&Figure::new(&title, [x, Axis::of_words("", words)], curves), [1.1 * SIZE[0], height])
 }
 

@@ -4,10 +4,10 @@ use crate::base::customary::FIGURES;
 use crash_measures::nearest::nearest;
 use occupant_core::results::channel::star;
 
-use super::gather::Gathered;
+use super::Gathered;
 use super::samples::varies;
-use crate::base::failure::Failure;
-use crate::files::study_folder::manifest::{Column, Manifest, Role};
+use crate::base::Failure;
+use crate::files::study_folder::{Column, Manifest, Role};
 use crate::jobs::ensemble::judge::is_result;
 
 /// At most so many of the customary figures.

@@ -2,11 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::numbers::Number;
-use super::samples::Samples;
-use super::{Finding, Report};
-use crate::base::failure::Failure;
-use crate::base::output_file::Existing;
+use super::{Finding, Number, Report};
+use crate::base::{Existing, Failure};
 use crate::files::table::{Cell, Form, Kind, TableFile, columns};
 
 /// Where the tables of a report go.
@@ -52,7 +49,7 @@ pub(crate) fn write(report: &Report, tables: &Tables, existing: Existing) -> Res
         finding.numbers.iter().try_for_each(|number| table.row(row(&finding, number)))?;
     }
     table.publish()?;
-    samples(&report.gathered.samples, report, &tables.samples, existing)
+    samples(report, &tables.samples, existing)
 }
 
 fn row(of: &Finding<'_>, number: &Number) -> Vec<Cell> {
@@ -74,7 +71,8 @@ fn row(of: &Finding<'_>, number: &Number) -> Vec<Cell> {
     row
 }
 
-fn samples(samples: &Samples, report: &Report, path: &Path, existing: Existing) -> Result<(), Failure> {
+fn samples(report: &Report, path: &Path, existing: Existing) -> Result<(), Failure> {
+    let samples = &report.gathered.samples;
     let mut columns = vec![("sample".to_owned(), Kind::Count)];
     let mut units = serde_json::Map::new();
     for input in &samples.inputs {

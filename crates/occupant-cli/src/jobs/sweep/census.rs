@@ -4,8 +4,7 @@ use std::collections::BTreeMap;
 
 use occupant_study::ending::Balance;
 
-use crate::files::study_folder::manifest::Manifest;
-use crate::files::study_folder::row::{Row, Status};
+use crate::files::study_folder::{Manifest, Row, Status};
 use crate::files::table::Cell;
 
 /// So many different reasons are remembered.

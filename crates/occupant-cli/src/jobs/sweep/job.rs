@@ -5,21 +5,13 @@ use std::ops::Range;
 use occupant_study::Keep;
 use occupant_study::engine::Engine;
 
-use super::plan::Plan;
 use super::progress::Progress;
-use super::simulation::Simulation;
+use super::simulation::is_kept;
 use super::stored::sha256_of;
 use super::words::{tell, tell_damaged, warn_unlocked};
-use super::{kept, results};
-use crate::base::failure::{Done, Failure};
-use crate::base::interrupt::Interrupt;
-use crate::base::talk::say;
-use crate::files::study_folder::checksums::Checksums;
-use crate::files::study_folder::finished::Finished;
-use crate::files::study_folder::folder::Folder;
-use crate::files::study_folder::journal::{Journal, JournalWriter};
-use crate::files::study_folder::problem::Problem;
-use crate::files::study_folder::shard::Shard;
+use super::{Plan, Simulation, kept, results};
+use crate::base::{Done, Failure, Interrupt, say};
+use crate::files::study_folder::{Checksums, Finished, Folder, Journal, JournalWriter, Problem, Shard};
 
 /// A sweep, or one part of it.
 pub(crate) struct Sweep {
@@ -56,8 +48,8 @@ impl Sweep {
         let runs = kept::among(&sums.damaged(), folder, samples.clone());
         let progress = self.compute(&journal.finished, &samples, (&sha256, &sums))?;
         let journal = Journal::read(std::slice::from_ref(folder), &sha256, manifest.samples)?;
-        let wanted = kept::wanted(&self.keep, samples.clone()).chain(runs);
-        self.write_kept(&sums, &kept::missing(folder, &journal, &sums, wanted)?)?;
+        let wanted = samples.clone().filter(|index| is_kept(&self.keep, *index));
+        self.write_kept(&journal, &sums, wanted.chain(runs))?;
         Journal::list(folder, self.shard, &sums)?;
         if self.shard.is_whole() {
             return self.finish(&journal, &progress, sums);
@@ -116,16 +108,22 @@ impl Sweep {
         Ok(progress)
     }
 
-    /// Writes whole runs of finished samples.
-    fn write_kept(&self, sums: &Checksums, samples: &[u64]) -> Result<(), Failure> {
-        kept::write(&self.plan, (&self.folder, sums), samples, &self.engine, &self.interrupt.asked)?;
+    /// Writes whole runs of finished samples, where they are missing.
+    fn write_kept(
+        &self,
+        journal: &Journal,
+        sums: &Checksums,
+        samples: impl Iterator<Item = u64>,
+    ) -> Result<(), Failure> {
+        let (place, stop) = ((&self.folder, sums), &self.interrupt.asked);
+        kept::write_missing(&self.plan, place, journal, samples, &self.engine, stop)?;
         self.interrupt.refuse("all samples are finished; the same command resumes the sweep")
     }
 
     /// The tables, and the worst.
     fn finish(&self, journal: &Journal, progress: &Progress, sums: Checksums) -> Result<Done, Failure> {
-        let found = results::write((&self.folder, &sums), journal, &self.plan.manifest, &self.keep, self.csv)?;
-        self.write_kept(&sums, &kept::missing(&self.folder, journal, &sums, found.worst.iter().copied())?)?;
+        let results = results::write((&self.folder, &sums), journal, &self.plan.manifest, &self.keep, self.csv)?;
+        self.write_kept(journal, &sums, results.worst.iter().copied())?;
         sums.close()?;
         if self.quiet {
             return Ok(Done::Well);
@@ -136,6 +134,6 @@ impl Sweep {
             progress.elapsed_s(),
             self.engine.threads()
         );
-        tell(&found, Some(work))
+        tell(&results, Some(work))
     }
 }

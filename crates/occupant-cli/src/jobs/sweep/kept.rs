@@ -9,15 +9,9 @@ use std::sync::atomic::AtomicBool;
 use occupant_study::Keep;
 use occupant_study::engine::Engine;
 
-use super::plan::Plan;
-use super::simulation::{Simulation, is_kept};
-use crate::base::failure::Failure;
-use crate::base::output_file::partial_path;
-use crate::files::study_folder::checksums::Checksums;
-use crate::files::study_folder::folder::Folder;
-use crate::files::study_folder::journal::Journal;
-use crate::files::study_folder::problem::Problem;
-use crate::files::study_folder::row::Status;
+use super::{Plan, Simulation};
+use crate::base::{Failure, partial_path};
+use crate::files::study_folder::{Checksums, Folder, Journal, Problem, Status};
 
 /// Reads `none`, `all`, `3, 17` or `worst 5 by head.peak`.
 pub(crate) fn parse(text: &str) -> Option<Keep> {
@@ -39,17 +33,25 @@ pub(crate) fn prepare(keep: &Keep, folder: &Folder) -> Result<(), Problem> {
     fs::create_dir_all(&runs).map_err(Problem::io("create", &runs))
 }
 
-/// Of these samples, all of them finished, those whose file is missing or damaged. A run that failed has a partial file, a
-/// sample that was refused none.
+/// The samples of a range whose runs are among these files.
+pub(crate) fn among(files: &[PathBuf], folder: &Folder, samples: Range<u64>) -> Vec<u64> {
+    let is_there = |i: &u64| files.contains(&folder.run(*i)) || files.contains(&partial_path(&folder.run(*i)));
+    if files.is_empty() { Vec::new() } else { samples.filter(is_there).collect() }
+}
+
+/// Writes the whole runs of these samples, all of them finished, whose files are missing or damaged. A run that failed has a
+/// partial file, a sample that was refused none.
 ///
 /// # Errors
-/// A journal that cannot be read.
-pub(crate) fn missing(
-    folder: &Folder,
+/// A journal that cannot be read, a file that cannot be written.
+pub(crate) fn write_missing(
+    plan: &Plan,
+    (folder, sums): (&Folder, &Checksums),
     journal: &Journal,
-    sums: &Checksums,
     samples: impl IntoIterator<Item = u64>,
-) -> Result<Vec<u64>, Problem> {
+    engine: &Engine,
+    stop: &AtomicBool,
+) -> Result<(), Failure> {
     let mut missing = Vec::new();
     // each once, however many want it
     for index in samples.into_iter().collect::<BTreeSet<u64>>() {
@@ -57,8 +59,8 @@ pub(crate) fn missing(
         if sums.holds(&file) {
             continue;
         }
-        let rows = journal.rows(index..index + 1)?;
-        let lacks = match rows.first().map(|row| row.status) {
+        let row = journal.rows(index..index + 1)?.pop();
+        let lacks = match row.map(|row| row.status) {
             Some(Status::Completed) => true,
             Some(Status::Failed) => !sums.holds(&partial_path(&file)),
             Some(Status::Refused | Status::Broken) | None => false,
@@ -67,33 +69,8 @@ pub(crate) fn missing(
             missing.push(index);
         }
     }
-    Ok(missing)
-}
-
-/// The samples of a range whose runs are among these files.
-pub(crate) fn among(files: &[PathBuf], folder: &Folder, samples: Range<u64>) -> Vec<u64> {
-    let is_there = |i: &u64| files.contains(&folder.run(*i)) || files.contains(&partial_path(&folder.run(*i)));
-    if files.is_empty() { Vec::new() } else { samples.filter(is_there).collect() }
-}
-
-/// Those of a range that are kept beforehand.
-pub(crate) fn wanted(keep: &Keep, samples: Range<u64>) -> impl Iterator<Item = u64> {
-    samples.filter(|i| is_kept(keep, *i))
-}
-
-/// Runs samples again and writes their files.
-///
-/// # Errors
-/// A file that cannot be written.
-pub(crate) fn write(
-    plan: &Plan,
-    (folder, sums): (&Folder, &Checksums),
-    samples: &[u64],
-    engine: &Engine,
-    stop: &AtomicBool,
-) -> Result<(), Failure> {
     let simulation = Simulation { plan, keep: &Keep::All, folder, sums };
-    engine.run(&simulation, samples.iter().copied(), stop, |_row| Ok(()))
+    engine.run(&simulation, missing.into_iter(), stop, |_row| Ok(()))
 }
 
 #[cfg(test)]

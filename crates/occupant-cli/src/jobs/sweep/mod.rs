@@ -17,3 +17,11 @@ pub(crate) mod simulation;
 mod stable;
 pub(crate) mod stored;
 pub(crate) mod words;
+
+pub(crate) use census::Census;
+pub(crate) use extremes::Extremes;
+pub(crate) use plan::{FILE, Plan};
+pub(crate) use results::Results;
+pub(crate) use simulation::Simulation;
+pub(crate) use stable::{Ensembles, Stable};
+pub(crate) use stored::Stored;

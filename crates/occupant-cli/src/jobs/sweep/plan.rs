@@ -3,20 +3,17 @@
 use std::path::{Path, PathBuf};
 
 use occupant_core::model::Model;
-use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
-use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{Figure, Summarizer};
 use occupant_core::run::simulate::simulate;
 use occupant_core::scenario::{Diagnostics, Draft, Loaded};
 use occupant_study::{Design, Law, Parameter, Setting, Study, StudyText, Value};
 use placed_text::Value as Written;
 
-use crate::base::failure::Failure;
-use crate::base::names::file_name;
+use crate::base::{Failure, file_name};
 use crate::files::scenario::{Opened, ScenarioArgs, Tables, format_of, refused};
-use crate::files::study_folder::manifest::{Column, Manifest, Role};
-use crate::files::study_folder::texts::{NamedBy, Texts};
+use crate::files::study_folder::{Column, Manifest, NamedBy, Role, Texts};
 use crate::files::table::Cell;
+use crate::jobs::run::FirstOutput;
 
 /// So many samples are tried to find the columns where the base scenario itself cannot be run.
 const TRIED: u64 = 16;
@@ -48,11 +45,7 @@ impl Plan {
     /// # Errors
     /// Everything that is wrong with it, in words.
     pub(crate) fn open(name: &Path, overrides: &[String], texts: &Texts, program: String) -> Result<Plan, Failure> {
-        let shown = name.display();
-        let bytes = texts.get(NamedBy::CommandLine, &file_name(name));
-        let bytes = bytes.map_err(|e| Failure::plain(format!("the study {shown} cannot be read: {e}")))?;
-        let text = StudyText::read_bytes(&bytes, format_of(name), &shown.to_string())
-            .map_err(|problems| refused(&shown.to_string(), &problems))?;
+        let text = study_text(name, texts)?;
         let scenario = name.parent().unwrap_or(Path::new("")).join(text.base());
         let bytes = texts.get(NamedBy::StudyAsBase, text.base()).map_err(|e| {
             let base = scenario.display();
@@ -62,7 +55,8 @@ impl Plan {
         let draft = Draft::read_bytes(&bytes, format_of(&scenario), &scenario_name)
             .map_err(|problems| refused(&scenario_name, &problems))?;
         let beside = |file: &str| texts.get(NamedBy::Study, file);
-        let study = text.bind(draft, overrides, &beside).map_err(|problems| refused(&shown.to_string(), &problems))?;
+        let shown = name.display().to_string();
+        let study = text.bind(draft, overrides, &beside).map_err(|problems| refused(&shown, &problems))?;
         let mut changes = changes_of(&text);
         changes.extend(overrides.iter().cloned());
         let title = text.section.title.clone().unwrap_or_default();
@@ -111,13 +105,8 @@ impl Plan {
     /// What is wrong with its scenario.
     pub(crate) fn open_sample(&self, index: u64) -> Result<Opened, Diagnostics> {
         let (loaded, model, warnings) = self.model(Some(index))?;
-        Ok(Opened {
-            // only a run that is kept needs them
-            bytes: Vec::new(),
-            loaded,
-            model,
-            warnings,
-        })
+        // only a run that is kept needs the bytes
+        Ok(Opened { bytes: Vec::new(), loaded, model, warnings })
     }
 
     /// The words with which `occupant run` runs a sample, and the scenario's bytes.
@@ -125,9 +114,7 @@ impl Plan {
         let mut overrides = self.changes.clone();
         let assignments = self.study.assignments(index);
         overrides.extend(assignments.iter().map(|a| format!("{}={}", a.path, a.text())));
-        let scenario = self.scenario.clone();
-        let args = ScenarioArgs { scenario, overrides };
-        (args, self.bytes.clone())
+        (ScenarioArgs { scenario: self.scenario.clone(), overrides }, self.bytes.clone())
     }
 
     /// The model of a sample, or of the base scenario.
@@ -164,18 +151,15 @@ impl Plan {
     fn columns(&self) -> Result<Vec<Column>, Failure> {
         let number = |name: &str, unit: &str| Column {
             name: format!("input.{name}"),
-            unit: match unit {
-                "" => "1".to_owned(),
-                unit => unit.to_owned(),
-            },
+            unit: if unit.is_empty() { "1" } else { unit }.to_owned(),
             role: Role::Input,
         };
         let input = |(at, parameter): (usize, &Parameter)| {
+            let column = number(&parameter.name, parameter.unit);
             if has_texts(&self.study, at) {
-                Column { name: format!("input.{}", parameter.name), unit: String::new(), role: Role::InputText }
-            } else {
-                number(&parameter.name, parameter.unit)
+                return Column { unit: String::new(), role: Role::InputText, ..column };
             }
+            column
         };
         let parameters = self.study.parameters.iter().enumerate();
         let mut columns: Vec<Column> = parameters.map(input).collect();
@@ -183,12 +167,8 @@ impl Plan {
             columns.push(number("ensemble.sample", ""));
             columns.push(number("ensemble.member", ""));
         }
-        let figures = self.figures()?;
-        columns.extend(figures.into_iter().map(|figure| Column {
-            name: figure.name,
-            unit: figure.unit.to_owned(),
-            role: Role::Figure,
-        }));
+        let figure = |f: Figure| Column { name: f.name, unit: f.unit.to_owned(), role: Role::Figure };
+        columns.extend(self.figures()?.into_iter().map(figure));
         Ok(columns)
     }
 
@@ -201,7 +181,7 @@ impl Plan {
                 Ok((_, model, _)) => {
                     let mut summarizer = Summarizer::new();
                     // one output is enough to know them
-                    let stopped = simulate(&model, (&mut summarizer, Enough));
+                    let stopped = simulate(&model, (&mut summarizer, FirstOutput));
                     if let (Ok(_), Some(summary)) = (stopped, summarizer.summary(None)) {
                         return Ok(summary.figures(&model));
                     }
@@ -214,6 +194,17 @@ impl Plan {
         let scenario = self.scenario.display().to_string();
         Err(refused(&scenario, &first_refusal.unwrap_or_else(Diagnostics::new)))
     }
+}
+
+/// The text of a study; `name` is what messages call it.
+///
+/// # Errors
+/// One that cannot be read; everything that is wrong with its words.
+pub(crate) fn study_text(name: &Path, texts: &Texts) -> Result<StudyText, Failure> {
+    let shown = name.display().to_string();
+    let bytes = texts.get(NamedBy::CommandLine, &file_name(name));
+    let bytes = bytes.map_err(|e| Failure::plain(format!("the study {shown} cannot be read: {e}")))?;
+    StudyText::read_bytes(&bytes, format_of(name), &shown).map_err(|problems| refused(&shown, &problems))
 }
 
 /// What the study puts into its scenario in all samples, as `--set` writes it.
@@ -244,14 +235,5 @@ fn has_texts(study: &Study, at: usize) -> bool {
         (Some(Law::List(values)), _) => values.iter().any(text),
         (Some(Law::Table), Design::Table { rows, .. }) => rows.iter().any(|row| row.get(at).is_some_and(text)),
         _ => false,
-    }
-}
-
-/// Ends a run at its first output.
-struct Enough;
-
-impl Recorder for Enough {
-    fn record(&mut self, _sample: &Sample<'_>) -> Result<Flow, RecorderError> {
-        Ok(Flow::Stop)
     }
 }

@@ -3,7 +3,7 @@
 use std::time::{Duration, Instant};
 
 use crate::base::progress::Runs;
-use crate::files::study_folder::row::{Row, Status};
+use crate::files::study_folder::{Row, Status};
 
 /// A line so often where there is no terminal.
 const LINE_EVERY: Duration = Duration::from_secs(10);

@@ -4,16 +4,10 @@ use std::path::PathBuf;
 
 use occupant_study::Keep;
 
-use super::census::Census;
-use super::extremes::Extremes;
-use super::stable::{Ensembles, Stable};
-use crate::base::failure::Failure;
-use crate::files::study_folder::checksums::Checksums;
-use crate::files::study_folder::folder::Folder;
-use crate::files::study_folder::journal::Journal;
-use crate::files::study_folder::manifest::Manifest;
-use crate::files::study_folder::problem::Problem;
-use crate::files::study_folder::table::{StudyTable, write_columns};
+use super::{Census, Ensembles, Extremes, Stable};
+use crate::base::Failure;
+use crate::files::study_folder::table::write_columns;
+use crate::files::study_folder::{Checksums, Folder, Journal, Manifest, Problem, StudyTable};
 use crate::files::table::Cell;
 
 /// What a sweep came to.

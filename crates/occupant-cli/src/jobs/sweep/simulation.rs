@@ -5,13 +5,9 @@ use occupant_core::results::summary::{Summarizer, Summary};
 use occupant_study::Keep;
 use occupant_study::engine::{Finished, NotBegun, Source};
 
-use super::plan::Plan;
-use crate::base::failure::Failure;
-use crate::base::output_file::Existing;
-use crate::files::study_folder::checksums::Checksums;
-use crate::files::study_folder::folder::Folder;
-use crate::files::study_folder::manifest::Role;
-use crate::files::study_folder::row::{Row, Status};
+use super::Plan;
+use crate::base::{Existing, Failure};
+use crate::files::study_folder::{Checksums, Folder, Role, Row, Status};
 use crate::files::table::Cell;
 use crate::jobs::run::recording::{Recording, Written};
 

@@ -8,13 +8,11 @@ use std::path::PathBuf;
 
 use occupant_study::spread::{Rule, Verdict};
 
-use crate::base::failure::Failure;
-use crate::base::output_file::Existing;
-use crate::files::study_folder::folder::Folder;
-use crate::files::study_folder::manifest::{Manifest, Role};
-use crate::files::study_folder::row::Row;
+use crate::base::{Existing, Failure};
+use crate::files::study_folder::{Folder, Manifest, Role, Row};
 use crate::files::table::{Cell, Form, Kind, TableFile, columns};
-use crate::jobs::ensemble::judge::{Judged, is_result, judge};
+use crate::jobs::ensemble::Judged;
+use crate::jobs::ensemble::judge::{is_result, judge};
 
 /// Holds the number of the sample that a run is a member of.
 const SAMPLE: &str = "input.ensemble.sample";
@@ -56,7 +54,7 @@ pub(crate) struct Stable {
     figures: Vec<(String, String, usize)>,
     present: Option<Sample>,
     tables: Vec<TableFile>,
-    found: Ensembles,
+    ensembles: Ensembles,
 }
 
 /// The members of a sample so far.
@@ -80,7 +78,7 @@ impl Stable {
         let figures = all().filter(|(_, c)| c.role == Role::Figure && is_result(&c.name));
         let figures: Vec<_> = figures.map(|(at, c)| (c.name.clone(), c.unit.clone(), at)).collect();
         let counted = figures.iter().map(|(name, _, _)| Counted { name: name.clone(), ..Counted::default() });
-        let found = Ensembles { figures: counted.collect(), ..Ensembles::default() };
+        let ensembles = Ensembles { figures: counted.collect(), ..Ensembles::default() };
         let about = [("occupant.stable_within", Rule::default().relative.to_string())];
         let spread = ["least", "q05", "q25", "median", "q75", "q95", "greatest", "tolerance"];
         let columns = columns(&[
@@ -96,7 +94,7 @@ impl Stable {
             .into_iter()
             .take(1 + usize::from(csv))
             .map(|(form, name)| TableFile::create(folder.path.join(name), form, Existing::Replace, &columns, &about));
-        Ok(Some(Stable { sample, figures, present: None, tables: tables.collect::<Result<_, _>>()?, found }))
+        Ok(Some(Stable { sample, figures, present: None, tables: tables.collect::<Result<_, _>>()?, ensembles }))
     }
 
     /// Looks at the next run; `counts` says whether its figures count.
@@ -119,12 +117,12 @@ impl Stable {
     }
 
     fn judge(&mut self, sample: &Sample) -> Result<(), Failure> {
-        self.found.samples += 1;
-        self.found.failed += sample.failed;
+        self.ensembles.samples += 1;
+        self.ensembles.failed += sample.failed;
         let figures = self.figures.iter().zip(&sample.values);
         let figures = figures.map(|((name, unit, _), values)| (name.as_str(), unit.as_str(), &values[..]));
         let judged = judge(figures, Rule::default().relative);
-        for counted in &mut self.found.figures {
+        for counted in &mut self.ensembles.figures {
             let figure = judged.iter().find(|j| j.name == counted.name);
             *match figure.map(|j| j.verdict) {
                 Some(Verdict::Stable) => &mut counted.stable,
@@ -137,8 +135,8 @@ impl Stable {
             let row = sample.row(figure);
             self.tables.iter_mut().try_for_each(|table| table.row(row.clone()))?;
         }
-        if self.found.samples == 1 {
-            self.found.first = judged;
+        if self.ensembles.samples == 1 {
+            self.ensembles.first = judged;
         }
         Ok(())
     }
@@ -151,8 +149,8 @@ impl Stable {
         if let Some(last) = self.present.take() {
             self.judge(&last)?;
         }
-        self.found.files = self.tables.into_iter().map(TableFile::publish).collect::<Result<_, _>>()?;
-        Ok(self.found)
+        self.ensembles.files = self.tables.into_iter().map(TableFile::publish).collect::<Result<_, _>>()?;
+        Ok(self.ensembles)
     }
 }
 

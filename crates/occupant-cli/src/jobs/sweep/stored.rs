@@ -2,15 +2,9 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::base::failure::Failure;
-use crate::base::names::program;
-use crate::files::study_folder::checksums::Checksums;
-use crate::files::study_folder::folder::{Folder, Holds};
-use crate::files::study_folder::journal::Journal;
-use crate::files::study_folder::manifest::{Manifest, Role, Text};
-use crate::files::study_folder::problem::Problem;
-use crate::files::study_folder::texts::Texts;
-use crate::jobs::sweep::plan::Plan;
+use super::Plan;
+use crate::base::{Failure, program};
+use crate::files::study_folder::{Checksums, Folder, Holds, Journal, Manifest, Problem, Role, Text, Texts};
 
 /// A sweep, finished or not.
 pub(crate) struct Stored {
@@ -81,32 +75,30 @@ pub(crate) fn open(folders: &[PathBuf], by: MadeBy) -> Result<Stored, Failure> {
 /// # Errors
 /// A folder without one, or with another; the operating system refuses.
 fn common_manifest(folders: &[Folder]) -> Result<Manifest, Failure> {
-    let mut common: Option<(&Folder, Manifest)> = None;
-    for folder in folders {
-        let found = folder.manifest()?;
-        let shown = folder.path.display();
-        let found = found.ok_or_else(|| {
+    let manifest_of = |folder: &Folder| {
+        folder.manifest()?.ok_or_else(|| {
             Failure::with_help(
-                format!("{shown} holds no sweep"),
+                format!("{} holds no sweep", folder.path.display()),
                 "give the folder that `occupant sweep STUDY -o FOLDER` has written",
             )
-        })?;
-        match &common {
-            None => common = Some((folder, found)),
-            Some((_, first)) if *first == found => {}
-            Some((there, first)) => {
-                let text = |f: &Folder, t: &Text| f.copy_of(t).ok();
-                let lines = first.differences(&found, |t| text(there, t), |t| text(folder, t));
-                return Err(Failure::plain(format!(
-                    "{} and {shown} hold parts of different sweeps:\n   {}",
-                    there.path.display(),
-                    lines.join("\n   ")
-                )));
-            }
+        })
+    };
+    let (first, others) = folders.split_first().ok_or_else(|| Failure::plain("no folder was given"))?;
+    let common = manifest_of(first)?;
+    for folder in others {
+        let other = manifest_of(folder)?;
+        if other != common {
+            let text = |f: &Folder, t: &Text| f.copy_of(t).ok();
+            let lines = common.differences(&other, |t| text(first, t), |t| text(folder, t));
+            return Err(Failure::plain(format!(
+                "{} and {} hold parts of different sweeps:\n   {}",
+                first.path.display(),
+                folder.path.display(),
+                lines.join("\n   ")
+            )));
         }
     }
-    let common = common.map(|(_, manifest)| manifest);
-    common.ok_or_else(|| Failure::plain("no folder was given"))
+    Ok(common)
 }
 
 /// What names a manifest.

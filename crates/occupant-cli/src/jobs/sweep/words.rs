@@ -2,13 +2,11 @@
 
 use std::path::PathBuf;
 
-use super::results::Results;
-use super::stable::Ensembles;
-use crate::base::failure::{Done, Failure};
-use crate::base::talk;
+use super::{Ensembles, Results};
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{Table, facts};
-use crate::files::study_folder::folder::Held;
+use crate::base::{Done, Failure, talk};
+use crate::files::study_folder::Held;
 use crate::jobs::ensemble::text::{figure_table, is_shown};
 
 /// Warns where a file system has no locks; `doing` is what two processes could be at in one folder.
@@ -54,27 +52,27 @@ pub(crate) fn tell(results: &Results, work: Option<String>) -> Result<Done, Fail
 }
 
 /// The ensembles of a study in words.
-fn stable(found: &Ensembles) -> String {
-    let failed = match found.failed {
+fn stable(ensembles: &Ensembles) -> String {
+    let failed = match ensembles.failed {
         0 => String::new(),
         n => format!("; {n} members did not complete, and no figure of their samples counts as stable"),
     };
-    let samples = match found.samples {
+    let samples = match ensembles.samples {
         1 => "1 sample".to_owned(),
         n => format!("{n} samples"),
     };
     let lines = [("ensembles", format!("{samples}{failed}"))];
-    let table = match found.samples {
-        0 | 1 => figure_table(&found.first),
-        _ => all_samples(found),
+    let table = match ensembles.samples {
+        0 | 1 => figure_table(&ensembles.first),
+        _ => all_samples(ensembles),
     };
     format!("{}\n{table}", facts(&lines))
 }
 
-fn all_samples(found: &Ensembles) -> String {
+fn all_samples(ensembles: &Ensembles) -> String {
     let mut table =
         Table::new(&[(Left, &["figure"]), (Right, &["stable in", "NOT STABLE in", "too few members in", "absent in"])]);
-    for figure in found.figures.iter().filter(|f| is_shown(&f.name)) {
+    for figure in ensembles.figures.iter().filter(|f| is_shown(&f.name)) {
         let counts = [figure.stable, figure.unstable, figure.too_few, figure.absent];
         table.row(std::iter::once(figure.name.clone()).chain(counts.map(|n| n.to_string())));
     }

@@ -2,11 +2,8 @@
 
 use crash_measures::unit::Unit::{Kilogram, KilogramMetreSquared, Metre};
 
-use crate::jobs::print::case::Case;
-use crate::jobs::print::page::Pages;
 use crate::jobs::print::segments::label;
-use crate::jobs::print::table::Table;
-use crate::jobs::print::unit::Units;
+use crate::jobs::print::{Case, Pages, Table, Units};
 
 /// Writes the body.
 pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {

@@ -2,8 +2,7 @@
 
 use cardio_legacy::Deck;
 
-use crate::jobs::print::case::Case;
-use crate::jobs::print::page::Pages;
+use crate::jobs::print::{Case, Pages};
 
 /// Writes the cards, if there are any.
 pub(crate) fn write(pages: &mut Pages, case: &Case) {

@@ -6,10 +6,8 @@ use occupant_core::forces::contact::flat_face::FlatFace;
 use occupant_core::forces::contact::material::Memory;
 use occupant_core::forces::contact::surface::{Frame, Outline};
 
-use crate::jobs::print::case::Case;
-use crate::jobs::print::page::Pages;
-use crate::jobs::print::table::Table;
-use crate::jobs::print::unit::{Units, ratio};
+use crate::jobs::print::unit::ratio;
+use crate::jobs::print::{Case, Pages, Table, Units};
 
 /// Writes materials and surfaces.
 pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {

@@ -4,10 +4,7 @@ use crash_measures::unit::Unit::{NewtonMetrePerRadian, NewtonMetreSecondPerRadia
 use occupant_core::body::Joint;
 use occupant_core::forces::joint::{Joints, Stop};
 
-use crate::jobs::print::case::Case;
-use crate::jobs::print::page::Pages;
-use crate::jobs::print::table::Table;
-use crate::jobs::print::unit::Units;
+use crate::jobs::print::{Case, Pages, Table, Units};
 
 /// Writes the joints.
 pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {

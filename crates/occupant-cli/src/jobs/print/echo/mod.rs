@@ -11,10 +11,7 @@ mod sensors;
 
 pub(crate) use seating::coordinates;
 
-use super::case::Case;
-use super::page::Pages;
-use super::unit::Units;
-use super::{ELEMENTS, headings};
+use super::{Case, ELEMENTS, Pages, Units, headings};
 
 /// Writes the echo.
 pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {

@@ -6,10 +6,8 @@ use occupant_core::vehicle::{
 };
 
 use super::sensors;
-use crate::jobs::print::case::Case;
-use crate::jobs::print::page::Pages;
-use crate::jobs::print::table::Table;
-use crate::jobs::print::unit::{Units, g, ratio};
+use crate::jobs::print::unit::{g, ratio};
+use crate::jobs::print::{Case, Pages, Table, Units};
 
 pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {
     match &case.model.setup().path {

@@ -4,9 +4,7 @@ use crash_measures::unit::Unit::MetrePerSecondSquared;
 use occupant_core::forces::contact::EdgeForce;
 use occupant_core::model::setup::Integrator;
 
-use crate::jobs::print::case::Case;
-use crate::jobs::print::page::Pages;
-use crate::jobs::print::unit::Units;
+use crate::jobs::print::{Case, Pages, Units};
 
 /// Writes the first page.
 pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {

@@ -6,12 +6,9 @@ use occupant_core::model::seating::{InitialPosture, InitialVelocity, Seating};
 use occupant_core::model::settle::Settled;
 use occupant_core::motion::report_coordinates::{DOF, ReportCoordinates};
 
-use crate::jobs::print::ELEMENTS;
-use crate::jobs::print::case::Case;
 use crate::jobs::print::end_sheet::pairs;
-use crate::jobs::print::page::Pages;
-use crate::jobs::print::table::Table;
-use crate::jobs::print::unit::{Units, degree};
+use crate::jobs::print::unit::degree;
+use crate::jobs::print::{Case, ELEMENTS, Pages, Table, Units};
 
 /// Writes the start.
 pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {

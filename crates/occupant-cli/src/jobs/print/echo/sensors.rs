@@ -4,9 +4,8 @@ use crash_measures::unit::Unit::{Metre, MetrePerSecond};
 use occupant_core::vehicle::{SensorGravity, SensorPath, SensorRecord};
 
 use super::path::{after, direction, pose};
-use crate::jobs::print::page::Pages;
-use crate::jobs::print::table::Table;
-use crate::jobs::print::unit::{Units, degree, g};
+use crate::jobs::print::unit::{degree, g};
+use crate::jobs::print::{Pages, Table, Units};
 
 /// Writes how the record is read, then the record.
 pub(crate) fn write(pages: &mut Pages, path: &SensorPath, units: Units) {

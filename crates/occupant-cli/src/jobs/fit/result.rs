@@ -1,27 +1,24 @@
-//! What a fit has found, in the form of fit.json. Nothing in it depends on the day, the machine or the number of threads.
+//! The result of a fit, in the form of fit.json. Nothing in it depends on the day, the machine or the number of threads.
 
 use occupant_study::ApplyChoice;
-use occupant_study::search::{Descent, Stage};
+use occupant_study::search::Stage;
 use serde::Serialize;
 
-use super::accord::Accord;
-use super::evaluator::Record;
-use super::fitting::{Fitting, Test};
-use super::identified::{Answer, Near};
-use super::scenario_text::Fitted;
-use super::verdict::{Verdict, verdicts};
+use super::verdict::verdicts;
+use super::{Accord, Answer, Fitted, FittedRuns, Fitting, Near, Record, Test, Verdict};
 use crate::files::history::class_name;
+use crate::jobs::compare::Source;
 
 /// Correlations beyond this say that two parameters compensate each other.
 pub(crate) const COMPENSATING: f64 = 0.9;
 
 /// All of fit.json.
 #[derive(Serialize)]
-pub(crate) struct Found {
+pub(crate) struct FitResult {
     pub(crate) program: String,
     /// Title of the study.
     pub(crate) title: String,
-    pub(crate) study: File,
+    pub(crate) study: Source,
     /// Changes from the command line.
     pub(crate) overrides: Vec<String>,
     /// What was made small.
@@ -35,26 +32,18 @@ pub(crate) struct Found {
     pub(crate) tests: Vec<Test>,
     pub(crate) score: Score,
     /// What the intervals hold.
-    pub(crate) near: NearFound,
-    pub(crate) parameters: Vec<ParameterFound>,
+    pub(crate) near: NearOptimal,
+    pub(crate) parameters: Vec<ParameterEstimate>,
     /// Correlations of near-optimal sets, each pair once; those with a parameter at a bound are missing.
     pub(crate) correlations: Vec<Correlation>,
     /// The numbers as they stand in the fitted scenarios.
     pub(crate) written: Vec<Fitted>,
     /// The descents of the global search.
-    pub(crate) descents: Vec<DescentFound>,
+    pub(crate) descents: Vec<DescentResult>,
     /// How many evaluations were made, and for what.
     pub(crate) evaluations: Evaluations,
     /// What the user should know.
     pub(crate) warnings: Vec<String>,
-}
-
-/// A file that was read.
-#[derive(Serialize)]
-pub(crate) struct File {
-    pub(crate) file: String,
-    /// Its SHA-256.
-    pub(crate) sha256: String,
 }
 
 /// Scores; 0 is a run that is the test.
@@ -64,12 +53,12 @@ pub(crate) struct Score {
     pub(crate) before: Option<f64>,
     /// Of the fitted scenario, with the numbers as they are written.
     pub(crate) after: f64,
-    pub(crate) channels: Vec<ChannelFound>,
+    pub(crate) channels: Vec<ChannelFit>,
 }
 
 /// A channel of a test.
 #[derive(Serialize)]
-pub(crate) struct ChannelFound {
+pub(crate) struct ChannelFit {
     pub(crate) test: String,
     pub(crate) channel: String,
     pub(crate) signal: String,
@@ -90,7 +79,7 @@ pub(crate) struct ChannelFound {
 
 /// What the intervals hold.
 #[derive(Serialize)]
-pub(crate) struct NearFound {
+pub(crate) struct NearOptimal {
     /// Sets with a score up to this count as good as the best.
     pub(crate) score: f64,
     #[serde(flatten)]
@@ -101,7 +90,7 @@ pub(crate) struct NearFound {
 
 /// A parameter. Numbers are SI, angles in rad.
 #[derive(Serialize)]
-pub(crate) struct ParameterFound {
+pub(crate) struct ParameterEstimate {
     pub(crate) name: String,
     /// SI unit; empty for factors and plain numbers.
     pub(crate) unit: &'static str,
@@ -135,12 +124,12 @@ pub(crate) struct ParameterFound {
     /// Parameters that make up for it.
     pub(crate) compensated_by: Vec<String>,
     /// All parameters and the score at both ends of the interval.
-    pub(crate) ends: [EndFound; 2],
+    pub(crate) ends: [IntervalEnd; 2],
 }
 
 /// An end of an interval.
 #[derive(Serialize)]
-pub(crate) struct EndFound {
+pub(crate) struct IntervalEnd {
     /// The values of all parameters there, in their order.
     pub(crate) values: Vec<f64>,
     pub(crate) score: f64,
@@ -154,7 +143,7 @@ pub(crate) struct Correlation {
 }
 
 #[derive(Serialize)]
-pub(crate) struct DescentFound {
+pub(crate) struct DescentResult {
     /// Candidates of a generation.
     pub(crate) population: usize,
     pub(crate) evaluations: u64,
@@ -180,61 +169,51 @@ pub(crate) struct Evaluations {
     pub(crate) reason: Option<String>,
 }
 
-/// Puts everything together; `written` are the fitted numbers and `parts` the misfits of runs with them and how they go together
-/// with the tests, experiment by experiment.
-pub(crate) fn found(
-    fitting: &Fitting,
-    answer: &Answer,
-    records: &[Record],
-    written: Vec<Fitted>,
-    parts: &[(f64, Accord)],
-) -> Found {
-    let (misfit, study) = (fitting.fit.misfit, &fitting.manifest.texts[0]);
-    let before = (answer.before.reason.is_none()).then_some(answer.before.score);
-    let evaluations = evaluations(records);
-    let limit = misfit.of_cost(answer.best.value + answer.rise);
-    let sets: Vec<&Record> = records.iter().filter(|r| r.at.is_some() && r.score <= limit).collect();
-    let parameters = verdicts(fitting, answer, &sets);
-    let mut warnings = fitting.warnings.clone();
-    warnings.extend(remarks(fitting, answer, &parameters, &evaluations));
-    let channels = channels(fitting, answer, parts);
-    warnings.extend(channels.iter().filter_map(|c| c.accord.caution(&c.test, &c.channel)));
-    let after: Vec<f64> = parts.iter().map(|(misfit, _)| *misfit).collect();
-    Found {
-        program: fitting.manifest.program.clone(),
-        title: fitting.manifest.title.clone(),
-        study: File { file: study.name.clone(), sha256: study.sha256.clone() },
-        overrides: fitting.overrides.clone(),
-        objective: misfit.name(),
-        seed: fitting.fit.seed,
-        budget: fitting.fit.budget,
-        tolerance: fitting.fit.tolerance,
-        tests: fitting.tests.clone(),
-        score: Score { before, after: fitting.score(&after), channels },
-        near: NearFound { score: limit, near: answer.near, sets: sets.len() },
-        parameters,
-        correlations: correlations(fitting, answer),
-        written,
-        descents: answer.global.descents.iter().map(DescentFound::of).collect(),
-        evaluations,
-        warnings,
-    }
-}
-
-impl DescentFound {
-    fn of(descent: &Descent) -> Self {
-        DescentFound {
+impl FitResult {
+    /// Puts everything together.
+    pub(crate) fn of(fitting: &Fitting, answer: &Answer, records: &[Record], fitted: FittedRuns) -> FitResult {
+        let (misfit, study) = (fitting.fit.misfit, &fitting.manifest.texts[0]);
+        let limit = misfit.of_cost(answer.best.value + answer.rise);
+        let sets: Vec<&Record> = records.iter().filter(|r| r.at.is_some() && r.score <= limit).collect();
+        let (parameters, evaluations) = (verdicts(fitting, answer, &sets), evaluations(records));
+        let channels = channels(fitting, answer, &fitted.parts);
+        let mut warnings = fitting.warnings.clone();
+        warnings.extend(remarks(fitting, answer, &parameters, &evaluations));
+        warnings.extend(channels.iter().filter_map(|c| c.accord.caution(&c.test, &c.channel)));
+        warnings.extend(fitted.caveats);
+        let after: Vec<f64> = fitted.parts.iter().map(|(misfit, _)| *misfit).collect();
+        let before = answer.before.reason.is_none().then_some(answer.before.score);
+        let descents = answer.global.descents.iter().map(|descent| DescentResult {
             population: descent.population,
             evaluations: descent.evaluations,
             score: descent.best.value,
             ended: descent.ending.words(),
+        });
+        FitResult {
+            program: fitting.manifest.program.clone(),
+            title: fitting.manifest.title.clone(),
+            study: Source { file: study.name.clone(), sha256: study.sha256.clone() },
+            overrides: fitting.overrides.clone(),
+            objective: misfit.name(),
+            seed: fitting.fit.seed,
+            budget: fitting.fit.budget,
+            tolerance: fitting.fit.tolerance,
+            tests: fitting.tests.clone(),
+            score: Score { before, after: fitting.score(&after), channels },
+            near: NearOptimal { score: limit, near: answer.near, sets: sets.len() },
+            parameters,
+            correlations: correlations(fitting, answer),
+            written: fitted.written,
+            descents: descents.collect(),
+            evaluations,
+            warnings,
         }
     }
 }
 
-fn channels(fitting: &Fitting, answer: &Answer, parts: &[(f64, Accord)]) -> Vec<ChannelFound> {
+fn channels(fitting: &Fitting, answer: &Answer, parts: &[(f64, Accord)]) -> Vec<ChannelFit> {
     let channels = fitting.targets().zip(parts).enumerate();
-    let channels = channels.map(|(i, ((test, target), (after, accord)))| ChannelFound {
+    let channels = channels.map(|(i, ((test, target), (after, accord)))| ChannelFit {
         test: fitting.tests[*test].name.clone(),
         channel: target.channel.name.clone(),
         signal: target.measured.signal.clone(),
@@ -249,40 +228,37 @@ fn channels(fitting: &Fitting, answer: &Answer, parts: &[(f64, Accord)]) -> Vec<
 }
 
 fn correlations(fitting: &Fitting, answer: &Answer) -> Vec<Correlation> {
-    let parameters = fitting.parameters();
-    let mut all = Vec::new();
-    for a in 0..parameters.len() {
-        for b in a + 1..parameters.len() {
-            if let Some(correlation) = answer.shape.correlation(a, b) {
-                all.push(Correlation { between: [a, b].map(|i| parameters[i].name.clone()), correlation });
-            }
-        }
-    }
-    all
+    let parameters = &fitting.parameters;
+    let pairs = (0..parameters.len()).flat_map(|a| (a + 1..parameters.len()).map(move |b| [a, b]));
+    let correlation = |[a, b]: [usize; 2]| {
+        let between = [a, b].map(|i| parameters[i].name.clone());
+        Some(Correlation { between, correlation: answer.shape.correlation(a, b)? })
+    };
+    pairs.filter_map(correlation).collect()
 }
 
 fn evaluations(records: &[Record]) -> Evaluations {
-    let mut found = Evaluations { all: records.len(), ..Evaluations::default() };
+    let mut count = Evaluations { all: records.len(), ..Evaluations::default() };
     for record in records {
         match record.stage {
             None => {}
-            Some(Stage::Descent { .. }) => found.search += 1,
-            Some(Stage::Refinement) => found.refinement += 1,
-            Some(Stage::Scan | Stage::Shape | Stage::Profile) => found.intervals += 1,
+            Some(Stage::Descent { .. }) => count.search += 1,
+            Some(Stage::Refinement) => count.refinement += 1,
+            Some(Stage::Scan | Stage::Shape | Stage::Profile) => count.intervals += 1,
         }
         if let Some(reason) = &record.reason {
-            found.failed += 1;
-            found.reason.get_or_insert_with(|| reason.clone());
+            count.failed += 1;
+            count.reason.get_or_insert_with(|| reason.clone());
         }
     }
-    found
+    count
 }
 
 /// What should be said of the answer.
 fn remarks(
     fitting: &Fitting,
     answer: &Answer,
-    parameters: &[ParameterFound],
+    parameters: &[ParameterEstimate],
     evaluations: &Evaluations,
 ) -> Vec<String> {
     let mut all = Vec::new();
