@@ -247,7 +247,7 @@ pub(crate) fn begun<T>(
     loop {
         let path = match number {
             1 => partial_path(place),
-            _ => numbered(place, &format!(".partial-{number}")),
+            _ => with_word(place, &format!(".partial-{number}")),
         };
         match make(&path) {
             Ok(made) => return Ok((path, made)),
@@ -332,11 +332,11 @@ pub(crate) fn write_whole(path: &Path, existing: Existing, bytes: &[u8]) -> Resu
 
 /// `dir/run.mcap` → `dir/run.partial.mcap`.
 pub(crate) fn partial_path(target: &Path) -> PathBuf {
-    numbered(target, ".partial")
+    with_word(target, ".partial")
 }
 
 /// The name with a word before its ending.
-fn numbered(target: &Path, word: &str) -> PathBuf {
+pub(crate) fn with_word(target: &Path, word: &str) -> PathBuf {
     let mut name = OsString::from(target.file_stem().unwrap_or_default());
     name.push(word);
     if let Some(extension) = target.extension() {

@@ -4,8 +4,7 @@ use clap::CommandFactory;
 use clap_complete::{Shell, generate};
 
 use super::Cli;
-use crate::base::failure::{Done, Failure};
-use crate::base::talk;
+use crate::base::{Done, Failure, talk};
 
 /// Print a script that completes the command's words in a shell
 ///

@@ -8,11 +8,8 @@ use cardio_legacy::{
 use clap::ArgGroup;
 use occupant_core::scenario::{Draft, Format, Loaded};
 
-use crate::base::failure::{Done, Failure};
 use crate::base::input_file::read;
-use crate::base::names::{ending, file_name};
-use crate::base::output_file::{publish, refuse_input};
-use crate::base::talk::{print_file, say};
+use crate::base::{Done, Failure, ending, file_name, print_file, publish, refuse_input, say, with_word};
 use crate::files::scenario::{files_beside, format_of};
 use crate::jobs::extend::{extend, extend_run};
 
@@ -104,8 +101,9 @@ fn decks_to_scenarios(args: &Args, bytes: &[u8], layout: Option<CompartmentLayou
     }
     let mut reports = String::new();
     for (at, deck) in decks.iter().enumerate() {
-        let output =
-            args.output.as_deref().map(|file| if decks.len() > 1 { numbered(file, at + 1) } else { file.to_owned() });
+        let own =
+            |file: &Path| if decks.len() > 1 { with_word(file, &format!("-{}", at + 1)) } else { file.to_owned() };
+        let output = args.output.as_deref().map(own);
         let options = ConvertOptions {
             deck_name: file_name(&args.input),
             path: path_source(args, output.as_deref())?,
@@ -165,13 +163,6 @@ fn path_source(args: &Args, output: Option<&Path>) -> Result<Option<PathSource>,
     }
     let rows: String = lines.map(|line| format!("{line}\n")).collect();
     Ok(Some(PathSource::Columns { columns: split(&header), text: rows }))
-}
-
-/// `case.toml` → `case-2.toml`.
-fn numbered(file: &Path, number: usize) -> PathBuf {
-    let stem = file.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
-    let extension = file.extension().map(|e| format!(".{}", e.to_string_lossy())).unwrap_or_default();
-    file.with_file_name(format!("{stem}-{number}{extension}"))
 }
 
 /// The deck that continues the run of a results file.

@@ -3,10 +3,7 @@
 use std::path::PathBuf;
 
 use super::flags::sweep::EngineArgs;
-use crate::base::failure::{Done, Failure};
-use crate::base::interrupt::Interrupt;
-use crate::base::names::program;
-use crate::base::talk::{json, print, say};
+use crate::base::{Done, Failure, Interrupt, json, print, program, say};
 use crate::files::measured::MapArgument;
 use crate::files::study_folder::checksums::Checksums;
 use crate::files::study_folder::folder::Folder;

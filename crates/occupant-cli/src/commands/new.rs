@@ -2,9 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::base::failure::{Done, Failure};
-use crate::base::output_file::publish;
-use crate::base::talk::say;
+use crate::base::{Done, Failure, publish, say};
 
 /// The scenario that `occupant new` writes.
 const STARTER: &str = include_str!("starter.toml");

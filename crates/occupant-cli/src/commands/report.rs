@@ -2,10 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::base::failure::{Done, Failure};
-use crate::base::names::is_page;
-use crate::base::output_file::{publish, refuse_input};
-use crate::base::talk::note;
+use crate::base::{Done, Failure, is_page, note, publish, refuse_input};
 use crate::files::results::Results;
 use crate::jobs::report::page;
 

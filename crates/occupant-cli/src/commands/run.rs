@@ -10,11 +10,7 @@ use serde::Serialize;
 
 use super::flags::ensemble::EnsembleArgs;
 use super::tables::summary::{Marks, summary_table};
-use crate::base::failure::{Done, Failure};
-use crate::base::interrupt::Interrupt;
-use crate::base::names::program;
-use crate::base::output_file::Existing;
-use crate::base::talk::{json, print, say};
+use crate::base::{Done, Existing, Failure, Interrupt, json, print, program, say};
 use crate::files::scenario::{self, Opened, ScenarioArgs};
 use crate::jobs::ensemble::report::Report;
 use crate::jobs::ensemble::text::text as ensemble_text;
@@ -101,8 +97,8 @@ pub(crate) fn run(args: &Args) -> Result<Done, Failure> {
     let existing = Existing::by(args.force);
     let ensemble = args.ensemble.wanted(&draft, &opened, &chosen.scenario, existing)?;
     let from = args.resume.as_deref().map(|file| Resumption::find(file, &opened)).transpose()?;
-    if !args.quiet && !opened.warnings.is_empty() {
-        say(&format!("{}\n", opened.warnings));
+    if !args.quiet {
+        scenario::warn(&opened.warnings);
     }
     let recording = match output_name(args)? {
         Some(name) => Recording::begin(&name, existing, &chosen, &opened, from.as_ref())?,
@@ -186,8 +182,8 @@ fn show(
         RunStatus::Failed => Diagnostics::new(),
         _ => opened.loaded.diagnose(&run.friction.warnings(&opened.model)),
     };
-    if !args.quiet && !unstable.is_empty() {
-        say(&format!("{unstable}\n"));
+    if !args.quiet {
+        scenario::warn(&unstable);
     }
     if args.json {
         return print(&json(&Answer {

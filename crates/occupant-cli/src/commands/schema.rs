@@ -2,8 +2,7 @@
 
 use occupant_core::scenario::schema;
 
-use crate::base::failure::{Done, Failure};
-use crate::base::talk;
+use crate::base::{Done, Failure, talk};
 
 /// Print the JSON Schema of a scenario, for completion and checks in an editor
 ///

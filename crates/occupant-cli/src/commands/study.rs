@@ -5,7 +5,7 @@ mod report;
 
 use clap::Subcommand;
 
-use crate::base::failure::{Done, Failure};
+use crate::base::{Done, Failure};
 
 /// Work on the results of a study
 #[derive(Debug, clap::Args)]

@@ -3,10 +3,7 @@
 use std::path::PathBuf;
 
 use super::flags::history::seconds;
-use crate::base::failure::{Done, Failure};
-use crate::base::names::file_name;
-use crate::base::output_file::{publish, refuse_input};
-use crate::base::talk::note;
+use crate::base::{Done, Failure, file_name, note, publish, refuse_input};
 use crate::files::results::Results;
 use crate::pictures::Format;
 use crate::pictures::body::Snapshot;
@@ -69,7 +66,7 @@ pub(crate) fn view(args: &Args) -> Result<Done, Failure> {
     }
     let strip = Strip { model: &results.model, moments: moments(&results, &outputs)?, views, origin: origin(&results) };
     let bytes = format.encode(&draw(&strip), PIXELS);
-    let bytes = bytes.map_err(|e| Failure::with_help(e.to_string(), "draw fewer times"))?;
+    let bytes = bytes.map_err(|e| Failure::with_help(e, "draw fewer times"))?;
     publish(&args.output, args.force, &bytes)?;
     Ok(Done::Well)
 }

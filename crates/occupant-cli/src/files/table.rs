@@ -14,9 +14,7 @@ use parquet::schema::types::Type;
 use placed_text::plain;
 use serde::{Deserialize, Serialize};
 
-use crate::base::failure::Failure;
-use crate::base::names::{ending, program};
-use crate::base::output_file::{Existing, PartialFile};
+use crate::base::{Existing, Failure, PartialFile, by_ending, program};
 
 /// So many values are held at a time, but never fewer or more rows than these.
 const CELLS: usize = 400_000;
@@ -104,11 +102,7 @@ pub(crate) enum Form {
 impl Form {
     /// The form that the file's ending asks for.
     pub(crate) fn of(path: &Path) -> Option<Form> {
-        match ending(path).as_str() {
-            "csv" => Some(Form::Csv),
-            "parquet" => Some(Form::Parquet),
-            _ => None,
-        }
+        by_ending(path, &[("csv", Form::Csv), ("parquet", Form::Parquet)])
     }
 
     /// The form of the table asked for.

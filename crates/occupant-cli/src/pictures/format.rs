@@ -2,9 +2,8 @@
 
 use std::path::Path;
 
-use super::png::{PngError, png};
-use crate::base::failure::Failure;
-use crate::base::names::ending;
+use super::png::png;
+use crate::base::{Failure, by_ending};
 
 /// Kinds of picture files.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
@@ -18,11 +17,7 @@ pub(crate) enum Format {
 impl Format {
     /// The kind that the file's ending asks for; none for another ending.
     pub(crate) fn of(path: &Path) -> Option<Self> {
-        match ending(path).as_str() {
-            "svg" => Some(Format::Svg),
-            "png" => Some(Format::Png),
-            _ => None,
-        }
+        by_ending(path, &[("svg", Format::Svg), ("png", Format::Png)])
     }
 
     /// The kind of the picture asked for.
@@ -45,7 +40,7 @@ impl Format {
     ///
     /// # Errors
     /// A drawing that is too large to render.
-    pub(crate) fn encode(self, svg: &str, pixels: f64) -> Result<Vec<u8>, PngError> {
+    pub(crate) fn encode(self, svg: &str, pixels: f64) -> Result<Vec<u8>, String> {
         match self {
             Format::Svg => Ok(svg.as_bytes().to_vec()),
             Format::Png => png(svg, pixels),

@@ -3,6 +3,7 @@
 //! A text becomes the outlines of its letters before the drawing is rendered: nothing is needed that shapes text, and
 //! no font of the machine is looked at.
 
+use std::fmt::Display;
 use std::ops::Range;
 
 use resvg::tiny_skia::{Color, Pixmap, Transform};
@@ -15,51 +16,31 @@ use super::svg::escape;
 /// Most pixels of a picture: one more would need over 1 GB.
 const MOST_PIXELS: f64 = 250e6;
 
-/// Why a drawing cannot become a PNG.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub(crate) enum PngError {
-    /// The SVG cannot be read, in the reader's words.
-    #[error("the drawing is no SVG that can be rendered: {0}")]
-    Svg(String),
-    /// It has too many pixels, or none.
-    #[error(
-        "the picture would have {width:.0} × {height:.0} pixels; at least 1 and at most {MOST_PIXELS:.0} in all can be \
-         made"
-    )]
-    Size {
-        /// Width in pixels.
-        width: f64,
-        /// Height in pixels.
-        height: f64,
-    },
-    /// The encoder refuses, in its words.
-    #[error("the picture cannot be written as PNG: {0}")]
-    Encoding(String),
-}
-
 /// Renders a drawing with `pixels` pixels a user unit.
 ///
 /// # Errors
 /// Text that is no SVG; a picture without or with too many pixels.
-pub(crate) fn png(svg: &str, pixels: f64) -> Result<Vec<u8>, PngError> {
-    let tree = Tree::from_str(&with_outlines(svg)?, &Options::default()).map_err(|e| PngError::Svg(e.to_string()))?;
+pub(crate) fn png(svg: &str, pixels: f64) -> Result<Vec<u8>, String> {
+    let unread = |e: &dyn Display| format!("the drawing is no SVG that can be rendered: {e}");
+    let document = Document::parse(svg).map_err(|e| unread(&e))?;
+    let tree = Tree::from_str(&with_outlines(svg, &document), &Options::default()).map_err(|e| unread(&e))?;
     let size = tree.size();
     let width = (f64::from(size.width()) * pixels).round();
     let height = (f64::from(size.height()) * pixels).round();
-    let refused = PngError::Size { width, height };
-    if !(width >= 1.0 && height >= 1.0 && width * height <= MOST_PIXELS) {
-        return Err(refused);
-    }
-    let mut pixmap = Pixmap::new(width as u32, height as u32).ok_or(refused)?;
+    let fits = width >= 1.0 && height >= 1.0 && width * height <= MOST_PIXELS;
+    let pixmap = fits.then(|| Pixmap::new(width as u32, height as u32)).flatten();
+    let mut pixmap = pixmap.ok_or_else(|| {
+        let most = format!("at least 1 and at most {MOST_PIXELS:.0} in all can be made");
+        format!("the picture would have {width:.0} × {height:.0} pixels; {most}")
+    })?;
     pixmap.fill(Color::WHITE);
     let scale = Transform::from_scale(pixmap.width() as f32 / size.width(), pixmap.height() as f32 / size.height());
     resvg::render(&tree, scale, &mut pixmap.as_mut());
-    pixmap.encode_png().map_err(|e| PngError::Encoding(e.to_string()))
+    pixmap.encode_png().map_err(|e| format!("the picture cannot be written as PNG: {e}"))
 }
 
 /// The drawing with a path of outlines in place of each text.
-fn with_outlines(svg: &str) -> Result<String, PngError> {
-    let document = Document::parse(svg).map_err(|e| PngError::Svg(e.to_string()))?;
+fn with_outlines(svg: &str, document: &Document<'_>) -> String {
     let mut out = String::with_capacity(2 * svg.len());
     let mut rest = 0;
     for text in document.descendants().filter(|n| n.has_tag_name("text")) {
@@ -69,7 +50,7 @@ fn with_outlines(svg: &str) -> Result<String, PngError> {
         rest = end;
     }
     out.push_str(&svg[rest..]);
-    Ok(out)
+    out
 }
 
 /// The path that shows a text. What says how it is painted is passed on; size, weight and anchor may stand at a group.
@@ -163,8 +144,9 @@ mod tests {
     #[test]
     fn a_picture_too_large_or_broken_is_an_error() {
         let huge = r#"<svg xmlns="http://www.w3.org/2000/svg" width="100000" height="100000"/>"#;
-        assert!(matches!(png(huge, 1.0), Err(PngError::Size { .. })));
-        assert!(matches!(png(huge, f64::NAN), Err(PngError::Size { .. })));
-        assert!(matches!(png("<svg", 1.0), Err(PngError::Svg(_))));
+        let refused = |svg, pixels| png(svg, pixels).unwrap_err();
+        assert!(refused(huge, 1.0).contains("100000 × 100000 pixels"));
+        assert!(refused(huge, f64::NAN).contains("at least 1"));
+        assert!(refused("<svg", 1.0).contains("no SVG"));
     }
 }

@@ -5,10 +5,7 @@ use std::path::PathBuf;
 
 use occupant_core::run::batch::Kernel;
 
-use crate::base::failure::{Done, Failure};
-use crate::base::interrupt::Interrupt;
-use crate::base::output_file::Existing;
-use crate::base::talk::say;
+use crate::base::{Done, Existing, Failure, Interrupt, say};
 use crate::commands::flags::sweep::engine;
 use crate::files::study_folder::checksums::Checksums;
 use crate::jobs::ensemble::bands::choose;

@@ -2,10 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::base::failure::{Done, Failure};
-use crate::base::names::is_page;
-use crate::base::output_file::{Existing, FileProblem, publish};
-use crate::base::talk::say;
+use crate::base::{Done, Existing, Failure, FileProblem, is_page, publish, say};
 use crate::jobs::study::{Report, Tables, page, write_tables};
 use crate::jobs::sweep::stored::{MadeBy, open};
 

@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use crate::base::names::{file_name, program};
+use crate::base::{file_name, program};
 use crate::files::history::{Column, Histories, UnitChoice, class_name, shown};
 use crate::files::results::Results;
 

@@ -3,7 +3,7 @@
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, channels, find, matching};
 
-use crate::base::failure::Failure;
+use crate::base::Failure;
 
 /// The channels that names and patterns (`head.*`) ask for, each once, in the order asked; all for no names.
 ///

@@ -1,21 +1,38 @@
 //! From a result file to histories.
 
-use crash_measures::signal::{Interpolant, Interpolation, resultant, uniform_interval};
+use crash_measures::signal::{CfcFamily, Interpolant, Interpolation, resultant, uniform_interval};
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, Series, find};
 
-use super::{Column, Family, Filter, Histories, filtered};
-use crate::base::failure::Failure;
+use super::filter::{FAMILIES, family_name};
+use super::{Column, Filter, Histories, filtered};
+use crate::base::{Failure, one_of};
 use crate::files::results::Results;
 
 /// What is done to histories, in this order: filter, resample.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, clap::Args)]
 pub(crate) struct Treatment {
+    /// Filter: CFC60, CFC180, CFC600, CFC1000, j211 (each channel the class of its quantity) or none
+    #[arg(long, value_name = "CLASS", default_value = "none")]
     pub(crate) filter: Filter,
-    /// Its coefficients.
-    pub(crate) family: Family,
-    /// New interval, s; that of the outputs if absent.
+
+    /// Coefficients of the filter classes
+    #[arg(long = "coefficients", value_name = "STANDARD", default_value = "iso6487", value_parser = one_of(&FAMILIES))]
+    pub(crate) family: CfcFamily,
+
+    // the new interval, s; that of the outputs if absent
+    #[arg(skip)]
     pub(crate) interval_s: Option<f64>,
+}
+
+impl Treatment {
+    /// The filter in words.
+    pub(crate) fn words(self) -> String {
+        match self.filter {
+            Filter::None => "none".to_owned(),
+            filter => format!("{} ({} coefficients)", filter.words(), family_name(self.family)),
+        }
+    }
 }
 
 /// Histories of these channels of a run.

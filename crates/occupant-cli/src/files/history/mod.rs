@@ -12,7 +12,7 @@ use crash_measures::signal::ChannelClass;
 use occupant_core::results::channel::Channel;
 
 pub(crate) use choose::choose;
-pub(crate) use filter::{Family, Filter, filtered};
+pub(crate) use filter::{Filter, family_name, filtered};
 pub(crate) use load::{Treatment, Untreated, asked, load, treated};
 pub(crate) use unit::{UnitChoice, plotted, shown};
 

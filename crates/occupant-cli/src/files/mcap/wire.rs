@@ -1,4 +1,4 @@
-//! The protobuf wire format, written straight into one buffer that is used again for every message, and read back as far
+//! The protobuf wire format, written straight into the buffer that goes to the file, and read back as far
 //! as a run needs it to resume.
 //!
 //! Fields are always written, also where they are zero: a file then holds every bit that was recorded (the usual writers
@@ -13,18 +13,13 @@ const FIXED_64: u32 = 1;
 const LENGTH_DELIMITED: u32 = 2;
 const FIXED_32: u32 = 5;
 
-/// A message under construction.
+/// Messages under construction, one behind the other.
 #[derive(Debug, Default)]
 pub(crate) struct Wire {
     pub(crate) bytes: Vec<u8>,
 }
 
 impl Wire {
-    /// Begins a new message.
-    pub(crate) fn clear(&mut self) {
-        self.bytes.clear();
-    }
-
     /// A value of the catalogue; nothing for a vector that does not exist.
     pub(crate) fn value(&mut self, field: u32, value: &Value) {
         match value {

@@ -5,13 +5,12 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 use std::fs::{self, OpenOptions};
-use std::io::{self, ErrorKind, Write};
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard};
 
 use super::problem::Problem;
-use crate::base::output_file::{Existing, write_whole};
-use crate::base::sha256::sha256;
+use crate::base::{Existing, sha256, write_whole};
 
 /// The name of the list.
 pub(crate) const SUMS: &str = "SHA256SUMS";
@@ -122,9 +121,8 @@ impl Checksums {
         let state = self.state();
         let there = state.listed.iter().filter(|(name, _)| self.folder.join(name).exists());
         let lines: String = there.map(|(name, sum)| format!("{sum}  {name}\n")).collect();
-        let path = self.folder.join(SUMS);
-        let written = write_whole(&path, Existing::Replace, lines.as_bytes());
-        written.map(|_| ()).map_err(|e| Problem::io("write", &path)(io::Error::other(e.to_string())))
+        write_whole(&self.folder.join(SUMS), Existing::Replace, lines.as_bytes())?;
+        Ok(())
     }
 }
 

@@ -5,7 +5,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::texts::NamedBy;
-use crate::base::sha256::sha256;
+use crate::base::sha256;
 
 /// Number of this form of the folder.
 const FORM: u32 = 1;

@@ -7,9 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::folder::Folder;
 use super::manifest::{Manifest, Text};
-use crate::base::input_file;
-use crate::base::names::file_name;
-use crate::base::sha256::sha256;
+use crate::base::{file_name, input_file, sha256};
 
 /// Who names a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -4,7 +4,8 @@ use serde_json::{Map, Value, json as value};
 
 use super::Report;
 use super::figures::Figures;
-use super::table::{basis_name, family_name, grade_name, source_name, verdict_name};
+use super::table::{basis_name, grade_name, source_name, verdict_name};
+use crate::files::history::family_name;
 use occupant_study::risk::VerticalGravity;
 
 pub(crate) fn json(report: &Report) -> Value {

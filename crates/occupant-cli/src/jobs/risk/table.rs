@@ -1,13 +1,13 @@
 //! The report as text, in the manner of a test report: measures in SI and US units, limits, what was left out.
 
 use crash_measures::measure::limits::{Basis, Grade, Quantity};
-use crash_measures::signal::CfcFamily;
 use occupant_study::risk::{Judgement, VerticalGravity};
 
 use super::Report;
 use super::figures::{Figure, Figures, Unit, g, km_h, m_s, plain};
 use super::subject::Source;
 use crate::base::text_table::{Align, NONE, Table, facts, number};
+use crate::files::history::family_name;
 
 pub(crate) fn text(report: &Report) -> String {
     let figures = Figures::of(report);
@@ -69,14 +69,6 @@ fn head(report: &Report) -> String {
                 .to_owned(),
         ),
     ])
-}
-
-/// Name of a family of filter coefficients.
-pub(crate) fn family_name(family: CfcFamily) -> &'static str {
-    match family {
-        CfcFamily::Iso6487 => "ISO 6487",
-        CfcFamily::SaeJ211 => "SAE J211",
-    }
 }
 
 /// Where the motion comes from, in words.

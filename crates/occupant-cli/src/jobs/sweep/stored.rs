@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::base::failure::Failure;
 use crate::base::names::program;
 use crate::files::study_folder::checksums::Checksums;
-use crate::files::study_folder::folder::{Folder, Holds};
+use crate::files::study_folder::folder::{Folder, SWEEP};
 use crate::files::study_folder::journal::Journal;
 use crate::files::study_folder::manifest::{Manifest, Role, Text};
 use crate::files::study_folder::problem::Problem;
@@ -52,7 +52,7 @@ pub(crate) fn open(folders: &[PathBuf], by: MadeBy) -> Result<Stored, Failure> {
     if !same(&plan.manifest, &manifest) {
         return Err(Failure::from(Problem::Differs {
             folder: first.path.to_owned(),
-            holds: Holds::Sweep,
+            holds: SWEEP,
             differences: manifest.differences(&plan.manifest, |_| None, |_| None),
         }));
     }
