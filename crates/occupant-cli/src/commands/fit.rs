@@ -78,7 +78,7 @@ pub(crate) fn fit(args: &Args) -> Result<Done, Failure> {
     let held = folder.claim(&fitting.manifest, &fitting.texts, Shard::WHOLE, args.restart)?;
     warn_unlocked(&held, "fitting into one folder", args.quiet);
     let sums = Checksums::open(&folder.path, |_| true)?;
-    let interrupt = Interrupt::listen_for("stopping; once more to stop at once");
+    let interrupt = Interrupt::listen("stopping; once more to stop at once");
     let progress = Progress::new(fitting.fit.budget, args.quiet);
     let mut evaluator = Evaluator::new(&fitting, (&folder, &sums), &sha256, &engine, &interrupt, progress)?;
     tell_damaged(&[held.mended, sums.damaged()].concat());

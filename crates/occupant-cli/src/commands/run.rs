@@ -108,7 +108,7 @@ pub(crate) fn run(args: &Args) -> Result<Done, Failure> {
         from.announce();
     }
     let channels = ensemble.as_ref().map(|e| e.channels.clone()).unwrap_or_default();
-    let interrupt = Interrupt::listen();
+    let interrupt = Interrupt::listen("stopping at the next output; once more to stop at once");
     let mut run = simulate(&opened, from.as_ref(), recording, channels, &interrupt, args.quiet)?;
     let balance = Balance::of(run.summary.energy.balance_error);
     let ensemble = match ensemble {

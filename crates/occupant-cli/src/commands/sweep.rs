@@ -102,7 +102,7 @@ fn open(args: &Args, study: &Path, output: &Path) -> Result<Sweep, Failure> {
         csv: args.csv || (plan.study.csv && shard.is_whole()),
         folder: Folder::at(output),
         engine: args.engine.engine()?,
-        interrupt: Interrupt::listen_for("stopping; once more to stop at once"),
+        interrupt: Interrupt::listen("stopping; once more to stop at once"),
         restart: args.restart,
         quiet: args.quiet,
         plan,

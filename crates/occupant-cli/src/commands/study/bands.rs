@@ -57,7 +57,7 @@ pub(crate) fn bands(args: &BandsArgs) -> Result<Done, Failure> {
     for note in &opened.notes {
         say(note);
     }
-    let interrupt = Interrupt::listen_for("stopping; once more to stop at once");
+    let interrupt = Interrupt::listen("stopping; once more to stop at once");
     let bands = StudyBands {
         plan: &opened.plan,
         manifest_sha256: &opened.manifest_sha256,

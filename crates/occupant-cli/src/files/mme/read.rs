@@ -1,6 +1,5 @@
 //! Reading a test.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::code::Code;
@@ -35,11 +34,7 @@ pub(crate) fn read(path: &Path) -> Result<Recording, Failure> {
 }
 
 fn entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let refused = |e| Failure::plain(format!("{} cannot be read: {e}", folder.display()));
-    let listed = fs::read_dir(folder).map_err(refused)?;
-    let mut paths = listed.map(|found| Ok(found.map_err(refused)?.path())).collect::<Result<Vec<_>, Failure>>()?;
-    paths.sort();
-    Ok(paths)
+    input_file::entries(folder).map_err(|e| Failure::plain(format!("{} cannot be read: {e}", folder.display())))
 }
 
 fn the_mme_in(folder: &Path) -> Result<PathBuf, Failure> {

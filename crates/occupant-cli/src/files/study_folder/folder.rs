@@ -21,7 +21,7 @@ use super::journal::is_named_by_rows;
 use super::manifest::{Manifest, Text};
 use super::problem::Problem;
 use super::shard::Shard;
-use crate::base::{Existing, input_file, partial_path, remove_if_there, write_whole};
+use crate::base::{Existing, file_name, input_file, partial_path, remove_if_there, write_whole};
 
 const LOCK: &str = "sweep.lock";
 const INPUTS: &str = "inputs";
@@ -340,11 +340,8 @@ impl Folder {
 /// # Errors
 /// The operating system refuses.
 pub(crate) fn names_in(folder: &Path) -> Result<Vec<String>, Problem> {
-    let name = |entry: io::Result<fs::DirEntry>| Ok(entry?.file_name().to_string_lossy().into_owned());
-    let names: io::Result<Vec<String>> = fs::read_dir(folder).and_then(|entries| entries.map(name).collect());
-    let mut names = names.map_err(Problem::io("read", folder))?;
-    names.sort();
-    Ok(names)
+    let entries = input_file::entries(folder).map_err(Problem::io("read", folder))?;
+    Ok(entries.iter().map(|path| file_name(path)).collect())
 }
 
 fn open_lock(path: &Path) -> Result<File, Problem> {
