@@ -9,7 +9,7 @@ use occupant_core::results::summary::{Caveat, Summary};
 use placed_text::shown;
 use serde::Serialize;
 
-use super::tables::measures::{long, remarks, risks};
+use super::tables::measures::{remarks, risks, table};
 use super::tables::summary::Marks;
 use crate::base::{Done, Failure, note, one_of, print, talk};
 use crate::files::history::family_name;
@@ -104,7 +104,7 @@ fn text(results: &Results, options: &Options, Summary { measures, caveats, .. }:
         format!(
             "{title}\noutputs every {interval_ms} ms, {filter}; limits and risks of a {dummy}\n"
         ),
-        long(measures, &marks),
+        table(measures, &marks),
         marks.explained().unwrap_or_default(),
         risks(measures, &marks),
         remarks(measures),

@@ -1,6 +1,6 @@
 //! `occupant run`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use occupant_core::diagnosis::UnstableFriction;
 use occupant_core::results::summary::{RunStatus, Summary};
@@ -157,14 +157,9 @@ fn output_name(args: &Args) -> Result<Option<PathBuf>, Failure> {
     if let Some(name) = &args.output {
         return Ok(Some(name.clone()));
     }
-    let stem = args.scenario.scenario.file_stem().map(Path::new);
-    let stem =
-        stem.ok_or_else(|| Failure::with_help("the scenario's name gives no name to its results", "use -o FILE.mcap"))?;
-    let mut name = stem.as_os_str().to_owned();
-    name.push(match args.resume {
-        Some(_) => ".resumed.mcap",
-        None => ".mcap",
-    });
+    let nameless = || Failure::with_help("the scenario's name gives no name to its results", "use -o FILE.mcap");
+    let mut name = args.scenario.scenario.file_stem().ok_or_else(nameless)?.to_owned();
+    name.push(if args.resume.is_some() { ".resumed.mcap" } else { ".mcap" });
     Ok(Some(PathBuf::from(name)))
 }
 

@@ -105,16 +105,16 @@ fn as_path(text: Node<'_, '_>) -> String {
     let size = inherited("font-size").and_then(|s| s.parse().ok()).unwrap_or(12.0);
     let weight = if inherited("font-weight") == Some("bold") { Weight::Bold } else { Weight::Regular };
     let words: Vec<&str> = text.text().unwrap_or_default().split(' ').filter(|w| !w.is_empty()).collect();
-    let outline = font::outline(&words.join(" "), size, weight);
+    let (path, width) = font::outline(&words.join(" "), size, weight);
     let before = match inherited("text-anchor") {
-        Some("middle") => outline.width / 2.0,
-        Some("end") => outline.width,
+        Some("middle") => width / 2.0,
+        Some("end") => width,
         _ => 0.0,
     };
     let place = |name| text.attribute(name).and_then(|x| x.parse::<f64>().ok()).unwrap_or(0.0);
     let (x, y) = (place("x") - before, place("y"));
     let turned = text.attribute("transform").unwrap_or_default();
-    let mut path = format!("<path transform=\"{} translate({x} {y})\" d=\"{}\"", escape(turned), outline.path);
+    let mut path = format!("<path transform=\"{} translate({x} {y})\" d=\"{}\"", escape(turned), path);
     for a in text.attributes().filter(|a| !["x", "y", "transform"].contains(&a.name())) {
         path += &format!(" {}=\"{}\"", a.name(), escape(a.value()));
     }

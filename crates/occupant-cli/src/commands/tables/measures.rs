@@ -8,16 +8,6 @@ use super::summary::Marks;
 use crate::base::text_table::Align::{Left, Right};
 use crate::base::text_table::{self, NONE, Table, number};
 
-/// The table at the end of a run.
-pub(crate) fn short(measures: &[Measure], marks: &Marks) -> String {
-    table(measures.iter().filter(|m| m.brief), marks)
-}
-
-/// All measures; each limit on a line of its own.
-pub(crate) fn long(measures: &[Measure], marks: &Marks) -> String {
-    table(measures.iter(), marks)
-}
-
 /// What to know of measures, a line for all of which the same is to know.
 pub(crate) fn remarks(measures: &[Measure]) -> String {
     let mut remarks: Vec<(&str, Vec<&str>)> = Vec::new();
@@ -39,7 +29,8 @@ pub(crate) fn risks(measures: &[Measure], marks: &Marks) -> String {
     text_table::table(&[(Left, &["injury", "from"]), (Right, &["risk, %"])], rows)
 }
 
-fn table<'m>(measures: impl Iterator<Item = &'m Measure>, marks: &Marks) -> String {
+/// Measures, each limit on a line of its own.
+pub(crate) fn table<'m>(measures: impl IntoIterator<Item = &'m Measure>, marks: &Marks) -> String {
     let mut table = Table::new(&[
         (Left, &["injury measure"]),
         (Right, &["value"]),

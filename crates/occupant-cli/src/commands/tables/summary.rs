@@ -57,7 +57,7 @@ pub(crate) fn summary_table(summary: &Summary, written: &Written, marks: &Marks)
     if !summary.first_contacts.is_empty() {
         parts.push(first_contacts(summary, marks));
     }
-    parts.push(measures::short(&summary.measures, marks));
+    parts.push(measures::table(summary.measures.iter().filter(|m| m.brief), marks));
     parts.extend(marks.explained());
     parts.push(trust(summary, written, marks));
     parts.join("\n")

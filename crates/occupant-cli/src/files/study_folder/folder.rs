@@ -331,7 +331,7 @@ impl Folder {
         }
         // the manifest goes last: without it the rest would be nobody's
         files.push(self.manifest_path());
-        Ok(files.iter().try_for_each(|file| remove_if_there(file, "remove"))?)
+        Ok(files.iter().try_for_each(|file| remove_if_there(file))?)
     }
 }
 

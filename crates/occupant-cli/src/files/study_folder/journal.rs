@@ -293,13 +293,8 @@ impl Journal {
     /// # Errors
     /// Results that disagree; the operating system refuses; what `see` says.
     pub(crate) fn each_row(&self, mut see: impl FnMut(Row) -> Result<(), Failure>) -> Result<(), Failure> {
-        let mut start = 0;
-        while start < self.samples {
-            let end = (start + AT_ONCE).min(self.samples);
-            self.rows(start..end)?.into_iter().try_for_each(&mut see)?;
-            start = end;
-        }
-        Ok(())
+        let mut starts = (0..self.samples).step_by(AT_ONCE as usize);
+        starts.try_for_each(|start| self.rows(start..start + AT_ONCE)?.into_iter().try_for_each(&mut see))
     }
 
     /// The rows of those of a range of samples that are finished, in order.

@@ -36,10 +36,7 @@ impl Axis {
 
     /// A range that covers `range` and what is to be shown at any rate.
     fn widened(&self, [low, high]: [f64; 2]) -> [f64; 2] {
-        match self.includes {
-            Some([from, to]) => [low.min(from), high.max(to)],
-            None => [low, high],
-        }
+        self.includes.map_or([low, high], |[from, to]| [low.min(from), high.max(to)])
     }
 
     /// An axis of words.
@@ -112,12 +109,7 @@ impl Style {
     /// The style of a curve: colours by `colour`, dashes by `dash`; colours that come round again bring the next dash.
     pub(crate) fn of(colour: usize, dash: usize) -> Self {
         let dash = dash + colour / COLOURS.len();
-        Style {
-            colour: COLOURS[colour % COLOURS.len()],
-            dash: DASHES[dash % DASHES.len()],
-            width: 1.5,
-            mark: Mark::Line,
-        }
+        Style { dash: DASHES[dash % DASHES.len()], ..Style::line(COLOURS[colour % COLOURS.len()], 1.5) }
     }
 
     /// Measured curves: black.
@@ -143,13 +135,10 @@ impl Style {
         if self.mark == Mark::Area {
             return format!("fill=\"{}\" fill-opacity=\"0.7\" stroke=\"none\"", self.colour);
         }
+        let ends = if self.mark == Mark::Dots { " stroke-linecap=\"round\"" } else { "" };
         let dash = match self.dash {
             "" => String::new(),
             dash => format!(" stroke-dasharray=\"{dash}\""),
-        };
-        let ends = match self.mark {
-            Mark::Line | Mark::Area => "",
-            Mark::Dots => " stroke-linecap=\"round\"",
         };
         format!(
             "fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"{ends}{dash}",
