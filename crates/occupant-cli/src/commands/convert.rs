@@ -9,7 +9,7 @@ use clap::ArgGroup;
 use occupant_core::scenario::{Draft, Format, Loaded};
 
 use crate::base::input_file::read;
-use crate::base::{Done, Failure, ending, file_name, print_file, publish, refuse_input, say, with_word};
+use crate::base::{Failure, ending, file_name, print_file, publish, refuse_input, say, with_word};
 use crate::files::scenario::{files_beside, format_of};
 use crate::jobs::extend::{extend, extend_run};
 
@@ -72,7 +72,7 @@ pub(crate) struct Args {
 }
 
 /// Converts in the direction that the ending of the input gives.
-pub(crate) fn convert(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn convert(args: &Args) -> Result<(), Failure> {
     let bytes = read(&args.input)?;
     let layout = args.compartment.as_deref().map(compartment).transpose()?;
     if ending(&args.input) == "mcap" {
@@ -93,7 +93,7 @@ fn compartment(path: &Path) -> Result<CompartmentLayout, Failure> {
         .map_err(|reason| Failure::plain(format!("{}: {reason}", path.display())))
 }
 
-fn decks_to_scenarios(args: &Args, bytes: &[u8], layout: Option<CompartmentLayout>) -> Result<Done, Failure> {
+fn decks_to_scenarios(args: &Args, bytes: &[u8], layout: Option<CompartmentLayout>) -> Result<(), Failure> {
     let decks = decks(args, bytes)?;
     if decks.len() > 1 && args.output.is_none() {
         let found = format!("{} holds {} decks, and standard output takes one", args.input.display(), decks.len());
@@ -190,7 +190,7 @@ fn scenario_to_deck(
 }
 
 /// Writes a deck, and says its remarks.
-fn deliver_deck(args: &Args, cards: FromScenario) -> Result<Done, Failure> {
+fn deliver_deck(args: &Args, cards: FromScenario) -> Result<(), Failure> {
     let FromScenario { deck, remarks } = cards;
     deliver(args, args.output.as_deref(), &write_file(&[deck]))?;
     let remarks: String = remarks.iter().map(|remark| format!("  - {remark}\n")).collect();
@@ -219,12 +219,9 @@ fn write(args: &Args, file: &Path, bytes: &[u8]) -> Result<(), Failure> {
 }
 
 /// Says the report, and writes it where it was asked for.
-fn report(args: &Args, text: &str) -> Result<Done, Failure> {
+fn report(args: &Args, text: &str) -> Result<(), Failure> {
     if !args.quiet {
         say(text.trim_end());
     }
-    if let Some(file) = &args.report {
-        write(args, file, text.as_bytes())?;
-    }
-    Ok(Done::Well)
+    args.report.as_ref().map_or(Ok(()), |file| write(args, file, text.as_bytes()))
 }

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::flags::history::{code_letter, interval};
-use crate::base::{Done, Existing, Failure, ending, file_name, note, program, say};
+use crate::base::{Existing, Failure, ending, file_name, note, program, say};
 use crate::files::export::About;
 use crate::files::history::{Filter, Histories, Treatment, UnitChoice, choose, family_name, load};
 use crate::files::mme::{Labels, files};
@@ -54,7 +54,7 @@ pub(crate) struct Args {
     force: bool,
 }
 
-pub(crate) fn export(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn export(args: &Args) -> Result<(), Failure> {
     let is_mme = ending(&args.output) == "mme";
     let form = (!is_mme).then(|| Form::of(&args.output)).flatten();
     if !is_mme && form.is_none() {
@@ -71,11 +71,10 @@ pub(crate) fn export(args: &Args) -> Result<Done, Failure> {
     let coefficients = (treatment.filter != Filter::None).then(|| family_name(treatment.family));
     let about = About::new(&results, &histories, args.units, treatment.filter.words(), coefficients);
     let files = TableFiles::begin(&args.output, form, &args.run, Existing::by(args.force))?;
-    files.write(&histories, &about, args.units)?;
-    Ok(Done::Well)
+    files.write(&histories, &about, args.units)
 }
 
-fn export_mme(args: &Args, results: &Results, histories: &Histories) -> Result<Done, Failure> {
+fn export_mme(args: &Args, results: &Results, histories: &Histories) -> Result<(), Failure> {
     let name = args.output.file_stem().and_then(|n| n.to_str());
     let name = name.ok_or_else(|| Failure::plain("-o: the name of an ISO-MME test must be text"))?;
     let mut remarks = vec![
@@ -101,7 +100,7 @@ fn export_mme(args: &Args, results: &Results, histories: &Histories) -> Result<D
         let more = if without.len() > 4 { ", …" } else { "" };
         say(&format!("left out {} channels that ISO-MME has no code for: {}{more}", without.len(), shown.join(", ")));
     }
-    Ok(Done::Well)
+    Ok(())
 }
 
 fn code_pair(text: &str) -> Result<String, String> {

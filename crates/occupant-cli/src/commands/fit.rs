@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::flags::sweep::EngineArgs;
-use crate::base::{Done, Failure, Interrupt, json, print, program, say};
+use crate::base::{Failure, Interrupt, json, print, program, say};
 use crate::files::measured::MapArgument;
 use crate::files::study_folder::checksums::Checksums;
 use crate::files::study_folder::folder::Folder;
@@ -66,7 +66,7 @@ pub(crate) struct Args {
     quiet: bool,
 }
 
-pub(crate) fn fit(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn fit(args: &Args) -> Result<(), Failure> {
     let engine = args.engine.engine()?;
     let given = Given { files: &args.to, maps: &args.map, overrides: &args.overrides };
     let fitting = Fitting::open(&args.study, &given, program()).map_err(Failure::CouldNotRun)?;
@@ -91,12 +91,8 @@ pub(crate) fn fit(args: &Args) -> Result<Done, Failure> {
     Journal::list(&folder, Shard::WHOLE, &sums)?;
     sums.close()?;
     match (args.json, args.quiet) {
-        (true, _) => print(&json(&found)?)?,
-        (false, true) => {}
-        (false, false) => {
-            let written = format!("\nwritten to {}\n", folder.path.display());
-            print(&(report::text(&found) + &written))?;
-        }
+        (true, _) => print(&json(&found)?),
+        (false, true) => Ok(()),
+        (false, false) => print(&format!("{}\nwritten to {}\n", report::text(&found), folder.path.display())),
     }
-    Ok(Done::Well)
 }

@@ -53,7 +53,7 @@ macro_rules! commands {
 
         fn done(command: Command) -> Result<Done, Failure> {
             match command {
-                $(Command::$name(args) => $file::$does(&args),)*
+                $(Command::$name(args) => $file::$does(&args).map(Into::into),)*
             }
         }
     };
@@ -85,22 +85,20 @@ pub fn main() -> ExitCode {
     match Cli::try_parse() {
         Ok(cli) => exit_code(done(cli.command)),
         Err(wrong) if wrong.use_stderr() => wrong.exit(),
-        Err(help) => exit_code(written(help.print()).map(|()| Done::Well)),
+        Err(help) => exit_code(written(help.print()).map(Done::from)),
     }
 }
 
 /// Says what went wrong, if anything, and gives the exit code.
 fn exit_code(result: Result<Done, Failure>) -> ExitCode {
+    let failed = |message: &str, code: u8| {
+        say(message);
+        ExitCode::from(code)
+    };
     match result {
         Ok(Done::Well) => ExitCode::SUCCESS,
         Ok(Done::Unwell) => ExitCode::from(1),
-        Err(Failure::BrokeOff(message)) => {
-            say(&message);
-            ExitCode::from(1)
-        }
-        Err(Failure::CouldNotRun(message)) => {
-            say(&message);
-            ExitCode::from(2)
-        }
+        Err(Failure::BrokeOff(message)) => failed(&message, 1),
+        Err(Failure::CouldNotRun(message)) => failed(&message, 2),
     }
 }

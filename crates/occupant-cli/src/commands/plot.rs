@@ -4,7 +4,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::flags::history::{TestArgs, WindowArgs};
-use crate::base::{Done, Failure, file_name, note, program, publish, refuse_input, say};
+use crate::base::{Failure, file_name, note, program, publish, refuse_input, say};
 use crate::files::history::{Treatment, UnitChoice};
 use crate::files::results::Results;
 use crate::jobs::plot::{Request, plots};
@@ -81,7 +81,7 @@ pub(crate) struct Args {
     force: bool,
 }
 
-pub(crate) fn plot(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn plot(args: &Args) -> Result<(), Failure> {
     let kind = match &args.output {
         Some(output) => Format::of_output(output)?,
         None => args.format,
@@ -104,11 +104,10 @@ pub(crate) fn plot(args: &Args) -> Result<Done, Failure> {
     notes.iter().for_each(note);
     let words = words(args, &runs);
     match (&args.output, &args.each) {
-        (Some(output), _) => write(args, output, kind, &sheet(&words, &figures))?,
-        (None, Some(folder)) => write_each(args, folder, kind, &words, &figures)?,
-        (None, None) => {}
+        (Some(output), _) => write(args, output, kind, &sheet(&words, &figures)),
+        (None, Some(folder)) => write_each(args, folder, kind, &words, &figures),
+        (None, None) => Ok(()),
     }
-    Ok(Done::Well)
 }
 
 fn window(window: WindowArgs) -> Result<[f64; 2], Failure> {

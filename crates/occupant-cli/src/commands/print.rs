@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use occupant_core::scenario::kind::UnitSystem;
 
 use super::flags::history::interval;
-use crate::base::{Done, Failure, note, one_of, print, publish, refuse_input, say};
+use crate::base::{Failure, note, one_of, print, publish, refuse_input, say};
 use crate::jobs::print::{Case, printout, uneven};
 
 /// Print a run as paged text, as the report's program did
@@ -41,7 +41,7 @@ const UNITS: [(&str, &str, UnitSystem); 2] = [
     ("in-lbf-s", "Inch, pound, pound-force", UnitSystem::InchPound),
 ];
 
-pub(crate) fn print_run(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn print_run(args: &Args) -> Result<(), Failure> {
     let name = args.run.display();
     let case = Case::read(&args.run)?;
     let units = args.units.map_or_else(|| case.units(), Into::into);
@@ -62,5 +62,5 @@ pub(crate) fn print_run(args: &Args) -> Result<Done, Failure> {
     if !case.is_complete() {
         say(&format!("{name} is partial; the last page says so"));
     }
-    Ok(Done::Well)
+    Ok(())
 }

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::base::{Done, Existing, Failure, file_name, print, sha256, talk};
+use crate::base::{Existing, Failure, file_name, print, sha256, talk};
 use crate::files::history::UnitChoice;
 use crate::files::scenario::{ScenarioArgs, draft, files_beside, open_draft, warn};
 use crate::files::table::Form;
@@ -49,7 +49,7 @@ pub(crate) struct Args {
 }
 
 /// Computes and prints the derivatives.
-pub(crate) fn sensitivity(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn sensitivity(args: &Args) -> Result<(), Failure> {
     let form = args.output.as_deref().map(Form::of_output).transpose()?;
     let (bytes, base) = draft(&args.scenario)?;
     let opened = open_draft(&args.scenario, bytes, base.clone())?;
@@ -71,6 +71,5 @@ pub(crate) fn sensitivity(args: &Args) -> Result<Done, Failure> {
         talk::json(&answer(&name, &opened.model, &asked, &analysis))?
     } else {
         text(&opened.model, &asked, &analysis)
-    })?;
-    Ok(Done::Well)
+    })
 }

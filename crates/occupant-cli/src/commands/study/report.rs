@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::base::{Done, Existing, Failure, FileProblem, is_page, publish, say};
+use crate::base::{Existing, Failure, FileProblem, is_page, publish, say};
 use crate::jobs::study::{Report, Tables, page, write_tables};
 use crate::jobs::sweep::stored::{MadeBy, open};
 
@@ -30,7 +30,7 @@ pub(crate) struct ReportArgs {
 }
 
 /// Makes the report of a study.
-pub(crate) fn report(args: &ReportArgs) -> Result<Done, Failure> {
+pub(crate) fn report(args: &ReportArgs) -> Result<(), Failure> {
     let Some(first) = args.folders.first() else {
         return Err(Failure::plain("no folder was given"));
     };
@@ -44,8 +44,7 @@ pub(crate) fn report(args: &ReportArgs) -> Result<Done, Failure> {
     }
     let existing = Existing::by(args.force);
     write_tables(&report, &tables, existing)?;
-    publish(&page_at, args.force, page(&report).as_bytes())?;
-    Ok(Done::Well)
+    publish(&page_at, args.force, page(&report).as_bytes())
 }
 
 /// Refuses names that are no page, files of the sweep itself, and files that are there.

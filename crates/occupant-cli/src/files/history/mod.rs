@@ -3,7 +3,6 @@
 //! Exports, plots and comparisons are made of these. Everything is SI until it is shown.
 //! Opens no file: results come to it open.
 
-mod choose;
 mod filter;
 mod load;
 
@@ -12,9 +11,8 @@ use crash_measures::signal::ChannelClass;
 use crash_measures::unit::{Shown, Unit};
 use occupant_core::results::channel::Channel;
 
-pub(crate) use choose::choose;
 pub(crate) use filter::{Filter, family_name, filtered};
-pub(crate) use load::{Treatment, Untreated, asked, load, treated};
+pub(crate) use load::{Treatment, Untreated, asked, choose, load, treated};
 
 /// Channels of one run over common times.
 #[derive(Clone, Debug)]

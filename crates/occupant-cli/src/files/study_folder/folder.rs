@@ -266,7 +266,7 @@ impl Folder {
             let Some(other) = Shard::of_file(name) else {
                 continue;
             };
-            if (all || other.count() != shard.count()) && self.lock(&journal.join(name))?.is_none() {
+            if (all || other.count != shard.count) && self.lock(&journal.join(name))?.is_none() {
                 return Err(self.busy(format!("computes shard {other}")));
             }
         }

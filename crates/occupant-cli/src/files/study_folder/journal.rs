@@ -275,7 +275,7 @@ impl Journal {
 
     /// The shards that lack samples and how many, as far as the files tell into how many shards the study was cut.
     pub(crate) fn lacking(&self, samples: u64) -> Vec<(Shard, u64)> {
-        let counts: BTreeSet<u64> = self.begun.iter().map(|s| s.count()).collect();
+        let counts: BTreeSet<u64> = self.begun.iter().map(|s| s.count).collect();
         let Some(count) = counts.last().filter(|_| counts.len() == 1) else {
             return Vec::new();
         };

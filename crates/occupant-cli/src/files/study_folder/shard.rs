@@ -7,7 +7,7 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Shard {
     number: u64,
-    count: u64,
+    pub(super) count: u64,
 }
 
 impl Shard {
@@ -78,11 +78,6 @@ impl Shard {
     /// Whether it is everything.
     pub(crate) fn is_whole(self) -> bool {
         self.count == 1
-    }
-
-    /// How many parts there are.
-    pub(crate) fn count(self) -> u64 {
-        self.count
     }
 
     /// The samples of this part, of `samples` in all: an even share, next to each other.

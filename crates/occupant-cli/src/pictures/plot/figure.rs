@@ -60,6 +60,11 @@ impl Curve {
     pub(crate) fn new(label: impl Into<String>, style: Style, points: Vec<[f64; 2]>) -> Self {
         Curve { label: label.into(), style, points }
     }
+
+    /// The points that can be drawn.
+    pub(crate) fn drawn(&self) -> impl Iterator<Item = &[f64; 2]> {
+        self.points.iter().filter(|point| drawable(point))
+    }
 }
 
 /// How a curve is drawn.
@@ -152,9 +157,9 @@ const LIMIT_ROOM: f64 = 0.02;
 /// Largest magnitude that is drawn; greater numbers count as none.
 const GREATEST: f64 = 1e300;
 
-/// Whether a number can be drawn.
-pub(crate) fn drawable(value: f64) -> bool {
-    value.abs() <= GREATEST
+/// Whether a point can be drawn.
+pub(crate) fn drawable(point: &[f64; 2]) -> bool {
+    point.iter().all(|value| value.abs() <= GREATEST)
 }
 
 impl Figure {
@@ -163,17 +168,21 @@ impl Figure {
         Figure { title: title.to_owned(), x, y, curves, limits: Vec::new(), empty: "nothing to draw".to_owned() }
     }
 
+    /// The limits that can be drawn.
+    pub(crate) fn drawn_limits(&self) -> impl Iterator<Item = &Limit> {
+        self.limits.iter().filter(|limit| drawable(&[0.0, limit.level]))
+    }
+
     /// Least and greatest of X and of Y, limits included; none without a point.
     pub(crate) fn extent(&self) -> Option<[[f64; 2]; 2]> {
-        let points = self.curves.iter().flat_map(|c| &c.points);
         let mut extent: Option<[[f64; 2]; 2]> = None;
-        for point in points.filter(|[x, y]| drawable(*x) && drawable(*y)) {
+        for point in self.curves.iter().flat_map(Curve::drawn) {
             let [x, y] = extent.get_or_insert([[point[0]; 2], [point[1]; 2]]);
             *x = [x[0].min(point[0]), x[1].max(point[0])];
             *y = [y[0].min(point[1]), y[1].max(point[1])];
         }
         if let Some([_, y]) = &mut extent {
-            for limit in self.limits.iter().filter(|l| drawable(l.level)) {
+            for limit in self.drawn_limits() {
                 // room on both sides, so that no limit falls together with the frame
                 let room = LIMIT_ROOM * limit.level.abs();
                 *y = [y[0].min(limit.level - room), y[1].max(limit.level + room)];
