@@ -14,6 +14,13 @@ pub(crate) enum Done {
     Unwell,
 }
 
+impl From<()> for Done {
+    /// Of a command that checks nothing.
+    fn from((): ()) -> Self {
+        Done::Well
+    }
+}
+
 /// Why a command could not do its work.
 #[derive(Debug)]
 pub enum Failure {

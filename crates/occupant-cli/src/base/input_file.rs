@@ -1,8 +1,8 @@
 //! Files that are read whole.
 
 use std::fs;
-use std::io;
-use std::path::Path;
+use std::io::{self, ErrorKind};
+use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
 use super::names::ending;
@@ -24,7 +24,7 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
 ///
 /// # Errors
 /// What the operating system refuses; what is no ordinary file, such as a pipe that nobody may ever write into or a device
-/// without end; more than a text may have.
+/// without end; more than a text may have ([`ErrorKind::InvalidData`]).
 pub(crate) fn bytes(path: &Path) -> io::Result<Vec<u8>> {
     let found = fs::metadata(path)?;
     if !found.is_file() && !found.is_dir() {
@@ -39,9 +39,20 @@ pub(crate) fn bytes(path: &Path) -> io::Result<Vec<u8>> {
     };
     if found.len() > most {
         let (size, most) = (found.len() as f64 / 1e6, most / 1_000_000);
-        return Err(io::Error::other(format!("it has {size:.1} MB, and such a text may have at most {most} MB")));
+        let found = format!("it has {size:.1} MB, and such a text may have at most {most} MB");
+        return Err(io::Error::new(ErrorKind::InvalidData, found));
     }
     fs::read(path)
+}
+
+/// What stands in a folder, sorted.
+///
+/// # Errors
+/// What the operating system refuses.
+pub(crate) fn entries(folder: &Path) -> io::Result<Vec<PathBuf>> {
+    let mut paths = fs::read_dir(folder)?.map(|entry| Ok(entry?.path())).collect::<io::Result<Vec<PathBuf>>>()?;
+    paths.sort();
+    Ok(paths)
 }
 
 #[cfg(test)]

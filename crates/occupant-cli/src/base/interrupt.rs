@@ -16,13 +16,9 @@ pub(crate) struct Interrupt {
 }
 
 impl Interrupt {
-    /// Listens from now on. Where that is impossible a signal ends the process at once; what was written stays readable.
-    pub(crate) fn listen() -> Self {
-        Interrupt::listen_for("stopping at the next output; once more to stop at once")
-    }
-
-    /// Listens from now on, and answers a signal with these words.
-    pub(crate) fn listen_for(words: &'static str) -> Self {
+    /// Listens from now on, and answers a signal with these words. Where that is impossible a signal ends the process at
+    /// once; what was written stays readable.
+    pub(crate) fn listen(words: &'static str) -> Self {
         let interrupt = Interrupt::default();
         let asked = Arc::clone(&interrupt.asked);
         let handler = move || {

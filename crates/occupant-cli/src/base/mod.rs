@@ -1,8 +1,9 @@
 //! What every room may lean on: how a command ends and talks, how files come to their names, text
 //! tables, what is shown by default.
 //!
-//! Knows no command, no job and no file format.
+//! Knows no command, no job and no file format. What rooms use everywhere is named here once.
 
+pub(crate) mod choice;
 pub(crate) mod customary;
 pub(crate) mod failure;
 pub(crate) mod input_file;
@@ -14,9 +15,13 @@ pub(crate) mod sha256;
 pub(crate) mod talk;
 pub(crate) mod text_table;
 
+pub(crate) use choice::one_of;
 pub(crate) use failure::{Done, Failure};
 pub(crate) use interrupt::Interrupt;
-pub(crate) use names::{ending, file_name, file_stem, program};
-pub(crate) use output_file::{Existing, PartialFile, begun, partial_path, refuse_input, write_whole};
+pub(crate) use names::{by_ending, ending, file_name, file_stem, is_page, program};
+pub(crate) use output_file::{
+    Existing, FileProblem, PartialFile, begun, is_at, partial_path, publish, refuse_input, remove_if_there, with_word,
+    write_whole,
+};
 pub(crate) use sha256::sha256;
-pub(crate) use talk::{json, note, say};
+pub(crate) use talk::{json, note, print, print_file, say, written};

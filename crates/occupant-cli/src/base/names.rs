@@ -18,6 +18,12 @@ pub(crate) fn ending(path: &Path) -> String {
     path.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase()
 }
 
+/// What the ending of a file's name stands for in a table; none for another ending.
+pub(crate) fn by_ending<T: Copy>(path: &Path, kinds: &[(&str, T)]) -> Option<T> {
+    let ending = ending(path);
+    kinds.iter().find(|(known, _)| *known == ending).map(|(_, kind)| *kind)
+}
+
 /// Whether a file's name is that of a page.
 pub(crate) fn is_page(path: &Path) -> bool {
     matches!(ending(path).as_str(), "html" | "htm")

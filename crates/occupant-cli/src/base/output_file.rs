@@ -88,16 +88,10 @@ impl FileProblem {
 /// # Errors
 /// [`FileProblem::IsInput`].
 pub(crate) fn refuse_input(target: &Path, input: &Path) -> Result<(), FileProblem> {
-    let same = |a: &Path, b: &Path| match (fs::canonicalize(a), fs::canonicalize(b)) {
-        (Ok(a), Ok(b)) => a == b,
-        _ => false,
-    };
-    for path in [target.to_owned(), partial_path(target)] {
-        if same(&path, input) {
-            return Err(FileProblem::IsInput { path });
-        }
-    }
-    Ok(())
+    let is_input =
+        |path: &PathBuf| fs::canonicalize(path).is_ok_and(|place| fs::canonicalize(input).is_ok_and(|i| i == place));
+    let taken = [target.to_owned(), partial_path(target)].into_iter().find(is_input);
+    taken.map_or(Ok(()), |path| Err(FileProblem::IsInput { path }))
 }
 
 /// Links that lead to one another are followed so far.
@@ -122,17 +116,14 @@ fn place_of(target: &Path) -> Result<PathBuf, FileProblem> {
     Err(refused())
 }
 
-/// Removes a file, for which `doing` is the word.
+/// Removes a file.
 ///
 /// # Errors
 /// The operating system refuses.
-pub(crate) fn remove_if_there(path: &Path, doing: &'static str) -> Result<(), FileProblem> {
-    match fs::remove_file(path) {
-        Err(source) if source.kind() != ErrorKind::NotFound => {
-            Err(FileProblem::Io { doing, path: path.to_owned(), source })
-        }
-        _ => Ok(()),
-    }
+pub(crate) fn remove_if_there(path: &Path) -> Result<(), FileProblem> {
+    let refused = |source: &io::Error| source.kind() != ErrorKind::NotFound;
+    let refused = fs::remove_file(path).err().filter(refused);
+    refused.map_or(Ok(()), |source| Err(FileProblem::Io { doing: "remove", path: path.to_owned(), source }))
 }
 
 impl PartialFile {
@@ -142,8 +133,8 @@ impl PartialFile {
     /// A file is there and may not be replaced; the operating system refuses.
     pub(crate) fn create(target: &Path, existing: Existing) -> Result<Self, FileProblem> {
         let place = place_of(target)?;
-        if existing == Existing::Keep {
-            refuse_existing(&place)?;
+        if existing == Existing::Keep && fs::symlink_metadata(&place).is_ok() {
+            return Err(FileProblem::Exists { path: place });
         }
         let (partial, file) = begun(&place, existing, |name| {
             let file = made(name);
@@ -247,7 +238,7 @@ pub(crate) fn begun<T>(
     loop {
         let path = match number {
             1 => partial_path(place),
-            _ => numbered(place, &format!(".partial-{number}")),
+            _ => with_word(place, &format!(".partial-{number}")),
         };
         match make(&path) {
             Ok(made) => return Ok((path, made)),
@@ -332,11 +323,11 @@ pub(crate) fn write_whole(path: &Path, existing: Existing, bytes: &[u8]) -> Resu
 
 /// `dir/run.mcap` → `dir/run.partial.mcap`.
 pub(crate) fn partial_path(target: &Path) -> PathBuf {
-    numbered(target, ".partial")
+    with_word(target, ".partial")
 }
 
 /// The name with a word before its ending.
-fn numbered(target: &Path, word: &str) -> PathBuf {
+pub(crate) fn with_word(target: &Path, word: &str) -> PathBuf {
     let mut name = OsString::from(target.file_stem().unwrap_or_default());
     name.push(word);
     if let Some(extension) = target.extension() {
@@ -344,13 +335,6 @@ fn numbered(target: &Path, word: &str) -> PathBuf {
         name.push(extension);
     }
     target.with_file_name(name)
-}
-
-fn refuse_existing(target: &Path) -> Result<(), FileProblem> {
-    match fs::symlink_metadata(target) {
-        Ok(_) => Err(FileProblem::Exists { path: target.to_owned() }),
-        Err(_) => Ok(()),
-    }
 }
 
 /// Makes the new name last. Where folders cannot be synced the rename stands all the same, so a failure is no error.

@@ -58,6 +58,16 @@ impl Table {
     }
 }
 
+/// The text of a table with these rows.
+pub(crate) fn table<R: IntoIterator<Item = String>>(
+    heads: &[(Align, &[&str])],
+    rows: impl IntoIterator<Item = R>,
+) -> String {
+    let mut table = Table::new(heads);
+    rows.into_iter().for_each(|row| table.row(row));
+    table.text()
+}
+
 /// A number with so many decimals; one that no column holds, with an exponent.
 pub(crate) fn number(value: f64, decimals: usize) -> String {
     if value.abs() < 1e6 { format!("{value:.decimals$}") } else { format!("{value:.2e}") }

@@ -3,8 +3,7 @@
 use occupant_core::diagnosis::{Diagnosis, RK4_STABILITY_LIMIT, diagnose};
 
 use super::tables::check::check_text;
-use crate::base::failure::{Done, Failure};
-use crate::base::talk::{self, say};
+use crate::base::{Done, Failure, say, talk};
 use crate::files::scenario::{self, ScenarioArgs};
 
 /// Check a scenario and show what will be simulated, without running it
@@ -26,9 +25,7 @@ pub(crate) struct Args {
 
 pub(crate) fn check(args: &Args) -> Result<Done, Failure> {
     let opened = scenario::open(&args.scenario)?;
-    if !opened.warnings.is_empty() {
-        say(&format!("{}\n", opened.warnings));
-    }
+    scenario::warn(&opened.warnings);
     let diagnosis = diagnose(&opened.model);
     if args.json {
         talk::print(&talk::json(&diagnosis)?)?;

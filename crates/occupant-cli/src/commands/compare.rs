@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use super::flags::history::{HistoryArgs, TestArgs, WindowArgs};
-use crate::base::failure::{Done, Failure};
-use crate::base::talk::{json, note, print, say};
+use super::flags::history::{TestArgs, WindowArgs};
+use crate::base::{Done, Failure, json, note, print, say};
+use crate::files::history::Treatment;
 use crate::jobs::compare::{Request, Window, compare as rate};
 
 /// Rate how well a run follows a test: ISO/TS 18571, CORA, Sprague–Geers, ANOVA
@@ -34,7 +34,7 @@ pub(crate) struct Args {
     window: WindowArgs,
 
     #[command(flatten)]
-    treatment: HistoryArgs,
+    treatment: Treatment,
 
     /// Print JSON instead of a table
     #[arg(long)]
@@ -50,7 +50,7 @@ pub(crate) fn compare(args: &Args) -> Result<Done, Failure> {
         map: &args.test.map,
         seat: args.test.seat,
         window: Window { from_s: args.window.from, to_s: args.window.to, shift_s: args.test.shift },
-        treatment: args.treatment.treatment(None),
+        treatment: args.treatment,
         filter: args.treatment.words(),
     })?;
     comparison.notes.iter().for_each(note);

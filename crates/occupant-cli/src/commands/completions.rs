@@ -4,8 +4,7 @@ use clap::CommandFactory;
 use clap_complete::{Shell, generate};
 
 use super::Cli;
-use crate::base::failure::{Done, Failure};
-use crate::base::talk;
+use crate::base::{Failure, talk};
 
 /// Print a script that completes the command's words in a shell
 ///
@@ -18,9 +17,8 @@ pub(crate) struct Args {
 }
 
 /// Prints the script.
-pub(crate) fn print(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn print(args: &Args) -> Result<(), Failure> {
     let mut script = Vec::new();
     generate(args.shell, &mut Cli::command(), "occupant", &mut script);
-    talk::print_file(&script)?;
-    Ok(Done::Well)
+    talk::print_file(&script)
 }

@@ -8,11 +8,8 @@ use cardio_legacy::{
 use clap::ArgGroup;
 use occupant_core::scenario::{Draft, Format, Loaded};
 
-use crate::base::failure::{Done, Failure};
 use crate::base::input_file::read;
-use crate::base::names::{ending, file_name};
-use crate::base::output_file::{publish, refuse_input};
-use crate::base::talk::{print_file, say};
+use crate::base::{Failure, ending, file_name, print_file, publish, refuse_input, say, with_word};
 use crate::files::scenario::{files_beside, format_of};
 use crate::jobs::extend::{extend, extend_run};
 
@@ -75,7 +72,7 @@ pub(crate) struct Args {
 }
 
 /// Converts in the direction that the ending of the input gives.
-pub(crate) fn convert(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn convert(args: &Args) -> Result<(), Failure> {
     let bytes = read(&args.input)?;
     let layout = args.compartment.as_deref().map(compartment).transpose()?;
     if ending(&args.input) == "mcap" {
@@ -96,7 +93,7 @@ fn compartment(path: &Path) -> Result<CompartmentLayout, Failure> {
         .map_err(|reason| Failure::plain(format!("{}: {reason}", path.display())))
 }
 
-fn decks_to_scenarios(args: &Args, bytes: &[u8], layout: Option<CompartmentLayout>) -> Result<Done, Failure> {
+fn decks_to_scenarios(args: &Args, bytes: &[u8], layout: Option<CompartmentLayout>) -> Result<(), Failure> {
     let decks = decks(args, bytes)?;
     if decks.len() > 1 && args.output.is_none() {
         let found = format!("{} holds {} decks, and standard output takes one", args.input.display(), decks.len());
@@ -104,8 +101,9 @@ fn decks_to_scenarios(args: &Args, bytes: &[u8], layout: Option<CompartmentLayou
     }
     let mut reports = String::new();
     for (at, deck) in decks.iter().enumerate() {
-        let output =
-            args.output.as_deref().map(|file| if decks.len() > 1 { numbered(file, at + 1) } else { file.to_owned() });
+        let own =
+            |file: &Path| if decks.len() > 1 { with_word(file, &format!("-{}", at + 1)) } else { file.to_owned() };
+        let output = args.output.as_deref().map(own);
         let options = ConvertOptions {
             deck_name: file_name(&args.input),
             path: path_source(args, output.as_deref())?,
@@ -167,13 +165,6 @@ fn path_source(args: &Args, output: Option<&Path>) -> Result<Option<PathSource>,
     Ok(Some(PathSource::Columns { columns: split(&header), text: rows }))
 }
 
-/// `case.toml` → `case-2.toml`.
-fn numbered(file: &Path, number: usize) -> PathBuf {
-    let stem = file.file_stem().map(|s| s.to_string_lossy().into_owned()).unwrap_or_default();
-    let extension = file.extension().map(|e| format!(".{}", e.to_string_lossy())).unwrap_or_default();
-    file.with_file_name(format!("{stem}-{number}{extension}"))
-}
-
 /// The deck that continues the run of a results file.
 fn run_to_deck(args: &Args, bytes: &[u8], layout: Option<&CompartmentLayout>) -> Result<FromScenario, Failure> {
     let Some(final_s) = args.extend else {
@@ -199,7 +190,7 @@ fn scenario_to_deck(
 }
 
 /// Writes a deck, and says its remarks.
-fn deliver_deck(args: &Args, cards: FromScenario) -> Result<Done, Failure> {
+fn deliver_deck(args: &Args, cards: FromScenario) -> Result<(), Failure> {
     let FromScenario { deck, remarks } = cards;
     deliver(args, args.output.as_deref(), &write_file(&[deck]))?;
     let remarks: String = remarks.iter().map(|remark| format!("  - {remark}\n")).collect();
@@ -228,12 +219,9 @@ fn write(args: &Args, file: &Path, bytes: &[u8]) -> Result<(), Failure> {
 }
 
 /// Says the report, and writes it where it was asked for.
-fn report(args: &Args, text: &str) -> Result<Done, Failure> {
+fn report(args: &Args, text: &str) -> Result<(), Failure> {
     if !args.quiet {
         say(text.trim_end());
     }
-    if let Some(file) = &args.report {
-        write(args, file, text.as_bytes())?;
-    }
-    Ok(Done::Well)
+    args.report.as_ref().map_or(Ok(()), |file| write(args, file, text.as_bytes()))
 }

@@ -2,13 +2,10 @@
 
 use std::path::PathBuf;
 
-use super::flags::history::{HistoryArgs, code_letter, interval};
-use crate::base::failure::{Done, Failure};
-use crate::base::names::{ending, file_name, program};
-use crate::base::output_file::Existing;
-use crate::base::talk::{note, say};
+use super::flags::history::{code_letter, interval};
+use crate::base::{Existing, Failure, ending, file_name, note, program, say};
 use crate::files::export::About;
-use crate::files::history::{Filter, Histories, UnitChoice, choose, load};
+use crate::files::history::{Filter, Histories, Treatment, UnitChoice, choose, family_name, load};
 use crate::files::mme::{Labels, files};
 use crate::files::results::Results;
 use crate::files::table::Form;
@@ -34,7 +31,7 @@ pub(crate) struct Args {
     channels: Vec<String>,
 
     #[command(flatten)]
-    treatment: HistoryArgs,
+    treatment: Treatment,
 
     /// Interval of the samples, such as '1 ms'; that of the outputs if absent. Values between outputs lie on straight lines
     #[arg(long, value_name = "TIME", value_parser = interval)]
@@ -57,13 +54,13 @@ pub(crate) struct Args {
     force: bool,
 }
 
-pub(crate) fn export(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn export(args: &Args) -> Result<(), Failure> {
     let is_mme = ending(&args.output) == "mme";
     let form = (!is_mme).then(|| Form::of(&args.output)).flatten();
     if !is_mme && form.is_none() {
         return Err(Failure::ending(&args.output, ".csv, .parquet or .mme"));
     }
-    let treatment = args.treatment.treatment(args.interval);
+    let treatment = Treatment { interval_s: args.interval, ..args.treatment };
     let results = Results::open(&args.run)?;
     let channels = choose(&results.model, &args.channels)?;
     let histories = load(&results, channels, treatment)?;
@@ -71,14 +68,13 @@ pub(crate) fn export(args: &Args) -> Result<Done, Failure> {
     let Some(form) = form else {
         return export_mme(args, &results, &histories);
     };
-    let coefficients = (treatment.filter != Filter::None).then_some(args.treatment.family_name());
+    let coefficients = (treatment.filter != Filter::None).then(|| family_name(treatment.family));
     let about = About::new(&results, &histories, args.units, treatment.filter.words(), coefficients);
     let files = TableFiles::begin(&args.output, form, &args.run, Existing::by(args.force))?;
-    files.write(&histories, &about, args.units)?;
-    Ok(Done::Well)
+    files.write(&histories, &about, args.units)
 }
 
-fn export_mme(args: &Args, results: &Results, histories: &Histories) -> Result<Done, Failure> {
+fn export_mme(args: &Args, results: &Results, histories: &Histories) -> Result<(), Failure> {
     let name = args.output.file_stem().and_then(|n| n.to_str());
     let name = name.ok_or_else(|| Failure::plain("-o: the name of an ISO-MME test must be text"))?;
     let mut remarks = vec![
@@ -104,7 +100,7 @@ fn export_mme(args: &Args, results: &Results, histories: &Histories) -> Result<D
         let more = if without.len() > 4 { ", …" } else { "" };
         say(&format!("left out {} channels that ISO-MME has no code for: {}{more}", without.len(), shown.join(", ")));
     }
-    Ok(Done::Well)
+    Ok(())
 }
 
 fn code_pair(text: &str) -> Result<String, String> {

@@ -3,10 +3,7 @@
 use std::path::PathBuf;
 
 use super::flags::sweep::EngineArgs;
-use crate::base::failure::{Done, Failure};
-use crate::base::interrupt::Interrupt;
-use crate::base::names::program;
-use crate::base::talk::{json, print, say};
+use crate::base::{Failure, Interrupt, json, print, program, say};
 use crate::files::measured::MapArgument;
 use crate::files::study_folder::checksums::Checksums;
 use crate::files::study_folder::folder::Folder;
@@ -69,7 +66,7 @@ pub(crate) struct Args {
     quiet: bool,
 }
 
-pub(crate) fn fit(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn fit(args: &Args) -> Result<(), Failure> {
     let engine = args.engine.engine()?;
     let given = Given { files: &args.to, maps: &args.map, overrides: &args.overrides };
     let fitting = Fitting::open(&args.study, &given, program())?;
@@ -81,7 +78,7 @@ pub(crate) fn fit(args: &Args) -> Result<Done, Failure> {
     let held = folder.claim(&fitting.manifest, &fitting.texts, Shard::WHOLE, args.restart)?;
     warn_unlocked(&held, "fitting into one folder", args.quiet);
     let sums = Checksums::open(&folder.path, |_| true)?;
-    let interrupt = Interrupt::listen_for("stopping; once more to stop at once");
+    let interrupt = Interrupt::listen("stopping; once more to stop at once");
     let progress = Progress::new(fitting.fit.budget, args.quiet);
     let mut evaluator = Evaluator::new(&fitting, (&folder, &sums), &sha256, &engine, &interrupt, progress)?;
     tell_damaged(&[held.mended, sums.damaged()].concat());
@@ -94,12 +91,8 @@ pub(crate) fn fit(args: &Args) -> Result<Done, Failure> {
     Journal::list(&folder, Shard::WHOLE, &sums)?;
     sums.close()?;
     match (args.json, args.quiet) {
-        (true, _) => print(&json(&found)?)?,
-        (false, true) => {}
-        (false, false) => {
-            let written = format!("\nwritten to {}\n", folder.path.display());
-            print(&(report::text(&found) + &written))?;
-        }
+        (true, _) => print(&json(&found)?),
+        (false, true) => Ok(()),
+        (false, false) => print(&format!("{}\nwritten to {}\n", report::text(&found), folder.path.display())),
     }
-    Ok(Done::Well)
 }

@@ -2,7 +2,6 @@
 
 use std::path::PathBuf;
 
-use clap::ValueEnum;
 use crash_measures::injury::{Filtering, Measure, Options};
 use crash_measures::measure::Dummy;
 use crash_measures::signal::CfcFamily;
@@ -10,10 +9,10 @@ use occupant_core::results::summary::{Caveat, Summary};
 use placed_text::shown;
 use serde::Serialize;
 
-use super::tables::measures::{long, remarks, risks};
+use super::tables::measures::{remarks, risks, table};
 use super::tables::summary::Marks;
-use crate::base::failure::{Done, Failure};
-use crate::base::talk::{self, note, print};
+use crate::base::{Done, Failure, note, one_of, print, talk};
+use crate::files::history::family_name;
 use crate::files::results::Results;
 
 /// Injury measures of a run against limits and risk curves
@@ -27,12 +26,12 @@ pub(crate) struct Args {
     run: PathBuf,
 
     /// Filter each channel by its class (head 1000, neck 1000/600, chest 180, femur 600, head rotation 60)
-    #[arg(long, value_name = "FAMILY", default_value = "none")]
-    filter: Filter,
+    #[arg(long, value_name = "FAMILY", default_value = "none", value_parser = one_of(&FILTERS))]
+    filter: Filtering,
 
     /// The dummy whose limits and risk curves hold
-    #[arg(long, value_name = "DUMMY", default_value = "hybrid-iii-50m")]
-    dummy: DummyChoice,
+    #[arg(long, value_name = "DUMMY", default_value = "hybrid-iii-50m", value_parser = one_of(&DUMMIES))]
+    dummy: Dummy,
 
     /// Exit with code 1 if a limit is exceeded
     #[arg(long)]
@@ -43,28 +42,19 @@ pub(crate) struct Args {
     json: bool,
 }
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum Filter {
-    /// The signals as they are
-    None,
-    /// Coefficients of SAE J211
-    SaeJ211,
-    /// Coefficients of ISO 6487
-    Iso6487,
-}
+/// Filters: names on the command line, names in help.
+const FILTERS: [(&str, &str, Filtering); 3] = [
+    ("none", "The signals as they are", Filtering::None),
+    ("sae-j211", "Coefficients of SAE J211", Filtering::Classes(CfcFamily::SaeJ211)),
+    ("iso6487", "Coefficients of ISO 6487", Filtering::Classes(CfcFamily::Iso6487)),
+];
 
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum DummyChoice {
-    /// Hybrid III, 50th percentile male
-    #[value(name = "hybrid-iii-50m")]
-    HybridIii50M,
-    /// Hybrid III, 5th percentile female
-    #[value(name = "hybrid-iii-5f")]
-    HybridIii5F,
-    /// THOR, 50th percentile male
-    #[value(name = "thor-50m")]
-    Thor50M,
-}
+/// Dummies, likewise.
+const DUMMIES: [(&str, &str, Dummy); 3] = [
+    ("hybrid-iii-50m", "Hybrid III, 50th percentile male", Dummy::HybridIii50M),
+    ("hybrid-iii-5f", "Hybrid III, 5th percentile female", Dummy::HybridIii5F),
+    ("thor-50m", "THOR, 50th percentile male", Dummy::Thor50M),
+];
 
 #[derive(Serialize)]
 struct Answer<'a> {
@@ -80,7 +70,7 @@ struct Answer<'a> {
 /// Prints the measures of a run.
 pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
     let results = Results::open(&args.run)?;
-    let options = options(args);
+    let options = Options { dummy: args.dummy, filtering: args.filter };
     let summary = results.summary_judged(options)?;
     let notes = results.notes();
     if args.json {
@@ -101,28 +91,12 @@ pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
     Ok(if exceeded && args.strict { Done::Unwell } else { Done::Well })
 }
 
-fn options(args: &Args) -> Options {
-    Options {
-        dummy: match args.dummy {
-            DummyChoice::HybridIii50M => Dummy::HybridIii50M,
-            DummyChoice::HybridIii5F => Dummy::HybridIii5F,
-            DummyChoice::Thor50M => Dummy::Thor50M,
-        },
-        filtering: match args.filter {
-            Filter::None => Filtering::None,
-            Filter::SaeJ211 => Filtering::Classes(CfcFamily::SaeJ211),
-            Filter::Iso6487 => Filtering::Classes(CfcFamily::Iso6487),
-        },
-    }
-}
-
 fn text(results: &Results, options: &Options, Summary { measures, caveats, .. }: &Summary) -> String {
     let marks = Marks::of(caveats);
     let interval_ms = results.model.setup().time.output_s * 1e3;
     let filter = match options.filtering {
-        Filtering::None => "unfiltered",
-        Filtering::Classes(CfcFamily::SaeJ211) => "filtered by SAE J211 classes",
-        Filtering::Classes(CfcFamily::Iso6487) => "filtered by ISO 6487 classes",
+        Filtering::None => "unfiltered".to_owned(),
+        Filtering::Classes(family) => format!("filtered by {} classes", family_name(family)),
     };
     let title = shown(&results.model.setup().title);
     let dummy = options.dummy.name();
@@ -130,7 +104,7 @@ fn text(results: &Results, options: &Options, Summary { measures, caveats, .. }:
         format!(
             "{title}\noutputs every {interval_ms} ms, {filter}; limits and risks of a {dummy}\n"
         ),
-        long(measures, &marks),
+        table(measures, &marks),
         marks.explained().unwrap_or_default(),
         risks(measures, &marks),
         remarks(measures),

@@ -31,8 +31,7 @@ use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
 
-use crate::base::failure::{Done, Failure};
-use crate::base::talk::{say, written};
+use crate::base::{Done, Failure, say, written};
 
 /// Simulates the occupant of a car in a crash or a violent manoeuvre.
 #[derive(Debug, Parser)]
@@ -44,26 +43,41 @@ struct Cli {
     command: Command,
 }
 
-#[derive(Debug, Subcommand)]
-enum Command {
-    Run(run::Args),
-    Sweep(sweep::Args),
-    Study(study::Args),
-    Fit(fit::Args),
-    Check(check::Args),
-    New(new::Args),
-    Schema(schema::Args),
-    Convert(convert::Args),
-    Print(print::Args),
-    Plot(plot::Args),
-    Export(export::Args),
-    Compare(compare::Args),
-    Measures(measures::Args),
-    View(view::Args),
-    Report(report::Args),
-    Risk(risk::Args),
-    Sensitivity(sensitivity::Args),
-    Completions(completions::Args),
+/// The commands: the flags of each and what it does.
+macro_rules! commands {
+    ($($name:ident: $file:ident::$does:ident,)*) => {
+        #[derive(Debug, Subcommand)]
+        enum Command {
+            $($name($file::Args),)*
+        }
+
+        fn done(command: Command) -> Result<Done, Failure> {
+            match command {
+                $(Command::$name(args) => $file::$does(&args).map(Into::into),)*
+            }
+        }
+    };
+}
+
+commands! {
+    Run: run::run,
+    Sweep: sweep::sweep,
+    Study: study::study,
+    Fit: fit::fit,
+    Check: check::check,
+    New: new::new,
+    Schema: schema::print,
+    Convert: convert::convert,
+    Print: print::print_run,
+    Plot: plot::plot,
+    Export: export::export,
+    Compare: compare::compare,
+    Measures: measures::measures,
+    View: view::view,
+    Report: report::report,
+    Risk: risk::risk,
+    Sensitivity: sensitivity::sensitivity,
+    Completions: completions::print,
 }
 
 /// Reads the command line and does what it says.
@@ -71,45 +85,20 @@ pub fn main() -> ExitCode {
     match Cli::try_parse() {
         Ok(cli) => exit_code(done(cli.command)),
         Err(wrong) if wrong.use_stderr() => wrong.exit(),
-        Err(help) => exit_code(written(help.print()).map(|()| Done::Well)),
-    }
-}
-
-fn done(command: Command) -> Result<Done, Failure> {
-    match command {
-        Command::Run(args) => run::run(&args),
-        Command::Sweep(args) => sweep::sweep(&args),
-        Command::Study(args) => study::study(&args),
-        Command::Fit(args) => fit::fit(&args),
-        Command::Check(args) => check::check(&args),
-        Command::New(args) => new::new(&args),
-        Command::Schema(args) => schema::print(&args),
-        Command::Convert(args) => convert::convert(&args),
-        Command::Print(args) => print::print_run(&args),
-        Command::Plot(args) => plot::plot(&args),
-        Command::Export(args) => export::export(&args),
-        Command::Compare(args) => compare::compare(&args),
-        Command::Measures(args) => measures::measures(&args),
-        Command::View(args) => view::view(&args),
-        Command::Report(args) => report::report(&args),
-        Command::Risk(args) => risk::risk(&args),
-        Command::Sensitivity(args) => sensitivity::sensitivity(&args),
-        Command::Completions(args) => completions::print(&args),
+        Err(help) => exit_code(written(help.print()).map(Done::from)),
     }
 }
 
 /// Says what went wrong, if anything, and gives the exit code.
 fn exit_code(result: Result<Done, Failure>) -> ExitCode {
+    let failed = |message: &str, code: u8| {
+        say(message);
+        ExitCode::from(code)
+    };
     match result {
         Ok(Done::Well) => ExitCode::SUCCESS,
         Ok(Done::Unwell) => ExitCode::from(1),
-        Err(Failure::BrokeOff(message)) => {
-            say(&message);
-            ExitCode::from(1)
-        }
-        Err(Failure::CouldNotRun(message)) => {
-            say(&message);
-            ExitCode::from(2)
-        }
+        Err(Failure::BrokeOff(message)) => failed(&message, 1),
+        Err(Failure::CouldNotRun(message)) => failed(&message, 2),
     }
 }

@@ -2,9 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::base::failure::{Done, Failure};
-use crate::base::output_file::publish;
-use crate::base::talk::say;
+use crate::base::{Failure, publish, say};
 
 /// The scenario that `occupant new` writes.
 const STARTER: &str = include_str!("starter.toml");
@@ -26,7 +24,7 @@ pub(crate) struct Args {
 }
 
 /// Writes the starter scenario.
-pub(crate) fn new(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn new(args: &Args) -> Result<(), Failure> {
     let mut file = args.file.clone();
     if file.extension().is_none() {
         file.set_extension("toml");
@@ -42,5 +40,5 @@ pub(crate) fn new(args: &Args) -> Result<Done, Failure> {
     if !args.quiet {
         say(&format!("wrote {name}\nnext: occupant check {name}\n      occupant run {name}"));
     }
-    Ok(Done::Well)
+    Ok(())
 }

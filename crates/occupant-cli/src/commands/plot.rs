@@ -3,12 +3,9 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
-use super::flags::history::{HistoryArgs, TestArgs, WindowArgs};
-use crate::base::failure::{Done, Failure};
-use crate::base::names::{file_name, program};
-use crate::base::output_file::{publish, refuse_input};
-use crate::base::talk::{note, say};
-use crate::files::history::UnitChoice;
+use super::flags::history::{TestArgs, WindowArgs};
+use crate::base::{Failure, file_name, note, program, publish, refuse_input, say};
+use crate::files::history::{Treatment, UnitChoice};
 use crate::files::results::Results;
 use crate::jobs::plot::{Request, plots};
 use crate::pictures::Format;
@@ -62,7 +59,7 @@ pub(crate) struct Args {
     units: UnitChoice,
 
     #[command(flatten)]
-    treatment: HistoryArgs,
+    treatment: Treatment,
 
     #[command(flatten)]
     window: WindowArgs,
@@ -84,7 +81,7 @@ pub(crate) struct Args {
     force: bool,
 }
 
-pub(crate) fn plot(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn plot(args: &Args) -> Result<(), Failure> {
     let kind = match &args.output {
         Some(output) => Format::of_output(output)?,
         None => args.format,
@@ -100,18 +97,17 @@ pub(crate) fn plot(args: &Args) -> Result<Done, Failure> {
         map: &args.signals.map,
         seat: args.signals.seat,
         shift_s: args.signals.shift,
-        treatment: args.treatment.treatment(None),
+        treatment: args.treatment,
         units: args.units,
         window_s,
     })?;
     notes.iter().for_each(note);
     let words = words(args, &runs);
     match (&args.output, &args.each) {
-        (Some(output), _) => write(args, output, kind, &sheet(&words, &figures))?,
-        (None, Some(folder)) => write_each(args, folder, kind, &words, &figures)?,
-        (None, None) => {}
+        (Some(output), _) => write(args, output, kind, &sheet(&words, &figures)),
+        (None, Some(folder)) => write_each(args, folder, kind, &words, &figures),
+        (None, None) => Ok(()),
     }
-    Ok(Done::Well)
 }
 
 fn window(window: WindowArgs) -> Result<[f64; 2], Failure> {
@@ -131,16 +127,12 @@ fn words(args: &Args, runs: &[Results]) -> Sheet {
         (None, [one]) => one.loaded.scenario.title.clone(),
         (None, several) => format!("{} runs", several.len()),
     };
-    let mut lines: Vec<String> = runs
-        .iter()
-        .take(MOST_RUNS)
-        .map(|run| {
-            let end = if run.is_complete() { "" } else { " – RUN DID NOT COMPLETE" };
-            let hash = run.sha256.get(..12).unwrap_or_default();
-            let name = file_name(&run.path);
-            format!("{name}: {} (SHA-256 {hash}…){end}", run.loaded.scenario.title)
-        })
-        .collect();
+    let line = |run: &Results| {
+        let end = if run.is_complete() { "" } else { " – RUN DID NOT COMPLETE" };
+        let (name, hash) = (file_name(&run.path), run.sha256.get(..12).unwrap_or_default());
+        format!("{name}: {} (SHA-256 {hash}…){end}", run.loaded.scenario.title)
+    };
+    let mut lines: Vec<String> = runs.iter().take(MOST_RUNS).map(line).collect();
     if runs.len() > MOST_RUNS {
         lines.push(format!("and {} more", runs.len() - MOST_RUNS));
     }

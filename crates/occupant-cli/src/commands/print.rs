@@ -2,13 +2,10 @@
 
 use std::path::PathBuf;
 
-use clap::ValueEnum;
 use occupant_core::scenario::kind::UnitSystem;
 
 use super::flags::history::interval;
-use crate::base::failure::{Done, Failure};
-use crate::base::output_file::{publish, refuse_input};
-use crate::base::talk::{note, print, say};
+use crate::base::{Failure, note, one_of, print, publish, refuse_input, say};
 use crate::jobs::print::{Case, printout, uneven};
 
 /// Print a run as paged text, as the report's program did
@@ -34,28 +31,20 @@ pub(crate) struct Args {
     every: Option<f64>,
 
     /// Units; those of the scenario if absent
-    #[arg(long, value_name = "SYSTEM")]
-    units: Option<UnitsChoice>,
+    #[arg(long, value_name = "SYSTEM", value_parser = one_of(&UNITS))]
+    units: Option<UnitSystem>,
 }
 
-/// Units of the printout.
-#[derive(Clone, Copy, Debug, ValueEnum)]
-enum UnitsChoice {
-    /// Metre, kilogram, newton
-    Si,
-    /// Inch, pound, pound-force
-    #[value(name = "in-lbf-s")]
-    InchPound,
-}
+/// Units of the printout: names on the command line, names in help.
+const UNITS: [(&str, &str, UnitSystem); 2] = [
+    ("si", "Metre, kilogram, newton", UnitSystem::Si),
+    ("in-lbf-s", "Inch, pound, pound-force", UnitSystem::InchPound),
+];
 
-pub(crate) fn print_run(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn print_run(args: &Args) -> Result<(), Failure> {
     let name = args.run.display();
     let case = Case::read(&args.run)?;
-    let units = match args.units {
-        Some(UnitsChoice::Si) => UnitSystem::Si.into(),
-        Some(UnitsChoice::InchPound) => UnitSystem::InchPound.into(),
-        None => case.units(),
-    };
+    let units = args.units.map_or_else(|| case.units(), Into::into);
     let text = printout(&case, units, args.every).map_err(|e| Failure::plain(format!("{name}: {e}")))?;
     match &args.output {
         Some(path) => {
@@ -73,5 +62,5 @@ pub(crate) fn print_run(args: &Args) -> Result<Done, Failure> {
     if !case.is_complete() {
         say(&format!("{name} is partial; the last page says so"));
     }
-    Ok(Done::Well)
+    Ok(())
 }

@@ -2,10 +2,7 @@
 
 use std::path::PathBuf;
 
-use crate::base::failure::{Done, Failure};
-use crate::base::names::is_page;
-use crate::base::output_file::{publish, refuse_input};
-use crate::base::talk::note;
+use crate::base::{Failure, is_page, note, publish, refuse_input};
 use crate::files::results::Results;
 use crate::jobs::report::page;
 
@@ -31,7 +28,7 @@ pub(crate) struct Args {
     against: Option<PathBuf>,
 }
 
-pub(crate) fn report(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn report(args: &Args) -> Result<(), Failure> {
     if !is_page(&args.output) {
         return Err(Failure::ending(&args.output, ".html"));
     }
@@ -41,6 +38,5 @@ pub(crate) fn report(args: &Args) -> Result<Done, Failure> {
     let run = Results::open(&args.run)?;
     let against = args.against.as_deref().map(Results::open).transpose()?;
     std::iter::once(&run).chain(&against).flat_map(Results::notes).for_each(|text| note(&text));
-    publish(&args.output, args.force, page(&run, against.as_ref())?.as_bytes())?;
-    Ok(Done::Well)
+    publish(&args.output, args.force, page(&run, against.as_ref())?.as_bytes())
 }

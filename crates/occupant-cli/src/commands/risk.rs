@@ -5,13 +5,12 @@ mod options;
 
 use std::path::PathBuf;
 
-use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
+use clap::builder::{PossibleValuesParser, TypedValueParser};
 use crash_measures::measure::limits::Rule;
 use crash_measures::signal::{CfcFamily, ChannelClass};
 use occupant_study::risk::{Preparation, VehicleSignals};
 
-use crate::base::failure::{Done, Failure};
-use crate::base::talk::{self, print, say};
+use crate::base::{Done, Failure, one_of, print, say, talk};
 use crate::jobs::risk::{Report, json, text};
 use input::measured;
 use options::{flight, preparation};
@@ -99,13 +98,6 @@ const RULES: [(&str, &str, Rule); 5] = [
 /// Filter coefficients, likewise.
 const FAMILIES: [(&str, &str, CfcFamily); 2] =
     [("iso6487", "ISO 6487", CfcFamily::Iso6487), ("j211", "SAE J211", CfcFamily::SaeJ211)];
-
-/// Reads one of the names in a table.
-fn one_of<T: Copy + Send + Sync + 'static>(table: &'static [(&str, &str, T)]) -> impl TypedValueParser<Value = T> {
-    let names = table.iter().map(|(name, help, _)| PossibleValue::new(*name).help(*help));
-    let named = |name: String| table.iter().find(|row| row.0 == name).map(|row| row.2).ok_or("unknown name");
-    PossibleValuesParser::new(names).try_map(named)
-}
 
 fn class() -> impl TypedValueParser<Value = Class> {
     let names = PossibleValuesParser::new(["60", "180", "600", "1000", "none"]);

@@ -1,6 +1,6 @@
 //! `occupant run`.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use occupant_core::diagnosis::UnstableFriction;
 use occupant_core::results::summary::{RunStatus, Summary};
@@ -10,11 +10,7 @@ use serde::Serialize;
 
 use super::flags::ensemble::EnsembleArgs;
 use super::tables::summary::{Marks, summary_table};
-use crate::base::failure::{Done, Failure};
-use crate::base::interrupt::Interrupt;
-use crate::base::names::program;
-use crate::base::output_file::Existing;
-use crate::base::talk::{json, print, say};
+use crate::base::{Done, Existing, Failure, Interrupt, json, print, program, say};
 use crate::files::scenario::{self, Opened, ScenarioArgs};
 use crate::jobs::ensemble::report::Report;
 use crate::jobs::ensemble::text::text as ensemble_text;
@@ -101,8 +97,8 @@ pub(crate) fn run(args: &Args) -> Result<Done, Failure> {
     let existing = Existing::by(args.force);
     let ensemble = args.ensemble.wanted(&draft, &opened, &chosen.scenario, existing)?;
     let from = args.resume.as_deref().map(|file| Resumption::find(file, &opened)).transpose()?;
-    if !args.quiet && !opened.warnings.is_empty() {
-        say(&format!("{}\n", opened.warnings));
+    if !args.quiet {
+        scenario::warn(&opened.warnings);
     }
     let recording = match output_name(args)? {
         Some(name) => Recording::begin(&name, existing, &chosen, &opened, from.as_ref())?,
@@ -112,7 +108,7 @@ pub(crate) fn run(args: &Args) -> Result<Done, Failure> {
         from.announce();
     }
     let channels = ensemble.as_ref().map(|e| e.channels.clone()).unwrap_or_default();
-    let interrupt = Interrupt::listen();
+    let interrupt = Interrupt::listen("stopping at the next output; once more to stop at once");
     let mut run = simulate(&opened, from.as_ref(), recording, channels, &interrupt, args.quiet)?;
     let balance = Balance::of(run.summary.energy.balance_error);
     let ensemble = match ensemble {
@@ -161,14 +157,9 @@ fn output_name(args: &Args) -> Result<Option<PathBuf>, Failure> {
     if let Some(name) = &args.output {
         return Ok(Some(name.clone()));
     }
-    let stem = args.scenario.scenario.file_stem().map(Path::new);
-    let stem =
-        stem.ok_or_else(|| Failure::with_help("the scenario's name gives no name to its results", "use -o FILE.mcap"))?;
-    let mut name = stem.as_os_str().to_owned();
-    name.push(match args.resume {
-        Some(_) => ".resumed.mcap",
-        None => ".mcap",
-    });
+    let nameless = || Failure::with_help("the scenario's name gives no name to its results", "use -o FILE.mcap");
+    let mut name = args.scenario.scenario.file_stem().ok_or_else(nameless)?.to_owned();
+    name.push(if args.resume.is_some() { ".resumed.mcap" } else { ".mcap" });
     Ok(Some(PathBuf::from(name)))
 }
 
@@ -186,8 +177,8 @@ fn show(
         RunStatus::Failed => Diagnostics::new(),
         _ => opened.loaded.diagnose(&run.friction.warnings(&opened.model)),
     };
-    if !args.quiet && !unstable.is_empty() {
-        say(&format!("{unstable}\n"));
+    if !args.quiet {
+        scenario::warn(&unstable);
     }
     if args.json {
         return print(&json(&Answer {

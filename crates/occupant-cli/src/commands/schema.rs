@@ -2,8 +2,7 @@
 
 use occupant_core::scenario::schema;
 
-use crate::base::failure::{Done, Failure};
-use crate::base::talk;
+use crate::base::{Failure, talk};
 
 /// Print the JSON Schema of a scenario, for completion and checks in an editor
 ///
@@ -12,7 +11,6 @@ use crate::base::talk;
 pub(crate) struct Args {}
 
 /// Prints the schema.
-pub(crate) fn print(_args: &Args) -> Result<Done, Failure> {
-    talk::print(&talk::json(schema())?)?;
-    Ok(Done::Well)
+pub(crate) fn print(_args: &Args) -> Result<(), Failure> {
+    talk::print(&talk::json(schema())?)
 }

@@ -2,13 +2,9 @@
 
 use std::path::PathBuf;
 
-use crate::base::failure::{Done, Failure};
-use crate::base::names::file_name;
-use crate::base::output_file::Existing;
-use crate::base::sha256::sha256;
-use crate::base::talk::{self, print, say};
+use crate::base::{Existing, Failure, file_name, print, sha256, talk};
 use crate::files::history::UnitChoice;
-use crate::files::scenario::{ScenarioArgs, draft, files_beside, open_draft};
+use crate::files::scenario::{ScenarioArgs, draft, files_beside, open_draft, warn};
 use crate::files::table::Form;
 use crate::jobs::export::TableFiles;
 use crate::jobs::sensitivity::{Words, about, analyse, answer, ask, histories, text};
@@ -53,13 +49,11 @@ pub(crate) struct Args {
 }
 
 /// Computes and prints the derivatives.
-pub(crate) fn sensitivity(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn sensitivity(args: &Args) -> Result<(), Failure> {
     let form = args.output.as_deref().map(Form::of_output).transpose()?;
     let (bytes, base) = draft(&args.scenario)?;
     let opened = open_draft(&args.scenario, bytes, base.clone())?;
-    if !opened.warnings.is_empty() {
-        say(&format!("{}\n", opened.warnings));
-    }
+    warn(&opened.warnings);
     let scenario = &args.scenario.scenario;
     let resolver = files_beside(scenario);
     let words = Words { to: &args.to, of: &args.of, channels: &args.channels };
@@ -77,6 +71,5 @@ pub(crate) fn sensitivity(args: &Args) -> Result<Done, Failure> {
         talk::json(&answer(&name, &opened.model, &asked, &analysis))?
     } else {
         text(&opened.model, &asked, &analysis)
-    })?;
-    Ok(Done::Well)
+    })
 }

@@ -5,7 +5,7 @@ mod report;
 
 use clap::Subcommand;
 
-use crate::base::failure::{Done, Failure};
+use crate::base::Failure;
 
 /// Work on the results of a study
 #[derive(Debug, clap::Args)]
@@ -21,7 +21,7 @@ enum Step {
 }
 
 /// Does what is asked of a study.
-pub(crate) fn study(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn study(args: &Args) -> Result<(), Failure> {
     match &args.command {
         Step::Report(args) => report::report(args),
         Step::Bands(args) => bands::bands(args),

@@ -7,10 +7,8 @@ use std::path::{Path, PathBuf};
 use clap::Subcommand;
 
 use super::flags::sweep as flags;
-use crate::base::failure::{Done, Failure};
-use crate::base::interrupt::Interrupt;
-use crate::base::names::program;
-use crate::base::talk::say;
+use crate::base::{Done, Failure, Interrupt, program, say};
+use crate::files::scenario::warn;
 use crate::files::study_folder::folder::Folder;
 use crate::files::study_folder::texts::Texts;
 use crate::jobs::sweep::job::Sweep;
@@ -95,9 +93,7 @@ fn open(args: &Args, study: &Path, output: &Path) -> Result<Sweep, Failure> {
         return Err(Failure::with_help("a shard writes no table", "give --csv to `occupant sweep merge`"));
     }
     if !args.quiet {
-        if !plan.warnings.is_empty() {
-            say(&format!("{}\n", plan.warnings));
-        }
+        warn(&plan.warnings);
         if let Some(variable) = told_by {
             say(&format!("shard {shard}, as {variable} says"));
         }
@@ -106,7 +102,7 @@ fn open(args: &Args, study: &Path, output: &Path) -> Result<Sweep, Failure> {
         csv: args.csv || (plan.study.csv && shard.is_whole()),
         folder: Folder::at(output),
         engine: args.engine.engine()?,
-        interrupt: Interrupt::listen_for("stopping; once more to stop at once"),
+        interrupt: Interrupt::listen("stopping; once more to stop at once"),
         restart: args.restart,
         quiet: args.quiet,
         plan,

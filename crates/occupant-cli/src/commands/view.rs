@@ -3,10 +3,7 @@
 use std::path::PathBuf;
 
 use super::flags::history::seconds;
-use crate::base::failure::{Done, Failure};
-use crate::base::names::file_name;
-use crate::base::output_file::{publish, refuse_input};
-use crate::base::talk::note;
+use crate::base::{Failure, file_name, note, publish, refuse_input};
 use crate::files::results::Results;
 use crate::pictures::Format;
 use crate::pictures::body::Snapshot;
@@ -55,7 +52,7 @@ pub(crate) struct Args {
     views: Vec<View>,
 }
 
-pub(crate) fn view(args: &Args) -> Result<Done, Failure> {
+pub(crate) fn view(args: &Args) -> Result<(), Failure> {
     let format = Format::of_output(&args.output)?;
     refuse_input(&args.output, &args.run)?;
     let results = Results::open(&args.run)?;
@@ -69,9 +66,8 @@ pub(crate) fn view(args: &Args) -> Result<Done, Failure> {
     }
     let strip = Strip { model: &results.model, moments: moments(&results, &outputs)?, views, origin: origin(&results) };
     let bytes = format.encode(&draw(&strip), PIXELS);
-    let bytes = bytes.map_err(|e| Failure::with_help(e.to_string(), "draw fewer times"))?;
-    publish(&args.output, args.force, &bytes)?;
-    Ok(Done::Well)
+    let bytes = bytes.map_err(|e| Failure::with_help(e, "draw fewer times"))?;
+    publish(&args.output, args.force, &bytes)
 }
 
 /// Times, s.

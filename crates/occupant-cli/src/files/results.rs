@@ -20,10 +20,7 @@ use occupant_study::ending::{Balance, Ending};
 
 use super::mcap::StoredRun;
 use super::scenario::stored;
-use crate::base::failure::Failure;
-use crate::base::input_file;
-use crate::base::names::program;
-use crate::base::sha256::sha256;
+use crate::base::{Failure, input_file, program, sha256};
 
 /// A run that was recorded.
 pub struct Results {

@@ -9,9 +9,7 @@ use placed_text::Severity;
 
 use super::mcap::StoredRun;
 use super::mcap::about::RESOLVED;
-use crate::base::failure::Failure;
-use crate::base::input_file;
-use crate::base::names::{ending, file_name};
+use crate::base::{Failure, by_ending, file_name, input_file, say};
 
 /// Which scenario, and what is changed in it.
 #[derive(Clone, Debug, Args)]
@@ -34,6 +32,13 @@ pub(crate) struct Opened {
     pub(crate) model: Model,
     /// Warnings, with their places.
     pub(crate) warnings: Diagnostics,
+}
+
+/// Says warnings, with a blank line behind.
+pub(crate) fn warn(warnings: &Diagnostics) {
+    if !warnings.is_empty() {
+        say(&format!("{warnings}\n"));
+    }
 }
 
 /// Reads the scenario, applies the changes and makes the model.
@@ -130,11 +135,7 @@ pub(crate) fn stored(file: &Path, run: &StoredRun) -> Result<(Loaded, Model, Dia
 
 /// The format that the ending of the file name stands for, if any.
 pub(crate) fn format_of(path: &Path) -> Option<Format> {
-    match ending(path).as_str() {
-        "toml" => Some(Format::Toml),
-        "json" => Some(Format::Json),
-        _ => None,
-    }
+    by_ending(path, &[("toml", Format::Toml), ("json", Format::Json)])
 }
 
 fn unreadable(path: &Path, error: &std::io::Error) -> Failure {

@@ -36,6 +36,11 @@ pub(crate) struct Signal {
     pub(crate) place: String,
 }
 
+/// A finite number as written.
+pub(super) fn finite(text: &str) -> Option<f64> {
+    text.parse::<f64>().ok().filter(|value| value.is_finite())
+}
+
 /// Size and dimension of a unit as written; `-` and `1` are plain numbers.
 pub(crate) fn scale_of(unit: &str) -> Option<Scale> {
     match unit.trim() {

@@ -9,14 +9,12 @@ use parquet::data_type::{ByteArray, ByteArrayType, DataType, DoubleType, Int64Ty
 use parquet::errors::ParquetError;
 use parquet::file::metadata::KeyValue;
 use parquet::file::properties::WriterProperties;
-use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter, SerializedRowGroupWriter};
+use parquet::file::writer::{SerializedColumnWriter, SerializedFileWriter};
 use parquet::schema::types::Type;
 use placed_text::plain;
 use serde::{Deserialize, Serialize};
 
-use crate::base::failure::Failure;
-use crate::base::names::{ending, program};
-use crate::base::output_file::{Existing, PartialFile};
+use crate::base::{Existing, Failure, PartialFile, by_ending, program};
 
 /// So many values are held at a time, but never fewer or more rows than these.
 const CELLS: usize = 400_000;
@@ -104,11 +102,7 @@ pub(crate) enum Form {
 impl Form {
     /// The form that the file's ending asks for.
     pub(crate) fn of(path: &Path) -> Option<Form> {
-        match ending(path).as_str() {
-            "csv" => Some(Form::Csv),
-            "parquet" => Some(Form::Parquet),
-            _ => None,
-        }
+        by_ending(path, &[("csv", Form::Csv), ("parquet", Form::Parquet)])
     }
 
     /// The form of the table asked for.
@@ -219,26 +213,19 @@ fn write_group<W: Write + Send>(
 ) -> Result<(), ParquetError> {
     let mut group = writer.next_row_group()?;
     for (i, kind) in kinds.iter().enumerate() {
-        write_column(&mut group, *kind, rows.iter().map(|row| row.get(i).unwrap_or(&Cell::Absent)))?;
+        let no_column = || ParquetError::General("a column too many".to_owned());
+        let mut column = group.next_column()?.ok_or_else(no_column)?;
+        let cells = rows.iter().map(|row| row.get(i).unwrap_or(&Cell::Absent));
+        match kind {
+            Kind::Count => put::<Int64Type>(&mut column, cells.map(|c| c.number().map(|x| x as i64)), Some(0)),
+            Kind::Number => put::<DoubleType>(&mut column, cells.map(Cell::number), Some(f64::NAN)),
+            Kind::MaybeNumber => put::<DoubleType>(&mut column, cells.map(Cell::number), None),
+            Kind::Text => put::<ByteArrayType>(&mut column, cells.map(Cell::bytes), Some(ByteArray::from(Vec::new()))),
+            Kind::MaybeText => put::<ByteArrayType>(&mut column, cells.map(Cell::bytes), None),
+        }?;
+        column.close()?;
     }
     group.close().map(|_| ())
-}
-
-fn write_column<'a, W: Write + Send>(
-    group: &mut SerializedRowGroupWriter<'_, W>,
-    kind: Kind,
-    cells: impl Iterator<Item = &'a Cell>,
-) -> Result<(), ParquetError> {
-    let no_column = || ParquetError::General("a column too many".to_owned());
-    let mut column = group.next_column()?.ok_or_else(no_column)?;
-    match kind {
-        Kind::Count => put::<Int64Type>(&mut column, cells.map(|c| c.number().map(|x| x as i64)), Some(0)),
-        Kind::Number => put::<DoubleType>(&mut column, cells.map(Cell::number), Some(f64::NAN)),
-        Kind::MaybeNumber => put::<DoubleType>(&mut column, cells.map(Cell::number), None),
-        Kind::Text => put::<ByteArrayType>(&mut column, cells.map(Cell::bytes), Some(ByteArray::from(Vec::new()))),
-        Kind::MaybeText => put::<ByteArrayType>(&mut column, cells.map(Cell::bytes), None),
-    }?;
-    column.close()
 }
 
 /// Writes values; what stands for one that is absent, in a column that may not lack any.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use placed_text::shown;
 
-use crate::base::failure::Failure;
+use crate::base::Failure;
 
 /// One problem.
 #[derive(Clone, Debug, thiserror::Error)]

@@ -44,17 +44,9 @@ fn scaled(units: u16, size: f64, units_per_em: u16) -> f64 {
     f64::from(((u64::from(units) * scale_16_16 + 32) / 64) as f32 / 65536.0)
 }
 
-/// A text as outlines.
-pub(crate) struct Outline {
-    /// Data of an SVG path; the text begins at 0 on its base line.
-    pub(crate) path: String,
-    /// Where the next letter would begin.
-    pub(crate) width: f64,
-}
-
-/// The outlines of a text's letters one after the other, from left to right, without kerning; a letter that the font lacks
-/// shows as its empty box.
-pub(crate) fn outline(text: &str, size: f64, weight: Weight) -> Outline {
+/// The outlines of a text's letters one after the other, from left to right, without kerning, and where the next letter
+/// would begin: data of an SVG path that begins at 0 on its base line. A letter that the font lacks shows as its empty box.
+pub(crate) fn outline(text: &str, size: f64, weight: Weight) -> (String, f64) {
     let mut pen = Pen { path: String::new(), x: 0.0, scale: 0.0 };
     if let Some(face) = weight.face() {
         pen.scale = size / f64::from(face.units_per_em());
@@ -64,7 +56,7 @@ pub(crate) fn outline(text: &str, size: f64, weight: Weight) -> Outline {
             pen.x += pen.scale * f64::from(face.glyph_hor_advance(glyph).unwrap_or(0));
         }
     }
-    Outline { path: pen.path, width: pen.x }
+    (pen.path, pen.x)
 }
 
 /// Writes outlines in font units (y up) as path data.

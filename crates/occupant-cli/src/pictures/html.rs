@@ -31,11 +31,8 @@ impl Html {
     pub(crate) fn facts(&mut self, facts: &[(&str, String)]) {
         self.raw("<div class=\"scroll\"><table>\n");
         for (name, text) in facts {
-            self.raw(&format!(
-                "<tr><th scope=\"row\">{}</th><td class=\"wrap\">{}</td></tr>\n",
-                escape(name),
-                escape(text)
-            ));
+            let (name, text) = (escape(name), escape(text));
+            self.raw(&format!("<tr><th scope=\"row\">{name}</th><td class=\"wrap\">{text}</td></tr>\n"));
         }
         self.raw("</table></div>\n");
     }
@@ -50,9 +47,7 @@ impl Html {
         self.raw("</tr>\n");
         for row in rows {
             self.raw("<tr>");
-            for cell in row {
-                self.raw(&cell.html());
-            }
+            row.iter().for_each(|cell| self.raw(&cell.html()));
             self.raw("</tr>\n");
         }
         self.raw("</table></div>\n");

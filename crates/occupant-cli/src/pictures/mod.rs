@@ -8,7 +8,6 @@ pub(crate) mod font;
 mod format;
 pub(crate) mod html;
 pub(crate) mod plot;
-mod png;
 pub(crate) mod svg;
 pub(crate) mod view;
 

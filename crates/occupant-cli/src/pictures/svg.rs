@@ -171,11 +171,7 @@ impl Svg {
     }
 
     fn line(&mut self, element: &str) {
-        for _ in 0..self.open {
-            self.body.push(' ');
-        }
-        self.body.push_str(element);
-        self.body.push('\n');
+        let _ = writeln!(self.body, "{:open$}{element}", "", open = self.open);
     }
 }
 

@@ -11,8 +11,7 @@ use occupant_study::{Study, Tolerances};
 use placed_text::Value;
 
 use super::sweep::engine;
-use crate::base::failure::Failure;
-use crate::base::output_file::{Existing, refuse_input};
+use crate::base::{Existing, Failure, refuse_input};
 use crate::files::scenario::Opened;
 use crate::files::table::Form;
 use crate::jobs::ensemble::bands::{choose, refuse_too_much};

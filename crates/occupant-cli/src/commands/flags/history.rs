@@ -1,44 +1,8 @@
-//! Flags that exports, plots, comparisons and prints share: times, filter and coefficients, signals of a test.
+//! Flags that exports, plots, comparisons and prints share: times, signals of a test.
 
 use occupant_core::scenario::kind::{KINDS, TIME};
 
-use crate::files::history::{Family, Filter, Treatment};
 use crate::files::measured::MapArgument;
-
-/// What is done to time histories.
-#[derive(Clone, Copy, Debug, clap::Args)]
-pub(crate) struct HistoryArgs {
-    /// Filter: CFC60, CFC180, CFC600, CFC1000, j211 (each channel the class of its quantity) or none
-    #[arg(long, value_name = "CLASS", default_value = "none")]
-    pub(crate) filter: Filter,
-
-    /// Coefficients of the filter classes
-    #[arg(long, value_name = "STANDARD", default_value = "iso6487")]
-    pub(crate) coefficients: Family,
-}
-
-impl HistoryArgs {
-    /// With an interval of samples, s; that of the outputs if absent.
-    pub(crate) const fn treatment(self, interval_s: Option<f64>) -> Treatment {
-        Treatment { filter: self.filter, family: self.coefficients, interval_s }
-    }
-
-    /// Name of the coefficients.
-    pub(crate) const fn family_name(self) -> &'static str {
-        match self.coefficients {
-            Family::Iso6487 => "ISO 6487",
-            Family::SaeJ211 => "SAE J211",
-        }
-    }
-
-    /// The filter in words.
-    pub(crate) fn words(self) -> String {
-        match self.filter {
-            Filter::None => "none".to_owned(),
-            filter => format!("{} ({} coefficients)", filter.words(), self.family_name()),
-        }
-    }
-}
 
 /// The part of the time that is shown or compared, s.
 #[derive(Clone, Copy, Debug, clap::Args)]

@@ -7,7 +7,7 @@ use occupant_core::run::batch::Kernel;
 use occupant_study::Keep;
 use occupant_study::engine::Engine;
 
-use crate::base::failure::Failure;
+use crate::base::Failure;
 use crate::files::study_folder::manifest::Role;
 use crate::files::study_folder::shard::Shard;
 use crate::jobs::sweep::kept;

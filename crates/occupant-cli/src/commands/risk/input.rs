@@ -5,10 +5,7 @@ use occupant_core::scenario::{Diagnostics, RecordFile, read_record};
 use occupant_study::risk::{Preparation, Unprepared, VehicleSignals, prepare};
 
 use super::Args;
-use crate::base::failure::Failure;
-use crate::base::input_file;
-use crate::base::names::ending;
-use crate::base::talk::{note, say};
+use crate::base::{Failure, ending, input_file, note};
 use crate::files::mcap::StoredRun;
 use crate::files::scenario::{self, ScenarioArgs};
 use crate::jobs::risk::Subject;
@@ -67,9 +64,7 @@ fn path_of(args: &Args, name: &str, extension: &str, wanted: &Preparation) -> Re
         _ => {
             let opened =
                 scenario::open(&ScenarioArgs { scenario: args.file.clone(), overrides: args.overrides.clone() })?;
-            if !opened.warnings.is_empty() {
-                say(&format!("{}\n", opened.warnings));
-            }
+            scenario::warn(&opened.warnings);
             opened.model
         }
     };

@@ -1,55 +1,49 @@
 //! The flags of `occupant risk` in SI.
 
-use occupant_core::scenario::kind;
+use occupant_core::scenario::kind::{KINDS, LENGTH, TIME};
 use occupant_study::risk::{Flight, Preparation, VerticalGravity};
 
 use super::Args;
-use crate::base::failure::Failure;
-
-const LENGTH: usize = kind::LENGTH;
-const TIME: usize = kind::TIME;
+use crate::base::Failure;
 
 /// What is done with the record.
 pub(crate) fn preparation(args: &Args) -> Result<Preparation, Failure> {
-    let interval_s = quantity::<TIME>("--interval", &args.interval)?;
-    if let Some(interval_s) = interval_s {
-        positive("--interval", interval_s)?;
-    }
+    let interval_s = quantity("--interval", TIME, &args.interval)?;
     Ok(Preparation {
         filter: args.cfc.map(|class| (class, args.coefficients)),
-        interval_s,
+        interval_s: interval_s.map(|interval_s| positive("--interval", interval_s)).transpose()?,
         offset_m: offset(args.offset.as_deref())?,
         gravity: if args.gravity_included { VerticalGravity::Included } else { VerticalGravity::Removed },
-        start_s: quantity::<TIME>("--start", &args.start)?,
-        end_s: quantity::<TIME>("--end", &args.end)?,
+        start_s: quantity("--start", TIME, &args.start)?,
+        end_s: quantity("--end", TIME, &args.end)?,
     })
 }
 
 /// Where the occupant starts and how far it may fly.
 pub(crate) fn flight(args: &Args) -> Result<Flight, Failure> {
     let mut flight = Flight::default();
-    if let Some(x_m) = quantity::<LENGTH>("--flail-x", &args.flail_x)? {
+    if let Some(x_m) = quantity("--flail-x", LENGTH, &args.flail_x)? {
         flight.distances.longitudinal_m = positive("--flail-x", x_m)?;
         flight.head.forward_m = x_m;
     }
-    if let Some(y_m) = quantity::<LENGTH>("--flail-y", &args.flail_y)? {
+    if let Some(y_m) = quantity("--flail-y", LENGTH, &args.flail_y)? {
         flight.distances.lateral_m = positive("--flail-y", y_m)?;
         flight.head.sideways_m = y_m;
     }
-    if let Some(x_m) = quantity::<LENGTH>("--head-start", &args.head_start)? {
+    if let Some(x_m) = quantity("--head-start", LENGTH, &args.head_start)? {
         flight.head.start_x_m = x_m;
     }
     Ok(flight)
 }
 
 /// A flag's quantity in SI; a bare number is in SI.
-fn quantity<const KIND: usize>(flag: &str, words: &Option<String>) -> Result<Option<f64>, Failure> {
-    words.as_deref().map(|text| si::<KIND>(flag, text)).transpose()
+fn quantity(flag: &str, kind: usize, words: &Option<String>) -> Result<Option<f64>, Failure> {
+    words.as_deref().map(|text| si(flag, kind, text)).transpose()
 }
 
-fn si<const KIND: usize>(flag: &str, text: &str) -> Result<f64, Failure> {
+fn si(flag: &str, kind: usize, text: &str) -> Result<f64, Failure> {
     let text = text.trim();
-    match kind::KINDS[KIND].read(text) {
+    match KINDS[kind].read(text) {
         Ok(value) if value.is_finite() => Ok(value),
         Ok(value) => Err(Failure::plain(format!("{flag} {text}: found {value}, expected a finite number"))),
         Err(error) => Err(Failure::plain(format!("{flag} {text}: {}, expected {}", error.found, error.expected))),
@@ -71,6 +65,6 @@ fn offset(words: Option<&str>) -> Result<[f64; 3], Failure> {
             "give forward, right and down, such as --offset '-0.3 m,0,10 cm'",
         ));
     };
-    let length = |text| si::<LENGTH>("--offset", text);
+    let length = |text| si("--offset", LENGTH, text);
     Ok([length(x)?, length(y)?, length(z)?])
 }

@@ -5,10 +5,7 @@ use std::path::PathBuf;
 
 use occupant_core::run::batch::Kernel;
 
-use crate::base::failure::{Done, Failure};
-use crate::base::interrupt::Interrupt;
-use crate::base::output_file::Existing;
-use crate::base::talk::say;
+use crate::base::{Existing, Failure, Interrupt, say};
 use crate::commands::flags::sweep::engine;
 use crate::files::study_folder::checksums::Checksums;
 use crate::jobs::ensemble::bands::choose;
@@ -44,7 +41,7 @@ pub(crate) struct BandsArgs {
 }
 
 /// Writes the bands of all samples that have none yet.
-pub(crate) fn bands(args: &BandsArgs) -> Result<Done, Failure> {
+pub(crate) fn bands(args: &BandsArgs) -> Result<(), Failure> {
     let opened = open(std::slice::from_ref(&args.folder), MadeBy::AnyProgram)?;
     let study = &opened.plan.study;
     if study.ensemble.is_none() {
@@ -60,7 +57,7 @@ pub(crate) fn bands(args: &BandsArgs) -> Result<Done, Failure> {
     for note in &opened.notes {
         say(note);
     }
-    let interrupt = Interrupt::listen_for("stopping; once more to stop at once");
+    let interrupt = Interrupt::listen("stopping; once more to stop at once");
     let bands = StudyBands {
         plan: &opened.plan,
         manifest_sha256: &opened.manifest_sha256,
@@ -70,6 +67,5 @@ pub(crate) fn bands(args: &BandsArgs) -> Result<Done, Failure> {
         interrupt: &interrupt,
         sums: Checksums::open(&args.folder, |name| name.starts_with("bands/"))?,
     };
-    bands.write_all(Existing::by(args.force), args.quiet)?;
-    Ok(Done::Well)
+    bands.write_all(Existing::by(args.force), args.quiet)
 }

@@ -2,10 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use crate::base::failure::{Done, Failure};
-use crate::base::names::is_page;
-use crate::base::output_file::{Existing, FileProblem, publish};
-use crate::base::talk::say;
+use crate::base::{Existing, Failure, FileProblem, is_page, publish, say};
 use crate::jobs::study::{Report, Tables, page, write_tables};
 use crate::jobs::sweep::stored::{MadeBy, open};
 
@@ -33,7 +30,7 @@ pub(crate) struct ReportArgs {
 }
 
 /// Makes the report of a study.
-pub(crate) fn report(args: &ReportArgs) -> Result<Done, Failure> {
+pub(crate) fn report(args: &ReportArgs) -> Result<(), Failure> {
     let Some(first) = args.folders.first() else {
         return Err(Failure::plain("no folder was given"));
     };
@@ -47,8 +44,7 @@ pub(crate) fn report(args: &ReportArgs) -> Result<Done, Failure> {
     }
     let existing = Existing::by(args.force);
     write_tables(&report, &tables, existing)?;
-    publish(&page_at, args.force, page(&report).as_bytes())?;
-    Ok(Done::Well)
+    publish(&page_at, args.force, page(&report).as_bytes())
 }
 
 /// Refuses names that are no page, files of the sweep itself, and files that are there.

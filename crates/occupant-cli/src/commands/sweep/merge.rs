@@ -6,7 +6,7 @@ use std::sync::atomic::AtomicBool;
 
 use occupant_core::run::batch::Kernel;
 
-use crate::base::failure::{Done, Failure};
+use crate::base::{Done, Failure};
 use crate::commands::flags::sweep::{engine, keep};
 use crate::files::study_folder::checksums::Checksums;
 use crate::files::study_folder::folder::Folder;

@@ -6,7 +6,7 @@ use placed_text::shown;
 use super::elements;
 use super::summary::Marks;
 use crate::base::text_table::Align::{Left, Right};
-use crate::base::text_table::{NONE, Table, facts, trimmed};
+use crate::base::text_table::{NONE, facts, table, trimmed};
 
 /// Everything that a user should see before a run.
 pub(crate) fn check_text(d: &Diagnosis) -> String {
@@ -64,11 +64,9 @@ fn overview(d: &Diagnosis) -> String {
 }
 
 fn segments(d: &Diagnosis) -> String {
-    let mut table = Table::new(&[(Left, &["segment"]), (Right, &["mass, kg", "length, m"])]);
-    for s in &d.body.segments {
-        table.row([s.segment.to_owned(), format!("{:.3}", s.mass_kg), format!("{:.4}", s.length_m)]);
-    }
-    table.text()
+    let rows = d.body.segments.iter();
+    let rows = rows.map(|s| [s.segment.to_owned(), format!("{:.3}", s.mass_kg), format!("{:.4}", s.length_m)]);
+    table(&[(Left, &["segment"]), (Right, &["mass, kg", "length, m"])], rows)
 }
 
 fn seating(seat: &SeatStart) -> String {
@@ -103,44 +101,28 @@ fn contacts(d: &Diagnosis) -> String {
     if d.contacts.is_empty() {
         return "nothing touches at the start\n".to_owned();
     }
-    let mut table = Table::new(&[(Left, &["touches at the start", "surface"]), (Right, &["depth, mm", "force, N"])]);
-    for c in &d.contacts {
-        table.row([
-            c.sphere.clone(),
-            c.surface.clone(),
-            format!("{:.2}", c.depth_m * 1e3),
-            format!("{:.1}", c.normal_force_n),
-        ]);
-    }
-    table.text()
+    let rows = d.contacts.iter().map(|c| {
+        let [depth, force] = [format!("{:.2}", c.depth_m * 1e3), format!("{:.1}", c.normal_force_n)];
+        [c.sphere.clone(), c.surface.clone(), depth, force]
+    });
+    table(&[(Left, &["touches at the start", "surface"]), (Right, &["depth, mm", "force, N"])], rows)
 }
 
 fn sphere_rates(d: &Diagnosis) -> String {
-    let mut table = Table::new(&[
-        (Left, &["sphere", "stiffest material"]),
-        (Right, &["effective mass, kg", "slope, kN/m", "time scale, ms", "step/time scale", "friction stable to, N"]),
-    ]);
-    for s in &d.sphere_rates {
+    let heads = ["effective mass, kg", "slope, kN/m", "time scale, ms", "step/time scale", "friction stable to, N"];
+    let rows = d.sphere_rates.iter().map(|s| {
         let r = &s.rate;
-        table.row([
-            r.of.clone(),
-            r.by.clone(),
-            format!("{:.3}", r.effective),
-            format!("{:.1}", r.coefficient / 1e3),
-            format!("{:.3}", r.time_scale_s * 1e3),
-            by_step(d, r),
-            s.friction_limit_n.map_or(NONE.to_owned(), |n| format!("{n:.0}")),
-        ]);
-    }
-    table.text()
+        let [mass, slope] = [format!("{:.3}", r.effective), format!("{:.1}", r.coefficient / 1e3)];
+        let limit = s.friction_limit_n.map_or(NONE.to_owned(), |n| format!("{n:.0}"));
+        [r.of.clone(), r.by.clone(), mass, slope, format!("{:.3}", r.time_scale_s * 1e3), by_step(d, r), limit]
+    });
+    table(&[(Left, &["sphere", "stiffest material"]), (Right, &heads)], rows)
 }
 
 fn other_rates(d: &Diagnosis) -> String {
-    let mut table = Table::new(&[(Left, &["belt or joint", ""]), (Right, &["time scale, ms", "step/time scale"])]);
-    for r in &d.other_rates {
-        table.row([r.of.clone(), r.by.clone(), format!("{:.3}", r.time_scale_s * 1e3), by_step(d, r)]);
-    }
-    table.text()
+    let rows = d.other_rates.iter();
+    let rows = rows.map(|r| [r.of.clone(), r.by.clone(), format!("{:.3}", r.time_scale_s * 1e3), by_step(d, r)]);
+    table(&[(Left, &["belt or joint", ""]), (Right, &["time scale, ms", "step/time scale"])], rows)
 }
 
 fn by_step(d: &Diagnosis, rate: &Rate) -> String {

@@ -5,7 +5,7 @@ use occupant_core::results::summary::word;
 
 use super::summary::{Marks, ms};
 use crate::base::text_table::Align::{Left, Right};
-use crate::base::text_table::{NONE, Table, number};
+use crate::base::text_table::{NONE, number, table};
 
 /// A text for each kind of which there are any.
 pub(crate) fn texts(tables: &Tables, marks: &Marks) -> impl Iterator<Item = String> {
@@ -15,16 +15,15 @@ pub(crate) fn texts(tables: &Tables, marks: &Marks) -> impl Iterator<Item = Stri
 fn text(of: &str, Elements { columns, rows }: &Elements, marks: &Marks) -> String {
     let align = |column: &Column| if column.holds == Holds::Text { Left } else { Right };
     let heads: Vec<_> = columns.iter().map(|column| (align(column), std::slice::from_ref(&column.heading))).collect();
-    let mut table = Table::new(&heads);
-    for row in rows {
+    let rows = rows.iter().map(|row| {
         let name = word(row.values().next().and_then(Cell::text).unwrap_or_default());
         let mark = |(column, cell): (&Column, &Cell)| match column.measure {
             Some((measure, _)) => marks.put(&format!("{of}.{name}.{measure}"), printed(column, cell)),
             None => printed(column, cell),
         };
-        table.row(columns.iter().zip(row.values()).map(mark));
-    }
-    table.text()
+        columns.iter().zip(row.values()).map(mark).collect::<Vec<_>>()
+    });
+    table(&heads, rows)
 }
 
 fn printed(column: &Column, cell: &Cell) -> String {

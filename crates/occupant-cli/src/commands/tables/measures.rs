@@ -6,18 +6,7 @@ use occupant_core::model::setup::STANDARD_GRAVITY_M_S2;
 
 use super::summary::Marks;
 use crate::base::text_table::Align::{Left, Right};
-use crate::base::text_table::{NONE, Table, number};
-
-/// The table at the end of a run.
-pub(crate) fn short(measures: &[Measure], marks: &Marks) -> String {
-    let chosen = measures.iter().filter(|m| m.brief);
-    table(chosen, marks)
-}
-
-/// All measures; each limit on a line of its own.
-pub(crate) fn long(measures: &[Measure], marks: &Marks) -> String {
-    table(measures.iter(), marks)
-}
+use crate::base::text_table::{self, NONE, Table, number};
 
 /// What to know of measures, a line for all of which the same is to know.
 pub(crate) fn remarks(measures: &[Measure]) -> String {
@@ -33,17 +22,15 @@ pub(crate) fn remarks(measures: &[Measure]) -> String {
 
 /// Risks of injury, a line for each curve; one from a marked measure is marked.
 pub(crate) fn risks(measures: &[Measure], marks: &Marks) -> String {
-    let mut table = Table::new(&[(Left, &["injury", "from"]), (Right, &["risk, %"])]);
-    for m in measures {
-        for risk in &m.risks {
-            let percent = marks.put(m.figure.unwrap_or(m.name), number(100.0 * risk.probability, 1));
-            table.row([risk.injury.to_owned(), m.label.to_owned(), percent]);
-        }
-    }
-    table.text()
+    let rows = measures.iter().flat_map(|m| m.risks.iter().map(move |risk| (m, risk))).map(|(m, risk)| {
+        let percent = marks.put(m.figure.unwrap_or(m.name), number(100.0 * risk.probability, 1));
+        [risk.injury.to_owned(), m.label.to_owned(), percent]
+    });
+    text_table::table(&[(Left, &["injury", "from"]), (Right, &["risk, %"])], rows)
 }
 
-fn table<'m>(measures: impl Iterator<Item = &'m Measure>, marks: &Marks) -> String {
+/// Measures, each limit on a line of its own.
+pub(crate) fn table<'m>(measures: impl IntoIterator<Item = &'m Measure>, marks: &Marks) -> String {
     let mut table = Table::new(&[
         (Left, &["injury measure"]),
         (Right, &["value"]),

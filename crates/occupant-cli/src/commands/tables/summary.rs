@@ -9,7 +9,7 @@ use placed_text::shown;
 
 use super::{elements, measures};
 use crate::base::text_table::Align::{Left, Right};
-use crate::base::text_table::{NONE, Table, facts, number, without_zeros};
+use crate::base::text_table::{NONE, facts, number, table, without_zeros};
 use crate::jobs::run::recording::Written;
 
 /// Figures that are not to be quoted as they stand: those that a caveat touches carry a `!`, those that are not stable in an
@@ -57,7 +57,7 @@ pub(crate) fn summary_table(summary: &Summary, written: &Written, marks: &Marks)
     if !summary.first_contacts.is_empty() {
         parts.push(first_contacts(summary, marks));
     }
-    parts.push(measures::short(&summary.measures, marks));
+    parts.push(measures::table(summary.measures.iter().filter(|m| m.brief), marks));
     parts.extend(marks.explained());
     parts.push(trust(summary, written, marks));
     parts.join("\n")
@@ -76,15 +76,11 @@ fn title(summary: &Summary) -> String {
 }
 
 fn accelerations(summary: &Summary, marks: &Marks) -> String {
-    let mut table = Table::new(&[
-        (Left, &["acceleration"]),
-        (Right, &["peak, g", "at, ms", "3 ms held, g", "from–to, ms", "3 ms in total, g"]),
-    ]);
+    let heads = ["peak, g", "at, ms", "3 ms held, g", "from–to, ms", "3 ms in total, g"];
     let a = &summary.accelerations;
-    for (name, part) in [("head", &a.head), ("chest", &a.chest), ("pelvis", &a.pelvis)] {
-        table.row(acceleration(name, part, marks));
-    }
-    table.text()
+    let parts = [("head", &a.head), ("chest", &a.chest), ("pelvis", &a.pelvis)];
+    let rows = parts.map(|(name, part)| acceleration(name, part, marks));
+    table(&[(Left, &["acceleration"]), (Right, &heads)], rows)
 }
 
 fn acceleration(name: &str, part: &Acceleration, marks: &Marks) -> [String; 6] {
@@ -103,15 +99,9 @@ fn acceleration(name: &str, part: &Acceleration, marks: &Marks) -> [String; 6] {
 }
 
 fn first_contacts(summary: &Summary, marks: &Marks) -> String {
-    let mut table = Table::new(&[
-        (Left, &["contact", "surface"]),
-        (Right, &["at, ms", "speed, m/s", "closing, m/s", "greatest force, N", "at, ms"]),
-        (Left, &["on"]),
-    ]);
-    for first in &summary.first_contacts {
-        rows_of(summary, first, marks).into_iter().for_each(|row| table.row(row));
-    }
-    table.text()
+    let heads = ["at, ms", "speed, m/s", "closing, m/s", "greatest force, N", "at, ms"];
+    let rows = summary.first_contacts.iter().flat_map(|first| rows_of(summary, first, marks));
+    table(&[(Left, &["contact", "surface"]), (Right, &heads), (Left, &["on"])], rows)
 }
 
 /// A row for each surface that a sphere touched; the greatest force of the whole run stands in the first.
@@ -183,9 +173,7 @@ fn trust(summary: &Summary, written: &Written, marks: &Marks) -> String {
     match written {
         Written::Nothing => {}
         Written::Complete(path) => lines.push(("written", path.display().to_string())),
-        Written::Partial(path) => {
-            lines.push(("written", format!("{} (partial)", path.display())));
-        }
+        Written::Partial(path) => lines.push(("written", format!("{} (partial)", path.display()))),
     }
     facts(&lines)
 }

@@ -2,7 +2,6 @@
 
 use std::str::FromStr;
 
-use clap::ValueEnum;
 use crash_measures::signal::{CfcFamily, ChannelClass, SignalError, filter_cfc};
 
 /// The filter asked for.
@@ -15,23 +14,13 @@ pub(crate) enum Filter {
     J211,
 }
 
-/// Coefficients of the filter classes.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Family {
-    /// ISO 6487
-    #[default]
-    Iso6487,
-    /// SAE J211
-    SaeJ211,
-}
+/// Coefficients of the filter classes: names on the command line, names elsewhere.
+pub(super) const FAMILIES: [(&str, &str, CfcFamily); 2] =
+    [("iso6487", "ISO 6487", CfcFamily::Iso6487), ("sae-j211", "SAE J211", CfcFamily::SaeJ211)];
 
-impl From<Family> for CfcFamily {
-    fn from(family: Family) -> Self {
-        match family {
-            Family::Iso6487 => CfcFamily::Iso6487,
-            Family::SaeJ211 => CfcFamily::SaeJ211,
-        }
-    }
+/// Name of a family of filter coefficients.
+pub(crate) fn family_name(family: CfcFamily) -> &'static str {
+    FAMILIES.iter().find(|row| row.2 == family).map_or("", |row| row.1)
 }
 
 impl FromStr for Filter {
@@ -91,8 +80,8 @@ fn j211_class(channel: &str) -> Option<ChannelClass> {
 ///
 /// # Errors
 /// Samples too far apart for the class, or not finite.
-pub(crate) fn filtered(values: &[f64], dt_s: f64, class: ChannelClass, family: Family) -> Result<Vec<f64>, String> {
-    filter_cfc(values, dt_s, class, family.into()).map_err(|error| match error {
+pub(crate) fn filtered(values: &[f64], dt_s: f64, class: ChannelClass, family: CfcFamily) -> Result<Vec<f64>, String> {
+    filter_cfc(values, dt_s, class, family).map_err(|error| match error {
         SignalError::CornerAboveNyquist { corner_hz, .. } => format!(
             "CFC {} needs more than {:.0} samples a second (and SAE J211 asks for {:.0}), but samples are {:.0} a second",
             class.hertz(),

@@ -1,21 +1,38 @@
-//! From a result file to histories.
+//! From a result file, and the names that a person gives, to histories.
 
-use crash_measures::signal::{Interpolant, Interpolation, resultant, uniform_interval};
+use crash_measures::signal::{CfcFamily, Interpolant, Interpolation, resultant, uniform_interval};
 use occupant_core::model::Model;
-use occupant_core::results::channel::{Channel, Series, find};
+use occupant_core::results::channel::{Channel, Series, channels, find, matching};
 
-use super::{Column, Family, Filter, Histories, filtered};
-use crate::base::failure::Failure;
+use super::filter::{FAMILIES, family_name};
+use super::{Column, Filter, Histories, filtered};
+use crate::base::{Failure, one_of};
 use crate::files::results::Results;
 
 /// What is done to histories, in this order: filter, resample.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, clap::Args)]
 pub(crate) struct Treatment {
+    /// Filter: CFC60, CFC180, CFC600, CFC1000, j211 (each channel the class of its quantity) or none
+    #[arg(long, value_name = "CLASS", default_value = "none")]
     pub(crate) filter: Filter,
-    /// Its coefficients.
-    pub(crate) family: Family,
-    /// New interval, s; that of the outputs if absent.
+
+    /// Coefficients of the filter classes
+    #[arg(long = "coefficients", value_name = "STANDARD", default_value = "iso6487", value_parser = one_of(&FAMILIES))]
+    pub(crate) family: CfcFamily,
+
+    // the new interval, s; that of the outputs if absent
+    #[arg(skip)]
     pub(crate) interval_s: Option<f64>,
+}
+
+impl Treatment {
+    /// The filter in words.
+    pub(crate) fn words(self) -> String {
+        match self.filter {
+            Filter::None => "none".to_owned(),
+            filter => format!("{} ({} coefficients)", filter.words(), family_name(self.family)),
+        }
+    }
 }
 
 /// Histories of these channels of a run.
@@ -165,4 +182,45 @@ fn resample(histories: &mut Histories, interval_s: f64) -> Result<(), String> {
         ));
     }
     Ok(())
+}
+
+/// The channels that names and patterns (`head.*`) ask for, each once, in the order asked; all for no names.
+///
+/// # Errors
+/// A name or pattern that fits no channel.
+pub(crate) fn choose(model: &Model, names: &[String]) -> Result<Vec<Channel>, Failure> {
+    if names.is_empty() {
+        return Ok(channels(model));
+    }
+    let mut chosen: Vec<Channel> = Vec::new();
+    for name in names.iter().flat_map(|n| n.split(',')).map(str::trim) {
+        for channel in fitting(model, name)? {
+            if chosen.iter().all(|c| c.name != channel.name) {
+                chosen.push(channel);
+            }
+        }
+    }
+    Ok(chosen)
+}
+
+fn fitting(model: &Model, name: &str) -> Result<Vec<Channel>, Failure> {
+    if name.contains('*') {
+        let found = matching(model, name);
+        return if found.is_empty() { Err(unknown(model, name, None)) } else { Ok(found) };
+    }
+    let found = find(model, name);
+    found.map(|c| vec![c]).map_err(|nearest| unknown(model, name, nearest))
+}
+
+fn unknown(model: &Model, name: &str, nearest: Option<String>) -> Failure {
+    let inside = matching(model, &format!("*{name}*"));
+    let help = match (nearest, inside.first()) {
+        (Some(nearest), _) => format!("did you mean `{nearest}`?"),
+        (None, Some(one)) => format!("a name is complete, such as `{}`; `*` stands for anything", one.name),
+        (None, None) => {
+            "names are such as head.acceleration.x, belt.lap.force, energy.balance; `occupant export -o all.csv` lists all"
+                .to_owned()
+        }
+    };
+    Failure::with_help(format!("no channel is called `{name}`"), &help)
 }

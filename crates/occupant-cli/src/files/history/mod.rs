@@ -3,18 +3,16 @@
 //! Exports, plots and comparisons are made of these. Everything is SI until it is shown.
 //! Opens no file: results come to it open.
 
-mod choose;
 mod filter;
 mod load;
-mod unit;
 
+use clap::ValueEnum;
 use crash_measures::signal::ChannelClass;
+use crash_measures::unit::{Shown, Unit};
 use occupant_core::results::channel::Channel;
 
-pub(crate) use choose::choose;
-pub(crate) use filter::{Family, Filter, filtered};
-pub(crate) use load::{Treatment, Untreated, asked, load, treated};
-pub(crate) use unit::{UnitChoice, plotted, shown};
+pub(crate) use filter::{Filter, family_name, filtered};
+pub(crate) use load::{Treatment, Untreated, asked, choose, load, treated};
 
 /// Channels of one run over common times.
 #[derive(Clone, Debug)]
@@ -39,4 +37,66 @@ pub(crate) struct Column {
 /// `CFC 180`, or `none`.
 pub(crate) fn class_name(class: Option<ChannelClass>) -> String {
     class.map_or_else(|| "none".to_owned(), |c| format!("CFC {}", c.hertz()))
+}
+
+/// Units asked for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum UnitChoice {
+    /// Metre, second, newton
+    Si,
+    /// As si, but accelerations in g (9.80665 m/s²)
+    G,
+    /// Inch, pound-force, second
+    #[value(name = "in-lbf-s")]
+    InchPound,
+}
+
+impl UnitChoice {
+    /// As on the command line.
+    pub(crate) const fn name(self) -> &'static str {
+        match self {
+            UnitChoice::Si => "si",
+            UnitChoice::G => "g",
+            UnitChoice::InchPound => "in-lbf-s",
+        }
+    }
+}
+
+/// The unit for a channel's values; angles in radians.
+pub(crate) fn shown(unit: Unit, choice: UnitChoice) -> Shown {
+    match (unit, choice) {
+        (Unit::MetrePerSecondSquared, UnitChoice::G) => unit.shown_in("g"),
+        (_, UnitChoice::InchPound) => unit.shown_in_inch_pound(),
+        _ => unit.shown(),
+    }
+}
+
+/// The unit for a plot: as [`shown`], but angles in degrees and times in milliseconds.
+pub(crate) fn plotted(unit: Unit, choice: UnitChoice) -> Shown {
+    match unit {
+        Unit::Radian => unit.shown_in("deg"),
+        Unit::Second => unit.shown_in("ms"),
+        _ => shown(unit, choice),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crash_measures::unit::parse;
+
+    /// The names in headings are read back by the reader of unit expressions, as the same size and dimension.
+    #[test]
+    fn every_unit_reads_back() {
+        use Unit::*;
+        let dynamic = [Metre, MetrePerSecond, MetrePerSecondSquared, Newton, NewtonMetre, Joule, Second];
+        for unit in dynamic.into_iter().chain([Radian, RadianPerSecond, RadianPerSecondSquared]) {
+            for choice in [UnitChoice::Si, UnitChoice::G, UnitChoice::InchPound] {
+                for shown in [shown(unit, choice), plotted(unit, choice)] {
+                    let scale = parse(&shown.ascii(), 0).unwrap();
+                    assert_eq!((scale.dimension, scale.factor), (unit.dimension(), shown.si), "{}", shown.ascii());
+                }
+            }
+        }
+    }
 }

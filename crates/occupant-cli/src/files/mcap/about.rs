@@ -10,7 +10,7 @@ use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
 use occupant_core::results::outcome::{Outcome, Status};
 
-use crate::base::sha256::sha256;
+use crate::base::sha256;
 
 /// Name of the first metadata record.
 pub(crate) const RUN: &str = "occupant.run";

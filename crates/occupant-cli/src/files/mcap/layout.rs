@@ -35,24 +35,17 @@ pub(crate) fn layout(messages: &[Message]) -> Value {
         "globalVariables": {},
         "userNodes": {},
         "playbackConfig": {"speed": 0.1},
-        "layout": row(
-            58,
-            column(80, json!("3D!scene"), json!("RosOut!log")),
-            column(
-                50,
-                column(50, json!("Plot!accelerations"), json!("Plot!belts")),
-                column(50, json!("Plot!contacts"), json!("Plot!energy")),
-            ),
-        ),
+        "layout": split("row", 58, split("column", 80, "3D!scene", "RosOut!log"), split("column", 50,
+            split("column", 50, "Plot!accelerations", "Plot!belts"),
+            split("column", 50, "Plot!contacts", "Plot!energy"),
+        )),
     })
 }
 
-fn row(percent: u32, first: Value, second: Value) -> Value {
-    json!({"direction": "row", "splitPercentage": percent, "first": first, "second": second})
-}
-
-fn column(percent: u32, first: Value, second: Value) -> Value {
-    json!({"direction": "column", "splitPercentage": percent, "first": first, "second": second})
+/// Two panels beside each other (`row`) or one below the other.
+fn split(direction: &str, percent: u32, first: impl Into<Value>, second: impl Into<Value>) -> Value {
+    let (first, second) = (first.into(), second.into());
+    json!({"direction": direction, "splitPercentage": percent, "first": first, "second": second})
 }
 
 /// The camera follows the vehicle's place but keeps space's upright: the vehicle's Z points down.

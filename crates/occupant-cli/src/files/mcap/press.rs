@@ -12,6 +12,9 @@ use std::thread::{Builder, JoinHandle};
 use mcap::records::MessageHeader;
 use mcap::{McapResult, Writer};
 
+use super::channel::Channel;
+use super::wire::Wire;
+
 /// Chunks that may wait to be written; then the run waits.
 const WAITING: usize = 2;
 
@@ -36,9 +39,9 @@ struct Thread {
 /// Messages in a row.
 #[derive(Default)]
 struct Batch {
-    /// Header of each, and where it ends in `bytes`.
+    /// Header of each, and where it ends in `wire`.
     messages: Vec<(MessageHeader, usize)>,
-    bytes: Vec<u8>,
+    wire: Wire,
     /// A chunk ends behind them.
     ends_chunk: bool,
 }
@@ -49,10 +52,10 @@ impl<W: Write + Seek + Send + 'static> Press<W> {
         Press { writer: Arc::new(Mutex::new(Some(writer))), thread: None, batch: Batch::default() }
     }
 
-    /// Takes the next message.
-    pub(crate) fn write(&mut self, header: MessageHeader, bytes: &[u8]) {
-        self.batch.bytes.extend_from_slice(bytes);
-        self.batch.messages.push((header, self.batch.bytes.len()));
+    /// Takes the next message of a channel, as `write` writes it.
+    pub(crate) fn put(&mut self, channel: &mut Channel, ns: u64, write: impl FnOnce(&mut Wire)) {
+        write(&mut self.batch.wire);
+        self.batch.messages.push((channel.next(ns), self.batch.wire.bytes.len()));
     }
 
     /// Ends the chunk and hands it over.
@@ -140,7 +143,7 @@ impl Batch {
         let writer = writer.as_mut().ok_or_else(lost)?;
         let mut start = 0;
         for (header, end) in self.messages {
-            writer.write_to_known_channel(&header, &self.bytes[start..end])?;
+            writer.write_to_known_channel(&header, &self.wire.bytes[start..end])?;
             start = end;
         }
         if self.ends_chunk { writer.flush() } else { Ok(()) }

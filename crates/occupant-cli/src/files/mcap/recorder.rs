@@ -52,7 +52,6 @@ pub struct McapRecorder<W: Write + Seek + Send + 'static> {
     about: About,
     tables: Vec<Document>,
     options: McapOptions,
-    wire: Wire,
     tracks: Option<Tracks>,
     outputs: u64,
 }
@@ -86,15 +85,7 @@ impl<W: Write + Seek + Send + 'static> McapRecorder<W> {
             // a chunk goes to the file whole or not at all
             .disable_seeking(true)
             .create(target)?;
-        Ok(McapRecorder {
-            press: Press::new(writer),
-            about,
-            tables: Vec::new(),
-            options,
-            wire: Wire::default(),
-            tracks: None,
-            outputs: 0,
-        })
+        Ok(McapRecorder { press: Press::new(writer), about, tables: Vec::new(), options, tracks: None, outputs: 0 })
     }
 
     /// Attaches a table that the scenario names.
@@ -144,9 +135,7 @@ impl<W: Write + Seek + Send + 'static> McapRecorder<W> {
         ];
         for (topic, draw) in scenes {
             let mut channel = schemas.add_foxglove(self.press.home()?, topic, SCENE_UPDATE)?;
-            self.wire.clear();
-            draw(&mut self.wire);
-            self.press.write(channel.next(0), &self.wire.bytes);
+            self.press.put(&mut channel, 0, draw);
         }
         Ok(())
     }
@@ -181,57 +170,42 @@ impl Tracks {
         })
     }
 
-    fn write_messages(
-        &mut self,
-        press: &mut Press<impl Write + Seek + Send + 'static>,
-        wire: &mut Wire,
-        sample: &Sample<'_>,
-    ) {
+    fn write_messages(&mut self, press: &mut Press<impl Write + Seek + Send + 'static>, sample: &Sample<'_>) {
         let ns = nanoseconds(sample.time_s, self.start_s);
         for (message, channel) in &mut self.messages {
-            wire.clear();
-            for field in &message.fields {
-                if let Some(source) = &field.source {
-                    wire.value(field.number, &source.value(sample));
+            press.put(channel, ns, |wire| {
+                for field in &message.fields {
+                    if let Some(source) = &field.source {
+                        wire.value(field.number, &source.value(sample));
+                    }
                 }
-            }
-            if message.topic == checkpoint::TOPIC {
-                checkpoint::write(wire, sample);
-            }
-            press.write(channel.next(ns), &wire.bytes);
+                if message.topic == checkpoint::TOPIC {
+                    checkpoint::write(wire, sample);
+                }
+            });
         }
     }
 
     fn write_frame(
         &mut self,
         press: &mut Press<impl Write + Seek + Send + 'static>,
-        wire: &mut Wire,
         sample: &Sample<'_>,
         m_per_n: f64,
     ) {
         let ns = nanoseconds(sample.time_s, self.start_s);
-        wire.clear();
-        transforms::write(wire, ns, sample, &self.frames);
-        press.write(self.transforms.next(ns), &wire.bytes);
-        wire.clear();
-        scene::lines::write(wire, ns, sample);
-        press.write(self.lines.next(ns), &wire.bytes);
-        wire.clear();
-        scene::forces::write(wire, ns, sample, m_per_n);
-        press.write(self.forces.next(ns), &wire.bytes);
+        press.put(&mut self.transforms, ns, |wire| transforms::write(wire, ns, sample, &self.frames));
+        press.put(&mut self.lines, ns, |wire| scene::lines::write(wire, ns, sample));
+        press.put(&mut self.forces, ns, |wire| scene::forces::write(wire, ns, sample, m_per_n));
     }
 
     fn write_log(
         &mut self,
         press: &mut Press<impl Write + Seek + Send + 'static>,
-        wire: &mut Wire,
         time_s: f64,
         (level, words): (Level, &str),
     ) {
         let ns = nanoseconds(time_s, self.start_s);
-        wire.clear();
-        log::write(wire, ns, level, words);
-        press.write(self.log.next(ns), &wire.bytes);
+        press.put(&mut self.log, ns, |wire| log::write(wire, ns, level, words));
     }
 }
 
@@ -244,9 +218,7 @@ impl<W: Write + Seek + Send + 'static> Recorder for McapRecorder<W> {
         let mut tracks = Tracks::new(writer, &schemas, model, messages, &self.options)?;
         self.write_still_scenes(model, &schemas, &tracks.frames)?;
         for problem in model.warnings().iter() {
-            let words = problem.to_string();
-            let line = (Level::Warning, words.as_str());
-            tracks.write_log(&mut self.press, &mut self.wire, tracks.start_s, line);
+            tracks.write_log(&mut self.press, tracks.start_s, (Level::Warning, &problem.to_string()));
         }
         self.press.home()?;
         self.tracks = Some(tracks);
@@ -254,12 +226,12 @@ impl<W: Write + Seek + Send + 'static> Recorder for McapRecorder<W> {
     }
 
     fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
-        let (press, wire) = (&mut self.press, &mut self.wire);
+        let press = &mut self.press;
         let tracks = self.tracks.as_mut().ok_or("an output before the run began")?;
-        tracks.write_messages(press, wire, sample);
+        tracks.write_messages(press, sample);
         let (first, last) = (self.outputs == 0, sample.index == tracks.last);
         if first || last || sample.index.is_multiple_of(tracks.stride) {
-            tracks.write_frame(press, wire, sample, self.options.force_scale_m_per_n);
+            tracks.write_frame(press, sample, self.options.force_scale_m_per_n);
         }
         self.outputs += 1;
         if self.outputs.is_multiple_of(self.options.outputs_per_chunk.get().into()) {
@@ -269,14 +241,14 @@ impl<W: Write + Seek + Send + 'static> Recorder for McapRecorder<W> {
     }
 
     fn end(&mut self, outcome: &Outcome) -> Result<(), RecorderError> {
-        let (press, wire) = (&mut self.press, &mut self.wire);
+        let press = &mut self.press;
         let tracks = self.tracks.as_mut().ok_or("an end before the run began")?;
         for touch in &outcome.first_touches {
             let words = tracks.names.first_touch(touch);
-            tracks.write_log(press, wire, touch.time_s, (Level::Info, &words));
+            tracks.write_log(press, touch.time_s, (Level::Info, &words));
         }
         let (level, words) = log::end(outcome);
-        tracks.write_log(press, wire, outcome.time_s, (level, &words));
+        tracks.write_log(press, outcome.time_s, (level, &words));
         let writer = press.home()?;
         writer.write_metadata(&about::result(outcome, self.outputs))?;
         writer.finish()?;

@@ -8,9 +8,8 @@ use mcap::records::op;
 
 use super::StoredRun;
 use super::records::{Frame, Record};
-use crate::base::interrupt::Interrupt;
-use crate::base::output_file::Existing;
-use crate::files::history::{Family, Filter, Treatment, choose, load};
+use crate::base::{Existing, Interrupt};
+use crate::files::history::{Filter, Treatment, choose, load};
 use crate::files::results::Results;
 use crate::files::scenario::{self, ScenarioArgs};
 use crate::jobs::print::{Case, printout};
@@ -117,7 +116,8 @@ fn read_by_all(file: &Path) -> Option<()> {
     let _ = (results.summary(), results.notes(), results.ending());
     let _ = page(&results, None);
     let all = choose(&results.model, &[]).ok()?;
-    let treatment = Treatment { filter: Filter::J211, family: Family::SaeJ211, interval_s: Some(1e-3) };
+    let treatment =
+        Treatment { filter: Filter::J211, family: crash_measures::signal::CfcFamily::SaeJ211, interval_s: Some(1e-3) };
     let _ = load(&results, all, treatment);
     Some(())
 }

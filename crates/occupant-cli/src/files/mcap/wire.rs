@@ -1,4 +1,4 @@
-//! The protobuf wire format, written straight into one buffer that is used again for every message, and read back as far
+//! The protobuf wire format, written straight into the buffer that goes to the file, and read back as far
 //! as a run needs it to resume.
 //!
 //! Fields are always written, also where they are zero: a file then holds every bit that was recorded (the usual writers
@@ -6,25 +6,15 @@
 
 use nalgebra::{UnitQuaternion, Vector3};
 use occupant_core::quantity::Value;
+use prost::encoding::{WireType, decode_key, decode_varint, double, encode_key, encode_varint, fixed32, uint64};
 
-/// Wire types of the protobuf encoding.
-const VARINT: u32 = 0;
-const FIXED_64: u32 = 1;
-const LENGTH_DELIMITED: u32 = 2;
-const FIXED_32: u32 = 5;
-
-/// A message under construction.
+/// Messages under construction, one behind the other.
 #[derive(Debug, Default)]
 pub(crate) struct Wire {
     pub(crate) bytes: Vec<u8>,
 }
 
 impl Wire {
-    /// Begins a new message.
-    pub(crate) fn clear(&mut self) {
-        self.bytes.clear();
-    }
-
     /// A value of the catalogue; nothing for a vector that does not exist.
     pub(crate) fn value(&mut self, field: u32, value: &Value) {
         match value {
@@ -45,8 +35,7 @@ impl Wire {
 
     /// A `double`.
     pub(crate) fn number(&mut self, field: u32, value: f64) {
-        self.key(field, FIXED_64);
-        self.bytes.extend_from_slice(&value.to_le_bytes());
+        double::encode(field, &value, &mut self.bytes);
     }
 
     /// A packed `repeated double`.
@@ -56,8 +45,7 @@ impl Wire {
 
     /// A `fixed32`.
     pub(crate) fn index(&mut self, field: u32, value: u32) {
-        self.key(field, FIXED_32);
-        self.bytes.extend_from_slice(&value.to_le_bytes());
+        fixed32::encode(field, &value, &mut self.bytes);
     }
 
     /// A packed `repeated fixed32`.
@@ -66,15 +54,13 @@ impl Wire {
     }
 
     fn packed<const N: usize>(&mut self, field: u32, values: impl ExactSizeIterator<Item = [u8; N]>) {
-        self.key(field, LENGTH_DELIMITED);
-        self.varint((N * values.len()) as u64);
+        self.length(field, N * values.len());
         values.for_each(|value| self.bytes.extend_from_slice(&value));
     }
 
     /// A `uint64`, or an enum's number.
     pub(crate) fn count(&mut self, field: u32, value: u64) {
-        self.key(field, VARINT);
-        self.varint(value);
+        uint64::encode(field, &value, &mut self.bytes);
     }
 
     /// A `bool`.
@@ -84,19 +70,18 @@ impl Wire {
 
     /// A `string`.
     pub(crate) fn text(&mut self, field: u32, value: &str) {
-        self.key(field, LENGTH_DELIMITED);
-        self.varint(value.len() as u64);
+        self.length(field, value.len());
         self.bytes.extend_from_slice(value.as_bytes());
     }
 
     /// A message within the message.
     pub(crate) fn message(&mut self, field: u32, content: impl FnOnce(&mut Wire)) {
-        self.key(field, LENGTH_DELIMITED);
+        encode_key(field, WireType::LengthDelimited, &mut self.bytes);
         let start = self.bytes.len();
         content(self);
         let end = self.bytes.len();
         // the length stands before the content, but is known only after it
-        self.varint((end - start) as u64);
+        encode_varint((end - start) as u64, &mut self.bytes);
         let size = self.bytes.len() - end;
         self.bytes[start..].rotate_right(size);
     }
@@ -113,9 +98,8 @@ impl Wire {
 
     /// A message of doubles.
     fn components(&mut self, field: u32, values: &[f64]) {
-        self.key(field, LENGTH_DELIMITED);
         // a byte of key and eight of number each
-        self.varint(9 * values.len() as u64);
+        self.length(field, 9 * values.len());
         (1..).zip(values).for_each(|(field, value)| self.number(field, *value));
     }
 
@@ -127,16 +111,10 @@ impl Wire {
         });
     }
 
-    fn key(&mut self, field: u32, wire_type: u32) {
-        self.varint(u64::from(field << 3 | wire_type));
-    }
-
-    fn varint(&mut self, mut value: u64) {
-        while value >= 0x80 {
-            self.bytes.push(value as u8 | 0x80);
-            value >>= 7;
-        }
-        self.bytes.push(value as u8);
+    /// The begin of a field of so many bytes.
+    fn length(&mut self, field: u32, bytes: usize) {
+        encode_key(field, WireType::LengthDelimited, &mut self.bytes);
+        encode_varint(bytes as u64, &mut self.bytes);
     }
 }
 
@@ -149,15 +127,15 @@ impl<'a> Rest<'a> {
     pub(crate) fn value(&mut self, field: u32, value: &mut Value) -> Option<()> {
         let mut ahead = *self;
         let wire_type = match value {
-            Value::Count(_) => VARINT,
-            Value::Number(_) => FIXED_64,
-            _ => LENGTH_DELIMITED,
+            Value::Count(_) => WireType::Varint,
+            Value::Number(_) => WireType::SixtyFourBit,
+            _ => WireType::LengthDelimited,
         };
-        if ahead.varint()? != u64::from(field << 3 | wire_type) {
+        if decode_key(&mut ahead.0).ok()? != (field, wire_type) {
             return None;
         }
         match value {
-            Value::Count(count) => *count = ahead.varint()?,
+            Value::Count(count) => *count = decode_varint(&mut ahead.0).ok()?,
             Value::Number(number) => *number = f64::from_le_bytes(*ahead.0.split_off(..8)?.first_chunk()?),
             Value::Numbers(list) => *list = ahead.list()?.iter().copied().map(f64::from_le_bytes).collect(),
             Value::Indices(list) => *list = ahead.list()?.iter().copied().map(u32::from_le_bytes).collect(),
@@ -168,21 +146,9 @@ impl<'a> Rest<'a> {
     }
 
     fn list<const N: usize>(&mut self) -> Option<&'a [[u8; N]]> {
-        let size = usize::try_from(self.varint()?).ok()?;
+        let size = usize::try_from(decode_varint(&mut self.0).ok()?).ok()?;
         let (list, odd) = self.0.split_off(..size)?.as_chunks();
         odd.is_empty().then_some(list)
-    }
-
-    fn varint(&mut self) -> Option<u64> {
-        let mut value = 0;
-        for shift in (0..64).step_by(7) {
-            let byte = self.0.split_off_first()?;
-            value |= u64::from(byte & 0x7f) << shift;
-            if *byte < 0x80 {
-                return Some(value);
-            }
-        }
-        None
     }
 }
 

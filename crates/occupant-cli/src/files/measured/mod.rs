@@ -10,10 +10,7 @@ use std::path::Path;
 use super::mme;
 use super::signals::Recording;
 use super::trouble::Trouble;
-use crate::base::failure::Failure;
-use crate::base::input_file;
-use crate::base::names::ending;
-use crate::base::sha256::sha256;
+use crate::base::{Failure, ending, input_file, sha256};
 
 pub(crate) use pair::{MapArgument, Pair, Wanted, pairs};
 

@@ -6,13 +6,13 @@
 use std::fmt;
 use std::str::FromStr;
 
-use crash_measures::signal::{ChannelClass, uniform_interval};
+use crash_measures::signal::{CfcFamily, ChannelClass, uniform_interval};
 use crash_measures::unit::Dimension;
 use occupant_core::results::channel::Channel;
 
 use super::table::name_and_unit;
-use crate::base::failure::Failure;
-use crate::files::history::{Family, filtered};
+use crate::base::Failure;
+use crate::files::history::filtered;
 use crate::files::signals::{Recording, Signal, scale_of};
 
 /// A channel that a signal may belong to.
@@ -90,7 +90,7 @@ impl Pair {
     ///
     /// # Errors
     /// Missing values, samples that are not equally spaced or too far apart.
-    pub(crate) fn filter(&mut self, class: ChannelClass, family: Family) -> Result<(), Failure> {
+    pub(crate) fn filter(&mut self, class: ChannelClass, family: CfcFamily) -> Result<(), Failure> {
         let refused = |reason: String| {
             Failure::with_help(
                 format!("the measured signal {} cannot be filtered: {reason}", self.signal),

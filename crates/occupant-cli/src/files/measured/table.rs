@@ -10,8 +10,8 @@ use crash_measures::unit::parse;
 use csv::{ReaderBuilder, StringRecord, Trim};
 use placed_text::{CELL, shortened};
 
-use crate::base::failure::Failure;
-use crate::files::signals::{Recording, Signal, scale_of, seconds_in};
+use crate::base::Failure;
+use crate::files::signals::{Recording, Signal, finite, scale_of, seconds_in};
 use crate::files::trouble::{Trouble, failure};
 
 /// Stands for any number of blanks between cells.
@@ -79,14 +79,11 @@ fn lines(text: &str) -> (Vec<Line>, char) {
 }
 
 fn number(cell: &str, separator: char) -> Option<f64> {
-    if matches!(cell.to_ascii_lowercase().as_str(), "" | "nan" | "novalue") {
-        return Some(f64::NAN);
+    match cell.to_ascii_lowercase().as_str() {
+        "" | "nan" | "novalue" => Some(f64::NAN),
+        _ if separator == ';' => finite(&cell.replace(',', ".")),
+        _ => finite(cell),
     }
-    let number = match separator {
-        ';' => cell.replace(',', ".").parse::<f64>(),
-        _ => cell.parse::<f64>(),
-    };
-    number.ok().filter(|n| n.is_finite())
 }
 
 /// Headings, and how many lines they take.
@@ -160,6 +157,10 @@ impl Reader<'_> {
         })
     }
 
+    fn wrong(&mut self, line: usize, found: impl Into<String>, expected: impl Into<String>) {
+        self.problems.push(Trouble::at(self.path, line, found, expected));
+    }
+
     /// Numbers column by column, as far as lines are right.
     fn columns(&mut self, lines: &[Line]) -> Vec<Vec<f64>> {
         let mut columns = vec![Vec::with_capacity(lines.len()); self.headings.len()];
@@ -168,20 +169,14 @@ impl Reader<'_> {
             let more = usize::from(cells.len() == columns.len() + 1 && cells.iter().next_back() == Some(""));
             if cells.len() != columns.len() + more {
                 let expected = format!("{}, one for each column", columns.len());
-                let found = format!("{} cells", cells.len());
-                self.problems.push(Trouble::at(self.path, *line, found, expected));
+                self.wrong(*line, format!("{} cells", cells.len()), expected);
                 columns.iter_mut().for_each(|c| c.push(f64::NAN));
                 continue;
             }
             for (column, cell) in columns.iter_mut().zip(cells) {
                 let value = number(cell, self.separator);
                 if value.is_none() {
-                    self.problems.push(Trouble::at(
-                        self.path,
-                        *line,
-                        format!("`{}`", shortened(cell, CELL)),
-                        "a number",
-                    ));
+                    self.wrong(*line, format!("`{}`", shortened(cell, CELL)), "a number");
                 }
                 column.push(value.unwrap_or(f64::NAN));
             }
@@ -194,8 +189,7 @@ impl Reader<'_> {
             return;
         }
         if time_s.is_empty() {
-            let trouble = Trouble::of(self.path, "headings without numbers", "a line for each time");
-            self.problems.push(trouble);
+            self.problems.push(Trouble::of(self.path, "headings without numbers", "a line for each time"));
         }
         for (i, (t, (line, _))) in time_s.iter().zip(lines).enumerate() {
             let found = match i.checked_sub(1).map(|before| time_s[before]) {
@@ -203,24 +197,22 @@ impl Reader<'_> {
                 Some(before) if *t <= before => format!("time {t} s after {before} s"),
                 _ => continue,
             };
-            self.problems.push(Trouble::at(self.path, *line, found, "times that increase"));
+            self.wrong(*line, found, "times that increase");
         }
     }
 
     fn signals(&self, columns: Vec<Vec<f64>>, time: usize, time_s: &[f64]) -> Vec<Signal> {
+        let signal = |(heading, values): (&Heading, Vec<f64>)| Signal {
+            name: heading.name.clone(),
+            code: heading.name.parse().ok(),
+            unit: heading.unit.clone(),
+            scale: heading.unit.as_deref().and_then(scale_of),
+            time_s: time_s.to_vec(),
+            values,
+            place: format!("{}:{}", self.path.display(), heading.line),
+        };
         let named = self.headings.iter().zip(columns).enumerate();
-        named
-            .filter(|(i, _)| *i != time)
-            .map(|(_, (heading, values))| Signal {
-                name: heading.name.clone(),
-                code: heading.name.parse().ok(),
-                unit: heading.unit.clone(),
-                scale: heading.unit.as_deref().and_then(scale_of),
-                time_s: time_s.to_vec(),
-                values,
-                place: format!("{}:{}", self.path.display(), heading.line),
-            })
-            .collect()
+        named.filter(|(i, _)| *i != time).map(|(_, column)| signal(column)).collect()
     }
 }
 

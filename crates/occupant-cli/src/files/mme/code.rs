@@ -74,11 +74,8 @@ impl Code {
         if let Some(rest) = channel.strip_prefix("belt.") {
             let name = rest.strip_suffix(".force")?;
             let points = webbing_points(name)?;
-            let fits = self.part(2, 6) == "SEBE"
-                && self.part(12, 14) == "FO"
-                && points.contains(&self.part(10, 12))
-                && self.is_at(seat);
-            return fits.then_some(1.0);
+            let is_webbing = (self.part(2, 6), self.part(12, 14)) == ("SEBE", "FO") && self.is_at(seat);
+            return (is_webbing && points.contains(&self.part(10, 12))).then_some(1.0);
         }
         let place = place_of_name(channel)?;
         let fine = self.part(6, 10);
@@ -106,19 +103,13 @@ pub(crate) fn place_of(model: &Model, channel: &Channel) -> Option<Place> {
     let round = model.named("belt").into_iter().find(|one| one.name == name)?.sphere;
     let segment = model.body().spheres.get(round).map(|s| s.segment);
     let (segment, marks) = (segment?, model.body().tree.landmarks());
-    let point = match segment {
-        _ if segment == marks.pelvis => "B6",
-        _ if [marks.chest, marks.middle].contains(&segment) => "B3",
+    let webbing = match segment {
+        _ if segment == marks.pelvis => Some("B6"),
+        _ if [marks.chest, marks.middle].contains(&segment) => Some("B3"),
         _ => return None,
     };
-    Some(Place {
-        location: "SEBE0000",
-        webbing: Some(point),
-        dimension: "FO",
-        direction: '0',
-        of_vehicle: false,
-        sign: 1.0,
-    })
+    let place = Place { location: "SEBE0000", webbing, dimension: "FO", direction: '0', of_vehicle: false, sign: 1.0 };
+    Some(place)
 }
 
 /// Points of webbing (fine location 3) that a belt of this name may mean.
@@ -159,10 +150,7 @@ fn place_of_name(name: &str) -> Option<Place> {
         "resultant" => 'R',
         _ => return None,
     };
-    let sign = match (turned, direction) {
-        (true, 'Y' | 'Z') => -1.0,
-        _ => 1.0,
-    };
+    let sign = if turned && matches!(direction, 'Y' | 'Z') { -1.0 } else { 1.0 };
     Some(Place { location, webbing: None, dimension, direction, of_vehicle, sign })
 }
 

@@ -1,15 +1,11 @@
 //! Reading a test.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use super::code::Code;
 use super::header::{Header, entry, text_of};
-use crate::base::failure::Failure;
-use crate::base::input_file;
-use crate::base::names::ending;
-use crate::base::sha256::sha256;
-use crate::files::signals::{Recording, Signal, scale_of, seconds_in};
+use crate::base::{Failure, ending, file_name, input_file, sha256};
+use crate::files::signals::{Recording, Signal, finite, scale_of, seconds_in};
 use crate::files::trouble::Trouble;
 
 /// Reads a test by its folder or its .mme file.
@@ -38,11 +34,7 @@ pub(crate) fn read(path: &Path) -> Result<Recording, Failure> {
 }
 
 fn entries(folder: &Path) -> Result<Vec<PathBuf>, Failure> {
-    let refused = |e| Failure::plain(format!("{} cannot be read: {e}", folder.display()));
-    let listed = fs::read_dir(folder).map_err(refused)?;
-    let mut paths = listed.map(|found| Ok(found.map_err(refused)?.path())).collect::<Result<Vec<_>, Failure>>()?;
-    paths.sort();
-    Ok(paths)
+    input_file::entries(folder).map_err(|e| Failure::plain(format!("{} cannot be read: {e}", folder.display())))
 }
 
 fn the_mme_in(folder: &Path) -> Result<PathBuf, Failure> {
@@ -110,10 +102,7 @@ impl RawChannel {
     }
 
     fn value(&self, text: &str, line: usize) -> Result<f64, Trouble> {
-        if text.eq_ignore_ascii_case("NOVALUE") {
-            return Ok(f64::NAN);
-        }
-        let number = text.parse::<f64>().ok().filter(|v| v.is_finite());
+        let number = if text.eq_ignore_ascii_case("NOVALUE") { Some(f64::NAN) } else { finite(text) };
         number.ok_or_else(|| Trouble::at(&self.path, line, format!("`{text}`"), "a number or NOVALUE"))
     }
 
@@ -135,21 +124,15 @@ impl RawChannel {
 
     /// A number of the header.
     fn number(&self, name: &str) -> Result<Option<f64>, Trouble> {
-        let Some((text, line)) = self.header.get(name) else {
-            return Ok(None);
+        let read = |(text, line)| {
+            finite(text).ok_or_else(|| Trouble::at(&self.path, line, format!("`{text}` as {name}"), "a number"))
         };
-        let number = text.parse::<f64>().ok().filter(|value| value.is_finite());
-        let wrong = || Trouble::at(&self.path, line, format!("`{text}` as {name}"), "a number");
-        number.map(Some).ok_or_else(wrong)
+        self.header.get(name).map(read).transpose()
     }
 
     fn name(&self) -> String {
-        let named = self.header.get("Channel code");
-        let named = named.or_else(|| self.header.get("Name of the channel"));
-        match named {
-            Some((name, _)) => name.to_owned(),
-            None => self.path.file_name().unwrap_or_default().to_string_lossy().into_owned(),
-        }
+        let named = self.header.get("Channel code").or_else(|| self.header.get("Name of the channel"));
+        named.map_or_else(|| file_name(&self.path), |(name, _)| name.to_owned())
     }
 
     /// Times, s: counted from the header, or those of the channel that it refers to.
@@ -201,18 +184,15 @@ impl RawChannel {
 
     fn signal(&self, time_s: Vec<f64>, notes: &mut Vec<String>) -> Signal {
         let name = self.name();
-        let (unit, line) = match self.header.get("Unit") {
-            Some((unit, line)) => (Some(unit.to_owned()), line),
-            None => (None, 1),
-        };
+        let (unit, line) = self.header.get("Unit").map_or((None, 1), |(unit, line)| (Some(unit), line));
         let explicit = self.header.get("Reference channel").is_some();
         if !explicit && self.header.get("Time of first sample").is_none() {
             notes.push(format!("{name}: no time of the first sample is given: taken as 0 s"));
         }
         Signal {
             code: name.parse::<Code>().ok(),
-            scale: unit.as_deref().and_then(scale_of),
-            unit,
+            scale: unit.and_then(scale_of),
+            unit: unit.map(str::to_owned),
             name,
             time_s,
             values: self.values.clone(),

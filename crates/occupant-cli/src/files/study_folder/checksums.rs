@@ -3,15 +3,14 @@
 //! A line is appended as soon as a file has its name; of two lines for one file the later holds. A file without a line was
 //! not complete when its process was killed, and is made again; one that is not what its line says is damaged.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeMap;
 use std::fs::{self, OpenOptions};
-use std::io::{self, ErrorKind, Write};
+use std::io::{ErrorKind, Write};
 use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard};
 
 use super::problem::Problem;
-use crate::base::output_file::{Existing, write_whole};
-use crate::base::sha256::sha256;
+use crate::base::{Existing, sha256, write_whole};
 
 /// The name of the list.
 pub(crate) const SUMS: &str = "SHA256SUMS";
@@ -20,15 +19,15 @@ pub(crate) const SUMS: &str = "SHA256SUMS";
 #[derive(Debug)]
 pub(crate) struct Checksums {
     folder: PathBuf,
-    state: Mutex<State>,
+    /// By name, relative to the folder.
+    listed: Mutex<BTreeMap<String, Listed>>,
 }
 
-/// Names are relative to the folder.
-#[derive(Debug, Default)]
-struct State {
-    listed: BTreeMap<String, String>,
-    sound: BTreeSet<String>,
-    damaged: BTreeSet<String>,
+#[derive(Debug)]
+struct Listed {
+    sum: String,
+    /// Whether the file is as it was written; none if it is not there, or was not looked at.
+    sound: Option<bool>,
 }
 
 impl Checksums {
@@ -45,20 +44,19 @@ impl Checksums {
         let text = String::from_utf8_lossy(&text);
         // what a killed process has left of its last line has no end; the next one is appended to it and is lost as well
         let lines = text.split_inclusive('\n').filter_map(|line| line.strip_suffix('\n')?.split_once("  "));
-        let mut state = State::default();
-        state.listed.extend(lines.map(|(sum, name)| (name.to_owned(), sum.to_owned())));
-        for (name, sum) in state.listed.iter().filter(|(name, _)| wanted(name)) {
-            match fs::read(folder.join(name)) {
-                Ok(bytes) if sha256(&bytes) == *sum => state.sound.insert(name.clone()),
-                Err(error) if error.kind() == ErrorKind::NotFound => false,
-                Ok(_) | Err(_) => state.damaged.insert(name.clone()),
+        let listed = |(sum, name): (&str, &str)| (name.to_owned(), Listed { sum: sum.to_owned(), sound: None });
+        let mut listed: BTreeMap<String, Listed> = lines.map(listed).collect();
+        for (name, file) in listed.iter_mut().filter(|(name, _)| wanted(name)) {
+            file.sound = match fs::read(folder.join(name)) {
+                Err(error) if error.kind() == ErrorKind::NotFound => None,
+                read => Some(read.is_ok_and(|bytes| sha256(&bytes) == file.sum)),
             };
         }
-        Ok(Checksums { folder: folder.to_owned(), state: Mutex::new(state) })
+        Ok(Checksums { folder: folder.to_owned(), listed: Mutex::new(listed) })
     }
 
-    fn state(&self) -> MutexGuard<'_, State> {
-        self.state.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
+    fn listed(&self) -> MutexGuard<'_, BTreeMap<String, Listed>> {
+        self.listed.lock().unwrap_or_else(|poisoned| poisoned.into_inner())
     }
 
     fn name(&self, path: &Path) -> String {
@@ -68,12 +66,14 @@ impl Checksums {
 
     /// Files that are not what was written, and were not made again.
     pub(crate) fn damaged(&self) -> Vec<PathBuf> {
-        self.state().damaged.iter().map(|name| self.folder.join(name)).collect()
+        let listed = self.listed();
+        let damaged = listed.iter().filter(|(_, file)| file.sound == Some(false));
+        damaged.map(|(name, _)| self.folder.join(name)).collect()
     }
 
     /// Whether a file is there as it was written.
     pub(crate) fn holds(&self, path: &Path) -> bool {
-        path.exists() && self.state().sound.contains(&self.name(path))
+        path.exists() && self.listed().get(&self.name(path)).is_some_and(|file| file.sound == Some(true))
     }
 
     /// Lists a file that is complete.
@@ -83,15 +83,13 @@ impl Checksums {
     pub(crate) fn add(&self, path: &Path) -> Result<(), Problem> {
         let sum = sha256(&fs::read(path).map_err(Problem::io("read", path))?);
         let (name, list) = (self.name(path), self.folder.join(SUMS));
-        let mut state = self.state();
-        if state.listed.get(&name) != Some(&sum) {
+        let mut listed = self.listed();
+        if listed.get(&name).is_none_or(|file| file.sum != sum) {
             let appended = OpenOptions::new().create(true).append(true).open(&list);
             let line = format!("{sum}  {name}\n");
             appended.and_then(|mut file| file.write_all(line.as_bytes())).map_err(Problem::io("write", &list))?;
         }
-        state.damaged.remove(&name);
-        state.listed.insert(name.clone(), sum);
-        state.sound.insert(name);
+        listed.insert(name, Listed { sum, sound: Some(true) });
         Ok(())
     }
 
@@ -105,9 +103,7 @@ impl Checksums {
             Err(error) if error.kind() == ErrorKind::NotFound => {}
             renamed => renamed.map_err(Problem::io("rename", path))?,
         }
-        let (name, mut state) = (self.name(path), self.state());
-        state.damaged.remove(&name);
-        state.listed.remove(&name);
+        self.listed().remove(&self.name(path));
         Ok(())
     }
 
@@ -119,12 +115,11 @@ impl Checksums {
         if let Some(path) = self.damaged().into_iter().next() {
             return Err(Problem::Unmended { path });
         }
-        let state = self.state();
-        let there = state.listed.iter().filter(|(name, _)| self.folder.join(name).exists());
-        let lines: String = there.map(|(name, sum)| format!("{sum}  {name}\n")).collect();
-        let path = self.folder.join(SUMS);
-        let written = write_whole(&path, Existing::Replace, lines.as_bytes());
-        written.map(|_| ()).map_err(|e| Problem::io("write", &path)(io::Error::other(e.to_string())))
+        let listed = self.listed();
+        let there = listed.iter().filter(|(name, _)| self.folder.join(name).exists());
+        let lines: String = there.map(|(name, file)| format!("{}  {name}\n", file.sum)).collect();
+        write_whole(&self.folder.join(SUMS), Existing::Replace, lines.as_bytes())?;
+        Ok(())
     }
 }
 

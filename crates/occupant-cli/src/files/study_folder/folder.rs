@@ -11,7 +11,7 @@
 //! ```
 
 use std::fs::{self, File, OpenOptions, TryLockError};
-use std::io::{self, Write};
+use std::io;
 use std::path::{Path, PathBuf};
 
 use occupant_study::MOST_RUNS;
@@ -21,48 +21,41 @@ use super::journal::is_named_by_rows;
 use super::manifest::{Manifest, Text};
 use super::problem::Problem;
 use super::shard::Shard;
-use crate::base::output_file::{partial_path, remove_if_there};
+use crate::base::{Existing, file_name, input_file, partial_path, remove_if_there, write_whole};
 
 const LOCK: &str = "sweep.lock";
 const INPUTS: &str = "inputs";
 const JOURNAL: &str = "journal";
 const RUNS: &str = "runs";
-/// The tables that a sweep writes.
-const TABLES: [&str; 5] = ["results.parquet", "results.csv", "columns.csv", "ensemble.parquet", "ensemble.csv"];
-/// What a fit writes.
-const FIT_RESULTS: [&str; 4] = ["fit.json", "fitted.toml", "history.parquet", "history.csv"];
-/// Folders of a sweep or of a fit, and how the names of the files in them end.
-const SWEEP_FOLDERS: [(&str, &str); 1] = [(RUNS, ".mcap")];
-const FIT_FOLDERS: [(&str, &str); 2] = [("fitted", ".toml"), ("plots", ".svg")];
 
 /// What a folder holds the results of.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Holds {
-    Sweep,
-    Fit,
+#[derive(Debug)]
+pub(crate) struct Holds {
+    pub(crate) word: &'static str,
+    manifest: &'static str,
+    /// Files that are written into it, and into its folders those whose names end so.
+    results: &'static [&'static str],
+    folders: &'static [(&'static str, &'static str)],
 }
 
-impl Holds {
-    pub(crate) fn word(self) -> &'static str {
-        match self {
-            Holds::Sweep => "sweep",
-            Holds::Fit => "fit",
-        }
-    }
-
-    fn manifest(self) -> &'static str {
-        match self {
-            Holds::Sweep => "sweep.json",
-            Holds::Fit => "search.json",
-        }
-    }
-}
+pub(crate) const SWEEP: &Holds = &Holds {
+    word: "sweep",
+    manifest: "sweep.json",
+    results: &["results.parquet", "results.csv", "columns.csv", "ensemble.parquet", "ensemble.csv"],
+    folders: &[(RUNS, ".mcap")],
+};
+const FIT: &Holds = &Holds {
+    word: "fit",
+    manifest: "search.json",
+    results: &["fit.json", "fitted.toml", "history.parquet", "history.csv"],
+    folders: &[("fitted", ".toml"), ("plots", ".svg")],
+};
 
 /// The folder of a sweep, or of a fit.
 #[derive(Clone, Debug)]
 pub(crate) struct Folder {
     pub(crate) path: PathBuf,
-    holds: Holds,
+    holds: &'static Holds,
 }
 
 /// A lock that a process holds until it ends, however it ends.
@@ -79,16 +72,16 @@ pub(crate) struct Held {
 impl Folder {
     /// The folder of a sweep at this place, there or not.
     pub(crate) fn at(path: &Path) -> Self {
-        Folder { path: path.to_owned(), holds: Holds::Sweep }
+        Folder { path: path.to_owned(), holds: SWEEP }
     }
 
     /// The folder of a fit at this place, there or not.
     pub(crate) fn of_fit(path: &Path) -> Self {
-        Folder { path: path.to_owned(), holds: Holds::Fit }
+        Folder { path: path.to_owned(), holds: FIT }
     }
 
     fn manifest_path(&self) -> PathBuf {
-        self.path.join(self.holds.manifest())
+        self.path.join(self.holds.manifest)
     }
 
     /// What was done, unless the folder was taken away with it.
@@ -135,7 +128,7 @@ impl Folder {
     /// The operating system refuses.
     pub(crate) fn copy_of(&self, text: &Text) -> Result<Vec<u8>, Problem> {
         let path = self.path.join(&text.copy);
-        fs::read(&path).map_err(Problem::io("read", &path))
+        input_file::bytes(&path).map_err(Problem::io("read", &path))
     }
 
     /// The manifest, if there is one.
@@ -144,7 +137,7 @@ impl Folder {
     /// The operating system refuses; a file that is no manifest.
     pub(crate) fn manifest(&self) -> Result<Option<Manifest>, Problem> {
         let path = self.manifest_path();
-        let bytes = match fs::read(&path) {
+        let bytes = match input_file::bytes(&path) {
             Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(None),
             read => read.map_err(Problem::io("read", &path))?,
         };
@@ -154,7 +147,7 @@ impl Folder {
             n => Err(format!("`samples` is {n}, and there are at most {MOST_RUNS}")),
         };
         read.and_then(possible).map(Some).map_err(|error| Problem::Damaged {
-            found: format!("is no manifest of a {}: {error}", self.holds.word()),
+            found: format!("is no manifest of a {}: {error}", self.holds.word),
             path,
         })
     }
@@ -193,10 +186,8 @@ impl Folder {
             Err(problem) => return Err(problem),
         }
         let name = format!("{}.lock", shard.file_stem());
-        match self.lock(&self.journal().join(name))? {
-            Some(held) => Ok(Held { mended, ..held }),
-            None => Err(self.busy(format!("computes shard {shard}"))),
-        }
+        let held = self.lock(&self.journal().join(name))?.map(|held| Held { mended, ..held });
+        held.ok_or_else(|| self.busy(format!("computes shard {shard}")))
     }
 
     /// The right to write the table.
@@ -204,10 +195,7 @@ impl Folder {
     /// # Errors
     /// Another process has it; the operating system refuses.
     pub(crate) fn claim_table(&self) -> Result<Held, Problem> {
-        match self.lock(&self.path.join("table.lock"))? {
-            Some(held) => Ok(held),
-            None => Err(self.busy("writes the table".to_owned())),
-        }
+        self.lock(&self.path.join("table.lock"))?.ok_or_else(|| self.busy("writes the table".to_owned()))
     }
 
     /// Refuses a folder with tables or runs that are not those of this sweep.
@@ -218,16 +206,16 @@ impl Folder {
         if self.manifest()?.as_ref() == Some(manifest) {
             return Ok(());
         }
-        let mut results = self.files(&TABLES).into_iter().chain([self.runs(), self.manifest_path()]);
+        let mut results = self.files().into_iter().chain([self.runs(), self.manifest_path()]);
         match results.find(|path| path.exists()) {
             Some(path) => Err(Problem::Exists { path }),
             None => Ok(()),
         }
     }
 
-    /// Files of these names, and their provisional ones.
-    fn files(&self, names: &[&str]) -> Vec<PathBuf> {
-        let named = names.iter().map(|name| self.path.join(name));
+    /// Files of results, and their provisional names.
+    fn files(&self) -> Vec<PathBuf> {
+        let named = self.holds.results.iter().map(|name| self.path.join(name));
         named.flat_map(|path| [path.clone(), partial_path(&path)]).collect()
     }
 
@@ -278,7 +266,7 @@ impl Folder {
             let Some(other) = Shard::of_file(name) else {
                 continue;
             };
-            if (all || other.count() != shard.count()) && self.lock(&journal.join(name))?.is_none() {
+            if (all || other.count != shard.count) && self.lock(&journal.join(name))?.is_none() {
                 return Err(self.busy(format!("computes shard {other}")));
             }
         }
@@ -300,7 +288,7 @@ impl Folder {
     fn mend_copies(&self, manifest: &Manifest, texts: &[Vec<u8>]) -> Result<Vec<PathBuf>, Problem> {
         let copies = manifest.texts.iter().map(|text| self.path.join(&text.copy)).zip(texts);
         let changed = copies.filter(|(path, bytes)| fs::read(path).ok().as_ref() != Some(*bytes));
-        changed.map(|(path, bytes)| write_whole(&path, bytes).map(|()| path)).collect()
+        changed.map(|(path, bytes)| Ok(write_whole(&path, Existing::Replace, bytes)?)).collect()
     }
 
     /// Copies first, the manifest last: a folder with a manifest is whole.
@@ -309,21 +297,19 @@ impl Folder {
             fs::create_dir_all(&folder).map_err(Problem::io("create", &folder))?;
         }
         for (text, bytes) in manifest.texts.iter().zip(texts) {
-            let path = self.path.join(&text.copy);
-            write_whole(&path, bytes)?;
+            write_whole(&self.path.join(&text.copy), Existing::Replace, bytes)?;
         }
         let path = self.manifest_path();
         let bytes = manifest
             .to_bytes()
             .map_err(|error| Problem::Damaged { path: path.clone(), found: format!("cannot be written: {error}") })?;
-        let partial = partial_path(&path);
-        write_whole(&partial, &bytes)?;
-        fs::rename(&partial, &path).map_err(Problem::io("rename to", &path))
+        write_whole(&path, Existing::Replace, &bytes)?;
+        Ok(())
     }
 
     /// Removes tables that were not completed.
     pub(crate) fn remove_partial_tables(&self) {
-        for name in TABLES {
+        for name in self.holds.results {
             // one that cannot be removed is replaced by the next table
             let _stays = fs::remove_file(partial_path(&self.path.join(name)));
         }
@@ -331,13 +317,11 @@ impl Folder {
 
     /// Removes what a sweep has written, and nothing else.
     fn clear(&self) -> Result<(), Problem> {
-        let (results, folders): (&[&str], &[(&str, &str)]) = match self.holds {
-            Holds::Sweep => (&TABLES, &SWEEP_FOLDERS),
-            Holds::Fit => (&FIT_RESULTS, &FIT_FOLDERS),
-        };
-        let mut files = self.files(results);
+        let mut files = self.files();
         files.push(self.path.join(SUMS));
-        for (folder, ending) in [(JOURNAL, ".rows"), (JOURNAL, ".damaged"), (INPUTS, "")].iter().chain(folders) {
+        for (folder, ending) in
+            [(JOURNAL, ".rows"), (JOURNAL, ".damaged"), (INPUTS, "")].iter().chain(self.holds.folders)
+        {
             let folder = self.path.join(folder);
             if folder.exists() {
                 let names = names_in(&folder)?;
@@ -347,7 +331,7 @@ impl Folder {
         }
         // the manifest goes last: without it the rest would be nobody's
         files.push(self.manifest_path());
-        Ok(files.iter().try_for_each(|file| remove_if_there(file, "remove"))?)
+        Ok(files.iter().try_for_each(|file| remove_if_there(file))?)
     }
 }
 
@@ -356,23 +340,12 @@ impl Folder {
 /// # Errors
 /// The operating system refuses.
 pub(crate) fn names_in(folder: &Path) -> Result<Vec<String>, Problem> {
-    let name = |entry: io::Result<fs::DirEntry>| Ok(entry?.file_name().to_string_lossy().into_owned());
-    let names: io::Result<Vec<String>> = fs::read_dir(folder).and_then(|entries| entries.map(name).collect());
-    let mut names = names.map_err(Problem::io("read", folder))?;
-    names.sort();
-    Ok(names)
+    let entries = input_file::entries(folder).map_err(Problem::io("read", folder))?;
+    Ok(entries.iter().map(|path| file_name(path)).collect())
 }
 
 fn open_lock(path: &Path) -> Result<File, Problem> {
     let mut options = OpenOptions::new();
     let options = options.create(true).truncate(false).write(true);
     options.open(path).map_err(Problem::io("create", path))
-}
-
-fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Problem> {
-    let written = File::create(path).and_then(|mut file| {
-        file.write_all(bytes)?;
-        file.sync_all()
-    });
-    written.map_err(Problem::io("write", path))
 }

@@ -5,8 +5,8 @@
 //! is not read; the sample is computed again.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::{self, File};
-use std::io::{self, BufRead, BufReader, Write};
+use std::fs::File;
+use std::io::{self, BufRead, BufReader, ErrorKind, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -20,8 +20,7 @@ use super::manifest::Manifest;
 use super::problem::Problem;
 use super::row::Row;
 use super::shard::Shard;
-use crate::base::failure::Failure;
-use crate::base::output_file::{FileProblem, is_at};
+use crate::base::{Failure, FileProblem, input_file, is_at};
 
 /// What was written is made safe against a loss of power at least so often.
 const SYNC_EVERY: Duration = Duration::from_secs(10);
@@ -31,8 +30,6 @@ const AT_ONCE: u64 = 2048;
 /// A piece is closed after so many rows or bytes.
 const ROWS: usize = 1024;
 const BYTES: usize = 4 << 20;
-/// No piece is larger, bytes; its last row comes on top of the limit.
-const LARGEST: u64 = 64 << 20;
 
 /// First line of a piece.
 #[derive(Serialize, Deserialize)]
@@ -252,10 +249,10 @@ impl Journal {
     /// The rows of a piece, and whether one was cut off.
     fn piece(&self, path: &Path) -> Result<(Vec<Row>, bool), Problem> {
         let damaged = |found: &str| Problem::Damaged { path: path.to_owned(), found: found.to_owned() };
-        if fs::metadata(path).is_ok_and(|file| file.len() > LARGEST) {
-            return Err(damaged("is larger than any piece of a journal"));
-        }
-        let bytes = fs::read(path).map_err(Problem::io("read", path))?;
+        let bytes = input_file::bytes(path).map_err(|error| match error.kind() {
+            ErrorKind::InvalidData => damaged("is larger than any piece of a journal"),
+            _ => Problem::io("read", path)(error),
+        })?;
         let end = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);
         let mut lines = bytes[..end].split_inclusive(|byte| *byte == b'\n');
         let torn = end < bytes.len();
@@ -278,7 +275,7 @@ impl Journal {
 
     /// The shards that lack samples and how many, as far as the files tell into how many shards the study was cut.
     pub(crate) fn lacking(&self, samples: u64) -> Vec<(Shard, u64)> {
-        let counts: BTreeSet<u64> = self.begun.iter().map(|s| s.count()).collect();
+        let counts: BTreeSet<u64> = self.begun.iter().map(|s| s.count).collect();
         let Some(count) = counts.last().filter(|_| counts.len() == 1) else {
             return Vec::new();
         };
@@ -296,13 +293,8 @@ impl Journal {
     /// # Errors
     /// Results that disagree; the operating system refuses; what `see` says.
     pub(crate) fn each_row(&self, mut see: impl FnMut(Row) -> Result<(), Failure>) -> Result<(), Failure> {
-        let mut start = 0;
-        while start < self.samples {
-            let end = (start + AT_ONCE).min(self.samples);
-            self.rows(start..end)?.into_iter().try_for_each(&mut see)?;
-            start = end;
-        }
-        Ok(())
+        let mut starts = (0..self.samples).step_by(AT_ONCE as usize);
+        starts.try_for_each(|start| self.rows(start..start + AT_ONCE)?.into_iter().try_for_each(&mut see))
     }
 
     /// The rows of those of a range of samples that are finished, in order.
@@ -331,6 +323,8 @@ impl Journal {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
     use crate::files::study_folder::row::tests::row;
 

@@ -5,7 +5,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::texts::NamedBy;
-use crate::base::sha256::sha256;
+use crate::base::sha256;
 
 /// Number of this form of the folder.
 const FORM: u32 = 1;
@@ -116,12 +116,10 @@ impl Manifest {
         for (there, ours) in self.texts.iter().zip(&here.texts).filter(|(there, ours)| there.sha256 != ours.sha256) {
             found.push(text_difference(&ours.name, text_there(there), text_here(ours)));
         }
-        for there in self.texts.iter().skip(here.texts.len()) {
-            found.push(format!("{}: there, not here", there.name));
-        }
-        for ours in here.texts.iter().skip(self.texts.len()) {
-            found.push(format!("{}: here, not there", ours.name));
-        }
+        let more = self.texts.iter().skip(here.texts.len());
+        found.extend(more.map(|there| format!("{}: there, not here", there.name)));
+        let more = here.texts.iter().skip(self.texts.len());
+        found.extend(more.map(|ours| format!("{}: here, not there", ours.name)));
         if found.is_empty() && self.columns != here.columns {
             found.push("the measures of a run: other columns".to_owned());
         }

@@ -16,7 +16,7 @@ pub(crate) mod texts;
 
 pub(crate) use checksums::Checksums;
 pub(crate) use finished::Finished;
-pub(crate) use folder::{Folder, Held, Holds};
+pub(crate) use folder::{Folder, Held, SWEEP};
 pub(crate) use journal::{Journal, JournalWriter};
 pub(crate) use manifest::{Column, Manifest, Role, Text};
 pub(crate) use problem::Problem;

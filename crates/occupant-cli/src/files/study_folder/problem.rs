@@ -7,38 +7,53 @@ use std::path::{Path, PathBuf};
 use super::finished::ranges_text;
 use super::folder::Holds;
 use super::shard::Shard;
-use crate::base::failure::Failure;
-use crate::base::output_file::FileProblem;
+use crate::base::{Failure, FileProblem};
 
 /// So many ranges or shards are named.
 const SHOWN: usize = 20;
 
-/// What can go wrong with a folder of results.
+/// What can go wrong with a folder of results, and how to mend it, where that can be said.
 #[derive(Debug, thiserror::Error)]
 pub(crate) enum Problem {
     #[error(transparent)]
     File(#[from] FileProblem),
-    #[error("{} exists and is not of this sweep", .path.display())]
+    #[error("{} exists and is not of this sweep\n = help: name a new folder, or an empty one", .path.display())]
     Exists { path: PathBuf },
     /// There are files, but none of ours.
-    #[error("{} holds files that are no {}'s", .folder.display(), .holds.word())]
-    NotOurs { folder: PathBuf, holds: Holds },
+    #[error("{} holds files that are no {}'s\n = help: name a new folder, or an empty one", .folder.display(), .holds.word)]
+    NotOurs { folder: PathBuf, holds: &'static Holds },
     /// The folder holds something else, or the same of another version; a line for each difference.
-    #[error("{} holds another {} (there → here):\n   {}", .folder.display(), .holds.word(), .differences.join("\n   "))]
-    Differs { folder: PathBuf, holds: Holds, differences: Vec<String> },
+    #[error(
+        "{} holds another {} (there → here):\n   {}\n = help: name another folder, or compute everything anew with \
+         --restart, which removes the results that are there",
+        .folder.display(), .holds.word, .differences.join("\n   ")
+    )]
+    Differs { folder: PathBuf, holds: &'static Holds, differences: Vec<String> },
     /// A file of the folder is not what it should be.
-    #[error("{} {found}", .path.display())]
+    #[error(
+        "{} {found}\n = help: give the same command of `occupant sweep` or `occupant fit` again: what is damaged is made \
+         again", .path.display()
+    )]
     Damaged { path: PathBuf, found: String },
     /// A file of results was damaged, and what came after has not made it again.
-    #[error("{} is not what was written and was not made again", .path.display())]
+    #[error(
+        "{} is not what was written and was not made again\n = help: remove the file, or compute everything anew with \
+         --restart", .path.display()
+    )]
     Unmended { path: PathBuf },
-    #[error("another process is at work in {}: it {doing}", .folder.display())]
+    #[error("another process is at work in {}: it {doing}\n = help: wait for it, or name another folder", .folder.display())]
     Busy { folder: PathBuf, doing: String },
     /// Samples are not finished; shards that have begun and how many samples each lacks.
-    #[error("{}", incomplete(.gaps, .samples, .shards))]
+    #[error(
+        "{}\n = help: give the same command of `occupant sweep` again: it resumes with what is there",
+        incomplete(.gaps, .samples, .shards)
+    )]
     Incomplete { gaps: Vec<Range<u64>>, samples: u64, shards: Vec<(Shard, u64)> },
     /// Two results of one sample disagree.
-    #[error("sample {index} has one result in {} and another in {}", .first.display(), .second.display())]
+    #[error(
+        "sample {index} has one result in {} and another in {}\n = help: the results were computed by programs or \
+         machines that do not agree; compute them anew with --restart", .first.display(), .second.display()
+    )]
     Disagree { index: u64, first: PathBuf, second: PathBuf },
 }
 
@@ -47,28 +62,6 @@ impl Problem {
     pub(crate) fn io(doing: &'static str, path: &Path) -> impl FnOnce(io::Error) -> Problem {
         let path = path.to_owned();
         move |source| Problem::File(FileProblem::Io { doing, path, source })
-    }
-
-    /// How to mend it, where that can be said.
-    pub(crate) fn help(&self) -> Option<&'static str> {
-        match self {
-            Problem::Exists { .. } | Problem::NotOurs { .. } => Some("name a new folder, or an empty one"),
-            Problem::Differs { .. } => Some(
-                "name another folder, or compute everything anew with --restart, which removes the results that are there",
-            ),
-            Problem::Damaged { .. } => {
-                Some("give the same command of `occupant sweep` or `occupant fit` again: what is damaged is made again")
-            }
-            Problem::Unmended { .. } => Some("remove the file, or compute everything anew with --restart"),
-            Problem::Busy { .. } => Some("wait for it, or name another folder"),
-            Problem::Incomplete { .. } => {
-                Some("give the same command of `occupant sweep` again: it resumes with what is there")
-            }
-            Problem::Disagree { .. } => Some(
-                "the results were computed by programs or machines that do not agree; compute them anew with --restart",
-            ),
-            Problem::File(_) => None,
-        }
     }
 }
 
@@ -87,8 +80,7 @@ fn incomplete(gaps: &[Range<u64>], samples: &u64, shards: &[(Shard, u64)]) -> St
 
 impl From<Problem> for Failure {
     fn from(problem: Problem) -> Self {
-        let help = problem.help().map(|h| format!("\n = help: {h}")).unwrap_or_default();
-        let message = format!("error: {problem}{help}");
+        let message = format!("error: {problem}");
         match problem {
             Problem::Incomplete { .. } | Problem::Unmended { .. } => Failure::BrokeOff(message),
             Problem::File(file) if file.broke_off() => Failure::BrokeOff(message),

@@ -7,7 +7,7 @@ use std::ops::Range;
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct Shard {
     number: u64,
-    count: u64,
+    pub(super) count: u64,
 }
 
 impl Shard {
@@ -48,32 +48,25 @@ impl Shard {
             let shard = Shard::parse(&text).map_err(|e| format!("OCCUPANT_SHARD: {e}"))?;
             return Ok(Some((shard, "OCCUPANT_SHARD")));
         }
-        let Some(id) = get("SLURM_ARRAY_TASK_ID") else {
+        let number = |name: &str| {
+            let read =
+                |text: String| text.trim().parse::<u64>().map_err(|_| format!("{name}: `{text}` is no whole number"));
+            get(name).map(read).transpose()
+        };
+        let Some(id) = number("SLURM_ARRAY_TASK_ID")? else {
             return Ok(None);
         };
-        let number = |name: &str, text: String| {
-            let read = text.trim().parse::<u64>();
-            read.map_err(|_| format!("{name}: `{text}` is no whole number"))
-        };
-        let of = |name: &str, absent: u64| get(name).map_or(Ok(absent), |text| number(name, text));
-        let id = number("SLURM_ARRAY_TASK_ID", id)?;
-        let count = match get("SLURM_ARRAY_TASK_COUNT") {
-            Some(text) => number("SLURM_ARRAY_TASK_COUNT", text)?,
-            None => {
-                return Err("SLURM_ARRAY_TASK_ID is set, but not SLURM_ARRAY_TASK_COUNT".to_owned());
-            }
-        };
-        let (first, step) = (of("SLURM_ARRAY_TASK_MIN", 0)?, of("SLURM_ARRAY_TASK_STEP", 1)?);
-        let gaps = || {
+        let count = number("SLURM_ARRAY_TASK_COUNT")?;
+        let count = count.ok_or("SLURM_ARRAY_TASK_ID is set, but not SLURM_ARRAY_TASK_COUNT")?;
+        let first = number("SLURM_ARRAY_TASK_MIN")?.unwrap_or(0);
+        let step = number("SLURM_ARRAY_TASK_STEP")?.unwrap_or(1);
+        let place = id.checked_sub(first).filter(|beyond| step > 0 && beyond % step == 0).map(|beyond| beyond / step);
+        let place = place.filter(|place| *place < count).ok_or_else(|| {
             format!(
                 "task {id} of a Slurm array of {count} tasks from {first} in steps of {step} is no part of a study; use an array without gaps"
             )
-        };
-        let beyond = id.checked_sub(first).ok_or_else(gaps)?;
-        if step == 0 || beyond % step != 0 || beyond / step >= count {
-            return Err(gaps());
-        }
-        let shard = Shard::new(beyond / step + 1, count)?;
+        })?;
+        let shard = Shard::new(place + 1, count)?;
         Ok(Some((shard, "SLURM_ARRAY_TASK_ID")))
     }
 
@@ -85,11 +78,6 @@ impl Shard {
     /// Whether it is everything.
     pub(crate) fn is_whole(self) -> bool {
         self.count == 1
-    }
-
-    /// How many parts there are.
-    pub(crate) fn count(self) -> u64 {
-        self.count
     }
 
     /// The samples of this part, of `samples` in all: an even share, next to each other.

@@ -7,8 +7,7 @@ use std::path::PathBuf;
 
 use super::manifest::{Column, Manifest, Role};
 use super::row::Row;
-use crate::base::failure::Failure;
-use crate::base::output_file::Existing;
+use crate::base::{Existing, Failure};
 use crate::files::table::{Cell, Form, Kind, TableFile};
 
 /// The files of a table under their provisional names.

@@ -7,9 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::folder::Folder;
 use super::manifest::{Manifest, Text};
-use crate::base::input_file;
-use crate::base::names::file_name;
-use crate::base::sha256::sha256;
+use crate::base::{file_name, input_file, sha256};
 
 /// Who names a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -38,16 +36,10 @@ enum Source {
 #[derive(Debug)]
 pub(crate) struct Texts {
     source: Source,
-    read: RefCell<Vec<Read>>,
+    /// For the manifest, and the bytes.
+    read: RefCell<Vec<(Text, Vec<u8>)>>,
     /// Folder of the scenario, relative names included.
     base: RefCell<PathBuf>,
-}
-
-#[derive(Debug)]
-struct Read {
-    by: NamedBy,
-    name: String,
-    bytes: Vec<u8>,
 }
 
 impl Texts {
@@ -69,12 +61,12 @@ impl Texts {
     /// # Errors
     /// Why it cannot be read.
     pub(crate) fn get(&self, by: NamedBy, name: &str) -> Result<Vec<u8>, String> {
-        let known = |r: &&Read| r.by == by && r.name == name;
-        if let Some(read) = self.read.borrow().iter().find(known) {
-            return Ok(read.bytes.clone());
+        let known = |(text, _): &&(Text, Vec<u8>)| text.by == by && text.name == name;
+        if let Some((_, bytes)) = self.read.borrow().iter().find(known) {
+            return Ok(bytes.clone());
         }
         let bytes = self.fetch(by, name)?;
-        self.read.borrow_mut().push(Read { by, name: name.to_owned(), bytes: bytes.clone() });
+        self.add(by, name, bytes.clone());
         Ok(bytes)
     }
 
@@ -108,21 +100,15 @@ impl Texts {
         }
     }
 
-    /// Remembers what stands for something that is no single file.
-    pub(crate) fn add(&self, by: NamedBy, name: &str, text: String) {
-        self.read.borrow_mut().push(Read { by, name: name.to_owned(), bytes: text.into_bytes() });
+    /// Remembers what was read, or what stands for something that is no single file.
+    pub(crate) fn add(&self, by: NamedBy, name: &str, bytes: Vec<u8>) {
+        let mut read = self.read.borrow_mut();
+        let copy = format!("inputs/{}-{}", read.len(), file_name(Path::new(name)));
+        read.push((Text { by, name: name.to_owned(), copy, sha256: sha256(&bytes) }, bytes));
     }
 
     /// What was read, for the manifest, and the bytes.
     pub(crate) fn all(&self) -> (Vec<Text>, Vec<Vec<u8>>) {
-        let read = self.read.borrow();
-        let text = |(i, read): (usize, &Read)| Text {
-            by: read.by,
-            name: read.name.clone(),
-            copy: format!("inputs/{i}-{}", file_name(Path::new(&read.name))),
-            sha256: sha256(&read.bytes),
-        };
-        let texts = read.iter().enumerate().map(text).collect();
-        (texts, read.iter().map(|r| r.bytes.clone()).collect())
+        self.read.borrow().iter().cloned().unzip()
     }
 }

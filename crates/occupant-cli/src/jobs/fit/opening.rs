@@ -203,7 +203,7 @@ impl<'a> Opening<'a> {
         let single = named.file.is_file() && ending(&named.file) != "mme";
         let copied = single && self.texts.get(named.by.0, &named.by.1).is_ok();
         if !copied {
-            self.texts.add(named.by.0, &named.by.1, recording.sha256.clone());
+            self.texts.add(named.by.0, &named.by.1, recording.sha256.clone().into_bytes());
         }
         Some(recording)
     }

@@ -1,18 +1,18 @@
 //! A measured channel, made ready to be compared: in the channel's unit, filtered, cut to its window, at 10 kHz.
 
-use crash_measures::signal::{ChannelClass, whole_steps};
+use crash_measures::signal::{CfcFamily, ChannelClass, whole_steps};
 use occupant_core::results::channel::Channel;
 use occupant_study::spread::median;
 use occupant_study::{FilterChoice, Misfit};
 
 use super::Correction;
 use crate::base::Failure;
-use crate::files::history::{Family, Filter, Histories};
+use crate::files::history::{Filter, Histories};
 use crate::files::measured::Pair;
 use crate::jobs::compare::{RATE_HZ, Track, Window, overlap, sampled};
 
 /// Coefficients of the filter classes.
-pub(crate) const FAMILY: Family = Family::Iso6487;
+pub(crate) const FAMILY: CfcFamily = CfcFamily::Iso6487;
 
 /// A measured channel of a test.
 #[derive(Clone, Debug)]

@@ -1,13 +1,13 @@
 //! The report as text, in the manner of a test report: measures in SI and US units, limits, what was left out.
 
 use crash_measures::measure::limits::{Basis, Grade, Quantity};
-use crash_measures::signal::CfcFamily;
 use occupant_study::risk::{Judgement, Preparation, VerticalGravity};
 
 use super::Report;
 use super::figures::{Figures, Unit, g, km_h, m_s, plain};
 use super::subject::Source;
 use crate::base::text_table::{Align, NONE, Table, facts, number};
+use crate::files::history::family_name;
 
 pub(crate) fn text(report: &Report) -> String {
     let figures = Figures::of(report);
@@ -70,11 +70,7 @@ fn head(report: &Report) -> String {
 /// Class and coefficients of the filter.
 pub(crate) fn filter_name(preparation: &Preparation) -> Option<String> {
     let (class, family) = preparation.filter?;
-    let family = match family {
-        CfcFamily::Iso6487 => "ISO 6487",
-        CfcFamily::SaeJ211 => "SAE J211",
-    };
-    Some(format!("CFC {:.0}, {family}", class.hertz()))
+    Some(format!("CFC {:.0}, {}", class.hertz(), family_name(family)))
 }
 
 /// Where the motion comes from, in words.

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 
 use super::Plan;
 use crate::base::{Failure, program};
-use crate::files::study_folder::{Checksums, Folder, Holds, Journal, Manifest, Problem, Role, Text, Texts};
+use crate::files::study_folder::{Checksums, Folder, Journal, Manifest, Problem, Role, SWEEP, Text, Texts};
 
 /// A sweep, finished or not.
 pub(crate) struct Stored {
@@ -46,7 +46,7 @@ pub(crate) fn open(folders: &[PathBuf], by: MadeBy) -> Result<Stored, Failure> {
     if !same(&plan.manifest, &manifest) {
         return Err(Failure::from(Problem::Differs {
             folder: first.path.to_owned(),
-            holds: Holds::Sweep,
+            holds: SWEEP,
             differences: manifest.differences(&plan.manifest, |_| None, |_| None),
         }));
     }

@@ -2,8 +2,7 @@
 //! contact spheres alone.
 //!
 //! A part is the convex hull of two ellipsoids whose axes are the segment's. Limbs are capsules through their spheres;
-//! the trunk has the elliptic section that gives it its mass and inertia: with half axes a along X and b along Y,
-//! I_z = ¼M(a² + b²) and I_x − I_y = ¼M(b² − a²) give a² = 2(I_z − I_x + I_y)/M and b² = 2(I_z + I_x − I_y)/M.
+//! the trunk has the elliptic section that gives it its mass and inertia.
 
 mod snapshot;
 
@@ -12,6 +11,7 @@ use occupant_core::body::{Body, Segment, SegmentProperties};
 
 pub(crate) use snapshot::{PATCH_M, Snapshot};
 
+use crate::files::mcap::scene::body::slim_axes_m;
 pub(crate) use crate::files::mcap::scene::body::{Tone, sphere_centre_m};
 
 /// Drawn width of the trunk over that of equal inertia.
@@ -105,9 +105,7 @@ fn bar(half_width_m: f64, height_m: f64, radius_m: f64) -> [Lump; 2] {
 /// The elliptic column of a segment of the trunk, rounded at its ends.
 fn trunk(body: &Body, segment: Segment) -> [Lump; 2] {
     let p = body.segment(segment);
-    let i = p.inertia_kg_m2;
-    let axis = |moment: f64| SLIM * (2.0 * moment.max(0.0) / p.mass_kg).sqrt();
-    let (a, b) = (axis(i.z - i.x + i.y), axis(i.z + i.x - i.y));
+    let (a, b) = slim_axes_m(p, SLIM);
     let half = Vector3::new(a, b, 0.25 * p.length_m);
     let lower = -p.cg_from_lower_end_m + half.z;
     let end = |z: f64| Lump { centre_m: Vector3::z() * z, half_m: half };

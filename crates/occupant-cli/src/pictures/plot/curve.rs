@@ -11,8 +11,7 @@ pub(crate) fn strokes(
     columns: usize,
     to_page: impl Fn([f64; 2]) -> [f64; 2],
 ) -> Vec<Vec<[f64; 2]>> {
-    let gap = |point: &[f64; 2]| !point.iter().all(|x| drawable(*x));
-    let parts = points.split(gap).filter(|part| !part.is_empty());
+    let parts = points.split(|point| !drawable(point)).filter(|part| !part.is_empty());
     let strokes = parts.map(|part| part.iter().map(|point| to_page(*point)).collect::<Vec<_>>());
     let dense = points.len() > 8 * columns;
     strokes.map(|stroke| if dense { thinned(&stroke, columns) } else { stroke }).collect()

@@ -1,7 +1,7 @@
 //! One figure in a rectangle.
 
 use super::curve::strokes;
-use super::figure::{Curve, Figure, LIMIT, Mark, drawable};
+use super::figure::{Axis, Curve, Figure, LIMIT, Mark};
 use super::legend::{Legend, shortened};
 use super::scale::Scale;
 use crate::pictures::font::Weight;
@@ -101,30 +101,26 @@ impl Page {
             svg.text(at, &self.x.figures(*tick), &figures(Anchor::Middle));
         }
         svg.rect(left, top, width, height, FRAME);
-        let label = |name: &str, unit: &str, scale: &Scale, room: f64| {
-            let text = labelled(name, unit, scale.exponent);
-            shortened(&text, LABEL, Weight::Regular, room)
+        let label = |axis: &Axis, scale: &Scale, room: f64| {
+            shortened(&labelled(&axis.name, &axis.unit, scale.exponent), LABEL, Weight::Regular, room)
         };
-        let x = label(&figure.x.name, &figure.x.unit, &self.x, width);
+        let x = label(&figure.x, &self.x, width);
         let style = Text { size: LABEL, anchor: Anchor::Middle, ..Text::default() };
         svg.text([left + 0.5 * width, bottom + TICK_MARK + TICK + LABEL + 5.0], &x, &style);
-        let y = label(&figure.y.name, &figure.y.unit, &self.y, height);
+        let y = label(&figure.y, &self.y, height);
         let style = Text { turn_deg: -90.0, ..style };
         svg.text([outer_left + EDGE + LABEL - 2.0, top + 0.5 * height], &y, &style);
     }
 
     fn curves(&self, svg: &mut Svg, figure: &Figure) {
         let (left, right) = (self.corner[0], self.corner[0] + self.size[0]);
-        for limit in figure.limits.iter().filter(|l| drawable(l.level)) {
+        for limit in figure.drawn_limits() {
             let [_, y] = self.place([self.x.range[0], limit.level]);
             svg.segment([left, y], [right, y], &LIMIT.attributes());
         }
         for curve in &figure.curves {
             let look = curve.style.attributes();
-            let placed = || -> Vec<[f64; 2]> {
-                let drawn = curve.points.iter().filter(|[x, y]| drawable(*x) && drawable(*y));
-                drawn.map(|p| self.place(*p)).collect()
-            };
+            let placed = || curve.drawn().map(|p| self.place(*p)).collect::<Vec<_>>();
             match curve.style.mark {
                 Mark::Dots => svg.dots(&placed(), &look),
                 Mark::Area => svg.polygon(&placed(), &look),

@@ -36,10 +36,7 @@ impl Axis {
 
     /// A range that covers `range` and what is to be shown at any rate.
     fn widened(&self, [low, high]: [f64; 2]) -> [f64; 2] {
-        match self.includes {
-            Some([from, to]) => [low.min(from), high.max(to)],
-            None => [low, high],
-        }
+        self.includes.map_or([low, high], |[from, to]| [low.min(from), high.max(to)])
     }
 
     /// An axis of words.
@@ -62,6 +59,11 @@ pub(crate) struct Curve {
 impl Curve {
     pub(crate) fn new(label: impl Into<String>, style: Style, points: Vec<[f64; 2]>) -> Self {
         Curve { label: label.into(), style, points }
+    }
+
+    /// The points that can be drawn.
+    pub(crate) fn drawn(&self) -> impl Iterator<Item = &[f64; 2]> {
+        self.points.iter().filter(|point| drawable(point))
     }
 }
 
@@ -112,12 +114,7 @@ impl Style {
     /// The style of a curve: colours by `colour`, dashes by `dash`; colours that come round again bring the next dash.
     pub(crate) fn of(colour: usize, dash: usize) -> Self {
         let dash = dash + colour / COLOURS.len();
-        Style {
-            colour: COLOURS[colour % COLOURS.len()],
-            dash: DASHES[dash % DASHES.len()],
-            width: 1.5,
-            mark: Mark::Line,
-        }
+        Style { dash: DASHES[dash % DASHES.len()], ..Style::line(COLOURS[colour % COLOURS.len()], 1.5) }
     }
 
     /// Measured curves: black.
@@ -143,13 +140,10 @@ impl Style {
         if self.mark == Mark::Area {
             return format!("fill=\"{}\" fill-opacity=\"0.7\" stroke=\"none\"", self.colour);
         }
+        let ends = if self.mark == Mark::Dots { " stroke-linecap=\"round\"" } else { "" };
         let dash = match self.dash {
             "" => String::new(),
             dash => format!(" stroke-dasharray=\"{dash}\""),
-        };
-        let ends = match self.mark {
-            Mark::Line | Mark::Area => "",
-            Mark::Dots => " stroke-linecap=\"round\"",
         };
         format!(
             "fill=\"none\" stroke=\"{}\" stroke-width=\"{}\" stroke-linejoin=\"round\"{ends}{dash}",
@@ -163,9 +157,9 @@ const LIMIT_ROOM: f64 = 0.02;
 /// Largest magnitude that is drawn; greater numbers count as none.
 const GREATEST: f64 = 1e300;
 
-/// Whether a number can be drawn.
-pub(crate) fn drawable(value: f64) -> bool {
-    value.abs() <= GREATEST
+/// Whether a point can be drawn.
+pub(crate) fn drawable(point: &[f64; 2]) -> bool {
+    point.iter().all(|value| value.abs() <= GREATEST)
 }
 
 impl Figure {
@@ -174,17 +168,21 @@ impl Figure {
         Figure { title: title.to_owned(), x, y, curves, limits: Vec::new(), empty: "nothing to draw".to_owned() }
     }
 
+    /// The limits that can be drawn.
+    pub(crate) fn drawn_limits(&self) -> impl Iterator<Item = &Limit> {
+        self.limits.iter().filter(|limit| drawable(&[0.0, limit.level]))
+    }
+
     /// Least and greatest of X and of Y, limits included; none without a point.
     pub(crate) fn extent(&self) -> Option<[[f64; 2]; 2]> {
-        let points = self.curves.iter().flat_map(|c| &c.points);
         let mut extent: Option<[[f64; 2]; 2]> = None;
-        for point in points.filter(|[x, y]| drawable(*x) && drawable(*y)) {
+        for point in self.curves.iter().flat_map(Curve::drawn) {
             let [x, y] = extent.get_or_insert([[point[0]; 2], [point[1]; 2]]);
             *x = [x[0].min(point[0]), x[1].max(point[0])];
             *y = [y[0].min(point[1]), y[1].max(point[1])];
         }
         if let Some([_, y]) = &mut extent {
-            for limit in self.limits.iter().filter(|l| drawable(l.level)) {
+            for limit in self.drawn_limits() {
                 // room on both sides, so that no limit falls together with the frame
                 let room = LIMIT_ROOM * limit.level.abs();
                 *y = [y[0].min(limit.level - room), y[1].max(limit.level + room)];

@@ -45,18 +45,10 @@ impl Layout {
         let scale = PANEL / widest.max(1e-3);
         let columns = strip.moments.len().clamp(1, COLUMNS);
         let blocks = strip.moments.len().div_ceil(columns).max(1);
-        let mut layout = Layout {
-            scale,
-            window,
-            width: 0.0,
-            height: 0.0,
-            views: strip.views.clone(),
-            column: widest * scale,
-            columns,
-            block: 0.0,
-        };
+        let (views, column) = (strip.views.clone(), widest * scale);
+        let width = (LEFT + columns as f64 * (column + GAP) + GAP).max(LEAST_WIDTH);
+        let mut layout = Layout { scale, window, width, height: 0.0, views, column, columns, block: 0.0 };
         layout.block = TIMES + layout.rows_above(layout.views.len());
-        layout.width = (LEFT + columns as f64 * (layout.column + GAP) + GAP).max(LEAST_WIDTH);
         layout.height = TOP + blocks as f64 * layout.block + FOOT;
         layout
     }

@@ -13,6 +13,7 @@ mod window;
 use occupant_core::model::Model;
 
 pub(crate) use projection::View;
+pub(crate) use sheet::draw;
 
 use super::body::Snapshot;
 
@@ -25,9 +26,4 @@ pub(crate) struct Strip<'a> {
     pub(crate) views: Vec<View>,
     /// Small print: where the pictures come from.
     pub(crate) origin: String,
-}
-
-/// The strip as SVG.
-pub(crate) fn draw(strip: &Strip<'_>) -> String {
-    sheet::draw(strip)
 }

@@ -8,8 +8,7 @@
 use std::f64::consts::FRAC_PI_2;
 
 use nalgebra::{UnitQuaternion, Vector3};
-use occupant_core::body::Landmarks;
-use occupant_core::body::{Body, ContactSphere, Segment};
+use occupant_core::body::{Body, ContactSphere, Landmarks, Segment, SegmentProperties};
 
 use super::primitive::{cylinder, ellipsoid};
 use super::{Color, entity};
@@ -87,9 +86,13 @@ fn girdle(wire: &mut Wire, height_m: f64, half_width_m: f64, radius_m: f64, colo
 
 /// a and b as drawn.
 fn half_axes_m(body: &Body, segment: Segment) -> (f64, f64) {
-    let p = body.segment(segment);
-    let i = p.inertia_kg_m2;
     let width = if segment == body.tree.landmarks().head { SLIM * NECK } else { SLIM };
+    slim_axes_m(body.segment(segment), width)
+}
+
+/// `width` times a and b.
+pub(crate) fn slim_axes_m(p: &SegmentProperties, width: f64) -> (f64, f64) {
+    let i = p.inertia_kg_m2;
     let axis = |moment: f64| width * (2.0 * moment.max(0.0) / p.mass_kg).sqrt();
     (axis(i.z - i.x + i.y), axis(i.z + i.x - i.y))
 }
