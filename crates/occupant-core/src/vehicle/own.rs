@@ -136,11 +136,16 @@ impl OwnPath {
     pub(crate) fn check_span(&self, start_s: f64, end_s: f64) -> Result<(), PathProblem> {
         let (first_s, last_s) = self.span_s();
         if !(first_s <= start_s && end_s <= last_s) {
-            return Err(PathProblem::OutsideOwnPath { start_s, end_s, first_s, last_s });
+            let expected =
+                format!("times from {first_s} s to {last_s} s, for which the program's own path has an answer");
+            return Err(PathProblem::new(format!("the run lasts from {start_s} s to {end_s} s"), expected));
         }
         let broken_s = [start_s, end_s].into_iter().find(|&t_s| !self.0.at(t_s).is_finite());
         match broken_s {
-            Some(time_s) => Err(PathProblem::OwnPathNotFinite { time_s }),
+            Some(time_s) => {
+                let found = format!("the program's own path has numbers that are not finite at {time_s} s");
+                Err(PathProblem::new(found, "finite numbers"))
+            }
             None => Ok(()),
         }
     }

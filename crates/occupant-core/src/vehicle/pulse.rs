@@ -106,7 +106,8 @@ impl PulsePath {
         };
         let begin_s = definition.starts_at_s + definition.shape.delay_s();
         if begin_s < 0.0 {
-            return Err(vec![PathProblem::PulseBeforeZero { begin_s }]);
+            let expected = "0 s or later: the initial speed and position are those at 0 s";
+            return Err(vec![PathProblem::new(format!("the pulse begins at {begin_s} s"), expected)]);
         }
         let stop_after_loss = |speed_m_s: f64| {
             let since_s = time_of_loss(&profile, speed_m_s)?;
@@ -118,7 +119,13 @@ impl PulsePath {
         if let Some(floor) = floor.filter(|_| definition.initial_speed_m_s == 0.0)
             && holds_back(&profile, floor.time_s - begin_s, floor.distance_m)
         {
-            return Err(vec![PathProblem::PulseHoldsBack { stop_s: floor.time_s }]);
+            let found = format!(
+                "the initial speed is 0 and the pulse decelerates before it has set the vehicle going, so that the vehicle \
+                 stands still from {} s on; give an initial speed, or a negative deceleration for a vehicle that is \
+                 accelerated, or a rebound for one that may move back",
+                floor.time_s
+            );
+            return Err(vec![PathProblem::new(found, "a path that is possible")]);
         }
         let at_rest = FrameMotion {
             origin_m: to_space(definition.initial.position_m),
@@ -246,7 +253,7 @@ impl TravelDirection {
         let size = vector.amax();
         expect_finite(problems, "direction of travel", vector.sum());
         if size == 0.0 {
-            problems.push(PathProblem::NoDirection);
+            problems.push(PathProblem::new("the direction of travel is zero", "a vector with a length"));
         }
         // Through the largest component first, so that no vector is too long or too short to be squared.
         (vector / size).normalize()

@@ -193,7 +193,7 @@ fn check_start(definition: &SensorDefinition, problems: &mut Vec<PathProblem>) -
     for (quantity, value) in [("speed", definition.initial_speed_m_s), ("gravity", definition.gravity_m_s2)] {
         expect_finite(problems, quantity, value);
         if value < 0.0 {
-            problems.push(PathProblem::Negative { quantity, value });
+            problems.push(PathProblem::of_value(quantity, value, "0 or more"));
         }
     }
     definition.direction.unit(&definition.initial, problems)

@@ -46,9 +46,14 @@ impl AfterEnd {
     pub(super) fn check_span(self, (first_s, last_s): (f64, f64), start_s: f64, end_s: f64) -> Result<(), PathProblem> {
         let slack_s = TIME_SLACK * (last_s - first_s);
         if start_s < first_s - slack_s {
-            Err(PathProblem::StartsBeforePath { start_s, first_s })
+            let expected = format!("at or after the first station at {first_s} s");
+            Err(PathProblem::new(format!("the run starts at {start_s} s"), expected))
         } else if end_s > last_s + slack_s && self == AfterEnd::Error {
-            Err(PathProblem::EndsAfterPath { end_s, last_s })
+            let expected = format!(
+                "at or before the last station at {last_s} s; shorten the run, or say what the vehicle does after the last \
+                 station: after = \"coast\" or \"hold\""
+            );
+            Err(PathProblem::new(format!("the run ends at {end_s} s"), expected))
         } else {
             Ok(())
         }

@@ -46,7 +46,7 @@ impl fmt::Debug for Source {
 }
 
 /// The run as a whole: what a model has once.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Run;
 
 impl Owner for Run {

@@ -29,7 +29,7 @@ pub(super) fn read(record: &DeltaVRecord, start_s: f64) -> Result<Readings, Vec<
         return Err(problems);
     }
     let channels = Channels::new(record)
-        .map_err(|_| vec![PathProblem::NotFinite { quantity: "velocity change", value: f64::NAN }])?;
+        .map_err(|_| vec![PathProblem::not_finite("velocity change", f64::NAN)])?;
     let time_s = nodes(&record.time_s, start_s);
     let at_nodes = |f: &dyn Fn(f64) -> Vector3<f64>| time_s.iter().map(|&t| f(t)).collect();
     Ok(Readings {

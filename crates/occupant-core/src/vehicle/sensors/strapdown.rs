@@ -134,7 +134,7 @@ pub(super) fn integrate(readings: &Readings, start: &Start) -> Result<(Vec<Piece
         rotation = next;
         attitude = Attitude::from_matrix(&rotation, &attitude);
         if !(place_m.norm() + velocity_m_s.norm() + rotation.norm()).is_finite() {
-            return Err(vec![PathProblem::NotFinite { quantity: "integrated place", value: f64::NAN }]);
+            return Err(vec![PathProblem::not_finite("integrated place", f64::NAN)]);
         }
         pieces.push(piece);
     }
