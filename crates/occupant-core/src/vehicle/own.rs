@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use super::attitude::turning;
 use super::frame::{FrameMotion, rotation_to_space, to_space};
 use super::problem::PathProblem;
-use super::{Attitude, VehiclePose};
+use super::VehiclePose;
 
 /// The vehicle at one instant as a vehicle model knows it: place, roll, pitch and yaw with their first and second derivatives
 /// in time, in vehicle-space axes (X′_v forward, Y′_v right, Z′_v down).
@@ -107,14 +107,7 @@ impl OwnPath {
     pub(crate) fn pose(&self, t_s: f64) -> VehiclePose {
         let inside_s = self.inside_s(t_s);
         let pose = self.0.at(inside_s).pose;
-        if t_s == inside_s {
-            return pose;
-        }
-        let coasted = self.motion(t_s);
-        VehiclePose {
-            position_m: to_space(coasted.origin_m),
-            attitude: Attitude::from_matrix(&rotation_to_space(coasted.rotation), &pose.attitude),
-        }
+        if t_s == inside_s { pose } else { self.motion(t_s).pose(&pose.attitude) }
     }
 
     /// As [`VehicleMotion::span_s`].

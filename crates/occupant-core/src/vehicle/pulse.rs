@@ -12,7 +12,7 @@ mod shape;
 use nalgebra::Vector3;
 
 use super::cursor::PathCursor;
-use super::frame::{FrameMotion, rotation_to_space, to_space};
+use super::frame::{FrameMotion, to_space};
 use super::problem::{PathProblem, expect_finite};
 use super::{VehiclePose, expect_finite_pose};
 use crossing::time_of_loss;
@@ -97,7 +97,6 @@ impl PulsePath {
     pub fn new(definition: PulseDefinition) -> Result<Self, Vec<PathProblem>> {
         let mut problems = Vec::new();
         find_problems(&definition, &mut problems);
-        let attitude = definition.initial.attitude.matrix();
         let direction = definition.direction.unit(&definition.initial, &mut problems);
         let profile = match definition.shape.profile() {
             Ok(profile) if problems.is_empty() => profile,
@@ -127,11 +126,7 @@ impl PulsePath {
             );
             return Err(vec![PathProblem::new(found, "a path that is possible")]);
         }
-        let at_rest = FrameMotion {
-            origin_m: to_space(definition.initial.position_m),
-            rotation: rotation_to_space(attitude),
-            ..FrameMotion::space()
-        };
+        let at_rest = FrameMotion::at_rest(&definition.initial);
         let direction_space = to_space(direction);
         Ok(PulsePath { definition, direction, profile, begin_s, stop, floor, at_rest, direction_space })
     }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::attitude::Attitude;
 use super::cursor::PathCursor;
-use super::frame::{FrameMotion, rotation_to_space, to_space};
+use super::frame::FrameMotion;
 use super::problem::PathProblem;
 use super::spline::{Piece, linear_pieces, spline_pieces};
 use super::station::{Station, problems_of};
@@ -160,12 +160,8 @@ impl TablePath {
         if t_s == inside_s || (t_s > last_s && self.after == AfterEnd::Hold) {
             return pose;
         }
-        let coasted = self.ends[usize::from(t_s > last_s)].coasted(t_s - inside_s);
         let near = Attitude::from_vector(angles + self.last_rates_rad_s * (t_s - last_s).max(0.0));
-        VehiclePose {
-            position_m: to_space(coasted.origin_m),
-            attitude: Attitude::from_matrix(&rotation_to_space(coasted.rotation), &near),
-        }
+        self.ends[usize::from(t_s > last_s)].coasted(t_s - inside_s).pose(&near)
     }
 
     /// Whether the path has an answer from `start_s` to `end_s`.

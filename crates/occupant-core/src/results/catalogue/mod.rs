@@ -96,8 +96,8 @@ const ORDER: [&str; 10] = [
     "ReportCoordinates",
 ];
 
-/// All time histories of a model: vehicle, segments, neck and femurs, spheres, belts, joints, energies.
-pub(super) fn channels(model: &Model) -> Vec<Channel> {
+/// All channels of a model, in a fixed order: vehicle, segments, neck and femurs, spheres, belts, joints, energies.
+pub fn channels(model: &Model) -> Vec<Channel> {
     Catalogue::of(model).channels
 }
 
