@@ -29,26 +29,12 @@ pub enum Axes {
 impl Axes {
     /// Its name in metadata.
     pub const fn name(self) -> &'static str {
-        match self {
-            Axes::None => "none",
-            Axes::Vehicle => "vehicle",
-            Axes::Segment => "segment",
-            Axes::J211 => "segment (SAE J211)",
-            Axes::VehicleSpace => "vehicle-space",
-            Axes::Space => "space",
-        }
+        ["none", "vehicle", "segment", "segment (SAE J211)", "vehicle-space", "space"][self as usize]
     }
 
     /// Its word in the names of fields.
     const fn word(self) -> &'static str {
-        match self {
-            Axes::None => "",
-            Axes::Vehicle => "vehicle",
-            Axes::Segment => "segment",
-            Axes::J211 => "j211",
-            Axes::VehicleSpace => "path",
-            Axes::Space => "space",
-        }
+        ["", "vehicle", "segment", "j211", "path", "space"][self as usize]
     }
 }
 

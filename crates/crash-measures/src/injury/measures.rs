@@ -7,8 +7,8 @@ use crate::measure::femur::{DurationLimit, duration_use};
 use crate::measure::risk::Severity::{self, Ais2, Ais3, Ais4};
 use crate::measure::risk::{bric_risk, chest_three_ms_risk, femur_risk, hic_risk, neck_axial_risk, nij_risk};
 use crate::measure::{
-    BricBasis, Dummy, HicWindow, NeckIntercepts, NeckMode, Peak, Quantity, ThreeMs, bric, damage, hic, maximum,
-    nij, peak_towards, severity_index,
+    BricBasis, Dummy, HicWindow, NeckIntercepts, NeckMode, Peak, Quantity, ThreeMs, bric, damage, hic, maximum, nij,
+    peak_towards, severity_index,
 };
 use crate::signal::ChannelClass::{self, Cfc60, Cfc180, Cfc600, Cfc1000};
 use crate::signal::{SignalError, resultant};

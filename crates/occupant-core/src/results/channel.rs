@@ -9,8 +9,7 @@ pub(crate) use crash_measures::unit::Unit;
 use crate::model::Model;
 use crate::quantity::Axes;
 use crate::quantity::Value;
-pub use crate::results::catalogue::channels;
-use crate::results::catalogue::Source;
+use crate::results::catalogue::{Catalogue, Source};
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
 use crash_measures::nearest::nearest;
@@ -66,6 +65,11 @@ impl Component {
             _ => f64::NAN,
         }
     }
+}
+
+/// All channels of a model, in a fixed order: vehicle, segments, neck and femurs, spheres, belts, joints, energies.
+pub fn channels(model: &Model) -> Vec<Channel> {
+    Catalogue::of(model).channels
 }
 
 /// The channel of this name.

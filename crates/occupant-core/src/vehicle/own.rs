@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use nalgebra::Vector3;
 
+use super::VehiclePose;
 use super::attitude::turning;
 use super::frame::{FrameMotion, rotation_to_space, to_space};
 use super::problem::PathProblem;
-use super::VehiclePose;
 
 /// The vehicle at one instant as a vehicle model knows it: place, roll, pitch and yaw with their first and second derivatives
 /// in time, in vehicle-space axes (X′_v forward, Y′_v right, Z′_v down).

@@ -22,7 +22,10 @@ impl PathProblem {
 
     /// A problem of one station.
     pub(super) fn at(station: usize, found: impl Display, expected: impl Into<String>) -> Self {
-        PathProblem { station: Some(station), ..PathProblem::new(format!("station {}: {found}", station + 1), expected) }
+        PathProblem {
+            station: Some(station),
+            ..PathProblem::new(format!("station {}: {found}", station + 1), expected)
+        }
     }
 
     /// A number that is not what it must be.

@@ -118,13 +118,7 @@ impl PulsePath {
         if let Some(floor) = floor.filter(|_| definition.initial_speed_m_s == 0.0)
             && holds_back(&profile, floor.time_s - begin_s, floor.distance_m)
         {
-            let found = format!(
-                "the initial speed is 0 and the pulse decelerates before it has set the vehicle going, so that the vehicle \
-                 stands still from {} s on; give an initial speed, or a negative deceleration for a vehicle that is \
-                 accelerated, or a rebound for one that may move back",
-                floor.time_s
-            );
-            return Err(vec![PathProblem::new(found, "a path that is possible")]);
+            return Err(vec![held_back(floor.time_s)]);
         }
         let at_rest = FrameMotion::at_rest(&definition.initial);
         let direction_space = to_space(direction);
@@ -237,6 +231,16 @@ fn holds_back(profile: &Profile, since_s: f64, distance_m: f64) -> bool {
     let before_m_s = profile.greatest_gain_m_s(0.0, since_s);
     let after_m_s = profile.greatest_gain_m_s(since_s, profile.duration_s());
     distance_m == 0.0 || after_m_s > before_m_s
+}
+
+/// A vehicle that starts at rest is stopped by the pulse before the pulse has set it going.
+fn held_back(stop_s: f64) -> PathProblem {
+    let found = format!(
+        "the initial speed is 0 and the pulse decelerates before it has set the vehicle going, so that the vehicle stands \
+         still from {stop_s} s on; give an initial speed, or a negative deceleration for a vehicle that is accelerated, or a \
+         rebound for one that may move back"
+    );
+    PathProblem::new(found, "a path that is possible")
 }
 
 impl TravelDirection {

@@ -73,7 +73,8 @@ fn compare_with_previous(station: usize, previous: &Station, here: &Station, pro
         }
         // The second derivatives of a spline divide by the time twice.
         if length_s > 0.0 && !((to - from) / length_s / length_s).is_finite() {
-            let found = format_args!("{quantity} changes too much since the station before for its rate to be a number");
+            let found =
+                format_args!("{quantity} changes too much since the station before for its rate to be a number");
             problems.push(PathProblem::at(station, found, "stations farther apart in time"));
         }
         if channel >= 3 && (to - from).abs() > PI {

@@ -12,8 +12,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::{SensorDefinition, SensorGravity};
 use super::readings::Readings;
+use super::{SensorDefinition, SensorGravity};
 use crate::vehicle::attitude::{Attitude, rotation_by};
 use crate::vehicle::problem::PathProblem;
 

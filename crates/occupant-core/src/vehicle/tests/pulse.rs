@@ -361,7 +361,10 @@ fn pulses_that_do_nothing_are_refused_with_their_reason() {
     let square = |strength| PulseShape::Square { strength, duration_s: 0.1 };
     starts(ahead(5.0, square(Strength::DeltaV(0.0))), "the pulse is zero throughout, expected a deceleration");
     let held = words(ahead(0.0, square(Strength::DeltaV(5.0))));
-    assert!(held.len() == 1 && held[0].contains("the vehicle stands still from 0 s on; give an initial speed"), "{held:?}");
+    assert!(
+        held.len() == 1 && held[0].contains("the vehicle stands still from 0 s on; give an initial speed"),
+        "{held:?}"
+    );
     let early = PulseDefinition { starts_at_s: -0.1, ..ahead(5.0, square(Strength::DeltaV(5.0))) };
     starts(early, "the pulse begins at -0.1 s, expected 0 s or later");
     let nothing = PulseShape::Trapezoid { strength: Strength::DeltaV(5.0), rise_s: 0.0, plateau_s: 0.0, fall_s: 0.0 };
@@ -384,7 +387,8 @@ fn a_measured_thrust_whose_noise_would_stop_the_sled_is_refused_unless_it_may_mo
     let shape = PulseShape::Tabulated { points: noisy.to_vec() };
     let problems = PulsePath::new(ahead(0.0, shape.clone())).expect_err("refused");
     let [PathProblem { found, .. }] = &problems[..] else { panic!("{problems:?}") };
-    let stop_s = found.split_once("stands still from ").and_then(|(_, rest)| rest.split(' ').next()?.parse::<f64>().ok());
+    let stop_s =
+        found.split_once("stands still from ").and_then(|(_, rest)| rest.split(' ').next()?.parse::<f64>().ok());
     assert!(stop_s.is_some_and(|stop_s| stop_s > 0.0 && stop_s < 0.02), "{found}");
     let found = path(PulseDefinition { rebound_m_s: Some(0.1), ..ahead(0.0, shape) });
     // Areas of the ramps: −0.0005 − 0.0005 + 0.501 + 10 + 0.5 m/s.

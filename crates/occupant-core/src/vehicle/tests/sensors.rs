@@ -473,5 +473,8 @@ fn what_cannot_be_integrated_is_refused() {
     assert!(spinning[0].starts_with("station 2: the vehicle turns by 114.6° since the sample before"), "{spinning:?}");
     only(refused(&|d| d.baseline_s = Some(0.5)), "the baseline of 0.5 s has 51 samples");
     let empty = AccelerationRecord { time_s: vec![0.0, 1.0], ..AccelerationRecord::default() };
-    only(refused(&|d| d.record = SensorRecord::Accelerations(empty.clone())), "found no channel that moves the vehicle");
+    only(
+        refused(&|d| d.record = SensorRecord::Accelerations(empty.clone())),
+        "found no channel that moves the vehicle",
+    );
 }

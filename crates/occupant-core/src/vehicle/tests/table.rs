@@ -314,8 +314,12 @@ fn everything_wrong_with_a_table_is_told_at_once() {
     assert_eq!(problems[1].expected, "a time after that of the station before (0 s)");
     let steep = vec![turn(0.0), Station { time_s: 1e-200, ..turn(1.0) }];
     let problems = TablePath::new(steep, Interpolation::Linear, AfterEnd::Error).expect_err("too steep");
-    let words = ["x", "y", "yaw"].map(|quantity| format!("station 2: {quantity} changes too much since the station before"));
-    assert!(problems.len() == 3 && problems.iter().zip(&words).all(|(p, words)| p.found.starts_with(words)), "{problems:?}");
+    let words =
+        ["x", "y", "yaw"].map(|quantity| format!("station 2: {quantity} changes too much since the station before"));
+    assert!(
+        problems.len() == 3 && problems.iter().zip(&words).all(|(p, words)| p.found.starts_with(words)),
+        "{problems:?}"
+    );
     for stations in [vec![], vec![turn(0.0)]] {
         let found = format!("found {} stations, expected at least 2", stations.len());
         let problems = TablePath::new(stations, Interpolation::Linear, AfterEnd::Error).expect_err("too short");
