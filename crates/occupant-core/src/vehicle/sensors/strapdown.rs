@@ -97,10 +97,9 @@ pub(super) fn integrate(
     let mut attitude = start.initial.attitude;
     let mut rotation = attitude.matrix();
     let arm_m = rotation * start.offset_m;
-    let omega = rotation * readings.rate_rad_s[0];
     // v_s = v_cg + ω × A r
     let mut place_m = start.initial.position_m + arm_m;
-    let mut velocity_m_s = velocity_m_s + omega.cross(&arm_m);
+    let mut velocity_m_s = velocity_m_s + (rotation * readings.rate_rad_s[0]).cross(&arm_m);
     let mut pieces = Vec::with_capacity(readings.time_s.len());
     for i in 0..readings.time_s.len() - 1 {
         let h_s = readings.time_s[i + 1] - readings.time_s[i];
