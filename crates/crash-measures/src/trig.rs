@@ -4,47 +4,9 @@
 //! system to the next. An occupant's motion after a hard contact is chaotic: a last digit grows into a visible
 //! difference within a second. So that one scenario and one version give one result everywhere, every
 //! transcendental function of the core goes through this file, to the pure Rust crate `libm`. Square roots are
-//! rounded correctly by every platform (IEEE 754) and need no detour.
+//! rounded correctly by every platform (IEEE 754) and need no detour. Angles are in rad.
 
-/// Sine and cosine of `angle_rad`.
-pub fn sin_cos(angle_rad: f64) -> (f64, f64) {
-    libm::sincos(angle_rad)
-}
-
-/// Angle of the point (`x`, `y`) from the x axis, in (−π, π] rad.
-pub fn atan2(y: f64, x: f64) -> f64 {
-    libm::atan2(y, x)
-}
-
-/// Angle in [−π/2, π/2] rad whose sine is `sine`; NaN outside [−1, 1].
-pub fn asin(sine: f64) -> f64 {
-    libm::asin(sine)
-}
-
-/// Angle in [0, π] rad whose cosine is `cosine`; NaN outside [−1, 1].
-pub fn acos(cosine: f64) -> f64 {
-    libm::acos(cosine)
-}
-
-/// e to the power `exponent`.
-pub fn exp(exponent: f64) -> f64 {
-    libm::exp(exponent)
-}
-
-/// `base` to the power `exponent`.
-pub fn pow(base: f64, exponent: f64) -> f64 {
-    libm::pow(base, exponent)
-}
-
-/// Natural logarithm.
-pub fn ln(value: f64) -> f64 {
-    libm::log(value)
-}
-
-/// Complementary error function, 1 − erf.
-pub fn erfc(value: f64) -> f64 {
-    libm::erfc(value)
-}
+pub use libm::{acos, asin, atan2, erfc, exp, log as ln, pow, sincos as sin_cos};
 
 #[cfg(test)]
 mod tests {

@@ -29,26 +29,12 @@ pub enum Axes {
 impl Axes {
     /// Its name in metadata.
     pub const fn name(self) -> &'static str {
-        match self {
-            Axes::None => "none",
-            Axes::Vehicle => "vehicle",
-            Axes::Segment => "segment",
-            Axes::J211 => "segment (SAE J211)",
-            Axes::VehicleSpace => "vehicle-space",
-            Axes::Space => "space",
-        }
+        ["none", "vehicle", "segment", "segment (SAE J211)", "vehicle-space", "space"][self as usize]
     }
 
     /// Its word in the names of fields.
     const fn word(self) -> &'static str {
-        match self {
-            Axes::None => "",
-            Axes::Vehicle => "vehicle",
-            Axes::Segment => "segment",
-            Axes::J211 => "j211",
-            Axes::VehicleSpace => "path",
-            Axes::Space => "space",
-        }
+        ["", "vehicle", "segment", "j211", "path", "space"][self as usize]
     }
 }
 
@@ -58,12 +44,16 @@ pub(crate) fn to_j211(v: Vector3<f64>) -> Vector3<f64> {
 }
 
 /// What quantities belong to: the vehicle, a segment, a belt.
-pub trait Owner {
+pub trait Owner: Copy + fmt::Debug {
     /// It at one output.
     type At<'a>;
 }
 
+/// A function that takes something from its owner at one output.
+type Taker<O, T> = for<'a> fn(&<O as Owner>::At<'a>) -> T;
+
 /// A quantity of results: a time history, a field of a message, or both.
+#[derive(Clone, Copy, Debug)]
 pub struct Quantity<O: Owner> {
     /// SI unit.
     pub unit: Unit,
@@ -100,25 +90,26 @@ pub struct FieldWords {
 }
 
 /// How a quantity is taken from its owner at one output.
+#[derive(Clone, Copy, Debug)]
 pub enum Take<O: Owner> {
     /// A number.
-    Number(for<'a> fn(&O::At<'a>) -> f64),
+    Number(Taker<O, f64>),
     /// A whole number.
-    Count(for<'a> fn(&O::At<'a>) -> u64),
+    Count(Taker<O, u64>),
     /// Words.
-    Text(for<'a> fn(&O::At<'a>) -> String),
+    Text(Taker<O, String>),
     /// A vector.
-    Vector(for<'a> fn(&O::At<'a>) -> Vector3<f64>),
+    Vector(Taker<O, Vector3<f64>>),
     /// A vector that need not exist.
-    Perhaps(for<'a> fn(&O::At<'a>) -> Option<Vector3<f64>>),
+    Perhaps(Taker<O, Option<Vector3<f64>>>),
     /// A rotation.
-    Rotation(for<'a> fn(&O::At<'a>) -> UnitQuaternion<f64>),
+    Rotation(Taker<O, UnitQuaternion<f64>>),
     /// A list of numbers.
-    Numbers(for<'a> fn(&O::At<'a>) -> Vec<f64>),
+    Numbers(Taker<O, Vec<f64>>),
     /// A list of indices.
-    Indices(for<'a> fn(&O::At<'a>) -> Vec<u32>),
+    Indices(Taker<O, Vec<u32>>),
     /// Messages of the named type within the message.
-    Parts(&'static str, for<'a> fn(&O::At<'a>) -> Vec<Fields>),
+    Parts(&'static str, Taker<O, Vec<Fields>>),
 }
 
 /// Fields of a message by number.
@@ -165,35 +156,6 @@ pub enum Kind {
     /// Messages of the named type.
     Parts(&'static str),
 }
-
-impl<O: Owner> Clone for Quantity<O> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<O: Owner> Copy for Quantity<O> {}
-
-impl<O: Owner> fmt::Debug for Quantity<O> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let Quantity { unit, axes, channel, field, .. } = self;
-        write!(f, "Quantity({unit:?}, {axes:?}, {channel:?}, {field:?})")
-    }
-}
-
-impl<O: Owner> fmt::Debug for Take<O> {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str("Take")
-    }
-}
-
-impl<O: Owner> Clone for Take<O> {
-    fn clone(&self) -> Self {
-        *self
-    }
-}
-
-impl<O: Owner> Copy for Take<O> {}
 
 impl<O: Owner> Quantity<O> {
     /// What a function takes from its owner.
@@ -281,7 +243,7 @@ impl<O: Owner> Quantity<O> {
 }
 
 /// An energy of the ledger.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Energy;
 
 impl Owner for Energy {

@@ -67,11 +67,7 @@ impl fmt::Display for Diagnostic {
     /// Several lines, plain text, without a line end after the last.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let problem = &self.problem;
-        let word = match problem.severity {
-            Severity::Warning => "warning",
-            Severity::Error => "error",
-        };
-        write!(f, "{word}: {}", shown(&problem.found))?;
+        write!(f, "{}: {}", problem.severity.word(), shown(&problem.found))?;
         let source = shown(&self.source);
         let pad = " ".repeat(self.position.map_or(1, |p| p.line.to_string().len()));
         match self.position {

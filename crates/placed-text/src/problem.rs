@@ -12,6 +12,13 @@ pub enum Severity {
     Error,
 }
 
+impl Severity {
+    /// Its word in messages.
+    pub(crate) const fn word(self) -> &'static str {
+        ["warning", "error"][self as usize]
+    }
+}
+
 /// One problem of an input.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Problem {
@@ -52,11 +59,7 @@ impl Problem {
 
 impl fmt::Display for Problem {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let word = match self.severity {
-            Severity::Warning => "warning",
-            Severity::Error => "error",
-        };
-        write!(f, "{word}: {}: {}; expected {}", self.path, self.found, self.expected)?;
+        write!(f, "{}: {}: {}; expected {}", self.severity.word(), self.path, self.found, self.expected)?;
         match &self.hint {
             Some(hint) => write!(f, " ({hint})"),
             None => Ok(()),

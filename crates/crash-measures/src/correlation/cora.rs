@@ -116,34 +116,22 @@ pub fn cora(reference: &[f64], computed: &[f64], dt_s: f64, settings: &CoraSetti
     let (inner, outer) = (settings.inner_corridor * norm, settings.outer_corridor * norm);
     let corridor = corridor_mean(reference, computed, inner, outer, settings.corridor_exponent);
 
-    let cross = cross_ratings(reference, computed, settings);
+    let ([progression, size, phase], lag) = cross_ratings(reference, computed, settings);
+    let cross_correlation = 0.5 * progression + 0.25 * size + 0.25 * phase;
     Ok(Cora {
-        overall: 0.5 * corridor + 0.5 * cross.weighted(),
+        overall: 0.5 * corridor + 0.5 * cross_correlation,
         corridor,
-        cross_correlation: cross.weighted(),
-        progression: cross.progression,
-        size: cross.size,
-        phase: cross.phase,
-        lag_s: cross.lag as f64 * dt_s,
+        cross_correlation,
+        progression,
+        size,
+        phase,
+        lag_s: lag as f64 * dt_s,
         interval_s: [first as f64 * dt_s, last as f64 * dt_s],
     })
 }
 
-struct CrossRatings {
-    progression: f64,
-    size: f64,
-    phase: f64,
-    lag: isize,
-}
-
-impl CrossRatings {
-    fn weighted(&self) -> f64 {
-        0.5 * self.progression + 0.25 * self.size + 0.25 * self.phase
-    }
-}
-
-/// Progression, size and phase at the shift of the largest cross-correlation.
-fn cross_ratings(reference: &[f64], computed: &[f64], settings: &CoraSettings) -> CrossRatings {
+/// Progression, size and phase at the shift of the largest cross-correlation, and that shift in samples.
+fn cross_ratings(reference: &[f64], computed: &[f64], settings: &CoraSettings) -> ([f64; 3], isize) {
     let steps = (reference.len() - 1) as f64;
     let most = ((1.0 - settings.least_overlap) * steps + 1e-9).floor() as usize;
     let shifted = best_shift(reference, computed, most, cross_correlation);
@@ -157,7 +145,7 @@ fn cross_ratings(reference: &[f64], computed: &[f64], settings: &CoraSettings) -
     let shift = shifted.lag.unsigned_abs() as f64 / steps;
     let in_time = (settings.largest_shift - shift) / (settings.largest_shift - settings.free_shift);
     let phase = libm::pow(in_time.clamp(0.0, 1.0), settings.phase_exponent);
-    CrossRatings { progression, size, phase, lag: shifted.lag }
+    ([progression, size, phase], shifted.lag)
 }
 
 /// Mean over the samples of 1 up to the inner distance, 0 beyond the outer one and

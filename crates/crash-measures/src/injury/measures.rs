@@ -7,8 +7,8 @@ use crate::measure::femur::{DurationLimit, duration_use};
 use crate::measure::risk::Severity::{self, Ais2, Ais3, Ais4};
 use crate::measure::risk::{bric_risk, chest_three_ms_risk, femur_risk, hic_risk, neck_axial_risk, nij_risk};
 use crate::measure::{
-    BricBasis, Dummy, HicWindow, NeckIntercepts, NeckMode, Peak, Quantity, ThreeMs, bric, damage, hic, maximum,
-    minimum, neck_axial_peaks, nij, severity_index,
+    BricBasis, Dummy, HicWindow, NeckIntercepts, NeckMode, Peak, Quantity, ThreeMs, bric, damage, hic, maximum, nij,
+    peak_towards, severity_index,
 };
 use crate::signal::ChannelClass::{self, Cfc60, Cfc180, Cfc600, Cfc1000};
 use crate::signal::{SignalError, resultant};
@@ -44,17 +44,17 @@ pub(super) const MEASURES: &[Definition] = &[
         .risks(&[("neck AIS2+", Ais2), ("neck AIS3+", Ais3), ("neck AIS4+", Ais4)], |nij, severity, _| {
             nij_risk(nij, severity)
         }),
-    measure("neck_tension", "neck tension", Newton, Cfc1000, |r| Ok(r.neck_axial()?.0))
+    measure("neck_tension", "neck tension", Newton, Cfc1000, |r| r.towards(1.0, &own(&r.neck_n)?[2]))
         .brief()
         .limited(Quantity::NeckTension)
         .risks(&[("neck AIS3+", Ais3)], |force_n, _, dummy| neck_axial_risk(force_n, dummy)),
-    measure("neck_compression", "neck compression", Newton, Cfc1000, |r| Ok(r.neck_axial()?.1))
+    measure("neck_compression", "neck compression", Newton, Cfc1000, |r| r.towards(-1.0, &own(&r.neck_n)?[2]))
         .brief()
         .limited(Quantity::NeckCompression)
         .risks(&[("neck AIS3+", Ais3)], |force_n, _, dummy| neck_axial_risk(force_n, dummy)),
     measure("neck_shear", "neck shear", Newton, Cfc1000, Readings::neck_shear),
-    measure("neck_flexion", "neck flexion moment", NewtonMetre, Cfc600, Readings::neck_flexion),
-    measure("neck_extension", "neck extension moment", NewtonMetre, Cfc600, Readings::neck_extension),
+    measure("neck_flexion", "neck flexion moment", NewtonMetre, Cfc600, |r| r.towards(1.0, &own(&r.neck_n_m)?[1])),
+    measure("neck_extension", "neck extension moment", NewtonMetre, Cfc600, |r| r.towards(-1.0, &own(&r.neck_n_m)?[1])),
     measure("chest_peak", "chest, peak", MetrePerSecondSquared, Cfc180, |r| peak(&r.chest.peak)).figure("chest.peak"),
     measure("chest_3ms_contiguous", "chest, 3 ms held", MetrePerSecondSquared, Cfc180, |r| {
         level(&r.chest.three_ms_contiguous)
@@ -81,9 +81,9 @@ pub(super) const MEASURES: &[Definition] = &[
         level(&r.pelvis.three_ms_cumulative)
     })
     .figure("pelvis.three_ms_cumulative"),
-    femur("right_femur", "right femur compression", |r| r.femur_peak(0)),
+    femur("right_femur", "right femur compression", |r| r.towards(1.0, own(&r.femur_n[0])?)),
     femur_use("right_femur_duration_use", "right femur over R94 curve", |r| r.femur_use(0)),
-    femur("left_femur", "left femur compression", |r| r.femur_peak(1)),
+    femur("left_femur", "left femur compression", |r| r.towards(1.0, own(&r.femur_n[1])?)),
     femur_use("left_femur_duration_use", "left femur over R94 curve", |r| r.femur_use(1)),
 ];
 
@@ -245,28 +245,13 @@ impl Readings {
         Ok(Finding { value: n.value, from_s: Some(n.time_s), to_s: None, remark: Some(format!("in {}", mode(n.mode))) })
     }
 
-    /// Tension and compression.
-    fn neck_axial(&self) -> Result<(Finding, Finding), SignalError> {
-        let (tension, compression) = neck_axial_peaks(&own(&self.neck_n)?[2], self.interval_s)?;
-        Ok((at(not_negative(tension)), at(not_negative(compression))))
+    fn towards(&self, sign: f64, signal: &[f64]) -> Result<Finding, SignalError> {
+        peak_towards(sign, signal, self.interval_s).map(at)
     }
 
     fn neck_shear(&self) -> Result<Finding, SignalError> {
         let [x, y, _] = own(&self.neck_n)?;
         maximum(&resultant(x, y, &vec![0.0; x.len()])?, self.interval_s).map(at)
-    }
-
-    fn neck_flexion(&self) -> Result<Finding, SignalError> {
-        maximum(&own(&self.neck_n_m)?[1], self.interval_s).map(|p| at(not_negative(p)))
-    }
-
-    fn neck_extension(&self) -> Result<Finding, SignalError> {
-        let p = minimum(&own(&self.neck_n_m)?[1], self.interval_s)?;
-        Ok(at(not_negative(Peak { value: -p.value, ..p })))
-    }
-
-    fn femur_peak(&self, side: usize) -> Result<Finding, SignalError> {
-        maximum(own(&self.femur_n[side])?, self.interval_s).map(|p| at(not_negative(p)))
     }
 
     fn femur_use(&self, side: usize) -> Result<Finding, SignalError> {
@@ -307,11 +292,6 @@ fn peak(of: &Result<Peak, SignalError>) -> Result<Finding, SignalError> {
 fn level(of: &Result<ThreeMs, SignalError>) -> Result<Finding, SignalError> {
     let level = of.clone()?;
     Ok(Finding { from_s: Some(level.start_s), to_s: Some(level.end_s), ..whole(level.level_mps2) })
-}
-
-/// A peak in the other direction counts as none.
-fn not_negative(peak: Peak) -> Peak {
-    Peak { value: peak.value.max(0.0), ..peak }
 }
 
 fn mode(mode: NeckMode) -> &'static str {

@@ -15,20 +15,12 @@ impl Dummy {
     /// Its usual name.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Self::HybridIii50M => "Hybrid III 50M",
-            Self::HybridIii5F => "Hybrid III 5F",
-            Self::Thor50M => "THOR 50M",
-        }
+        ["Hybrid III 50M", "Hybrid III 5F", "THOR 50M"][self as usize]
     }
 
     /// Its mass, kg, as generally known.
     #[must_use]
     pub fn mass_kg(self) -> f64 {
-        match self {
-            Self::HybridIii50M => 77.7,
-            Self::HybridIii5F => 49.0,
-            Self::Thor50M => 76.7,
-        }
+        [77.7, 49.0, 76.7][self as usize]
     }
 }

@@ -9,7 +9,7 @@
 //! SAE J211's table for a neck as a vendor of filters quotes it. Other programs take CFC 600 for both;
 //! whoever needs that filters so and calls [`nij`]. The rules themselves were not at hand.
 
-use super::{Dummy, Peak};
+use super::Dummy;
 use crate::signal::{SignalError, require_same_length, require_samples};
 
 /// Distance from the upper load cell up to the condyles, Hybrid III 50M and 5F, m.
@@ -101,17 +101,6 @@ pub fn nij(force_z_n: &[f64], moment_y_nm: &[f64], dt_s: f64, intercepts: &NeckI
     Ok(greatest)
 }
 
-/// Largest tension and largest compression (as a positive number) with their times.
-///
-/// # Errors
-/// As [`super::peak::maximum`].
-pub fn neck_axial_peaks(force_z_n: &[f64], dt_s: f64) -> Result<(Peak, Peak), SignalError> {
-    let tension = super::peak::maximum(force_z_n, dt_s)?;
-    let compression = super::peak::minimum(force_z_n, dt_s)?;
-    let positive = |peak: Peak, sign: f64| Peak { value: (sign * peak.value).max(0.0), time_s: peak.time_s };
-    Ok((positive(tension, 1.0), positive(compression, -1.0)))
-}
-
 fn nij_of_sample(force_n: f64, moment_nm: f64, c: &NeckIntercepts) -> (f64, NeckMode) {
     let tension = force_n >= 0.0;
     let flexion = moment_nm >= 0.0;
@@ -152,12 +141,9 @@ mod tests {
     }
 
     #[test]
-    fn condyle_moment_and_axial_peaks() {
+    fn condyle_moment_is_less_by_the_shear_at_its_lever() {
         let moment = condyle_moment(&[10.0], &[100.0], HYBRID_III_CONDYLE_OFFSET_M).unwrap();
         assert!((moment[0] - 8.222).abs() < 1e-12);
-        let (tension, compression) = neck_axial_peaks(&[0.0, 300.0, -500.0], 0.1).unwrap();
-        assert_eq!((tension.value, compression.value), (300.0, 500.0));
-        assert_eq!(neck_axial_peaks(&[1.0, 2.0], 0.1).unwrap().1.value, 0.0);
         assert!(nij(&[1.0], &[1.0, 2.0], 1e-3, &NeckIntercepts::of(Dummy::Thor50M)).is_err());
     }
 }

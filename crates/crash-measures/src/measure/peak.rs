@@ -35,6 +35,16 @@ pub fn largest_magnitude(values: &[f64], dt_s: f64) -> Result<Peak, SignalError>
     extreme(values, dt_s, f64::abs)
 }
 
+/// The greatest sample in the direction of `sign`, as a positive number, such as a compression among forces that count
+/// tension positive; 0 where all samples lie in the other direction.
+///
+/// # Errors
+/// As [`maximum`].
+pub fn peak_towards(sign: f64, values: &[f64], dt_s: f64) -> Result<Peak, SignalError> {
+    let peak = extreme(values, dt_s, |v| sign * v)?;
+    Ok(Peak { value: (sign * peak.value).max(0.0), ..peak })
+}
+
 fn extreme(values: &[f64], dt_s: f64, rank: impl Fn(f64) -> f64) -> Result<Peak, SignalError> {
     require_samples("signal", values, dt_s, 1)?;
     let mut best = 0;
@@ -49,6 +59,13 @@ fn extreme(values: &[f64], dt_s: f64, rank: impl Fn(f64) -> f64) -> Result<Peak,
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_peak_in_the_other_direction_counts_as_none() {
+        let peak = |sign, values: &[f64]| peak_towards(sign, values, 0.1).unwrap().value;
+        assert_eq!([1.0, -1.0].map(|sign| peak(sign, &[0.0, 300.0, -500.0])), [300.0, 500.0]);
+        assert_eq!(peak(-1.0, &[1.0, 2.0]), 0.0);
+    }
 
     #[test]
     fn extremes_keep_sign_and_time() {

@@ -25,15 +25,14 @@ pub enum Severity {
     Fatal,
 }
 
+use Dummy::{HybridIii5F, HybridIii50M};
+use Severity::{Ais2, Ais3, Ais4, Ais5};
+
 /// Head risk from HIC15 (the same curve is used with HIC36), P = Φ((ln H − μ)/σ); AIS 2+, 3+, 4+.
 #[must_use]
 pub fn hic_risk(hic: f64, severity: Severity) -> Option<f64> {
-    let (mu, sigma) = match severity {
-        Severity::Ais2 => (6.963_52, 0.846_64),
-        Severity::Ais3 => (7.452_31, 0.739_98),
-        Severity::Ais4 => (7.656_05, 0.605_80),
-        _ => return None,
-    };
+    let of = [(Ais2, (6.963_52, 0.846_64)), (Ais3, (7.452_31, 0.739_98)), (Ais4, (7.656_05, 0.605_80))];
+    let (mu, sigma) = beside(&of, severity)?;
     Some(if hic > 0.0 { normal_cdf((libm::log(hic) - mu) / sigma) } else { 0.0 })
 }
 
@@ -42,10 +41,10 @@ pub fn hic_risk(hic: f64, severity: Severity) -> Option<f64> {
 pub fn hic_risk_prasad_mertz(hic: f64, severity: Severity) -> f64 {
     let (a, b) = match severity {
         Severity::Ais1 => (1.54, 0.0065),
-        Severity::Ais2 => (2.49, 0.004_83),
-        Severity::Ais3 => (3.39, 0.003_72),
-        Severity::Ais4 => (4.90, 0.003_51),
-        Severity::Ais5 => (7.82, 0.004_29),
+        Ais2 => (2.49, 0.004_83),
+        Ais3 => (3.39, 0.003_72),
+        Ais4 => (4.90, 0.003_51),
+        Ais5 => (7.82, 0.004_29),
         Severity::Fatal => (12.24, 0.005_65),
     };
     if hic > 0.0 { logistic(a + 200.0 / hic, b * hic) } else { 0.0 }
@@ -54,35 +53,22 @@ pub fn hic_risk_prasad_mertz(hic: f64, severity: Severity) -> f64 {
 /// Neck risk from Nij; AIS 2+ to 5+.
 #[must_use]
 pub fn nij_risk(nij: f64, severity: Severity) -> Option<f64> {
-    let (a, b) = match severity {
-        Severity::Ais2 => (2.054, 1.195),
-        Severity::Ais3 => (3.2269, 1.9688),
-        Severity::Ais4 => (2.693, 1.195),
-        Severity::Ais5 => (3.817, 1.195),
-        _ => return None,
-    };
+    let of = [(Ais2, (2.054, 1.195)), (Ais3, (3.2269, 1.9688)), (Ais4, (2.693, 1.195)), (Ais5, (3.817, 1.195))];
+    let (a, b) = beside(&of, severity)?;
     Some(logistic(a, b * nij))
 }
 
 /// Neck AIS 3+ risk from tension or compression (positive), N; Hybrid III dummies.
 #[must_use]
 pub fn neck_axial_risk(force_n: f64, dummy: Dummy) -> Option<f64> {
-    let (a, b) = match dummy {
-        Dummy::HybridIii50M => (10.9745, 2.375),
-        Dummy::HybridIii5F => (10.958, 3.770),
-        Dummy::Thor50M => return None,
-    };
+    let (a, b) = beside(&[(HybridIii50M, (10.9745, 2.375)), (HybridIii5F, (10.958, 3.770))], dummy)?;
     Some(logistic(a, b * force_n / 1000.0))
 }
 
 /// Chest AIS 3+ risk from a measured deflection, m; Hybrid III dummies. A run gives no deflection.
 #[must_use]
 pub fn chest_deflection_risk(deflection_m: f64, dummy: Dummy) -> Option<f64> {
-    let b = match dummy {
-        Dummy::HybridIii50M => 1.568,
-        Dummy::HybridIii5F => 1.7212,
-        Dummy::Thor50M => return None,
-    };
+    let b = beside(&[(HybridIii50M, 1.568), (HybridIii5F, 1.7212)], dummy)?;
     Some(logistic(10.5456, b * libm::pow(1000.0 * deflection_m.max(0.0), 0.4612)))
 }
 
@@ -107,22 +93,14 @@ pub fn combined_thoracic_risk(cti: f64) -> f64 {
 /// Femur AIS 2+ risk from axial compression (positive), N; Hybrid III dummies.
 #[must_use]
 pub fn femur_risk(force_n: f64, dummy: Dummy) -> Option<f64> {
-    let (a, b) = match dummy {
-        Dummy::HybridIii50M => (5.795, 0.5196),
-        Dummy::HybridIii5F => (5.7949, 0.7619),
-        Dummy::Thor50M => return None,
-    };
+    let (a, b) = beside(&[(HybridIii50M, (5.795, 0.5196)), (HybridIii5F, (5.7949, 0.7619))], dummy)?;
     Some(logistic(a, b * force_n / 1000.0))
 }
 
 /// Brain risk from BrIC: 1 − exp(−((B − 0.523)/λ)^1.8), zero below 0.523; AIS 3+ and 4+.
 #[must_use]
 pub fn bric_risk(bric: f64, severity: Severity) -> Option<f64> {
-    let scale = match severity {
-        Severity::Ais3 => 0.531,
-        Severity::Ais4 => 0.647,
-        _ => return None,
-    };
+    let scale = beside(&[(Ais3, 0.531), (Ais4, 0.647)], severity)?;
     Some(if bric > 0.523 { 1.0 - trig::exp(-libm::pow((bric - 0.523) / scale, 1.8)) } else { 0.0 })
 }
 
@@ -145,6 +123,11 @@ pub fn us_ncap_frontal_stars(joint_risk: f64) -> Option<u8> {
     Some([2.67, 1.33, 1.00, 0.67].iter().fold(1, |stars, &bound| if relative < bound { stars + 1 } else { stars }))
 }
 
+/// What stands beside `key`, if the curve is known for it.
+fn beside<K: PartialEq, V: Copy>(table: &[(K, V)], key: K) -> Option<V> {
+    table.iter().find(|(known, _)| *known == key).map(|(_, value)| *value)
+}
+
 /// 1/(1 + exp(a − x))
 fn logistic(a: f64, x: f64) -> f64 {
     1.0 / (1.0 + trig::exp(a - x))
@@ -165,17 +148,17 @@ mod tests {
 
     #[test]
     fn check_values() {
-        close(hic_risk(700.0, Severity::Ais3).unwrap(), 0.111_629);
-        close(hic_risk(1000.0, Severity::Ais3).unwrap(), 0.230_894);
-        close(hic_risk_prasad_mertz(1000.0, Severity::Ais3), 0.532_454);
-        close(hic_risk_prasad_mertz(1000.0, Severity::Ais4), 0.169_384);
-        close(nij_risk(0.5, Severity::Ais3).unwrap(), 0.095_998);
-        close(nij_risk(1.0, Severity::Ais3).unwrap(), 0.221_301);
+        close(hic_risk(700.0, Ais3).unwrap(), 0.111_629);
+        close(hic_risk(1000.0, Ais3).unwrap(), 0.230_894);
+        close(hic_risk_prasad_mertz(1000.0, Ais3), 0.532_454);
+        close(hic_risk_prasad_mertz(1000.0, Ais4), 0.169_384);
+        close(nij_risk(0.5, Ais3).unwrap(), 0.095_998);
+        close(nij_risk(1.0, Ais3).unwrap(), 0.221_301);
         close(chest_three_ms_risk(40.0 * STANDARD_GRAVITY_MPS2), 0.347_669);
         close(chest_three_ms_risk(60.0 * STANDARD_GRAVITY_MPS2), 0.652_648);
-        close(chest_deflection_risk(0.040, Dummy::HybridIii50M).unwrap(), 0.124_424);
-        close(femur_risk(6000.0, Dummy::HybridIii50M).unwrap(), 0.064_320);
-        close(femur_risk(10_000.0, Dummy::HybridIii50M).unwrap(), 0.354_573);
+        close(chest_deflection_risk(0.040, HybridIii50M).unwrap(), 0.124_424);
+        close(femur_risk(6000.0, HybridIii50M).unwrap(), 0.064_320);
+        close(femur_risk(10_000.0, HybridIii50M).unwrap(), 0.354_573);
     }
 
     #[test]
@@ -193,7 +176,7 @@ mod tests {
         close(nij_risk(0.0, Ais3).unwrap(), 0.038_166); // does not vanish
         // age 35 is the curve without age
         let at_35 = chest_deflection_risk_at_age(0.040, 35.0);
-        assert!((at_35 - chest_deflection_risk(0.040, Dummy::HybridIii50M).unwrap()).abs() < 1e-5);
+        assert!((at_35 - chest_deflection_risk(0.040, HybridIii50M).unwrap()).abs() < 1e-5);
         assert_eq!(bric_risk(0.5, Ais3), Some(0.0));
         close(bric_risk(0.523 + 0.531, Ais3).unwrap(), 1.0 - (-1.0f64).exp());
     }

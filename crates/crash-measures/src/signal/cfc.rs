@@ -33,35 +33,19 @@ impl ChannelClass {
     /// The class number, Hz.
     #[must_use]
     pub fn hertz(self) -> f64 {
-        match self {
-            Self::Cfc60 => 60.0,
-            Self::Cfc180 => 180.0,
-            Self::Cfc600 => 600.0,
-            Self::Cfc1000 => 1000.0,
-        }
+        [60.0, 180.0, 600.0, 1000.0][self as usize]
     }
 
     /// The class with this number, if there is one.
     #[must_use]
     pub fn from_number(number: u32) -> Option<Self> {
-        match number {
-            60 => Some(Self::Cfc60),
-            180 => Some(Self::Cfc180),
-            600 => Some(Self::Cfc600),
-            1000 => Some(Self::Cfc1000),
-            _ => None,
-        }
+        Self::ALL.into_iter().find(|class| class.hertz() == f64::from(number))
     }
 
     /// Its letter in ISO-MME channel codes.
     #[must_use]
     pub fn mme_letter(self) -> char {
-        match self {
-            Self::Cfc60 => 'D',
-            Self::Cfc180 => 'C',
-            Self::Cfc600 => 'B',
-            Self::Cfc1000 => 'A',
-        }
+        ['D', 'C', 'B', 'A'][self as usize]
     }
 }
 

@@ -25,6 +25,13 @@ pub struct UnitError {
     pub hint: Option<String>,
 }
 
+impl UnitError {
+    /// What was found and expected from byte `start` to byte `end`.
+    pub fn new(start: usize, end: usize, found: impl Into<String>, expected: impl Into<String>) -> Self {
+        UnitError { start, end, found: found.into(), expected: expected.into(), hint: None }
+    }
+}
+
 /// Reads a unit expression; `offset` is where it starts in the text that errors point into.
 ///
 /// # Errors
@@ -57,7 +64,7 @@ struct Token<'a> {
 
 impl Token<'_> {
     fn error(&self, found: impl Into<String>, expected: impl Into<String>) -> UnitError {
-        UnitError { start: self.start, end: self.end, found: found.into(), expected: expected.into(), hint: None }
+        UnitError::new(self.start, self.end, found, expected)
     }
 }
 
@@ -81,8 +88,8 @@ fn tokens(text: &str, offset: usize) -> Result<Vec<Token<'_>>, UnitError> {
                 (Some(Word::Name(&rest[..length])), length)
             }
             _ => {
-                let token = Token { word: Word::Times, start, end: start + c.len_utf8() };
-                return Err(token.error(format!("`{c}` in a unit"), "units such as in, lbf, s joined by `·`, `/`, `^`"));
+                let expected = "units such as in, lbf, s joined by `·`, `/`, `^`";
+                return Err(UnitError::new(start, start + c.len_utf8(), format!("`{c}` in a unit"), expected));
             }
         };
         if let Some(word) = word {
@@ -119,13 +126,10 @@ fn raised_power(text: &str, start: usize) -> Result<(Option<Word<'static>>, usiz
 fn exponent(digits: &str, start: usize, length: usize) -> Result<(Option<Word<'static>>, usize), UnitError> {
     match digits.parse::<i32>() {
         Ok(n) if n.abs() <= MAX_EXPONENT => Ok((Some(Word::Power(n)), length)),
-        _ => Err(UnitError {
-            start,
-            end: start + length.max(1),
-            found: "a power that cannot be read".into(),
-            expected: format!("a whole number from -{MAX_EXPONENT} to {MAX_EXPONENT}, as in s^2"),
-            hint: None,
-        }),
+        _ => {
+            let expected = format!("a whole number from -{MAX_EXPONENT} to {MAX_EXPONENT}, as in s^2");
+            Err(UnitError::new(start, start + length.max(1), "a power that cannot be read", expected))
+        }
     }
 }
 
@@ -173,13 +177,8 @@ impl<'a> Parser<'a> {
     /// name [power] | ( expression ) [power]
     fn factor(&mut self, depth: usize) -> Result<Scale, UnitError> {
         let Some(token) = self.peek().copied() else {
-            return Err(UnitError {
-                start: self.end,
-                end: self.end,
-                found: "no unit where one should follow".into(),
-                expected: "a unit such as in, lbf, s".into(),
-                hint: None,
-            });
+            let found = "no unit where one should follow";
+            return Err(UnitError::new(self.end, self.end, found, "a unit such as in, lbf, s"));
         };
         self.at += 1;
         let base = match token.word {
@@ -192,9 +191,7 @@ impl<'a> Parser<'a> {
                 }
                 inner
             }
-            _ => {
-                return Err(token.error("a sign where a unit should stand", "a unit such as in, lbf, s"));
-            }
+            _ => return Err(token.error("a sign where a unit should stand", "a unit such as in, lbf, s")),
         };
         match self.peek().copied() {
             Some(Token { word: Word::Power(n), .. }) => {

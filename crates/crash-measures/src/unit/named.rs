@@ -96,13 +96,9 @@ pub(super) fn named(name: &str, start: usize, end: usize) -> Result<Scale, UnitE
     let known = UNITS.iter().find(|u| u.names.contains(&name));
     known.map(|u| Scale { dimension: u.dimension, factor: u.factor }).ok_or_else(|| {
         let all = UNITS.iter().flat_map(|u| u.names.iter().copied());
-        UnitError {
-            start,
-            end,
-            found: format!("unknown unit `{name}`"),
-            expected: "a unit such as m, in, s, deg, mph, g, kg, lb (mass), N, lbf (force)".into(),
-            hint: nearest(name, all).map(|n| format!("did you mean `{n}`?")),
-        }
+        let expected = "a unit such as m, in, s, deg, mph, g, kg, lb (mass), N, lbf (force)";
+        let hint = nearest(name, all).map(|n| format!("did you mean `{n}`?"));
+        UnitError { hint, ..UnitError::new(start, end, format!("unknown unit `{name}`"), expected) }
     })
 }
 

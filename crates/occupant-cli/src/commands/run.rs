@@ -188,7 +188,7 @@ fn show(
             resumed: from.map(Resumption::describe),
             file: run.written.name(),
             summary: &run.summary,
-            unstable_friction: run.friction.found(&opened.model),
+            unstable_friction: run.friction.unstable(&opened.model),
             ensemble,
             error_estimate: estimate,
             warnings: opened.warnings.iter().chain(unstable.iter()).map(ToString::to_string).collect(),

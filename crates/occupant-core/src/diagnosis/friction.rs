@@ -59,12 +59,11 @@ impl FrictionWatch {
     }
 
     /// What was unstable in the run of `model`, once for each sphere and material, in the body's order.
-    pub fn found(&self, model: &Model) -> Vec<UnstableFriction> {
+    pub fn unstable(&self, model: &Model) -> Vec<UnstableFriction> {
         let setup = model.setup();
         let materials = setup.materials.len().max(1);
-        let unstable = self.worst.iter().enumerate();
+        let unstable = self.worst.iter().enumerate().filter(|(_, worst)| worst.number > LIMIT);
         unstable
-            .filter(|(_, worst)| worst.number > LIMIT)
             .map(|(i, worst)| UnstableFriction {
                 sphere: setup.body.spheres[i / materials].name.clone(),
                 surface: setup.surfaces[worst.surface].name.clone(),
@@ -80,9 +79,9 @@ impl FrictionWatch {
     /// The same as warnings, one for each material: the worst sphere in figures, the others by name.
     pub fn warnings(&self, model: &Model) -> Problems {
         let mut problems = Problems::new();
-        let found = self.found(model);
+        let unstable = self.unstable(model);
         for material in &model.setup().materials {
-            let own = || found.iter().filter(|f| f.material == material.name);
+            let own = || unstable.iter().filter(|f| f.material == material.name);
             if let Some(worst) = own().max_by(|a, b| a.number.total_cmp(&b.number)) {
                 let others: Vec<&str> = own().filter(|f| f.sphere != worst.sphere).map(|f| f.sphere.as_str()).collect();
                 warn(&mut problems, worst, &others);
@@ -95,7 +94,7 @@ impl FrictionWatch {
         let Some(masses) = &self.masses else {
             return;
         };
-        let number = masses.number(model, sphere, surface, force_n, self.step_s);
+        let number = force_n * masses.per_newton(model, sphere, surface, self.step_s);
         let setup = model.setup();
         let material = setup.surfaces[surface].material;
         let worst = &mut self.worst[sphere * setup.materials.len() + material];

@@ -13,11 +13,10 @@ pub use crate::forces::rate::Rate;
 use crate::forces::table::Tables;
 pub use friction::{FrictionWatch, UnstableFriction};
 pub use rates::{RK4_STABILITY_LIMIT, SphereRate};
-pub use start::{ContactStart, SeatStart, SettleStart, SphereBehind};
+pub use start::{ContactStart, SeatStart, SphereBehind};
 
 use crate::body::Segment;
 use crate::model::Model;
-use crate::model::setup::Integrator;
 use crate::motion::mobility::Mobility;
 use crate::vehicle::{PathCursor, VehiclePath};
 use rates::FrictionMasses;
@@ -142,10 +141,7 @@ pub fn diagnose(model: &Model) -> Diagnosis {
             end_s: setup.time.end_s,
             output_s: setup.time.output_s,
             outputs: model.output_count(),
-            integrator: match setup.integrator {
-                Integrator::Rk4 { .. } => "rk4",
-                Integrator::Adaptive { .. } => "adaptive",
-            },
+            integrator: setup.integrator.name(),
             step_s,
             gravity_m_s2: setup.gravity_m_s2,
         },

@@ -50,16 +50,10 @@ impl FrictionMasses {
         FrictionMasses { surfaces, tangential_kg }
     }
 
-    /// step·f·wF/(v_s·m_eff), the friction's rate times the step; unstable above 2.
-    pub(super) fn number(&self, model: &Model, sphere: usize, surface: usize, normal_force_n: f64, step_s: f64) -> f64 {
-        let per_newton = self.per_newton(model, sphere, surface, step_s);
-        normal_force_n * per_newton
-    }
-
-    fn per_newton(&self, model: &Model, sphere: usize, surface: usize, step_s: f64) -> f64 {
+    /// step·f/(v_s·m_eff): with the normal force the friction's rate times the step, unstable above 2.
+    pub(super) fn per_newton(&self, model: &Model, sphere: usize, surface: usize, step_s: f64) -> f64 {
         let mass_kg = self.tangential_kg[sphere * self.surfaces + surface];
-        let setup = model.setup();
-        let material = material_of(setup, surface);
+        let material = material_of(model.setup(), surface);
         if mass_kg > 0.0 { step_s * material.friction / (material.friction_speed_m_s * mass_kg) } else { 0.0 }
     }
 }

@@ -13,9 +13,9 @@ use crate::model::seating::InitialPosture;
 use crate::model::settle::Settled;
 use crate::motion::mobility::Mobility;
 use crate::motion::vector::V3;
-use crate::results::recorder::{Flow, Recorder, RecorderError};
+use crate::results::recorder::Watch;
 use crate::results::sample::{Contact, Sample};
-use crate::run::simulate::simulate;
+use crate::run::Run;
 
 /// Figures of the seating, vehicle axes.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -35,24 +35,9 @@ pub struct SeatStart {
     /// Lean of the lower legs.
     pub lower_legs_deg: f64,
     /// Outcome of settling, if it was asked for.
-    pub settled: Option<SettleStart>,
+    pub settled: Option<Settled>,
     /// What is left over without it.
-    pub unsettled: Option<SettleStart>,
-}
-
-/// How far settling moved the body, space axes, and what it left over.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct SettleStart {
-    /// Distance that T1 moved.
-    pub moved_m: f64,
-    /// Angle that the body turned.
-    pub turned_deg: f64,
-    /// Force left over.
-    pub residual_force_n: f64,
-    /// Moment left over.
-    pub residual_moment_n_m: f64,
-    /// Weight of the body.
-    pub weight_n: f64,
+    pub unsettled: Option<Settled>,
 }
 
 /// A pair that exerts a force at the start.
@@ -88,32 +73,22 @@ pub(super) struct Look {
     pub rates: Vec<Rate>,
 }
 
-/// Takes the first sample of a run and ends it there.
+/// Takes the first sample of a run, without a step.
 pub(super) fn look(model: &Model, mobility: &Mobility<'_>) -> Look {
-    let mut first = First { mobility, look: Look::default() };
-    // the recorder never fails, so neither does the run
-    let _outcome = simulate(model, &mut first);
-    first.look
-}
-
-struct First<'a> {
-    mobility: &'a Mobility<'a>,
-    look: Look,
-}
-
-impl Recorder for First<'_> {
-    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
-        let (model, k) = (sample.model, &sample.evaluation.kinematics);
-        let spheres = &model.system().spheres;
+    let mut look = Look::default();
+    let mut first = Watch(|sample: &Sample<'_>| {
+        let (k, spheres) = (&sample.evaluation.kinematics, &model.system().spheres);
         let at = Instant { k, state: sample.state, frames: sample.frames, spheres };
         let data = model.setup().forces(model.faces());
-        self.look = Look {
+        look = Look {
             contacts: sample.contacts().map(|c| contact(sample, &c)).collect(),
             elements: sample.start_tables(),
-            rates: data.rates(model.body(), &at, sample.actions, self.mobility),
+            rates: data.rates(model.body(), &at, sample.actions, mobility),
         };
-        Ok(Flow::Stop)
-    }
+    });
+    // a closure that watches never fails, so neither does the record
+    let _recorded = Run::new(model).record(model, &mut first);
+    look
 }
 
 fn contact(sample: &Sample<'_>, contact: &Contact) -> ContactStart {
@@ -132,7 +107,6 @@ pub(super) fn seat(model: &Model) -> Option<SeatStart> {
     let (InitialPosture::Seated(seating), Some(seated)) = (&setup.posture, &start.seated) else {
         return None;
     };
-    let [settled, unsettled] = [start.settled, start.unsettled].map(|s| s.map(settle_start));
     Some(SeatStart {
         cushion: setup.surfaces[seating.cushion].name.clone(),
         back: setup.surfaces[seating.back].name.clone(),
@@ -141,19 +115,9 @@ pub(super) fn seat(model: &Model) -> Option<SeatStart> {
         left_knee_m: seated.knee_m.into(),
         thighs_deg: seated.legs_rad[0].to_degrees(),
         lower_legs_deg: seated.legs_rad[1].to_degrees(),
-        settled,
-        unsettled,
+        settled: start.settled,
+        unsettled: start.unsettled,
     })
-}
-
-fn settle_start(s: Settled) -> SettleStart {
-    SettleStart {
-        moved_m: s.moved_m.norm(),
-        turned_deg: s.turned_rad.norm().to_degrees(),
-        residual_force_n: s.residual_force_n,
-        residual_moment_n_m: s.residual_moment_n_m,
-        weight_n: s.weight_n,
-    }
 }
 
 /// Passed pairs whose sphere overlaps the face itself, not only its plane.

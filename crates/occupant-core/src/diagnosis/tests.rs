@@ -123,13 +123,13 @@ fn friction_warns_where_its_stability_number_passes_two() {
     let model = standing_on(0.8, "0.1 ms");
     let mut watch = FrictionWatch::new();
     simulate(&model, &mut watch).unwrap();
-    assert!(watch.found(&model).is_empty(), "{:?}", watch.found(&model));
+    assert!(watch.unstable(&model).is_empty(), "{:?}", watch.unstable(&model));
     assert!(watch.warnings(&model).is_empty());
 
     let slippery = standing_on(2000.0, "0.1 ms");
     let mut watch = FrictionWatch::new();
     simulate(&slippery, &mut watch).unwrap();
-    let found = watch.found(&slippery);
+    let found = watch.unstable(&slippery);
     let d = diagnose(&slippery);
     assert!(!found.is_empty());
     for f in &found {

@@ -20,7 +20,7 @@ use placed_text::Problems;
 ///
 /// The type that implements it is only a name; the types of its law and memory stand beside it. A kind may use the body,
 /// its motion and the frames, and knows no other kind.
-pub trait Element: Sized {
+pub trait Element: Copy + Debug {
     /// Where the energy stands that the elements store.
     const STORED: StoredEnergy;
     /// The work sums that they add to.

@@ -96,20 +96,6 @@ macro_rules! kinds {
             $(visitor.visit::<$Kind>();)+
         }
 
-        impl<S> Memory<S> {
-            /// That of no elements.
-            pub(crate) fn none() -> Self {
-                Memory { $($kind: Vec::new()),+ }
-            }
-        }
-
-        impl Memory<f64> {
-            /// Exchanges everything with a result file; see [`Reported::keep`].
-            pub(crate) fn keep(&mut self, like: Option<&Self>, file: &mut dyn Archive) {
-                $($Kind::keep(&mut self.$kind, like.map(|all| &all.$kind[..]), file);)+
-            }
-        }
-
         impl<S> Actions<S> {
             /// Room for all that `forces` can do.
             pub fn with_room(forces: &Forces<impl Sized>) -> Self {
@@ -138,9 +124,7 @@ macro_rules! kinds {
                 $($Kind::check(self.$kind, body, &mut found[$Kind::STORED.at]);)+
                 found.into_iter().for_each(|some| problems.extend(some));
             }
-        }
 
-        impl Data<'_> {
             /// The fastest rates that they make where the body begins; see [`Element::rates`].
             pub(crate) fn rates(
                 &self,
@@ -217,6 +201,11 @@ macro_rules! kinds {
         }
 
         impl<S> Memory<S> {
+            /// That of no elements.
+            pub(crate) fn none() -> Self {
+                Memory { $($kind: Vec::new()),+ }
+            }
+
             /// f called with every number and the one in the same place of `other`, of the same elements.
             pub fn each<A>(&mut self, other: &mut Memory<A>, f: &mut impl FnMut(&mut S, &mut A)) {
                 $(
@@ -239,6 +228,11 @@ macro_rules! kinds {
         }
 
         impl Memory<f64> {
+            /// Exchanges everything with a result file; see [`Reported::keep`].
+            pub(crate) fn keep(&mut self, like: Option<&Self>, file: &mut dyn Archive) {
+                $($Kind::keep(&mut self.$kind, like.map(|all| &all.$kind[..]), file);)+
+            }
+
             /// Whether it is of as many elements as `forces` has.
             ///
             /// # Errors

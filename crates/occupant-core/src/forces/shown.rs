@@ -52,7 +52,7 @@ pub trait Reported: Element + 'static {
 }
 
 /// One element of a kind, as the owner of quantities.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct OneOf<E>(PhantomData<E>);
 
 impl<E: Reported> Owner for OneOf<E> {

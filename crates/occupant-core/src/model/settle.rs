@@ -5,6 +5,7 @@
 //! curve, at rest relative to the vehicle. Directions that nothing resists are left alone.
 
 use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
+use serde::{Serialize, Serializer};
 
 use crate::forces::{Data, Instant};
 use crate::kernel::System;
@@ -24,18 +25,23 @@ const LEVER_M: f64 = 0.3;
 const ITERATIONS: usize = 200;
 
 /// Outcome of settling.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Settled {
-    /// Displacement of T1, space axes, m.
-    pub moved_m: Vector3<f64>,
-    /// Rotation vector of the body, space axes, rad.
-    pub turned_rad: Vector3<f64>,
+    /// Distance that T1 moved, m.
+    pub moved_m: f64,
+    /// Angle that the body turned, rad.
+    #[serde(rename = "turned_deg", serialize_with = "in_degrees")]
+    pub turned_rad: f64,
     /// Force left over, N.
     pub residual_force_n: f64,
     /// Moment left over about T1, N·m.
     pub residual_moment_n_m: f64,
     /// Weight of the body, N.
     pub weight_n: f64,
+}
+
+fn in_degrees<S: Serializer>(angle_rad: &f64, serializer: S) -> Result<S::Ok, S::Error> {
+    serializer.serialize_f64(angle_rad.to_degrees())
 }
 
 impl Settled {
@@ -67,8 +73,8 @@ pub(crate) fn kept(
 
 fn settled(setup: &Setup, x: &Vector6<f64>, r: &Vector6<f64>) -> Settled {
     Settled {
-        moved_m: x.fixed_rows::<3>(0).into(),
-        turned_rad: x.fixed_rows::<3>(3) / LEVER_M,
+        moved_m: x.fixed_rows::<3>(0).norm(),
+        turned_rad: (x.fixed_rows::<3>(3) / LEVER_M).norm(),
         residual_force_n: r.fixed_rows::<3>(0).norm(),
         residual_moment_n_m: r.fixed_rows::<3>(3).norm() * LEVER_M,
         weight_n: setup.body.mass_kg() * setup.gravity_m_s2,

@@ -75,6 +75,14 @@ impl Default for Integrator {
 }
 
 impl Integrator {
+    /// Its `kind` in scenarios.
+    pub(crate) const fn name(&self) -> &'static str {
+        match self {
+            Integrator::Rk4 { .. } => "rk4",
+            Integrator::Adaptive { .. } => "adaptive",
+        }
+    }
+
     /// The longest step that it can take, s.
     pub(crate) fn longest_step_s(&self) -> f64 {
         match *self {

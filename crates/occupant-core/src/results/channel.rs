@@ -9,7 +9,7 @@ pub(crate) use crash_measures::unit::Unit;
 use crate::model::Model;
 use crate::quantity::Axes;
 use crate::quantity::Value;
-use crate::results::catalogue::{self, Source};
+use crate::results::catalogue::{Catalogue, Source};
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
 use crash_measures::nearest::nearest;
@@ -69,7 +69,7 @@ impl Component {
 
 /// All channels of a model, in a fixed order: vehicle, segments, neck and femurs, spheres, belts, joints, energies.
 pub fn channels(model: &Model) -> Vec<Channel> {
-    catalogue::channels(model)
+    Catalogue::of(model).channels
 }
 
 /// The channel of this name.

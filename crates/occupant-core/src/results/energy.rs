@@ -84,7 +84,7 @@ impl EnergyLedger {
 
 /// The greatest imbalance of a run as a fraction of the greatest kinetic energy relative to the vehicle. Not a number where a
 /// body of `mass_kg` has that energy only at speeds beyond those that contacts follow: it is no measure then.
-pub fn balance_error(imbalance_j: f64, kinetic_j: f64, mass_kg: f64) -> f64 {
+pub(crate) fn balance_error(imbalance_j: f64, kinetic_j: f64, mass_kg: f64) -> f64 {
     if kinetic_j > 0.5 * mass_kg * FASTEST_M_S.powi(2) {
         f64::NAN
     } else if kinetic_j > 0.0 {

@@ -206,7 +206,7 @@ fn finite(value: f64, text: &str) -> Result<f64, UnitError> {
 
 /// An error about a whole text.
 fn whole(text: &str, found: String, expected: String) -> UnitError {
-    UnitError { start: 0, end: text.len(), found, expected, hint: None }
+    UnitError::new(0, text.len(), found, expected)
 }
 
 /// The number at the start of a text, and where its unit starts.

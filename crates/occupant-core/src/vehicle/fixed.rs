@@ -1,6 +1,6 @@
 //! A vehicle (or any frame) that stands still.
 
-use super::frame::{FrameMotion, rotation_to_space, to_space};
+use super::frame::FrameMotion;
 use super::problem::PathProblem;
 use super::{VehiclePose, expect_finite_pose};
 
@@ -30,9 +30,7 @@ impl FixedPath {
     }
 
     fn at(pose: VehiclePose) -> Self {
-        let origin_m = to_space(pose.position_m);
-        let rotation = rotation_to_space(pose.attitude.matrix());
-        FixedPath { pose, motion: FrameMotion { origin_m, rotation, ..FrameMotion::space() } }
+        FixedPath { pose, motion: FrameMotion::at_rest(&pose) }
     }
 
     /// Where it stands.

@@ -2,7 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::attitude::rotation_by;
+use super::VehiclePose;
+use super::attitude::{Attitude, rotation_by};
 
 /// Pose and motion of a moving frame at one instant, all in space axes (X′ forward, Y′ left, Z′ up), SI.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -72,6 +73,18 @@ impl FrameMotion {
             angular_acceleration_rad_s2: Vector3::zeros(),
             ..*self
         }
+    }
+
+    /// A frame at rest at a pose in vehicle-space.
+    pub(super) fn at_rest(pose: &VehiclePose) -> Self {
+        let rotation = rotation_to_space(pose.attitude.matrix());
+        FrameMotion { origin_m: to_space(pose.position_m), rotation, ..FrameMotion::space() }
+    }
+
+    /// Its pose in vehicle-space, as roll, pitch and yaw nearest to those of `near`.
+    pub(super) fn pose(&self, near: &Attitude) -> VehiclePose {
+        let attitude = Attitude::from_matrix(&rotation_to_space(self.rotation), near);
+        VehiclePose { position_m: to_space(self.origin_m), attitude }
     }
 
     /// The same pose, at rest.

@@ -126,7 +126,7 @@ impl VehiclePath {
     pub(crate) fn check_span(&self, start_s: f64, end_s: f64) -> Result<(), PathProblem> {
         for (quantity, value) in [("start of the run", start_s), ("end of the run", end_s)] {
             if !value.is_finite() {
-                return Err(PathProblem::NotFinite { quantity, value });
+                return Err(PathProblem::not_finite(quantity, value));
             }
         }
         match self {

@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use nalgebra::Vector3;
 
+use super::VehiclePose;
 use super::attitude::turning;
 use super::frame::{FrameMotion, rotation_to_space, to_space};
 use super::problem::PathProblem;
-use super::{Attitude, VehiclePose};
 
 /// The vehicle at one instant as a vehicle model knows it: place, roll, pitch and yaw with their first and second derivatives
 /// in time, in vehicle-space axes (X′_v forward, Y′_v right, Z′_v down).
@@ -107,14 +107,7 @@ impl OwnPath {
     pub(crate) fn pose(&self, t_s: f64) -> VehiclePose {
         let inside_s = self.inside_s(t_s);
         let pose = self.0.at(inside_s).pose;
-        if t_s == inside_s {
-            return pose;
-        }
-        let coasted = self.motion(t_s);
-        VehiclePose {
-            position_m: to_space(coasted.origin_m),
-            attitude: Attitude::from_matrix(&rotation_to_space(coasted.rotation), &pose.attitude),
-        }
+        if t_s == inside_s { pose } else { self.motion(t_s).pose(&pose.attitude) }
     }
 
     /// As [`VehicleMotion::span_s`].
@@ -136,11 +129,16 @@ impl OwnPath {
     pub(crate) fn check_span(&self, start_s: f64, end_s: f64) -> Result<(), PathProblem> {
         let (first_s, last_s) = self.span_s();
         if !(first_s <= start_s && end_s <= last_s) {
-            return Err(PathProblem::OutsideOwnPath { start_s, end_s, first_s, last_s });
+            let expected =
+                format!("times from {first_s} s to {last_s} s, for which the program's own path has an answer");
+            return Err(PathProblem::new(format!("the run lasts from {start_s} s to {end_s} s"), expected));
         }
         let broken_s = [start_s, end_s].into_iter().find(|&t_s| !self.0.at(t_s).is_finite());
         match broken_s {
-            Some(time_s) => Err(PathProblem::OwnPathNotFinite { time_s }),
+            Some(time_s) => {
+                let found = format!("the program's own path has numbers that are not finite at {time_s} s");
+                Err(PathProblem::new(found, "finite numbers"))
+            }
             None => Ok(()),
         }
     }

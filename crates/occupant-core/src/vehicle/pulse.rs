@@ -12,7 +12,7 @@ mod shape;
 use nalgebra::Vector3;
 
 use super::cursor::PathCursor;
-use super::frame::{FrameMotion, rotation_to_space, to_space};
+use super::frame::{FrameMotion, to_space};
 use super::problem::{PathProblem, expect_finite};
 use super::{VehiclePose, expect_finite_pose};
 use crossing::time_of_loss;
@@ -97,7 +97,6 @@ impl PulsePath {
     pub fn new(definition: PulseDefinition) -> Result<Self, Vec<PathProblem>> {
         let mut problems = Vec::new();
         find_problems(&definition, &mut problems);
-        let attitude = definition.initial.attitude.matrix();
         let direction = definition.direction.unit(&definition.initial, &mut problems);
         let profile = match definition.shape.profile() {
             Ok(profile) if problems.is_empty() => profile,
@@ -106,7 +105,8 @@ impl PulsePath {
         };
         let begin_s = definition.starts_at_s + definition.shape.delay_s();
         if begin_s < 0.0 {
-            return Err(vec![PathProblem::PulseBeforeZero { begin_s }]);
+            let expected = "0 s or later: the initial speed and position are those at 0 s";
+            return Err(vec![PathProblem::new(format!("the pulse begins at {begin_s} s"), expected)]);
         }
         let stop_after_loss = |speed_m_s: f64| {
             let since_s = time_of_loss(&profile, speed_m_s)?;
@@ -118,13 +118,9 @@ impl PulsePath {
         if let Some(floor) = floor.filter(|_| definition.initial_speed_m_s == 0.0)
             && holds_back(&profile, floor.time_s - begin_s, floor.distance_m)
         {
-            return Err(vec![PathProblem::PulseHoldsBack { stop_s: floor.time_s }]);
+            return Err(vec![held_back(floor.time_s)]);
         }
-        let at_rest = FrameMotion {
-            origin_m: to_space(definition.initial.position_m),
-            rotation: rotation_to_space(attitude),
-            ..FrameMotion::space()
-        };
+        let at_rest = FrameMotion::at_rest(&definition.initial);
         let direction_space = to_space(direction);
         Ok(PulsePath { definition, direction, profile, begin_s, stop, floor, at_rest, direction_space })
     }
@@ -237,6 +233,16 @@ fn holds_back(profile: &Profile, since_s: f64, distance_m: f64) -> bool {
     distance_m == 0.0 || after_m_s > before_m_s
 }
 
+/// A vehicle that starts at rest is stopped by the pulse before the pulse has set it going.
+fn held_back(stop_s: f64) -> PathProblem {
+    let found = format!(
+        "the initial speed is 0 and the pulse decelerates before it has set the vehicle going, so that the vehicle stands \
+         still from {stop_s} s on; give an initial speed, or a negative deceleration for a vehicle that is accelerated, or a \
+         rebound for one that may move back"
+    );
+    PathProblem::new(found, "a path that is possible")
+}
+
 impl TravelDirection {
     /// A vector of length one in vehicle-space axes; a problem if it has no length.
     pub(super) fn unit(self, initial: &VehiclePose, problems: &mut Vec<PathProblem>) -> Vector3<f64> {
@@ -246,7 +252,7 @@ impl TravelDirection {
         let size = vector.amax();
         expect_finite(problems, "direction of travel", vector.sum());
         if size == 0.0 {
-            problems.push(PathProblem::NoDirection);
+            problems.push(PathProblem::new("the direction of travel is zero", "a vector with a length"));
         }
         // Through the largest component first, so that no vector is too long or too short to be squared.
         (vector / size).normalize()

@@ -28,7 +28,7 @@ use super::problem::{PathProblem, expect_finite};
 use super::{AfterEnd, TravelDirection, VehiclePose, expect_finite_pose};
 use crash_measures::signal::ChannelClass;
 pub use record::{AccelerationRecord, DeltaVRecord, SensorRecord};
-use strapdown::{Piece, Start, integrate};
+use strapdown::{Piece, integrate};
 
 /// What gravity does in recorded accelerations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
@@ -99,16 +99,7 @@ impl SensorPath {
             Ok(_) => return Err(problems),
             Err(more) => return Err([problems, more].concat()),
         };
-        let (pieces, last_attitude) = integrate(
-            &readings,
-            &Start {
-                pose: definition.initial,
-                velocity_m_s: direction * definition.initial_speed_m_s,
-                offset_m: definition.offset_m,
-                gravity: definition.gravity,
-                gravity_m_s2: definition.gravity_m_s2,
-            },
-        )?;
+        let (pieces, last_attitude) = integrate(&readings, &definition, direction * definition.initial_speed_m_s)?;
         let (first, last) = (&pieces[0], &pieces[pieces.len() - 1]);
         let end_s = readings.time_s[readings.time_s.len() - 1];
         let rise = last_attitude.to_vector() - last.attitude.to_vector();
@@ -150,7 +141,6 @@ impl SensorPath {
     /// Place and attitude at `t_s`, for output.
     pub(crate) fn pose(&self, t_s: f64, cursor: &mut PathCursor) -> VehiclePose {
         let (first_s, last_s) = self.span_s();
-        let motion = self.motion(t_s, t_s, cursor);
         let near = if t_s < first_s {
             self.pieces[0].attitude
         } else if t_s <= last_s {
@@ -159,10 +149,7 @@ impl SensorPath {
             let run_on = self.last_rates_rad_s * (t_s - last_s);
             Attitude::from_vector(self.last_attitude.to_vector() + run_on)
         };
-        VehiclePose {
-            position_m: to_space(motion.origin_m),
-            attitude: Attitude::from_matrix(&rotation_to_space(motion.rotation), &near),
-        }
+        self.motion(t_s, t_s, cursor).pose(&near)
     }
 
     /// Whether the path has an answer from `start_s` to `end_s`.
@@ -193,7 +180,7 @@ fn check_start(definition: &SensorDefinition, problems: &mut Vec<PathProblem>) -
     for (quantity, value) in [("speed", definition.initial_speed_m_s), ("gravity", definition.gravity_m_s2)] {
         expect_finite(problems, quantity, value);
         if value < 0.0 {
-            problems.push(PathProblem::Negative { quantity, value });
+            problems.push(PathProblem::of_value(quantity, value, "0 or more"));
         }
     }
     definition.direction.unit(&definition.initial, problems)

@@ -48,7 +48,7 @@ pub fn unwrap_angles(stations: &mut [Station]) {
 pub(super) fn problems_of(stations: &[Station]) -> Vec<PathProblem> {
     let mut problems = Vec::new();
     if stations.len() < 2 {
-        problems.push(PathProblem::TooFewStations { found: stations.len() });
+        problems.push(PathProblem::too_few_stations(stations.len()));
     }
     for (station, here) in stations.iter().enumerate() {
         let values = here.channels();
@@ -73,10 +73,15 @@ fn compare_with_previous(station: usize, previous: &Station, here: &Station, pro
         }
         // The second derivatives of a spline divide by the time twice.
         if length_s > 0.0 && !((to - from) / length_s / length_s).is_finite() {
-            problems.push(PathProblem::TooSteep { station, quantity });
+            let found =
+                format_args!("{quantity} changes too much since the station before for its rate to be a number");
+            problems.push(PathProblem::at(station, found, "stations farther apart in time"));
         }
         if channel >= 3 && (to - from).abs() > PI {
-            problems.push(PathProblem::AngleJump { station, angle: quantity, from_rad: from, to_rad: to });
+            let found = format_args!("{quantity} goes from {:.3}° to {:.3}°", from.to_degrees(), to.to_degrees());
+            let expected = "less than half a turn between stations; unwrap the angles (add or take whole turns) or give more \
+                            stations";
+            problems.push(PathProblem::at(station, found, expected));
         }
     }
 }

@@ -6,7 +6,7 @@ use serde::{Deserialize, Serialize};
 
 use super::attitude::Attitude;
 use super::cursor::PathCursor;
-use super::frame::{FrameMotion, rotation_to_space, to_space};
+use super::frame::FrameMotion;
 use super::problem::PathProblem;
 use super::spline::{Piece, linear_pieces, spline_pieces};
 use super::station::{Station, problems_of};
@@ -46,9 +46,14 @@ impl AfterEnd {
     pub(super) fn check_span(self, (first_s, last_s): (f64, f64), start_s: f64, end_s: f64) -> Result<(), PathProblem> {
         let slack_s = TIME_SLACK * (last_s - first_s);
         if start_s < first_s - slack_s {
-            Err(PathProblem::StartsBeforePath { start_s, first_s })
+            let expected = format!("at or after the first station at {first_s} s");
+            Err(PathProblem::new(format!("the run starts at {start_s} s"), expected))
         } else if end_s > last_s + slack_s && self == AfterEnd::Error {
-            Err(PathProblem::EndsAfterPath { end_s, last_s })
+            let expected = format!(
+                "at or before the last station at {last_s} s; shorten the run, or say what the vehicle does after the last \
+                 station: after = \"coast\" or \"hold\""
+            );
+            Err(PathProblem::new(format!("the run ends at {end_s} s"), expected))
         } else {
             Ok(())
         }
@@ -155,12 +160,8 @@ impl TablePath {
         if t_s == inside_s || (t_s > last_s && self.after == AfterEnd::Hold) {
             return pose;
         }
-        let coasted = self.ends[usize::from(t_s > last_s)].coasted(t_s - inside_s);
         let near = Attitude::from_vector(angles + self.last_rates_rad_s * (t_s - last_s).max(0.0));
-        VehiclePose {
-            position_m: to_space(coasted.origin_m),
-            attitude: Attitude::from_matrix(&rotation_to_space(coasted.rotation), &near),
-        }
+        self.ends[usize::from(t_s > last_s)].coasted(t_s - inside_s).pose(&near)
     }
 
     /// Whether the path has an answer from `start_s` to `end_s`.

@@ -83,7 +83,7 @@ fn seating(seat: &SeatStart) -> String {
             format!(
                 "moved {:.1} mm and turned {:.2}°; left over {:.2} N and {:.2} N·m of a weight of {:.1} N",
                 s.moved_m * 1e3,
-                s.turned_deg,
+                s.turned_rad.to_degrees(),
                 s.residual_force_n,
                 s.residual_moment_n_m,
                 s.weight_n

@@ -16,40 +16,30 @@ struct Pace {
     slip: &'static str,
 }
 
+const G: f64 = STANDARD_GRAVITY_M_S2;
+
+/// What it is, its unit, what is usual and what is possible, and the slip.
+#[rustfmt::skip]
 const PACES: [Pace; 4] = [
-    Pace {
-        of: |motion| motion.origin_m.norm(),
-        what: "distance from the origin",
-        unit: ("m", 1.0),
-        usual: f64::INFINITY,
-        most: 1e8,
-        slip: "shift the path so that it starts near the origin",
-    },
-    Pace {
-        of: |motion| motion.velocity_m_s.norm(),
-        what: "speed",
-        unit: ("m/s", 1.0),
-        usual: 100.0,
-        most: 1e6,
-        slip: "look at the units of times and places",
-    },
-    Pace {
-        of: |motion| motion.acceleration_m_s2.norm(),
-        what: "acceleration",
-        unit: ("g", STANDARD_GRAVITY_M_S2),
-        usual: 100.0 * STANDARD_GRAVITY_M_S2,
-        most: 1e9,
-        slip: "look at the units of times, places and accelerations",
-    },
-    Pace {
-        of: |motion| motion.angular_velocity_rad_s.norm(),
-        what: "rate of turning",
-        unit: ("rad/s", 1.0),
-        usual: 50.0,
-        most: 1e6,
-        slip: "look at the units of angles and rates; bare angles are degrees",
-    },
+    pace(|m| m.origin_m.norm(), "distance from the origin", ("m", 1.0), f64::INFINITY, 1e8,
+        "shift the path so that it starts near the origin"),
+    pace(|m| m.velocity_m_s.norm(), "speed", ("m/s", 1.0), 100.0, 1e6, "look at the units of times and places"),
+    pace(|m| m.acceleration_m_s2.norm(), "acceleration", ("g", G), 100.0 * G, 1e9,
+        "look at the units of times, places and accelerations"),
+    pace(|m| m.angular_velocity_rad_s.norm(), "rate of turning", ("rad/s", 1.0), 50.0, 1e6,
+        "look at the units of angles and rates; bare angles are degrees"),
 ];
+
+const fn pace(
+    of: fn(&FrameMotion) -> f64,
+    what: &'static str,
+    unit: (&'static str, f64),
+    usual: f64,
+    most: f64,
+    slip: &'static str,
+) -> Pace {
+    Pace { of, what, unit, usual, most, slip }
+}
 
 /// So many instants of a run are looked at.
 const INSTANTS: u32 = 256;

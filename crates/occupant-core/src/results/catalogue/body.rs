@@ -12,7 +12,7 @@ use crate::results::reaction::{femur_axial_n, reaction};
 use crate::results::sample::Sample;
 
 /// A segment.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct OfSegment;
 
 impl Owner for OfSegment {

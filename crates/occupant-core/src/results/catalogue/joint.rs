@@ -8,7 +8,7 @@ use crate::results::reaction::reaction;
 use crate::results::sample::Sample;
 
 /// A joint.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct OfJoint;
 
 impl Owner for OfJoint {

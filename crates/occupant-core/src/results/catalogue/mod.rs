@@ -46,7 +46,7 @@ impl fmt::Debug for Source {
 }
 
 /// The run as a whole: what a model has once.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub struct Run;
 
 impl Owner for Run {
@@ -96,11 +96,6 @@ const ORDER: [&str; 10] = [
     "ReportCoordinates",
 ];
 
-/// All time histories of a model: vehicle, segments, neck and femurs, spheres, belts, joints, energies.
-pub(super) fn channels(model: &Model) -> Vec<Channel> {
-    Catalogue::of(model).channels
-}
-
 /// All messages of a model that have results at every output, in the order in which a file has them.
 pub fn messages(model: &Model) -> Vec<Message> {
     let mut messages = Catalogue::of(model).messages;
@@ -144,13 +139,13 @@ struct Place<'a> {
 
 /// The lists put together.
 #[derive(Default)]
-struct Catalogue {
-    channels: Vec<Channel>,
+pub(super) struct Catalogue {
+    pub(super) channels: Vec<Channel>,
     messages: Vec<Message>,
 }
 
 impl Catalogue {
-    fn of(model: &Model) -> Self {
+    pub(super) fn of(model: &Model) -> Self {
         let mut all = Catalogue::default();
         all.whole("VehicleMotion", "/vehicle", "vehicle", vehicle::QUANTITIES, |s| s);
         let tree = model.body().tree;

@@ -6,7 +6,7 @@ use crate::quantity::{Axes, Kind, Owner, Quantity, Take, Value, values};
 use crate::results::sample::{Contact, Sample};
 
 /// A contact sphere, by its number.
-#[derive(Debug)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct OfSphere;
 
 impl Owner for OfSphere {
@@ -41,6 +41,7 @@ fn touches<'a>((s, i): &(&'a Sample<'a>, usize)) -> Vec<Vec<(u32, Value)>> {
 }
 
 /// A sphere and a surface that touch.
+#[derive(Clone, Copy, Debug)]
 struct OfTouch;
 
 impl Owner for OfTouch {

@@ -82,11 +82,8 @@ impl Summary {
             if let Some(FirstContact { contact, .. }) = first {
                 let contact = contact.as_ref();
                 list.add(format!("{name}.first_time"), Second, contact.map(|c| c.time_s));
-                for (of, speed_m_s) in
-                    [("first_speed", contact.map(|c| c.speed_m_s)), ("first_closing", contact.map(|c| c.closing_m_s))]
-                {
-                    list.add(format!("{name}.{of}"), MetrePerSecond, speed_m_s);
-                }
+                list.add(format!("{name}.first_speed"), MetrePerSecond, contact.map(|c| c.speed_m_s));
+                list.add(format!("{name}.first_closing"), MetrePerSecond, contact.map(|c| c.closing_m_s));
             }
         }
     }

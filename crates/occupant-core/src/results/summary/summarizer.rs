@@ -10,7 +10,7 @@ use super::{
 };
 use crate::body::Body;
 use crate::model::Model;
-use crate::model::setup::{Integrator, STANDARD_GRAVITY_M_S2, TimeSpan};
+use crate::model::setup::{STANDARD_GRAVITY_M_S2, TimeSpan};
 use crate::results::outcome::{FirstTouch, Outcome, Status};
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
@@ -111,11 +111,11 @@ impl Summarizer {
 
     fn acceleration(&self, i: usize, levels: &injury::Acceleration, time: &TimeSpan) -> Acceleration {
         let peak = self.accelerations[i].unwrap_or(Peak { value: 0.0, time_s: time.start_s });
-        let level = |found: &ThreeMs| Level {
-            level_m_s2: found.level_mps2,
-            level_g: in_g(found.level_mps2),
-            from_s: self.signals.start_s + found.start_s,
-            to_s: self.signals.start_s + found.end_s,
+        let level = |held: &ThreeMs| Level {
+            level_m_s2: held.level_mps2,
+            level_g: in_g(held.level_mps2),
+            from_s: self.signals.start_s + held.start_s,
+            to_s: self.signals.start_s + held.end_s,
         };
         Acceleration {
             peak_m_s2: peak.value,
@@ -205,10 +205,7 @@ impl Recorder for Summarizer {
             title: setup.title.clone(),
             body: setup.body.clone(),
             surfaces: setup.surfaces.iter().map(|s| s.name.clone()).collect(),
-            integrator: match setup.integrator {
-                Integrator::Rk4 { .. } => "rk4",
-                Integrator::Adaptive { .. } => "adaptive",
-            },
+            integrator: setup.integrator.name(),
             time: setup.time,
         };
         let sphere = SphereTrack { force: Peak::NONE, penetration: Peak::NONE, surface: 0 };

@@ -94,17 +94,17 @@ struct Reader<'a> {
     sources: &'a Sources,
     wanted: &'a [Column],
     /// For each column of the table, the wanted column and SI units in one of its own.
-    found: Vec<Option<(usize, f64)>>,
+    columns: Vec<Option<(usize, f64)>>,
     problems: Diagnostics,
 }
 
 impl<'a> Reader<'a> {
     fn new(sources: &'a Sources, wanted: &'a [Column]) -> Self {
-        Reader { sources, wanted, found: Vec::new(), problems: Diagnostics::new() }
+        Reader { sources, wanted, columns: Vec::new(), problems: Diagnostics::new() }
     }
 
     fn finish(self, mut table: NumberTable) -> Result<NumberTable, Diagnostics> {
-        let there = |i| self.found.iter().flatten().any(|(at, _)| *at == i);
+        let there = |i| self.columns.iter().flatten().any(|(at, _)| *at == i);
         table.present = (0..self.wanted.len()).map(there).collect();
         if self.problems.is_empty() { Ok(table) } else { Err(self.problems) }
     }
@@ -120,12 +120,12 @@ impl<'a> Reader<'a> {
     fn header(&mut self, cells: &[Cell], span: Span) {
         for cell in cells {
             let column = self.column(cell);
-            self.found.push(column);
+            self.columns.push(column);
         }
         let wanted = self.wanted;
         for (i, column) in wanted.iter().enumerate() {
             let there = cells.iter().any(|c| name_and_unit(c.text).0 == column.name);
-            let known = self.found.iter().flatten().any(|(at, _)| *at == i);
+            let known = self.columns.iter().flatten().any(|(at, _)| *at == i);
             if column.required && !there && !known {
                 let unit = KINDS[column.kind].bare_unit(UnitSystem::Si);
                 let expected = format!("a column `{}[{unit}]`", column.name);
@@ -144,7 +144,7 @@ impl<'a> Reader<'a> {
             self.report(cell.span, problem.with_hint(did_you_mean(name, &names, '`')));
             return None;
         };
-        if self.found.iter().flatten().any(|(at, _)| *at == i) {
+        if self.columns.iter().flatten().any(|(at, _)| *at == i) {
             self.error(cell.span, format!("column `{name}` a second time"), "each column once");
             return None;
         }
@@ -165,12 +165,12 @@ impl<'a> Reader<'a> {
     }
 
     fn row(&mut self, table: &mut NumberTable, numbers: Vec<f64>, span: Span) {
-        if numbers.len() != self.found.len() {
-            let expected = format!("{}, one for each column", self.found.len());
+        if numbers.len() != self.columns.len() {
+            let expected = format!("{}, one for each column", self.columns.len());
             return self.error(span, format!("{} numbers", numbers.len()), expected);
         }
         let mut row = vec![0.0; self.wanted.len()];
-        for (number, column) in numbers.into_iter().zip(&self.found) {
+        for (number, column) in numbers.into_iter().zip(&self.columns) {
             if let Some((i, factor)) = column {
                 row[*i] = number * factor;
             }

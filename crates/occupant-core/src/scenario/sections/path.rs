@@ -139,28 +139,11 @@ pub(super) fn direction(words: &Option<[Ratio; 3]>) -> TravelDirection {
 
 /// Reports what a path says is wrong with it, at the line of its table where it speaks of one.
 pub(super) fn refuse(b: &mut Builder, problems: &[PathProblem], table: Option<&NumberTable>) {
-    for problem in problems {
-        let span = station_of(problem).and_then(|i| table?.row_spans.get(i).copied());
-        let text = problem.to_string();
-        let (found, expected) = text.split_once(", expected ").unwrap_or((&text, "a path that is possible"));
+    for PathProblem { station, found, expected } in problems {
         let problem = Problem::error("path", found, expected);
-        match span {
+        match station.and_then(|i| table?.row_spans.get(i).copied()) {
             None => b.report(problem),
             Some(span) => b.problems.add(problem, |problem| Diagnostic::at(&b.document.sources, span, problem)),
         }
-    }
-}
-
-/// The line of the table that a problem is about.
-fn station_of(problem: &PathProblem) -> Option<usize> {
-    match problem {
-        PathProblem::TimeNotIncreasing { station, .. }
-        | PathProblem::StationNotFinite { station, .. }
-        | PathProblem::StationTooLarge { station, .. }
-        | PathProblem::AngleJump { station, .. }
-        | PathProblem::TooSteep { station, .. }
-        | PathProblem::NotUniform { station, .. }
-        | PathProblem::TurnsTooFar { station, .. } => Some(*station),
-        _ => None,
     }
 }

@@ -28,87 +28,34 @@ const METRES: &str = "bare numbers are metres unless units = \"in-lbf-s\" says i
 /// Of angles; SI has radians.
 const DEGREES: &str = "°";
 
+const fn usual(
+    paths: &'static [&'static str],
+    values: RangeInclusive<f64>,
+    [unit, in_words, what, slip]: [&'static str; 4],
+) -> Usual {
+    Usual { paths, values, unit, in_words, what, slip }
+}
+
+/// Where, from what to what, in which unit, in words, of what, and the slip.
+#[rustfmt::skip]
 const USUAL: [Usual; 10] = [
-    Usual {
-        paths: &["gravity"],
-        values: 9.5..=10.1,
-        unit: "m/s²",
-        in_words: "9.5 to 10.1 m/s²",
-        what: "gravity on earth",
-        slip: "386.09 is standard gravity in in/s², 32.17 in ft/s²",
-    },
-    Usual {
-        paths: &["body.segments"],
-        values: 3.0..=250.0,
-        unit: "kg",
-        in_words: "3 kg to 250 kg",
-        what: "the mass of a person",
-        slip: "a bare mass is in kg, under units = \"in-lbf-s\" in lbf·s²/in; use \"11.5 lb\", or `weight`",
-    },
-    Usual {
-        paths: &["time.end"],
-        values: 0.01..=20.0,
-        unit: "s",
-        in_words: "10 ms to 20 s",
-        what: "the length of a crash",
-        slip: "bare numbers are seconds; use \"200 ms\"",
-    },
-    Usual {
-        paths: &["body.spheres.*.radius"],
-        values: 0.005..=0.5,
-        unit: "m",
-        in_words: "5 mm to 0.5 m",
-        what: "the radius of a sphere of the body",
-        slip: METRES,
-    },
-    Usual {
-        paths: &["materials.*.k1", "belts.*.k1"],
-        values: 500.0..=1e9,
-        unit: "N/m",
-        in_words: "500 N/m to 1 GN/m",
-        what: "the stiffness of a part of a car",
-        slip: "bare numbers are N/m unless units = \"in-lbf-s\" says lbf/in; 1 lbf/in is 175 N/m",
-    },
-    Usual {
-        paths: &["belts.*.anchors[*]", "posture.heels[*]"],
-        values: -10.0..=10.0,
-        unit: "m",
-        in_words: "within 10 m of the origin",
-        what: "a place in a vehicle",
-        slip: METRES,
-    },
-    Usual {
-        paths: &["posture.middle_torso", "posture.upper_torso", "posture.lower_torso"],
-        values: -45.0..=90.0,
-        unit: DEGREES,
-        in_words: "−45° to 90°",
-        what: "the lean of a person who sits",
-        slip: LEAN,
-    },
-    Usual {
-        paths: &["posture.head"],
-        values: -60.0..=90.0,
-        unit: DEGREES,
-        in_words: "−60° to 90°",
-        what: "the lean of a head",
-        slip: LEAN,
-    },
-    Usual {
-        paths: &["posture.upper_arms"],
-        values: -90.0..=180.0,
-        unit: DEGREES,
-        in_words: "−90° to 180°",
-        what: "the angle of upper arms",
-        slip: "positive angles bring the elbows ahead of the shoulders",
-    },
-    Usual {
-        paths: &["posture.elbows"],
-        values: -150.0..=10.0,
-        unit: DEGREES,
-        in_words: "−150° to 10°",
-        what: "the angle of elbows",
-        slip: "negative angles bring the hands forward",
-    },
+    usual(&["gravity"], 9.5..=10.1, ["m/s²", "9.5 to 10.1 m/s²", "gravity on earth",
+        "386.09 is standard gravity in in/s², 32.17 in ft/s²"]),
+    usual(&["body.segments"], 3.0..=250.0, ["kg", "3 kg to 250 kg", "the mass of a person",
+        "a bare mass is in kg, under units = \"in-lbf-s\" in lbf·s²/in; use \"11.5 lb\", or `weight`"]),
+    usual(&["time.end"], 0.01..=20.0, ["s", "10 ms to 20 s", "the length of a crash",
+        "bare numbers are seconds; use \"200 ms\""]),
+    usual(&["body.spheres.*.radius"], 0.005..=0.5, ["m", "5 mm to 0.5 m", "the radius of a sphere of the body", METRES]),
+    usual(&["materials.*.k1", "belts.*.k1"], 500.0..=1e9, ["N/m", "500 N/m to 1 GN/m", "the stiffness of a part of a car",
+        "bare numbers are N/m unless units = \"in-lbf-s\" says lbf/in; 1 lbf/in is 175 N/m"]),
+    usual(&["belts.*.anchors[*]", "posture.heels[*]"], -10.0..=10.0, ["m", "within 10 m of the origin", "a place in a vehicle", METRES]),
+    usual(&["posture.middle_torso", "posture.upper_torso", "posture.lower_torso"], -45.0..=90.0,
+        [DEGREES, "−45° to 90°", "the lean of a person who sits", LEAN]),
+    usual(&["posture.head"], -60.0..=90.0, [DEGREES, "−60° to 90°", "the lean of a head", LEAN]),
+    usual(&["posture.upper_arms"], -90.0..=180.0, [DEGREES, "−90° to 180°", "the angle of upper arms",
+        "positive angles bring the elbows ahead of the shoulders"]),
+    usual(&["posture.elbows"], -150.0..=10.0, [DEGREES, "−150° to 10°", "the angle of elbows",
+        "negative angles bring the hands forward"]),
 ];
 
 /// Adds a warning for every kind of number that looks like a slip.

@@ -71,6 +71,7 @@ pub(crate) enum SensorAxes {
     ZUp,
 }
 
+// in the order of `ChannelClass::ALL`
 /// Channel frequency class.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -124,21 +125,12 @@ pub(super) fn path(
             0.0 => STANDARD_GRAVITY_M_S2,
             g => g,
         },
-        filter: s.filter.map(class),
+        filter: s.filter.map(|word| ChannelClass::ALL[word as usize]),
         baseline_s: s.baseline.as_ref().map(Time::si),
         starts_at_s: s.start.as_ref().map(Time::si),
         after: s.after.unwrap_or_default(),
     });
     path.map_err(|p| refuse(b, &p, Some(&table))).ok()
-}
-
-fn class(word: FilterClass) -> ChannelClass {
-    match word {
-        FilterClass::Cfc60 => ChannelClass::Cfc60,
-        FilterClass::Cfc180 => ChannelClass::Cfc180,
-        FilterClass::Cfc600 => ChannelClass::Cfc600,
-        FilterClass::Cfc1000 => ChannelClass::Cfc1000,
-    }
 }
 
 /// The channels of the table, in axes forward, right, down.

@@ -96,7 +96,7 @@ impl PulseShape {
         }
         let profile = self.unchecked_profile();
         if profile.peak_m_s2() == 0.0 {
-            return Err(vec![PathProblem::PulseIsZero]);
+            return Err(vec![PathProblem::new("the pulse is zero throughout", "a deceleration somewhere")]);
         }
         let end = profile.loss(profile.duration_s(), &mut PathCursor::default());
         expect_finite(&mut problems, "peak deceleration", profile.peak_m_s2());
@@ -144,7 +144,8 @@ impl PulseShape {
                 strength.find_problems(problems);
                 expect_positive(problems, "duration", *duration_s);
                 if !(0.0..=1.0).contains(peak_fraction) {
-                    problems.push(PathProblem::PeakFractionOutside { value: *peak_fraction });
+                    let found = format!("found a peak at the fraction {peak_fraction} of the pulse");
+                    problems.push(PathProblem::new(found, "0 to 1"));
                 }
             }
             PulseShape::Trapezoid { strength, rise_s, plateau_s, fall_s } => {
@@ -154,7 +155,7 @@ impl PulseShape {
                     expect_not_negative(problems, quantity, value);
                 }
                 if parts.iter().all(|(_, value)| *value == 0.0) {
-                    problems.push(PathProblem::NotPositive { quantity: "rise + plateau + fall", value: 0.0 });
+                    problems.push(PathProblem::of_value("rise + plateau + fall", 0.0, "more than 0"));
                 }
             }
             PulseShape::Tabulated { points } => find_point_problems(points, problems),
@@ -189,7 +190,7 @@ fn trapezoid(strength: Strength, rise_s: f64, plateau_s: f64, fall_s: f64) -> Pr
 
 fn find_point_problems(points: &[DecelerationPoint], problems: &mut Vec<PathProblem>) {
     if points.len() < 2 {
-        problems.push(PathProblem::TooFewStations { found: points.len() });
+        problems.push(PathProblem::too_few_stations(points.len()));
     }
     for (station, point) in points.iter().enumerate() {
         let previous_s = station.checked_sub(1).map(|before| points[before].time_s);
@@ -200,7 +201,7 @@ fn find_point_problems(points: &[DecelerationPoint], problems: &mut Vec<PathProb
 
 fn expect_positive(problems: &mut Vec<PathProblem>, quantity: &'static str, value: f64) {
     if value <= 0.0 {
-        problems.push(PathProblem::NotPositive { quantity, value });
+        problems.push(PathProblem::of_value(quantity, value, "more than 0"));
     } else {
         expect_finite(problems, quantity, value);
     }
@@ -209,7 +210,7 @@ fn expect_positive(problems: &mut Vec<PathProblem>, quantity: &'static str, valu
 /// Adds a problem unless `value` is finite and zero or more.
 pub(super) fn expect_not_negative(problems: &mut Vec<PathProblem>, quantity: &'static str, value: f64) {
     if value < 0.0 {
-        problems.push(PathProblem::Negative { quantity, value });
+        problems.push(PathProblem::of_value(quantity, value, "0 or more"));
     } else {
         expect_finite(problems, quantity, value);
     }

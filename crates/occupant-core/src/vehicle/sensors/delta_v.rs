@@ -8,7 +8,7 @@ use nalgebra::Vector3;
 use super::readings::Readings;
 use super::record::{DeltaVRecord, check_turning};
 use crate::vehicle::problem::PathProblem;
-use crash_measures::signal::{Interpolant, Interpolation, SignalError};
+use crash_measures::signal::{Interpolant, Interpolation};
 
 /// Longest interval of the integration, s.
 const LONGEST_S: f64 = 1e-3;
@@ -19,7 +19,7 @@ const MOST_PARTS: f64 = 1e4;
 ///
 /// # Errors
 /// Points too far apart for the yaw rate.
-pub(super) fn read(record: &DeltaVRecord, start_s: f64) -> Result<Readings, Vec<PathProblem>> {
+pub(super) fn read<'r>(record: &'r DeltaVRecord, start_s: f64) -> Result<Readings, Vec<PathProblem>> {
     let mut problems = Vec::new();
     if let Some(yaw) = &record.yaw_rate_rad_s {
         let norms: Vec<f64> = yaw.iter().map(|rate| rate.abs()).collect();
@@ -28,51 +28,24 @@ pub(super) fn read(record: &DeltaVRecord, start_s: f64) -> Result<Readings, Vec<
     if !problems.is_empty() {
         return Err(problems);
     }
-    let channels = Channels::new(record)
-        .map_err(|_| vec![PathProblem::NotFinite { quantity: "velocity change", value: f64::NAN }])?;
+    let through = |channel: &'r Option<Vec<f64>>, shape| {
+        let through = channel.as_deref().map(|samples| Interpolant::new(&record.time_s, samples, shape)).transpose();
+        through.map_err(|_| vec![PathProblem::not_finite("velocity change", f64::NAN)])
+    };
+    let longitudinal = through(&record.longitudinal_m_s, Interpolation::MonotoneCubic)?;
+    let lateral = through(&record.lateral_m_s, Interpolation::MonotoneCubic)?;
+    let yaw_rate = through(&record.yaw_rate_rad_s, Interpolation::Linear)?;
+    let slope = |channel: &Option<Interpolant>, t_s| channel.as_ref().map_or(0.0, |through| through.slope_at(t_s));
+    let acceleration_m_s2 = |t_s| Vector3::new(slope(&longitudinal, t_s), slope(&lateral, t_s), 0.0);
+    let yaw_rad_s = |t_s| yaw_rate.as_ref().map_or(0.0, |through| through.value_at(t_s));
     let time_s = nodes(&record.time_s, start_s);
-    let at_nodes = |f: &dyn Fn(f64) -> Vector3<f64>| time_s.iter().map(|&t| f(t)).collect();
     Ok(Readings {
-        acceleration_m_s2: at_nodes(&|t| channels.acceleration_m_s2(t)),
-        rate_rad_s: at_nodes(&|t| channels.rate_rad_s(t)),
-        middle_m_s2: time_s.windows(2).map(|pair| channels.acceleration_m_s2(0.5 * (pair[0] + pair[1]))).collect(),
+        acceleration_m_s2: time_s.iter().map(|&t_s| acceleration_m_s2(t_s)).collect(),
+        rate_rad_s: time_s.iter().map(|&t_s| Vector3::new(0.0, 0.0, yaw_rad_s(t_s))).collect(),
+        middle_m_s2: time_s.windows(2).map(|pair| acceleration_m_s2(0.5 * (pair[0] + pair[1]))).collect(),
         present: [true; 3],
         time_s,
     })
-}
-
-/// The channels between their points.
-struct Channels<'a> {
-    longitudinal: Option<Interpolant<'a>>,
-    lateral: Option<Interpolant<'a>>,
-    yaw_rate: Option<Interpolant<'a>>,
-}
-
-impl<'a> Channels<'a> {
-    fn new(record: &'a DeltaVRecord) -> Result<Self, SignalError> {
-        let through = |channel: &'a Option<Vec<f64>>, shape| {
-            let samples = channel.as_deref();
-            samples.map(|samples| Interpolant::new(&record.time_s, samples, shape)).transpose()
-        };
-        Ok(Channels {
-            longitudinal: through(&record.longitudinal_m_s, Interpolation::MonotoneCubic)?,
-            lateral: through(&record.lateral_m_s, Interpolation::MonotoneCubic)?,
-            yaw_rate: through(&record.yaw_rate_rad_s, Interpolation::Linear)?,
-        })
-    }
-
-    fn acceleration_m_s2(&self, t_s: f64) -> Vector3<f64> {
-        let slope = |channel: &Option<Interpolant<'_>>| {
-            let channel = channel.as_ref();
-            channel.map_or(0.0, |through| through.slope_at(t_s))
-        };
-        Vector3::new(slope(&self.longitudinal), slope(&self.lateral), 0.0)
-    }
-
-    fn rate_rad_s(&self, t_s: f64) -> Vector3<f64> {
-        let yaw_rate = self.yaw_rate.as_ref();
-        Vector3::new(0.0, 0.0, yaw_rate.map_or(0.0, |through| through.value_at(t_s)))
-    }
 }
 
 /// Times of the nodes: `start_s`, the later points of the record, and between them as many as keep intervals short.

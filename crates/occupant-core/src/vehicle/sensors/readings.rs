@@ -55,7 +55,8 @@ fn start(definition: &SensorDefinition, problems: &mut Vec<PathProblem>) -> f64 
     };
     let start_s = definition.starts_at_s.unwrap_or(first_s);
     if !(start_s >= first_s && start_s < last_s) && time_s.len() > 1 {
-        problems.push(PathProblem::StartOutsideRecord { start_s, first_s, last_s });
+        let expected = format!("a time of the record, from {first_s} s to before {last_s} s");
+        problems.push(PathProblem::new(format!("the path starts at {start_s} s"), expected));
     }
     start_s
 }
@@ -69,7 +70,8 @@ fn take_baseline(definition: &SensorDefinition, record: &mut AccelerationRecord)
     let until_s = record.time_s[0] + baseline_s;
     let count = record.time_s.partition_point(|&t| t <= until_s);
     if baseline_s.is_nan() || baseline_s <= 0.0 || count < 2 || count == record.time_s.len() {
-        return Err(PathProblem::BaselineOutsideRecord { baseline_s, samples: count });
+        let found = format!("the baseline of {baseline_s} s has {count} samples");
+        return Err(PathProblem::new(found, "at least 2, and fewer than the record has"));
     }
     let rest = match definition.gravity {
         // at rest: f = −Aᵀ g, z down
@@ -110,15 +112,20 @@ fn filter(record: &mut AccelerationRecord, class: ChannelClass) -> Result<(), Ve
 fn problem_of(error: &SignalError, quantity: &'static str) -> PathProblem {
     match *error {
         SignalError::NotUniform { index, found_s, expected_s } => {
-            PathProblem::NotUniform { station: index, time_s: found_s, expected_s }
+            let expected = format!(
+                "{expected_s} s, for a filter needs samples evenly spaced in time; resample the record, or leave `filter` out"
+            );
+            PathProblem::at(index, format_args!("found t = {found_s} s"), expected)
         }
         SignalError::CornerAboveNyquist { corner_hz, nyquist_hz } => {
-            PathProblem::FilterTooFast { corner_hz, nyquist_hz }
+            let expected = format!(
+                "less than half the sample rate, {nyquist_hz:.1} Hz; use a lower class or a record with more samples a \
+                 second, or leave `filter` out"
+            );
+            PathProblem::new(format!("the filter's corner is {corner_hz:.1} Hz"), expected)
         }
-        SignalError::NotFinite { index, found, .. } => {
-            PathProblem::StationNotFinite { station: index, quantity, value: found }
-        }
-        _ => PathProblem::NotFinite { quantity, value: f64::NAN },
+        SignalError::NotFinite { index, found, .. } => PathProblem::not_finite_at(index, quantity, found),
+        _ => PathProblem::not_finite(quantity, f64::NAN),
     }
 }
 

@@ -74,14 +74,16 @@ impl SensorRecord {
         let (time_s, channels) = (self.time_s(), self.channels());
         let mut problems = Vec::new();
         if channels.is_empty() {
-            problems.push(PathProblem::NoSensorChannel);
+            let expected = "accelerations, rates or velocity changes";
+            problems.push(PathProblem::new("found no channel that moves the vehicle", expected));
         }
         if time_s.len() < 2 {
-            problems.push(PathProblem::TooFewStations { found: time_s.len() });
+            problems.push(PathProblem::too_few_stations(time_s.len()));
         }
         for (quantity, samples) in &channels {
             if samples.len() != time_s.len() {
-                problems.push(PathProblem::ChannelLength { quantity, found: samples.len(), expected: time_s.len() });
+                let found = format!("found {} samples of {quantity}", samples.len());
+                problems.push(PathProblem::new(found, format!("{}, one for each time", time_s.len())));
             }
         }
         for (station, &here_s) in time_s.iter().enumerate() {
@@ -103,7 +105,9 @@ pub(super) fn check_turning(time_s: &[f64], rate_norms_rad_s: &[f64], problems: 
         let mean_rad_s = 0.5 * (rate_norms_rad_s[station - 1] + rate_norms_rad_s[station]);
         let turn_rad = mean_rad_s * (time_s[station] - time_s[station - 1]);
         if turn_rad > FRAC_PI_2 {
-            problems.push(PathProblem::TurnsTooFar { station, turn_rad });
+            let found = format_args!("the vehicle turns by {:.1}° since the sample before", turn_rad.to_degrees());
+            let expected = "at most 90°; give rates in their true unit, or more samples";
+            problems.push(PathProblem::at(station, found, expected));
         }
     }
 }

@@ -12,25 +12,10 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::SensorGravity;
 use super::readings::Readings;
-use crate::vehicle::VehiclePose;
+use super::{SensorDefinition, SensorGravity};
 use crate::vehicle::attitude::{Attitude, rotation_by};
 use crate::vehicle::problem::PathProblem;
-
-/// Where the path starts, in vehicle-space axes.
-pub(super) struct Start {
-    /// Pose of the vehicle.
-    pub pose: VehiclePose,
-    /// Velocity of the c.g., m/s.
-    pub velocity_m_s: Vector3<f64>,
-    /// Sensors from the c.g., vehicle axes, m.
-    pub offset_m: Vector3<f64>,
-    /// Gravity in the readings.
-    pub gravity: SensorGravity,
-    /// g, m/s².
-    pub gravity_m_s2: f64,
-}
 
 /// The motion of the sensors from one node to the next, in vehicle-space axes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -98,19 +83,23 @@ impl Piece {
     }
 }
 
-/// The pieces between the nodes, and the attitude at the last one.
+/// The pieces between the nodes, and the attitude at the last one; `velocity_m_s` is that of the c.g. where the path starts,
+/// vehicle-space axes.
 ///
 /// # Errors
 /// Readings so large that place or velocity are no numbers.
-pub(super) fn integrate(readings: &Readings, start: &Start) -> Result<(Vec<Piece>, Attitude), Vec<PathProblem>> {
+pub(super) fn integrate(
+    readings: &Readings,
+    start: &SensorDefinition,
+    velocity_m_s: Vector3<f64>,
+) -> Result<(Vec<Piece>, Attitude), Vec<PathProblem>> {
     let field = Field::new(readings, start);
-    let mut attitude = start.pose.attitude;
+    let mut attitude = start.initial.attitude;
     let mut rotation = attitude.matrix();
     let arm_m = rotation * start.offset_m;
-    let omega = rotation * readings.rate_rad_s[0];
     // v_s = v_cg + ω × A r
-    let mut place_m = start.pose.position_m + arm_m;
-    let mut velocity_m_s = start.velocity_m_s + omega.cross(&arm_m);
+    let mut place_m = start.initial.position_m + arm_m;
+    let mut velocity_m_s = velocity_m_s + (rotation * readings.rate_rad_s[0]).cross(&arm_m);
     let mut pieces = Vec::with_capacity(readings.time_s.len());
     for i in 0..readings.time_s.len() - 1 {
         let h_s = readings.time_s[i + 1] - readings.time_s[i];
@@ -134,7 +123,7 @@ pub(super) fn integrate(readings: &Readings, start: &Start) -> Result<(Vec<Piece
         rotation = next;
         attitude = Attitude::from_matrix(&rotation, &attitude);
         if !(place_m.norm() + velocity_m_s.norm() + rotation.norm()).is_finite() {
-            return Err(vec![PathProblem::NotFinite { quantity: "integrated place", value: f64::NAN }]);
+            return Err(vec![PathProblem::not_finite("integrated place", f64::NAN)]);
         }
         pieces.push(piece);
     }
@@ -151,9 +140,9 @@ struct Field {
 }
 
 impl Field {
-    fn new(readings: &Readings, start: &Start) -> Self {
+    fn new(readings: &Readings, start: &SensorDefinition) -> Self {
         let down = Vector3::new(0.0, 0.0, start.gravity_m_s2);
-        let at_start = start.pose.attitude.matrix().tr_mul(&down);
+        let at_start = start.initial.attitude.matrix().tr_mul(&down);
         let (gravity_m_s2, zeroed_m_s2) = match start.gravity {
             SensorGravity::Included => (down, Vector3::zeros()),
             SensorGravity::Zeroed => (down, at_start),

@@ -79,7 +79,7 @@ fn computed(pages: &mut Pages, units: Units, seated: &Seated) {
 }
 
 fn came_to_rest(pages: &mut Pages, units: Units, settled: &Settled) {
-    let (moved, turned) = (units.of(Metre).say(settled.moved_m.norm()), degree().say(settled.turned_rad.norm()));
+    let (moved, turned) = (units.of(Metre).say(settled.moved_m), degree().say(settled.turned_rad));
     let [force, weight] = [settled.residual_force_n, settled.weight_n].map(|x| units.of(Newton).say(x));
     let moment = units.of(NewtonMetre).say(settled.residual_moment_n_m);
     let left = format!("LEFT OVER {force} AND {moment} OF A WEIGHT OF {weight}");
