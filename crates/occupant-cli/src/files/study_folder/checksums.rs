@@ -10,8 +10,12 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard};
 
 use super::problem::Problem;
+use crate::base::names::stays_within;
 use crate::base::output_file::{Existing, write_whole};
 use crate::base::sha256::sha256;
+
+/// Letters of a checksum.
+const SUM: usize = 64;
 
 /// The name of the list.
 pub(crate) const SUMS: &str = "SHA256SUMS";
@@ -46,7 +50,8 @@ impl Checksums {
         // what a killed process has left of its last line has no end; the next one is appended to it and is lost as well
         let lines = text.split_inclusive('\n').filter_map(|line| line.strip_suffix('\n')?.split_once("  "));
         let mut state = State::default();
-        state.listed.extend(lines.map(|(sum, name)| (name.to_owned(), sum.to_owned())));
+        let ours = lines.filter(|(sum, name)| sum.len() == SUM && stays_within(name));
+        state.listed.extend(ours.map(|(sum, name)| (name.to_owned(), sum.to_owned())));
         for (name, sum) in state.listed.iter().filter(|(name, _)| wanted(name)) {
             match fs::read(folder.join(name)) {
                 Ok(bytes) if sha256(&bytes) == *sum => state.sound.insert(name.clone()),
@@ -131,6 +136,23 @@ impl Checksums {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Else `/dev/zero` would be read, and a file of somebody else put aside.
+    #[test]
+    fn only_files_of_the_folder_are_listed() {
+        let there = tempfile::tempdir().unwrap();
+        let outside = there.path().join("outside");
+        fs::write(&outside, "x").unwrap();
+        let folder = there.path().join("folder");
+        fs::create_dir_all(folder.join("runs")).unwrap();
+        let sum = "0".repeat(SUM);
+        let names = ["../outside", "runs/1.mcap/../../../outside", &outside.display().to_string(), "./x", ""];
+        let lines: String = names.map(|name| format!("{sum}  {name}\n")).concat();
+        fs::write(folder.join(SUMS), lines + &format!("short  runs/1.mcap\n{sum}  runs/2.mcap\n")).unwrap();
+        let sums = Checksums::open(&folder, |_| true).unwrap();
+        assert!(sums.damaged().is_empty());
+        assert_eq!(sums.state().listed.keys().collect::<Vec<_>>(), ["runs/2.mcap"]);
+    }
 
     #[test]
     fn a_changed_file_is_damaged_until_it_is_made_again_and_a_torn_line_lists_nothing() {

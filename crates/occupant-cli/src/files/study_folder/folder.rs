@@ -21,6 +21,8 @@ use super::journal::is_named_by_rows;
 use super::manifest::{Manifest, Text};
 use super::problem::Problem;
 use super::shard::Shard;
+use crate::base::input_file;
+use crate::base::names::stays_within;
 use crate::base::output_file::{partial_path, remove_if_there};
 
 const LOCK: &str = "sweep.lock";
@@ -135,7 +137,7 @@ impl Folder {
     /// The operating system refuses.
     pub(crate) fn copy_of(&self, text: &Text) -> Result<Vec<u8>, Problem> {
         let path = self.path.join(&text.copy);
-        fs::read(&path).map_err(Problem::io("read", &path))
+        input_file::bytes(&path).map_err(Problem::io("read", &path))
     }
 
     /// The manifest, if there is one.
@@ -150,7 +152,10 @@ impl Folder {
         };
         let read = serde_json::from_slice(&bytes).map_err(|error| error.to_string());
         let possible = |manifest: Manifest| match manifest.samples {
-            0..=MOST_RUNS => Ok(manifest),
+            0..=MOST_RUNS => match manifest.texts.iter().find(|text| !stays_within(&text.copy)) {
+                Some(text) => Err(format!("`copy` is {}, which is no file of the folder", text.copy)),
+                None => Ok(manifest),
+            },
             n => Err(format!("`samples` is {n}, and there are at most {MOST_RUNS}")),
         };
         read.and_then(possible).map(Some).map_err(|error| Problem::Damaged {
