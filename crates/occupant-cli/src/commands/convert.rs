@@ -9,7 +9,7 @@ use clap::ArgGroup;
 use occupant_core::scenario::{Draft, Format, Loaded};
 
 use crate::base::failure::{Done, Failure};
-use crate::base::input_file::read;
+use crate::base::input_file::{deck, read};
 use crate::base::names::{ending, file_name};
 use crate::base::output_file::{publish, refuse_input};
 use crate::base::talk::{print_file, say};
@@ -76,7 +76,7 @@ pub(crate) struct Args {
 
 /// Converts in the direction that the ending of the input gives.
 pub(crate) fn convert(args: &Args) -> Result<Done, Failure> {
-    let bytes = read(&args.input)?;
+    let bytes = deck(&args.input)?;
     let layout = args.compartment.as_deref().map(compartment).transpose()?;
     if ending(&args.input) == "mcap" {
         return deliver_deck(args, run_to_deck(args, &bytes, layout.as_ref())?);
