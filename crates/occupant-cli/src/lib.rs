@@ -9,6 +9,6 @@ mod files;
 mod jobs;
 mod pictures;
 
-pub use commands::main;
+pub use commands::{answer, main};
 pub use files::{mcap, results};
 pub use jobs::study;

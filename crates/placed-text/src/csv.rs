@@ -11,6 +11,9 @@ pub struct Cell<'a> {
     pub span: Span,
 }
 
+/// Cells of a line that are read: none has as many columns, so one that does is refused for what it is read as.
+const MOST_CELLS: usize = 10_000;
+
 /// Characters of a cell that messages show.
 pub const CELL: usize = 40;
 
@@ -46,6 +49,7 @@ pub fn cells(sources: &Sources, line: Span) -> Vec<Cell<'_>> {
     sources
         .slice(line)
         .split(',')
+        .take(MOST_CELLS)
         .map(|raw| {
             let from = start;
             start += raw.len() + 1;

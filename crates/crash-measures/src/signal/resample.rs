@@ -8,7 +8,7 @@
 use super::{SignalError, require_positive, require_same_length, require_samples, whole_steps};
 
 /// Most steps of a resampled record.
-const MOST_STEPS: usize = 100_000_000;
+const MOST_STEPS: usize = 5_000_000;
 
 /// Shape between samples.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -88,7 +88,7 @@ impl<'a> Interpolant<'a> {
         let start_s = self.time_s[0];
         let steps = whole_steps(self.time_s[self.time_s.len() - 1] - start_s, dt_s);
         if steps > MOST_STEPS {
-            let expected = "long enough for at most a hundred million samples";
+            let expected = "long enough for at most five million samples";
             return Err(SignalError::OutOfRange { what: "new sample interval (s)", found: dt_s, expected });
         }
         Ok((0..=steps).map(|i| self.value_at(start_s + i as f64 * dt_s)).collect())

@@ -7,10 +7,12 @@ use std::path::{Path, PathBuf};
 use super::failure::Failure;
 use super::names::ending;
 
-/// Megabytes that a text may have: what it is read into takes up to fifty times as much.
-const MOST_OF_TEXT: u64 = 32;
-/// The same of a scenario or study, whose every word becomes a place.
-const MOST_OF_SCENARIO: u64 = 8;
+/// Megabytes that a table may have: what it is read into takes up to thirty times as much.
+const MOST_OF_TABLE: u64 = 32;
+/// The same of a scenario or study, of which `{a.b=1},` takes up to five hundred times as much.
+const MOST_OF_SCENARIO: u64 = 2;
+/// The same of a deck, of which an empty line takes a hundred times as much.
+const MOST_OF_DECK: u64 = 4;
 
 /// The bytes of a file.
 ///
@@ -32,15 +34,10 @@ pub(crate) fn bytes(path: &Path) -> io::Result<Vec<u8>> {
             "it is a pipe or a device, not an ordinary file; save what it gives in one first",
         ));
     }
-    let most = match ending(path).as_str() {
-        "mcap" => u64::MAX,
-        "toml" | "json" => MOST_OF_SCENARIO * 1_000_000,
-        _ => MOST_OF_TEXT * 1_000_000,
-    };
-    if found.len() > most {
-        let (size, most) = (found.len() as f64 / 1e6, most / 1_000_000);
-        let found = format!("it has {size:.1} MB, and such a text may have at most {most} MB");
-        return Err(io::Error::new(ErrorKind::InvalidData, found));
+    match ending(path).as_str() {
+        "mcap" => {}
+        "toml" | "json" => within(found.len(), MOST_OF_SCENARIO)?,
+        _ => within(found.len(), MOST_OF_TABLE)?,
     }
     fs::read(path)
 }
@@ -55,6 +52,36 @@ pub(crate) fn entries(folder: &Path) -> io::Result<Vec<PathBuf>> {
     Ok(paths)
 }
 
+/// The bytes of a deck, or of what else stands in its place by its ending.
+///
+/// # Errors
+/// A file that cannot be read, as [`bytes`] says; a text that is too long for a deck.
+pub(crate) fn deck(path: &Path) -> Result<Vec<u8>, Failure> {
+    let bytes = read(path)?;
+    let is_deck = !matches!(ending(path).as_str(), "mcap" | "toml" | "json");
+    let fits = if is_deck { within(bytes.len() as u64, MOST_OF_DECK) } else { Ok(()) };
+    fits.map(|()| bytes).map_err(|error| Failure::plain(format!("{} is no deck: {error}", path.display())))
+}
+
+/// Refuses the text of a scenario that is too long.
+///
+/// # Errors
+/// How long it is, and how long it may be.
+pub(crate) fn scenario_fits(bytes: &[u8]) -> io::Result<()> {
+    within(bytes.len() as u64, MOST_OF_SCENARIO)
+}
+
+fn within(size: u64, most: u64) -> io::Result<()> {
+    if size <= most * 1_000_000 {
+        return Ok(());
+    }
+    let size = size as f64 / 1e6;
+    Err(io::Error::new(
+        ErrorKind::InvalidData,
+        format!("it has {size:.1} MB, and such a text may have at most {most} MB"),
+    ))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -67,7 +94,12 @@ mod tests {
         }
         let folder = tempfile::tempdir().unwrap();
         let long = folder.path().join("long.toml");
-        fs::File::create(&long).unwrap().set_len(8_000_001).unwrap();
-        assert!(refused(&long).contains("8.0 MB, and such a text may have at most 8 MB"), "{}", refused(&long));
+        fs::File::create(&long).unwrap().set_len(2_000_001).unwrap();
+        assert!(scenario_fits(&vec![0; 2_000_001]).is_err() && scenario_fits(&vec![0; 2_000_000]).is_ok());
+        let long_deck = folder.path().join("long.dat");
+        fs::File::create(&long_deck).unwrap().set_len(4_000_001).unwrap();
+        assert!(bytes(&long_deck).is_ok(), "a table may be as long");
+        assert!(deck(&long_deck).unwrap_err().words().contains("4.0 MB"));
+        assert!(refused(&long).contains("2.0 MB, and such a text may have at most 2 MB"), "{}", refused(&long));
     }
 }

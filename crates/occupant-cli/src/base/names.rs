@@ -1,6 +1,6 @@
 //! The names that files and messages carry: of this program, and of files without their folders.
 
-use std::path::Path;
+use std::path::{Component, Path};
 
 /// Name and version of this program.
 pub(crate) fn program() -> String {
@@ -33,4 +33,9 @@ pub(crate) fn is_page(path: &Path) -> bool {
 pub(crate) fn file_stem(name: &str) -> String {
     let plain = |c: char| if c.is_alphanumeric() || "-_ .".contains(c) { c } else { '_' };
     name.chars().map(plain).collect()
+}
+
+/// Whether a name that a file tells leads to somewhere within a folder, and not out of it again.
+pub(crate) fn stays_within(name: &str) -> bool {
+    !name.is_empty() && Path::new(name).components().all(|part| matches!(part, Component::Normal(_)))
 }

@@ -1,10 +1,24 @@
 //! The two voices: results on standard output, talk on standard error.
 
+use std::fs::symlink_metadata;
 use std::io::{self, ErrorKind, Write, stderr, stdout};
+use std::sync::atomic::{AtomicBool, Ordering};
 
 use placed_text::plain;
 
 use super::failure::Failure;
+
+/// Whether the process began with its standard output closed. The standard library opens `/dev/null` in its place before
+/// `main`, so that what is written is lost and nobody hears of it.
+static CLOSED: AtomicBool = AtomicBool::new(false);
+
+ctor::declarative::ctor! {
+    #[ctor(unsafe)]
+    fn look_before_main() {
+        let is_there = |path| symlink_metadata(path).is_ok();
+        CLOSED.store(is_there("/dev/fd") && !is_there("/dev/fd/1"), Ordering::Relaxed);
+    }
+}
 
 /// Writes a result, its control characters escaped. A reader that has gone away is no failure.
 pub(crate) fn print(text: &str) -> Result<(), Failure> {
@@ -18,7 +32,8 @@ pub(crate) fn print_file(bytes: &[u8]) -> Result<(), Failure> {
 
 /// What became of a result that was written to standard output.
 pub(crate) fn written(result: io::Result<()>) -> Result<(), Failure> {
-    match result.and_then(|()| stdout().flush()) {
+    let open = if CLOSED.load(Ordering::Relaxed) { Err(io::Error::other("it is closed")) } else { Ok(()) };
+    match open.and(result).and_then(|()| stdout().flush()) {
         Err(error) if error.kind() != ErrorKind::BrokenPipe => {
             Err(Failure::BrokeOff(format!("error: the result could not be written to standard output: {error}")))
         }

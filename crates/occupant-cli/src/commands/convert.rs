@@ -8,7 +8,7 @@ use cardio_legacy::{
 use clap::ArgGroup;
 use occupant_core::scenario::{Draft, Format, Loaded};
 
-use crate::base::input_file::read;
+use crate::base::input_file::{deck, read};
 use crate::base::{Failure, ending, file_name, print_file, publish, refuse_input, say, with_word};
 use crate::files::scenario::{files_beside, format_of};
 use crate::jobs::extend::{extend, extend_run};
@@ -73,7 +73,7 @@ pub(crate) struct Args {
 
 /// Converts in the direction that the ending of the input gives.
 pub(crate) fn convert(args: &Args) -> Result<(), Failure> {
-    let bytes = read(&args.input)?;
+    let bytes = deck(&args.input)?;
     let layout = args.compartment.as_deref().map(compartment).transpose()?;
     if ending(&args.input) == "mcap" {
         return deliver_deck(args, run_to_deck(args, &bytes, layout.as_ref())?);

@@ -27,6 +27,7 @@ mod sweep;
 mod tables;
 mod view;
 
+use std::ffi::OsString;
 use std::process::ExitCode;
 
 use clap::{Parser, Subcommand};
@@ -82,7 +83,12 @@ commands! {
 
 /// Reads the command line and does what it says.
 pub fn main() -> ExitCode {
-    match Cli::try_parse() {
+    answer(std::env::args_os())
+}
+
+/// Does what these words say, of which the first is the program's name.
+pub fn answer(words: impl IntoIterator<Item = OsString>) -> ExitCode {
+    match Cli::try_parse_from(words) {
         Ok(cli) => exit_code(done(cli.command)),
         Err(wrong) if wrong.use_stderr() => wrong.exit(),
         Err(help) => exit_code(written(help.print()).map(Done::from)),

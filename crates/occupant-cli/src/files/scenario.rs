@@ -114,6 +114,8 @@ pub(crate) fn stored(file: &Path, run: &StoredRun) -> Result<(Loaded, Model, Dia
     let name = file.display();
     let bytes = run.attachments.get(RESOLVED);
     let bytes = bytes.ok_or_else(|| Failure::plain(format!("{name} holds no scenario{}", run.because())))?;
+    let unreadable = |why: String| Failure::plain(format!("the scenario in {name} cannot be read:{why}"));
+    input_file::scenario_fits(bytes).map_err(|error| unreadable(format!(" {error}")))?;
     let resolver = |table: &str| {
         let found = run.attachments.get(&file_name(Path::new(table)));
         found.cloned().ok_or_else(|| format!("{name} does not hold it"))
@@ -126,7 +128,7 @@ pub(crate) fn stored(file: &Path, run: &StoredRun) -> Result<(Loaded, Model, Dia
             }
             draft.load(&resolver)
         })
-        .map_err(|problems| Failure::plain(format!("the scenario in {name} cannot be read:\n{problems}")))?;
+        .map_err(|problems| unreadable(format!("\n{problems}")))?;
     let model = loaded.model();
     let (model, warnings) =
         model.map_err(|problems| Failure::plain(format!("the scenario in {name} is refused:\n{problems}")))?;

@@ -134,5 +134,13 @@ fn a_result_that_cannot_be_written_to_standard_output_is_a_failure() {
         let output = command.args(words).stdout(full).current_dir(folder.path()).output().unwrap();
         assert_eq!(code(&output), 1, "{words:?}");
         assert!(err(&output).contains("standard output"), "{}", err(&output));
+        let script = format!("exec {} {} >&-", assert_cmd::cargo::cargo_bin!("occupant").display(), words.join(" "));
+        let output = Command::new("sh").args(["-c", &script]).current_dir(folder.path()).output().unwrap();
+        assert_eq!(code(&output), 1, "{script}");
+        assert!(err(&output).contains("standard output: it is closed"), "{}", err(&output));
     }
+    // nothing is to be written
+    let script = format!("exec {} check -q case.toml >&-", assert_cmd::cargo::cargo_bin!("occupant").display());
+    let output = Command::new("sh").args(["-c", &script]).current_dir(folder.path()).output().unwrap();
+    assert_eq!(code(&output), 0, "{}", err(&output));
 }

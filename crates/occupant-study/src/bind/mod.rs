@@ -74,6 +74,9 @@ impl StudyText {
     }
 }
 
+/// Entries that a list of a study may have.
+const MOST_ENTRIES: usize = 1000;
+
 /// Work on a study text, with the problems found so far.
 pub(super) struct Binder<'a> {
     pub(super) text: &'a StudyText,
@@ -129,6 +132,10 @@ impl<'a> Binder<'a> {
     /// Puts what is the same in all runs into the base.
     fn prepare(&mut self, base: &mut Draft, overrides: &[String]) -> Result<(), Diagnostics> {
         let text = self.text;
+        self.refuse_many();
+        if self.problems.has_errors() {
+            return Err(std::mem::take(&mut self.problems));
+        }
         self.set(base, &text.section.set, "set");
         if let Some((set, at)) = self.test {
             self.set(base, set, at);
@@ -142,6 +149,23 @@ impl<'a> Binder<'a> {
         }
         let wrong = base.check();
         if wrong.has_errors() { Err(wrong) } else { Ok(()) }
+    }
+
+    /// Refuses lists that nobody has written by hand: each entry is compared with the others and with the base.
+    fn refuse_many(&mut self) {
+        let section = &self.text.section;
+        let fit = section.fit.as_ref();
+        let lists = [
+            ("parameters", section.parameters.len()),
+            ("set", section.set.len()),
+            ("correlations", section.correlations.len()),
+            ("ensemble.perturbations", section.ensemble.as_ref().map_or(0, |ensemble| ensemble.perturbations.len())),
+            ("fit.channels", fit.map_or(0, |fit| fit.channels.len())),
+            ("fit.tests", fit.map_or(0, |fit| fit.tests.len())),
+        ];
+        for (at, entries) in lists.into_iter().filter(|(_, entries)| *entries > MOST_ENTRIES) {
+            self.error(at, format!("{entries} entries"), format!("at most {MOST_ENTRIES}"), None);
+        }
     }
 
     /// Puts the values of a `set` at `at` into the base.

@@ -24,7 +24,13 @@ pub struct StoredRun {
     damage: Option<(usize, &'static str)>,
     /// The byte at which a file that has lost its end breaks off.
     end: Option<usize>,
+    /// Bytes that checkpoints may still take.
+    room: usize,
 }
+
+/// Bytes that the checkpoints of a small file may take; one of a large file may take so many times its own.
+const MOST_OF_CHECKPOINTS: usize = 256 << 20;
+const MOST_TIMES_FILE: usize = 8;
 
 /// How reading ends early.
 enum Refused {
@@ -50,7 +56,8 @@ impl StoredRun {
         if !bytes.starts_with(mcap::MAGIC) {
             return Err("it is not an MCAP file".to_owned());
         }
-        let mut stored = StoredRun::default();
+        let room = MOST_OF_CHECKPOINTS.max(bytes.len().saturating_mul(MOST_TIMES_FILE));
+        let mut stored = StoredRun { room, ..StoredRun::default() };
         let index = Index::of(bytes);
         let mut wanted = index.channels.iter().find(|(_, topic)| topic == TOPIC).map(|(id, _)| *id);
         let mut at = mcap::MAGIC.len();
@@ -100,6 +107,8 @@ impl StoredRun {
             }
             Record::Channel { id, topic } if topic == TOPIC => *wanted = Some(id),
             Record::Message { channel, data } if *wanted == Some(channel) => {
+                let takes = size_of::<Checkpoint>() + data.len();
+                self.room = self.room.checked_sub(takes).ok_or("more outputs than a file of its size holds")?;
                 let found = checkpoint::read(data).map_err(Refused::Unknown)?;
                 if self.checkpoints.last().is_some_and(|last| last.index >= found.index) {
                     return Err("an output that is out of order".into());
@@ -114,13 +123,13 @@ impl StoredRun {
         Ok(())
     }
 
-    /// The records of a chunk, which hold no chunks.
+    /// The records of a chunk: documents do not stand in one, where a small file could hold large ones.
     fn take_all(&mut self, content: &[u8], wanted: &mut Option<u16>) -> Result<(), Refused> {
         let mut at = 0;
         while at < content.len() {
             let frame = Frame::at(content, at).ok_or("a chunk with a record that is not whole")?;
-            if frame.opcode == op::CHUNK {
-                return Err("a chunk within a chunk".into());
+            if matches!(frame.opcode, op::CHUNK | op::ATTACHMENT | op::METADATA) {
+                return Err("a chunk with a record that stands in no chunk".into());
             }
             self.take(frame, wanted)?;
             at = frame.next;

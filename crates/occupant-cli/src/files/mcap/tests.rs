@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 use mcap::records::op;
+use occupant_core::results::checkpoint::Checkpoint;
 
 use super::StoredRun;
 use super::records::{Frame, Record};
@@ -170,6 +171,38 @@ fn after_a_damaged_chunk_the_whole_ones_are_used_and_the_gap_is_named() {
     assert_eq!(stored.checkpoints.first().map(|c| c.index), Some(50));
     assert_eq!(stored.checkpoints.len(), 70);
     assert!(StoredRun::read(&whole).unwrap().flaw().is_none());
+}
+
+#[test]
+fn a_small_file_takes_little_memory_whatever_it_holds() {
+    let record = |opcode: u8, body: &[u8]| [&[opcode], &(body.len() as u64).to_le_bytes()[..], body].concat();
+    let text = |words: &str| [&(words.len() as u32).to_le_bytes(), words.as_bytes()].concat();
+    let chunk = |content: &[u8]| {
+        let size = (content.len() as u64).to_le_bytes();
+        record(op::CHUNK, &[&[0; 16][..], &size, &[0; 4], &text(""), &size, content].concat())
+    };
+    let read = |records: &[u8]| StoredRun::read(&[mcap::MAGIC, records].concat()).unwrap();
+
+    // documents in chunks could be 255 times as long as the file
+    let attachment = record(op::ATTACHMENT, &[&[0; 16][..], &text("a"), &text(""), &[0; 8], &[0; 4]].concat());
+    assert!(read(&attachment).attachments.contains_key("a"));
+    let found = read(&chunk(&attachment));
+    assert!(found.attachments.is_empty());
+    assert!(found.because().contains("a record that stands in no chunk"), "{}", found.because());
+
+    // an output of 40 bytes takes as much as another one
+    let channel = [&[1, 0, 0, 0][..], &text(super::checkpoint::TOPIC), &text(""), &text("")].concat();
+    let mut records = record(op::CHANNEL, &channel);
+    let mut wire = super::wire::Wire::default();
+    for index in 0..300_000 {
+        wire.clear();
+        wire.count(2, index);
+        records.extend(record(op::MESSAGE, &[&[1, 0][..], &[0; 20], &wire.bytes].concat()));
+    }
+    let found = read(&records);
+    let takes = found.checkpoints.len() * size_of::<Checkpoint>();
+    assert!(takes > 200 << 20 && takes <= 256 << 20, "{takes}");
+    assert!(found.because().contains("more outputs than a file of its size holds"), "{}", found.because());
 }
 
 #[test]

@@ -14,6 +14,9 @@ use crate::base::Failure;
 use crate::files::signals::{Recording, Signal, finite, scale_of, seconds_in};
 use crate::files::trouble::{Trouble, failure};
 
+/// No table has more columns.
+const MOST_COLUMNS: usize = 10_000;
+
 /// Stands for any number of blanks between cells.
 const BLANKS: char = ' ';
 /// Round units in a line of their own.
@@ -37,6 +40,10 @@ pub(crate) fn read(path: &Path, text: &str, sha256: String) -> Result<Recording,
     let (lines, separator) = lines(text.trim_start_matches('\u{feff}'));
     if lines.is_empty() {
         return Err(Trouble::of(path, "an empty table", "headings and numbers").into());
+    }
+    if let Some((line, cells)) = lines.iter().find(|(_, cells)| cells.len() > MOST_COLUMNS) {
+        let found = format!("{} cells in line {line}", cells.len());
+        return Err(Trouble::of(path, found, &format!("at most {MOST_COLUMNS}")).into());
     }
     let mut notes = Vec::new();
     let (headings, used) = headings(&lines, separator);
@@ -270,6 +277,12 @@ mod tests {
                 .collect();
             let _ = table(&text);
         }
+    }
+
+    #[test]
+    fn a_table_of_too_many_columns_is_refused() {
+        let message = table(&format!("t[s]{}\n", ",a".repeat(10_000))).unwrap_err();
+        assert!(message.contains("10001 cells in line 1") && message.contains("at most 10000"), "{message}");
     }
 
     #[test]

@@ -10,7 +10,11 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, MutexGuard};
 
 use super::problem::Problem;
+use crate::base::names::stays_within;
 use crate::base::{Existing, sha256, write_whole};
+
+/// Letters of a checksum.
+const SUM: usize = 64;
 
 /// The name of the list.
 pub(crate) const SUMS: &str = "SHA256SUMS";
@@ -45,7 +49,8 @@ impl Checksums {
         // what a killed process has left of its last line has no end; the next one is appended to it and is lost as well
         let lines = text.split_inclusive('\n').filter_map(|line| line.strip_suffix('\n')?.split_once("  "));
         let listed = |(sum, name): (&str, &str)| (name.to_owned(), Listed { sum: sum.to_owned(), sound: None });
-        let mut listed: BTreeMap<String, Listed> = lines.map(listed).collect();
+        let ours = lines.filter(|(sum, name)| sum.len() == SUM && stays_within(name));
+        let mut listed: BTreeMap<String, Listed> = ours.map(listed).collect();
         for (name, file) in listed.iter_mut().filter(|(name, _)| wanted(name)) {
             file.sound = match fs::read(folder.join(name)) {
                 Err(error) if error.kind() == ErrorKind::NotFound => None,
@@ -126,6 +131,23 @@ impl Checksums {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Else `/dev/zero` would be read, and a file of somebody else put aside.
+    #[test]
+    fn only_files_of_the_folder_are_listed() {
+        let there = tempfile::tempdir().unwrap();
+        let outside = there.path().join("outside");
+        fs::write(&outside, "x").unwrap();
+        let folder = there.path().join("folder");
+        fs::create_dir_all(folder.join("runs")).unwrap();
+        let sum = "0".repeat(SUM);
+        let names = ["../outside", "runs/1.mcap/../../../outside", &outside.display().to_string(), "./x", ""];
+        let lines: String = names.map(|name| format!("{sum}  {name}\n")).concat();
+        fs::write(folder.join(SUMS), lines + &format!("short  runs/1.mcap\n{sum}  runs/2.mcap\n")).unwrap();
+        let sums = Checksums::open(&folder, |_| true).unwrap();
+        assert!(sums.damaged().is_empty());
+        assert_eq!(sums.state().listed.keys().collect::<Vec<_>>(), ["runs/2.mcap"]);
+    }
 
     #[test]
     fn a_changed_file_is_damaged_until_it_is_made_again_and_a_torn_line_lists_nothing() {

@@ -21,6 +21,7 @@ use super::journal::is_named_by_rows;
 use super::manifest::{Manifest, Text};
 use super::problem::Problem;
 use super::shard::Shard;
+use crate::base::names::stays_within;
 use crate::base::{Existing, file_name, input_file, partial_path, remove_if_there, write_whole};
 
 const LOCK: &str = "sweep.lock";
@@ -143,7 +144,10 @@ impl Folder {
         };
         let read = serde_json::from_slice(&bytes).map_err(|error| error.to_string());
         let possible = |manifest: Manifest| match manifest.samples {
-            0..=MOST_RUNS => Ok(manifest),
+            0..=MOST_RUNS => match manifest.texts.iter().find(|text| !stays_within(&text.copy)) {
+                Some(text) => Err(format!("`copy` is {}, which is no file of the folder", text.copy)),
+                None => Ok(manifest),
+            },
             n => Err(format!("`samples` is {n}, and there are at most {MOST_RUNS}")),
         };
         read.and_then(possible).map(Some).map_err(|error| Problem::Damaged {

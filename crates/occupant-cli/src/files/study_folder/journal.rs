@@ -1,16 +1,17 @@
 //! The journal: every finished sample, in pieces that are only ever appended to.
 //!
-//! A piece holds rows of one process in the order in which they were finished, as JSON Lines: the first line says of which
-//! sweep, each other line is a [`Row`]. What a killed process or a full disk has left of its last row has no line end and
-//! is not read; the sample is computed again.
+//! A piece holds rows of one process in the order in which they were finished, as JSON Lines with checksums: the first line
+//! says of which sweep, each other line holds a [`Row`]. What a killed process or a full disk has left of its last row has no
+//! line end and is not read; the sample is computed again.
 
 use std::collections::{BTreeMap, BTreeSet};
-use std::fs::File;
-use std::io::{self, BufRead, BufReader, ErrorKind, Write};
+use std::fs::{self, File};
+use std::io::{self, BufRead, BufReader, Read, Write};
 use std::ops::Range;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
+use serde::de::DeserializeOwned;
 use serde::{Deserialize, Serialize};
 
 use super::checksums::Checksums;
@@ -20,7 +21,7 @@ use super::manifest::Manifest;
 use super::problem::Problem;
 use super::row::Row;
 use super::shard::Shard;
-use crate::base::{Failure, FileProblem, input_file, is_at};
+use crate::base::{Failure, FileProblem, is_at};
 
 /// What was written is made safe against a loss of power at least so often.
 const SYNC_EVERY: Duration = Duration::from_secs(10);
@@ -30,12 +31,35 @@ const AT_ONCE: u64 = 2048;
 /// A piece is closed after so many rows or bytes.
 const ROWS: usize = 1024;
 const BYTES: usize = 4 << 20;
+/// No piece is larger, bytes; its last row comes on top of the limit.
+const LARGEST: u64 = 8 << 20;
+/// No first line is longer, bytes.
+const MOST_OF_HEAD: u64 = 1 << 10;
 
 /// First line of a piece.
 #[derive(Serialize, Deserialize)]
 struct Head {
     /// SHA-256 of the manifest.
     rows_of: String,
+}
+
+/// What stands before the checksum of a line, before what it is of, and behind that.
+const FRAME: [&str; 3] = ["{\"crc32\":\"", "\",\"is\":", "}\n"];
+
+/// A line of the journal, with the CRC-32 of what it holds.
+fn line_of(holds: &impl Serialize) -> serde_json::Result<String> {
+    let [before, between, behind] = FRAME;
+    let json = serde_json::to_string(holds)?;
+    Ok(format!("{before}{:08x}{between}{json}{behind}", crc32fast::hash(json.as_bytes())))
+}
+
+/// What a line of the journal holds; none if that is not what was written.
+fn held_by<T: DeserializeOwned>(line: &[u8]) -> Option<T> {
+    let [before, between, behind] = FRAME.map(str::as_bytes);
+    let (crc, rest) = line.strip_prefix(before)?.split_at_checked(8)?;
+    let json = rest.strip_prefix(between)?.strip_suffix(behind)?;
+    let whole = crc == format!("{:08x}", crc32fast::hash(json)).as_bytes();
+    serde_json::from_slice(json).ok().filter(|_| whole)
 }
 
 /// Appends the rows of one process.
@@ -61,11 +85,10 @@ struct OpenPiece {
 impl OpenPiece {
     /// Appends a line in one write.
     fn append(&mut self, line: &impl Serialize) -> io::Result<()> {
-        let mut bytes = serde_json::to_vec(line)?;
-        bytes.push(b'\n');
-        self.file.write_all(&bytes)?;
+        let line = line_of(line)?;
+        self.file.write_all(line.as_bytes())?;
         self.rows += 1;
-        self.bytes += bytes.len();
+        self.bytes += line.len();
         Ok(())
     }
 
@@ -167,9 +190,10 @@ pub(crate) fn is_named_by_rows(folder: &Folder, manifest: &Manifest) -> Result<b
     let (journal, sha256) = (folder.journal(), manifest.sha256().unwrap_or_default());
     let names = if journal.exists() { names_in(&journal)? } else { Vec::new() };
     let named = |name: &String| {
-        let mut line = String::new();
-        let read = File::open(journal.join(name)).and_then(|file| BufReader::new(file).read_line(&mut line));
-        read.is_ok() && serde_json::from_str(&line).is_ok_and(|head: Head| head.rows_of == sha256)
+        let mut line = Vec::new();
+        let file = File::open(journal.join(name)).map(|file| BufReader::new(file.take(MOST_OF_HEAD)));
+        let read = file.and_then(|mut file| file.read_until(b'\n', &mut line));
+        read.is_ok() && held_by(&line).is_some_and(|head: Head| head.rows_of == sha256)
     };
     Ok(names.iter().any(|name| name.ends_with(".rows") && named(name)))
 }
@@ -249,25 +273,25 @@ impl Journal {
     /// The rows of a piece, and whether one was cut off.
     fn piece(&self, path: &Path) -> Result<(Vec<Row>, bool), Problem> {
         let damaged = |found: &str| Problem::Damaged { path: path.to_owned(), found: found.to_owned() };
-        let bytes = input_file::bytes(path).map_err(|error| match error.kind() {
-            ErrorKind::InvalidData => damaged("is larger than any piece of a journal"),
-            _ => Problem::io("read", path)(error),
-        })?;
+        if fs::metadata(path).is_ok_and(|file| file.len() > LARGEST || !file.is_file()) {
+            return Err(damaged("is larger than any piece of a journal, or no file"));
+        }
+        let bytes = fs::read(path).map_err(Problem::io("read", path))?;
         let end = bytes.iter().rposition(|byte| *byte == b'\n').map_or(0, |at| at + 1);
         let mut lines = bytes[..end].split_inclusive(|byte| *byte == b'\n');
         let torn = end < bytes.len();
         let Some(head) = lines.next() else {
             return Ok((Vec::new(), torn));
         };
-        match serde_json::from_slice::<Head>(head) {
-            Err(_) => return Err(damaged("is no piece of a journal")),
-            Ok(head) if head.rows_of != self.manifest_sha256 => {
+        match held_by::<Head>(head) {
+            None => return Err(damaged("is no piece of a journal")),
+            Some(head) if head.rows_of != self.manifest_sha256 => {
                 return Err(damaged("is a piece of another sweep's journal"));
             }
-            Ok(_) => {}
+            Some(_) => {}
         }
         let row = |(i, line)| {
-            let row = serde_json::from_slice(line).ok().filter(|row: &Row| row.index < self.samples);
+            let row = held_by(line).filter(|row: &Row| row.index < self.samples);
             row.ok_or_else(|| damaged(&format!("holds a row that is none of this sweep, in line {}", i + 2)))
         };
         Ok((lines.enumerate().map(row).collect::<Result<_, _>>()?, torn))
@@ -372,6 +396,8 @@ mod tests {
         let text = fs::read_to_string(&piece).unwrap();
         fs::write(&piece, text.replacen("\"index\":1", "\"index\":9", 1)).unwrap();
         assert!(read(&folder, SHA).unwrap_err().contains("none of this sweep, in line 3"));
+        fs::write(&piece, text.replacen(":0.25", ":0.26", 1)).unwrap();
+        assert!(read(&folder, SHA).unwrap_err().contains("in line 2"), "a digit that is another one is noticed");
         fs::write(&piece, "occupant rows 1\nhello\n").unwrap();
         assert!(read(&folder, SHA).unwrap_err().contains("no piece of a journal"));
     }

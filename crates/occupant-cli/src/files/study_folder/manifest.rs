@@ -8,7 +8,7 @@ use super::texts::NamedBy;
 use crate::base::sha256;
 
 /// Number of this form of the folder.
-const FORM: u32 = 1;
+const FORM: u32 = 2;
 
 /// What a folder is the sweep of. Nothing in it depends on the day, the machine or the number of threads.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
