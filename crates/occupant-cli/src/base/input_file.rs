@@ -1,7 +1,7 @@
 //! Files that are read whole.
 
 use std::fs;
-use std::io;
+use std::io::{self, Read};
 use std::path::Path;
 
 use super::failure::Failure;
@@ -24,10 +24,11 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
 ///
 /// # Errors
 /// What the operating system refuses; what is no ordinary file, such as a pipe that nobody may ever write into or a device
-/// without end; more than a text may have.
+/// without end, but for a pipe that is open already; more than a text may have.
 pub(crate) fn bytes(path: &Path) -> io::Result<Vec<u8>> {
     let found = fs::metadata(path)?;
-    if !found.is_file() && !found.is_dir() {
+    let is_pipe = is_open_pipe(path, &found);
+    if !found.is_file() && !found.is_dir() && !is_pipe {
         return Err(io::Error::other(
             "it is a pipe or a device, not an ordinary file; save what it gives in one first",
         ));
@@ -41,7 +42,34 @@ pub(crate) fn bytes(path: &Path) -> io::Result<Vec<u8>> {
         let (size, most) = (found.len() as f64 / 1e6, most / 1_000_000);
         return Err(io::Error::other(format!("it has {size:.1} MB, and such a text may have at most {most} MB")));
     }
+    if is_pipe {
+        return read_pipe(path, most);
+    }
     fs::read(path)
+}
+
+/// What comes out of a pipe, until all who write it have closed it.
+fn read_pipe(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    fs::File::open(path)?.take(most.saturating_add(1)).read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most {
+        let most = most / 1_000_000;
+        return Err(io::Error::other(format!("it gives more than {most} MB, the most that such a text may have")));
+    }
+    Ok(bytes)
+}
+
+/// Whether it is a pipe that this process was given, such as `<(command)` of a shell: somebody writes it.
+#[cfg(unix)]
+fn is_open_pipe(path: &Path, found: &fs::Metadata) -> bool {
+    use std::os::unix::fs::FileTypeExt;
+    let is_ours = ["/dev/fd", "/proc/self/fd", "/dev/stdin"].iter().any(|given| path.starts_with(given));
+    is_ours && found.file_type().is_fifo()
+}
+
+#[cfg(not(unix))]
+fn is_open_pipe(_: &Path, _: &fs::Metadata) -> bool {
+    false
 }
 
 #[cfg(test)]

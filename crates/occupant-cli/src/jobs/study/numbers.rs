@@ -41,7 +41,7 @@ pub(crate) struct Run {
 pub(crate) fn numbers(opened: &Stored, gathered: &Gathered, analysis: &Analysis) -> Vec<Number> {
     let mut list = List {
         rows: analysis.spread.map_or(0, |s| s.members),
-        mark: caution::lacking(analysis.spread.as_ref()),
+        mark: caution::lacking(analysis.spread.as_ref()).or(caution::spoiled(&gathered.spoiled[analysis.response])),
         numbers: Vec::new(),
     };
     list.spread(analysis);
@@ -49,12 +49,12 @@ pub(crate) fn numbers(opened: &Stored, gathered: &Gathered, analysis: &Analysis)
     list.by_design(&analysis.by_design);
     let extremes = &gathered.extremes[analysis.response];
     for (quantity, runs) in [("worst", &extremes.worst), ("best", &extremes.best)] {
-        for (place, (value, run)) in (0..).zip(runs) {
+        for (place, (value, (run, caveats))) in (0..).zip(runs) {
             let command = command(&opened.plan, &opened.manifest, *run);
             let run = Run { number: *run, place, command };
             let estimate = exactly(*value);
-            let number =
-                Number { quantity, parameter: None, run: Some(run), in_unit: true, estimate, rows: 1, mark: None };
+            let mark = Some(caveats.clone()).filter(|names| !names.is_empty());
+            let number = Number { quantity, parameter: None, run: Some(run), in_unit: true, estimate, rows: 1, mark };
             list.numbers.push(number);
         }
     }
