@@ -93,14 +93,13 @@ pub(crate) fn measures(args: &Args) -> Result<Done, Failure> {
     let own_s = results.model.setup().time.output_s;
     let needed_s = (options.filtering != Filtering::None && own_s > 1.01 * FILTERED_S).then_some(FILTERED_S);
     let again_s = args.interval.or(needed_s);
-    let interval_ms = 1e3 * again_s.unwrap_or(own_s);
+    let [own_ms, interval_ms] = [own_s, again_s.unwrap_or(own_s)].map(|s| (1e9 * s).round() / 1e6);
     let mut notes = results.notes();
     let summary = match again_s {
         None => results.summary_judged(options)?,
         Some(interval_s) => {
             notes.push(format!(
-                "the case is run again with readings every {interval_ms} ms; the file has outputs every {} ms",
-                1e3 * own_s
+                "the case is run again with readings every {interval_ms} ms; the file has outputs every {own_ms} ms"
             ));
             results.summary_again(options, interval_s)?
         }

@@ -94,9 +94,9 @@ fn figures_with_caveats_are_marked_where_they_stand() {
     let folder = swept(&study);
     let shown = page(folder.path());
     sane(&shown);
-    assert!(shown.contains("6 of 6 runs have caveats on this figure: "), "{shown}");
-    let worst = shown.lines().find(|line| line.contains(", greatest: ")).unwrap();
-    assert!(worst.contains(" †: ") && worst.contains("outputs_too_coarse"), "{worst}");
+    assert!(shown.contains(" of 6 runs have caveats on this figure: "), "{shown}");
+    let mut ends = shown.lines().filter(|line| line.contains(", greatest: "));
+    assert!(ends.any(|line| line.contains(" †: ") && line.contains("outputs_too_coarse")), "{shown}");
     let rows = rows(&folder.path().join("out/report.parquet"));
     let median = rows.iter().find(|r| text(r, "response") == "head.peak" && text(r, "quantity") == "median").unwrap();
     assert!(text(median, "mark").contains("outputs_too_coarse"), "{}", text(median, "mark"));
