@@ -109,19 +109,17 @@ pub fn assess(signals: &Signals, options: &Options) -> Vec<Measure> {
     Readings::new(signals, options).measures()
 }
 
-/// By which part of its value each of `measures`, made of `signals`, changes when every other sample is left out, the head's peak
-/// among them: what the interval between samples costs a measure is less. 0 where that is not known, or less than 1 % of all limits.
+/// By which part of its value each of `measures`, made of `signals`, changes at most when the even or the odd samples are left out:
+/// a spike that one sample shows counts. 0 where that is not known, or less than 1 % of all limits.
 pub fn coarseness(signals: &Signals, options: &Options, measures: &[Measure]) -> Vec<f64> {
-    let [x, y, z] = &signals.head_m_s2;
-    let squares = x.iter().zip(y).zip(z).map(|((x, y), z)| x * x + y * y + z * z);
-    let peak = squares.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).map_or(0, |(at, _)| at);
-    let half = assess(&signals.every_other(1 - peak % 2), options);
-    let change = |(whole, half): (&Measure, &Measure)| {
+    let halves = [0, 1].map(|first| assess(&signals.every_other(first), options));
+    let change = |whole: &Measure, half: &Measure| {
         let (value, change) = (whole.value?, (half.value? - whole.value?).abs());
         let matters = whole.limits.iter().all(|limit| change > 0.01 * limit.most);
         matters.then_some(change / value.abs()).filter(|part| part.is_finite())
     };
-    measures.iter().zip(&half).map(|pair| change(pair).unwrap_or(0.0)).collect()
+    let most = |(i, whole)| halves.iter().filter_map(|half| change(whole, &half[i])).fold(0.0, f64::max);
+    measures.iter().enumerate().map(most).collect()
 }
 
 /// Rules whose limits apply to an occupant.

@@ -118,6 +118,21 @@ fn filtered_measures_are_those_of_filtered_channels() {
 }
 
 #[test]
+fn a_spike_of_one_sample_is_too_coarse_whichever_half_it_stands_in() {
+    let at = |i: usize| {
+        let mut signals = dummy();
+        signals.chest_m_s2[0][i] *= 2.0;
+        let measures = assess(&signals, &Options::default());
+        let off = coarseness(&signals, &Options::default(), &measures);
+        let of = |name| off[measures.iter().position(|m| m.name == name).unwrap()];
+        [of("chest_peak"), of("head_peak")]
+    };
+    for [chest, head] in [at(300), at(301)] {
+        assert!((chest - 0.5).abs() < 0.01 && head < 1e-4, "{chest} {head}");
+    }
+}
+
+#[test]
 fn too_little_to_measure_is_no_panic() {
     for options in
         [Options::default(), Options { filtering: Filtering::Classes(CfcFamily::Iso6487), ..Options::default() }]

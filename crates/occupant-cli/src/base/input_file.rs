@@ -1,7 +1,7 @@
 //! Files that are read whole.
 
 use std::fs;
-use std::io::{self, ErrorKind};
+use std::io::{self, ErrorKind, Read};
 use std::path::{Path, PathBuf};
 
 use super::failure::Failure;
@@ -26,18 +26,23 @@ pub(crate) fn read(path: &Path) -> Result<Vec<u8>, Failure> {
 ///
 /// # Errors
 /// What the operating system refuses; what is no ordinary file, such as a pipe that nobody may ever write into or a device
-/// without end; more than a text may have ([`ErrorKind::InvalidData`]).
+/// without end, but for a pipe that is open already; more than a text may have ([`ErrorKind::InvalidData`]).
 pub(crate) fn bytes(path: &Path) -> io::Result<Vec<u8>> {
     let found = fs::metadata(path)?;
-    if !found.is_file() && !found.is_dir() {
+    let is_pipe = is_open_pipe(path, &found);
+    if !found.is_file() && !found.is_dir() && !is_pipe {
         return Err(io::Error::other(
             "it is a pipe or a device, not an ordinary file; save what it gives in one first",
         ));
     }
-    match ending(path).as_str() {
-        "mcap" => {}
-        "toml" | "json" => within(found.len(), MOST_OF_SCENARIO)?,
-        _ => within(found.len(), MOST_OF_TABLE)?,
+    let most = match ending(path).as_str() {
+        "mcap" => None,
+        "toml" | "json" => Some(MOST_OF_SCENARIO),
+        _ => Some(MOST_OF_TABLE),
+    };
+    most.map_or(Ok(()), |most| within(found.len(), most))?;
+    if is_pipe {
+        return read_pipe(path, most.unwrap_or(MOST_OF_TABLE));
     }
     fs::read(path)
 }
@@ -80,6 +85,26 @@ fn within(size: u64, most: u64) -> io::Result<()> {
         ErrorKind::InvalidData,
         format!("it has {size:.1} MB, and such a text may have at most {most} MB"),
     ))
+}
+
+/// What comes out of a pipe, until all who write it have closed it; `most` in MB.
+fn read_pipe(path: &Path, most: u64) -> io::Result<Vec<u8>> {
+    let mut bytes = Vec::new();
+    fs::File::open(path)?.take(most * 1_000_000 + 1).read_to_end(&mut bytes)?;
+    within(bytes.len() as u64, most).map(|()| bytes)
+}
+
+/// Whether it is a pipe that this process was given, such as `<(command)` of a shell: somebody writes it.
+#[cfg(unix)]
+fn is_open_pipe(path: &Path, found: &fs::Metadata) -> bool {
+    use std::os::unix::fs::FileTypeExt;
+    let is_ours = ["/dev/fd", "/proc/self/fd", "/dev/stdin"].iter().any(|given| path.starts_with(given));
+    is_ours && found.file_type().is_fifo()
+}
+
+#[cfg(not(unix))]
+fn is_open_pipe(_: &Path, _: &fs::Metadata) -> bool {
+    false
 }
 
 #[cfg(test)]

@@ -10,11 +10,11 @@ use crash_measures::injury::Options;
 use occupant_core::model::Model;
 use occupant_core::results::channel::{Channel, Series};
 use occupant_core::results::checkpoint::Checkpoint;
-use occupant_core::results::outcome::Outcome;
+use occupant_core::results::outcome::{Outcome, Status};
 use occupant_core::results::recorder::{Recorder, Watch};
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::{RunStatus, Summarizer, Summary};
-use occupant_core::run::simulate::replay;
+use occupant_core::run::simulate::{replay, simulate};
 use occupant_core::scenario::Loaded;
 use occupant_study::ending::{Balance, Ending};
 
@@ -188,10 +188,36 @@ impl Results {
     pub(crate) fn summary_judged(&self, options: Options) -> Result<Summary, Failure> {
         let mut summarizer = Summarizer::judging(options);
         self.replay(&mut summarizer)?;
-        let refused = |what: &str| Failure::plain(format!("{}: {what}", self.path.display()));
-        summarizer.end(&self.outcome()).map_err(|e| refused(&e.to_string()))?;
+        summarizer.end(&self.outcome()).map_err(|e| self.refused(&e.to_string()))?;
+        self.told(&summarizer)
+    }
+
+    /// The same of the case run again, up to the last output, with an output every `interval_s`.
+    ///
+    /// # Errors
+    /// More outputs than a run may have; a run that fails before.
+    pub(crate) fn summary_again(&self, options: Options, interval_s: f64) -> Result<Summary, Failure> {
+        let mut setup = self.model.setup().clone();
+        setup.time.end_s = self.outcome().time_s;
+        setup.time.output_s = interval_s;
+        let again = |what: String| self.refused(&format!("it cannot be run again: {what}"));
+        let model = Model::new(setup).map_err(|problems| again(self.loaded.diagnose(&problems).to_string()))?;
+        let mut summarizer = Summarizer::judging(options);
+        let outcome = simulate(&model, &mut summarizer).map_err(|e| again(e.to_string()))?;
+        if let Status::Failed(error) = outcome.status {
+            return Err(again(error.to_string()));
+        }
+        self.told(&summarizer)
+    }
+
+    fn refused(&self, what: &str) -> Failure {
+        Failure::plain(format!("{}: {what}", self.path.display()))
+    }
+
+    /// The summary that was made, of this run however it ended.
+    fn told(&self, summarizer: &Summarizer) -> Result<Summary, Failure> {
         let summary = summarizer.summary(None);
-        let mut summary = summary.ok_or_else(|| refused("the run left no summary"))?;
+        let mut summary = summary.ok_or_else(|| self.refused("the run left no summary"))?;
         summary.status = self.status();
         if !self.is_complete() {
             summary.reason = Some(self.reason().to_owned());

@@ -15,6 +15,25 @@ fn a_file_that_exists_is_not_written_over() {
     assert!(std::fs::metadata(&file).unwrap().len() > 10_000);
 }
 
+#[cfg(unix)]
+#[test]
+fn a_pipe_of_the_shell_is_read_and_bounded() {
+    let folder = folder_with_case();
+    let program = assert_cmd::cargo::cargo_bin!("occupant");
+    let said = |words: &str| {
+        let script = words.replace("occupant", &format!("'{}'", program.display()));
+        Command::new("sh").current_dir(folder.path()).args(["-c", &script]).output().unwrap()
+    };
+    let whole = said("cat case.toml | occupant check /dev/stdin");
+    assert_eq!(code(&whole), 0, "{}", err(&whole));
+    assert_eq!(whole.stdout, said("occupant check case.toml").stdout);
+    let endless = said("yes '# more' | occupant check /dev/fd/0");
+    assert_eq!(code(&endless), 2);
+    assert!(err(&endless).contains("gives more than 32 MB"), "{}", err(&endless));
+    let device = said("occupant check /dev/fd/0 < /dev/zero");
+    assert!(err(&device).contains("not an ordinary file"), "{}", err(&device));
+}
+
 #[test]
 fn what_an_interrupted_run_left_is_not_written_over() {
     let folder = folder_with_case();

@@ -89,9 +89,18 @@ fn figures_that_cannot_be_trusted_say_so_wherever_they_stand() {
     assert!(std::fs::read_to_string(folder.path().join("a.html")).unwrap().contains(neck));
     let printed = out(&said(&["print", "a.mcap"]));
     assert!(printed.contains("*** neck beyond its stop: 119°"), "{}", &printed[printed.len() - 4000..]);
-    // one sentence for all filters that need closer outputs
-    let filtered = out(&said(&["measures", "a.mcap", "--filter", "sae-j211"]));
-    assert_eq!(filtered.matches("outputs every 1 ms are too coarse for the filter").count(), 1, "{filtered}");
+    // a filter has readings at 10 kHz, from the same motion
+    let filtered = said(&["measures", "a.mcap", "--filter", "sae-j211"]);
+    assert!(err(&filtered).contains("run again with readings every 0.1 ms; the file has outputs every 1 ms"));
+    let filtered = out(&filtered);
+    assert!(filtered.contains("readings every 0.1 ms") && !filtered.contains("too coarse"), "{filtered}");
+    let value = |table: &str| row(table, "HIC15")[1].trim_end_matches('!').parse::<f64>().unwrap();
+    let again = out(&said(&["measures", "a.mcap", "--interval", "0.1 ms"]));
+    let closer = out(&said(&["run", scenario, "--no-mcap", "--set", "output.interval=\"0.1 ms\""]));
+    assert_eq!(value(&again), value(&closer), "{again}");
+    assert!((value(&filtered) / value(&again) - 1.0).abs() < 0.05, "{filtered}");
+    let same = out(&said(&["measures", "a.mcap", "--interval", "1 ms"]));
+    assert_eq!(value(&same), value(&measured));
     let other = out(&said(&["measures", "a.mcap", "--dummy", "hybrid-iii-5f"]));
     assert!(other.contains("! limits and risks are those of a Hybrid III 5F of 49 kg"), "{other}");
     let check = out(&said(&["check", scenario]));

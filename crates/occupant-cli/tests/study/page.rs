@@ -86,6 +86,26 @@ fn a_finished_study_has_all_its_sections() {
 }
 
 #[test]
+fn figures_with_caveats_are_marked_where_they_stand() {
+    // outputs every 10 ms know no peak
+    let study = STUDY
+        .replace("\"30 ms\" }", "\"120 ms\", \"output.interval\" = \"10 ms\" }")
+        .replace("samples = 24", "samples = 6");
+    let folder = swept(&study);
+    let shown = page(folder.path());
+    sane(&shown);
+    assert!(shown.contains(" of 6 runs have caveats on this figure: "), "{shown}");
+    let mut ends = shown.lines().filter(|line| line.contains(", greatest: "));
+    assert!(ends.any(|line| line.contains(" †: ") && line.contains("outputs_too_coarse")), "{shown}");
+    let rows = rows(&folder.path().join("out/report.parquet"));
+    let median = rows.iter().find(|r| text(r, "response") == "head.peak" && text(r, "quantity") == "median").unwrap();
+    assert!(text(median, "mark").contains("outputs_too_coarse"), "{}", text(median, "mark"));
+    // the table says which figures
+    let table = fs::read_to_string(folder.path().join("out/results.csv")).unwrap();
+    assert!(table.contains("outputs_too_coarse(") && table.contains("hic15"), "{table}");
+}
+
+#[test]
 fn parameters_that_go_together_are_named() {
     let study = format!("{STUDY}\n[[correlations]]\nbetween = [\"joints.neck.damping\", \"speed\"]\nrank = 0.9\n");
     let folder = swept(&study);

@@ -1,5 +1,6 @@
 //! One sample's line of the table, and of the journal.
 
+use occupant_core::results::summary::Caveat;
 use occupant_study::ending::Ending;
 use occupant_study::engine::Finished;
 use serde::{Deserialize, Serialize};
@@ -41,7 +42,7 @@ pub(crate) struct Row {
     pub(crate) status: Status,
     /// Why, where it did not complete; else empty.
     pub(crate) reason: String,
-    /// Names of the caveats on its figures, by blanks.
+    /// The caveats on its figures, by blanks: the name of each and, in brackets, the figures that it spoils.
     #[serde(default)]
     pub(crate) caveats: String,
     /// Values, by [`super::manifest::Column`]: inputs, then figures.
@@ -63,6 +64,21 @@ impl Row {
         };
         let kernel = run.ran.as_ref().map_or("", |ran| ran.kernel.name()).to_owned();
         Row { index: run.index, status, reason, caveats: String::new(), cells, wall_time_s: run.wall_time_s, kernel }
+    }
+
+    /// Takes over the caveats of its run.
+    pub(crate) fn warn_of(&mut self, caveats: &[Caveat]) {
+        let words = caveats.iter().map(|caveat| format!("{}({})", caveat.name, caveat.figures.join(",")));
+        self.caveats = words.collect::<Vec<_>>().join(" ");
+    }
+
+    /// The caveats, without their texts.
+    pub(crate) fn caveats(&self) -> impl Iterator<Item = Caveat> {
+        self.caveats.split_whitespace().map(|word| {
+            let (name, figures) = word.trim_end_matches(')').split_once('(').unwrap_or((word, ""));
+            let figures = figures.split(',').map(str::to_owned).collect();
+            Caveat { name: name.to_owned(), text: String::new(), figures }
+        })
     }
 
     /// Whether two rows are the same bits, wall time and kernel aside.
@@ -87,7 +103,7 @@ pub(crate) mod tests {
             index,
             status: [Status::Completed, Status::Failed, Status::Refused, Status::Broken][(index % 4) as usize],
             reason: "ä reason, \"quoted\"\nin two lines".repeat((index % 3) as usize),
-            caveats: "neck_beyond_stop".repeat((index % 2) as usize),
+            caveats: "neck_beyond_stop(nij,neck_*)".repeat((index % 2) as usize),
             cells: vec![
                 Cell::Number(index as f64 * 0.1),
                 Cell::Absent,

@@ -7,6 +7,7 @@ use occupant_study::Design;
 use occupant_study::analysis::{Effect, Estimate, RankCorrelation, Regression, SobolIndices, rank_correlation};
 use occupant_study::spread::Spread;
 
+use super::gather::Spoiled;
 use super::shown::part as shown_part;
 use super::{Gathered, Samples};
 use crate::jobs::sweep::Stored;
@@ -33,7 +34,7 @@ const TOGETHER: f64 = 0.3;
 const NAMED: usize = 3;
 
 /// The rules, for the page and the documentation.
-pub(crate) fn rules() -> [String; 7] {
+pub(crate) fn rules() -> [String; 8] {
     [
         format!("a Sobol index whose 95 % interval is wider than {INDEX_WIDTH}: its first digit is not known"),
         format!(
@@ -48,6 +49,10 @@ pub(crate) fn rules() -> [String; 7] {
         ),
         format!(
             "every number of a response that more than {:.0} % of the runs lack: runs seldom fail by chance",
+            100.0 * MISSING
+        ),
+        format!(
+            "every number of a response that caveats spoil in more than {:.0} % of the runs, and a worst or best run with a caveat on it",
             100.0 * MISSING
         ),
         "the unfinished part of a study is not there: its design holds for the whole only".to_owned(),
@@ -97,6 +102,13 @@ pub fn effect(found: &Effect) -> Option<String> {
 /// Why all numbers of a response are marked: samples without a value.
 pub(crate) fn lacking(spread: Option<&Spread>) -> Option<String> {
     spread.and_then(|s| missing(s.missing, s.members + s.missing))
+}
+
+/// Why all numbers of a response are marked: caveats on it.
+pub(crate) fn spoiled(found: &Spoiled) -> Option<String> {
+    let Spoiled { runs, of, names } = found;
+    let names = || names.iter().map(String::as_str).collect::<Vec<_>>().join(", ");
+    (part(*runs, *of) > MISSING).then(|| format!("{runs} of {of} runs have caveats on this figure: {}", names()))
 }
 
 fn missing(missing: usize, rows: usize) -> Option<String> {

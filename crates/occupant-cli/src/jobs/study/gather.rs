@@ -1,5 +1,8 @@
 //! From the rows of a journal to a table of samples: only the columns that are asked for.
 
+use std::collections::BTreeSet;
+
+use occupant_core::results::summary::Caveat;
 use occupant_study::spread::{Rule, Verdict, median};
 use occupant_study::{Law, Study, Value};
 
@@ -19,9 +22,22 @@ pub(crate) struct Gathered {
     /// One row for each sample that is finished.
     pub(crate) samples: Samples,
     /// By response: the runs at its ends.
-    pub(crate) extremes: Vec<Extremes>,
+    pub(crate) extremes: Vec<Extremes<RunWithCaveats>>,
+    /// By response: caveats on it.
+    pub(crate) spoiled: Vec<Spoiled>,
     /// How the runs ended.
     pub(crate) ends: Census,
+}
+
+/// The number of a run and the names of the caveats on the figure.
+pub(crate) type RunWithCaveats = (u64, String);
+
+/// How many of the runs that have a figure have caveats on it, and which.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Spoiled {
+    pub(crate) runs: usize,
+    pub(crate) of: usize,
+    pub(crate) names: BTreeSet<String>,
 }
 
 /// Reads all rows that are there; `figures` are the columns of the responses.
@@ -39,6 +55,7 @@ pub(crate) fn gather(opened: &Stored, figures: &[usize]) -> Result<Gathered, Fai
         gathered: Gathered {
             samples: Samples::new(study, &named),
             extremes: vec![Extremes::new(EXTREMES); figures.len()],
+            spoiled: vec![Spoiled::default(); figures.len()],
             ends: Census::new(&opened.manifest),
         },
         members: vec![Vec::new(); figures.len()],
@@ -59,6 +76,16 @@ struct Gathering<'a> {
     gathered: Gathered,
     /// By response: the members of the present sample so far.
     members: Vec<Vec<f64>>,
+}
+
+impl Spoiled {
+    fn see(&mut self, value: f64, touching: &[&str]) {
+        if value.is_finite() {
+            self.of += 1;
+            self.runs += usize::from(!touching.is_empty());
+            self.names.extend(touching.iter().map(|name| (*name).to_owned()));
+        }
+    }
 }
 
 impl Gathering<'_> {
@@ -86,9 +113,14 @@ impl Gathering<'_> {
             self.close();
             self.open(row);
         }
+        let caveats: Vec<Caveat> = row.caveats().collect();
         for (i, at) in self.figures.iter().enumerate() {
             let value = cell(*at).filter(|_| counts).unwrap_or(f64::NAN);
-            self.gathered.extremes[i].see(row.index, value);
+            let figure = &self.gathered.samples.responses[i].name;
+            let touching = caveats.iter().filter(|caveat| caveat.touches(figure)).map(|caveat| caveat.name.as_str());
+            let touching: Vec<_> = touching.collect();
+            self.gathered.spoiled[i].see(value, &touching);
+            self.gathered.extremes[i].see(&(row.index, touching.join(", ")), value);
             self.members[i].push(value);
         }
     }

@@ -133,7 +133,7 @@ pub(crate) fn linear(html: &mut Html, of: &Finding<'_>) {
 
 /// Which way the response goes with a parameter, by every number without a mark whose interval leaves zero out: the rank
 /// correlation, and the coefficient, which knows what the other parameters do.
-pub(crate) const SIGN_RULE: &str = "The reading of a sign rests on the rank correlation and the coefficient alike: it is that of the      numbers without † whose interval leaves zero out. The coefficient sees a small effect beside great ones, the rank correlation      any rising or falling curve; where the two contradict each other, or neither is clear, the sign is not known.";
+pub(crate) const SIGN_RULE: &str = "The reading of a sign rests on the rank correlation and the coefficient alike: it is that of the      numbers without a † of their own whose interval leaves zero out. The coefficient sees a small effect beside great ones, the rank correlation      any rising or falling curve; where the two contradict each other, or neither is clear, the sign is not known.";
 
 fn reading(linear: &Linear, parameter: usize) -> String {
     let rank = match linear.ranks.get(parameter) {

@@ -37,20 +37,21 @@ pub(crate) struct Run {
 
 /// All numbers of a response.
 pub(crate) fn numbers(opened: &Stored, gathered: &Gathered, analysis: &Analysis) -> Vec<Number> {
-    let mut list = List { mark: caution::lacking(analysis.spread.as_ref()), numbers: Vec::new() };
+    let spoiled = || caution::spoiled(&gathered.spoiled[analysis.response]);
+    let mut list = List { mark: caution::lacking(analysis.spread.as_ref()).or_else(spoiled), numbers: Vec::new() };
     list.spread(analysis);
     list.linear(analysis);
     list.by_design(&analysis.by_design);
     let extremes = &gathered.extremes[analysis.response];
     for (quantity, runs) in [("worst", &extremes.worst), ("best", &extremes.best)] {
-        list.numbers.extend((0..).zip(runs).map(|(place, (value, run))| Number {
+        list.numbers.extend((0..).zip(runs).map(|(place, (value, (run, caveats)))| Number {
             quantity,
             parameter: None,
             run: Some(Run { number: *run, place, command: command(&opened.plan, &opened.manifest, *run) }),
             in_unit: true,
             estimate: exactly(*value),
             rows: 1,
-            mark: None,
+            mark: Some(caveats.clone()).filter(|names| !names.is_empty()),
         }));
     }
     list.numbers

@@ -60,6 +60,7 @@ pub(crate) fn keep_telling(gathered: &mut Gathered) {
     }
     keep(&mut gathered.samples.responses, &kept);
     keep(&mut gathered.extremes, &kept);
+    keep(&mut gathered.spoiled, &kept);
 }
 
 /// Leaves the items at these places.

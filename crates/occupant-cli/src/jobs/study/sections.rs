@@ -1,7 +1,7 @@
 //! The sections of the page.
 
 use super::shown::{shown, shown_unit, with_unit};
-use super::{Finding, Report, caution, describe, matters, pictures};
+use super::{Finding, Report, describe, matters, pictures};
 use crate::pictures::html::{Cell, Html};
 
 pub(crate) fn study(html: &mut Html, report: &Report) {
@@ -103,8 +103,9 @@ fn spread(html: &mut Html, of: &Finding<'_>) {
         html.text("p class=\"note\"", "No sample that is there has this figure.");
         return;
     };
-    let lacking = caution::lacking(Some(&s));
-    if let Some(why) = &lacking {
+    // that of all numbers of the response, its count of samples among them
+    let mark = of.numbers.iter().find(|n| n.quantity == "samples").and_then(|n| n.mark.clone());
+    if let Some(why) = &mark {
         html.text("p class=\"note\"", &format!("† {why}."));
     }
     let [stable, unstable] = of.response.stable;
@@ -125,7 +126,7 @@ fn spread(html: &mut Html, of: &Finding<'_>) {
     let head = ["samples", "least", "5 %", "median", "95 %", "greatest"];
     let mut row = vec![Cell::Number(s.members.to_string())];
     let values = [s.least, s.q05, s.median, s.q95, s.greatest];
-    row.extend(values.map(|x| Cell::of(shown(x, &of.response.unit), lacking.clone())));
+    row.extend(values.map(|x| Cell::of(shown(x, &of.response.unit), mark.clone())));
     html.table(&head, &[row]);
 }
 
@@ -137,7 +138,8 @@ fn extremes(html: &mut Html, of: &Finding<'_>) {
     for (number, run) in runs {
         let word = if number.quantity == "worst" { "greatest" } else { "least" };
         let value = with_unit(number.estimate.value, &of.response.unit);
-        html.text("p class=\"run\"", &format!("Run {}, {word}: {value}", run.number));
+        let mark = number.mark.as_ref().map(|why| format!(" †: {why}")).unwrap_or_default();
+        html.text("p class=\"run\"", &format!("Run {}, {word}: {value}{mark}", run.number));
         match &run.command {
             Some(command) => html.text("pre class=\"command\"", command),
             None => html.text("p class=\"remark\"", "No shell command can say its values."),

@@ -67,8 +67,8 @@ impl Census {
             self.remember(row);
             return false;
         }
-        for name in row.caveats.split_whitespace() {
-            let (count, first) = self.caveats.entry(name.to_owned()).or_insert((0, row.index));
+        for caveat in row.caveats() {
+            let (count, first) = self.caveats.entry(caveat.name).or_insert((0, row.index));
             (*count, *first) = (*count + 1, row.index.min(*first));
         }
         let error = |at: usize| row.cells.get(at).and_then(Cell::number);

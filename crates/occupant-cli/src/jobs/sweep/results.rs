@@ -78,7 +78,7 @@ fn write_files(
         let counts = census.see(&row);
         let value = figure.and_then(|at| row.cells.get(at)).and_then(Cell::number);
         if let (true, Some(value)) = (counts, value) {
-            extremes.see(row.index, value);
+            extremes.see(&row.index, value);
         }
         if let Some(stable) = &mut stable {
             stable.see(&row, counts)?;

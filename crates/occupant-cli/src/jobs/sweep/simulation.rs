@@ -60,7 +60,7 @@ impl Source for Simulation<'_> {
             }
             if let Some(summary) = summarizer.summary(None) {
                 self.fill(&mut row, &summary, &ran.model);
-                row.caveats = summary.caveats.iter().map(|c| c.name.as_str()).collect::<Vec<_>>().join(" ");
+                row.warn_of(&summary.caveats);
             }
         }
         Ok(row)

@@ -92,7 +92,7 @@ impl Caveat {
         let (worst, most) = off.iter().max_by(|a, b| a.1.total_cmp(&b.1))?;
         let text = format!(
             "outputs every {} ms are too coarse for {} measures: without every other output {} changes by {:.0} %; a \
-             shorter output.interval mends it",
+             shorter output.interval mends it, or `measures --interval`",
             (1e9 * interval_s).round() / 1e6,
             off.len(),
             worst.label,
