@@ -45,11 +45,12 @@ pub fn male50() -> Body {
     let radius_m =
         [3.9, 4.8, 4.7, 2.5, 2.5, 2.0, 2.0, 1.8, 1.8, 3.4, 3.4, 2.4, 2.4, 2.3, 2.3, 1.9, 1.9].map(|r| r * INCH_M);
     let mut body = Body {
-        name: "male50".into(),
+        name: "male50-1970".into(),
         tree: &TTI12,
         segments,
         shoulder_half_width_m: 6.57 * INCH_M,
         hip_half_width_m: 3.35 * INCH_M,
+        neck_height_m: 0.0,
         spheres: Vec::new(),
     };
     body.spheres = body.standard_spheres(&radius_m);
@@ -86,6 +87,7 @@ pub fn bead(inertia_kg_m2: f64) -> Body {
         segments,
         shoulder_half_width_m: 0.0,
         hip_half_width_m: 0.0,
+        neck_height_m: 0.0,
         spheres: Vec::new(),
     }
 }

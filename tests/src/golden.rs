@@ -111,6 +111,7 @@ impl Golden {
             segments: std::array::from_fn(|i| segment(&self.segments[i])),
             shoulder_half_width_m: self.shoulder_half_width,
             hip_half_width_m: self.hip_half_width,
+            neck_height_m: 0.0,
             spheres: self.spheres.iter().map(sphere).collect(),
         }
     }

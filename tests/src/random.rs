@@ -67,6 +67,7 @@ impl Random {
             segments,
             shoulder_half_width_m: self.between(0.1, 0.25),
             hip_half_width_m: self.between(0.05, 0.15),
+            neck_height_m: self.between(0.0, 0.15),
             spheres: Vec::new(),
         };
         body.spheres = body.standard_spheres(&radius);

@@ -36,13 +36,13 @@ pub fn pose<T: Number>(body: &Body, q: &[T; DOF]) -> Pose<T> {
     let y = |n: usize| axes[n - 1].y;
     let below = |n: usize| (length[n] - rho[n]) * z(n); // ρ̄ Z
     let l = |n: usize| length[n] * z(n); // L Z
-    let (l_s, l_h) = (body.shoulder_half_width_m, body.hip_half_width_m);
+    let (l_s, l_h, neck) = (body.shoulder_half_width_m, body.hip_half_width_m, body.neck_height_m);
 
     let t1 = Vector([q[0], q[1], q[2]]);
     let cg = [
         t1 - below(1),                                     // (15), ρ̄₁ as in (13)
         t1 + rho[2] * z(2),                                // (16)
-        t1 + l(2) + rho[3] * z(3),                         // (17)
+        t1 + l(2) + neck * z(2) + rho[3] * z(3),           // (17), the neck above the shoulders
         t1 - l(1) - below(4),                              // (18)
         t1 + l(2) + l_s * y(2) - below(5),                 // (19)
         t1 + l(2) - l_s * y(2) - below(6),                 // (20)

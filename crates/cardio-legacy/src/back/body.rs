@@ -10,6 +10,7 @@ const SAME_PLACE_M: f64 = 1e-12;
 pub(super) fn read(back: &mut Back<'_>) {
     let body = &back.setup.body;
     back.set_all([("XLS", body.shoulder_half_width_m), ("XLH", body.hip_half_width_m)]);
+    back.misfit_if(body.neck_height_m != 0.0, "body.neck_height: cards have the neck at the shoulders");
     for segment in TTI12.segments() {
         let (p, inertia) = (body.segment(segment), body.segment(segment).inertia_kg_m2);
         let lengths = [("XLE", p.length_m), ("RHO", p.cg_from_lower_end_m), ("XM", p.mass_kg)];

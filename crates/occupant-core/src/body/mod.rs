@@ -3,11 +3,13 @@
 //! Report: "Body Geometry and Coordinate Systems", Figs 1 and 5. Segment axes are X ahead, Y to the
 //! occupant's left and Z up when the occupant stands upright with hanging arms; they are principal axes.
 
+pub(crate) mod people;
 pub(crate) mod tree;
 pub mod tti12;
 
 use nalgebra::{Point3, Vector3};
 
+pub use people::Sex;
 pub use tree::{
     End, Joint, JointKind, JointRow, Landmarks, Limb, Pair, Place, Segment, SegmentRow, Side, SphereRow, Tree, Width,
     both_sides,
@@ -55,6 +57,8 @@ pub struct Body {
     pub shoulder_half_width_m: f64,
     /// L_H, distance of a hip joint from the lower end of segment 4 along Y₄.
     pub hip_half_width_m: f64,
+    /// Height of the neck's joint above the line of the shoulders along Z₂; 0 in the report.
+    pub neck_height_m: f64,
     /// Contact spheres; the tree's standard ones unless a scenario says otherwise.
     pub spheres: Vec<ContactSphere>,
 }
@@ -95,6 +99,7 @@ impl Body {
         match joint.place {
             Place::Root => [0.0; 2],
             Place::FarEnd => [0.0, far_m],
+            Place::Neck => [0.0, far_m + self.neck_height_m],
             Place::Beside(width, side) => [self.beside_m(width, side), far_m],
         }
     }

@@ -97,6 +97,8 @@ pub enum Place {
     Root,
     /// At the end opposite to the joint end.
     FarEnd,
+    /// Above that end, by the height that a body gives.
+    Neck,
     /// Beside that end.
     Beside(Width, Side),
 }

@@ -26,7 +26,7 @@ pub const TTI12: Tree = Tree {
         segment("right_lower_leg", End::Upper),
     ],
     joints: &[
-        ball("neck", UPPER_TORSO, HEAD, Place::FarEnd),
+        ball("neck", UPPER_TORSO, HEAD, Place::Neck),
         ball("right_shoulder", UPPER_TORSO, RIGHT_UPPER_ARM, Place::Beside(Shoulder, Right)),
         ball("left_shoulder", UPPER_TORSO, LEFT_UPPER_ARM, Place::Beside(Shoulder, Left)),
         ball("upper_back", MIDDLE_TORSO, UPPER_TORSO, Place::Root),

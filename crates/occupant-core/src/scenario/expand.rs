@@ -3,9 +3,8 @@
 //! Every value keeps the place it was written at. Later layers win: preset, then the scenario; within each `all`, then
 //! the pair, then the single name.
 
-use std::sync::OnceLock;
-
 use super::check::check_words;
+use super::presets;
 use super::sections::schema;
 use crate::body::tree::{JointRow, both_sides};
 use crate::body::tti12::TTI12;
@@ -26,20 +25,12 @@ pub fn rival_path(path: &str) -> Option<String> {
     Some(format!("{above}.{}", rival(key)?))
 }
 
-/// The preset with this name, a piece of scenario that comes with the program: read and checked once.
-fn preset(name: &str) -> Option<&'static Document> {
-    static MALE50: OnceLock<Option<Document>> = OnceLock::new();
-    let (cell, text) = match name {
-        "male50" => (&MALE50, include_str!("presets/male50.toml")),
-        _ => return None,
-    };
-    let read = || {
-        let mut document = Document::read(text, Format::Toml, name).ok()?;
-        // it lacks what a whole scenario has; its quantities are read
-        check_words(&mut document, schema(), "the preset");
-        Some(document)
-    };
-    cell.get_or_init(read).as_ref()
+/// A text that comes with the program or was made by it, read and checked.
+pub(super) fn written(title: &str, text: &str) -> Option<Document> {
+    let mut document = Document::read(text, Format::Toml, title).ok()?;
+    // it lacks what a whole scenario has; its quantities are read
+    check_words(&mut document, schema(), "the preset");
+    Some(document)
 }
 
 /// The explicit form of a scenario tree that has passed the check.
@@ -59,17 +50,16 @@ pub(super) fn expand(sources: &mut Sources, root: &Node) -> Node {
 fn section(sources: &mut Sources, root: &Node, key: &str, explicit: impl FnOnce(Vec<Node>) -> Table) -> Option<Entry> {
     let entry = root.as_table()?.get(key)?.clone();
     entry.node.as_table()?;
-    let preset = entry.node.get("preset").and_then(Node::as_str);
-    let base = preset.and_then(|name| preset_section(sources, name, key));
+    let base = start(sources, &entry.node, key);
     let layers: Vec<Node> = base.into_iter().chain([entry.node.clone()]).collect();
     Some(Entry { node: Node::new(entry.node.span, Value::Table(explicit(layers))), ..entry })
 }
 
-fn preset_section(sources: &mut Sources, name: &str, key: &str) -> Option<Node> {
-    let preset = preset(name)?;
-    let title = format!("preset {name}");
-    let id = sources.named(&title).unwrap_or_else(|| sources.add(title, preset.text()));
-    Some(preset.root.get(key)?.moved_to(id))
+/// What a section starts from: the preset that it names, or the body of the person that it describes.
+fn start(sources: &mut Sources, section: &Node, key: &str) -> Option<Node> {
+    let (title, base) = presets::base(section, key)?;
+    let id = sources.named(&title).unwrap_or_else(|| sources.add(title, base.text()));
+    Some(base.root.get(key)?.moved_to(id))
 }
 
 fn body(layers: &[Node]) -> Table {

@@ -1,37 +1,101 @@
-//! The occupants that come with the program, for programs that do without a text. Their numbers stand once, in
-//! `scenario/presets`, and are read here as a scenario's are.
+//! What `body` and `joints` of a scenario start from: occupants that come with the program, in `scenario/presets` or made by
+//! [`crate::body::people`]. Programs that do without a text get the same ones, read as a scenario's are.
 
 use std::sync::OnceLock;
 
-use super::expand::expand;
-use super::sections::occupant;
+use serde::Deserialize;
+
+use super::expand::{expand, written};
+use super::sections::{BodySection, occupant};
 use crate::body::Body;
+use crate::body::people::{self, Person, Sex};
 use crate::forces::joint::Joints;
-use placed_text::{Document, Format};
+use placed_text::{Document, Format, Node};
 
 impl Body {
-    /// The 50th-percentile male (78.7 kg) of the GEBOD generator, with the report's 17 spheres: `body.preset = "male50"`.
+    /// The 50th-percentile male (1.773 m, 78.7 kg) of the GEBOD generator with the report's 17 spheres, its neck's joint
+    /// where a dummy's is: `body.preset = "male50"`.
     pub fn male50() -> Self {
-        male50().0.clone()
+        people::REFERENCE_PERSON.body().0
+    }
+
+    /// A grown-up by sex, stature and mass, as a scenario's `body.sex`, `body.stature`, `body.mass`; none where the
+    /// measurements behind it reach no such person.
+    pub fn person(sex: Sex, stature_m: f64, mass_kg: f64) -> Option<Self> {
+        let person = Person { sex, stature_m, mass_kg };
+        person.is_within_reach().then(|| person.body().0)
     }
 }
 
 impl Joints {
-    /// A starting set of dampings, stops and spinal springs for [`Body::male50`]: `joints.preset = "male50"`.
+    /// A starting set of dampings, stops and spinal springs for grown-ups: `joints.preset = "male50"`.
     pub fn male50() -> Self {
-        male50().1.clone()
+        static MALE50: OnceLock<Joints> = OnceLock::new();
+        MALE50.get_or_init(|| read().expect("the preset is part of the program, and a test builds it")).clone()
     }
 }
 
-fn male50() -> &'static (Body, Joints) {
-    static MALE50: OnceLock<(Body, Joints)> = OnceLock::new();
-    MALE50.get_or_init(|| read("male50").expect("the preset is part of the program, and a test builds it"))
+/// The joints of a scenario that says nothing but the names of presets.
+fn read() -> Option<Joints> {
+    let text = "body = { preset = \"male50\" }\njoints = { preset = \"male50\" }\n";
+    let mut document = Document::read(text, Format::Toml, "preset").ok()?;
+    document.root = expand(&mut document.sources, &document.root);
+    Some(occupant("male50", &document)?.1)
 }
 
-/// The occupant of a scenario that says nothing but the name of a preset.
-fn read(preset: &str) -> Option<(Body, Joints)> {
-    let text = format!("body = {{ preset = \"{preset}\" }}\njoints = {{ preset = \"{preset}\" }}\n");
-    let mut document = Document::read(&text, Format::Toml, "preset").ok()?;
-    document.root = expand(&mut document.sources, &document.root);
-    occupant(preset, &document)
+/// The text that a section named `key` of a checked scenario starts from, and what messages call it.
+pub(super) fn base(section: &Node, key: &str) -> Option<(String, Document)> {
+    let preset = section.get("preset").and_then(Node::as_str);
+    let (title, document) = match (key, preset) {
+        ("body", Some("male50-1970")) | ("joints", Some("male50")) => ("preset male50".to_owned(), measured()?.clone()),
+        ("body", _) => {
+            let body = preset.and_then(people::child).or_else(|| Some(person(section, preset)?.body().0))?;
+            let title = format!("preset {}", preset.unwrap_or("of a person"));
+            let document = written(&title, &words(&body))?;
+            (title, document)
+        }
+        _ => return None,
+    };
+    Some((title, document))
+}
+
+/// The body of the first version and the joints.
+fn measured() -> Option<&'static Document> {
+    static READ: OnceLock<Option<Document>> = OnceLock::new();
+    READ.get_or_init(|| written("preset male50", include_str!("presets/male50-1970.toml"))).as_ref()
+}
+
+/// The grown-up that a body section speaks of; the reference where it is too incomplete or out of reach, which is reported
+/// when the body is built.
+fn person(section: &Node, preset: Option<&str>) -> Option<Person> {
+    let own = BodySection::deserialize(section).ok()?;
+    let named = preset.and_then(Person::named);
+    if named.is_none() && !own.describes_a_person() {
+        return None;
+    }
+    let start = named.unwrap_or(people::REFERENCE_PERSON);
+    let person = own.person(start);
+    Some(if person.is_within_reach() { person } else { start })
+}
+
+/// A body in the words of a scenario. Every number has the same width, so that places in one text hold in another.
+fn words(body: &Body) -> String {
+    let quantity = |value: f64, unit: &str| format!("\"{value:.16e} {unit}\"");
+    let mut lines = vec![
+        "[body]".to_owned(),
+        format!("shoulder_half_width = {}", quantity(body.shoulder_half_width_m, "m")),
+        format!("hip_half_width = {}", quantity(body.hip_half_width_m, "m")),
+        format!("neck_height = {}", quantity(body.neck_height_m, "m")),
+    ];
+    for (row, p) in body.tree.segment_rows().iter().zip(&body.segments) {
+        let inertia = p.inertia_kg_m2.map(|moment| quantity(moment, "kg m^2"));
+        lines.push(format!("[body.segments.{}]", row.name));
+        lines.push(format!("length = {}", quantity(p.length_m, "m")));
+        lines.push(format!("cg_from_lower_end = {}", quantity(p.cg_from_lower_end_m, "m")));
+        lines.push(format!("mass = {}", quantity(p.mass_kg, "kg")));
+        lines.push(format!("inertia = [{}, {}, {}]", inertia.x, inertia.y, inertia.z));
+    }
+    lines.push("[body.spheres]".to_owned());
+    lines.extend(body.spheres.iter().map(|s| format!("{}.radius = {}", s.name, quantity(s.radius_m, "m"))));
+    lines.join("\n")
 }

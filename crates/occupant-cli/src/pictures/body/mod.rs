@@ -84,11 +84,16 @@ fn head(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
     ]
 }
 
-/// The chest and the bar that carries the shoulders.
+/// The chest, the bar that carries the shoulders, and as much of the neck as does not turn with the head.
 fn upper_torso(body: &Body, segment: Segment) -> Vec<[Lump; 2]> {
     let p = body.segment(segment);
     let shoulder = limb_radius(body, body.tree.landmarks().arms.left.upper);
-    vec![trunk(body, segment), bar(body.shoulder_half_width_m, p.length_m - p.cg_from_lower_end_m, shoulder)]
+    let height_m = p.length_m - p.cg_from_lower_end_m;
+    let mut parts = vec![trunk(body, segment), bar(body.shoulder_half_width_m, height_m, shoulder)];
+    if body.neck_height_m > 0.0 {
+        parts.push([0.0, body.neck_height_m].map(|above_m| ball(Vector3::z() * (height_m + above_m), shoulder)));
+    }
+    parts
 }
 
 /// The pelvis and the bar that carries the hips.

@@ -11,8 +11,11 @@ pub(super) fn check_body(body: &Body, problems: &mut Problems) {
         let path = format!("body.segments.{}", body.tree[segment].name);
         check_segment(body.segment(segment), &path, problems);
     }
-    for (key, value) in [("shoulder_half_width", body.shoulder_half_width_m), ("hip_half_width", body.hip_half_width_m)]
-    {
+    for (key, value) in [
+        ("shoulder_half_width", body.shoulder_half_width_m),
+        ("hip_half_width", body.hip_half_width_m),
+        ("neck_height", body.neck_height_m),
+    ] {
         problems.check_at_least_zero(&format!("body.{key}"), value, "m");
     }
     problems.check_unique("body.spheres", "sphere", body.spheres.iter().map(|s| s.name.as_str()));

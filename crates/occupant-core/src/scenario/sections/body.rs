@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::builder::Builder;
 use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, point, si_or};
 use super::{Acceleration, Force, Inertia, Length, Mass};
+use crate::body::people::{Person, REACH, REFERENCE_PERSON, Sex};
 use crate::body::tree::SphereRow;
 use crate::body::tti12::TTI12;
 use crate::body::{Body, ContactSphere, SegmentProperties, Tree};
@@ -18,13 +19,24 @@ use placed_text::{Problem, with_key};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct BodySection {
-    /// Body to start from: "male50". Keys given here replace its values. Without a preset everything must be given.
-    #[schemars(extend("enum" = ["male50"]))]
+    /// Body to start from. Keys given here replace its values. Without a preset or a person everything must be given.
+    #[schemars(extend("enum" = [
+        "male50", "male50-1970", "female05", "female50", "male95", "child06", "child10",
+    ]))]
     pub(crate) preset: Option<String>,
+    /// Of a grown-up who is made by sex, stature and mass.
+    #[schemars(extend("enum" = ["female", "male"]))]
+    pub(crate) sex: Option<String>,
+    /// Standing height of that person.
+    pub(crate) stature: Option<Length<POSITIVE>>,
+    /// Mass of that person.
+    pub(crate) mass: Option<Mass<POSITIVE>>,
     /// L_s, distance of a shoulder joint from the middle plane.
     pub(crate) shoulder_half_width: Option<Length<NOT_NEGATIVE>>,
     /// L_H, distance of a hip joint from the middle plane.
     pub(crate) hip_half_width: Option<Length<NOT_NEGATIVE>>,
+    /// Height of the neck's joint above the line of the shoulders; 0 if absent, as in the report.
+    pub(crate) neck_height: Option<Length<NOT_NEGATIVE>>,
     /// Gravity by which a `weight` is divided to give a mass; standard gravity if absent.
     pub(crate) weighed_at: Option<Acceleration<POSITIVE>>,
     /// The twelve segments. `upper_arms`, `forearms`, `thighs`, `lower_legs` stand for left and right.
@@ -108,16 +120,73 @@ pub(crate) struct SphereSection {
     pub(crate) remove: Option<bool>,
 }
 
+/// Presets that are a person, whom sex, stature and mass change.
+const PEOPLE: &str = "one of female05, female50, male50, male95, or sex, stature and mass without a preset";
+
+impl BodySection {
+    /// Whether it speaks of a person's size.
+    pub(crate) fn describes_a_person(&self) -> bool {
+        self.sex.is_some() || self.stature.is_some() || self.mass.is_some()
+    }
+
+    /// The person it describes, changes of another.
+    pub(crate) fn person(&self, from: Person) -> Person {
+        let sex = self.sex.as_deref().map(|sex| if sex == "female" { Sex::Female } else { Sex::Male });
+        Person {
+            sex: sex.unwrap_or(from.sex),
+            stature_m: si_or(&self.stature, from.stature_m),
+            mass_kg: si_or(&self.mass, from.mass_kg),
+        }
+    }
+}
+
+/// Whether a person's size is whole and within reach of what was measured.
+fn check_person(b: &mut Builder, preset: Option<&str>, section: &BodySection) {
+    if !section.describes_a_person() {
+        return;
+    }
+    let named = preset.and_then(Person::named);
+    if let (Some(preset), None) = (preset, named) {
+        b.error("body.preset", format!("the preset {preset} has one size"), PEOPLE);
+        return;
+    }
+    if named.is_none() {
+        let is_whole = section.sex.is_some() && section.stature.is_some() && section.mass.is_some();
+        b.needed("body", "stature", &section.stature);
+        b.needed("body", "mass", &section.mass);
+        if section.sex.is_none() {
+            b.error("body", "`body` has no key `sex`", "sex = \"female\" or \"male\"");
+        }
+        if !is_whole {
+            return;
+        }
+    }
+    let person = section.person(named.unwrap_or(REFERENCE_PERSON));
+    let size = format!("a person of {:.3} m and {:.1} kg", person.stature_m, person.mass_kg);
+    if !person.is_within_reach() {
+        b.error("body", size, REACH);
+    } else if let factor @ (..0.9 | 1.1..) = person.body().1 {
+        let found = format!("{size}, whose segments by volume must weigh {factor:.2} times as much to reach that mass");
+        b.report(Problem::warning(
+            "body",
+            found,
+            "a factor of 0.9 to 1.1: this person is unlike those who were measured",
+        ));
+    }
+}
+
 /// The body; `section` is explicit, `preset` is the one it came from.
 pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection) -> Body {
+    check_person(b, preset, section);
     let weighed_at_m_s2 = si_or(&section.weighed_at, STANDARD_GRAVITY_M_S2);
     let tree = &TTI12;
     let mut body = Body {
-        name: preset.unwrap_or("own").to_owned(),
+        name: preset.unwrap_or(if section.describes_a_person() { "person" } else { "own" }).to_owned(),
         tree,
         segments: std::array::from_fn(|i| segment(b, tree.segment_rows()[i].name, weighed_at_m_s2)),
         shoulder_half_width_m: b.needed("body", "shoulder_half_width", &section.shoulder_half_width),
         hip_half_width_m: b.needed("body", "hip_half_width", &section.hip_half_width),
+        neck_height_m: si_or(&section.neck_height, 0.0),
         spheres: Vec::new(),
     };
     body.spheres = spheres(b, &section.spheres, &body);

@@ -31,7 +31,7 @@ pub use record_file::{RecordFile, read_record};
 pub(super) use setup::{occupant, setup};
 
 use self::belts::BeltSection;
-use self::body::BodySection;
+pub(super) use self::body::BodySection;
 use self::joints::{JointSection, JointsSection};
 use self::materials::MaterialSection;
 use self::path::PathSection;

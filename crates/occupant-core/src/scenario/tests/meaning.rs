@@ -4,7 +4,7 @@ use approx::assert_relative_eq;
 use nalgebra::{Point3, Vector3};
 
 use super::{build, complaint, load, short_with};
-use crate::body::tti12;
+use crate::body::{Body, Sex, tti12};
 use crate::forces::contact::material::{DEFAULT_FRICTION_SPEED_M_S, Memory};
 use crate::forces::contact::surface::{Facing, Frame, Outline};
 use crate::model::seating::{InitialPosture, InitialVelocity};
@@ -259,4 +259,48 @@ fn provenance_of_nothing_is_warned_of() {
    = in: provenance.\"material.foam.k1\"
    = expected: a path such as materials.seat, or a topic in words"
     );
+}
+
+/// A body section instead of the preset.
+fn body_of(section: &str) -> String {
+    short_with("[body]\npreset = \"male50\"", section)
+}
+
+#[test]
+fn a_person_is_made_by_sex_stature_and_mass_or_by_changing_another() {
+    let own = build(&body_of("[body]\nsex = \"female\"\nstature = \"1.55 m\"\nmass = \"52 kg\"")).body;
+    let made = Body::person(Sex::Female, 1.55, 52.0).unwrap();
+    assert_eq!(own.segments, made.segments);
+    assert_eq!((own.spheres, own.neck_height_m), (made.spheres, made.neck_height_m));
+    let heavier = build(&body_of("[body]\npreset = \"female05\"\nmass = \"52 kg\"\nneck_height = \"80 mm\"")).body;
+    assert_eq!(heavier.segments, Body::person(Sex::Female, 1.511, 52.0).unwrap().segments);
+    assert_eq!(heavier.neck_height_m, 0.08);
+    assert_eq!(build(&body_of("[body]\npreset = \"male50\"")).body.segments, Body::male50().segments);
+    for (preset, mass_kg) in [("female50", 59.3), ("male95", 97.52), ("child06", 21.45), ("child10", 37.24)] {
+        let body = build(&body_of(&format!("[body]\npreset = \"{preset}\""))).body;
+        assert_relative_eq!(body.mass_kg(), mass_kg, max_relative = 5e-4);
+        assert_eq!(body.name, preset);
+    }
+}
+
+#[test]
+fn the_body_of_1970_has_its_neck_at_the_shoulders() {
+    let body = build(&body_of("[body]\npreset = \"male50-1970\"")).body;
+    assert_eq!(body.neck_height_m, 0.0);
+    assert_relative_eq!(body.segments[2].length_m, 13.71 * 0.0254, max_relative = 1e-15);
+}
+
+#[test]
+fn a_person_that_cannot_be_made_is_refused_with_the_reason() {
+    for (section, expected) in [
+        ("sex = \"female\"\nmass = \"52 kg\"", "`body` has no key `stature`"),
+        ("stature = \"1.6 m\"\nmass = \"52 kg\"", "`body` has no key `sex`"),
+        ("preset = \"child06\"\nmass = \"25 kg\"", "the preset child06 has one size"),
+        ("preset = \"male50-1970\"\nstature = \"1.8 m\"", "the preset male50-1970 has one size"),
+        ("preset = \"male50\"\nstature = \"0.9 m\"", "a grown-up of 1.4 to 2.05 m"),
+    ] {
+        let problem = complaint(&body_of(&format!("[body]\n{section}")));
+        assert!(problem.contains(expected), "{section}: {problem}");
+        assert_eq!(problem.matches("error").count(), 1, "{section}: {problem}");
+    }
 }

@@ -67,6 +67,11 @@ fn write_segment(wire: &mut Wire, body: &Body, segment: Segment) {
     } else if segment == marks.chest {
         let arm = half_axes_m(body, marks.arms.left.upper).0;
         girdle(wire, upper, body.shoulder_half_width_m, arm, color);
+        if body.neck_height_m > 0.0 {
+            let size = Vector3::new(2.0 * arm, 2.0 * arm, body.neck_height_m);
+            let centre = Vector3::z() * (upper + 0.5 * body.neck_height_m);
+            cylinder(wire, centre, UnitQuaternion::identity(), size, color);
+        }
     } else if segment == marks.pelvis {
         let thigh = half_axes_m(body, marks.legs.left.upper).0;
         girdle(wire, lower, body.hip_half_width_m, thigh, color);

@@ -23,10 +23,11 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {
     }
     table.write(pages);
     pages.say(&format!(
-        "TOTAL MASS {}; SHOULDER JOINTS {} AND HIP JOINTS {} FROM THE MIDDLE",
+        "TOTAL MASS {}; SHOULDER JOINTS {} AND HIP JOINTS {} FROM THE MIDDLE; NECK {} ABOVE THE SHOULDERS",
         m.say(body.mass_kg()),
         l.say(body.shoulder_half_width_m),
-        l.say(body.hip_half_width_m)
+        l.say(body.hip_half_width_m),
+        l.say(body.neck_height_m)
     ));
     spheres(case, units).write(pages);
 }

@@ -1,0 +1,474 @@
+//! Bodies of people of any size: one measured body, stretched segment by segment.
+//!
+//! The body that is stretched is the 50th-percentile male of the GEBOD generator (US Air Force) in its 15 segments. Each
+//! segment's depth, breadth and length grow with a measure of the person; that measure follows from sex, stature and mass
+//! by a regression over the 4082 men or 1986 women of the ANSUR II survey (US Army). Children have no such survey: theirs
+//! are stretches of the same body, from the weights and sitting heights of 49 CFR 571.208 S7.1.4 and mass fractions of
+//! Jensen; the lengths of their segments are the weakest numbers here.
+//!
+//! The 15 segments then become the 12 of [`TTI12`] by the parallel-axis theorem, products of inertia left out. The neck's
+//! joint is 125 mm below the centre of gravity of the reference's head, where one joint alone gives the path of a dummy's
+//! head in the neck pendulum of 49 CFR 572.7 (chords of 2ρ sin(θ/2) with ρ = 122 to 128 mm at 30, 60 and 68 degrees); the
+//! neck's mass belongs to the upper torso.
+
+use nalgebra::Vector3;
+
+use super::tti12::TTI12;
+use super::{Body, SegmentProperties};
+
+/// Which regressions hold.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sex {
+    /// Those of women.
+    Female,
+    /// Those of men.
+    Male,
+}
+
+/// How a body differs from the reference.
+struct Stretch {
+    /// Depth, breadth and length of each part as multiples of the reference's.
+    scale: [[f64; 3]; PARTS],
+    mass_kg: [f64; PARTS],
+    shoulder_half_width: f64,
+    hip_half_width: f64,
+}
+
+const PARTS: usize = 10;
+// places of the parts in the tables below; from the thigh on one of two
+const LT: usize = 0; // lower torso
+const CT: usize = 1; // centre torso
+const UT: usize = 2; // upper torso
+const N: usize = 3; // neck
+const H: usize = 4; // head
+const UL: usize = 5; // thigh
+const LL: usize = 6; // shank
+const F: usize = 7; // foot
+const UA: usize = 8; // upper arm
+const LA: usize = 9; // forearm with hand
+
+const INCH_M: f64 = 0.0254;
+const POUND_KG: f64 = 0.453_592_37;
+/// lbf in s² in kg m².
+const INERTIA_KG_M2: f64 = 0.112_984_829;
+
+/// A part of the reference: weight in lb; principal inertias in lbf in s²; turn of the principal axes about Y in degrees.
+struct Part(f64, [f64; 3], f64);
+
+const REFERENCE: [Part; PARTS] = [
+    Part(24.87, [0.9202, 0.8451, 1.0672], 0.0),
+    Part(5.10, [0.1448, 0.0809, 0.2189], 0.0),
+    Part(52.87, [4.3586, 3.2111, 2.7229], 14.4),
+    Part(2.26, [0.0154, 0.0185, 0.0231], 0.0),
+    Part(9.29, [0.1808, 0.2063, 0.1340], 36.0),
+    Part(21.03, [1.3844, 1.4593, 0.3829], 0.0),
+    Part(8.23, [0.5118, 0.5196, 0.0600], 0.0),
+    Part(2.06, [0.0397, 0.0376, 0.0072], 0.0),
+    Part(4.21, [0.1141, 0.1213, 0.0236], 0.0),
+    Part(4.05, [0.2667, 0.2654, 0.0154], 0.0),
+];
+/// Half widths of shoulders and hips, inches.
+const REFERENCE_HALF_WIDTHS: [f64; 2] = [6.57, 3.35];
+/// Radius of each standard sphere in inches, the part it grows with, and along which of its axes.
+const REFERENCE_SPHERES: [(f64, usize, usize); 17] = [
+    (3.9, H, 2),
+    (4.8, UT, 0),
+    (4.7, LT, 0),
+    (2.5, UA, 0),
+    (2.5, UA, 0),
+    (2.0, UA, 0),
+    (2.0, UA, 0),
+    (1.8, LA, 0),
+    (1.8, LA, 0),
+    (3.4, UL, 0),
+    (3.4, UL, 0),
+    (2.4, LL, 0),
+    (2.4, LL, 0),
+    (2.3, LL, 0),
+    (2.3, LL, 0),
+    (1.9, F, 1),
+    (1.9, F, 1),
+];
+
+/// A measure of the body, mm: b₀ + b₁·stature/mm + b₂·mass/kg, of men and of women.
+type Measure = [[f64; 3]; 2];
+
+const STATURE: Measure = [[0.0, 1.0, 0.0], [0.0, 1.0, 0.0]];
+const SUPRASTERNALE: Measure = [[-70.78, 0.84194, 0.3595], [-66.20, 0.84309, 0.3386]];
+const TROCHANTERION: Measure = [[-189.02, 0.63152, -0.2237], [-121.29, 0.59070, 0.0694]];
+const CERVICALE: Measure = [[-56.09, 0.88332, 0.2582], [-84.60, 0.90600, 0.0718]];
+const EPICONDYLE: Measure = [[-96.58, 0.33691, -0.0403], [-72.84, 0.32491, 0.1428]];
+const MALLEOLUS: Measure = [[11.73, 0.03098, 0.0791], [6.92, 0.03381, 0.0113]];
+const UPPER_ARM_LENGTH: Measure = [[-14.56, 0.19553, 0.0749], [-18.53, 0.19451, 0.1915]];
+const FOREARM_HAND_LENGTH: Measure = [[21.97, 0.25443, 0.1334], [14.25, 0.25042, 0.2629]];
+const FOOT_LENGTH: Measure = [[44.93, 0.12038, 0.1735], [37.85, 0.11804, 0.2393]];
+const BUTTOCK_DEPTH: Measure = [[259.04, -0.09808, 1.8598], [263.63, -0.11128, 2.2215]];
+const HIP_BREADTH: Measure = [[232.57, -0.00647, 1.4562], [262.42, -0.03156, 2.1078]];
+const WAIST_DEPTH: Measure = [[302.40, -0.15329, 2.3921], [317.07, -0.18103, 2.8154]];
+const WAIST_BREADTH: Measure = [[306.01, -0.10326, 2.3593], [295.90, -0.11378, 2.7934]];
+const CHEST_DEPTH: Measure = [[258.13, -0.08938, 1.7853], [277.81, -0.11634, 2.3473]];
+const CHEST_BREADTH: Measure = [[206.20, 0.00356, 0.9002], [206.35, -0.01285, 1.2383]];
+const NECK_GIRTH: Measure = [[407.76, -0.08508, 1.6290], [305.82, -0.04685, 1.4799]];
+const THIGH_GIRTH: Measure = [[594.74, -0.18359, 4.1254], [584.01, -0.19423, 5.1423]];
+const CALF_GIRTH: Measure = [[350.96, -0.06845, 1.8884], [305.85, -0.05141, 2.2304]];
+const UPPER_ARM_GIRTH: Measure = [[380.30, -0.12234, 2.2531], [341.41, -0.13988, 2.8331]];
+const FOREARM_GIRTH: Measure = [[252.74, -0.03150, 1.3172], [215.88, -0.03185, 1.4768]];
+const HEAD_LENGTH: Measure = [[144.73, 0.02454, 0.1366], [134.30, 0.02787, 0.1496]];
+const HEAD_BREADTH: Measure = [[156.56, -0.00861, 0.1508], [135.12, 0.00368, 0.0981]];
+const HEAD_HEIGHT: Measure = [[103.22, 0.01396, 0.0400], [98.18, 0.01328, 0.0983]];
+const BIACROMIAL: Measure = [[204.59, 0.09168, 0.5855], [131.99, 0.12829, 0.3607]];
+const BICRISTAL: Measure = [[105.89, 0.06345, 0.6795], [165.83, 0.00934, 1.3616]];
+
+const TRUNK_LENGTH: Measure = above(SUPRASTERNALE, TROCHANTERION);
+
+/// The measures with which depth, breadth and length of each part grow.
+const MEASURES: [[Measure; 3]; PARTS] = [
+    [BUTTOCK_DEPTH, HIP_BREADTH, TRUNK_LENGTH],
+    [WAIST_DEPTH, WAIST_BREADTH, TRUNK_LENGTH],
+    [CHEST_DEPTH, CHEST_BREADTH, TRUNK_LENGTH],
+    [NECK_GIRTH, NECK_GIRTH, above(STATURE, CERVICALE)],
+    [HEAD_LENGTH, HEAD_BREADTH, HEAD_HEIGHT],
+    [THIGH_GIRTH, THIGH_GIRTH, above(TROCHANTERION, EPICONDYLE)],
+    [CALF_GIRTH, CALF_GIRTH, above(EPICONDYLE, MALLEOLUS)],
+    [MALLEOLUS, FOOT_LENGTH, FOOT_LENGTH],
+    [UPPER_ARM_GIRTH, UPPER_ARM_GIRTH, UPPER_ARM_LENGTH],
+    [FOREARM_GIRTH, FOREARM_GIRTH, FOREARM_HAND_LENGTH],
+];
+
+/// The difference of two heights.
+const fn above(upper: Measure, lower: Measure) -> Measure {
+    let (mut difference, mut i) = (upper, 0);
+    while i < 6 {
+        difference[i / 3][i % 3] -= lower[i / 3][i % 3];
+        i += 1;
+    }
+    difference
+}
+
+/// Children of 6 and of 10 years: girth and length of each part as multiples of the reference's, and its mass, kg.
+const CHILD_06: [[f64; 3]; PARTS] = [
+    [0.6306, 0.6165, 2.764],
+    [0.6306, 0.6165, 0.567],
+    [0.6306, 0.6165, 5.875],
+    [0.9061, 0.9061, 0.762],
+    [0.9061, 0.9061, 3.134],
+    [0.5593, 0.6109, 1.820],
+    [0.6576, 0.6109, 0.985],
+    [0.8440, 0.6109, 0.407],
+    [0.6445, 0.6481, 0.514],
+    [0.6138, 0.6481, 0.450],
+];
+const CHILD_10: [[f64; 3]; PARTS] = [
+    [0.7579, 0.7252, 4.700],
+    [0.7579, 0.7252, 0.964],
+    [0.7579, 0.7252, 9.992],
+    [0.9683, 0.9683, 0.931],
+    [0.9683, 0.9683, 3.826],
+    [0.7227, 0.7592, 3.779],
+    [0.8148, 0.7592, 1.884],
+    [1.0306, 0.7592, 0.754],
+    [0.8620, 0.7692, 1.089],
+    [0.8012, 0.7692, 0.907],
+];
+
+/// A grown-up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Person {
+    pub sex: Sex,
+    pub stature_m: f64,
+    pub mass_kg: f64,
+}
+
+/// Grown-ups that come with the program: the reference itself, and those of 49 CFR 571.208 by their masses, with the
+/// statures that are commonly used with them.
+const PEOPLE: [(&str, Person); 4] = [
+    ("female05", Person { sex: Sex::Female, stature_m: 1.511, mass_kg: 46.27 }),
+    ("female50", Person { sex: Sex::Female, stature_m: 1.621, mass_kg: 59.3 }),
+    ("male50", REFERENCE_PERSON),
+    ("male95", Person { sex: Sex::Male, stature_m: 1.869, mass_kg: 97.52 }),
+];
+/// The person that the reference is.
+pub(crate) const REFERENCE_PERSON: Person = Person { sex: Sex::Male, stature_m: 1.7734, mass_kg: 173.55 * POUND_KG };
+
+/// The persons that [`Person::is_within_reach`] accepts.
+pub(crate) const REACH: &str = "a grown-up of 1.4 to 2.05 m with a body mass index of 17 to 45 kg/m²";
+
+impl Person {
+    /// The one of that name.
+    pub(crate) fn named(name: &str) -> Option<Person> {
+        PEOPLE.iter().find(|(other, _)| *other == name).map(|(_, person)| *person)
+    }
+
+    /// Whether the surveys reach such a person: see [`REACH`].
+    pub(crate) fn is_within_reach(&self) -> bool {
+        (1.4..=2.05).contains(&self.stature_m) && (17.0..=45.0).contains(&(self.mass_kg / self.stature_m.powi(2)))
+    }
+
+    /// A measure, mm.
+    fn measure(&self, measure: &Measure) -> f64 {
+        let [b_0, b_stature, b_mass] = measure[usize::from(self.sex == Sex::Female)];
+        b_0 + b_stature * (1e3 * self.stature_m) + b_mass * self.mass_kg
+    }
+
+    /// A measure as a multiple of the reference's.
+    fn ratio(&self, measure: &Measure) -> f64 {
+        self.measure(measure) / REFERENCE_PERSON.measure(measure)
+    }
+
+    /// The stretch, and the factor by which all masses but head's and neck's were multiplied to reach the person's: far
+    /// from 1, the regressions do not fit this person.
+    fn stretch(&self) -> (Stretch, f64) {
+        let scale = MEASURES.each_ref().map(|measures| measures.each_ref().map(|m| self.ratio(m)));
+        let by_volume = |k: usize| REFERENCE[k].0 * POUND_KG * scale[k].iter().product::<f64>();
+        let head = by_volume(N) + by_volume(H);
+        let rest: f64 = (0..PARTS).filter(|k| ![N, H].contains(k)).map(|k| both(k) * by_volume(k)).sum();
+        let factor = (self.mass_kg - head) / rest;
+        let mass_kg = std::array::from_fn(|k| by_volume(k) * if [N, H].contains(&k) { 1.0 } else { factor });
+        let [shoulder_half_width, hip_half_width] = [BIACROMIAL, BICRISTAL].map(|m| self.ratio(&m));
+        (Stretch { scale, mass_kg, shoulder_half_width, hip_half_width }, factor)
+    }
+
+    /// The body, and the factor of its masses: see the module.
+    pub(crate) fn body(&self) -> (Body, f64) {
+        let (stretch, factor) = self.stretch();
+        (stretch.body(), factor)
+    }
+}
+
+/// The child of a preset's name.
+pub(crate) fn child(name: &str) -> Option<Body> {
+    let (rows, [shoulder_m, hip_m]) = match name {
+        "child06" => (&CHILD_06, [0.1082, 0.0497]),
+        "child10" => (&CHILD_10, [0.1283, 0.0597]),
+        _ => return None,
+    };
+    let [shoulder_inch, hip_inch] = REFERENCE_HALF_WIDTHS;
+    let stretch = Stretch {
+        scale: rows.map(|[girth, length, _]| [girth, girth, length]),
+        mass_kg: rows.map(|[_, _, mass_kg]| mass_kg),
+        shoulder_half_width: shoulder_m / (shoulder_inch * INCH_M),
+        hip_half_width: hip_m / (hip_inch * INCH_M),
+    };
+    Some(stretch.body())
+}
+
+/// How many of a part a body has.
+const fn both(part: usize) -> f64 {
+    if part < UL { 1.0 } else { 2.0 }
+}
+
+/// Parts joined rigidly: moments of inertia about the centre of gravity, which lies `z_m` above a datum.
+#[derive(Clone, Copy)]
+struct Lump {
+    mass_kg: f64,
+    z_m: f64,
+    inertia_kg_m2: [f64; 3],
+}
+
+impl Lump {
+    /// With another, whose centre of gravity lies `ahead_m` ahead of this one's.
+    fn with(self, other: Lump, ahead_m: f64) -> Lump {
+        let mass_kg = self.mass_kg + other.mass_kg;
+        let reduced_kg = self.mass_kg * other.mass_kg / mass_kg;
+        let up_m = other.z_m - self.z_m;
+        let steiner =
+            [up_m * up_m, up_m * up_m + ahead_m * ahead_m, ahead_m * ahead_m].map(|square| reduced_kg * square);
+        Lump {
+            mass_kg,
+            z_m: (self.mass_kg * self.z_m + other.mass_kg * other.z_m) / mass_kg,
+            inertia_kg_m2: std::array::from_fn(|i| self.inertia_kg_m2[i] + other.inertia_kg_m2[i] + steiner[i]),
+        }
+    }
+
+    fn segment(&self, length_m: f64) -> SegmentProperties {
+        SegmentProperties {
+            length_m,
+            mass_kg: self.mass_kg,
+            cg_from_lower_end_m: self.z_m,
+            inertia_kg_m2: Vector3::from(self.inertia_kg_m2),
+        }
+    }
+}
+
+impl Stretch {
+    /// A length of the reference's part in inches along one of its axes, stretched, m.
+    fn along(&self, part: usize, axis: usize, inches: f64) -> f64 {
+        self.scale[part][axis] * inches * INCH_M
+    }
+
+    /// A part with its inertias stretched as second moments of mass, S_xx = (I_y + I_z − I_x)/2, about axes that the
+    /// body's 12 segments have; its centre of gravity lies `z_m` above the datum.
+    fn lump(&self, part: usize, z_m: f64) -> Lump {
+        let Part(pounds, [ix, iy, iz], turn_deg) = REFERENCE[part];
+        let [sx, sy, sz] = self.scale[part];
+        let heavier = 0.5 * INERTIA_KG_M2 * self.mass_kg[part] / (pounds * POUND_KG);
+        let [xx, yy, zz] = [(iy + iz - ix) * sx * sx, (iz + ix - iy) * sy * sy, (ix + iy - iz) * sz * sz];
+        let [ix, iy, iz] = [yy + zz, zz + xx, xx + yy].map(|inertia| heavier * inertia);
+        let sin2 = libm::sin(turn_deg.to_radians()).powi(2);
+        let inertia_kg_m2 = [ix + (iz - ix) * sin2, iy, iz + (ix - iz) * sin2];
+        Lump { mass_kg: self.mass_kg[part], z_m, inertia_kg_m2 }
+    }
+
+    /// The parts become the 12 segments; distances of joints from centres of gravity are the reference's.
+    fn body(&self) -> Body {
+        let z = |part, inches| self.along(part, 2, inches);
+        let x = |part, inches| self.along(part, 0, inches);
+        let plain = |part, above, below| self.lump(part, z(part, below)).segment(z(part, above) + z(part, below));
+
+        // the neck's centre of gravity is 1.46 in above its lower joint, which is 7.26 in above the upper torso's
+        let neck = self.lump(N, z(UT, 6.99 + 7.26) + z(N, 1.46));
+        let torso = self.lump(UT, z(UT, 6.99)).with(neck, x(N, 0.93) - x(UT, 0.27));
+        // of the 3.97 in between the neck's joints, 2.99 hang from the head's
+        let head = self.lump(H, z(H, 1.93) + z(N, 2.99));
+        let ankle_m = x(F, 1.37 + 1.39);
+        let shank = self.lump(LL, z(LL, 9.78) + ankle_m);
+        let leg = shank.with(self.foot(), x(LL, 0.39) + z(F, 2.76));
+
+        let segments = [
+            plain(CT, 0.83, 2.25),
+            torso.segment(z(UT, 6.99 + 4.35)),
+            head.segment(head.z_m + z(H, 4.90)),
+            plain(LT, 2.24, 1.52),
+            plain(UA, 5.22, 5.04),
+            plain(LA, 7.08, 9.20),
+            plain(UL, 7.55, 9.80),
+            leg.segment(z(LL, 6.91 + 9.78) + ankle_m),
+        ];
+        let [shoulder_inch, hip_inch] = REFERENCE_HALF_WIDTHS;
+        let mut body = Body {
+            name: "person".to_owned(),
+            tree: &TTI12,
+            segments: std::array::from_fn(|n| segments[if n < 4 { n } else { 4 + (n - 4) / 2 }]),
+            shoulder_half_width_m: self.shoulder_half_width * shoulder_inch * INCH_M,
+            hip_half_width_m: self.hip_half_width * hip_inch * INCH_M,
+            neck_height_m: z(UT, 2.91) + z(N, 0.98),
+            spheres: Vec::new(),
+        };
+        let radii_m = REFERENCE_SPHERES.map(|(inches, part, axis)| self.along(part, axis, inches));
+        body.spheres = body.standard_spheres(&radii_m);
+        body
+    }
+
+    /// The foot: its X axis points up and its Z axis ahead.
+    fn foot(&self) -> Lump {
+        let foot = self.lump(F, self.along(F, 0, 1.39));
+        let [ix, iy, iz] = foot.inertia_kg_m2;
+        Lump { inertia_kg_m2: [iz, iy, ix], ..foot }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::{assert_abs_diff_eq, assert_relative_eq};
+
+    use super::*;
+
+    /// Segments that a neck's place does not touch: length m, mass kg, ρ m, I_x, I_y, I_z kg m², as an independent
+    /// computation gave them, rounded.
+    type Row = (usize, [f64; 6]);
+    const FEMALE_05: [Row; 6] = [
+        (0, [0.0654, 1.147, 0.0477, 0.00546, 0.00287, 0.00807]),
+        (3, [0.0798, 6.834, 0.0323, 0.05050, 0.04158, 0.05873]),
+        (4, [0.2191, 0.859, 0.1076, 0.00405, 0.00426, 0.00070]),
+        (6, [0.3461, 0.864, 0.1956, 0.00989, 0.00984, 0.00050]),
+        (8, [0.3709, 5.787, 0.2095, 0.06809, 0.07216, 0.02078]),
+        (10, [0.4217, 2.725, 0.2281, 0.04924, 0.05263, 0.00649]),
+    ];
+    const MALE_95: [Row; 6] = [
+        (0, [0.0828, 3.084, 0.0605, 0.02690, 0.01570, 0.04145]),
+        (3, [0.1010, 14.246, 0.0408, 0.15073, 0.14302, 0.18229]),
+        (4, [0.2761, 2.393, 0.1356, 0.01821, 0.01942, 0.00397]),
+        (6, [0.4365, 2.220, 0.2466, 0.04061, 0.04040, 0.00242]),
+        (8, [0.4669, 12.198, 0.2637, 0.22651, 0.23963, 0.06706]),
+        (10, [0.5253, 5.679, 0.2804, 0.16171, 0.17374, 0.02180]),
+    ];
+
+    fn named(name: &str) -> (Body, f64) {
+        Person::named(name).expect("a preset").body()
+    }
+
+    fn agrees(body: &Body, rows: &[Row], relative: f64) {
+        for (n, expected) in rows {
+            let p = &body.segments[*n];
+            let i = p.inertia_kg_m2;
+            let got = [p.length_m, p.mass_kg, p.cg_from_lower_end_m, i.x, i.y, i.z];
+            let rounding = [5e-5, 5e-4, 5e-5, 2e-5, 2e-5, 2e-5];
+            for (k, ((got, expected), rounding)) in got.iter().zip(expected).zip(rounding).enumerate() {
+                let bound = 1.02 * rounding + relative * expected;
+                assert!((got - expected).abs() <= bound, "segment {n}, number {k}: {got} and {expected}");
+            }
+        }
+    }
+
+    #[test]
+    fn people_of_the_rule_are_those_of_an_independent_computation() {
+        let ((small, small_factor), (large, large_factor)) = (named("female05"), named("male95"));
+        agrees(&small, &FEMALE_05, 6e-4);
+        agrees(&large, &MALE_95, 6e-4);
+        assert_abs_diff_eq!(small_factor, 0.910, epsilon = 5e-4);
+        assert_abs_diff_eq!(large_factor, 0.996, epsilon = 5e-4);
+        assert_abs_diff_eq!(small.segments[1].mass_kg + small.segments[2].mass_kg, 13.787 + 4.034, epsilon = 1e-3);
+        assert_abs_diff_eq!(small.shoulder_half_width_m, 0.1383, epsilon = 5e-5);
+        assert_abs_diff_eq!(large.hip_half_width_m, 0.0910, epsilon = 5e-5);
+        let radii_mm = [101, 135, 133, 69, 69, 55, 55, 49, 49, 95, 95, 66, 66, 63, 63, 51, 51];
+        for (sphere, radius_mm) in large.spheres.iter().zip(radii_mm) {
+            assert_abs_diff_eq!(1e3 * sphere.radius_m, f64::from(radius_mm), epsilon = 0.51);
+        }
+    }
+
+    #[test]
+    fn children_are_those_of_an_independent_computation() {
+        let rows = [
+            (0, [0.0482, 0.567, 0.0352, 0.00159, 0.00089, 0.00241]),
+            (3, [0.0589, 2.764, 0.0238, 0.00995, 0.00913, 0.01174]),
+            (8, [0.2692, 1.820, 0.1520, 0.01093, 0.01143, 0.00258]),
+            (10, [0.3181, 1.391, 0.1580, 0.01543, 0.01670, 0.00227]),
+        ];
+        let body = child("child06").expect("a preset");
+        agrees(&body, &rows, 2e-3);
+        assert_abs_diff_eq!(body.mass_kg(), 21.45, epsilon = 0.01);
+        assert_abs_diff_eq!(child("child10").expect("a preset").mass_kg(), 37.24, epsilon = 0.01);
+    }
+
+    /// The neck's place moves no matter: mass, centre of gravity and inertia of neck, head and upper torso together are those
+    /// of a head that turns at the shoulders.
+    #[test]
+    fn the_neck_is_cut_where_a_dummys_is_and_nothing_is_lost() {
+        let (body, _) = named("male50");
+        let (torso, head) = (&body.segments[1], &body.segments[2]);
+        assert_relative_eq!(head.cg_from_lower_end_m, 4.92 * INCH_M, max_relative = 1e-12);
+        assert_relative_eq!(body.neck_height_m, 3.89 * INCH_M, max_relative = 1e-12);
+        let joint_m = torso.length_m + body.neck_height_m;
+        let lever = |mass_kg: f64, height_m: f64| mass_kg * height_m;
+        let now =
+            lever(torso.mass_kg, torso.cg_from_lower_end_m) + lever(head.mass_kg, joint_m + head.cg_from_lower_end_m);
+        let before = lever(52.87, 6.99) + lever(11.55, 11.34 + 7.94);
+        assert_relative_eq!(now, before * POUND_KG * INCH_M, max_relative = 2e-4);
+        assert_relative_eq!(joint_m + head.length_m, (11.34 + 13.71) * INCH_M, max_relative = 1e-12);
+        let upright = |p: &SegmentProperties, below_m: f64| {
+            p.inertia_kg_m2.x + p.mass_kg * (below_m + p.cg_from_lower_end_m).powi(2)
+        };
+        let before = 4.2574 + 0.2728 + (52.87 * 6.99 * 6.99 + 11.55 * 19.28 * 19.28) / 386.089;
+        assert_relative_eq!(upright(torso, 0.0) + upright(head, joint_m), before * INERTIA_KG_M2, max_relative = 2e-4);
+    }
+
+    #[test]
+    fn every_person_within_reach_is_possible_and_has_their_mass() {
+        for sex in [Sex::Female, Sex::Male] {
+            for (stature_m, index) in
+                (0..=13).flat_map(|i| (0..=14).map(move |j| (1.4 + 0.05 * f64::from(i), 17.01 + 1.99 * f64::from(j))))
+            {
+                let person = Person { sex, stature_m, mass_kg: index * stature_m * stature_m };
+                assert!(person.is_within_reach() || stature_m > 2.05, "{person:?}");
+                let (body, factor) = person.body();
+                assert_relative_eq!(body.mass_kg(), person.mass_kg, max_relative = 1e-12);
+                assert!((0.5..2.0).contains(&factor), "{person:?}: {factor}");
+                for p in &body.segments {
+                    let i = p.inertia_kg_m2;
+                    assert!(p.length_m > 0.0 && p.mass_kg > 0.0 && i.min() > 0.0, "{person:?}: {p:?}");
+                    assert!(2.0 * i.max() <= i.sum() * (1.0 + 1e-12), "{person:?}: {i}");
+                }
+            }
+        }
+    }
+}
