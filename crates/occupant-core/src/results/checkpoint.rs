@@ -279,7 +279,7 @@ impl Checkpoint {
     }
 
     fn check_touches(&self, model: &Model) -> Result<(), CheckpointError> {
-        let (spheres, surfaces) = (model.body().spheres.len(), model.faces().len());
+        let (spheres, surfaces) = (model.body().spheres.len(), model.setup().surface_names().count());
         let strange = |t: &&FirstTouch| t.sphere >= spheres || t.surface >= surfaces;
         match self.first_touches.iter().find(strange) {
             Some(&FirstTouch { sphere, surface, .. }) => Err(CheckpointError::Touch { sphere, surface }),

@@ -1,5 +1,6 @@
 //! One sphere against the faces of one frame, within one evaluation.
 
+use crate::forces::contact::solid::lever;
 use crate::forces::contact::{ContactSystem, FRICTION, Group, PASSED, PRESS, PairHistory, Touch};
 use crate::forces::element::{Instant, Load as AllLoads};
 use crate::forces::sphere::Site;
@@ -93,12 +94,52 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         }
         let approach = self.approach();
         let touch = self.contacts.touch::<COMMIT>(self.group, i, depth, live, &approach, history);
-        let (Some(t), Some(load)) = (touch, &mut self.load) else {
-            return;
-        };
+        if let Some(touch) = touch {
+            self.take(touch, &approach, self.site.radius, power, show);
+        }
+    }
+
+    /// Adds the forces of pair `i` with solids, in the lanes of `near`; returns the deformation. With `COMMIT` its history
+    /// first takes over the present position, that of an accepted step.
+    #[inline(always)]
+    pub(super) fn meet_solid<const COMMIT: bool>(
+        &mut self,
+        i: usize,
+        near: S::Mask,
+        past: &mut [PairHistory<S>],
+        power: &mut Work<S>,
+        show: &mut impl FnMut(&Touch<S>),
+    ) -> S {
+        let (contacts, radius) = (self.contacts, self.site.radius);
+        let j = i - contacts.pairs.len();
+        let union = &contacts.solids.pairs[j];
+        let nearest = contacts.solids.nearest::<COMMIT>(j, self.centre_f, radius, past);
+        if COMMIT {
+            union.commit(nearest.depth, &mut past[i]);
+        }
+        let live = nearest.depth.gt(S::zero()) & near;
+        if S::any(live) {
+            let approach = self.approach();
+            let touch = union.press(self.group, i, nearest, live, &approach, past[i].greatest);
+            self.take(touch, &approach, lever(nearest.depth, radius), power, show);
+        }
+        nearest.depth
+    }
+
+    /// Adds the forces of a touch that acts at A, `lever` from the centre against N̂.
+    #[inline(always)]
+    fn take(
+        &mut self,
+        t: Touch<S>,
+        approach: &Approach<S>,
+        lever: S,
+        power: &mut Work<S>,
+        show: &mut impl FnMut(&Touch<S>),
+    ) {
+        let Some(load) = &mut self.load else { return };
         let on = t.weight.gt(S::zero());
         let press = t.normal * t.normal_force + t.edge;
-        let arm = t.normal * -self.site.radius; // r̄ of (65)
+        let arm = t.normal * -lever; // r̄ of (65)
         let edge_twist = arm.cross(t.edge) * self.contacts.edge_lever;
         let force = load.force + (press + t.friction); // F_N + F_f (93)
         let twist = load.twist + (arm.cross(t.friction) + edge_twist);
