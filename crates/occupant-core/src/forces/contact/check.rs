@@ -33,6 +33,11 @@ pub(super) fn check(data: &ContactData<'_>, body: &Body, problems: &mut Problems
             problems.error(format!("{path}.spheres"), "no such sphere", "spheres of the body");
         }
     }
+    check_solids(data, body, problems);
+}
+
+fn check_solids(data: &ContactData<'_>, body: &Body, problems: &mut Problems) {
+    let &ContactData { materials, surfaces, solids, .. } = data;
     problems.check_unique("solids", "solid", solids.iter().map(|s| s.name.as_str()));
     for (i, solid) in solids.iter().enumerate() {
         let path = format!("solids.{}", solid.name);

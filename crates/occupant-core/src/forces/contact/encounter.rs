@@ -56,10 +56,32 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         Sphere { contacts, group, site, frame, k, arm, centre, centre_f, load: None }
     }
 
+    /// Adds the forces of pair `i`, of faces or of solids, in the lanes of `near`; returns the deformation. With `COMMIT` the
+    /// pair's history first takes over the present position, that of an accepted step.
+    #[inline(always)]
+    pub(super) fn look_at<const SOLID: bool, const COMMIT: bool>(
+        &mut self,
+        i: usize,
+        near: S::Mask,
+        past: &mut [PairHistory<S>],
+        power: &mut Work<S>,
+        show: &mut impl FnMut(&Touch<S>),
+    ) -> S {
+        if SOLID {
+            return self.meet_solid::<COMMIT>(i, near, past, power, show);
+        }
+        if COMMIT {
+            return self.commit(i, &mut past[i], power, show);
+        }
+        let depth = self.contacts.planes[i].depth(self.centre_f);
+        self.meet::<false>(i, depth, depth.gt(S::zero()) & near, &mut past[i], power, show);
+        depth
+    }
+
     /// Takes the present position, that of an accepted step, over into the history of pair `i` and adds its forces; returns
     /// the deformation.
     #[inline(always)]
-    pub(super) fn commit(
+    fn commit(
         &mut self,
         i: usize,
         pair: &mut PairHistory<S>,
@@ -76,7 +98,7 @@ impl<'a, S: Scalar> Sphere<'a, S> {
     /// Adds the forces of pair `i` at deformation `depth`, in the lanes of `contact`. In all others nothing changes, not
     /// even the sign of a zero.
     #[inline(always)]
-    pub(super) fn meet<const COMMIT: bool>(
+    fn meet<const COMMIT: bool>(
         &mut self,
         i: usize,
         depth: S,
@@ -102,7 +124,7 @@ impl<'a, S: Scalar> Sphere<'a, S> {
     /// Adds the forces of pair `i` with solids, in the lanes of `near`; returns the deformation. With `COMMIT` its history
     /// first takes over the present position, that of an accepted step.
     #[inline(always)]
-    pub(super) fn meet_solid<const COMMIT: bool>(
+    fn meet_solid<const COMMIT: bool>(
         &mut self,
         i: usize,
         near: S::Mask,

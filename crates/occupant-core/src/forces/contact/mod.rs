@@ -182,31 +182,18 @@ fn meet_all<S: Scalar, const COMMIT: bool, const SOLID: bool>(
         return;
     }
     let mut sphere = Sphere::new(law, group, at);
+    let power = &mut load.power;
     if !COMMIT {
         for place in near {
             let Near { pair, lanes } = hints.near[place];
-            let i = pair as usize;
-            if SOLID {
-                sphere.meet_solid::<false>(i, lanes, past, &mut load.power, show);
-            } else {
-                let depth = law.planes[i].depth(sphere.centre_f);
-                let contact = depth.gt(S::zero()) & lanes;
-                sphere.meet::<false>(i, depth, contact, &mut past[i], &mut load.power, show);
-            }
+            sphere.look_at::<SOLID, false>(pair as usize, lanes, past, power, show);
         }
     } else {
-        let mut near = Nearing::new(group);
-        let mut commit = |i: usize, sphere: &mut Sphere<'_, S>, past: &mut [PairHistory<S>]| {
-            if SOLID {
-                sphere.meet_solid::<true>(i, S::truth(true), past, &mut load.power, show)
-            } else {
-                sphere.commit(i, &mut past[i], &mut load.power, show)
-            }
-        };
+        let (mut near, all) = (Nearing::new(group), S::truth(true));
         if hints.must_look(g, sphere.centre_f) {
             let mut look = Looking::new(group);
             for i in group.pairs.clone() {
-                let depth = commit(i, &mut sphere, past);
+                let depth = sphere.look_at::<SOLID, true>(i, all, past, power, show);
                 look.at(i, depth, law, &past[i], hints);
                 near.at(i, depth, law, &past[i], hints);
             }
@@ -214,7 +201,7 @@ fn meet_all<S: Scalar, const COMMIT: bool, const SOLID: bool>(
         } else {
             for place in hints.watched_of(g, group) {
                 let i = hints.watched[place] as usize;
-                let depth = commit(i, &mut sphere, past);
+                let depth = sphere.look_at::<SOLID, true>(i, all, past, power, show);
                 near.at(i, depth, law, &past[i], hints);
             }
         }

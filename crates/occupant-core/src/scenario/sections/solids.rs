@@ -164,7 +164,11 @@ pub(super) fn solids(b: &mut Builder, scenario: &Scenario, body: &Body) -> Vec<S
     let mut solids = Vec::with_capacity(scenario.solids.len());
     for (name, section) in &scenario.solids {
         let common = section.common();
-        let Some(shape) = shape(b, scenario, body, (name, section), &mut undecided) else { continue };
+        let shape = match section {
+            SolidSection::Plate(s) => plate(b, scenario, body, (name, s), &mut undecided),
+            _ => shape(section),
+        };
+        let Some(shape) = shape else { continue };
         let known = body.spheres.iter().map(|s| s.name.as_str());
         let indices = |names: &Vec<String>| names.iter().map(|n| index_of(n, known.clone())).collect();
         solids.push(Solid {
@@ -180,13 +184,8 @@ pub(super) fn solids(b: &mut Builder, scenario: &Scenario, body: &Body) -> Vec<S
     solids
 }
 
-fn shape(
-    b: &mut Builder,
-    scenario: &Scenario,
-    body: &Body,
-    (name, section): (&str, &SolidSection),
-    undecided: &mut Vec<String>,
-) -> Option<Shape> {
+/// The shape of all but a plate.
+fn shape(section: &SolidSection) -> Option<Shape> {
     let frame = section.common().frame;
     let axis = |tilt: &Option<Angle>, axis: &Option<[Ratio; 3]>| match (tilt, axis) {
         (Some(tilt), _) => wheel_axis(frame, tilt.si()),
@@ -204,14 +203,7 @@ fn shape(
             let (centre_m, axes) = (Point3::from(pose.position_m), pose.attitude.matrix());
             Shape::block(centre_m, Vector3::from(all_si(&s.lengths)), &axes, si_or(&s.rounding, 0.0))
         }
-        SolidSection::Plate(s) => {
-            let path = with_key("solids", name);
-            let face = surface(b, scenario, body, (&path, name, &front(s)), undecided);
-            let mut problems = Problems::new();
-            let face = FlatFace::new(&face, &path, &mut problems);
-            problems.iter().for_each(|problem| b.report(problem.clone()));
-            Shape::plate(&face?, s.thickness.si(), si_or(&s.rounding, 0.0))?
-        }
+        SolidSection::Plate(_) => return None,
         SolidSection::Disc(s) => Shape::Disc {
             centre_m: point(&s.centre),
             axis: axis(&s.tilt, &s.axis),
@@ -230,6 +222,21 @@ fn shape(
             Shape::HalfSpace { point_m: point(&s.point), normal: Vector3::from(all_si(&s.normal)) }
         }
     })
+}
+
+fn plate(
+    b: &mut Builder,
+    scenario: &Scenario,
+    body: &Body,
+    (name, s): (&str, &PlateSection),
+    undecided: &mut Vec<String>,
+) -> Option<Shape> {
+    let path = with_key("solids", name);
+    let front = surface(b, scenario, body, (&path, name, &front(s)), undecided);
+    let mut problems = Problems::new();
+    let front = FlatFace::new(&front, &path, &mut problems);
+    problems.iter().for_each(|problem| b.report(problem.clone()));
+    Shape::plate(&front?, s.thickness.si(), si_or(&s.rounding, 0.0))
 }
 
 /// The front of a plate as a surface.

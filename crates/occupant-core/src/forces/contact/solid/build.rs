@@ -3,7 +3,7 @@
 use nalgebra::{Point3, Vector3};
 
 use super::Shape;
-use super::distance::{Form, Profile, Section, Side};
+use super::distance::{Form, Section, Side};
 use super::faced::{Face, Faced};
 use crate::forces::contact::face::V2;
 use crate::forces::contact::flat_face::{SAME_M, plane_axes};
@@ -34,18 +34,16 @@ pub(crate) fn build(shape: &Shape) -> Result<Faced<f64>, Wrong> {
         &Shape::Disc { centre_m, axis, radius_m, thickness_m, rounding_m } => {
             let (radius_m, half_m) = (positive("radius", radius_m)?, 0.5 * positive("thickness", thickness_m)?);
             let rounding_m = rounded(rounding_m, radius_m.min(half_m))?;
-            let section = Section::Round(radius_m - rounding_m);
-            let whole = Profile::Prism { section, ends: [half_m - rounding_m; 2], rounding: rounding_m };
-            Ok(between_ends(formed(centre_m, &direction(axis)?, whole)?, Vec::new(), 2.0 * radius_m, 2.0 * half_m))
+            let whole = along(centre_m, axis, Section::Round(radius_m - rounding_m), [half_m - rounding_m; 2])?;
+            Ok(between_ends(whole.rounded(rounding_m), Vec::new(), 2.0 * radius_m, 2.0 * half_m))
         }
         &Shape::Capsule { ends_m: [from, to], radius_m } => {
-            let radius = positive("radius", radius_m)?;
-            let half_length = 0.5 * (to - from).norm();
-            if half_length < SAME_M {
+            let (radius, half) = (positive("radius", radius_m)?, 0.5 * (to - from).norm());
+            if half < SAME_M {
                 return Err(("two ends at one place".to_owned(), "two different points"));
             }
-            let tube = Profile::Tube { ring: 0.0, half_length, radius };
-            Ok(Faced::faceless(formed(nalgebra::center(&from, &to), &direction(to - from)?, tube)?, 2.0 * radius))
+            let line = along(nalgebra::center(&from, &to), to - from, Section::Round(0.0), [half; 2])?;
+            Ok(Faced::faceless(line.rounded(radius), 2.0 * radius))
         }
         &Shape::Rim { centre_m, axis, ring_radius_m, tube_radius_m } => {
             let (ring, radius) = (positive("radius", ring_radius_m)?, positive("tube radius", tube_radius_m)?);
@@ -53,12 +51,10 @@ pub(crate) fn build(shape: &Shape) -> Result<Faced<f64>, Wrong> {
                 let found = format!("a tube of radius {radius} m about a ring of radius {ring} m");
                 return Err((found, "a tube thinner than the ring"));
             }
-            let tube = Profile::Tube { ring, half_length: 0.0, radius };
-            Ok(Faced::faceless(formed(centre_m, &direction(axis)?, tube)?, 2.0 * radius))
+            Ok(Faced::faceless(along(centre_m, axis, Section::Ring(ring), [0.0; 2])?.rounded(radius), 2.0 * radius))
         }
         &Shape::HalfSpace { point_m, normal } => {
-            let plane = Profile::Prism { section: Section::Sides(Vec::new()), ends: [0.0, FAR_M], rounding: 0.0 };
-            Ok(Faced::faceless(formed(point_m, &direction(normal)?, plane)?, FAR_M))
+            Ok(Faced::faceless(along(point_m, normal, Section::Sides(Vec::new()), [0.0, FAR_M])?, FAR_M))
         }
     }
 }
@@ -75,19 +71,23 @@ fn rounded(rounding_m: f64, half_m: f64) -> Result<f64, Wrong> {
     fits.then_some(rounding_m).ok_or_else(|| (found(), "a rounding below half the thickness"))
 }
 
-fn direction(axis: V) -> Result<V, Wrong> {
-    let unit = axis.try_normalize(1e-12).filter(|n| n.iter().all(|c| c.is_finite()));
-    unit.ok_or_else(|| ("an axis of length zero".to_owned(), "a direction"))
-}
-
-/// A profile about a place, along a unit axis.
-fn formed(centre: Point3<f64>, axis: &V, profile: Profile<f64>) -> Result<Form<f64>, Wrong> {
+/// A section with sharp edges about a place, along an axis of any length.
+fn along(centre: Point3<f64>, axis: V, section: Section<f64>, ends: [f64; 2]) -> Result<Form<f64>, Wrong> {
+    let Some(axis) = axis.try_normalize(1e-12).filter(|n| n.iter().all(|c| c.is_finite())) else {
+        return Err(("an axis of length zero".to_owned(), "a direction"));
+    };
     if !centre.iter().all(|c| c.abs() < FAR_M) {
         return Err(("a place that is not finite".to_owned(), "finite coordinates"));
     }
-    let (u, v) = plane_axes(axis);
-    let axes = M3 { x: V3::of(&u), y: V3::of(&v), z: V3::of(axis) };
-    Ok(Form { centre: V3::of(&centre.coords), axes, profile })
+    let (u, v) = plane_axes(&axis);
+    let axes = M3 { x: V3::of(&u), y: V3::of(&v), z: V3::of(&axis) };
+    Ok(Form { centre: V3::of(&centre.coords), axes, section, ends, rounding: 0.0 })
+}
+
+impl Form<f64> {
+    fn rounded(self, rounding: f64) -> Self {
+        Form { rounding, ..self }
+    }
 }
 
 /// A line with a side of a polygon to its left.
@@ -139,11 +139,7 @@ fn prism(corners: &[Point3<f64>], half_width_m: f64, rounding_m: f64) -> Result<
         let found = format!("edges rounded by {rounding_m} m take away side {} of the prism", i + 1);
         return Err((found, "a smaller rounding, or longer sides"));
     }
-    let profile = |lines: &[Line]| {
-        let section = Section::Sides(sides(lines));
-        Profile::Prism { section, ends: [half_m - rounding; 2], rounding }
-    };
-    let whole = formed(centre, &normal, profile(&lines))?;
+    let whole = along(centre, normal, Section::Sides(drawn_in), [half_m - rounding; 2])?.rounded(rounding);
     let face = |k: usize| {
         let is_near = |j: usize| {
             let steps = (j + lines.len() - k) % lines.len();
@@ -155,7 +151,7 @@ fn prism(corners: &[Point3<f64>], half_width_m: f64, rounding_m: f64) -> Result<
         Face {
             normal: whole.axes.x * dv - whole.axes.y * du,
             offset: (whole.axes.x * dv - whole.axes.y * du).dot(whole.centre) + u * dv - v * du + rounding,
-            rest: Form { profile: profile(&near), ..whole.clone() },
+            rest: Form { section: Section::Sides(sides(&near)), ..whole.clone() },
             thickness: depth_m + rounding,
         }
     };
@@ -167,9 +163,7 @@ fn prism(corners: &[Point3<f64>], half_width_m: f64, rounding_m: f64) -> Result<
 fn between_ends(whole: Form<f64>, mut faces: Vec<Face<f64>>, across_m: f64, thickness: f64) -> Faced<f64> {
     for end in 0..2 {
         let mut rest = whole.clone();
-        if let Profile::Prism { ends, .. } = &mut rest.profile {
-            ends[1 - end] = FAR_M;
-        }
+        rest.ends[1 - end] = FAR_M;
         let normal = if end == 0 { whole.axes.z } else { -whole.axes.z };
         faces.push(Face { normal, rest, offset: normal.dot(whole.centre) + 0.5 * thickness, thickness });
     }

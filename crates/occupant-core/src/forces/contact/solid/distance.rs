@@ -1,13 +1,13 @@
 //! Signed distance φ of a point from a body with thickness, and its gradient N̂.
 //!
 //! Ours; the report has planes alone. φ is positive outside, the distance to the nearest point, and negative inside, less
-//! the depth to the nearest surface. Two forms are enough:
+//! the depth to the nearest surface. One form is enough: a section along an axis between two ends, and all that is within ρ
+//! of it. With φ₂ the distance from the section and s that beyond the nearer end
 //!
-//! - a prism: a convex section, or a round one, along an axis between two ends; box, plate and disc are such, and a half
-//!   space is one without sides and with one end. With φ₂ the distance from the section and s that beyond the nearer end
-//!   φ = hypot(φ₂⁺, s⁺) + min(max(φ₂, s), 0) − ρ                                                                    (6.1)
-//! - a tube about a ring or a straight line: with R the ring's radius, l half the line's length and a the way along the axis
-//!   φ = hypot(√(u² + v²) − R, a − clamp(a, −l, l)) − ρ                                                             (6.2)
+//! φ = hypot(φ₂⁺, s⁺) + min(max(φ₂, s), 0) − ρ                                                                      (6.1)
+//!
+//! The section is a convex polygon (prism, box, plate; half space: one without sides, with one end), a circle (disc; with
+//! radius 0 a capsule) or the line of a circle, whose φ₂ is never negative (rim).
 //!
 //! Where φ has a kink, N̂ is a unit vector by rule: that of the first of the faces that are equally near.
 
@@ -23,33 +23,24 @@ const NOTHING: f64 = 1e-280;
 pub(crate) struct Form<S> {
     /// Origin of its own axes.
     pub centre: V3<S>,
-    /// Its own axes; the third is that of the prism or the tube.
+    /// Its own axes; the third is the axis between its ends.
     pub axes: M3<S>,
-    pub profile: Profile<S>,
+    pub section: Section<S>,
+    /// How far the ends are from the origin, ahead and behind.
+    pub ends: [S; 2],
+    /// ρ, radius of its edges and corners, by which section and ends are drawn in.
+    pub rounding: S,
 }
 
-/// Profile of a body in its own axes.
-#[derive(Clone, Debug)]
-pub(crate) enum Profile<S> {
-    /// A section along an axis.
-    Prism {
-        section: Section<S>,
-        /// How far the ends are from the origin, ahead and behind.
-        ends: [S; 2],
-        /// ρ, radius of its edges and corners, by which section and ends are drawn in.
-        rounding: S,
-    },
-    /// A ring, or a straight line where its radius is 0, with a radius of its own.
-    Tube { ring: S, half_length: S, radius: S },
-}
-
-/// Section of a prism.
+/// Section of a body across its axis.
 #[derive(Clone, Debug)]
 pub(crate) enum Section<S> {
     /// Sides of a convex polygon, counter-clockwise; without any the whole plane.
     Sides(Vec<Side<S>>),
-    /// A circle of this radius about the origin.
+    /// What is within this radius of the origin.
     Round(S),
+    /// A circle of this radius about the origin.
+    Ring(S),
 }
 
 /// A side of a polygon: the line from a point in a unit direction, and the part of it that is side.
@@ -86,46 +77,31 @@ impl<S: Scalar> Form<S> {
     #[inline(always)]
     pub(crate) fn distance(&self, point: V3<S>) -> Distance<S> {
         let p = self.axes.into_frame(point - self.centre);
-        let (phi, normal) = match &self.profile {
-            Profile::Prism { section, ends, rounding } => {
-                let (phi, normal) = prism(section.distance(V2 { u: p.x, v: p.y }), *ends, p.z);
-                (phi - *rounding, normal)
-            }
-            Profile::Tube { ring, half_length, radius } => {
-                let along = p.z - p.z.max(-*half_length).min(*half_length);
-                let (out, radial) = polar(V2 { u: p.x, v: p.y }, first());
-                let (phi, g) = polar(V2 { u: out - *ring, v: along }, first());
-                (phi - *radius, v3(radial.u * g.u, radial.v * g.u, g.v))
-            }
-        };
-        Distance { phi, normal: self.axes.out(normal) }
+        let (phi_2, g) = self.section.distance(V2 { u: p.x, v: p.y });
+        let (ahead, behind) = (p.z - self.ends[0], -p.z - self.ends[1]);
+        let sense = S::select(ahead.lt(behind), -S::one(), S::one());
+        let (beyond, o) = (ahead.max(behind), S::zero());
+        let is_side = !phi_2.lt(beyond);
+        let inside = V2 { u: S::select(is_side, S::one(), o), v: S::select(is_side, o, S::one()) };
+        let (outside, n) = polar(V2 { u: phi_2.max(o), v: beyond.max(o) }, inside);
+        let phi = outside + phi_2.max(beyond).min(o) - self.rounding; // (6.1)
+        Distance { phi, normal: self.axes.out(v3(g.u * n.u, g.v * n.u, sense * n.v)) }
     }
 
     /// Whether it is all that is behind a plane.
     pub(super) fn is_half_space(&self) -> bool {
-        matches!(&self.profile, Profile::Prism { section: Section::Sides(sides), .. } if sides.is_empty())
+        matches!(&self.section, Section::Sides(sides) if sides.is_empty())
     }
 
-    /// How much of a direction is across the axis, for a prism whose side is round.
+    /// How much of a direction is across the axis, for a body whose side is round.
     #[inline(always)]
     pub(crate) fn round(&self, normal: V3<S>) -> S {
-        let Profile::Prism { section: Section::Round(_), .. } = self.profile else { return S::of(f64::NEG_INFINITY) };
+        if let Section::Sides(_) = self.section {
+            return S::of(f64::NEG_INFINITY);
+        }
         let along = self.axes.z.dot(normal);
         (S::one() - along * along).max(S::zero()).sqrt()
     }
-}
-
-/// (6.1) without ρ, from the distance of the section.
-#[inline(always)]
-fn prism<S: Scalar>((phi_2, g): Distance2<S>, ends: [S; 2], along: S) -> (S, V3<S>) {
-    let o = S::zero();
-    let (ahead, behind) = (along - ends[0], -along - ends[1]);
-    let sense = S::select(ahead.lt(behind), -S::one(), S::one());
-    let beyond = ahead.max(behind);
-    let is_side = !phi_2.lt(beyond);
-    let inside = V2 { u: S::select(is_side, S::one(), o), v: S::select(is_side, o, S::one()) };
-    let (outside, n) = polar(V2 { u: phi_2.max(o), v: beyond.max(o) }, inside);
-    (outside + phi_2.max(beyond).min(o), v3(g.u * n.u, g.v * n.u, sense * n.v))
 }
 
 impl<S: Scalar> Section<S> {
@@ -135,6 +111,11 @@ impl<S: Scalar> Section<S> {
             Section::Round(radius) => {
                 let (out, radial) = polar(p, first());
                 (out - *radius, radial)
+            }
+            Section::Ring(radius) => {
+                let (out, radial) = polar(p, first());
+                let sense = S::select(out.lt(*radius), -S::one(), S::one());
+                ((out - *radius).abs(), V2 { u: radial.u * sense, v: radial.v * sense })
             }
             Section::Sides(sides) => from_sides(sides, p),
         }
@@ -190,25 +171,14 @@ fn select2<S: Scalar>(mask: S::Mask, yes: V2<S>, no: V2<S>) -> V2<S> {
 impl<S: Copy> Form<S> {
     /// f applied to every number and the one in the same place of `other`; none for one of another form.
     pub(super) fn zip<A: Copy, T>(&self, other: &Form<A>, f: &impl Fn(S, A) -> T) -> Option<Form<T>> {
-        let profile = match (&self.profile, &other.profile) {
-            (
-                Profile::Prism { section: a, ends: [a0, a1], rounding },
-                Profile::Prism { section: b, ends: [b0, b1], rounding: other },
-            ) => {
-                let ends = [f(*a0, *b0), f(*a1, *b1)];
-                Profile::Prism { section: a.zip(b, f)?, ends, rounding: f(*rounding, *other) }
-            }
-            (
-                Profile::Tube { ring, half_length, radius },
-                Profile::Tube { ring: ring_b, half_length: half_b, radius: radius_b },
-            ) => Profile::Tube {
-                ring: f(*ring, *ring_b),
-                half_length: f(*half_length, *half_b),
-                radius: f(*radius, *radius_b),
-            },
-            _ => return None,
-        };
-        Some(Form { centre: self.centre.zip(&other.centre, f), axes: self.axes.zip(&other.axes, f), profile })
+        let [a, b] = self.ends;
+        Some(Form {
+            centre: self.centre.zip(&other.centre, f),
+            axes: self.axes.zip(&other.axes, f),
+            section: self.section.zip(&other.section, f)?,
+            ends: [f(a, other.ends[0]), f(b, other.ends[1])],
+            rounding: f(self.rounding, other.rounding),
+        })
     }
 }
 
@@ -216,6 +186,7 @@ impl<S: Copy> Section<S> {
     fn zip<A: Copy, T>(&self, other: &Section<A>, f: &impl Fn(S, A) -> T) -> Option<Section<T>> {
         match (self, other) {
             (Section::Round(a), Section::Round(b)) => Some(Section::Round(f(*a, *b))),
+            (Section::Ring(a), Section::Ring(b)) => Some(Section::Ring(f(*a, *b))),
             (Section::Sides(a), Section::Sides(b)) if a.len() == b.len() => {
                 let side = |(a, b): (&Side<S>, &Side<A>)| Side {
                     start: a.start.zip(&b.start, f),

@@ -4,8 +4,8 @@ use std::f64::consts::TAU;
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
-use super::distance::{Profile, Section};
-use super::{Solid, build};
+use super::distance::Section;
+use super::{Shape, Solid, build};
 use crash_measures::trig;
 
 /// Corners of a circle.
@@ -22,30 +22,19 @@ impl Solid {
         let Ok(shape) = build(&self.shape) else { return Vec::new() };
         let (form, axes) = (&shape.whole, shape.whole.axes.to_matrix());
         let place = |p: &Vector3<f64>| Point3::from(form.centre.to_vector() + axes * p);
-        let polygons = match &form.profile {
-            Profile::Prism { section, ends, rounding } => {
-                let corners = match section {
-                    Section::Round(radius) => {
-                        circle(ROUND).map(|[c, s]| [c, s].map(|x| x * (radius + rounding))).collect()
-                    }
-                    Section::Sides(_) if form.is_half_space() => {
-                        let square = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
-                        let square = square.map(|[u, v]| Vector3::new(PLANE_M * u, PLANE_M * v, ends[0]));
-                        return vec![square.iter().map(place).collect()];
-                    }
-                    Section::Sides(_) => match &self.shape {
-                        super::Shape::Prism { corners_m, .. } => in_order(corners_m, &axes, &form.centre.to_vector()),
-                        _ => Vec::new(),
-                    },
-                };
-                between(&corners, -ends[1] - rounding, ends[0] + rounding)
+        let (ends, rounding) = (form.ends, form.rounding);
+        let corners: Vec<[f64; 2]> = match (&form.section, &self.shape) {
+            (Section::Ring(ring), _) => {
+                return about_ring(*ring, rounding).iter().map(|polygon| polygon.iter().map(place).collect()).collect();
             }
-            Profile::Tube { ring: 0.0, half_length, radius } => {
-                let corners: Vec<[f64; 2]> = circle(ROUND).map(|[c, s]| [c, s].map(|x| x * radius)).collect();
-                between(&corners, -half_length - radius, half_length + radius)
+            (Section::Round(radius), _) => circle(ROUND).map(|point| point.map(|x| x * (radius + rounding))).collect(),
+            (_, Shape::Prism { corners_m, .. }) => in_order(corners_m, &axes, &form.centre.to_vector()),
+            _ => {
+                let square = [[1.0, 1.0], [-1.0, 1.0], [-1.0, -1.0], [1.0, -1.0]];
+                return vec![square.map(|[u, v]| place(&Vector3::new(PLANE_M * u, PLANE_M * v, ends[0]))).to_vec()];
             }
-            Profile::Tube { ring, radius, .. } => about_ring(*ring, *radius),
         };
+        let polygons = between(&corners, -ends[1] - rounding, ends[0] + rounding);
         polygons.iter().map(|polygon| polygon.iter().map(place).collect()).collect()
     }
 }

@@ -1,7 +1,7 @@
 //! Spheres against solids: who meets whom, what is remembered, and the force.
 //!
-//! A sphere meets the solids of a group as one body: φ = min over them of φ_k (6.3), each with the face that is remembered
-//! of it, and one Δ_m. With (F, U) of the spring at Δ = r − φ the sphere gets F N̂ and, at A = c − max(r − Δ/2, 0) N̂ (6.4),
+//! A sphere meets the solids of a group as one body: φ = min over them of φ_k (6.2), each with the face that is remembered
+//! of it, and one Δ_m. With (F, U) of the spring at Δ = r − φ the sphere gets F N̂ and, at A = c − max(r − Δ/2, 0) N̂ (6.3),
 //! the friction; U is a function of the centre alone.
 
 use super::{Faced, Solid, build};
@@ -18,7 +18,7 @@ use crate::motion::vector::V3;
 
 /// All solids, and which spheres meet them.
 #[derive(Clone, Debug)]
-pub struct Solids<S> {
+pub(crate) struct Solids<S> {
     /// Pairs by sphere and frame, numbered on from those of faces.
     pub(crate) groups: Vec<Group>,
     /// The pairs.
@@ -191,7 +191,7 @@ impl<S: Scalar> Union<S> {
     }
 }
 
-/// How far A is from the centre against N̂: half-way into the overlap, never beyond the centre (6.4).
+/// How far A is from the centre against N̂: half-way into the overlap, never beyond the centre (6.3).
 #[inline(always)]
 pub(crate) fn lever<S: Scalar>(depth: S, radius: S) -> S {
     (radius - depth * S::of(0.5)).max(S::zero())
