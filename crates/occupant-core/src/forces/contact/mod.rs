@@ -131,9 +131,10 @@ impl Element for Contacts {
         PairHistory { phase: f(past.phase), greatest: f(past.greatest) }
     }
 
-    fn is_possible(past: &PairHistory<f64>) -> bool {
-        (OPEN..FACE + MOST_FACES).contains(&past.phase)
-            && past.phase.fract() == 0.0
+    fn is_possible(law: &ContactSystem<f64>, number: usize, past: &PairHistory<f64>) -> bool {
+        let is_face = past.phase.fract() == 0.0 && (FACE..FACE + MOST_FACES).contains(&past.phase);
+        let may_be_face = number >= law.pairs.len() + law.solids.pairs.len();
+        ([OPEN, TOUCHING, PASSED].contains(&past.phase) || may_be_face && is_face)
             && past.greatest.is_finite()
             && past.greatest >= 0.0
     }
