@@ -29,6 +29,7 @@ pub fn lap(integrator: Integrator) -> Setup {
         gravity_m_s2: GRAVITY_M_S2,
         materials: materials(),
         surfaces: surfaces(),
+        solids: Vec::new(),
         edge_force: EdgeForce::AtContactPoint,
         belts: vec![lap_belt()],
         path: path(),

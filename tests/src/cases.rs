@@ -106,6 +106,7 @@ pub fn afloat(body: Body, end_s: f64, step_s: f64) -> Setup {
         gravity_m_s2: 0.0,
         materials: Vec::new(),
         surfaces: Vec::new(),
+        solids: Vec::new(),
         edge_force: EdgeForce::default(),
         belts: Vec::new(),
         path: parked(),

@@ -103,6 +103,7 @@ impl Compartment {
         let data = ContactData {
             surfaces: &self.surfaces,
             faces: &faces,
+            solids: &[],
             materials: &self.materials,
             edge_force: EdgeForce::default(),
             longest_step_s: 1e-3,

@@ -43,6 +43,7 @@ impl FreeRun {
         let nothing = ContactData {
             surfaces: &[],
             faces: &[],
+            solids: &[],
             materials: &[],
             edge_force: EdgeForce::default(),
             longest_step_s: 1e-3,

@@ -11,6 +11,7 @@ pub mod mirror;
 pub mod probe;
 pub mod random;
 pub mod reference;
+pub mod room;
 pub mod scene;
 pub mod segment_motion;
 pub mod space_state;

@@ -61,13 +61,14 @@ impl Random {
     pub fn body(&mut self) -> Body {
         let segments = std::array::from_fn(|_| self.segment());
         let radius: [f64; 17] = std::array::from_fn(|_| self.between(0.03, 0.12));
+        let shoulder_half_width_m = self.between(0.1, 0.25);
         let mut body = Body {
             name: "random".to_owned(),
             tree: &TTI12,
             segments,
-            shoulder_half_width_m: self.between(0.1, 0.25),
+            shoulder_half_width_m,
             hip_half_width_m: self.between(0.05, 0.15),
-            neck_height_m: self.between(0.0, 0.15),
+            neck_height_m: 0.5 * shoulder_half_width_m,
             spheres: Vec::new(),
         };
         body.spheres = body.standard_spheres(&radius);

@@ -23,6 +23,7 @@ mod runs;
 mod seams;
 mod seating;
 mod sensitivity;
+mod solids;
 mod spring;
 mod studies;
 mod symmetry;

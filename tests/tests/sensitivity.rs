@@ -337,6 +337,37 @@ fn free_fall_in_closed_form() {
     assert_below("free fall", worst, 1e-11);
 }
 
+/// The feet fall onto the edge of a tilted slab with rounded edges.
+#[test]
+fn slopes_by_the_shape_and_place_of_a_solid_are_those_of_differences() {
+    let slab = "\n[materials]\nsoil = { k1 = 200000, mu1 = 0.5, friction = 0.3 }\n[solids]\nslab = { kind = \"box\", material = \"soil\", frame = \"space\", centre = [-0.24, 0, 0.55], lengths = [0.5, 2, 0.25], pitch = 5, rounding = 0.03 }\n";
+    let text = format!("{FREE}{slab}");
+    let of = |set: &[&str]| {
+        draft(&text, &[&["integrator={ kind = \"rk4\", step = \"0.05 ms\" }", "time.end=0.28"], set].concat())
+    };
+    let at_end = |set: &[&str]| {
+        let mut last = None;
+        simulate(&model_of(&of(set)), Watch(|s: &occupant_core::results::sample::Sample<'_>| last = Some(s.state.t1)))
+            .unwrap();
+        last.unwrap()
+    };
+    let (draft, model) = (of(&[]), model_of(&of(&[])));
+    for (path, value, h) in [
+        ("solids.slab.centre[2]", 0.55, 1e-6),
+        ("solids.slab.rounding", 0.03, 1e-6),
+        ("solids.slab.centre[0]", -0.24, 1e-6),
+    ] {
+        let parameter = parameter(&draft, path, &no_files).unwrap();
+        let trajectory = follow(&model, &mut [Built::new(&model, &parameter).unwrap()]).unwrap();
+        let found = trajectory.state_slopes(0, trajectory.checkpoints.len() - 1);
+        let [up, down] = [value + h, value - h].map(|x| at_end(&[format!("{path}={x:?}").as_str()]));
+        let differences = [(up.x - down.x), (up.y - down.y), (up.z - down.z)].map(|d| d / (2.0 * h));
+        let off = (0..3).map(|i| (found[i] - differences[i]).abs()).fold(0.0, f64::max);
+        let size = greatest(differences.iter().copied());
+        assert!(size > 1e-3 && off < 2e-3 * size, "{path}: {:?} and {differences:?}", &found[..3]);
+    }
+}
+
 /// The feet fall onto the ground: t = √(2h/g) comes earlier by t/2g a unit of gravity and later by 1/gt a metre of height.
 #[test]
 fn the_instant_of_a_contact_shifts_as_in_free_fall() {

@@ -94,6 +94,7 @@ impl Instant {
         let nothing = ContactData {
             surfaces: &[],
             faces: &[],
+            solids: &[],
             materials: &[],
             edge_force: setup.edge_force,
             longest_step_s: STEP_S,

@@ -125,7 +125,7 @@ fn the_echo_says_what_was_read_and_computed() {
     for words in [
         "RUNGE-KUTTA, FOURTH ORDER, STEP 0.00025 SEC",
         "TITLE          Short",
-        "BODY male50: SEGMENTS",
+        "BODY male50-1970: SEGMENTS",
         "12  right_lower_leg",
         "17  left_foot",
         "11  left_knee",

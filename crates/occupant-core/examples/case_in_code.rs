@@ -44,7 +44,7 @@ pub(crate) fn main() -> Result<(), Box<dyn Error>> {
 
 /// The whole case.
 pub(crate) fn cart() -> Result<Setup, Box<dyn Error>> {
-    let body = Body::male50();
+    let body = Body::preset("male50-1970").ok_or("no such preset")?;
     let (pelvis, chest) = (body.sphere("pelvis").ok_or("no pelvis")?, body.sphere("chest").ok_or("no chest")?);
     let mut case = SetupBuilder::new("Cart, 20 mph, lap and torso belt", body, Joints::male50());
     case.setup.gravity_m_s2 = 386.04 * INCH_M;

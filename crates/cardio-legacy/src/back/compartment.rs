@@ -24,6 +24,9 @@ pub(super) fn read(back: &mut Back<'_>, layout: &CompartmentLayout) {
             None => back.misfit(format!("surfaces.{}: it is none of the 25 surfaces of the cards", surface.name)),
         }
     }
+    for solid in &back.setup.solids {
+        back.misfit(format!("solids.{}: cards have plane surfaces alone", solid.name));
+    }
     place_points(back, polygons);
     for surface in back.setup.surfaces.iter().filter(|surface| surface.name == layout.wheel.name) {
         check_wheel(back, layout, surface);

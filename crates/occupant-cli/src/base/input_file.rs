@@ -91,7 +91,11 @@ fn within(size: u64, most: u64) -> io::Result<()> {
 fn read_pipe(path: &Path, most: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     fs::File::open(path)?.take(most * 1_000_000 + 1).read_to_end(&mut bytes)?;
-    within(bytes.len() as u64, most).map(|()| bytes)
+    if within(bytes.len() as u64, most).is_err() {
+        let found = format!("it gives more than {most} MB, the most that such a text may have");
+        return Err(io::Error::new(ErrorKind::InvalidData, found));
+    }
+    Ok(bytes)
 }
 
 /// Whether it is a pipe that this process was given, such as `<(command)` of a shell: somebody writes it.

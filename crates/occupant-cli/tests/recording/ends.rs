@@ -77,7 +77,7 @@ fn a_complete_run_says_so_last() {
     assert_eq!(run["integrator"], "rk4");
     assert_eq!(run["step_s"], "0.00025");
     assert_eq!(run["overrides"], "none");
-    assert_eq!(run["body"], "male50");
+    assert_eq!(run["body"], "male50-1970");
     assert_eq!(result["status"], "completed");
     assert_eq!(result["outputs"], "41");
     assert_eq!(result["steps"], outcome.effort.steps.to_string());

@@ -23,7 +23,7 @@ fn computed(out: &Path) -> BTreeMap<u64, u32> {
         let text = fs::read_to_string(path).unwrap();
         for line in text.split_inclusive('\n').skip(1).filter(|line| line.ends_with('\n')) {
             let row: serde_json::Value = serde_json::from_str(line).unwrap();
-            *times.entry(row["index"].as_u64().unwrap()).or_default() += 1;
+            *times.entry(row["is"]["index"].as_u64().unwrap()).or_default() += 1;
         }
     }
     times

@@ -66,7 +66,7 @@ impl FrictionWatch {
         unstable
             .map(|(i, worst)| UnstableFriction {
                 sphere: setup.body.spheres[i / materials].name.clone(),
-                surface: setup.surfaces[worst.surface].name.clone(),
+                surface: setup.surface_name(worst.surface).unwrap_or_default().to_owned(),
                 material: setup.materials[i % materials].name.clone(),
                 time_s: worst.time_s,
                 normal_force_n: worst.normal_force_n,
@@ -96,7 +96,7 @@ impl FrictionWatch {
         };
         let number = force_n * masses.per_newton(model, sphere, surface, self.step_s);
         let setup = model.setup();
-        let material = setup.surfaces[surface].material;
+        let material = setup.surface_material(surface);
         let worst = &mut self.worst[sphere * setup.materials.len() + material];
         if number > worst.number {
             *worst = Worst { number, time_s, normal_force_n: force_n, surface };

@@ -35,7 +35,7 @@ pub struct Diagnosis {
     pub run: RunFigures,
     /// Motion of the vehicle.
     pub vehicle: VehicleFigures,
-    /// How many surfaces there are.
+    /// How many surfaces and solids there are.
     pub surfaces: usize,
     /// Seating, if the body was seated.
     pub seat: Option<SeatStart>,
@@ -146,7 +146,7 @@ pub fn diagnose(model: &Model) -> Diagnosis {
             gravity_m_s2: setup.gravity_m_s2,
         },
         vehicle: vehicle(model),
-        surfaces: setup.surfaces.len(),
+        surfaces: setup.surface_names().count(),
         seat: start::seat(model),
         contacts: start.contacts,
         behind: start::behind(model, &mobility),

@@ -7,13 +7,14 @@
 use nalgebra::Vector3;
 use serde::Serialize;
 
-use crate::forces::contact::flat_face::FlatFace;
+use crate::forces::contact::OPEN;
 use crate::forces::contact::material::Material;
 use crate::forces::contact::surface::Frame;
 use crate::forces::rate::Rate;
 use crate::model::Model;
 use crate::model::setup::Setup;
 use crate::motion::mobility::{Mobility, across, greatest};
+use crate::motion::vector::V3;
 use crate::vehicle::{FrameMotion, PathCursor};
 
 /// step·rate at which the classical Runge–Kutta method becomes unstable, on the imaginary axis; 2.785 on the real one.
@@ -42,7 +43,7 @@ pub(super) struct FrictionMasses {
 impl FrictionMasses {
     /// For every sphere and every surface that it can touch.
     pub(super) fn new(model: &Model, mobility: &Mobility<'_>) -> Self {
-        let surfaces = model.faces().len();
+        let surfaces = model.setup().surface_names().count();
         let mut tangential_kg = vec![0.0; surfaces * model.body().spheres.len()];
         for (sphere, surface) in pairs(model) {
             tangential_kg[sphere * surfaces + surface] = tangential(model, mobility, sphere, surface);
@@ -61,26 +62,42 @@ impl FrictionMasses {
 /// Pairs of sphere and surface that can touch.
 fn pairs(model: &Model) -> impl Iterator<Item = (usize, usize)> + '_ {
     let contacts = &model.system().forces.contacts;
-    contacts.groups.iter().flat_map(move |group| {
+    let faces = contacts.groups.iter().flat_map(move |group| {
         let parts = contacts.pairs[group.pairs.clone()].iter().flat_map(|p| &p.parts);
         parts.map(move |part| (group.sphere, part.surface))
-    })
+    });
+    faces.chain(contacts.solids.met().map(|(group, member)| (group.sphere, member.surface)))
 }
 
 /// Smallest effective mass along the surface at the point of contact A = centre − r N̂, kg.
 fn tangential(model: &Model, mobility: &Mobility<'_>, sphere: usize, surface: usize) -> f64 {
     let system = model.system();
     let site = &system.spheres[sphere];
-    let normal = normal_in_space(model, &model.faces()[surface]);
     let (_, centre, _) = system.sphere(&mobility.kinematics, sphere);
-    let point = centre - crate::motion::vector::V3::of(&normal) * site.radius;
+    let normal = normal_in_space(model, centre, surface);
+    let point = centre - V3::of(&normal) * site.radius;
     1.0 / greatest(across(&mobility.of_point(site.segment, point), &normal))
 }
 
-fn normal_in_space(model: &Model, face: &FlatFace) -> Vector3<f64> {
-    match face.frame {
-        Frame::Space => face.normal,
-        Frame::Vehicle => vehicle_at_start(model).vector_to_space(face.normal),
+/// N̂ of a surface, or of a solid as seen from `centre`, space axes.
+fn normal_in_space(model: &Model, centre: V3<f64>, surface: usize) -> Vector3<f64> {
+    let vehicle = vehicle_at_start(model);
+    let (frame, normal) = match model.faces().get(surface) {
+        Some(face) => (face.frame, face.normal),
+        None => {
+            let solid = surface - model.faces().len();
+            let frame = model.setup().solids[solid].frame;
+            let place = match frame {
+                Frame::Space => centre,
+                Frame::Vehicle => V3::of(&vehicle.point_to_frame(centre.to_vector())),
+            };
+            let shape = &model.system().forces.contacts.solids.shapes[solid];
+            (frame, shape.distance(place, OPEN).normal.to_vector())
+        }
+    };
+    match frame {
+        Frame::Space => normal,
+        Frame::Vehicle => vehicle.vector_to_space(normal),
     }
 }
 
@@ -111,7 +128,7 @@ pub(super) fn of_spheres(
             let (per_newton, surface) = own().map(worst).max_by(|a, b| a.0.total_cmp(&b.0))?;
             (per_newton > 0.0).then_some((super::friction::LIMIT / per_newton, surface))
         });
-        let name = |surface: usize| setup.surfaces[surface].name.clone();
+        let name = |surface: usize| setup.surface_name(surface).unwrap_or_default().to_owned();
         let rate = Rate::of_spring(
             setup.body.spheres[sphere].name.clone(),
             material_of(setup, stiffest).name.clone(),
@@ -129,5 +146,5 @@ pub(super) fn of_spheres(
 
 /// Material of a surface.
 fn material_of(setup: &Setup, surface: usize) -> &Material {
-    &setup.materials[setup.surfaces[surface].material]
+    &setup.materials[setup.surface_material(surface)]
 }

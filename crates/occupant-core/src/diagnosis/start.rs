@@ -95,7 +95,7 @@ fn contact(sample: &Sample<'_>, contact: &Contact) -> ContactStart {
     let setup = sample.model.setup();
     ContactStart {
         sphere: setup.body.spheres[contact.sphere].name.clone(),
-        surface: setup.surfaces[contact.surface].name.clone(),
+        surface: setup.surface_name(contact.surface).unwrap_or_default().to_owned(),
         depth_m: contact.depth_m,
         normal_force_n: contact.normal_force_n,
     }
@@ -107,9 +107,10 @@ pub(super) fn seat(model: &Model) -> Option<SeatStart> {
     let (InitialPosture::Seated(seating), Some(seated)) = (&setup.posture, &start.seated) else {
         return None;
     };
+    let name = |surface: usize| setup.surface_name(surface).unwrap_or_default().to_owned();
     Some(SeatStart {
-        cushion: setup.surfaces[seating.cushion].name.clone(),
-        back: setup.surfaces[seating.back].name.clone(),
+        cushion: name(seating.cushion),
+        back: name(seating.back),
         sink_m: seated.sink_m,
         pelvis_m: seated.pelvis_m.into(),
         left_knee_m: seated.knee_m.into(),

@@ -88,8 +88,8 @@ pub trait Element: Copy + Debug {
     /// What one remembers with every number replaced by f of it, in the order of [`Element::each`].
     fn map<A: Copy, S>(past: &Self::Past<A>, f: &mut impl FnMut(A) -> S) -> Self::Past<S>;
 
-    /// Whether one could remember this.
-    fn is_possible(_past: &Self::Past<f64>) -> bool {
+    /// Whether the one of this number could remember this.
+    fn is_possible(_law: &Self::Law<f64>, _number: usize, _past: &Self::Past<f64>) -> bool {
         true
     }
 

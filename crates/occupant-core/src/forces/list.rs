@@ -248,14 +248,15 @@ macro_rules! kinds {
                 Ok(())
             }
 
-            /// Whether elements can remember this.
+            /// Whether the elements of `forces`, of which there are as many, can remember this.
             ///
             /// # Errors
             /// The first that cannot.
-            pub(crate) fn check(&self) -> Result<(), Misfit> {
+            pub(crate) fn check(&self, forces: &Forces<f64>) -> Result<(), Misfit> {
                 $(
                     let [of, _] = $Kind::NAMES;
-                    if let Some(number) = self.$kind.iter().position(|past| !$Kind::is_possible(past)) {
+                    let mut list = self.$kind.iter().enumerate();
+                    if let Some((number, _)) = list.find(|(i, past)| !$Kind::is_possible(&forces.$kind, *i, past)) {
                         return Err(Misfit::Impossible { of, number });
                     }
                 )+

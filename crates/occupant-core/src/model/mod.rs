@@ -9,10 +9,11 @@ mod validate;
 use crate::body::Body;
 use crate::forces::contact::OPEN;
 use crate::forces::contact::flat_face::FlatFace;
+use crate::forces::contact::solid::Solids;
 use crate::forces::sphere::Site;
 use crate::forces::{Forces, History, Instant};
 use crate::kernel::System;
-use crate::model::seat::{Seat, Seated, seat};
+use crate::model::seat::{Seat, SeatPlane, Seated, seat};
 use crate::model::seating::{InitialPosture, InitialVelocity, Seating};
 use crate::model::settle::{Settled, kept, settle};
 use crate::model::setup::Setup;
@@ -23,6 +24,7 @@ use crate::motion::skeleton::Skeleton;
 use crate::motion::state::State;
 use crate::motion::vector::V3;
 use crate::vehicle::{FrameMotion, PathCursor};
+use nalgebra::Vector3;
 use placed_text::Problems;
 
 /// A scenario ready to run.
@@ -143,7 +145,7 @@ fn begin(setup: &Setup, faces: &[FlatFace], problems: &mut Problems) -> Option<(
             (q.to_state(), None, None, None)
         }
         InitialPosture::Seated(seating) => {
-            let place = seat_of(setup, faces, seating, problems)?;
+            let place = seat_of(setup, faces, &system.forces.contacts.solids, seating, &vehicle, problems)?;
             let (state, seated) = seat(&setup.body, seating, &place, &vehicle, setup.gravity_m_s2, problems)?;
             if seating.settle {
                 let (state, settled) = settle(setup, &data, &system, &vehicle, state);
@@ -190,7 +192,7 @@ fn warn_apart(
         groups.flat_map(|group| group.pairs.clone()).any(open)
     };
     let names = |&(sphere, surface): &(usize, usize)| {
-        Some(format!("{} and {}", setup.body.spheres.get(sphere)?.name, setup.surfaces.get(surface)?.name))
+        Some(format!("{} and {}", setup.body.spheres.get(sphere)?.name, setup.surface_name(surface)?))
     };
     let apart: Vec<String> = passed.iter().filter(is_apart).filter_map(names).collect();
     if !apart.is_empty() {
@@ -199,22 +201,31 @@ fn warn_apart(
     }
 }
 
+/// The planes of a seat: of solids, the face of the cushion that looks most upwards and that of the back that looks most
+/// towards the heels.
 fn seat_of<'a>(
     setup: &'a Setup,
-    faces: &'a [FlatFace],
+    faces: &[FlatFace],
+    solids: &Solids<f64>,
     seating: &Seating,
+    vehicle: &FrameMotion,
     problems: &mut Problems,
 ) -> Option<Seat<'a>> {
-    let mut face = |index: usize, key: &str| {
-        let found = faces.get(index);
+    let mut plane = |index: usize, key: &str, looks: &dyn Fn(Vector3<f64>) -> Vector3<f64>| {
+        let face = faces.get(index).map(|face| SeatPlane { normal: face.normal, offset_m: face.offset_m });
+        let solid = || solids.shapes.get(index.checked_sub(faces.len())?)?.plane_towards(looks);
+        let found = face.or_else(|| solid().map(|(normal, offset_m)| SeatPlane { normal, offset_m }));
         if found.is_none() {
-            problems.error(format!("seat.{key}"), "no such surface", "a surface of the scenario");
+            problems.error(format!("seat.{key}"), "no such surface", "a surface, or a solid with flat faces");
         }
         found
     };
-    let (cushion, back) = (face(seating.cushion, "cushion"), face(seating.back, "back"));
-    let material = setup.surfaces.get(seating.cushion)?.material;
-    Some(Seat { cushion: cushion?, back: back?, spring: &setup.materials.get(material)?.spring })
+    let up = vehicle.rotation.tr_mul(&Vector3::z());
+    let cushion = plane(seating.cushion, "cushion", &|_| up);
+    let back = plane(seating.back, "back", &|middle| Vector3::x() * (seating.heels_m[0] - middle.x).signum());
+    let (cushion, back) = (cushion?, back?);
+    let material = setup.materials.get(setup.surface_material(seating.cushion))?;
+    Some(Seat { cushion, back, spring: &material.spring })
 }
 
 /// Gives every point of the body its velocity at the start.

@@ -9,7 +9,6 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::body::tree::Limb;
 use crate::body::{Body, Segment};
-use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::spring::{BilinearSpring, Spring};
 use crate::model::seating::Seating;
 use crate::motion::layout::{free_slot, hinge_slot};
@@ -32,12 +31,20 @@ pub struct Seated {
     pub legs_rad: [f64; 2],
 }
 
+/// A plane that the pelvis sits on or leans against, vehicle axes.
+pub(crate) struct SeatPlane {
+    /// N̂, towards the body.
+    pub normal: Vector3<f64>,
+    /// N̂·x of its points, m.
+    pub offset_m: f64,
+}
+
 /// What the seat is made of where the pelvis sits.
 pub(crate) struct Seat<'a> {
     /// Plane of the cushion.
-    pub cushion: &'a FlatFace,
+    pub cushion: SeatPlane,
     /// Plane of the back.
-    pub back: &'a FlatFace,
+    pub back: SeatPlane,
     /// Loading curve of the cushion.
     pub spring: &'a BilinearSpring,
 }

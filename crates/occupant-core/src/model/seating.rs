@@ -9,9 +9,9 @@ use crate::motion::report_coordinates::ReportCoordinates;
 /// Where on what the body sits and how it holds itself. Angles as in Fig. 19: γ > 0 leans the top back.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Seating {
-    /// Index of the cushion surface.
+    /// Index of the cushion: a surface, or a solid behind all surfaces.
     pub cushion: usize,
-    /// Index of the seat back surface.
+    /// Index of the seat back in the same way.
     pub back: usize,
     /// Lateral place of the body's middle plane, Y_v (right positive).
     pub lateral_m: f64,

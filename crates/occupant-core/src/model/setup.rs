@@ -7,6 +7,7 @@ use crate::forces::Data;
 use crate::forces::belt::Belt;
 use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::contact::material::Material;
+use crate::forces::contact::solid::Solid;
 use crate::forces::contact::surface::Surface;
 use crate::forces::contact::{ContactData, EdgeForce};
 use crate::forces::joint::Joints;
@@ -114,6 +115,8 @@ pub struct Setup {
     pub materials: Vec<Material>,
     /// Surfaces, vehicle's and space's.
     pub surfaces: Vec<Surface>,
+    /// Solids, vehicle's and space's. Where results and seats name a surface by its index, they stand behind all surfaces.
+    pub solids: Vec<Solid>,
     /// Where the edge force acts.
     pub edge_force: EdgeForce,
     /// Belts.
@@ -142,11 +145,28 @@ impl Setup {
         }
     }
 
+    /// Names of surfaces, then of solids.
+    pub fn surface_names(&self) -> impl Iterator<Item = &str> {
+        self.surfaces.iter().map(|s| s.name.as_str()).chain(self.solids.iter().map(|s| s.name.as_str()))
+    }
+
+    /// Name of the surface or solid of this index; none for one that there is not.
+    pub fn surface_name(&self, index: usize) -> Option<&str> {
+        self.surface_names().nth(index)
+    }
+
+    /// Index of the material of the surface or solid of this index, which there must be.
+    pub fn surface_material(&self, index: usize) -> usize {
+        let surface = self.surfaces.get(index).map(|s| s.material);
+        surface.unwrap_or_else(|| self.solids[index - self.surfaces.len()].material)
+    }
+
     /// What it says of force elements; `faces` are the planes of its surfaces.
     pub(crate) fn forces<'a>(&'a self, faces: &'a [FlatFace]) -> Data<'a> {
         let contacts = ContactData {
             surfaces: &self.surfaces,
             faces,
+            solids: &self.solids,
             materials: &self.materials,
             edge_force: self.edge_force,
             longest_step_s: self.integrator.longest_step_s(),
@@ -172,6 +192,7 @@ impl SetupBuilder {
             gravity_m_s2: STANDARD_GRAVITY_M_S2,
             materials: Vec::new(),
             surfaces: Vec::new(),
+            solids: Vec::new(),
             edge_force: EdgeForce::default(),
             belts: Vec::new(),
             path: VehiclePath::parked(),

@@ -4,7 +4,7 @@
 //! What follows from the scenario alone (β₀, L₀, the body at the start) is not in it: the model has it.
 
 use crate::forces::stored::Archive;
-use crate::forces::{History, Memory, Misfit, STORED};
+use crate::forces::{Forces, History, Memory, Misfit, STORED};
 use crate::model::Model;
 use crate::motion::state::State;
 use crate::quantity::FieldWords;
@@ -263,23 +263,23 @@ impl Checkpoint {
         self.check_touches(model)?;
         if let Some(step) = &self.under_way {
             step.memory.check_count(forces)?;
-            self.check_step(step)?;
+            self.check_step(step, forces)?;
         }
-        self.check_numbers()
+        self.check_numbers(forces)
     }
 
-    fn check_step(&self, step: &StepStart) -> Result<(), CheckpointError> {
+    fn check_step(&self, step: &StepStart, forces: &Forces<f64>) -> Result<(), CheckpointError> {
         let &StepStart { start_s, end_s, .. } = step;
         let time_s = self.time_s;
         if start_s <= time_s && time_s < end_s && end_s.is_finite() {
-            check_histories(&step.memory, &step.state)
+            check_histories(&step.memory, &step.state, forces)
         } else {
             Err(CheckpointError::Step { start_s, end_s, time_s })
         }
     }
 
     fn check_touches(&self, model: &Model) -> Result<(), CheckpointError> {
-        let (spheres, surfaces) = (model.body().spheres.len(), model.faces().len());
+        let (spheres, surfaces) = (model.body().spheres.len(), model.setup().surface_names().count());
         let strange = |t: &&FirstTouch| t.sphere >= spheres || t.surface >= surfaces;
         match self.first_touches.iter().find(strange) {
             Some(&FirstTouch { sphere, surface, .. }) => Err(CheckpointError::Touch { sphere, surface }),
@@ -287,8 +287,8 @@ impl Checkpoint {
         }
     }
 
-    fn check_numbers(&self) -> Result<(), CheckpointError> {
-        check_histories(&self.memory, &self.state)?;
+    fn check_numbers(&self, forces: &Forces<f64>) -> Result<(), CheckpointError> {
+        check_histories(&self.memory, &self.state, forces)?;
         let p = &self.progress;
         let numbers =
             [p.wanted_s, p.step_error, p.greatest_kinetic_j, p.greatest_imbalance_j, p.energy_start.mechanical_j];
@@ -296,8 +296,8 @@ impl Checkpoint {
     }
 }
 
-fn check_histories(memory: &Memory<f64>, state: &State<f64>) -> Result<(), CheckpointError> {
-    memory.check()?;
+fn check_histories(memory: &Memory<f64>, state: &State<f64>, forces: &Forces<f64>) -> Result<(), CheckpointError> {
+    memory.check(forces)?;
     check_finite(state.to_numbers())
 }
 

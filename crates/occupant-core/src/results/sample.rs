@@ -72,7 +72,7 @@ pub struct Sample<'a> {
 pub struct Contact {
     /// Index of the sphere.
     pub sphere: usize,
-    /// Index of the surface.
+    /// Index of the surface, or of the solid behind all surfaces.
     pub surface: usize,
     /// Δ, m.
     pub depth_m: f64,
@@ -82,7 +82,7 @@ pub struct Contact {
     pub force_n: Vector3<f64>,
     /// Friction alone, vehicle axes, N.
     pub friction_n: Vector3<f64>,
-    /// Where all of it but the edge force acts: centre − r N̂, vehicle axes, m.
+    /// Where all of it but the edge force acts: centre − r N̂, on a solid half-way into the overlap; vehicle axes, m.
     pub point_m: Point3<f64>,
     /// The edge force alone, vehicle axes, N.
     pub edge_n: Vector3<f64>,
@@ -186,6 +186,14 @@ impl<'a> Sample<'a> {
         sum_n
     }
 
+    /// How thick a solid that a sphere touches is behind the face that the sphere went in by, m.
+    pub(crate) fn solid_thickness_m(&self, sphere: usize, solid: usize) -> f64 {
+        let solids = &self.model.system().forces.contacts.solids;
+        let member = solids.met().find(|(group, member)| group.sphere == sphere && member.solid == solid);
+        let phase = member.map_or(0.0, |(_, member)| self.history.memory.contacts[member.past].phase);
+        solids.shapes[solid].thickness_m(phase)
+    }
+
     /// Centre of a sphere, vehicle axes, m.
     pub fn sphere_centre_m(&self, sphere: usize) -> Point3<f64> {
         self.place_m(self.model.system().sphere(&self.evaluation.kinematics, sphere).1)
@@ -199,7 +207,8 @@ impl<'a> Sample<'a> {
         let (mut sum, mut total) = (Vector3::zeros(), 0.0);
         for t in own {
             let normal = self.frames[t.frame].axes.out(t.normal);
-            sum -= normal.to_vector() * (site.radius * t.normal_force);
+            let lever = self.model.system().forces.contacts.lever(t, site.radius);
+            sum -= normal.to_vector() * (lever * t.normal_force);
             total += t.normal_force;
         }
         let mean = self.evaluation.kinematics.axes[site.segment].into_frame(V3::of(&sum)).to_vector();
@@ -233,18 +242,19 @@ impl<'a> Sample<'a> {
                 self.frames[VEHICLE].axes.into_frame(space).to_vector()
             }
         };
-        let part = &system.forces.contacts.pairs[t.pair].parts[t.part as usize];
+        let contacts = &system.forces.contacts;
+        let (lever, surface) = (contacts.lever(t, site.radius), contacts.surface(t.pair, t.part as usize));
         let (normal, centre_m) = (to_vehicle(t.normal), self.sphere_centre_m(t.sphere));
         Contact {
             sphere: t.sphere,
-            surface: part.surface,
+            surface,
             depth_m: t.depth,
             normal_force_n: t.normal_force,
             force_n: to_vehicle(t.normal * t.normal_force + t.edge + t.friction),
             friction_n: to_vehicle(t.friction),
-            point_m: centre_m - normal * site.radius,
+            point_m: centre_m - normal * lever,
             edge_n: to_vehicle(t.edge),
-            edge_point_m: centre_m - normal * (site.radius * system.forces.contacts.edge_lever),
+            edge_point_m: centre_m - normal * (lever * contacts.edge_lever),
             slip_m_s: t.slip.norm_squared().sqrt(),
         }
     }

@@ -36,7 +36,7 @@ pub(super) struct Seen {
 
 impl Seen {
     pub(super) fn new(model: &Model) -> Self {
-        let surfaces = model.faces().len();
+        let surfaces = model.setup().surface_names().count();
         let combinations = model.body().spheres.len() * surfaces;
         Seen { surfaces, known: vec![false; combinations], touches: Vec::with_capacity(combinations) }
     }
@@ -52,8 +52,8 @@ impl Seen {
     /// Notes a touch of `model`, the one that this was made for.
     #[inline]
     pub(super) fn note(&mut self, model: &Model, time_s: f64, meeting: Meeting) {
-        let pair = &model.system().forces.contacts.pairs[meeting.pair];
-        let (sphere, surface) = (meeting.sphere, pair.parts[meeting.part].surface);
+        let surface = model.system().forces.contacts.surface(meeting.pair, meeting.part);
+        let sphere = meeting.sphere;
         let known = &mut self.known[sphere * self.surfaces + surface];
         if !*known {
             *known = true;

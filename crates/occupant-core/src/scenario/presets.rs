@@ -16,7 +16,12 @@ impl Body {
     /// The 50th-percentile male (1.773 m, 78.7 kg) of the GEBOD generator with the report's 17 spheres, its neck's joint
     /// where a dummy's is: `body.preset = "male50"`.
     pub fn male50() -> Self {
-        people::REFERENCE_PERSON.body().0
+        Body { name: "male50".to_owned(), ..people::REFERENCE_PERSON.body().0 }
+    }
+
+    /// The body that a scenario calls by this name in `body.preset`; none for a name that it does not know.
+    pub fn preset(name: &str) -> Option<Self> {
+        Some(read(name)?.0)
     }
 
     /// A grown-up by sex, stature and mass, as a scenario's `body.sex`, `body.stature`, `body.mass`; none where the
@@ -31,16 +36,17 @@ impl Joints {
     /// A starting set of dampings, stops and spinal springs for grown-ups: `joints.preset = "male50"`.
     pub fn male50() -> Self {
         static MALE50: OnceLock<Joints> = OnceLock::new();
-        MALE50.get_or_init(|| read().expect("the preset is part of the program, and a test builds it")).clone()
+        let read = || read("male50").expect("the preset is part of the program, and a test builds it").1;
+        MALE50.get_or_init(read).clone()
     }
 }
 
-/// The joints of a scenario that says nothing but the names of presets.
-fn read() -> Option<Joints> {
-    let text = "body = { preset = \"male50\" }\njoints = { preset = \"male50\" }\n";
-    let mut document = Document::read(text, Format::Toml, "preset").ok()?;
+/// The occupant of a scenario that says nothing but the names of presets.
+fn read(body: &str) -> Option<(Body, Joints)> {
+    let text = format!("body = {{ preset = {body:?} }}\njoints = {{ preset = \"male50\" }}\n");
+    let mut document = Document::read(&text, Format::Toml, "preset").ok()?;
     document.root = expand(&mut document.sources, &document.root);
-    Some(occupant("male50", &document)?.1)
+    occupant(body, &document)
 }
 
 /// The text that a section named `key` of a checked scenario starts from, and what messages call it.

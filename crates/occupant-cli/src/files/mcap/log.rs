@@ -29,7 +29,7 @@ impl Names {
         let setup = model.setup();
         Names {
             spheres: setup.body.spheres.iter().map(|s| s.name.clone()).collect(),
-            surfaces: setup.surfaces.iter().map(|s| s.name.clone()).collect(),
+            surfaces: setup.surface_names().map(str::to_owned).collect(),
         }
     }
 

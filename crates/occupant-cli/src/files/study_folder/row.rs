@@ -68,7 +68,7 @@ impl Row {
 
     /// Takes over the caveats of its run.
     pub(crate) fn warn_of(&mut self, caveats: &[Caveat]) {
-        let words = caveats.iter().map(|caveat| format!("{}({})", caveat.name, caveat.figures.join(",")));
+        let words = caveats.iter().map(|caveat| format!("{}({})", caveat.name, caveat.figures.join(";")));
         self.caveats = words.collect::<Vec<_>>().join(" ");
     }
 
@@ -76,7 +76,7 @@ impl Row {
     pub(crate) fn caveats(&self) -> impl Iterator<Item = Caveat> {
         self.caveats.split_whitespace().map(|word| {
             let (name, figures) = word.trim_end_matches(')').split_once('(').unwrap_or((word, ""));
-            let figures = figures.split(',').map(str::to_owned).collect();
+            let figures = figures.split(';').map(str::to_owned).collect();
             Caveat { name: name.to_owned(), text: String::new(), figures }
         })
     }
@@ -103,7 +103,7 @@ pub(crate) mod tests {
             index,
             status: [Status::Completed, Status::Failed, Status::Refused, Status::Broken][(index % 4) as usize],
             reason: "ä reason, \"quoted\"\nin two lines".repeat((index % 3) as usize),
-            caveats: "neck_beyond_stop(nij,neck_*)".repeat((index % 2) as usize),
+            caveats: "neck_beyond_stop(nij;neck_*)".repeat((index % 2) as usize),
             cells: vec![
                 Cell::Number(index as f64 * 0.1),
                 Cell::Absent,

@@ -53,7 +53,7 @@ impl Case {
         let (loaded, model, warnings) = stored(path, &file)?;
         file.checkpoints.iter().try_for_each(|c| c.check(&model)).map_err(|e| refused(e.to_string()))?;
         let report = report_numbers(&model);
-        let in_order = || (1..=model.setup().surfaces.len()).collect();
+        let in_order = || (1..=model.setup().surface_names().count()).collect();
         Ok(Case {
             warnings: warnings.iter().map(|w| w.problem.to_string()).collect(),
             numbers_of_report: report.is_some(),
@@ -95,9 +95,9 @@ impl Case {
 
     /// A surface by its number and name.
     pub(crate) fn surface(&self, index: usize) -> String {
-        let name = self.model.setup().surfaces.get(index).map(|s| &s.name);
+        let name = self.model.setup().surface_name(index);
         let number = self.numbers.get(index).copied().unwrap_or_default();
-        format!("{number:>2} {}", name.map_or("-", String::as_str))
+        format!("{number:>2} {}", name.unwrap_or("-"))
     }
 
     /// The pairs (sphere, surface), by index, that have passed a surface's edge: those with NARRY = 0.
@@ -113,6 +113,5 @@ impl Case {
 fn report_numbers(model: &Model) -> Option<Vec<usize>> {
     let layout = CompartmentLayout::reconstruction().ok()?;
     let number = |name: &str| layout.number_of(name).and_then(|n| usize::try_from(n).ok());
-    let surfaces = &model.setup().surfaces;
-    surfaces.iter().map(|s| number(&s.name)).collect()
+    model.setup().surface_names().map(number).collect()
 }

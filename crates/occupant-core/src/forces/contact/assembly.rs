@@ -7,9 +7,9 @@ use crate::body::Body;
 use crate::forces::contact::face::{Outline, V2};
 use crate::forces::contact::flat_face::{FlatFace, SAME_M};
 use crate::forces::contact::material::{Material, Memory};
+use crate::forces::contact::solid::Solids;
 use crate::forces::contact::surface::{Frame, Outline as FaceOutline, Surface};
-use crate::forces::contact::{ContactSystem, Group, Pair, Part, Plane};
-use crate::forces::spring::Spring;
+use crate::forces::contact::{ContactSystem, Group, MaterialLaw, Pair, Part, Plane};
 use crate::motion::frame::{SPACE, VEHICLE};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
@@ -17,19 +17,20 @@ use crate::motion::vector::V3;
 /// No sphere approaches a face faster than this, m/s: several times any crash.
 pub(crate) const FASTEST_M_S: f64 = 100.0;
 
-impl<S: Scalar> ContactSystem<S> {
+impl ContactSystem<f64> {
     /// All pairs of `body` with surfaces whose planes are known.
     pub fn new(body: &Body, data: &ContactData<'_>) -> Self {
-        let &ContactData { surfaces, faces, materials, edge_force, longest_step_s } = data;
+        let &ContactData { surfaces, faces, solids, materials, edge_force, longest_step_s } = data;
         let mut system = ContactSystem {
             groups: Vec::new(),
             planes: Vec::new(),
             pairs: Vec::new(),
-            edge_lever: S::of(match edge_force {
+            edge_lever: match edge_force {
                 EdgeForce::AtContactPoint => 1.0,
                 EdgeForce::AtCentre => 0.0,
-            }),
-            reach_of_a_step: S::of(FASTEST_M_S * longest_step_s),
+            },
+            reach_of_a_step: FASTEST_M_S * longest_step_s,
+            solids: Solids::none(),
         };
         let seams = seams(faces);
         for (sphere, data) in body.spheres.iter().enumerate() {
@@ -45,6 +46,7 @@ impl<S: Scalar> ContactSystem<S> {
                 }
             }
         }
+        system.solids = Solids::new(body, solids, surfaces.len(), materials, system.pairs.len());
         system
     }
 }
@@ -109,13 +111,7 @@ fn pair<S: Scalar>(parts: &[usize], surfaces: &[Surface], faces: &[FlatFace], ma
             }
             FaceOutline::Unbounded { .. } => Outline::Unbounded,
         };
-        Part {
-            surface: i,
-            outline,
-            spring: Spring::new(&material.spring),
-            friction: S::of(material.friction),
-            friction_speed_squared: S::of(material.friction_speed_m_s.powi(2)),
-        }
+        Part { surface: i, outline, law: MaterialLaw::new(material) }
     };
     let retains = parts.iter().any(|&i| materials[surfaces[i].material].memory == Memory::Retain);
     Pair {

@@ -1,5 +1,6 @@
 //! One sphere against the faces of one frame, within one evaluation.
 
+use crate::forces::contact::solid::lever;
 use crate::forces::contact::{ContactSystem, FRICTION, Group, PASSED, PRESS, PairHistory, Touch};
 use crate::forces::element::{Instant, Load as AllLoads};
 use crate::forces::sphere::Site;
@@ -55,10 +56,32 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         Sphere { contacts, group, site, frame, k, arm, centre, centre_f, load: None }
     }
 
+    /// Adds the forces of pair `i`, of faces or of solids, in the lanes of `near`; returns the deformation. With `COMMIT` the
+    /// pair's history first takes over the present position, that of an accepted step.
+    #[inline(always)]
+    pub(super) fn look_at<const SOLID: bool, const COMMIT: bool>(
+        &mut self,
+        i: usize,
+        near: S::Mask,
+        past: &mut [PairHistory<S>],
+        power: &mut Work<S>,
+        show: &mut impl FnMut(&Touch<S>),
+    ) -> S {
+        if SOLID {
+            return self.meet_solid::<COMMIT>(i, near, past, power, show);
+        }
+        if COMMIT {
+            return self.commit(i, &mut past[i], power, show);
+        }
+        let depth = self.contacts.planes[i].depth(self.centre_f);
+        self.meet::<false>(i, depth, depth.gt(S::zero()) & near, &mut past[i], power, show);
+        depth
+    }
+
     /// Takes the present position, that of an accepted step, over into the history of pair `i` and adds its forces; returns
     /// the deformation.
     #[inline(always)]
-    pub(super) fn commit(
+    fn commit(
         &mut self,
         i: usize,
         pair: &mut PairHistory<S>,
@@ -75,7 +98,7 @@ impl<'a, S: Scalar> Sphere<'a, S> {
     /// Adds the forces of pair `i` at deformation `depth`, in the lanes of `contact`. In all others nothing changes, not
     /// even the sign of a zero.
     #[inline(always)]
-    pub(super) fn meet<const COMMIT: bool>(
+    fn meet<const COMMIT: bool>(
         &mut self,
         i: usize,
         depth: S,
@@ -93,12 +116,52 @@ impl<'a, S: Scalar> Sphere<'a, S> {
         }
         let approach = self.approach();
         let touch = self.contacts.touch::<COMMIT>(self.group, i, depth, live, &approach, history);
-        let (Some(t), Some(load)) = (touch, &mut self.load) else {
-            return;
-        };
+        if let Some(touch) = touch {
+            self.take(touch, &approach, self.site.radius, power, show);
+        }
+    }
+
+    /// Adds the forces of pair `i` with solids, in the lanes of `near`; returns the deformation. With `COMMIT` its history
+    /// first takes over the present position, that of an accepted step.
+    #[inline(always)]
+    fn meet_solid<const COMMIT: bool>(
+        &mut self,
+        i: usize,
+        near: S::Mask,
+        past: &mut [PairHistory<S>],
+        power: &mut Work<S>,
+        show: &mut impl FnMut(&Touch<S>),
+    ) -> S {
+        let (contacts, radius) = (self.contacts, self.site.radius);
+        let j = i - contacts.pairs.len();
+        let union = &contacts.solids.pairs[j];
+        let nearest = contacts.solids.nearest::<COMMIT>(j, self.centre_f, radius, past);
+        if COMMIT {
+            union.commit(nearest.depth, &mut past[i]);
+        }
+        let live = nearest.depth.gt(S::zero()) & near;
+        if S::any(live) {
+            let approach = self.approach();
+            let touch = union.press(self.group, i, nearest, live, &approach, past[i].greatest);
+            self.take(touch, &approach, lever(nearest.depth, radius), power, show);
+        }
+        nearest.depth
+    }
+
+    /// Adds the forces of a touch that acts at A, `lever` from the centre against N̂.
+    #[inline(always)]
+    fn take(
+        &mut self,
+        t: Touch<S>,
+        approach: &Approach<S>,
+        lever: S,
+        power: &mut Work<S>,
+        show: &mut impl FnMut(&Touch<S>),
+    ) {
+        let Some(load) = &mut self.load else { return };
         let on = t.weight.gt(S::zero());
         let press = t.normal * t.normal_force + t.edge;
-        let arm = t.normal * -self.site.radius; // r̄ of (65)
+        let arm = t.normal * -lever; // r̄ of (65)
         let edge_twist = arm.cross(t.edge) * self.contacts.edge_lever;
         let force = load.force + (press + t.friction); // F_N + F_f (93)
         let twist = load.twist + (arm.cross(t.friction) + edge_twist);

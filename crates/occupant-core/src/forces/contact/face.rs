@@ -48,7 +48,7 @@ pub(crate) struct Offset<S> {
 }
 
 impl<S: Copy> V2<S> {
-    fn zip<A: Copy, T>(&self, other: &V2<A>, f: &impl Fn(S, A) -> T) -> V2<T> {
+    pub(super) fn zip<A: Copy, T>(&self, other: &V2<A>, f: &impl Fn(S, A) -> T) -> V2<T> {
         V2 { u: f(self.u, other.u), v: f(self.v, other.v) }
     }
 }

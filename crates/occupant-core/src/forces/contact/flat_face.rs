@@ -74,9 +74,7 @@ impl FlatFace {
 
     /// Axes u, v of the plane with u × v = N̂.
     pub fn plane_axes(&self) -> (Vector3<f64>, Vector3<f64>) {
-        let least = self.normal.iamin();
-        let u = Vector3::ith(least, 1.0).cross(&self.normal).normalize();
-        (u, self.normal.cross(&u))
+        plane_axes(&self.normal)
     }
 
     /// True if the two faces lie in one plane of one frame, look the same way and share part of an edge.
@@ -94,6 +92,12 @@ impl FlatFace {
         };
         coplanar && !(0..3).any(apart) && sides(a).any(|s| sides(b).any(|t| overlap(s, t)))
     }
+}
+
+/// Axes u, v of a plane with u × v = `normal`, a unit vector.
+pub(super) fn plane_axes(normal: &Vector3<f64>) -> (Vector3<f64>, Vector3<f64>) {
+    let u = Vector3::ith(normal.iamin(), 1.0).cross(normal).normalize();
+    (u, normal.cross(&u))
 }
 
 /// A range with one more number.

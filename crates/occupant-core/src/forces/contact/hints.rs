@@ -56,8 +56,8 @@ impl<S: Scalar> ContactHints<S> {
     /// Every pair counts as near until the first commit.
     pub(super) fn new(contacts: &ContactSystem<S>) -> Self {
         let lanes = S::truth(true);
-        let all = 0..contacts.pairs.len() as u32;
-        let looks = contacts.groups.iter().map(|group| Look {
+        let all = 0..(contacts.pairs.len() + contacts.solids.pairs.len()) as u32;
+        let looks = contacts.groups.iter().chain(&contacts.solids.groups).map(|group| Look {
             watched: group.pairs.len(),
             near: group.pairs.len(),
             centre: V3::zero(),

@@ -1,4 +1,4 @@
-//! Contact of spheres with bounded plane surfaces.
+//! Contact of spheres with bounded plane surfaces and with solids.
 
 mod assembly;
 mod check;
@@ -8,6 +8,7 @@ pub mod flat_face;
 mod hints;
 pub mod material;
 mod results;
+pub mod solid;
 pub mod surface;
 mod system;
 mod zip;
@@ -19,6 +20,7 @@ pub use system::*;
 use crate::body::Body;
 use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::contact::material::Material;
+use crate::forces::contact::solid::Solid;
 use crate::forces::contact::surface::Surface;
 use crate::forces::element::{Element, HeldBy, Instant, Load, StoredEnergy, Unlike, WorkSum};
 use crate::motion::scalar::Scalar;
@@ -26,6 +28,7 @@ use crate::quantity::energy;
 use encounter::Sphere;
 use hints::{Looking, Near, Nearing};
 use placed_text::Problems;
+use solid::lever;
 
 /// Place of the work put into contacts along their normals and edge bands, stored and dissipated.
 pub const PRESS: usize = 0;
@@ -39,6 +42,8 @@ pub struct ContactData<'a> {
     pub surfaces: &'a [Surface],
     /// Their planes, known once the surfaces are found sound.
     pub faces: &'a [FlatFace],
+    /// Solids of vehicle and space.
+    pub solids: &'a [Solid],
     /// Materials.
     pub materials: &'a [Material],
     /// Where the edge force acts.
@@ -76,11 +81,21 @@ impl Element for Contacts {
     type Action<S> = Touch<S>;
 
     fn check(data: ContactData<'_>, body: &Body, problems: &mut Problems) {
-        check::check(data.materials, data.surfaces, body, problems);
+        check::check(&data, body, problems);
     }
 
     fn new(data: ContactData<'_>, body: &Body) -> ContactSystem<f64> {
         ContactSystem::new(body, &data)
+    }
+
+    fn begin(
+        law: &mut ContactSystem<f64>,
+        data: ContactData<'_>,
+        body: &Body,
+        at: &Instant<'_, f64>,
+        problems: &mut Problems,
+    ) {
+        check::centres(law, &data, body, at, problems);
     }
 
     fn start(law: &ContactSystem<f64>, at: &Instant<'_, f64>) -> Vec<PairHistory<f64>> {
@@ -92,7 +107,11 @@ impl Element for Contacts {
     }
 
     fn count<S>(law: &ContactSystem<S>) -> usize {
-        law.pairs.len()
+        law.pairs.len() + law.solids.count()
+    }
+
+    fn most_actions<S>(law: &ContactSystem<S>) -> usize {
+        law.pairs.len() + law.solids.pairs.len()
     }
 
     fn zip<S: Copy, A: Copy, T>(
@@ -112,8 +131,12 @@ impl Element for Contacts {
         PairHistory { phase: f(past.phase), greatest: f(past.greatest) }
     }
 
-    fn is_possible(past: &PairHistory<f64>) -> bool {
-        [OPEN, TOUCHING, PASSED].contains(&past.phase) && past.greatest.is_finite() && past.greatest >= 0.0
+    fn is_possible(law: &ContactSystem<f64>, number: usize, past: &PairHistory<f64>) -> bool {
+        let is_face = past.phase.fract() == 0.0 && (FACE..FACE + MOST_FACES).contains(&past.phase);
+        let may_be_face = number >= law.pairs.len() + law.solids.pairs.len();
+        ([OPEN, TOUCHING, PASSED].contains(&past.phase) || may_be_face && is_face)
+            && past.greatest.is_finite()
+            && past.greatest >= 0.0
     }
 
     fn confine(past: &mut PairHistory<f64>) {
@@ -130,44 +153,79 @@ impl Element for Contacts {
         show: &mut impl FnMut(&Touch<S>),
     ) {
         for (g, group) in law.groups.iter().enumerate() {
-            let near = hints.near_of(g, group);
-            if !COMMIT && near.is_empty() {
-                continue;
-            }
-            let mut sphere = Sphere::new(law, group, at);
-            if !COMMIT {
-                for place in near {
-                    let Near { pair, lanes } = hints.near[place];
-                    let i = pair as usize;
-                    let depth = law.planes[i].depth(sphere.centre_f);
-                    let contact = depth.gt(S::zero()) & lanes;
-                    sphere.meet::<false>(i, depth, contact, &mut past[i], &mut load.power, show);
-                }
-            } else {
-                let mut near = Nearing::new(group);
-                if hints.must_look(g, sphere.centre_f) {
-                    let mut look = Looking::new(group);
-                    for i in group.pairs.clone() {
-                        let depth = sphere.commit(i, &mut past[i], &mut load.power, show);
-                        look.at(i, depth, law, &past[i], hints);
-                        near.at(i, depth, law, &past[i], hints);
-                    }
-                    look.end(g, &sphere, law, hints);
-                } else {
-                    for place in hints.watched_of(g, group) {
-                        let i = hints.watched[place] as usize;
-                        let depth = sphere.commit(i, &mut past[i], &mut load.power, show);
-                        near.at(i, depth, law, &past[i], hints);
-                    }
-                }
-                near.end(g, hints);
-            }
-            sphere.load(load);
+            meet_all::<S, COMMIT, false>(law, g, group, at, past, hints, load, show);
+        }
+        for (g, group) in (law.groups.len()..).zip(&law.solids.groups) {
+            meet_all::<S, COMMIT, true>(law, g, group, at, past, hints, load, show);
         }
     }
 
     fn stored_j(actions: &[Touch<f64>]) -> f64 {
         actions.iter().map(|touch| touch.stored).sum()
+    }
+}
+
+/// A sphere and all pairs of a group, number `g`: of faces, or of solids.
+#[inline(always)]
+#[expect(clippy::too_many_arguments, reason = "two calls, both inlined")]
+fn meet_all<S: Scalar, const COMMIT: bool, const SOLID: bool>(
+    law: &ContactSystem<S>,
+    g: usize,
+    group: &Group,
+    at: &Instant<'_, S>,
+    past: &mut [PairHistory<S>],
+    hints: &mut ContactHints<S>,
+    load: &mut Load<S>,
+    show: &mut impl FnMut(&Touch<S>),
+) {
+    let near = hints.near_of(g, group);
+    if !COMMIT && near.is_empty() {
+        return;
+    }
+    let mut sphere = Sphere::new(law, group, at);
+    let power = &mut load.power;
+    if !COMMIT {
+        for place in near {
+            let Near { pair, lanes } = hints.near[place];
+            sphere.look_at::<SOLID, false>(pair as usize, lanes, past, power, show);
+        }
+    } else {
+        let (mut near, all) = (Nearing::new(group), S::truth(true));
+        if hints.must_look(g, sphere.centre_f) {
+            let mut look = Looking::new(group);
+            for i in group.pairs.clone() {
+                let depth = sphere.look_at::<SOLID, true>(i, all, past, power, show);
+                look.at(i, depth, law, &past[i], hints);
+                near.at(i, depth, law, &past[i], hints);
+            }
+            look.end(g, &sphere, law, hints);
+        } else {
+            for place in hints.watched_of(g, group) {
+                let i = hints.watched[place] as usize;
+                let depth = sphere.look_at::<SOLID, true>(i, all, past, power, show);
+                near.at(i, depth, law, &past[i], hints);
+            }
+        }
+        near.end(g, hints);
+    }
+    sphere.load(load);
+}
+
+impl<S: Scalar> ContactSystem<S> {
+    /// How far the point A of a touch is from the sphere's centre against N̂, m.
+    #[inline(always)]
+    pub(crate) fn lever(&self, touch: &Touch<S>, radius: S) -> S {
+        if touch.pair < self.pairs.len() { radius } else { lever(touch.depth, radius) }
+    }
+}
+
+impl<S> ContactSystem<S> {
+    /// What the part of a pair is: the index of a surface, or of a solid behind all surfaces.
+    pub fn surface(&self, pair: usize, part: usize) -> usize {
+        match self.pairs.get(pair) {
+            Some(pair) => pair.parts[part].surface,
+            None => self.solids.pairs[pair - self.pairs.len()].members[part].surface,
+        }
     }
 }
 
@@ -191,6 +249,15 @@ impl ContactSystem<f64> {
         for group in &self.groups {
             let centre = at.centre_in(group.sphere, group.frame);
             list.extend(group.pairs.clone().map(|i| of(group, i, centre)));
+        }
+        list.resize(Contacts::count(self), PairHistory { phase: OPEN, greatest: 0.0 });
+        for group in &self.solids.groups {
+            let (centre, radius) = (at.centre_in(group.sphere, group.frame), at.spheres[group.sphere].radius);
+            for i in group.pairs.clone() {
+                let j = i - self.pairs.len();
+                let nearest = self.solids.nearest::<true>(j, centre, radius, &mut list);
+                self.solids.pairs[j].commit(nearest.depth, &mut list[i]);
+            }
         }
         list
     }

@@ -1,6 +1,6 @@
 //! How result files keep what pairs of a sphere and a face remember: the few that are not open and whole, by their numbers.
 
-use super::{Contacts, OPEN, PASSED, PairHistory, TOUCHING};
+use super::{Contacts, FACE, OPEN, PASSED, PairHistory, TOUCHING};
 use crate::forces::shown::Reported;
 use crate::forces::stored::Archive;
 use crate::quantity::FieldWords;
@@ -28,16 +28,22 @@ impl Reported for Contacts {
         let touching = file.indices(words(6, 29, "touching", "pairs that touch"), touching);
         let deformed = file.indices(words(7, 30, "deformed", "pairs that remember a deformation"), deformed);
         let greatest = file.numbers(words(8, 31, "greatest_deformation_m", "of each pair in `deformed`"), greatest);
-        let numbers = passed.iter().chain(&touching).chain(&deformed);
+        let remembering = which(|p| p.phase >= FACE);
+        let faces = remembering.iter().map(|i| past[*i as usize].phase - FACE).collect();
+        let remembering =
+            file.indices(words(38, 40, "in_by_face", "spheres in a solid that came in by a flat face"), remembering);
+        let faces = file.numbers(words(39, 41, "face", "number of that face, for each in `in_by_face`"), faces);
+        let numbers = passed.iter().chain(&touching).chain(&deformed).chain(&remembering);
         if count > MOST_PAIRS
             || numbers.max().is_some_and(|i| u64::from(*i) >= count)
-            || deformed.len() != greatest.len()
+            || [deformed.len(), remembering.len()] != [greatest.len(), faces.len()]
         {
             return file.refuse("lists of pairs that do not fit each other");
         }
         *past = vec![PairHistory { phase: OPEN, greatest: 0.0 }; count as usize];
         passed.iter().for_each(|i| past[*i as usize].phase = PASSED);
         touching.iter().for_each(|i| past[*i as usize].phase = TOUCHING);
+        remembering.iter().zip(faces).for_each(|(i, face)| past[*i as usize].phase = FACE + face);
         deformed.iter().zip(greatest).for_each(|(i, greatest)| past[*i as usize].greatest = greatest);
     }
 }

@@ -59,13 +59,17 @@ impl Outline {
 
     /// A steering wheel: a disc that stands upright across the vehicle, its top tilted forward by `tilt_rad`.
     pub fn wheel(frame: Frame, centre_m: Point3<f64>, diameter_m: f64, tilt_rad: f64) -> Self {
-        // Rearward and up: N̂ = (−cos τ, 0, −sin τ) in vehicle axes, z down; z is up in space.
-        let (sin, cos) = trig::sin_cos(tilt_rad);
-        let axis = match frame {
-            Frame::Vehicle => Vector3::new(-cos, 0.0, -sin),
-            Frame::Space => Vector3::new(-cos, 0.0, sin),
-        };
-        Outline::Disc { centre_m, radius_m: 0.5 * diameter_m, axis }
+        Outline::Disc { centre_m, radius_m: 0.5 * diameter_m, axis: wheel_axis(frame, tilt_rad) }
+    }
+}
+
+/// Axis of a steering wheel that stands upright across the vehicle, its top tilted forward by `tilt_rad`.
+pub(crate) fn wheel_axis(frame: Frame, tilt_rad: f64) -> Vector3<f64> {
+    // Rearward and up: N̂ = (−cos τ, 0, −sin τ) in vehicle axes, z down; z is up in space.
+    let (sin, cos) = trig::sin_cos(tilt_rad);
+    match frame {
+        Frame::Vehicle => Vector3::new(-cos, 0.0, -sin),
+        Frame::Space => Vector3::new(-cos, 0.0, sin),
     }
 }
 

@@ -14,6 +14,8 @@ use serde::{Deserialize, Serialize};
 
 use crate::forces::contact::encounter::Approach;
 use crate::forces::contact::face::{Offset, Outline, V2};
+use crate::forces::contact::material::Material;
+use crate::forces::contact::solid::Solids;
 use crate::forces::spring::Spring;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
@@ -38,6 +40,10 @@ pub const OPEN: f64 = 0.0;
 pub const TOUCHING: f64 = 1.0;
 /// The sphere went round the edge: no force until Δ ≤ 0.
 pub const PASSED: f64 = 2.0;
+/// A sphere that touches a solid remembers face 0 of it, with 1 more face 1, and so on.
+pub(crate) const FACE: f64 = 3.0;
+/// Faces that may be remembered of a solid, at most.
+pub(crate) const MOST_FACES: f64 = 16.0;
 
 /// One bounded part of a face with its material.
 #[derive(Clone, Debug)]
@@ -45,6 +51,12 @@ pub struct Part<S> {
     /// Index of the surface in the model.
     pub surface: usize,
     pub(crate) outline: Outline<S>,
+    pub(crate) law: MaterialLaw<S>,
+}
+
+/// Constants of a material.
+#[derive(Clone, Debug)]
+pub(crate) struct MaterialLaw<S> {
     pub(crate) spring: Spring<S>,
     pub(crate) friction: S,
     pub(crate) friction_speed_squared: S,
@@ -90,10 +102,10 @@ pub struct Group {
     pub pairs: std::ops::Range<usize>,
 }
 
-/// What a pair remembers between steps.
+/// What a pair remembers between steps, or a sphere of one of the solids that it meets as one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PairHistory<S> {
-    /// [`OPEN`], [`TOUCHING`] or [`PASSED`].
+    /// [`OPEN`], [`TOUCHING`] or [`PASSED`], or the remembered face of a solid.
     pub phase: S,
     /// Δ_m, greatest committed deformation, m.
     pub greatest: S,
@@ -142,6 +154,8 @@ pub struct ContactSystem<S> {
     pub pairs: Vec<Pair<S>>,
     /// 1 where the edge force acts at A, 0 at the centre.
     pub(crate) edge_lever: S,
+    /// Bodies with thickness; their pairs are numbered behind those of faces.
+    pub(crate) solids: Solids<S>,
     /// A face farther than this, m, cannot be met within one step.
     pub(crate) reach_of_a_step: S,
 }
@@ -269,12 +283,7 @@ impl<S: Scalar> Pair<S> {
         let edge_force = law.energy * S::select(w.lt(S::one()), S::one(), S::zero()) / radius;
         let edge = (self.u * offset.away.u + self.v * offset.away.v) * edge_force;
 
-        let arm = self.normal * -radius;
-        let velocity = approach.velocity + approach.omega.cross(arm);
-        let slip = velocity - self.normal * self.normal.dot(velocity);
-        let speed = (slip.norm_squared() + law.friction_speed_squared).sqrt();
-        let friction = slip * -(law.friction * normal_force / speed);
-        Touch {
+        let touch = Touch {
             sphere: group.sphere,
             frame: group.frame,
             pair: index,
@@ -286,20 +295,17 @@ impl<S: Scalar> Pair<S> {
             velocity: approach.velocity,
             normal_force,
             edge,
-            friction,
+            friction: V3::zero(),
             stored,
-            slip,
-        }
+            slip: V3::zero(),
+        };
+        touch.rubbing(&law, approach, radius)
     }
 
     /// Spring and friction of the part that each lane is nearest to.
     #[inline(always)]
     fn law(&self, part: S, depth: S, greatest: S) -> Law<S> {
-        let of = |p: &Part<S>| {
-            let (force, energy) = p.spring.respond(depth, greatest);
-            let (friction, friction_speed_squared) = (p.friction, p.friction_speed_squared);
-            Law { force, energy, friction, friction_speed_squared }
-        };
+        let of = |p: &Part<S>| p.law.at(depth, greatest);
         let mut law = of(&self.parts[0]);
         for (i, p) in self.parts.iter().enumerate().skip(1) {
             let here = S::of(i as f64 - 0.5).lt(part) & part.lt(S::of(i as f64 + 0.5));
@@ -317,12 +323,43 @@ impl<S: Scalar> Pair<S> {
     }
 }
 
-/// What the nearest part does at one deformation.
-struct Law<S> {
-    force: S,
-    energy: S,
+/// What a material does at one deformation.
+pub(super) struct Law<S> {
+    pub force: S,
+    pub energy: S,
     friction: S,
     friction_speed_squared: S,
+}
+
+impl<S: Scalar> MaterialLaw<S> {
+    pub(super) fn new(material: &Material) -> Self {
+        MaterialLaw {
+            spring: Spring::new(&material.spring),
+            friction: S::of(material.friction),
+            friction_speed_squared: S::of(material.friction_speed_m_s.powi(2)),
+        }
+    }
+
+    /// Force and energy at deformation `depth` after a greatest deformation `greatest`.
+    #[inline(always)]
+    pub(super) fn at(&self, depth: S, greatest: S) -> Law<S> {
+        let (force, energy) = self.spring.respond(depth, greatest);
+        let (friction, friction_speed_squared) = (self.friction, self.friction_speed_squared);
+        Law { force, energy, friction, friction_speed_squared }
+    }
+}
+
+impl<S: Scalar> Touch<S> {
+    /// With the friction of its normal force, at a point A that lies `lever` from the centre against N̂.
+    #[inline(always)]
+    pub(super) fn rubbing(self, law: &Law<S>, approach: &Approach<S>, lever: S) -> Self {
+        let arm = self.normal * -lever;
+        let velocity = approach.velocity + approach.omega.cross(arm);
+        let slip = velocity - self.normal * self.normal.dot(velocity);
+        let speed = (slip.norm_squared() + law.friction_speed_squared).sqrt();
+        let friction = slip * -(law.friction * self.normal_force / speed);
+        Touch { friction, slip, ..self }
+    }
 }
 
 /// w = clamp01(1 − d/r).

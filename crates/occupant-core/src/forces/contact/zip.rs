@@ -1,6 +1,6 @@
 //! Contact laws number by number.
 
-use super::{ContactSystem, Pair, Part, Plane};
+use super::{ContactSystem, MaterialLaw, Pair, Part, Plane};
 use crate::forces::element::Unlike;
 
 /// Other pairs of spheres and surfaces, because of other surfaces, frames, seams or lists of spheres.
@@ -24,6 +24,7 @@ impl<S: Copy> ContactSystem<S> {
             planes: planes.map(|(a, b)| a.zip(b, f)).collect(),
             pairs: pairs.map(|(a, b)| a.zip(b, f)).collect::<Result<_, _>>()?,
             edge_lever: f(self.edge_lever, other.edge_lever),
+            solids: self.solids.zip(&other.solids, f)?,
             reach_of_a_step: f(self.reach_of_a_step, other.reach_of_a_step),
         })
     }
@@ -57,12 +58,16 @@ impl<S: Copy> Part<S> {
             return Err(OTHER_PAIRS);
         }
         let outline = self.outline.zip(&other.outline, f);
-        Ok(Part {
-            surface: self.surface,
-            outline: outline.ok_or(OTHER_OUTLINES)?,
+        Ok(Part { surface: self.surface, outline: outline.ok_or(OTHER_OUTLINES)?, law: self.law.zip(&other.law, f) })
+    }
+}
+
+impl<S: Copy> MaterialLaw<S> {
+    pub(super) fn zip<A: Copy, T>(&self, other: &MaterialLaw<A>, f: &impl Fn(S, A) -> T) -> MaterialLaw<T> {
+        MaterialLaw {
             spring: self.spring.zip(&other.spring, f),
             friction: f(self.friction, other.friction),
             friction_speed_squared: f(self.friction_speed_squared, other.friction_speed_squared),
-        })
+        }
     }
 }

@@ -52,8 +52,12 @@ type Part = Quantity<OfTouch>;
 
 /// Message `Touch` within `SphereLoad`.
 const TOUCH: &[Part] = &[
-    Part::new(One, Axes::None, Take::Text(|(s, c)| s.model.setup().surfaces[c.surface].name.clone()))
-        .field(1, "surface", ""),
+    Part::new(
+        One,
+        Axes::None,
+        Take::Text(|(s, c)| s.model.setup().surface_name(c.surface).unwrap_or_default().to_owned()),
+    )
+    .field(1, "surface", ""),
     Part::number(Metre, |(_, c)| c.depth_m).field(2, "depth", ""),
     Part::number(Newton, |(_, c)| c.normal_force_n).field(3, "normal_force", ""),
     Part::vector(Newton, Axes::Vehicle, |(_, c)| c.force_n).field(4, "force", ""),

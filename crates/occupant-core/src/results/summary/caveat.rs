@@ -71,6 +71,12 @@ impl Caveat {
         Caveat::of_sphere(body, sphere, "too_deep", seen)
     }
 
+    /// A sphere that used up a solid, or went through it.
+    pub(super) fn bottomed(body: &Body, sphere: usize, solid: &str, depth: Peak, thickness_m: f64) -> Self {
+        let seen = format!("{} deep in {solid} {}, which is {} thick", mm(depth.value), at(depth), mm(thickness_m));
+        Caveat::of_sphere(body, sphere, "bottomed", seen)
+    }
+
     fn of_sphere(body: &Body, sphere: usize, sign: &str, seen: String) -> Self {
         let own = &body.spheres[sphere];
         let name = own.name.replace('_', " ");

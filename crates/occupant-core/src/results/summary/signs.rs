@@ -8,7 +8,7 @@ use crate::forces::joint::JointLaw;
 use crate::model::Model;
 use crate::model::seating::InitialPosture;
 use crate::motion::vector::V3;
-use crate::results::sample::Sample;
+use crate::results::sample::{Contact, Sample};
 
 /// Spheres that overlap by less have grazed an edge, m; limbs whose spheres are nearer have not gone between them.
 const GRAZE_M: f64 = 0.01;
@@ -18,6 +18,8 @@ const LOOK_S: f64 = 1.99e-3;
 
 /// Joints a little beyond the end of a stop are at it, rad: 10°.
 const AT_STOP_RAD: f64 = 0.175;
+/// Deeper into a solid than this part of its thickness it is used up.
+const BOTTOM: f64 = 0.8;
 /// What a seat's cushion gives way at most, m. Anything else gives way by the diameter of what presses on it.
 const CUSHION_M: f64 = 0.15;
 
@@ -29,6 +31,8 @@ pub(super) struct Signs {
     /// By sphere: overlap without force, depth, and the surfaces where.
     passed: Vec<Sunk>,
     deep: Vec<Sunk>,
+    /// By sphere: depth at which a solid is used up, and how thick that is, m.
+    bottomed: Vec<(Sunk, f64)>,
     /// By segment: how far from its spheres it went through a surface.
     cuts: Vec<Sunk>,
     /// By pair: whether it had passed at the start, whether the sphere's limb went through it.
@@ -71,6 +75,7 @@ impl Signs {
         Signs {
             joints: vec![turned; body.tree.joints().len()],
             passed: spheres.clone(),
+            bottomed: spheres.iter().map(|none| (*none, 0.0)).collect(),
             deep: spheres,
             cuts: vec![Sunk::NONE; body.tree.segments().len()],
             begun: vec![[false; 2]; model.system().forces.contacts.pairs.len()],
@@ -89,13 +94,27 @@ impl Signs {
             turned.see(&model.setup().joints[joint], sample.joint_angle_rad(joint), time_s);
         }
         for contact in sample.contacts() {
-            self.deep[contact.sphere].see(contact.depth_m, contact.surface, time_s);
+            match contact.surface.checked_sub(model.faces().len()) {
+                None => self.deep[contact.sphere].see(contact.depth_m, contact.surface, time_s),
+                Some(solid) => self.see_solid(sample, &contact, solid),
+            }
         }
         if !self.is_begun || time_s - self.seen_s >= LOOK_S {
             for group in &model.system().forces.contacts.groups {
                 self.see_group(sample, group);
             }
             (self.is_begun, self.seen_s) = (true, time_s);
+        }
+    }
+
+    /// A sphere in a solid.
+    fn see_solid(&mut self, sample: &Sample<'_>, contact: &Contact, solid: usize) {
+        let thickness_m = sample.solid_thickness_m(contact.sphere, solid);
+        let radius_m = sample.model.body().spheres[contact.sphere].radius_m;
+        let most_m = if thickness_m > radius_m { BOTTOM * thickness_m } else { radius_m + thickness_m };
+        let (bottomed, of_m) = &mut self.bottomed[contact.sphere];
+        if contact.depth_m > most_m && bottomed.most.see(contact.depth_m, sample.time_s) {
+            (bottomed.surface, *of_m) = (contact.surface, thickness_m);
         }
     }
 
@@ -146,7 +165,9 @@ impl Signs {
         let deep = deep.map(|(sphere, sunk, most_m)| Caveat::too_deep(body, sphere, name(sunk), sunk.most, most_m));
         let cuts = body.tree.segments().zip(&self.cuts).filter(|(_, sunk)| sunk.most.value > GRAZE_M);
         let cuts = cuts.map(|(limb, sunk)| Caveat::cut(body, limb, name(sunk), sunk.most));
-        joints.chain(passed).chain(deep).chain(cuts).collect()
+        let bottomed = self.bottomed.iter().enumerate().filter(|(_, (sunk, _))| sunk.most.value > 0.0);
+        let bottomed = bottomed.map(|(s, (sunk, of_m))| Caveat::bottomed(body, s, name(sunk), sunk.most, *of_m));
+        joints.chain(passed).chain(deep).chain(bottomed).chain(cuts).collect()
     }
 }
 

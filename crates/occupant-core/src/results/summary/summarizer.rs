@@ -204,7 +204,7 @@ impl Recorder for Summarizer {
         let case = Case {
             title: setup.title.clone(),
             body: setup.body.clone(),
-            surfaces: setup.surfaces.iter().map(|s| s.name.clone()).collect(),
+            surfaces: setup.surface_names().map(str::to_owned).collect(),
             integrator: setup.integrator.name(),
             time: setup.time,
         };

@@ -3,14 +3,16 @@
 use indexmap::IndexSet;
 use placed_text::{Node, Problem, did_you_mean, follow, one_of, parse_path, targets, to_text};
 
-/// Where a name stands, what it names, and the table that has things of that kind.
-const REFERENCES: [(&str, &str, &str); 9] = [
+/// Where a name stands, what it names, and the tables that have things of that kind.
+const REFERENCES: [(&str, &str, &str); 11] = [
     ("joints.*.set", "joint set", "joint_sets"),
     ("surfaces.*.material", "material", "materials"),
     ("surfaces.*.spheres[*]", "sphere", "body.spheres"),
+    ("solids.*.material", "material", "materials"),
+    ("solids.*.spheres[*]", "sphere", "body.spheres"),
     ("belts.*.sphere", "sphere", "body.spheres"),
-    ("seats.*.cushion", "surface", "surfaces"),
-    ("seats.*.back", "surface", "surfaces"),
+    ("seats.*.cushion", "surface", "surfaces|solids"),
+    ("seats.*.back", "surface", "surfaces|solids"),
     ("posture.seat", "seat", "seats"),
     ("initial_state.passed[*][0]", "sphere", "body.spheres"),
     ("initial_state.passed[*][1]", "surface", "surfaces"),
@@ -22,8 +24,8 @@ const SHOWN: usize = 50;
 /// Names in an explicit scenario that lead nowhere; `spheres` are known besides those that it has.
 pub(in crate::scenario) fn references(explicit: &Node, spheres: &[&str]) -> Vec<Problem> {
     let mut problems = Vec::new();
-    for (pattern, what, table) in REFERENCES {
-        let mut names: IndexSet<&str> = names_in(explicit, table).collect();
+    for (pattern, what, tables) in REFERENCES {
+        let mut names: IndexSet<&str> = tables.split('|').flat_map(|table| names_in(explicit, table)).collect();
         if what == "sphere" {
             names.extend(spheres);
         }

@@ -18,6 +18,7 @@ mod record_file;
 mod run;
 mod sensors;
 mod setup;
+mod solids;
 mod surfaces;
 
 use std::sync::OnceLock;
@@ -38,6 +39,7 @@ use self::path::PathSection;
 use self::posture::{InitialStateSection, PostureSection, SeatSection};
 use self::quantity::ANY;
 use self::run::{IntegratorSection, OutputSection, TimeSection};
+use self::solids::SolidSection;
 use self::surfaces::{ContactSection, SurfaceSection};
 use super::check::schema::schema_of;
 use super::kind::{self, UnitSystem};
@@ -119,4 +121,7 @@ pub struct Scenario {
     /// Surfaces by name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) surfaces: IndexMap<String, SurfaceSection>,
+    /// Solids by name: bodies with thickness, which hold spheres off from all sides.
+    #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
+    pub(crate) solids: IndexMap<String, SolidSection>,
 }

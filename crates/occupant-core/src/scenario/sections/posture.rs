@@ -18,9 +18,9 @@ use placed_text::Problem;
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct SeatSection {
-    /// Name of the cushion in `surfaces`.
+    /// Name of the cushion in `surfaces` or `solids`.
     pub(crate) cushion: String,
-    /// Name of the seat back in `surfaces`.
+    /// Name of the seat back in `surfaces` or `solids`.
     pub(crate) back: String,
     /// Lateral place of the occupant's middle plane; left is negative; 0 if absent.
     pub(crate) y: Option<Length>,
@@ -85,9 +85,11 @@ pub(super) fn posture(b: &mut Builder, s: &Scenario, body: &Body) -> (Option<Ini
 
 fn seating(s: &Scenario, p: &PostureSection) -> Option<Seating> {
     let seat = s.seats.get(&p.seat)?;
+    let solid = |name: &str| Some(s.surfaces.len() + s.solids.get_index_of(name)?);
+    let part = |name: &str| s.surfaces.get_index_of(name).or_else(|| solid(name));
     Some(Seating {
-        cushion: s.surfaces.get_index_of(&seat.cushion)?,
-        back: s.surfaces.get_index_of(&seat.back)?,
+        cushion: part(&seat.cushion)?,
+        back: part(&seat.back)?,
         lateral_m: si_or(&seat.y, 0.0),
         lean_rad: [p.middle_torso.si(), p.upper_torso.si(), p.head.si(), p.lower_torso.si()],
         upper_arms_rad: p.upper_arms.si(),

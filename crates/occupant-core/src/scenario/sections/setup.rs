@@ -8,7 +8,8 @@ use serde::Deserialize;
 use super::builder::Builder;
 use super::quantity::si_or;
 use super::{
-    BodySection, JointsSection, Scenario, belts, body, joints, materials, path, plausible, posture, run, surfaces,
+    BodySection, JointsSection, Scenario, belts, body, joints, materials, path, plausible, posture, run, solids,
+    surfaces,
 };
 use crate::body::Body;
 use crate::forces::joint::Joints;
@@ -29,6 +30,7 @@ pub(in crate::scenario) fn setup(
     let joints = joints::joints(b, &explicit.joints);
     references(&document.root, &[]).into_iter().for_each(|problem| b.report(problem));
     let surfaces = surfaces::surfaces(b, explicit, &body);
+    let solids = solids::solids(b, explicit, &body);
     let belts = belts::belts(explicit, &body);
     let (posture, velocity) = posture::posture(b, explicit, &body);
     let time = run::time(b, explicit);
@@ -46,6 +48,7 @@ pub(in crate::scenario) fn setup(
         gravity_m_s2,
         materials: materials::materials(explicit),
         surfaces,
+        solids,
         edge_force: surfaces::edge_force(explicit),
         belts,
         path,

@@ -97,26 +97,28 @@ pub(super) fn edge_force(s: &Scenario) -> EdgeForce {
 pub(super) fn surfaces(b: &mut Builder, scenario: &Scenario, body: &Body) -> Vec<Surface> {
     let mut undecided = Vec::new();
     let each = scenario.surfaces.iter();
-    let surfaces = each.map(|(name, section)| surface(b, scenario, body, (name, section), &mut undecided)).collect();
+    let surfaces = each
+        .map(|(name, section)| surface(b, scenario, body, (&with_key("surfaces", name), name, section), &mut undecided))
+        .collect();
     report_undecided(b, &undecided);
     surfaces
 }
 
-fn surface(
+/// The surface that the section at `path` says.
+pub(super) fn surface(
     b: &mut Builder,
     scenario: &Scenario,
     body: &Body,
-    (name, section): (&str, &SurfaceSection),
+    (path, name, section): (&str, &str, &SurfaceSection),
     undecided: &mut Vec<String>,
 ) -> Surface {
-    let path = with_key("surfaces", name);
     let frame = section.frame.unwrap_or_default();
     let known = body.spheres.iter().map(|s| s.name.as_str());
     Surface {
         name: name.to_owned(),
         frame,
-        outline: outline(b, &path, section, frame),
-        facing: facing(b, scenario, (&path, section), frame, undecided),
+        outline: outline(b, path, section, frame),
+        facing: facing(b, scenario, (path, section), frame, undecided),
         material: index_of(&section.material, scenario.materials.keys().map(String::as_str)),
         spheres: section.spheres.as_ref().map(|names| names.iter().map(|n| index_of(n, known.clone())).collect()),
     }
@@ -179,7 +181,7 @@ fn facing(
 }
 
 /// One message for all surfaces whose open side is not told.
-fn report_undecided(b: &mut Builder, paths: &[String]) {
+pub(super) fn report_undecided(b: &mut Builder, paths: &[String]) {
     let Some((first, others)) = paths.split_first() else { return };
     let found = match others.len() {
         0 => format!("`{first}` does not say which side is open"),

@@ -39,7 +39,7 @@ impl Touching {
     pub(super) fn words(self, model: &Model, sphere: usize, surface: usize) -> String {
         let setup = model.setup();
         let sphere = setup.body.spheres.get(sphere).map_or("?", |s| s.name.as_str());
-        let surface = setup.surfaces.get(surface).map_or("?", |s| s.name.as_str());
+        let surface = setup.surface_name(surface).unwrap_or("?");
         let verb = match self {
             Touching::Begins => "begins to touch",
             Touching::Ends => "leaves",
@@ -79,7 +79,7 @@ pub(super) struct Lookout {
 
 impl Lookout {
     pub fn new(model: &Model) -> Self {
-        let pairs = model.system().forces.contacts.pairs.len();
+        let pairs = model.start().history.memory.contacts.len();
         Lookout { looks: NONE_YET, pairs: vec![PairNow::default(); pairs], touching: Vec::with_capacity(pairs) }
     }
 
@@ -105,9 +105,9 @@ impl Lookout {
         notes: &mut Notes<N>,
     ) {
         let setup = model.setup();
-        let part = &model.system().forces.contacts.pairs[touch.pair].parts[touch.part.value as usize];
-        let (sphere, surface) = (touch.sphere, part.surface);
-        let material = &setup.materials[setup.surfaces[surface].material];
+        let surface = model.system().forces.contacts.surface(touch.pair, touch.part.value as usize);
+        let sphere = touch.sphere;
+        let material = &setup.materials[setup.surface_material(surface)];
         let before = self.pairs[touch.pair];
         let begins = before.seen + 1 != self.looks;
         let slip = V3 { x: touch.slip.x.value, y: touch.slip.y.value, z: touch.slip.z.value };
@@ -141,7 +141,7 @@ impl Lookout {
             notes.note(contact(what), Some(jump_n));
         }
         if now.surface != before.surface {
-            let same = setup.surfaces[before.surface].material == setup.surfaces[surface].material;
+            let same = setup.surface_material(before.surface) == setup.surface_material(surface);
             let jump_n = (!same).then_some(touch.normal_force.value);
             notes.note(contact(Touching::Crosses), jump_n);
         }

@@ -25,7 +25,8 @@ pub(crate) fn write(wire: &mut Wire, ns: u64, sample: &Sample<'_>, m_per_n: f64)
     };
     replace(wire, ns, |w| {
         for contact in sample.contacts() {
-            let (sphere, surface) = (&setup.body.spheres[contact.sphere].name, &setup.surfaces[contact.surface].name);
+            let sphere = &setup.body.spheres[contact.sphere].name;
+            let surface = setup.surface_name(contact.surface).unwrap_or_default();
             show(w, &|| format!("{sphere}__{surface}"), contact.point_m, contact.force_n, CONTACT);
         }
         sample.pulls(&mut |pull| {

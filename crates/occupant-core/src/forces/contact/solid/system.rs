@@ -1,0 +1,219 @@
+//! Spheres against solids: who meets whom, what is remembered, and the force.
+//!
+//! A sphere meets the solids of a group as one body: φ = min over them of φ_k (6.2), each with the face that is remembered
+//! of it, and one Δ_m. With (F, U) of the spring at Δ = r − φ the sphere gets F N̂ and, at A = c − max(r − Δ/2, 0) N̂ (6.3),
+//! the friction; U is a function of the centre alone.
+
+use super::{Faced, Solid, build};
+use crate::body::Body;
+use crate::forces::contact::encounter::Approach;
+use crate::forces::contact::material::{Material, Memory};
+use crate::forces::contact::surface::Frame;
+use crate::forces::contact::zip::{OTHER_OUTLINES, OTHER_PAIRS};
+use crate::forces::contact::{Group, MaterialLaw, OPEN, PairHistory, TOUCHING, Touch};
+use crate::forces::element::Unlike;
+use crate::motion::frame::{SPACE, VEHICLE};
+use crate::motion::scalar::Scalar;
+use crate::motion::vector::V3;
+
+/// All solids, and which spheres meet them.
+#[derive(Clone, Debug)]
+pub(crate) struct Solids<S> {
+    /// Pairs by sphere and frame, numbered on from those of faces.
+    pub(crate) groups: Vec<Group>,
+    /// The pairs.
+    pub(crate) pairs: Vec<Union<S>>,
+    /// By solid.
+    pub(crate) shapes: Vec<Faced<S>>,
+}
+
+/// A sphere against the solids of a group.
+#[derive(Clone, Debug)]
+pub(crate) struct Union<S> {
+    /// The solids.
+    pub members: Vec<Member>,
+    pub law: MaterialLaw<S>,
+    /// 1 where Δ_m is kept after opening, else 0.
+    pub retain: S,
+}
+
+/// A solid of a union.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Member {
+    /// Its index among solids.
+    pub solid: usize,
+    /// Its index behind all surfaces.
+    pub surface: usize,
+    /// Where the face stands that is remembered of it.
+    pub past: usize,
+}
+
+/// The nearest of a union.
+#[derive(Clone, Copy)]
+pub(crate) struct Nearest<S> {
+    /// Index among the members, as a number.
+    pub part: S,
+    /// Δ, m.
+    pub depth: S,
+    pub normal: V3<S>,
+}
+
+impl Solids<f64> {
+    /// Those that the spheres of `body` can touch; faces have `surfaces` names and `pairs` pairs.
+    pub(crate) fn new(
+        body: &Body,
+        solids: &[Solid],
+        surfaces: usize,
+        materials: &[Material],
+        pairs: usize,
+    ) -> Solids<f64> {
+        let mut all = Solids { shapes: solids.iter().flat_map(|s| build(&s.shape)).collect(), ..Solids::none() };
+        for sphere in 0..body.spheres.len() {
+            for (frame, index) in [(Frame::Vehicle, VEHICLE), (Frame::Space, SPACE)] {
+                let first = all.pairs.len();
+                let meets = |s: &Solid| s.frame == frame && s.spheres.as_ref().is_none_or(|s| s.contains(&sphere));
+                for (i, solid) in solids.iter().enumerate().filter(|(_, solid)| meets(solid)) {
+                    let member = Member { solid: i, surface: surfaces + i, past: 0 };
+                    let is_same = |union: &&mut Union<f64>| solids[union.members[0].solid].group == solid.group;
+                    let known = all.pairs[first..].iter_mut().find(is_same).filter(|_| solid.group.is_some());
+                    match known {
+                        Some(union) => union.members.push(member),
+                        None => all.pairs.push(Union::new(member, &materials[solid.material])),
+                    }
+                }
+                let pairs = pairs + first..pairs + all.pairs.len();
+                if !pairs.is_empty() {
+                    all.groups.push(Group { sphere, frame: index, pairs });
+                }
+            }
+        }
+        let behind = pairs + all.pairs.len();
+        for (i, member) in all.pairs.iter_mut().flat_map(|union| &mut union.members).enumerate() {
+            member.past = behind + i;
+        }
+        all
+    }
+}
+
+impl Union<f64> {
+    fn new(member: Member, material: &Material) -> Self {
+        let retain = if material.memory == Memory::Retain { 1.0 } else { 0.0 };
+        Union { members: vec![member], law: MaterialLaw::new(material), retain }
+    }
+}
+
+impl<S> Solids<S> {
+    pub(crate) fn none() -> Self {
+        Solids { groups: Vec::new(), pairs: Vec::new(), shapes: Vec::new() }
+    }
+
+    /// Every sphere that meets a solid, by the group of its pair.
+    pub(crate) fn met(&self) -> impl Iterator<Item = (&Group, &Member)> {
+        let first = self.groups.first().map_or(0, |group| group.pairs.start);
+        let unions =
+            self.groups.iter().flat_map(move |group| group.pairs.clone().map(move |i| (group, &self.pairs[i - first])));
+        unions.flat_map(|(group, union)| union.members.iter().map(move |member| (group, member)))
+    }
+
+    /// How many things are remembered: Δ_m of each pair, the face of each of its members.
+    pub(crate) fn count(&self) -> usize {
+        self.pairs.iter().map(|union| 1 + union.members.len()).sum()
+    }
+}
+
+impl<S: Scalar> Solids<S> {
+    /// The nearest solid of pair `j` to a sphere. With `COMMIT` the remembered faces first take over its place, which must
+    /// be that of an accepted step.
+    #[inline(always)]
+    pub(crate) fn nearest<const COMMIT: bool>(
+        &self,
+        j: usize,
+        centre: V3<S>,
+        radius: S,
+        past: &mut [PairHistory<S>],
+    ) -> Nearest<S> {
+        let mut nearest = Nearest { part: S::zero(), depth: S::of(f64::NEG_INFINITY), normal: V3::zero() };
+        for (i, member) in self.pairs[j].members.iter().enumerate() {
+            let (shape, phase) = (&self.shapes[member.solid], &mut past[member.past].phase);
+            let distance = if COMMIT { shape.commit(centre, radius, phase) } else { shape.distance(centre, *phase) };
+            let depth = radius - distance.phi;
+            let is_nearer = nearest.depth.lt(depth);
+            nearest = Nearest {
+                part: S::select(is_nearer, S::of(i as f64), nearest.part),
+                depth: S::select(is_nearer, depth, nearest.depth),
+                normal: V3::select(is_nearer, distance.normal, nearest.normal),
+            };
+        }
+        nearest
+    }
+}
+
+impl<S: Scalar> Union<S> {
+    /// Takes the depth at an accepted step over into what the pair remembers.
+    #[inline(always)]
+    pub(crate) fn commit(&self, depth: S, pair: &mut PairHistory<S>) {
+        let touches = depth.gt(S::zero());
+        pair.phase = S::select(touches, S::of(TOUCHING), S::of(OPEN));
+        pair.greatest = S::select(touches, pair.greatest.max(depth), pair.greatest * self.retain);
+    }
+
+    /// Forces on a sphere, in the lanes where the pair is `live`.
+    #[inline(always)]
+    pub(crate) fn press(
+        &self,
+        group: &Group,
+        pair: usize,
+        nearest: Nearest<S>,
+        live: S::Mask,
+        approach: &Approach<S>,
+        greatest: S,
+    ) -> Touch<S> {
+        let Nearest { part, depth, normal } = nearest;
+        let law = self.law.at(depth, greatest);
+        let weight = S::select(live, S::one(), S::zero());
+        let touch = Touch {
+            sphere: group.sphere,
+            frame: group.frame,
+            pair,
+            part,
+            weight,
+            normal,
+            depth,
+            closing: -normal.dot(approach.velocity),
+            velocity: approach.velocity,
+            normal_force: weight * law.force,
+            edge: V3::zero(),
+            friction: V3::zero(),
+            stored: weight * law.energy,
+            slip: V3::zero(),
+        };
+        touch.rubbing(&law, approach, lever(depth, approach.radius))
+    }
+}
+
+/// How far A is from the centre against N̂: half-way into the overlap, never beyond the centre (6.3).
+#[inline(always)]
+pub(crate) fn lever<S: Scalar>(depth: S, radius: S) -> S {
+    (radius - depth * S::of(0.5)).max(S::zero())
+}
+
+impl<S: Copy> Solids<S> {
+    pub(crate) fn zip<A: Copy, T>(&self, other: &Solids<A>, f: &impl Fn(S, A) -> T) -> Result<Solids<T>, Unlike> {
+        let members = |(a, b): (&Union<S>, &Union<A>)| a.members == b.members;
+        let pairs = self.pairs.iter().zip(&other.pairs);
+        if self.groups != other.groups || !pairs.clone().all(members) || self.shapes.len() != other.shapes.len() {
+            return Err(OTHER_PAIRS);
+        }
+        let union = |(a, b): (&Union<S>, &Union<A>)| Union {
+            members: a.members.clone(),
+            law: a.law.zip(&b.law, f),
+            retain: f(a.retain, b.retain),
+        };
+        let shapes = self.shapes.iter().zip(&other.shapes).map(|(a, b)| a.zip(b, f).ok_or(OTHER_OUTLINES));
+        Ok(Solids {
+            groups: self.groups.clone(),
+            pairs: pairs.map(union).collect(),
+            shapes: shapes.collect::<Result<_, _>>()?,
+        })
+    }
+}
