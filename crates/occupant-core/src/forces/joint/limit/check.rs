@@ -2,7 +2,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Centre, Joints, LimitLaw, Limits, Stop};
+use super::{Centre, Curve, Joints, LimitLaw, Limits, Stop};
 use crate::body::Place;
 use crate::forces::element::Instant;
 use crate::forces::joint::JointLaw;
@@ -27,16 +27,7 @@ pub(super) fn check(joints: &Joints, limits: &Limits, problems: &mut Problems) {
         problems.error(format!("{path}.centre"), found, "two directions, ahead across the axis");
     }
     if let Some(bend) = &limits.bend {
-        let [least, most] = bend.angle.bounds().map(f64::to_degrees);
-        let highest = if limits.turn.is_some() { TWIST_DEG } else { BEND_DEG[1] };
-        if !(least >= BEND_DEG[0] - 1e-9 && most <= highest + 1e-9) {
-            let found = format!("limits from {least:.1}° to {most:.1}°");
-            let beside = if limits.turn.is_some() { ", beside a limit of twist" } else { "" };
-            problems.error(&bend_path, found, format!("{}° to {highest}° everywhere{beside}", BEND_DEG[0]));
-        } else if !matches!(row.place, Place::Beside(..)) && !bend.angle.is_even() {
-            let found = "limits that differ to the left and to the right of a joint in the middle";
-            problems.warning(&bend_path, found, "the same angle at 90° and 270°, and so on");
-        }
+        check_bend(&bend.angle, limits.turn.is_some(), !matches!(row.place, Place::Beside(..)), &bend_path, problems);
         check_stop(&bend.stop, &bend_path, problems);
     }
     if let Some(turn) = &limits.turn {
@@ -57,6 +48,18 @@ pub(super) fn check(joints: &Joints, limits: &Limits, problems: &mut Problems) {
     }
 }
 
+fn check_bend(angle: &Curve<f64>, is_twisted: bool, is_in_the_middle: bool, path: &str, problems: &mut Problems) {
+    let ([least, most], lowest) = (angle.bounds().map(f64::to_degrees), BEND_DEG[0]);
+    let (highest, beside) = if is_twisted { (TWIST_DEG, ", beside a limit of twist") } else { (BEND_DEG[1], "") };
+    if !(least >= lowest - 1e-9 && most <= highest + 1e-9) {
+        let found = format!("limits from {least:.1}° to {most:.1}°");
+        problems.error(path, found, format!("{lowest}° to {highest}° everywhere{beside}"));
+    } else if is_in_the_middle && !angle.is_even() {
+        let found = "limits that differ to the left and to the right of a joint in the middle";
+        problems.warning(path, found, "the same angle at 90° and 270°, and so on");
+    }
+}
+
 fn check_stop(stop: &Stop<f64>, path: &str, problems: &mut Problems) {
     let (steepest, falls) = stop.torque.steepness(PI);
     if falls || !(steepest > 0.0) {
@@ -68,7 +71,7 @@ fn check_stop(stop: &Stop<f64>, path: &str, problems: &mut Problems) {
 /// Joints that begin beyond their elastic limits.
 pub(super) fn start(joints: &Joints, law: &LimitLaw<f64>, at: &Instant<'_, f64>, problems: &mut Problems) {
     let path = format!("joints.{}", joints.tree()[law.joint].name);
-    let excess = law.excess(at).into_iter().flatten().fold(0.0, f64::max);
+    let excess = law.excess(at).into_iter().flatten().fold(0.0, |most, (_, excess)| excess.max(most));
     let found = format!("{:.1}° beyond its elastic limit at the start", excess.to_degrees());
     let expected = "a posture that the body can take, or a wider limit";
     if excess > BEYOND_RAD {

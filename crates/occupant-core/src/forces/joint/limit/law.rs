@@ -173,14 +173,16 @@ struct Reply<S> {
 }
 
 impl<S: Scalar> Past<S> {
-    /// Of a joint whose excess at the start, if there is any, has lost nothing yet.
-    pub(super) fn start(stop: &Stop<S>, excess: S) -> Self {
-        let greatest = excess.max(S::zero());
-        Past { greatest, lost: -stop.lost(greatest) }
+    fn none() -> Self {
+        Past { greatest: S::zero(), lost: S::zero() }
     }
 
-    pub(super) fn none() -> Self {
-        Past { greatest: S::zero(), lost: S::zero() }
+    /// At the start: what a joint is beyond a limit then is not lost.
+    pub(super) fn start(stop: Option<(&Stop<S>, S)>) -> Self {
+        stop.map_or(Past::none(), |(stop, excess)| {
+            let greatest = excess.max(S::zero());
+            Past { greatest, lost: -stop.lost(greatest) }
+        })
     }
 }
 
@@ -234,50 +236,59 @@ impl<S: Scalar> LimitLaw<S> {
         past: &mut LimitHistory<S>,
     ) -> (LimitAction<S>, S::Mask) {
         let (k, (inner, outer)) = (at.k, self.segments);
-        let (mut action, mut acts) = (LimitAction::none(self.joint), S::truth(false));
-        let [bend_past, turn_past] = &mut past.stops;
-        let omega = k.omega[outer] - k.omega[inner];
-        if let Site::Hinge(limb) = self.site {
+        let mut action = LimitAction::none(self.joint);
+        let acts = if let Site::Hinge(limb) = self.site {
             let (angle, axis) = (at.state.hinge[limb], k.axes[inner].y);
             action.angles[0] = angle;
-            if let Some(turn) = &self.turn {
-                acts = turn.act::<COMMIT>(S::truth(true), angle, || axis, turn_past, &mut action);
-            }
+            let act =
+                |turn: &Turn<S>| turn.act::<COMMIT>(S::truth(true), angle, || axis, &mut past.stops[1], &mut action);
+            self.turn.as_ref().map_or(S::truth(false), act)
         } else {
-            let pose = self.triads.pose(&k.axes[inner], &k.axes[outer]);
-            if COMMIT {
-                action.angles = [pose.bend(), pose.azimuth(), pose.twist()];
-            }
-            if let Some(bend) = &self.bend {
-                acts = bend.act::<COMMIT>(&pose, bend_past, &mut action);
-            }
-            if let Some(turn) = &self.turn {
-                let near = pose.is_twisted_beyond(turn.gate);
-                if COMMIT || S::any(near) {
-                    let (twist, twisting) = (pose.twist(), || pose.twisting());
-                    acts = acts | turn.act::<COMMIT>(near, twist, twisting, turn_past, &mut action);
-                }
-            }
-        }
+            self.act_ball::<COMMIT>(&self.triads.pose(&k.axes[inner], &k.axes[outer]), past, &mut action)
+        };
         action.moment = action.stop;
-        if let Some(friction) = &self.friction {
-            // T = −C_f ω/√(|ω|² + ω_f²)
-            let squared = omega.norm_squared();
-            let scale = friction.torque / (squared + friction.speed * friction.speed).sqrt();
-            action.moment -= omega * scale;
-            action.dissipated = scale * squared;
-            acts = S::truth(true);
-        }
-        (action, acts)
+        let Some(friction) = &self.friction else { return (action, acts) };
+        // T = −C_f ω/√(|ω|² + ω_f²)
+        let omega = k.omega[outer] - k.omega[inner];
+        let squared = omega.norm_squared();
+        let scale = friction.torque / (squared + friction.speed * friction.speed).sqrt();
+        action.moment -= omega * scale;
+        action.dissipated = scale * squared;
+        (action, S::truth(true))
     }
 
-    /// χ of bend and turn at the start.
-    pub(super) fn excess(&self, at: &Instant<'_, S>) -> [Option<S>; 2] {
+    /// Stops of bend and twist.
+    #[inline(always)]
+    fn act_ball<const COMMIT: bool>(
+        &self,
+        pose: &Pose<S>,
+        past: &mut LimitHistory<S>,
+        action: &mut LimitAction<S>,
+    ) -> S::Mask {
+        let [bend_past, turn_past] = &mut past.stops;
+        let mut acts = S::truth(false);
+        if COMMIT {
+            action.angles = [pose.bend(), pose.azimuth(), pose.twist()];
+        }
+        if let Some(bend) = &self.bend {
+            acts = bend.act::<COMMIT>(pose, bend_past, action);
+        }
+        if let Some(turn) = &self.turn {
+            let near = pose.is_twisted_beyond(turn.gate);
+            if COMMIT || S::any(near) {
+                acts = acts | turn.act::<COMMIT>(near, pose.twist(), || pose.twisting(), turn_past, action);
+            }
+        }
+        acts
+    }
+
+    /// The stops of bend and turn, with χ of each.
+    pub(super) fn excess(&self, at: &Instant<'_, S>) -> [Option<(&Stop<S>, S)>; 2] {
         let (k, (inner, outer)) = (at.k, self.segments);
         let pose = self.triads.pose(&k.axes[inner], &k.axes[outer]);
         let angle = if let Site::Hinge(limb) = self.site { at.state.hinge[limb] } else { pose.twist() };
-        let bend = self.bend.as_ref().map(|bend| pose.bend() - bend.angle.around(pose.azimuth()).0);
-        [bend, self.turn.as_ref().map(|turn| turn.excess(angle).0)]
+        let bend = self.bend.as_ref().map(|b| (&b.stop, pose.bend() - b.angle.around(pose.azimuth()).0));
+        [bend, self.turn.as_ref().map(|turn| (&turn.stop, turn.excess(angle).0))]
     }
 }
 

@@ -105,7 +105,7 @@ impl Element for JointLimits {
     }
 
     fn start(law: &Vec<LimitLaw<f64>>, at: &Instant<'_, f64>) -> Vec<LimitHistory<f64>> {
-        law.iter().map(|law| law.start(at)).collect()
+        law.iter().map(|law| LimitHistory { stops: law.excess(at).map(Past::start) }).collect()
     }
 
     fn hints<S: Scalar>(_law: &Vec<LimitLaw<S>>) {}
@@ -193,18 +193,6 @@ fn law(data: &Joints, limits: &Limits) -> LimitLaw<f64> {
         bend: limits.bend.clone(),
         turn: limits.turn.clone(),
         friction: limits.friction,
-    }
-}
-
-impl LimitLaw<f64> {
-    /// What a joint remembers at the start: what it is beyond its limits then is not lost.
-    fn start(&self, at: &Instant<'_, f64>) -> LimitHistory<f64> {
-        let [bend, turn] = self.excess(at);
-        let past = |stop: Option<&Stop<f64>>, excess: Option<f64>| {
-            stop.zip(excess).map_or(Past::none(), |(stop, excess)| Past::start(stop, excess))
-        };
-        let [bend_stop, turn_stop] = [self.bend.as_ref().map(|b| &b.stop), self.turn.as_ref().map(|t| &t.stop)];
-        LimitHistory { stops: [past(bend_stop, bend), past(turn_stop, turn)] }
     }
 }
 
