@@ -76,15 +76,15 @@ pub(crate) struct JointSection {
     /// β₀, angle at which the stiffness gives no torque; the angle at the start if absent.
     pub(crate) rest_angle: Option<Angle<NOT_NEGATIVE>>,
     /// Where the limits of a ball joint count from: along the outer segment, straight, if absent.
-    pub(crate) centre: Option<CentreSection>,
+    pub(crate) centre: Option<Box<CentreSection>>,
     /// Elastic limit of the bend away from the centre axis; ball joints only.
-    pub(crate) limit: Option<BendLimitSection>,
+    pub(crate) limit: Option<Box<BendLimitSection>>,
     /// Elastic limit of the twist; ball joints only.
-    pub(crate) twist_limit: Option<RangeLimitSection>,
+    pub(crate) twist_limit: Option<Box<RangeLimitSection>>,
     /// Elastic limit of the angle; elbows and knees only.
-    pub(crate) angle_limit: Option<RangeLimitSection>,
+    pub(crate) angle_limit: Option<Box<RangeLimitSection>>,
     /// Dry friction.
-    pub(crate) friction: Option<FrictionSection>,
+    pub(crate) friction: Option<Box<FrictionSection>>,
 }
 
 /// Damping that grows towards a limit of travel.

@@ -91,12 +91,12 @@ pub(super) fn limits(b: &mut Builder, joint: Joint, section: &JointSection) -> O
     let path = format!("joints.{}", row.name);
     let key = if row.is_hinge() { "angle_limit" } else { "twist_limit" };
     let range = if row.is_hinge() { &section.angle_limit } else { &section.twist_limit };
-    let bend = section.limit.as_ref().filter(|_| !row.is_hinge());
+    let bend = section.limit.as_deref().filter(|_| !row.is_hinge());
     let limits = Limits {
         joint,
-        centre: section.centre.as_ref().map_or(Centre::Pitch { pitch_rad: 0.0 }, centre),
+        centre: section.centre.as_deref().map_or(Centre::Pitch { pitch_rad: 0.0 }, centre),
         bend: bend.map(|limit| bend_limit(b, &with_key(&path, "limit"), limit)),
-        turn: range.as_ref().map(|limit| turn_limit(b, &with_key(&path, key), limit)),
+        turn: range.as_deref().map(|limit| turn_limit(b, &with_key(&path, key), limit)),
         friction: section
             .friction
             .as_ref()
