@@ -112,10 +112,12 @@ impl Compartment {
             contacts: ContactSystem::new(&system.body, &data),
             belts: Vec::new(),
             joints: JointSystem::new(&system.joints, &[f64::NAN; 7]),
+            limits: Vec::new(),
         };
         let untouched = PairHistory { phase: OPEN, greatest: 0.0 };
         let contacts = vec![untouched; forces.contacts.pairs.len()];
-        let history = History::new(&forces, Memory { contacts, belts: Vec::new(), joints: Vec::new() });
+        let history =
+            History::new(&forces, Memory { contacts, belts: Vec::new(), joints: Vec::new(), limits: Vec::new() });
         let vehicle = Moving {
             origin: V3::of(&self.vehicle.origin),
             axes: M3::of(&self.vehicle.axes),

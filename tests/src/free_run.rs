@@ -52,8 +52,9 @@ impl FreeRun {
             contacts: ContactSystem::new(&system.body, &nothing),
             belts: Vec::new(),
             joints: JointSystem::new(&system.joints, &[f64::NAN; 7]),
+            limits: Vec::new(),
         };
-        let memory = Memory { contacts: Vec::new(), belts: Vec::new(), joints: Vec::new() };
+        let memory = Memory { contacts: Vec::new(), belts: Vec::new(), joints: Vec::new(), limits: Vec::new() };
         let history = History::new(&forces, memory);
         let skeleton = Skeleton::new(&system.body, -system.gravity.z);
         let system = kernel::System { skeleton, spheres: Site::all(&system.body), forces };

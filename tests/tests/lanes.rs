@@ -81,7 +81,10 @@ fn kernels() -> Vec<Kernel> {
 
 /// A cart with lap and torso belt, every number of it its own.
 fn cart(i: usize) -> Case {
-    let text = include_str!("../../scenarios/cart-lap-torso.toml");
+    cart_of(i, include_str!("../../scenarios/cart-lap-torso.toml"))
+}
+
+fn cart_of(i: usize, text: &str) -> Case {
     let (speed, old) = (14.0 + 1.5 * i as f64, "speed = \"20 mph\"");
     assert!(text.contains(old));
     let text = text.replace(old, &format!("speed = \"{speed} mph\""));
@@ -138,6 +141,26 @@ fn carts_side_by_side_have_the_bits_of_each_alone() {
                 assert_eq!(used, kernel);
             }
         }
+    }
+}
+
+#[test]
+fn elastic_limits_side_by_side_have_the_bits_of_each_alone() {
+    let text = include_str!("../../scenarios/cart-lap-torso.toml");
+    let text = text.replace("[joints]\npreset = \"male50\"", "[joints]\npreset = \"gebod\"");
+    // numbers of the limits, too, are each run's own
+    let own = |i: usize| {
+        let neck = format!("neck.limit.angle = {}\nneck.friction.torque = {}", 20 + 5 * i, i + 1);
+        let table = "torque = { angles = [0, 10, 20], moments = [0, 20, 90], returned = 0.5 }";
+        let limit =
+            format!("hips.limit = {{ azimuths = [0, 90, 180, 270], angles = [{}, 60, 70, 70], {table} }}", 80 - i);
+        text.replace("preset = \"gebod\"", &format!("preset = \"gebod\"\n{neck}\n{limit}"))
+    };
+    let cases: Vec<Case> = (0..5).map(|i| cart_of(i, &own(i))).collect();
+    assert!(cases.iter().all(|case| case.setup.joints.has_limits()));
+    for kernel in kernels() {
+        let results = compare(&cases, kernel);
+        assert!(results.iter().all(|((outcome, _), used)| outcome.is_ok() && *used == kernel));
     }
 }
 

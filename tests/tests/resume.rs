@@ -61,8 +61,18 @@ fn lap_and_torso(integrator: Integrator) -> Setup {
     setup
 }
 
-fn cases() -> [Setup; 4] {
-    [lap(RK4), lap(ADAPTIVE), lap_and_torso(RK4), lap_and_torso(ADAPTIVE)]
+/// Elastic limits instead of viscous stops.
+fn limited(integrator: Integrator) -> Setup {
+    let text = include_str!("../../scenarios/cart-lap-torso.toml");
+    let text = text.replace("[joints]\npreset = \"male50\"", "[joints]\npreset = \"gebod\"");
+    let alone = |name: &str| Err(format!("no file beside the text: {name}"));
+    let setup = Scenario::from_text(&text, Format::Toml, "cart", &alone).and_then(|s| s.build()).unwrap().0;
+    assert!(setup.joints.has_limits());
+    Setup { integrator, ..setup }
+}
+
+fn cases() -> [Setup; 6] {
+    [lap(RK4), lap(ADAPTIVE), lap_and_torso(RK4), lap_and_torso(ADAPTIVE), limited(RK4), limited(ADAPTIVE)]
 }
 
 #[test]

@@ -10,6 +10,7 @@ pub(super) fn read(back: &mut Back<'_>) {
     let joints = back.setup.joints.clone();
     let smooth = joints.epsilon == Joints::free(&TTI12).epsilon;
     back.misfit_if(!smooth, "joints.epsilon: cards cannot choose it");
+    back.misfit_if(joints.has_limits(), "elastic limits and dry friction of joints: cards have viscous stops only");
     let same = joints[LEFT_SHOULDER] == joints[RIGHT_SHOULDER] && joints[LEFT_HIP] == joints[RIGHT_HIP];
     back.misfit_if(!same, "shoulders or hips that differ between left and right: cards have one of each");
     let same = joints[LEFT_ELBOW] == joints[RIGHT_ELBOW] && joints[LEFT_KNEE] == joints[RIGHT_KNEE];

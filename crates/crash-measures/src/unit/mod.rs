@@ -74,6 +74,10 @@ pub enum Unit {
     NewtonMetrePerRadian,
     /// N·m·s/rad.
     NewtonMetreSecondPerRadian,
+    /// N·m/rad².
+    NewtonMetrePerRadianSquared,
+    /// N·m/rad³.
+    NewtonMetrePerRadianCubed,
 }
 
 /// What there is to say of a [`Unit`].
@@ -99,7 +103,7 @@ const fn row(
 
 /// In the order of [`Unit`]; exponents of length, mass, time, angle.
 #[rustfmt::skip]
-const TABLE: [Row; 16] = [
+const TABLE: [Row; 18] = [
     row("length", ["m", "m", "in"], [1, 0, 0, 0]),
     row("velocity", ["m/s", "m/s", "in/s"], [1, 0, -1, 0]),
     row("acceleration", ["m/s²", "m/s^2", "in/s^2"], [1, 0, -2, 0]),
@@ -116,6 +120,8 @@ const TABLE: [Row; 16] = [
     row("stiffness", ["N/m", "N/m", "lbf/in"], [0, 1, -2, 0]),
     row("rotational stiffness", ["N·m/rad", "N·m/rad", "in·lbf/rad"], [2, 1, -2, -1]),
     row("rotational damping", ["N·m·s/rad", "N·m·s/rad", "in·lbf·s/rad"], [2, 1, -1, -1]),
+    row("moment per angle squared", ["N·m/rad²", "N·m/rad^2", "in·lbf/rad^2"], [2, 1, -2, -2]),
+    row("moment per angle cubed", ["N·m/rad³", "N·m/rad^3", "in·lbf/rad^3"], [2, 1, -2, -3]),
 ];
 
 impl Unit {
@@ -149,7 +155,7 @@ impl Unit {
 mod tests {
     use super::*;
 
-    const ALL: [Unit; 16] = [
+    const ALL: [Unit; 18] = [
         Unit::Metre,
         Unit::MetrePerSecond,
         Unit::MetrePerSecondSquared,
@@ -166,6 +172,8 @@ mod tests {
         Unit::NewtonPerMetre,
         Unit::NewtonMetrePerRadian,
         Unit::NewtonMetreSecondPerRadian,
+        Unit::NewtonMetrePerRadianSquared,
+        Unit::NewtonMetrePerRadianCubed,
     ];
 
     /// SI units read back as 1 of themselves, those in inches and pounds as the same dimension.

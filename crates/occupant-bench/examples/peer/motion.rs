@@ -81,7 +81,7 @@ fn alone(model: &Model, now: &Instant) -> Instant {
     let mut now = now.held(model);
     now.system.forces.belts = Vec::new();
     now.system.forces.joints = JointSystem::new(&joints, &[0.0; 7]);
-    let memory = Memory { contacts: Vec::new(), belts: Vec::new(), joints: Vec::new() };
+    let memory = Memory { contacts: Vec::new(), belts: Vec::new(), joints: Vec::new(), limits: Vec::new() };
     now.history = History::new(&now.system.forces, memory);
     now
 }

@@ -3,6 +3,7 @@
 use std::fmt::Debug;
 
 use crate::body::{Body, SEGMENTS};
+use crate::forces::list::STORES;
 use crate::forces::rate::Rate;
 use crate::forces::sphere::Site;
 use crate::motion::dynamics::Wrench;
@@ -21,8 +22,10 @@ use placed_text::Problems;
 /// The type that implements it is only a name; the types of its law and memory stand beside it. A kind may use the body,
 /// its motion and the frames, and knows no other kind.
 pub trait Element: Copy + Debug {
-    /// Where the energy stands that the elements store.
-    const STORED: StoredEnergy;
+    /// Whether results speak of the kind only where a model has elements of it.
+    const OPTIONAL: bool = false;
+    /// Energies that the elements hold, of which the first is their first place in the energy ledger.
+    const STORED: &'static [StoredEnergy];
     /// The work sums that they add to.
     const SUMS: &'static [WorkSum];
     /// What messages call one of them, and many.
@@ -118,8 +121,8 @@ pub trait Element: Copy + Debug {
         Vec::new()
     }
 
-    /// Energy stored in all of them, from all that they do at one instant, J.
-    fn stored_j(actions: &[Self::Action<f64>]) -> f64;
+    /// Writes the energies of [`Element::STORED`], from all that they do at one instant, to their places, J.
+    fn stored_j(actions: &[Self::Action<f64>], stored_j: &mut [f64; STORES]);
 }
 
 /// What spares an evaluation needless work.
@@ -137,7 +140,7 @@ impl Hints for () {
     fn look_again(&mut self) {}
 }
 
-/// An energy that the elements of a kind store.
+/// An energy that the elements of a kind hold, or have lost by what they remember.
 #[derive(Clone, Copy, Debug)]
 pub struct StoredEnergy {
     /// Its place in the energy ledger.

@@ -4,6 +4,7 @@ use super::belt::Belts;
 use super::contact::Contacts;
 use super::element::{Element, Hints as _, Instant, Load, Misfit, StoredEnergy, Unlike, WorkSum};
 use super::joint::JointMoments;
+use super::joint::limit::JointLimits;
 use super::rate::Rate;
 use super::shown::Reported;
 use super::stored::Archive;
@@ -19,8 +20,11 @@ macro_rules! kinds {
         /// How many kinds there are.
         pub(crate) const KINDS: usize = [$(stringify!($kind)),+].len();
 
-        /// The energies that elements store, in the order of results.
-        pub(crate) const STORED: [StoredEnergy; KINDS] = stored_in_order([$($Kind::STORED),+]);
+        /// How many energies they hold.
+        pub(crate) const STORES: usize = 0 $(+ $Kind::STORED.len())+;
+
+        /// The energies that elements hold, in the order of results.
+        pub(crate) const STORED: [StoredEnergy; STORES] = stored_in_order([$($Kind::STORED),+]);
 
         /// The work sums of the elements, in their order in [`crate::motion::state::Work`].
         pub(crate) const SUMS: [WorkSum; WORK_SUMS] = sums_in_order([$($Kind::SUMS),+]);
@@ -110,9 +114,9 @@ macro_rules! kinds {
 
         impl Actions<f64> {
             /// Stored energies in the order of [`STORED`], J.
-            pub(crate) fn stored_j(&self) -> [f64; KINDS] {
-                let mut list = [0.0; KINDS];
-                $(list[$Kind::STORED.at] = $Kind::stored_j(&self.$kind);)+
+            pub(crate) fn stored_j(&self) -> [f64; STORES] {
+                let mut list = [0.0; STORES];
+                $($Kind::stored_j(&self.$kind, &mut list);)+
                 list
             }
         }
@@ -120,8 +124,8 @@ macro_rules! kinds {
         impl Data<'_> {
             /// Reports what is wrong with the data by themselves, in the order of [`STORED`].
             pub(crate) fn check(&self, body: &Body, problems: &mut Problems) {
-                let mut found = [const { Problems::new() }; KINDS];
-                $($Kind::check(self.$kind, body, &mut found[$Kind::STORED.at]);)+
+                let mut found = [const { Problems::new() }; STORES];
+                $($Kind::check(self.$kind, body, &mut found[$Kind::STORED[0].at]);)+
                 found.into_iter().for_each(|some| problems.extend(some));
             }
 
@@ -168,6 +172,15 @@ macro_rules! kinds {
         }
 
         impl<S: Copy> Forces<S> {
+            /// Whether results tell the energy at this place of [`STORED`]; see [`Element::OPTIONAL`].
+            pub(crate) fn tells_stored(&self, at: usize) -> bool {
+                let mut tells = true;
+                $(if $Kind::STORED.iter().any(|energy| energy.at == at) {
+                    tells = !$Kind::OPTIONAL || $Kind::count(&self.$kind) > 0;
+                })+
+                tells
+            }
+
             /// f applied to every number and the one in the same place of `other`.
             ///
             /// # Errors
@@ -291,6 +304,7 @@ kinds! {
     contacts: Contacts,
     belts: Belts,
     joints: JointMoments,
+    limits: JointLimits,
 }
 
 /// A kind of the list, with its part of all that goes over all kinds.
@@ -338,32 +352,26 @@ impl<S: Scalar> History<S> {
     }
 }
 
-/// The energies by their places, of which each must be taken once.
-const fn stored_in_order(kinds: [StoredEnergy; KINDS]) -> [StoredEnergy; KINDS] {
-    let (mut list, mut is_taken, mut i) = (kinds, [false; KINDS], 0);
-    while i < KINDS {
-        let at = kinds[i].at;
-        assert!(!is_taken[at], "two kinds store their energy in one place");
-        (is_taken[at], list[at]) = (true, kinds[i]);
-        i += 1;
-    }
-    list
+/// A function that brings what kinds list to its places, of which each must be taken once.
+macro_rules! in_order {
+    ($name:ident, $Type:ty, $count:expr) => {
+        const fn $name(kinds: [&[$Type]; KINDS]) -> [$Type; $count] {
+            let (mut list, mut is_taken, mut count, mut i) = ([kinds[0][0]; $count], [false; $count], 0, 0);
+            while i < KINDS {
+                let mut j = 0;
+                while j < kinds[i].len() {
+                    let at = kinds[i][j].at;
+                    assert!(!is_taken[at], "two of one place");
+                    (is_taken[at], list[at]) = (true, kinds[i][j]);
+                    (count, j) = (count + 1, j + 1);
+                }
+                i += 1;
+            }
+            assert!(count == $count, "a place that no element takes");
+            list
+        }
+    };
 }
 
-/// The work sums by their places, of which each must be taken once.
-const fn sums_in_order(kinds: [&[WorkSum]; KINDS]) -> [WorkSum; WORK_SUMS] {
-    let (mut list, mut is_taken, mut count) = ([kinds[0][0]; WORK_SUMS], [false; WORK_SUMS], 0);
-    let mut i = 0;
-    while i < KINDS {
-        let mut j = 0;
-        while j < kinds[i].len() {
-            let at = kinds[i][j].at;
-            assert!(!is_taken[at], "two work sums in one place");
-            (is_taken[at], list[at]) = (true, kinds[i][j]);
-            (count, j) = (count + 1, j + 1);
-        }
-        i += 1;
-    }
-    assert!(count == WORK_SUMS, "a place for a work sum that no element takes");
-    list
-}
+in_order!(stored_in_order, StoredEnergy, STORES);
+in_order!(sums_in_order, WorkSum, WORK_SUMS);

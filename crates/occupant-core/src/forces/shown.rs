@@ -78,8 +78,8 @@ pub struct Shown<'a, E: Element> {
 pub struct Named<'a> {
     /// Its name.
     pub name: &'a str,
-    /// Index of the sphere that it acts on.
-    pub sphere: usize,
+    /// Index of the sphere that it acts on; none of what acts in a joint.
+    pub sphere: Option<usize>,
 }
 
 /// A line that pictures draw for an element.

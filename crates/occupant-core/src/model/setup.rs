@@ -171,7 +171,7 @@ impl Setup {
             edge_force: self.edge_force,
             longest_step_s: self.integrator.longest_step_s(),
         };
-        Data { contacts, belts: &self.belts, joints: &self.joints }
+        Data { contacts, belts: &self.belts, joints: &self.joints, limits: &self.joints }
     }
 }
 

@@ -5,7 +5,7 @@
 //! sum + Σ work sums − W_v stays what it was at the start.
 
 use crate::forces::contact::FASTEST_M_S;
-use crate::forces::{HeldBy, KINDS, STORED, StoredEnergy};
+use crate::forces::{HeldBy, STORED, STORES, StoredEnergy};
 use crate::motion::frame::Moving;
 use crate::motion::kinematics::Kinematics;
 use crate::motion::skeleton::Skeleton;
@@ -20,8 +20,8 @@ pub struct EnergyLedger {
     pub kinetic_relative_j: f64,
     /// M g Z′, zero at Z′ = 0.
     pub gravity_j: f64,
-    /// Stored (recoverable) in force elements, in the order of `STORED`.
-    pub stored_j: [f64; KINDS],
+    /// Stored (recoverable) in force elements or lost by what they remember, in the order of `STORED`.
+    pub stored_j: [f64; STORES],
     /// Dissipated since the start, in the order of `SUMS`: work put in less what is stored.
     pub lost_j: [f64; WORK_SUMS],
     /// Work done on the occupant by the moving vehicle since the start.
@@ -34,7 +34,7 @@ pub struct EnergyLedger {
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct EnergyStart {
     /// Stored in force elements, in the order of `STORED`, J; 0 where no work sum holds it.
-    pub stored_j: [f64; KINDS],
+    pub stored_j: [f64; STORES],
     /// Sum of kinetic and gravity energy and of what is stored without a work sum, J.
     pub mechanical_j: f64,
 }
@@ -45,7 +45,7 @@ impl EnergyLedger {
         body: &Skeleton<f64>,
         k: &Kinematics<f64>,
         vehicle: &Moving<f64>,
-        stored_j: [f64; KINDS],
+        stored_j: [f64; STORES],
         work: &Work<f64>,
         start: &EnergyStart,
     ) -> Self {

@@ -38,7 +38,7 @@ pub fn reaction(sample: &Sample<'_>, joint: Joint) -> Reaction {
 /// Loads of force elements, from which reactions follow.
 pub(super) struct Loads<'s, 'a> {
     sample: &'s Sample<'a>,
-    /// Moments of dampers, stops and springs, which the evaluation counts among the loads.
+    /// Moments of dampers, stops, limits, friction and springs, which the evaluation counts among the loads.
     passive: [Wrench<f64>; SEGMENTS],
 }
 
@@ -47,6 +47,11 @@ impl<'s, 'a> Loads<'s, 'a> {
         let mut passive = [Wrench::zero(); SEGMENTS];
         let k = &sample.evaluation.kinematics;
         sample.model.system().forces.joints.apply(k, sample.state, &mut passive, &mut |_| {});
+        for action in &sample.actions.limits {
+            let row = &sample.model.body().tree[action.joint];
+            passive[row.distal.index()].moment += action.moment;
+            passive[row.proximal.index()].moment -= action.moment;
+        }
         Loads { sample, passive }
     }
 

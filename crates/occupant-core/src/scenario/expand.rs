@@ -11,7 +11,14 @@ use crate::body::tti12::TTI12;
 use placed_text::{Document, Entry, Format, Node, Sources, Table, Value};
 
 /// Two keys of which a later layer's one, or an override's, replaces an earlier layer's other.
-const RIVALS: [[&str; 2]; 3] = [["mass", "weight"], ["peak", "delta_v"], ["slack", "length"]];
+const RIVALS: [[&str; 2]; 6] = [
+    ["mass", "weight"],
+    ["peak", "delta_v"],
+    ["slack", "length"],
+    ["angle", "angles"],
+    ["pitch", "axis"],
+    ["c2", "moments"],
+];
 
 /// The other key of two that say the same thing in two ways.
 pub(super) fn rival(key: &str) -> Option<&'static str> {
@@ -106,9 +113,9 @@ fn merged(layers: &[Node], words: &[String], whole: impl Fn(&str, &Entry) -> Ent
 /// What is said of all joints, without what this kind of joint cannot have.
 fn fitting(mut entry: Entry, joint: &JointRow) -> Entry {
     let foreign: &[&str] = if joint.is_hinge() {
-        &["twist_damping", "stop", "stiffness", "rest_angle"]
+        &["twist_damping", "stop", "stiffness", "rest_angle", "centre", "limit", "twist_limit"]
     } else {
-        &["lower_stop", "upper_stop"]
+        &["lower_stop", "upper_stop", "angle_limit"]
     };
     if let Some(table) = entry.node.as_table_mut() {
         for key in foreign {

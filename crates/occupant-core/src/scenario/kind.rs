@@ -71,10 +71,16 @@ pub(crate) const ROTATIONAL_STIFFNESS: usize = 10;
 pub(crate) const ROTATIONAL_DAMPING: usize = 11;
 /// Plain number.
 pub const RATIO: usize = 12;
+/// Moment of a force.
+pub(crate) const MOMENT: usize = 13;
+/// Moment per angle squared.
+pub(crate) const MOMENT_PER_ANGLE_2: usize = 14;
+/// Moment per angle cubed.
+pub(crate) const MOMENT_PER_ANGLE_3: usize = 15;
 
 /// All kinds.
 #[rustfmt::skip]
-pub const KINDS: [Kind; 13] = [
+pub const KINDS: [Kind; 16] = [
     kind("length", "a length", Unit::Metre, "0.3, \"12 in\", \"305 mm\""),
     kind("time", "a time", Unit::Second, "0.08, \"80 ms\""),
     kind("angle", "an angle", Unit::Radian, "15, \"15 deg\", \"0.26 rad\""),
@@ -88,6 +94,9 @@ pub const KINDS: [Kind; 13] = [
     kind("rotational stiffness", "a rotational stiffness", Unit::NewtonMetrePerRadian, "113, \"113 N m/rad\", \"1000 in lbf/rad\""),
     kind("rotational damping", "a rotational damping", Unit::NewtonMetreSecondPerRadian, "0.65, \"5.73 in·lbf·s/rad\", \"0.1 in lbf s/deg\""),
     kind("ratio", "a plain number", Unit::One, "0.5, \"50 %\""),
+    kind("moment", "a moment", Unit::NewtonMetre, "12, \"12 N m\", \"100 in lbf\""),
+    kind("moment per angle squared", "a moment per angle squared", Unit::NewtonMetrePerRadianSquared, "371, \"371 N m/rad^2\", \"1 in lbf/deg^2\""),
+    kind("moment per angle cubed", "a moment per angle cubed", Unit::NewtonMetrePerRadianCubed, "100, \"100 N m/rad^3\", \"0.01 in lbf/deg^3\""),
 ];
 
 impl Kind {

@@ -52,23 +52,31 @@ fn read(body: &str) -> Option<(Body, Joints)> {
 /// The text that a section named `key` of a checked scenario starts from, and what messages call it.
 pub(super) fn base(section: &Node, key: &str) -> Option<(String, Document)> {
     let preset = section.get("preset").and_then(Node::as_str);
-    let (title, document) = match (key, preset) {
-        ("body", Some("male50-1970")) | ("joints", Some("male50")) => ("preset male50".to_owned(), measured()?.clone()),
+    match (key, preset) {
+        ("body", Some("male50-1970")) | ("joints", Some("male50")) => {
+            Some(("preset male50".to_owned(), male50()?.clone()))
+        }
+        ("joints", Some("gebod")) => Some(("preset gebod".to_owned(), gebod()?.clone())),
         ("body", _) => {
             let body = preset.and_then(people::child).or_else(|| Some(person(section, preset)?.body().0))?;
-            let title = format!("preset {}", preset.unwrap_or("of a person"));
+            let title = format!("body of {}", preset.unwrap_or("a person"));
             let document = written(&title, &words(&body))?;
-            (title, document)
+            Some((title, document))
         }
-        _ => return None,
-    };
-    Some((title, document))
+        _ => None,
+    }
 }
 
-/// The body of the first version and the joints.
-fn measured() -> Option<&'static Document> {
+/// The body of the first version and a starting set of joints.
+fn male50() -> Option<&'static Document> {
     static READ: OnceLock<Option<Document>> = OnceLock::new();
     READ.get_or_init(|| written("preset male50", include_str!("presets/male50-1970.toml"))).as_ref()
+}
+
+/// Joints with elastic limits.
+fn gebod() -> Option<&'static Document> {
+    static READ: OnceLock<Option<Document>> = OnceLock::new();
+    READ.get_or_init(|| written("preset gebod", include_str!("presets/gebod.toml"))).as_ref()
 }
 
 /// The grown-up that a body section speaks of; the reference where it is too incomplete or out of reach, which is reported

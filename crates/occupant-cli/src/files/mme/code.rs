@@ -100,7 +100,7 @@ pub(crate) fn place_of(model: &Model, channel: &Channel) -> Option<Place> {
         return place_of_name(&channel.name);
     };
     let name = rest.strip_suffix(".force")?;
-    let round = model.named("belt").into_iter().find(|one| one.name == name)?.sphere;
+    let round = model.named("belt").into_iter().find(|one| one.name == name)?.sphere?;
     let segment = model.body().spheres.get(round).map(|s| s.segment);
     let (segment, marks) = (segment?, model.body().tree.landmarks());
     let webbing = match segment {

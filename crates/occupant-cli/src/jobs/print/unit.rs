@@ -65,6 +65,7 @@ impl Units {
             M::KilogramMetreSquared => [5, 4],
             M::Joule | M::NewtonMetre => [2, 1],
             M::Radian | M::RadianPerSecondSquared | M::NewtonMetrePerRadian => [2, 2],
+            M::NewtonMetrePerRadianSquared | M::NewtonMetrePerRadianCubed => [2, 2],
             M::RadianPerSecond | M::NewtonMetreSecondPerRadian => [3, 3],
             M::One => [4, 4],
             M::Second => [6, 6],

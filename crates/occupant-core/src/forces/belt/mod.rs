@@ -11,6 +11,7 @@ use nalgebra::Point3;
 
 use crate::body::Body;
 use crate::forces::element::{Element, HeldBy, Instant, Load, StoredEnergy, Unlike, WorkSum};
+use crate::forces::list::STORES;
 use crate::forces::rate::Rate;
 use crate::forces::spring::BilinearSpring;
 use crate::motion::frame::VEHICLE;
@@ -76,11 +77,11 @@ impl Belt {
 pub struct Belts;
 
 impl Element for Belts {
-    const STORED: StoredEnergy = StoredEnergy {
+    const STORED: &'static [StoredEnergy] = &[StoredEnergy {
         at: 2,
         quantity: energy(7, "belts", "stored in belts", "recoverable, in belts"),
         held_by: HeldBy::sum(STRETCH, 22, "start_belts_j", "stored in belts at the start of the run"),
-    };
+    }];
     const SUMS: &'static [WorkSum] = &[WorkSum {
         at: STRETCH,
         quantity: energy(11, "lost_belts", "dissipated by belts", "dissipated by belts since the start"),
@@ -201,7 +202,7 @@ impl Element for Belts {
         data.iter().zip(actions).map(one).collect()
     }
 
-    fn stored_j(actions: &[BeltAction<f64>]) -> f64 {
-        actions.iter().map(|belt| belt.stored).sum()
+    fn stored_j(actions: &[BeltAction<f64>], stored_j: &mut [f64; STORES]) {
+        stored_j[Self::STORED[0].at] = actions.iter().map(|belt| belt.stored).sum();
     }
 }

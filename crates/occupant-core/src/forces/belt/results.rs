@@ -79,7 +79,7 @@ impl Reported for Belts {
     }
 
     fn named<'a>(data: Self::Data<'a>) -> Vec<Named<'a>> {
-        data.iter().map(|belt| Named { name: &belt.name, sphere: belt.sphere }).collect()
+        data.iter().map(|belt| Named { name: &belt.name, sphere: Some(belt.sphere) }).collect()
     }
 
     fn start_table(shown: &Shown<'_, Self>) -> Option<Table> {

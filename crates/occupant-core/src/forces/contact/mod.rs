@@ -23,6 +23,7 @@ use crate::forces::contact::material::Material;
 use crate::forces::contact::solid::Solid;
 use crate::forces::contact::surface::Surface;
 use crate::forces::element::{Element, HeldBy, Instant, Load, StoredEnergy, Unlike, WorkSum};
+use crate::forces::list::STORES;
 use crate::motion::scalar::Scalar;
 use crate::quantity::energy;
 use encounter::Sphere;
@@ -57,11 +58,11 @@ pub struct ContactData<'a> {
 pub struct Contacts;
 
 impl Element for Contacts {
-    const STORED: StoredEnergy = StoredEnergy {
+    const STORED: &'static [StoredEnergy] = &[StoredEnergy {
         at: 1,
         quantity: energy(6, "contacts", "stored in contacts", "recoverable, in contacts"),
         held_by: HeldBy::sum(PRESS, 21, "start_contacts_j", "stored in contacts at the start of the run"),
-    };
+    }];
     const SUMS: &'static [WorkSum] = &[
         WorkSum {
             at: PRESS,
@@ -160,8 +161,8 @@ impl Element for Contacts {
         }
     }
 
-    fn stored_j(actions: &[Touch<f64>]) -> f64 {
-        actions.iter().map(|touch| touch.stored).sum()
+    fn stored_j(actions: &[Touch<f64>], stored_j: &mut [f64; STORES]) {
+        stored_j[Self::STORED[0].at] = actions.iter().map(|touch| touch.stored).sum();
     }
 }
 

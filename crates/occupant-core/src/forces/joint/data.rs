@@ -5,6 +5,7 @@
 use std::ops::Index;
 
 use crate::body::{Joint, Tree};
+use crate::forces::joint::limit::Limits;
 
 /// Damping that rises towards a limit of travel (Figs 9–11): from the joint's normal damping at `begin_rad` linearly to
 /// `damping_n_m_s` at `full_rad`, constant beyond, and only while the joint moves towards the limit.
@@ -95,6 +96,8 @@ impl JointLaw {
 pub struct Joints {
     tree: &'static Tree,
     laws: Vec<JointLaw>,
+    /// Elastic limits and dry friction, in the tree's order.
+    pub(crate) limits: Vec<Limits>,
     /// ε that keeps β smooth where the two Z axes are parallel; 0 is the report's formula.
     pub epsilon: f64,
 }
@@ -111,7 +114,7 @@ impl Joints {
     /// All ball joints alike, and all hinges.
     pub fn alike(tree: &'static Tree, ball: BallJoint, hinge: HingeJoint) -> Self {
         let law = |joint: Joint| if tree[joint].is_hinge() { hinge.into() } else { ball.into() };
-        Joints { tree, laws: tree.joints().map(law).collect(), epsilon: Joints::EPSILON }
+        Joints { tree, laws: tree.joints().map(law).collect(), limits: Vec::new(), epsilon: Joints::EPSILON }
     }
 
     /// With another law in one joint; one of the other kind changes nothing.
@@ -128,6 +131,11 @@ impl Joints {
     #[must_use]
     pub fn with_epsilon(self, epsilon: f64) -> Self {
         Joints { epsilon, ..self }
+    }
+
+    /// Whether any joint has an elastic limit or dry friction.
+    pub fn has_limits(&self) -> bool {
+        !self.limits.is_empty()
     }
 
     /// The joints' tree.

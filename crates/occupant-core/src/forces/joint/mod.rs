@@ -3,6 +3,7 @@
 mod check;
 mod data;
 mod law;
+pub(crate) mod limit;
 mod rates;
 
 pub use data::*;
@@ -10,6 +11,7 @@ pub use law::*;
 
 use crate::body::Body;
 use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkSum};
+use crate::forces::list::STORES;
 use crate::forces::rate::Rate;
 use crate::forces::shown::Reported;
 use crate::motion::layout::BALLS;
@@ -29,11 +31,11 @@ pub(crate) const OTHER_SPRINGS: Unlike = Unlike("other joints have springs");
 pub struct JointMoments;
 
 impl Element for JointMoments {
-    const STORED: StoredEnergy = StoredEnergy {
+    const STORED: &'static [StoredEnergy] = &[StoredEnergy {
         at: 0,
         quantity: energy(5, "spine", "stored in the joints' springs", "stored in joint springs"),
         held_by: None,
-    };
+    }];
     const SUMS: &'static [WorkSum] = &[WorkSum {
         at: DAMPING,
         quantity: energy(
@@ -43,7 +45,7 @@ impl Element for JointMoments {
             "dissipated by joint dampers and stops since the start",
         ),
     }];
-    const NAMES: [&'static str; 2] = ["joint", "joints"];
+    const NAMES: [&'static str; 2] = ["joint damper", "joint dampers"];
 
     type Data<'a> = &'a Joints;
     type Law<S> = JointSystem<S>;
@@ -114,8 +116,8 @@ impl Element for JointMoments {
         rates::rates(data, mobility)
     }
 
-    fn stored_j(actions: &[BallAction<f64>]) -> f64 {
-        actions.iter().map(|ball| ball.stored).sum()
+    fn stored_j(actions: &[BallAction<f64>], stored_j: &mut [f64; STORES]) {
+        stored_j[Self::STORED[0].at] = actions.iter().map(|ball| ball.stored).sum();
     }
 }
 

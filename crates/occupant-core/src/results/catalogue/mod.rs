@@ -173,7 +173,7 @@ impl Catalogue {
             let place = Place { message: "JointLoad", topic, name: &channel, words: &words };
             all.add(&place, joint::LOAD, move |s| (s, joint));
         }
-        all.energies();
+        all.energies(model);
         all.whole("SolverState", "/solver", "", energy::EFFORT, |s| s.effort);
         if model.setup().output.report_coordinates {
             all.whole("ReportCoordinates", "/occupant/report_coordinates", "", body::REPORT_COORDINATES, |s| s);
@@ -181,11 +181,12 @@ impl Catalogue {
         all
     }
 
-    fn energies(&mut self) {
+    fn energies(&mut self, model: &Model) {
         for (of, quantity) in energy::MOTION {
             self.energy(quantity, of);
         }
-        for StoredEnergy { at, quantity, .. } in STORED {
+        let forces = &model.system().forces;
+        for StoredEnergy { at, quantity, .. } in STORED.into_iter().filter(|energy| forces.tells_stored(energy.at)) {
             self.energy(quantity, move |ledger| ledger.stored_j[at]);
         }
         for WorkSum { at, quantity } in SUMS {

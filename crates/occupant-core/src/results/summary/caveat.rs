@@ -53,9 +53,13 @@ impl Caveat {
         let is_neck = body.tree.landmarks().neck == joint;
         let figures = if is_neck { owned(&["nij", "neck_*"]) } else { figures_of(body, row.distal) };
         let [angle, stop] = [turned.angle_rad, turned.stop_rad].map(f64::to_degrees);
-        let (at, end) = (at(turned.beyond), format!("the stop ends at {stop:.0}°"));
-        let name = row.name.replace('_', " ");
-        let text = format!("{name} beyond its stop: {angle:.0}° {at}, {end}; {}", not_to_be_quoted(&name));
+        let (at, name) = (at(turned.beyond), row.name.replace('_', " "));
+        let seen = if turned.is_elastic {
+            format!("{angle:.0}° beyond its elastic limit {at}, where {stop:.0}° is the most")
+        } else {
+            format!("{angle:.0}° {at}, the stop ends at {stop:.0}°")
+        };
+        let text = format!("{name} beyond its stop: {seen}; {}", not_to_be_quoted(&name));
         Caveat::new(format!("{}_beyond_stop", row.name), text, figures)
     }
 
@@ -126,9 +130,11 @@ impl Caveat {
 pub(super) struct Turned {
     /// Angle beyond the stop's end, rad.
     pub beyond: Peak,
+    /// The joint's angle; beyond an elastic limit the angle beyond it.
     pub angle_rad: f64,
-    /// Where the stop ends.
+    /// Where the stop ends; of an elastic limit how far beyond it a joint goes at most.
     pub stop_rad: f64,
+    pub is_elastic: bool,
 }
 
 fn not_to_be_quoted(of: &str) -> String {

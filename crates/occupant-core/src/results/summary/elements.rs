@@ -1,7 +1,7 @@
 //! Peaks of force elements.
 
 use super::Peak;
-use crate::forces::shown::{Reported, Tracked};
+use crate::forces::shown::{Named, Reported, Tracked};
 use crate::forces::table::{Cell, Table, Tables};
 use crate::forces::{Listed, Visitor, visit_kinds};
 use crate::model::Model;
@@ -43,10 +43,11 @@ struct Begin<'a>(&'a Model, Vec<KindPeaks>);
 
 impl Visitor for Begin<'_> {
     fn visit<E: Listed>(&mut self) {
-        if !E::PEAKS.is_empty() {
-            let [one, of] = E::NAMES;
-            let named = self.0.named(one).into_iter();
-            let peaks = named.map(|element| (element.name.to_owned(), vec![Peak::NONE; E::PEAKS.len()])).collect();
+        let [one, of] = E::NAMES;
+        let named = self.0.named(one);
+        if !E::PEAKS.is_empty() && !(E::OPTIONAL && named.is_empty()) {
+            let new = |element: Named<'_>| (element.name.to_owned(), vec![Peak::NONE; E::PEAKS.len()]);
+            let peaks = named.into_iter().map(new).collect();
             self.1.push(KindPeaks { of, peaks, table: table::<E> });
         }
     }

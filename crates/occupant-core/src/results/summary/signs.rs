@@ -20,6 +20,8 @@ const LOOK_S: f64 = 1.99e-3;
 const AT_STOP_RAD: f64 = 0.175;
 /// Deeper into a solid than this part of its thickness it is used up.
 const BOTTOM: f64 = 0.8;
+/// Elastic limits give way by less, rad: 30°.
+const MOST_EXCESS_RAD: f64 = 0.524;
 /// What a seat's cushion gives way at most, m. Anything else gives way by the diameter of what presses on it.
 const CUSHION_M: f64 = 0.15;
 
@@ -70,7 +72,7 @@ impl Sunk {
 impl Signs {
     pub(super) fn new(model: &Model) -> Self {
         let body = model.body();
-        let turned = Turned { beyond: Peak::NONE, angle_rad: 0.0, stop_rad: 0.0 };
+        let turned = Turned { beyond: Peak::NONE, angle_rad: 0.0, stop_rad: 0.0, is_elastic: false };
         let spheres = vec![Sunk::NONE; body.spheres.len()];
         Signs {
             joints: vec![turned; body.tree.joints().len()],
@@ -92,6 +94,9 @@ impl Signs {
         let (model, time_s) = (sample.model, sample.time_s);
         for (turned, joint) in self.joints.iter_mut().zip(model.body().tree.joints()) {
             turned.see(&model.setup().joints[joint], sample.joint_angle_rad(joint), time_s);
+        }
+        for limited in &sample.actions.limits {
+            self.joints[limited.joint.index()].see_limit(limited.excess, time_s);
         }
         for contact in sample.contacts() {
             match contact.surface.checked_sub(model.faces().len()) {
@@ -181,8 +186,15 @@ impl Turned {
             // a lower stop ends below its begin
             let beyond_rad = (angle_rad - stop.full_rad) * (stop.full_rad - stop.begin_rad).signum();
             if self.beyond.see(beyond_rad, time_s) {
-                (self.angle_rad, self.stop_rad) = (angle_rad, stop.full_rad);
+                (self.angle_rad, self.stop_rad, self.is_elastic) = (angle_rad, stop.full_rad, false);
             }
+        }
+    }
+
+    /// An angle beyond an elastic limit.
+    fn see_limit(&mut self, excess_rad: f64, time_s: f64) {
+        if self.beyond.see(excess_rad - (MOST_EXCESS_RAD - AT_STOP_RAD), time_s) {
+            (self.angle_rad, self.stop_rad, self.is_elastic) = (excess_rad, MOST_EXCESS_RAD, true);
         }
     }
 }

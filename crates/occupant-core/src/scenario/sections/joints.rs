@@ -4,6 +4,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::builder::Builder;
+use super::limits::{BendLimitSection, CentreSection, FrictionSection, RangeLimitSection, limits};
 use super::quantity::{NOT_NEGATIVE, si_or};
 use super::{Angle, Ratio, RotationalDamping, RotationalStiffness};
 use crate::body::tti12::TTI12;
@@ -15,8 +16,8 @@ use placed_text::{Problem, with_key};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub(crate) struct JointsSection {
-    /// Joints to start from: "male50".
-    #[schemars(extend("enum" = ["male50"]))]
+    /// Joints to start from: "male50", the viscous stops of the report, or "gebod", elastic limits of the GEBOD generator.
+    #[schemars(extend("enum" = ["male50", "gebod"]))]
     pub(crate) preset: Option<String>,
     /// ε that keeps joint angles smooth where two segments are in line; 0.001 if absent, 0 is the report's formula.
     pub(crate) epsilon: Option<Ratio<NOT_NEGATIVE>>,
@@ -74,6 +75,16 @@ pub(crate) struct JointSection {
     pub(crate) stiffness: Option<RotationalStiffness<NOT_NEGATIVE>>,
     /// β₀, angle at which the stiffness gives no torque; the angle at the start if absent.
     pub(crate) rest_angle: Option<Angle<NOT_NEGATIVE>>,
+    /// Where the limits of a ball joint count from: along the outer segment, straight, if absent.
+    pub(crate) centre: Option<Box<CentreSection>>,
+    /// Elastic limit of the bend away from the centre axis; ball joints only.
+    pub(crate) limit: Option<Box<BendLimitSection>>,
+    /// Elastic limit of the twist; ball joints only.
+    pub(crate) twist_limit: Option<Box<RangeLimitSection>>,
+    /// Elastic limit of the angle; elbows and knees only.
+    pub(crate) angle_limit: Option<Box<RangeLimitSection>>,
+    /// Dry friction.
+    pub(crate) friction: Option<Box<FrictionSection>>,
 }
 
 /// Damping that grows towards a limit of travel.
@@ -96,6 +107,7 @@ pub(super) fn joints(b: &mut Builder, section: &JointsSection) -> Joints {
         let row = &TTI12[joint];
         let law = if row.is_hinge() { JointLaw::from(hinge(b, row.name)) } else { JointLaw::from(ball(b, row.name)) };
         joints = joints.with(joint, law);
+        joints.limits.extend(said_of(b, row.name).and_then(|section| limits(b, joint, &section)));
     }
     joints.with_epsilon(si_or(&section.epsilon, Joints::EPSILON))
 }
@@ -128,7 +140,12 @@ fn ball(b: &mut Builder, name: &str) -> BallJoint {
     let Some(section) = given(b, name) else { return BallJoint::default() };
     let path = format!("joints.{name}");
     let expected = "`stop`, the limit of the angle between its segments";
-    b.refuse_keys(&path, &["lower_stop", "upper_stop"], |key| format!("`{key}` of a ball joint"), expected);
+    b.refuse_keys(
+        &path,
+        &["lower_stop", "upper_stop", "angle_limit"],
+        |key| format!("`{key}` of a ball joint"),
+        expected,
+    );
     let spring = section.stiffness.as_ref().map(|stiffness| AngularSpring {
         stiffness_n_m: stiffness.si(),
         rest_rad: section.rest_angle.as_ref().map(Angle::si),
@@ -147,8 +164,8 @@ fn ball(b: &mut Builder, name: &str) -> BallJoint {
 fn hinge(b: &mut Builder, name: &str) -> HingeJoint {
     let Some(section) = given(b, name) else { return HingeJoint::default() };
     let path = format!("joints.{name}");
-    let foreign = ["stop", "twist_damping", "stiffness", "rest_angle"];
-    let expected = "`damping`, `lower_stop`, `upper_stop`: elbows and knees are hinges";
+    let foreign = ["stop", "twist_damping", "stiffness", "rest_angle", "centre", "limit", "twist_limit"];
+    let expected = "`damping`, `lower_stop`, `upper_stop`, `angle_limit`, `friction`: elbows and knees are hinges";
     b.refuse_keys(&path, &foreign, |key| format!("`{key}` of a hinge"), expected);
     HingeJoint {
         damping_n_m_s: si_or(&section.damping, f64::NAN),

@@ -7,6 +7,7 @@ mod belts;
 mod body;
 mod builder;
 mod joints;
+mod limits;
 mod materials;
 mod number_table;
 mod path;
@@ -66,6 +67,10 @@ type Inertia<const RANGE: usize = ANY> = Quantity<{ kind::INERTIA }, RANGE>;
 type Stiffness<const RANGE: usize = ANY> = Quantity<{ kind::STIFFNESS }, RANGE>;
 type RotationalStiffness<const RANGE: usize = ANY> = Quantity<{ kind::ROTATIONAL_STIFFNESS }, RANGE>;
 type RotationalDamping<const RANGE: usize = ANY> = Quantity<{ kind::ROTATIONAL_DAMPING }, RANGE>;
+type AngularVelocity<const RANGE: usize = ANY> = Quantity<{ kind::ANGULAR_VELOCITY }, RANGE>;
+type Moment<const RANGE: usize = ANY> = Quantity<{ kind::MOMENT }, RANGE>;
+type MomentPerAngle2<const RANGE: usize = ANY> = Quantity<{ kind::MOMENT_PER_ANGLE_2 }, RANGE>;
+type MomentPerAngle3<const RANGE: usize = ANY> = Quantity<{ kind::MOMENT_PER_ANGLE_3 }, RANGE>;
 
 /// A crash or a violent manoeuvre with one occupant.
 ///

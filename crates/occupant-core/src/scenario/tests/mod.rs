@@ -1,6 +1,7 @@
 //! Tests of the scenario format.
 
 mod carts;
+mod limits;
 mod meaning;
 mod messages;
 mod overrides;

@@ -1,0 +1,345 @@
+//! Elastic limits of joints: torques that are gradients, with loss on unloading, and dry friction.
+//!
+//! With the excess χ, what a joint is bent or turned beyond its limit, and χ_m the greatest committed since it was last
+//! inside, the torque is f(x*), x* = χ_m − (χ_m − χ)/μ: the force function f while loading, and on return a line that gives
+//! back the share μ of the work. Stored: μ∫₀^{x*} f. Lost: (1 − μ)∫₀^{χ_m} f, which grows with χ_m only.
+
+use super::curve::Curve;
+use super::triads::{Pose, Triads};
+use crate::body::Joint;
+use crate::forces::element::Instant;
+use crate::motion::scalar::Scalar;
+use crate::motion::vector::V3;
+
+/// A resistance that grows beyond a limit.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Stop<S> {
+    /// Torque over the excess, N·m over rad.
+    pub(crate) torque: Curve<S>,
+    /// μ, the share of its work that it gives back.
+    pub(crate) returned: S,
+}
+
+/// Limit of the bend θ.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Bend<S> {
+    /// θ₀ over the azimuth, rad.
+    pub(crate) angle: Curve<S>,
+    pub(crate) stop: Stop<S>,
+    /// Cosine of an angle that θ₀ nowhere falls below.
+    gate: S,
+}
+
+/// Limits of the twist of a ball joint, or of the angle of a hinge.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Turn<S> {
+    /// Between these, rad, nothing acts.
+    pub(crate) range: [S; 2],
+    pub(crate) stop: Stop<S>,
+    /// Cosine of the nearer limit.
+    gate: S,
+}
+
+/// Dry friction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Friction<S> {
+    /// C_f, N·m.
+    pub(crate) torque: S,
+    /// ω_f, rad/s, at which it has 71 % of its full value.
+    pub(crate) speed: S,
+}
+
+/// How much the gate of a bend limit stays below the least θ₀ that a grid has found, rad.
+const MARGIN_RAD: f64 = 0.05;
+
+impl Bend<f64> {
+    pub(crate) fn new(angle: Curve<f64>, stop: Stop<f64>) -> Self {
+        let [least, _] = angle.bounds();
+        let gate = crash_measures::trig::sin_cos((least - MARGIN_RAD).max(0.0)).1;
+        Bend { angle, stop, gate }
+    }
+}
+
+impl Turn<f64> {
+    pub(crate) fn new(range: [f64; 2], stop: Stop<f64>) -> Self {
+        let [lower, upper] = range;
+        let nearer = upper.min(-lower).max(0.0);
+        Turn { range, stop, gate: crash_measures::trig::sin_cos(nearer).1 + 1e-9 }
+    }
+}
+
+/// Where a joint is.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Site {
+    Ball,
+    /// The limb.
+    Hinge(usize),
+}
+
+/// Constants of one joint.
+#[derive(Clone, Debug)]
+pub struct LimitLaw<S> {
+    pub(super) joint: Joint,
+    pub(super) site: Site,
+    /// Inner and outer segment.
+    pub(super) segments: (usize, usize),
+    pub(super) triads: Triads<S>,
+    pub(super) bend: Option<Bend<S>>,
+    pub(super) turn: Option<Turn<S>>,
+    pub(super) friction: Option<Friction<S>>,
+}
+
+/// What the two stops of a joint, of bend and of twist or hinge, remember between steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LimitHistory<S> {
+    pub(super) stops: [Past<S>; 2],
+}
+
+/// What a stop remembers between steps.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Past<S> {
+    /// χ_m, rad; 0 inside the limit.
+    pub(super) greatest: S,
+    /// Lost before the joint was last inside, less what counts as lost at the start, J.
+    pub(super) lost: S,
+}
+
+/// What limits and friction of a joint do at one instant.
+#[derive(Clone, Copy, Debug)]
+pub struct LimitAction<S> {
+    /// The joint.
+    pub(crate) joint: Joint,
+    /// Bend, azimuth and twist of a ball joint, the angle of a hinge, rad; known where steps are committed.
+    pub(crate) angles: [S; 3],
+    /// χ, the greater of both stops', rad; 0 inside the limits.
+    pub(crate) excess: S,
+    /// Moment of the stops on the outer segment, space axes, N·m.
+    pub(crate) stop: V3<S>,
+    /// That with friction.
+    pub(crate) moment: V3<S>,
+    /// Stored in the stops, J.
+    pub(crate) stored: S,
+    /// Lost in them since the start, J.
+    pub(crate) lost: S,
+    /// Power that friction dissipates, W.
+    pub(super) dissipated: S,
+}
+
+impl<S: Copy> Stop<S> {
+    fn zip<A: Copy, T>(&self, other: &Stop<A>, f: &impl Fn(S, A) -> T) -> Stop<T> {
+        Stop { torque: self.torque.zip(&other.torque, f), returned: f(self.returned, other.returned) }
+    }
+}
+
+impl<S: Copy> LimitLaw<S> {
+    /// Laws of equal shape can be computed side by side.
+    pub(super) fn shape(&self) -> (Joint, [usize; 4]) {
+        let bend = self.bend.as_ref().map_or([0; 2], |bend| [bend.angle.len(), bend.stop.torque.len()]);
+        let turn = self.turn.as_ref().map_or(0, |turn| turn.stop.torque.len());
+        (self.joint, [bend[0], bend[1], turn, usize::from(self.friction.is_some())])
+    }
+
+    /// f applied to every number and the one in the same place of `other`, which has the same shape.
+    pub(super) fn zip<A: Copy, T>(&self, other: &LimitLaw<A>, f: &impl Fn(S, A) -> T) -> LimitLaw<T> {
+        LimitLaw {
+            joint: self.joint,
+            site: self.site,
+            segments: self.segments,
+            triads: self.triads.zip(&other.triads, f),
+            bend: self.bend.as_ref().zip(other.bend.as_ref()).map(|(a, b)| Bend {
+                angle: a.angle.zip(&b.angle, f),
+                stop: a.stop.zip(&b.stop, f),
+                gate: f(a.gate, b.gate),
+            }),
+            turn: self.turn.as_ref().zip(other.turn.as_ref()).map(|(a, b)| Turn {
+                range: [f(a.range[0], b.range[0]), f(a.range[1], b.range[1])],
+                stop: a.stop.zip(&b.stop, f),
+                gate: f(a.gate, b.gate),
+            }),
+            friction: self
+                .friction
+                .as_ref()
+                .zip(other.friction.as_ref())
+                .map(|(a, b)| Friction { torque: f(a.torque, b.torque), speed: f(a.speed, b.speed) }),
+        }
+    }
+}
+
+/// What a stop does.
+struct Reply<S> {
+    torque: S,
+    stored: S,
+    lost: S,
+}
+
+impl<S: Scalar> Past<S> {
+    fn none() -> Self {
+        Past { greatest: S::zero(), lost: S::zero() }
+    }
+
+    /// At the start: what a joint is beyond a limit then is not lost.
+    pub(super) fn start(stop: Option<(&Stop<S>, S)>) -> Self {
+        stop.map_or(Past::none(), |(stop, excess)| {
+            let greatest = excess.max(S::zero());
+            Past { greatest, lost: -stop.lost(greatest) }
+        })
+    }
+}
+
+impl<S: Scalar> Stop<S> {
+    /// (1 − μ)∫₀^χ f.
+    #[inline(always)]
+    fn lost(&self, greatest: S) -> S {
+        (S::one() - self.returned) * self.torque.area(greatest)
+    }
+
+    #[inline(always)]
+    fn commit(&self, excess: S, past: &mut Past<S>) {
+        let (o, beyond) = (S::zero(), excess.gt(S::zero()));
+        past.lost = S::select(beyond, past.lost, past.lost + self.lost(past.greatest));
+        past.greatest = S::select(beyond, past.greatest.max(excess), o);
+    }
+
+    #[inline(always)]
+    fn respond(&self, excess: S, past: &Past<S>) -> Reply<S> {
+        let top = excess.max(past.greatest);
+        let x = (top - (top - excess) / self.returned).max(S::zero());
+        let stored = self.returned * self.torque.area(x);
+        Reply { torque: self.torque.value(x), stored, lost: past.lost + self.lost(top.max(S::zero())) }
+    }
+}
+
+impl<S: Scalar> LimitAction<S> {
+    /// Nothing yet.
+    #[inline(always)]
+    fn none(joint: Joint) -> Self {
+        let (o, none) = (S::zero(), V3::zero());
+        LimitAction { joint, angles: [o; 3], excess: o, stop: none, moment: none, stored: o, lost: o, dissipated: o }
+    }
+
+    /// With a stop that pushes along `moment`, what a torque of 1 N·m is, in the lanes where it is `near`.
+    #[inline(always)]
+    fn push(&mut self, near: S::Mask, moment: V3<S>, excess: S, reply: &Reply<S>) {
+        self.stop += V3::select(near, moment * reply.torque, V3::zero());
+        self.excess = self.excess.max(excess);
+        self.stored += reply.stored;
+        self.lost += reply.lost;
+    }
+}
+
+impl<S: Scalar> LimitLaw<S> {
+    /// What it does, and in which lanes it does anything. With `COMMIT` the history first takes over the present angles.
+    #[inline(always)]
+    pub(super) fn act<const COMMIT: bool>(
+        &self,
+        at: &Instant<'_, S>,
+        past: &mut LimitHistory<S>,
+    ) -> (LimitAction<S>, S::Mask) {
+        let (k, (inner, outer)) = (at.k, self.segments);
+        let mut action = LimitAction::none(self.joint);
+        let acts = if let Site::Hinge(limb) = self.site {
+            let (angle, axis) = (at.state.hinge[limb], k.axes[inner].y);
+            action.angles[0] = angle;
+            let act =
+                |turn: &Turn<S>| turn.act::<COMMIT>(S::truth(true), angle, || axis, &mut past.stops[1], &mut action);
+            self.turn.as_ref().map_or(S::truth(false), act)
+        } else {
+            self.act_ball::<COMMIT>(&self.triads.pose(&k.axes[inner], &k.axes[outer]), past, &mut action)
+        };
+        action.moment = action.stop;
+        let Some(friction) = &self.friction else { return (action, acts) };
+        // T = −C_f ω/√(|ω|² + ω_f²)
+        let omega = k.omega[outer] - k.omega[inner];
+        let squared = omega.norm_squared();
+        let scale = friction.torque / (squared + friction.speed * friction.speed).sqrt();
+        action.moment -= omega * scale;
+        action.dissipated = scale * squared;
+        (action, S::truth(true))
+    }
+
+    /// Stops of bend and twist.
+    #[inline(always)]
+    fn act_ball<const COMMIT: bool>(
+        &self,
+        pose: &Pose<S>,
+        past: &mut LimitHistory<S>,
+        action: &mut LimitAction<S>,
+    ) -> S::Mask {
+        let [bend_past, turn_past] = &mut past.stops;
+        let mut acts = S::truth(false);
+        if COMMIT {
+            action.angles = [pose.bend(), pose.azimuth(), pose.twist()];
+        }
+        if let Some(bend) = &self.bend {
+            acts = bend.act::<COMMIT>(pose, bend_past, action);
+        }
+        if let Some(turn) = &self.turn {
+            let near = pose.is_twisted_beyond(turn.gate);
+            if COMMIT || S::any(near) {
+                acts = acts | turn.act::<COMMIT>(near, pose.twist(), || pose.twisting(), turn_past, action);
+            }
+        }
+        acts
+    }
+
+    /// The stops of bend and turn, with χ of each.
+    pub(super) fn excess(&self, at: &Instant<'_, S>) -> [Option<(&Stop<S>, S)>; 2] {
+        let (k, (inner, outer)) = (at.k, self.segments);
+        let pose = self.triads.pose(&k.axes[inner], &k.axes[outer]);
+        let angle = if let Site::Hinge(limb) = self.site { at.state.hinge[limb] } else { pose.twist() };
+        let bend = self.bend.as_ref().map(|b| (&b.stop, pose.bend() - b.angle.around(pose.azimuth()).0));
+        [bend, self.turn.as_ref().map(|turn| (&turn.stop, turn.excess(angle).0))]
+    }
+}
+
+impl<S: Scalar> Bend<S> {
+    /// V = ∫f(χ), χ = θ − θ₀(φ): the moment is −f (e_θ − θ₀′ e_φ).
+    #[inline(always)]
+    fn act<const COMMIT: bool>(&self, pose: &Pose<S>, past: &mut Past<S>, action: &mut LimitAction<S>) -> S::Mask {
+        let near = pose.is_bent_beyond(self.gate);
+        if COMMIT || S::any(near) {
+            let (limit, rise) = self.angle.around(pose.azimuth());
+            let excess = pose.bend() - limit;
+            if COMMIT {
+                self.stop.commit(excess, past);
+            }
+            let moment = pose.swinging() * rise - pose.bending();
+            action.push(near, moment, excess, &self.stop.respond(excess, past));
+        }
+        near
+    }
+}
+
+impl<S: Scalar> Turn<S> {
+    /// χ, and the sign of the limit that it is beyond.
+    #[inline(always)]
+    fn excess(&self, angle: S) -> (S, S) {
+        let [below, above] = [self.range[0] - angle, angle - self.range[1]];
+        (above.max(below), S::select(below.lt(above), S::one(), -S::one()))
+    }
+
+    /// The moment is −f times the axis about which the angle grows.
+    #[inline(always)]
+    fn act<const COMMIT: bool>(
+        &self,
+        near: S::Mask,
+        angle: S,
+        axis: impl Fn() -> V3<S>,
+        past: &mut Past<S>,
+        action: &mut LimitAction<S>,
+    ) -> S::Mask {
+        let (excess, sign) = self.excess(angle);
+        let near = near & excess.gt(S::zero());
+        if COMMIT || S::any(near) {
+            if COMMIT {
+                self.stop.commit(excess, past);
+            }
+            action.push(near, axis() * -sign, excess, &self.stop.respond(excess, past));
+        }
+        near
+    }
+}
+
+#[cfg(test)]
+#[path = "tests.rs"]
+mod tests;

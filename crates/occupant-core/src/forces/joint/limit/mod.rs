@@ -1,0 +1,218 @@
+//! Elastic limits of joints, by direction, and dry friction: what joints have beyond those of the report.
+
+mod check;
+mod curve;
+mod law;
+mod results;
+mod triads;
+
+use nalgebra::Vector3;
+
+use crate::body::{Body, Joint};
+use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkSum};
+use crate::forces::joint::{DAMPING, Joints};
+use crate::forces::list::STORES;
+use crate::forces::rate::Rate;
+use crate::motion::layout::HINGE_JOINTS;
+use crate::motion::mobility::{Mobility, across, greatest};
+use crate::motion::scalar::Scalar;
+use crate::motion::vector::V3;
+use crate::quantity::energy;
+pub(crate) use curve::Curve;
+pub(crate) use law::{Bend, Friction, LimitAction, LimitHistory, LimitLaw, Stop, Turn};
+use law::{Past, Site};
+use placed_text::Problems;
+use triads::Triads;
+
+/// Places of what the stops store and of what they have lost.
+const STORED_AT: usize = 3;
+const LOST_AT: usize = 4;
+
+/// Excess at which the slope of a stop's torque is taken for estimates of the step, rad: 30°.
+const ESTIMATE_RAD: f64 = 0.52;
+
+/// Limits of other joints, or laws with other numbers of points.
+const OTHER_LIMITS: Unlike = Unlike("other joints have elastic limits, or their curves have other numbers of points");
+
+/// The centre axis ĉ of a joint and the direction x̂ of azimuth 0, in the inner segment.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Centre {
+    /// Along the outer segment and ahead, both turned about Y: a positive pitch brings a head forward and a hanging limb back.
+    Pitch { pitch_rad: f64 },
+    /// Two directions, for a left joint those of the right one.
+    Axes { axis: Vector3<f64>, forward: Vector3<f64> },
+}
+
+/// Limits and friction of one joint.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Limits {
+    pub(crate) joint: Joint,
+    pub(crate) centre: Centre,
+    /// Of a ball joint's bend.
+    pub(crate) bend: Option<Bend<f64>>,
+    /// Of a ball joint's twist or a hinge's angle.
+    pub(crate) turn: Option<Turn<f64>>,
+    pub(crate) friction: Option<Friction<f64>>,
+}
+
+/// The kind of force element: elastic limits and dry friction of joints.
+#[derive(Clone, Copy, Debug)]
+pub struct JointLimits;
+
+impl Element for JointLimits {
+    const OPTIONAL: bool = true;
+    const STORED: &'static [StoredEnergy] = &[
+        StoredEnergy {
+            at: STORED_AT,
+            quantity: energy(
+                14,
+                "stops",
+                "stored in elastic stops of joints",
+                "recoverable, in elastic stops of joints",
+            ),
+            held_by: None,
+        },
+        StoredEnergy {
+            at: LOST_AT,
+            quantity: energy(
+                15,
+                "lost_stops",
+                "lost in elastic stops of joints",
+                "lost in elastic stops of joints since the start, by what they remember",
+            ),
+            held_by: None,
+        },
+    ];
+    const SUMS: &'static [WorkSum] = &[];
+    const NAMES: [&'static str; 2] = ["joint", "joints"];
+
+    type Data<'a> = &'a Joints;
+    type Law<S> = Vec<LimitLaw<S>>;
+    type Past<S> = LimitHistory<S>;
+    type Hints<S: Scalar> = ();
+    type Action<S> = LimitAction<S>;
+
+    fn check(data: &Joints, _body: &Body, problems: &mut Problems) {
+        data.limits.iter().for_each(|limits| check::check(data, limits, problems));
+    }
+
+    fn new(data: &Joints, _body: &Body) -> Vec<LimitLaw<f64>> {
+        data.limits.iter().map(|limits| law(data, limits)).collect()
+    }
+
+    fn begin(law: &mut Vec<LimitLaw<f64>>, data: &Joints, _: &Body, at: &Instant<'_, f64>, problems: &mut Problems) {
+        law.iter().for_each(|law| check::start(data, law, at, problems));
+    }
+
+    fn start(law: &Vec<LimitLaw<f64>>, at: &Instant<'_, f64>) -> Vec<LimitHistory<f64>> {
+        law.iter().map(|law| LimitHistory { stops: law.excess(at).map(Past::start) }).collect()
+    }
+
+    fn hints<S: Scalar>(_law: &Vec<LimitLaw<S>>) {}
+
+    fn count<S>(law: &Vec<LimitLaw<S>>) -> usize {
+        law.len()
+    }
+
+    fn zip<S: Copy, A: Copy, T>(
+        one: &Vec<LimitLaw<S>>,
+        other: &Vec<LimitLaw<A>>,
+        f: &impl Fn(S, A) -> T,
+    ) -> Result<Vec<LimitLaw<T>>, Unlike> {
+        let is_like = one.iter().map(LimitLaw::shape).eq(other.iter().map(LimitLaw::shape));
+        is_like.then(|| one.iter().zip(other).map(|(a, b)| a.zip(b, f)).collect()).ok_or(OTHER_LIMITS)
+    }
+
+    fn each<S, A>(one: &mut LimitHistory<S>, other: &mut LimitHistory<A>, f: &mut impl FnMut(&mut S, &mut A)) {
+        for (one, other) in one.stops.iter_mut().zip(&mut other.stops) {
+            f(&mut one.greatest, &mut other.greatest);
+            f(&mut one.lost, &mut other.lost);
+        }
+    }
+
+    fn map<A: Copy, S>(past: &LimitHistory<A>, f: &mut impl FnMut(A) -> S) -> LimitHistory<S> {
+        let mut stop = |past: &Past<A>| Past { greatest: f(past.greatest), lost: f(past.lost) };
+        let [bend, turn] = &past.stops;
+        LimitHistory { stops: [stop(bend), stop(turn)] }
+    }
+
+    fn is_possible(_: &Self::Law<f64>, _: usize, past: &LimitHistory<f64>) -> bool {
+        past.stops.iter().all(|stop| stop.greatest >= 0.0)
+    }
+
+    fn confine(past: &mut LimitHistory<f64>) {
+        past.stops.iter_mut().for_each(|stop| stop.greatest = stop.greatest.max(0.0));
+    }
+
+    #[inline(always)]
+    fn apply<S: Scalar, const COMMIT: bool>(
+        law: &Vec<LimitLaw<S>>,
+        at: &Instant<'_, S>,
+        past: &mut [LimitHistory<S>],
+        _hints: &mut (),
+        load: &mut Load<S>,
+        show: &mut impl FnMut(&LimitAction<S>),
+    ) {
+        for (law, past) in law.iter().zip(past) {
+            let (action, acts) = law.act::<COMMIT>(at, past);
+            if S::any(acts) {
+                let (inner, outer) = law.segments;
+                let [k, l] = [load.wrench[inner].moment, load.wrench[outer].moment];
+                load.wrench[outer].moment = V3::select(acts, l + action.moment, l);
+                load.wrench[inner].moment = V3::select(acts, k - action.moment, k);
+                load.power.sums[DAMPING] += action.dissipated;
+            }
+            show(&action);
+        }
+    }
+
+    fn rates(
+        data: &Joints,
+        _body: &Body,
+        _at: &Instant<'_, f64>,
+        _actions: &[LimitAction<f64>],
+        mobility: &Mobility<'_>,
+    ) -> Vec<Rate> {
+        data.limits.iter().flat_map(|limits| rates(data, limits, mobility)).collect()
+    }
+
+    fn stored_j(actions: &[LimitAction<f64>], stored_j: &mut [f64; STORES]) {
+        stored_j[STORED_AT] = actions.iter().map(|action| action.stored).sum();
+        stored_j[LOST_AT] = actions.iter().map(|action| action.lost).sum();
+    }
+}
+
+fn law(data: &Joints, limits: &Limits) -> LimitLaw<f64> {
+    let row = &data.tree()[limits.joint];
+    let limb = HINGE_JOINTS.iter().position(|joint| *joint == limits.joint);
+    LimitLaw {
+        joint: limits.joint,
+        site: limb.map_or(Site::Ball, Site::Hinge),
+        segments: (row.proximal.index(), row.distal.index()),
+        triads: Triads::new(data.tree(), limits.joint, &limits.centre),
+        bend: limits.bend.clone(),
+        turn: limits.turn.clone(),
+        friction: limits.friction,
+    }
+}
+
+/// The stops' steepest torque up to [`ESTIMATE_RAD`] and friction at its steepest, about the axes that give way most.
+fn rates(data: &Joints, limits: &Limits, mobility: &Mobility<'_>) -> Vec<Rate> {
+    let row = &data.tree()[limits.joint];
+    let (inner, outer) = (row.proximal.index(), row.distal.index());
+    let relative = mobility.of_joint(inner, outer);
+    let z = mobility.kinematics.axes[outer].z.to_vector();
+    let hinge = HINGE_JOINTS.iter().position(|joint| *joint == limits.joint).map(|limb| mobility.of_hinge(limb));
+    let turning = hinge.unwrap_or(z.dot(&(relative * z)));
+    let spring = |stop: &Stop<f64>, by: &str, give: f64| {
+        let slope = stop.torque.steepness(ESTIMATE_RAD).0 / stop.returned;
+        Rate::of_spring(row.name.to_owned(), by.to_owned(), 1.0 / give, slope)
+    };
+    let bend = limits.bend.as_ref().map(|bend| spring(&bend.stop, "limit", greatest(across(&relative, &z))));
+    let turn = limits.turn.as_ref().map(|turn| spring(&turn.stop, "limit", turning));
+    let friction = limits.friction.and_then(|friction| {
+        let give = hinge.unwrap_or_else(|| greatest(relative));
+        Rate::of_damper(&format!("{}, friction", row.name), 1.0 / give, friction.torque / friction.speed)
+    });
+    [bend, turn, friction].into_iter().flatten().filter(|rate| rate.coefficient > 0.0).collect()
+}

@@ -1,0 +1,96 @@
+//! Elastic limits in results.
+
+use crash_measures::unit::Unit::{self, NewtonMetre, Radian};
+
+use super::{JointLimits, LimitAction, LimitHistory, Past};
+use crate::forces::shown::{Named, OneOf, Reported, Tracked};
+use crate::forces::stored::Archive;
+use crate::forces::table::Column;
+use crate::motion::scalar::Scalar;
+use crate::quantity::{FieldWords, Quantity};
+
+type Of = Quantity<OneOf<JointLimits>>;
+
+impl LimitAction<f64> {
+    /// Magnitude of the stops' moment, N·m.
+    fn stop_n_m(&self) -> f64 {
+        self.stop.norm_squared().sqrt()
+    }
+}
+
+impl Reported for JointLimits {
+    const MESSAGE: &'static str = "JointLimit";
+
+    const QUANTITIES: &'static [Of] = &[
+        Of::number(Radian, |a| a.angles[0]).channel("bend", "bend of the {} from its centre axis").field(
+            2,
+            "bend",
+            "angle between centre axis and outer segment; of a hinge its angle",
+        ),
+        Of::number(Radian, |a| a.angles[1]).channel("azimuth", "direction of the bend of the {}").field(
+            3,
+            "azimuth",
+            "0 is forward, 90° the left of a neck and the outside of a limb; 0 of a hinge",
+        ),
+        Of::number(Radian, |a| a.angles[2]).channel("twist", "twist of the {}").field(
+            4,
+            "twist",
+            "turn of the outer segment about itself, swing apart; 0 of a hinge",
+        ),
+        Of::number(Radian, |a| a.excess).channel("excess", "angle of the {} beyond its limit").field(
+            5,
+            "excess",
+            "angle beyond the limit, of bend or twist the greater; 0 within",
+        ),
+        Of::number(NewtonMetre, |a| a.stop_n_m()).channel("stop_moment", "moment of the stops of the {}").field(
+            6,
+            "stop_moment",
+            "magnitude of the moment of the elastic stops",
+        ),
+    ];
+
+    const PEAKS: &'static [Tracked<LimitAction<f64>>] = &[
+        Tracked {
+            of: |a| a.excess,
+            column: Column {
+                scale: 180.0 / std::f64::consts::PI,
+                ..Column::number("greatest_excess_rad", "beyond limit, °", 1)
+            }
+            .measure("greatest_excess", Radian),
+            time: Some(Column::time("excess_time_s").measure("excess_time", Unit::Second)),
+            at_least_zero: true,
+        },
+        Tracked {
+            of: |a| a.stop_n_m(),
+            column: Column::number("stop_peak_n_m", "stop moment, N·m", 1).measure("stop_peak", NewtonMetre),
+            time: Some(Column::time("stop_time_s").measure("stop_time", Unit::Second)),
+            at_least_zero: true,
+        },
+    ];
+
+    fn keep(past: &mut Vec<LimitHistory<f64>>, like: Option<&[LimitHistory<f64>]>, file: &mut dyn Archive) {
+        let number = if like.is_some() { 43 } else { 42 };
+        let meaning = "of each joint with limits: greatest angle beyond the limit (rad) and energy lost before (J), of bend, \
+                       of twist or hinge";
+        let list = past.iter().flat_map(|joint| joint.stops).flat_map(|stop| [stop.greatest, stop.lost]).collect();
+        let list = file.numbers(FieldWords { number, stem: "joint_limits", meaning }, list);
+        let (joints, []) = list.as_chunks() else {
+            return file.refuse("a list of joint limits with parts missing");
+        };
+        let stop = |greatest, lost| Past { greatest, lost };
+        *past = joints.iter().map(|&[a, b, c, d]| LimitHistory { stops: [stop(a, b), stop(c, d)] }).collect();
+    }
+
+    fn named<'a>(data: Self::Data<'a>) -> Vec<Named<'a>> {
+        data.limits.iter().map(|limits| Named { name: data.tree()[limits.joint].name, sphere: None }).collect()
+    }
+
+    fn event<S: Scalar>(before: &LimitAction<S>, now: &LimitAction<S>) -> Option<(&'static str, Option<S>)> {
+        let is_beyond = |action: &LimitAction<S>| S::any(action.excess.gt(S::zero()));
+        match (is_beyond(before), is_beyond(now)) {
+            (false, true) => Some(("reaches its elastic limit", None)),
+            (true, false) => Some(("leaves its elastic limit", None)),
+            _ => None,
+        }
+    }
+}

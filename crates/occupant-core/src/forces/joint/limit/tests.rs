@@ -1,0 +1,284 @@
+//! Angles, torques and energies of elastic limits.
+
+use std::f64::consts::PI;
+
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+
+use super::*;
+use crate::body::tti12::{LEFT_HIP, LEFT_KNEE, LEFT_SHOULDER, LOWER_BACK, NECK, RIGHT_HIP, RIGHT_SHOULDER, TTI12};
+use crate::body::tti12::{RIGHT_ELBOW, UPPER_BACK};
+use crate::diagnosis::tests::model_of;
+use crate::forces::joint::DAMPING;
+use crate::forces::joint::limit::{Centre, LOST_AT, STORED_AT};
+use crate::model::Model;
+use crate::motion::dual::Dual;
+use crate::motion::vector::M3;
+use crate::results::energy::EnergyLedger;
+use crate::results::recorder::Watch;
+use crate::results::sample::Sample;
+use crate::run::simulate::simulate;
+
+/// Numbers from −1 to 1 (an additive sequence, the same in every run).
+struct Numbers(u64);
+
+impl Numbers {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+        (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    fn vector(&mut self) -> Vector3<f64> {
+        Vector3::new(self.next(), self.next(), self.next())
+    }
+
+    fn turn(&mut self) -> Matrix3<f64> {
+        let q = nalgebra::Quaternion::new(self.next(), self.next(), self.next(), self.next());
+        *UnitQuaternion::from_quaternion(q).to_rotation_matrix().matrix()
+    }
+}
+
+fn quadratic(returned: f64) -> Stop<f64> {
+    Stop { torque: Curve::polynomial([3.0, 40.0, 5.0]), returned }
+}
+
+fn azimuthal() -> Bend<f64> {
+    let points = [[0.0, 60.0], [60.0, 45.0], [120.0, 55.0], [180.0, 70.0], [270.0, 38.0]];
+    Bend::new(Curve::periodic(&points.map(|point| point.map(f64::to_radians))), quadratic(1.0))
+}
+
+fn twisting() -> Turn<f64> {
+    Turn::new([-0.6, 0.9], quadratic(1.0))
+}
+
+fn pose(joint: Joint, pitch_rad: f64, k: &Matrix3<f64>, l: &Matrix3<f64>) -> Pose<f64> {
+    Triads::new(&TTI12, joint, &Centre::Pitch { pitch_rad }).pose(&M3::of(k), &M3::of(l))
+}
+
+/// Potential and moment of both limits.
+fn loaded(joint: Joint, k: &Matrix3<f64>, l: &Matrix3<f64>) -> LimitAction<f64> {
+    let (pose, mut action) = (pose(joint, 0.3, k, l), LimitAction::none(joint));
+    azimuthal().act::<false>(&pose, &mut Past::none(), &mut action);
+    let near = pose.is_twisted_beyond(twisting().gate);
+    twisting().act::<false>(near, pose.twist(), || pose.twisting(), &mut Past::none(), &mut action);
+    action
+}
+
+#[test]
+fn moments_are_the_gradient_of_the_stored_energy() {
+    let (mut numbers, mut worst, mut bent) = (Numbers(7), 0.0_f64, 0);
+    for joint in [NECK, RIGHT_HIP, LEFT_HIP, LOWER_BACK, LEFT_SHOULDER].repeat(400) {
+        let (k, l, axis) = (numbers.turn(), numbers.turn(), numbers.vector().normalize());
+        // the twist's direction has no bound at 180° of bend
+        if pose(joint, 0.3, &k, &l).bend() > 2.8 {
+            continue;
+        }
+        let h = 1e-6;
+        let energy = |angle: f64| loaded(joint, &k, &(Rotation3::new(axis * angle).matrix() * l)).stored;
+        let found = loaded(joint, &k, &l);
+        let by_difference = -(energy(h) - energy(-h)) / (2.0 * h);
+        let scale = 1.0 + found.stop.norm_squared().sqrt();
+        worst = worst.max((by_difference - found.stop.to_vector().dot(&axis)).abs() / scale);
+        bent += usize::from(found.stored > 0.0);
+    }
+    assert!(bent > 1500, "{bent}");
+    // measured: 6e-8, the error of the differences
+    assert!(worst < 1e-6, "{worst:e}");
+}
+
+#[test]
+fn angles_are_those_of_a_limb_that_is_bent_and_then_twisted() {
+    let mut numbers = Numbers(3);
+    for (joint, hand) in [(NECK, 1.0), (RIGHT_HIP, 1.0), (LEFT_HIP, -1.0)] {
+        let up = if joint == NECK { 1.0 } else { -1.0 };
+        for _ in 0..200 {
+            let (bend, azimuth, twist) = (1.5 + 1.4 * numbers.next(), PI * numbers.next(), PI * numbers.next());
+            let k = numbers.turn();
+            // the reference axes of E.1, swung about ĉ × (direction of the azimuth) and turned about ẑ
+            let (c, x) = (k * Vector3::z() * up, k * Vector3::x());
+            let y = c.cross(&x) * hand;
+            let towards = x * azimuth.cos() + y * azimuth.sin();
+            let swing = Rotation3::new(c.cross(&towards) * bend);
+            let turned = Rotation3::new(swing * c * (twist * hand)) * swing * k;
+            let pose = pose(joint, 0.0, &k, &turned);
+            let found = [pose.bend(), pose.azimuth(), pose.twist()];
+            for (found, expected) in found.into_iter().zip([bend, azimuth, twist]) {
+                assert!((found - expected).abs() < 1e-12, "{found} for {expected}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_positive_pitch_brings_a_head_forward_and_a_hanging_limb_back() {
+    let one = Matrix3::identity();
+    for (joint, azimuth) in [(NECK, PI), (RIGHT_HIP, 0.0)] {
+        let pose = pose(joint, 0.2, &one, &one);
+        assert!((pose.bend() - 0.2).abs() < 1e-15 && (pose.azimuth().abs() - azimuth).abs() < 1e-15);
+    }
+}
+
+#[test]
+fn left_joints_mirror_right_ones() {
+    let (mut numbers, mirror) = (Numbers(11), Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, 1.0)));
+    for (right, left) in [(RIGHT_HIP, LEFT_HIP), (RIGHT_SHOULDER, LEFT_SHOULDER)].repeat(100) {
+        let (k, l) = (numbers.turn(), numbers.turn());
+        let [here, there] = [loaded(right, &k, &l), loaded(left, &(mirror * k * mirror), &(mirror * l * mirror))];
+        assert!((here.stored - there.stored).abs() < 1e-12 * (1.0 + here.stored));
+        // a moment is an axial vector
+        let mirrored = -(mirror * here.stop.to_vector());
+        assert!((mirrored - there.stop.to_vector()).norm() < 1e-10 * (1.0 + mirrored.norm()));
+    }
+}
+
+#[test]
+fn nothing_jumps_where_the_azimuth_does() {
+    let bend = azimuthal();
+    let [(a, slope_a), (b, slope_b)] = [PI - 1e-9, -PI + 1e-9].map(|angle| bend.angle.around(angle));
+    assert!((a - b).abs() < 1e-8 && (slope_a - slope_b).abs() < 1e-7);
+    assert!((bend.angle.around(270_f64.to_radians() - 2.0 * PI).0.to_degrees() - 38.0).abs() < 1e-12);
+}
+
+/// Straight and fully bent postures have no direction: no 0/0, in dual numbers either.
+#[test]
+fn straight_and_folded_joints_have_finite_torques_and_slopes() {
+    let one = M3::of(&Matrix3::identity());
+    let flat = M3::of(&Matrix3::from_diagonal(&Vector3::new(1.0, -1.0, -1.0)));
+    let law = Triads::new(&TTI12, NECK, &Centre::Pitch { pitch_rad: 0.0 });
+    let dual = |x: f64, _: f64| Dual::<1>::new(x, [0.0]);
+    let [bend, turn] = [azimuthal(), azimuthal()].map(|bend| Bend {
+        angle: bend.angle.zip(&bend.angle, &dual),
+        stop: bend.stop.zip(&bend.stop, &dual),
+        gate: Dual::of(2.0),
+    });
+    for (l, bend) in [(one, bend), (flat, turn)] {
+        let seeded = |m: M3<f64>| m.zip(&m, &|x, _| Dual::new(x, [0.3]));
+        let pose = law.zip(&law, &dual).pose(&seeded(one), &seeded(l));
+        let mut action = LimitAction::none(NECK);
+        bend.act::<true>(&pose, &mut Past::none(), &mut action);
+        for x in [action.stop.x, action.stop.y, action.stop.z, action.stored, action.excess] {
+            assert!(x.value.is_finite() && x.slopes[0].is_finite(), "{action:?}");
+        }
+    }
+}
+
+/// Any way of the angle takes as much from outside as it stores and loses, whatever was committed on the way.
+#[test]
+fn work_is_what_is_stored_and_lost() {
+    let mut numbers = Numbers(5);
+    let table = Stop { torque: Curve::lines(&[[0.0, 0.0], [0.2, 4.0], [0.3, 40.0]]), returned: 0.3 };
+    for stop in [quadratic(0.6), quadratic(1.0), table] {
+        let (mut past, mut angle, mut work) = (Past::none(), -0.1, 0.0);
+        for _ in 0..60 {
+            let to = 0.35 * numbers.next() + 0.15;
+            let count = 2000;
+            for i in 0..count {
+                let at = angle + (to - angle) * (f64::from(i) + 0.5) / f64::from(count);
+                work += stop.respond(at, &past).torque * (to - angle) / f64::from(count);
+                stop.commit(at, &mut past);
+            }
+            angle = to;
+            stop.commit(angle, &mut past);
+            let reply = stop.respond(angle, &past);
+            assert!(reply.stored >= 0.0 && reply.lost >= 0.0);
+            assert!(
+                (work - reply.stored - reply.lost).abs() < 2e-4 * (1.0 + work),
+                "{work} {} {}",
+                reply.stored,
+                reply.lost
+            );
+        }
+    }
+}
+
+/// A body afloat without gravity and damping whose head nods forward at 20 rad/s.
+fn nodding(neck: &str) -> Model {
+    let (q, mut rates) = (["0.0"; 31].join(", "), ["0.0"; 31]);
+    // θ̇ of the head
+    rates[10] = "20.0";
+    let rates = rates.join(", ");
+    model_of(&format!(
+        "title = \"nod\"\ngravity = 0\ntime = {{ end = 0.12 }}\noutput = {{ interval = 0.0002 }}\n\
+         path = {{ kind = \"fixed\" }}\nbody = {{ preset = \"male50\" }}\njoints = {{ all = {{ damping = 0 }}, neck = {{ {neck} }} }}\n\
+         initial_state = {{ q = [{q}], rates = [{rates}] }}\n"
+    ))
+}
+
+fn energies(model: &Model) -> (Vec<(EnergyLedger, f64)>, f64) {
+    let mut list = Vec::new();
+    let outcome = simulate(model, Watch(|s: &Sample<'_>| list.push((s.energy, s.actions.limits[0].excess)))).unwrap();
+    (list, outcome.balance_error)
+}
+
+#[test]
+fn a_swing_into_a_limit_returns_its_share() {
+    for (returned, least) in [(1.0, 5.0), (0.4, 5.0)] {
+        let neck = format!("limit = {{ angle = 20, torque = {{ c1 = 30, c2 = 200, returned = {returned} }} }}");
+        let (list, balance_error) = energies(&nodding(&neck));
+        let peak = list.iter().map(|(e, _)| e.stored_j[STORED_AT] + e.stored_j[LOST_AT]).fold(0.0, f64::max);
+        let taken = |e: &EnergyLedger| e.stored_j[STORED_AT];
+        let deepest = (0..list.len()).max_by(|&a, &b| taken(&list[a].0).total_cmp(&taken(&list[b].0))).unwrap();
+        // a stop that loses energy lets go before the joint is back inside its limit
+        let (end, _) = list[deepest..].iter().find(|(e, _)| taken(e) == 0.0).unwrap();
+        let begin = list[0].0;
+        assert!(peak > least, "{peak}");
+        let lost = begin.kinetic_j - end.kinetic_j;
+        // measured: 1.9e-7 of the kinetic energy; 1e-5 J of 18 J
+        assert!(balance_error < 1e-6, "{balance_error:e}");
+        assert!((lost - (1.0 - returned) * peak).abs() < 1e-3 * peak, "{lost} of {peak}");
+    }
+}
+
+#[test]
+fn friction_takes_energy_and_brings_the_joint_to_rest() {
+    let (list, balance_error) = energies(&nodding("friction = { torque = 15, speed = \"12 deg/s\" }"));
+    let (begin, end) = (list[0].0, list.last().unwrap().0);
+    assert!(balance_error < 1e-6, "{balance_error:e}");
+    assert!(end.lost_j[DAMPING] > 0.1 * begin.kinetic_j);
+    assert!((begin.kinetic_j - end.kinetic_j - end.lost_j[DAMPING]).abs() < 1e-5 * begin.kinetic_j);
+}
+
+/// (coefficient in in·lbf/deg², limit in degrees) of bend and of twist, pitch of the centre in degrees.
+type Row = (Joint, (f64, f64), (f64, f64), f64);
+
+#[test]
+fn the_preset_is_gebods_table() {
+    let model = model_of(&format!(
+        "title = \"t\"\ntime = {{ end = 0.01 }}\npath = {{ kind = \"fixed\" }}\nbody = {{ preset = \"male50\" }}\n\
+         joints = {{ preset = \"gebod\" }}\ninitial_state = {{ q = [{}], rates = [{}] }}\n",
+        ["0.0"; 31].join(", "),
+        ["0.0"; 31].join(", ")
+    ));
+    let joints = &model.setup().joints;
+    let unit = 4.4482216152605 * 0.0254;
+    let limits = |joint: Joint| joints.limits.iter().find(|limits| limits.joint == joint).unwrap();
+    let is = |stop: &Stop<f64>, coefficient: f64| {
+        let torque = stop.torque.value(12_f64.to_radians());
+        assert!((torque - coefficient * 144.0 * unit).abs() < 1e-9 * torque && stop.returned == 0.7);
+    };
+    let rows: [Row; 5] = [
+        (LOWER_BACK, (10.0, 20.0), (10.0, 5.0), 5.0),
+        (UPPER_BACK, (10.0, 20.0), (10.0, 35.0), 5.0),
+        (NECK, (5.0, 25.0), (10.0, 35.0), 10.0),
+        (LEFT_HIP, (10.0, 70.0), (0.8, 40.0), -45.0),
+        (RIGHT_SHOULDER, (10.0, 122.5), (10.0, 65.0), -4.1),
+    ];
+    for (joint, bend, twist, pitch) in rows {
+        let found = limits(joint);
+        let (bend_limit, turn) = (found.bend.as_ref().unwrap(), found.turn.as_ref().unwrap());
+        assert!((bend_limit.angle.around(1.0).0.to_degrees() - bend.1).abs() < 1e-12);
+        assert!((turn.range[1].to_degrees() - twist.1).abs() < 1e-12 && turn.range[0] == -turn.range[1]);
+        is(&bend_limit.stop, bend.0);
+        is(&turn.stop, twist.0);
+        let Centre::Pitch { pitch_rad } = found.centre else { panic!("{found:?}") };
+        assert!((pitch_rad.to_degrees() - pitch).abs() < 1e-12);
+    }
+    for (joint, range) in [(LEFT_KNEE, [0.0, 120.0]), (RIGHT_ELBOW, [-140.0, 0.0])] {
+        let turn = limits(joint).turn.as_ref().unwrap();
+        assert!(turn.range.iter().zip(range).all(|(a, b)| (a.to_degrees() - b).abs() < 1e-12));
+        is(&turn.stop, 1.8);
+    }
+    for (_, law) in joints.iter() {
+        let damping = law.ball().map_or_else(|| law.hinge().unwrap().damping_n_m_s, |ball| ball.damping_n_m_s);
+        assert!((damping - 0.1 * unit * 180.0 / PI).abs() < 1e-12);
+    }
+}
