@@ -149,7 +149,7 @@ fn the_error_of_a_run_is_estimated_by_a_finer_one() {
     assert_eq!(peak["difference"].as_f64().unwrap(), figure(&coarse) - figure(&fine));
     assert!(off(&fine) > 0.0 && off(&fine) < off(&coarse), "{} {}", off(&fine), off(&coarse));
     let table = out(&answer(folder.path(), &["run", "case.toml", "--no-mcap", "--estimate-error"]));
-    assert!(table.contains("integration error   head path 0.006 mm; no figure by more than 0.1 %"), "{table}");
+    assert!(table.contains("integration error   head path 0.028 mm; no figure by more than 0.1 %"), "{table}");
     assert!(table.contains("estimated against rk4 at a quarter of the step"), "{table}");
 }
 
