@@ -22,7 +22,7 @@ need is run as well. --keep leaves all products in DIR/old and DIR/new, which mu
 Ignored is only what differs between two runs of one program, or with its version or that of a library:
 
 - wall times in tables, in JSON and in the columns `wall_time_s`; lines of progress of sweeps and fits;
-- `results.parquet` and `history.parquet`, and the journals of sweeps and fits, which hold wall times;
+- `results.parquet` and `history.parquet`, the journals of sweeps and fits, which hold wall times, and `SHA256SUMS` of them;
 - the program's version; the library named in Parquet files; of MCAP files the library and, where that differs, index,
   checksums and compression of the chunks.
 
@@ -52,7 +52,7 @@ MOST_LINES = 6  # of differences of one case
 
 CALLS = tomllib.loads((ROOT / "tests/same_outputs.toml").read_text())
 BEGINS_WITH = CALLS["begins_with"]
-TIMED = {"results.parquet", "history.parquet", "journal"}  # hold wall times
+TIMED = {"results.parquet", "history.parquet", "journal", "SHA256SUMS"}  # hold wall times
 
 
 # --- What is run ------------------------------------------------------------------------------------------------------
