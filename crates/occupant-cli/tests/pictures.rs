@@ -169,3 +169,31 @@ fn what_a_run_that_broke_off_has_left_can_be_drawn() {
         assert!(read(folder.path(), name).contains("did not complete"));
     }
 }
+
+/// A prism has four sides and two ends: six polygons more, and a contact with it finds its name behind the surfaces.
+#[test]
+fn solids_are_drawn_in_views_and_on_the_page() {
+    let folder = folder_with_run();
+    let solid = "[solids]\nblock = { kind = \"prism\", material = \"seat\", \
+        profile = [[0.6, 0], [0.8, 0], [0.8, 0.2], [0.6, 0.2]], half_width = 0.3 }\n";
+    fs::write(folder.path().join("solid.toml"), format!("{SHORT}\n{solid}")).expect("written");
+    let run = answer(folder.path(), &["run", "solid.toml", "--quiet", "-o", "solid.mcap"]);
+    assert_eq!(code(&run), 0, "{}", err(&run));
+    let drawn = |run: &str| {
+        let (svg, html) = (run.replace("mcap", "svg"), run.replace("mcap", "html"));
+        for words in [&["view", run, "-o", &svg, "--times", "0", "--views", "side"][..], &["report", run, "-o", &html]]
+        {
+            let output = answer(folder.path(), words);
+            assert_eq!(code(&output), 0, "{}", err(&output));
+        }
+        let html = read(folder.path(), &html);
+        let data = html.split_once("id=\"report-data\">").and_then(|(_, rest)| rest.split_once("</script>"));
+        let data: serde_json::Value = serde_json::from_str(data.expect("data").0).expect("JSON");
+        let surfaces = data["runs"][0]["surfaces"].as_array().expect("a list").clone();
+        (read(folder.path(), &svg).matches("#5b6770").count(), surfaces)
+    };
+    let ((without, surfaces), (with, sides)) = (drawn("run.mcap"), drawn("solid.mcap"));
+    assert_eq!((with - without, sides.len() - surfaces.len()), (6, 6));
+    assert_eq!(sides[..surfaces.len()], surfaces);
+    assert_eq!((&sides[surfaces.len()]["name"], &sides[surfaces.len()]["bounded"]), (&"block".into(), &true.into()));
+}

@@ -119,6 +119,19 @@ fn every_page_has_the_titles_its_number_and_at_most_60_lines_of_132_columns() {
 }
 
 #[test]
+fn the_echo_lists_solids_where_there_are_any() {
+    let solid = "[solids]\nbar = { kind = \"capsule\", material = \"seat\", ends = [[0.6, 0, 0.1], [0.6, 0.5, 0.1]], \
+        radius = 0.05 }\n";
+    let folder = recorded_of(&format!("{SCENARIO}\n{solid}"));
+    let text = printed(folder.path(), &["short.mcap", "--every", "1"]);
+    let line = text.lines().find(|line| line.starts_with(" 5 bar ")).expect("a line");
+    for words in ["VEHICLE", "seat", "CAPSULE, RADIUS 0.0500", "0.6000"] {
+        assert!(line.contains(words), "{line}");
+    }
+    assert!(!printed(recorded().path(), &["short.mcap", "--every", "1"]).contains("SOLIDS"));
+}
+
+#[test]
 fn the_echo_says_what_was_read_and_computed() {
     let folder = recorded();
     let text = printed(folder.path(), &["short.mcap", "--every", "1"]);

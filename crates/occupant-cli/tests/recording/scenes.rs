@@ -1,12 +1,15 @@
 //! What a viewer draws: transforms, shapes, belts and forces.
 
-use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use occupant_core::body::tti12::TTI12;
+use occupant_core::forces::contact::solid::{Shape, Solid};
+use occupant_core::forces::contact::surface::Frame;
+use occupant_core::model::Model;
 use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use prost_reflect::DynamicMessage;
 
-use super::support::{components, field, model, numbers, part, parts, read, record, text};
+use super::support::{components, field, model, numbers, part, parts, read, record, setup, text};
 
 fn point(message: &DynamicMessage) -> Point3<f64> {
     let n = components(message);
@@ -125,6 +128,31 @@ fn surfaces_are_drawn_with_their_area_and_side() {
     let long = (points[1] - points[0]).norm() * (points[2] - points[1]).norm();
     let expected = 0.0254 * (20.0_f64.powi(2) + 2.0_f64.powi(2)).sqrt() * 0.5;
     assert!((long - expected).abs() < 1e-12, "{long} {expected}");
+}
+
+/// Six sides of a box with their area, one entity of its name behind the surfaces.
+#[test]
+fn solids_are_drawn_behind_the_surfaces() {
+    let mut setup = setup();
+    let (centre, lengths) = (Point3::new(0.7, 0.0, 0.1), Vector3::new(0.2, 0.6, 0.3));
+    let shape = Shape::block(centre, lengths, &Matrix3::identity(), 0.01);
+    let name = "block".to_owned();
+    setup.solids.push(Solid { name, frame: Frame::Vehicle, shape, material: 0, group: None, spheres: None });
+    let (bytes, _) = record(&Model::new(setup).unwrap(), ());
+    let topics = read(&bytes);
+    for topic in ["/scene/compartment", "/scene/labels"] {
+        let entities = parts(&topics[topic][0].message, "entities");
+        assert_eq!(text(entities.last().unwrap(), "id"), "block", "{topic}");
+    }
+    let entities = parts(&topics["/scene/compartment"][0].message, "entities");
+    let area = |plate: &DynamicMessage| {
+        let p: Vec<_> = parts(plate, "points").iter().map(point).collect();
+        (p[1] - p[0]).norm() * (p[2] - p[1]).norm()
+    };
+    let sides = parts(entities.last().unwrap(), "triangles");
+    let all: f64 = sides.iter().map(area).sum();
+    assert_eq!(sides.len(), 6);
+    assert!((all - 2.0 * (0.2 * 0.6 + 0.6 * 0.3 + 0.3 * 0.2)).abs() < 1e-12, "{all}");
 }
 
 /// Independent of how the arc is drawn: it ends at the second tangent point, and anchor to anchor it has the belt's length.

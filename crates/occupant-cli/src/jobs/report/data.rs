@@ -1,5 +1,7 @@
 //! What the page is made from. The names of the fields are those that `assets/viewer/src` reads.
 
+use nalgebra::Point3;
+use occupant_core::forces::contact::solid::Solid;
 use occupant_core::forces::contact::surface::{Frame, Outline};
 use serde::Serialize;
 
@@ -70,8 +72,8 @@ struct SphereData {
     radius: f64,
 }
 
-/// A surface; corners in axes of the vehicle or, for `space`, in vehicle-space. One without bounds has them about its foot
-/// below the origin.
+/// A surface or a side of a solid; corners in axes of the vehicle or, for `space`, in vehicle-space. One without bounds has them about its foot
+/// below the origin. Contacts count surfaces, then solids by their first side; other sides come last and have no name.
 #[derive(Debug, Serialize)]
 struct SurfaceData {
     name: String,
@@ -104,7 +106,7 @@ impl Run {
             segments: model.body().tree.segment_rows().iter().map(|row| row.name.replace('_', " ")).collect(),
             parts: parts(model.body()).iter().map(PartData::of).collect(),
             spheres: spheres(results),
-            surfaces: surfaces(results),
+            surfaces: surfaces(results).into_iter().chain(sides(results)).collect(),
             motion,
             plots: curves::plots(&series),
             measures: measures::measures(&summary),
@@ -146,12 +148,7 @@ fn surfaces(results: &Results) -> Vec<SurfaceData> {
     let all = model.setup().surfaces.iter().zip(model.faces());
     all.map(|(surface, face)| {
         let bounded = !matches!(face.outline, Outline::Unbounded { .. });
-        // space is Y left, Z up; vehicle-space Y right, Z down
-        let (frame, turn) = match face.frame {
-            Frame::Vehicle => ("vehicle", [1.0, 1.0, 1.0]),
-            Frame::Space => ("space", [1.0, -1.0, -1.0]),
-        };
-        let turned = |v: [f64; 3]| [0, 1, 2].map(|i| turn[i] * v[i]);
+        let (frame, turned) = shown_in(face.frame);
         let follows = !bounded && face.frame == Frame::Space;
         let foot = face.normal * face.offset_m;
         // a patch that follows the vehicle moves along the plane from its foot below the origin
@@ -166,4 +163,40 @@ fn surfaces(results: &Results) -> Vec<SurfaceData> {
         }
     })
     .collect()
+}
+
+/// The first sides of all solids, then the others.
+fn sides(results: &Results) -> Vec<SurfaceData> {
+    let (mut first, mut others) = (Vec::new(), Vec::new());
+    for solid in &results.model.setup().solids {
+        let mut sides = solid.outline().into_iter();
+        first.extend(sides.next().map(|side| SurfaceData::side(solid, &solid.name, &side)));
+        others.extend(sides.map(|side| SurfaceData::side(solid, "", &side)));
+    }
+    first.append(&mut others);
+    first
+}
+
+impl SurfaceData {
+    fn side(solid: &Solid, name: &str, corners: &[Point3<f64>]) -> Self {
+        let (frame, turned) = shown_in(solid.frame);
+        let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0])).normalize();
+        SurfaceData {
+            name: name.to_owned(),
+            frame,
+            bounded: true,
+            material: solid.material,
+            corners: corners.iter().map(|p| turned((*p).into())).collect(),
+            normal: turned(normal.into()),
+        }
+    }
+}
+
+/// The page's name of a frame, and what turns its vectors: space is Y left, Z up; vehicle-space Y right, Z down.
+fn shown_in(frame: Frame) -> (&'static str, impl Fn([f64; 3]) -> [f64; 3]) {
+    let (name, turn) = match frame {
+        Frame::Vehicle => ("vehicle", [1.0, 1.0, 1.0]),
+        Frame::Space => ("space", [1.0, -1.0, -1.0]),
+    };
+    (name, move |v| [0, 1, 2].map(|i| turn[i] * v[i]))
 }

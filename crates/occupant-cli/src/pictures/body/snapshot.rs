@@ -4,6 +4,7 @@ use nalgebra::{Isometry3, Point3, Translation3, Vector3};
 use occupant_core::forces::contact::flat_face::FlatFace;
 use occupant_core::forces::contact::surface::{Frame, Outline};
 use occupant_core::forces::shown::Line;
+use occupant_core::model::Model;
 use occupant_core::results::sample::{Contact, Sample};
 use occupant_core::vehicle::FrameMotion;
 
@@ -45,13 +46,26 @@ impl Snapshot {
         }
     }
 
+    /// What there is to touch, as polygons: the surfaces, then all sides of the solids, m.
+    pub(crate) fn polygons_m(&self, model: &Model) -> Vec<Vec<Point3<f64>>> {
+        let faces = model.faces().iter().map(|face| self.corners_m(face));
+        let solids = &model.setup().solids;
+        let sides = solids.iter().flat_map(|s| s.outline().into_iter().map(|side| self.placed(s.frame, side)));
+        faces.chain(sides).collect()
+    }
+
     /// A surface's corners, an unbounded one's as a square below the vehicle's origin, m.
     pub(crate) fn corners_m(&self, face: &FlatFace) -> Vec<Point3<f64>> {
         let corners = match &face.outline {
             Outline::Unbounded { .. } => self.patch_m(face),
             _ => corners_m(face),
         };
-        match face.frame {
+        self.placed(face.frame, corners)
+    }
+
+    /// Points of a frame in vehicle axes.
+    fn placed(&self, frame: Frame, corners: Vec<Point3<f64>>) -> Vec<Point3<f64>> {
+        match frame {
             Frame::Vehicle => corners,
             Frame::Space => {
                 let place = |p: &Point3<f64>| self.vehicle.point_to_frame(p.coords).into();

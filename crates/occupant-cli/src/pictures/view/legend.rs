@@ -45,7 +45,7 @@ pub(crate) fn draw(svg: &mut Svg, layout: &Layout, pen: &Pen<'_>) {
             row.stroke(&format!("stroke=\"{color}\" stroke-width=\"1.8\""), label);
         }
     }
-    if !pen.strip.model.faces().is_empty() {
+    if pen.strip.model.setup().surface_names().next().is_some() {
         let line = format!("stroke=\"{SURFACE}\"");
         row.stroke(&format!("{line} stroke-width=\"1.6\""), "surface, edge-on");
         let dashed = format!("{line} stroke-width=\"0.8\" stroke-dasharray=\"3 2\"");

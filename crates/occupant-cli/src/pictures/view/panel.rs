@@ -4,7 +4,6 @@
 //! hidden: lines of force elements, surfaces before the body (as dashed outlines), contacts.
 
 use nalgebra::Point3;
-use occupant_core::forces::contact::flat_face::FlatFace;
 
 use super::Strip;
 use super::hull::outline;
@@ -63,32 +62,33 @@ impl Place {
 pub(crate) fn draw(svg: &mut Svg, pen: &Pen<'_>, moment: &Snapshot, view: View, corner: [f64; 2], corner_m: [f64; 2]) {
     let place = Place { view, scale: pen.scale, origin: [0, 1].map(|i| corner[i] - pen.scale * corner_m[i]) };
     let (before, behind) = surfaces(pen, moment, view);
-    for face in &behind {
-        draw_surface(svg, &place, moment, face, false);
+    for corners in &behind {
+        draw_surface(svg, &place, corners, false);
     }
     draw_body(svg, &place, pen, moment);
     draw_spheres(svg, &place, pen, moment);
     draw_lines(svg, &place, moment);
-    for face in &before {
-        draw_surface(svg, &place, moment, face, true);
+    for corners in &before {
+        draw_surface(svg, &place, corners, true);
     }
     draw_contacts(svg, &place, pen, moment);
 }
 
-/// Surfaces before the pelvis and the others.
-fn surfaces<'a>(pen: &Pen<'a>, moment: &Snapshot, view: View) -> (Vec<&'a FlatFace>, Vec<&'a FlatFace>) {
+/// A surface, or a side of a solid.
+type Polygon = Vec<Point3<f64>>;
+
+/// Those before the pelvis and the others.
+fn surfaces(pen: &Pen<'_>, moment: &Snapshot, view: View) -> (Vec<Polygon>, Vec<Polygon>) {
     let pelvis = moment.poses[pen.strip.model.body().tree.landmarks().pelvis.index()].translation.vector;
     let own = view.depth(&pelvis.into());
-    pen.strip.model.faces().iter().partition(|face| {
-        let corners = moment.corners_m(face);
+    moment.polygons_m(pen.strip.model).into_iter().partition(|corners| {
         let sum: f64 = corners.iter().map(|c| view.depth(c)).sum();
         sum / corners.len() as f64 > own
     })
 }
 
-fn draw_surface(svg: &mut Svg, place: &Place, moment: &Snapshot, face: &FlatFace, before: bool) {
-    let corners = moment.corners_m(face);
-    let points = place.all(&corners);
+fn draw_surface(svg: &mut Svg, place: &Place, corners: &[Point3<f64>], before: bool) {
+    let points = place.all(corners);
     let (a, b) = (corners[1] - corners[0], corners[2] - corners[0]);
     let normal = a.cross(&b);
     let towards = place.view.turn(normal).z / normal.norm().max(1e-12);

@@ -1,6 +1,7 @@
 //! The part of the world that all panels of one view show: the body at all moments, the lines of force elements, and the surfaces near it.
 
 use nalgebra::{Point3, Vector3};
+use occupant_core::forces::contact::solid::Shape;
 use occupant_core::forces::contact::surface::{Frame, Outline};
 
 use super::Strip;
@@ -68,6 +69,13 @@ impl Window {
             if bounded && face.frame == Frame::Vehicle {
                 for corner in at.corners_m(face) {
                     self.add(&near.nearest(&corner));
+                }
+            }
+        }
+        for solid in &strip.model.setup().solids {
+            if solid.frame == Frame::Vehicle && !matches!(solid.shape, Shape::HalfSpace { .. }) {
+                for corner in solid.outline().iter().flatten() {
+                    self.add(&near.nearest(corner));
                 }
             }
         }

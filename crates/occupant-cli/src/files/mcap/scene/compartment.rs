@@ -1,4 +1,4 @@
-//! The surfaces, as translucent plates with edges.
+//! The surfaces and the sides of the solids, as translucent plates with edges.
 
 use std::f64::consts::TAU;
 
@@ -31,14 +31,19 @@ const PALETTE: [Color; 8] = [
     Color(0.50, 0.70, 0.65, OPACITY),
 ];
 
-/// One entity for each surface.
+/// One entity for each surface, then for each solid.
 pub(crate) fn write(wire: &mut Wire, model: &Model) {
-    for (surface, face) in model.setup().surfaces.iter().zip(model.faces()) {
-        let corners = corners_m(face);
-        let color = PALETTE[surface.material % PALETTE.len()];
-        entity(wire, 0, frame_name(face.frame), &surface.name, |w| {
-            polygon(w, &corners, color);
-            line(w, Closing::Closed, &corners, EDGE_M, color.with_opacity(0.9));
+    let setup = model.setup();
+    let surfaces = setup.surfaces.iter().zip(model.faces());
+    let surfaces = surfaces.map(|(s, face)| (&s.name, s.frame, s.material, vec![corners_m(face)]));
+    let solids = setup.solids.iter().map(|s| (&s.name, s.frame, s.material, s.outline()));
+    for (name, frame, material, polygons) in surfaces.chain(solids) {
+        let color = PALETTE[material % PALETTE.len()];
+        entity(wire, 0, frame_name(frame), name, |w| {
+            for corners in &polygons {
+                polygon(w, corners, color);
+                line(w, Closing::Closed, corners, EDGE_M, color.with_opacity(0.9));
+            }
         });
     }
 }
