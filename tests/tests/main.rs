@@ -4,6 +4,7 @@ mod appendix3;
 mod belts;
 mod cart_cases;
 mod contact_scene;
+mod driver;
 mod edges;
 mod free_motion;
 mod friction;
