@@ -43,7 +43,7 @@ pub(crate) fn read(path: &Path, text: &str, sha256: String) -> Result<Recording,
     }
     if let Some((line, cells)) = lines.iter().find(|(_, cells)| cells.len() > MOST_COLUMNS) {
         let found = format!("{} cells in line {line}", cells.len());
-        return Err(Trouble::of(path, found, &format!("at most {MOST_COLUMNS}")).into());
+        return Err(Trouble::of(path, found, format!("at most {MOST_COLUMNS}")).into());
     }
     let mut notes = Vec::new();
     let (headings, used) = headings(&lines, separator);

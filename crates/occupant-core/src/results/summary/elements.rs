@@ -45,7 +45,8 @@ impl Visitor for Begin<'_> {
     fn visit<E: Listed>(&mut self) {
         let [one, of] = E::NAMES;
         let named = self.0.named(one);
-        if !E::PEAKS.is_empty() && !(E::OPTIONAL && named.is_empty()) {
+        let is_shown = !E::OPTIONAL || !named.is_empty();
+        if is_shown && !E::PEAKS.is_empty() {
             let new = |element: Named<'_>| (element.name.to_owned(), vec![Peak::NONE; E::PEAKS.len()]);
             let peaks = named.into_iter().map(new).collect();
             self.1.push(KindPeaks { of, peaks, table: table::<E> });

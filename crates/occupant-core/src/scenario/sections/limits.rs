@@ -129,7 +129,7 @@ fn bend_limit(b: &mut Builder, path: &str, section: &BendLimitSection) -> Bend<f
     };
     let points = points(azimuths, angles);
     let turn = std::f64::consts::TAU;
-    let rise = points.array_windows().all(|[a, b]| a[0] < b[0]);
+    let rise = points.windows(2).all(|both| both[0][0] < both[1][0]);
     let starts = points.first().is_some_and(|first| first[0].abs() <= 0.5 * turn + 1e-9);
     let within = points.first().zip(points.last()).is_some_and(|(first, last)| last[0] - first[0] < turn - 1e-9);
     if points.len() < 4 || azimuths.len() != angles.len() || !(rise && starts && within) {
@@ -160,7 +160,7 @@ fn stop(b: &mut Builder, path: &str, section: &Option<StopTorqueSection>) -> Sto
         return Stop { torque: Curve::polynomial(coefficients), returned };
     };
     let points = points(angles, moments);
-    let rise = points.array_windows().all(|[a, b]| a[0] < b[0]);
+    let rise = points.windows(2).all(|both| both[0][0] < both[1][0]);
     if points.len() < 2 || angles.len() != moments.len() || points[0] != [0.0; 2] || !rise {
         let found = format!("{} angles and {} moments", angles.len(), moments.len());
         b.error(

@@ -83,7 +83,7 @@ fn solids(case: &Case, units: Units) -> Table {
         for (k, point) in points_m.iter().enumerate() {
             let place = units.of(Metre).vector(point.coords);
             match k {
-                0 => table.row_of(&[&first_cells(case, i, solid.frame), &[shape.clone()], &place, &last]),
+                0 => table.row_of(&[&first_cells(case, i, solid.frame), std::slice::from_ref(&shape), &place, &last]),
                 _ => table.row_of(&[&[const { String::new() }; 4], &place]),
             }
         }

@@ -178,8 +178,11 @@ fn side_line(corners: &[[f64; 2]], i: usize, by_m: f64) -> Line {
     Line { start: [u - dv * by_m, v + du * by_m], direction: [du, dv] }
 }
 
+/// Middle, normal, and corners in the plane.
+type Flat = (Point3<f64>, V, Vec<[f64; 2]>);
+
 /// The middle and the normal of the plane of `corners`, and the corners in that plane, counter-clockwise.
-fn flat(corners: &[Point3<f64>]) -> Result<(Point3<f64>, V, Vec<[f64; 2]>), Wrong> {
+fn flat(corners: &[Point3<f64>]) -> Result<Flat, Wrong> {
     if !CORNERS.contains(&corners.len()) {
         return Err((format!("{} corners", corners.len()), "3 to 12 corners"));
     }

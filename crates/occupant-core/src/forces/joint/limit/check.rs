@@ -21,7 +21,8 @@ pub(super) fn check(joints: &Joints, limits: &Limits, problems: &mut Problems) {
     let keys = if row.is_hinge() { ["", "angle_limit"] } else { ["limit", "twist_limit"] };
     let [bend_path, turn_path] = keys.map(|key| format!("{path}.{key}"));
     if let Centre::Axes { axis, forward } = limits.centre
-        && !(axis.cross(&forward).norm() > 1e-6 * axis.norm() * forward.norm())
+        && let across = axis.cross(&forward).norm()
+        && (across.is_nan() || across <= 1e-6 * axis.norm() * forward.norm())
     {
         let found = "`axis` and `forward` along one line, or of no length";
         problems.error(format!("{path}.centre"), found, "two directions, ahead across the axis");
@@ -62,7 +63,7 @@ fn check_bend(angle: &Curve<f64>, is_twisted: bool, is_in_the_middle: bool, path
 
 fn check_stop(stop: &Stop<f64>, path: &str, problems: &mut Problems) {
     let (steepest, falls) = stop.torque.steepness(PI);
-    if falls || !(steepest > 0.0) {
+    if falls || steepest.is_nan() || steepest <= 0.0 {
         let found = if falls { "a torque that falls somewhere" } else { "no torque at all" };
         problems.error(format!("{path}.torque"), found, "a torque that rises with the angle beyond the limit");
     }

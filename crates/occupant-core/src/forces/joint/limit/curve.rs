@@ -111,8 +111,9 @@ impl Curve<f64> {
 
     /// Straight lines through points with rising x; the last goes on.
     pub(crate) fn lines(points: &[[f64; 2]]) -> Self {
-        let line = |&[[x, y], [next_x, next_y]]: &[[f64; 2]; 2]| (x, [y, (next_y - y) / (next_x - x), 0.0, 0.0]);
-        Curve::of(points.array_windows().map(line).collect())
+        let line =
+            |(&[x, y], &[next_x, next_y]): (&[f64; 2], &[f64; 2])| (x, [y, (next_y - y) / (next_x - x), 0.0, 0.0]);
+        Curve::of(points.iter().zip(points.iter().skip(1)).map(line).collect())
     }
 
     /// The periodic cubic spline of period 2π through points with x that rise within less than that.
@@ -165,6 +166,6 @@ impl Curve<f64> {
     pub(super) fn steepness(&self, x: f64) -> (f64, bool) {
         let places = (0..=360).map(|i| x * f64::from(i) / 360.0);
         let slopes = places.map(|x| self.piece(x).slope(x));
-        slopes.fold((0.0, false), |(most, falls), slope| (slope.max(most), falls || !(slope >= 0.0)))
+        slopes.fold((0.0, false), |(most, falls), slope| (slope.max(most), falls || slope.is_nan() || slope < 0.0))
     }
 }
