@@ -145,7 +145,7 @@ impl Run {
         };
         let energy_start = *self.energy_start.get_or_insert_with(|| ledger(&EnergyStart::default()).as_start());
         let energy = ledger(&energy_start);
-        let by_elements = self.state.work.sums.iter().map(|work| work.abs()).sum::<f64>();
+        let by_elements = self.state.work().sums.iter().map(|work| work.abs()).sum::<f64>();
         self.greatest.see(&energy, (energy.gravity_j - self.start_gravity_j).abs() + by_elements);
         let index = self.index;
         self.index += 1;
