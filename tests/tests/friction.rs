@@ -42,7 +42,7 @@ fn slide(setup: Setup, theta: f64) -> Vec<(f64, f64)> {
     let down = Vector3::new(theta.cos(), 0.0, -theta.sin());
     let model = Model::new(setup).unwrap();
     let mut out = Vec::new();
-    simulate(&model, Watch(|s: &Sample<'_>| out.push((s.time_s, s.state.velocity.to_vector().dot(&down))))).unwrap();
+    simulate(&model, Watch(|s: &Sample<'_>| out.push((s.time_s, s.state.velocity().to_vector().dot(&down))))).unwrap();
     out
 }
 

@@ -81,20 +81,20 @@ fn end(setup: Setup) -> (State<f64>, Outcome) {
 fn distances(a: &State<f64>, b: &State<f64>) -> [f64; 4] {
     let v = |a: V3<f64>, b: V3<f64>| (a - b).norm_squared();
     let mut angles = 0.0;
-    let mut speeds = v(a.velocity, b.velocity);
+    let mut speeds = v(a.velocity(), b.velocity());
     for i in 0..8 {
-        let (p, q) = (a.orientation[i], b.orientation[i]);
+        let (p, q) = (a.orientation(i), b.orientation(i));
         angles += 4.0 * ((p.w - q.w).powi(2) + v(p.v, q.v));
-        speeds += v(a.omega[i], b.omega[i]);
+        speeds += v(a.omega(i), b.omega(i));
     }
     for i in 0..4 {
-        angles += (a.hinge[i] - b.hinge[i]).powi(2);
-        speeds += (a.hinge_rate[i] - b.hinge_rate[i]).powi(2);
+        angles += (a.hinge()[i] - b.hinge()[i]).powi(2);
+        speeds += (a.hinge_rate()[i] - b.hinge_rate()[i]).powi(2);
     }
-    let (w, u) = (&a.work, &b.work);
+    let (w, u) = (a.work(), b.work());
     let work = [w.sums[joint::DAMPING] - u.sums[joint::DAMPING], w.sums[belt::STRETCH] - u.sums[belt::STRETCH]];
     let work: f64 = work.iter().map(|d| d * d).sum();
-    [v(a.t1, b.t1), angles, speeds, work].map(f64::sqrt)
+    [v(a.t1(), b.t1()), angles, speeds, work].map(f64::sqrt)
 }
 
 #[test]

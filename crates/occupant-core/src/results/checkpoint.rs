@@ -19,8 +19,8 @@ pub struct Checkpoint {
     pub index: usize,
     /// Time, s.
     pub time_s: f64,
-    /// Integrated state with its work sums.
-    pub state: State<f64>,
+    /// Integrated state with its work sums: the numbers of a [`State`].
+    pub state: Vec<f64>,
     /// What force elements remember, in the model's order.
     pub memory: Memory<f64>,
     /// First touches so far, in the order in which they happened.
@@ -38,8 +38,8 @@ pub struct StepStart {
     pub start_s: f64,
     /// Its end, s, after the output.
     pub end_s: f64,
-    /// State at its start.
-    pub state: State<f64>,
+    /// Numbers of the state at its start.
+    pub state: Vec<f64>,
     /// What force elements remember there, in the model's order.
     pub memory: Memory<f64>,
 }
@@ -60,7 +60,8 @@ pub struct StepUnderWay<'a> {
 impl StepUnderWay<'_> {
     /// All of it as plain data.
     pub(crate) fn to_start(self) -> StepStart {
-        StepStart { start_s: self.start_s, end_s: self.end_s, state: *self.state, memory: self.history.memory.clone() }
+        let (state, memory) = (self.state.numbers().to_vec(), self.history.memory.clone());
+        StepStart { start_s: self.start_s, end_s: self.end_s, state, memory }
     }
 }
 
@@ -164,7 +165,7 @@ impl Checkpoint {
         let mut checkpoint = Checkpoint {
             index: 0,
             time_s: 0.0,
-            state: State::zero(),
+            state: Vec::new(),
             memory: Memory::none(),
             first_touches: Vec::new(),
             progress: Progress::default(),
@@ -180,8 +181,7 @@ impl Checkpoint {
         file.number(words(1, "time_s", "time of the scenario"), &mut self.time_s);
         file.count(words(2, "output", "number of the output, from 0"), &mut index);
         self.index = index as usize;
-        let state = file.numbers(words(3, "state", STATE), self.state.to_numbers().to_vec());
-        self.state = to_state(&state, file);
+        self.state = file.numbers(words(3, "state", STATE), std::mem::take(&mut self.state));
         self.memory.keep(None, file);
         self.keep_touches(file);
         self.progress.keep(file);
@@ -218,7 +218,7 @@ impl Checkpoint {
     fn keep_step(&mut self, file: &mut dyn Archive) {
         let step = self.under_way.take();
         let (times_s, state, mut memory) = match step {
-            Some(step) => (vec![step.start_s, step.end_s], step.state.to_numbers().to_vec(), step.memory),
+            Some(step) => (vec![step.start_s, step.end_s], step.state, step.memory),
             None => (Vec::new(), Vec::new(), Memory::none()),
         };
         let times_s = file.numbers(words(26, "step_times_s", STEP), times_s);
@@ -228,7 +228,7 @@ impl Checkpoint {
         match times_s[..] {
             [] => {}
             [start_s, end_s] => {
-                self.under_way = Some(StepStart { start_s, end_s, state: to_state(&state, file), memory });
+                self.under_way = Some(StepStart { start_s, end_s, state, memory });
             }
             _ => file.refuse("other than two times of a step"),
         }
@@ -265,6 +265,16 @@ impl Checkpoint {
         self.check_numbers(forces)
     }
 
+    /// The state of `model` with these numbers.
+    ///
+    /// # Errors
+    /// Another number of them than the model's state has.
+    pub fn state_of(model: &Model, numbers: &[f64]) -> Result<State<f64>, CheckpointError> {
+        let (shape, of) = (model.start().state.shape(), "numbers of the state");
+        let misfit = Misfit::Count { of, found: numbers.len(), expected: shape.len() };
+        State::from_numbers(shape, numbers).ok_or(CheckpointError::Memory(misfit))
+    }
+
     fn check_step(&self, step: &StepStart, forces: &Forces<f64>) -> Result<(), CheckpointError> {
         let &StepStart { start_s, end_s, .. } = step;
         let time_s = self.time_s;
@@ -293,19 +303,12 @@ impl Checkpoint {
     }
 }
 
-fn check_histories(memory: &Memory<f64>, state: &State<f64>, forces: &Forces<f64>) -> Result<(), CheckpointError> {
+fn check_histories(memory: &Memory<f64>, state: &[f64], forces: &Forces<f64>) -> Result<(), CheckpointError> {
     memory.check(forces)?;
-    check_finite(state.to_numbers())
+    check_finite(state.iter().copied())
 }
 
 fn check_finite(numbers: impl IntoIterator<Item = f64>) -> Result<(), CheckpointError> {
     let are_finite = numbers.into_iter().all(f64::is_finite);
     are_finite.then_some(()).ok_or(CheckpointError::Memory(Misfit::NotFinite))
-}
-
-fn to_state(numbers: &[f64], file: &mut dyn Archive) -> State<f64> {
-    numbers.try_into().map(State::from_numbers).unwrap_or_else(|_| {
-        file.refuse("a state of another number of coordinates");
-        State::zero()
-    })
 }

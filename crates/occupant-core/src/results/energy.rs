@@ -186,8 +186,8 @@ pub fn kinetic(body: &Skeleton<f64>, k: &Kinematics<f64>, frame: &Moving<f64>) -
         let link = &body.links[n];
         let v = k.cg_velocity(body, n) - frame.velocity_at(k.cg(body, n));
         let w = k.axes[n].into_frame(k.omega[n] - frame.omega);
-        let [ix, iy, iz] = link.central;
-        link.mass * v.norm_squared() + ix * w.x * w.x + iy * w.y * w.y + iz * w.z * w.z
+        let spin = link.by_inertia(w);
+        link.mass * v.norm_squared() + spin.x * w.x + spin.y * w.y + spin.z * w.z
     };
     0.5 * (0..body.links.len()).map(segment).sum::<f64>()
 }
