@@ -14,7 +14,7 @@
 use nalgebra::Vector3;
 
 use super::tti12::TTI12;
-use super::{Body, SegmentProperties};
+use super::{Body, SEGMENTS, SegmentProperties};
 
 /// Which regressions hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -281,12 +281,7 @@ impl Lump {
     }
 
     fn segment(&self, length_m: f64) -> SegmentProperties {
-        SegmentProperties {
-            length_m,
-            mass_kg: self.mass_kg,
-            cg_from_lower_end_m: self.z_m,
-            inertia_kg_m2: Vector3::from(self.inertia_kg_m2),
-        }
+        SegmentProperties::new(length_m, self.mass_kg, self.z_m, Vector3::from(self.inertia_kg_m2))
     }
 }
 
@@ -338,7 +333,8 @@ impl Stretch {
         let mut body = Body {
             name: "person".to_owned(),
             tree: &TTI12,
-            segments: std::array::from_fn(|n| segments[if n < 4 { n } else { 4 + (n - 4) / 2 }]),
+            segments: (0..SEGMENTS).map(|n| segments[if n < 4 { n } else { 4 + (n - 4) / 2 }]).collect(),
+            places: Vec::new(),
             shoulder_half_width_m: self.shoulder_half_width * shoulder_inch * INCH_M,
             hip_half_width_m: self.hip_half_width * hip_inch * INCH_M,
             neck_height_m: z(UT, 2.91) + z(N, 0.98),

@@ -79,9 +79,8 @@ impl<S: Scalar> Skeleton<S> {
 
 fn link<S: Scalar>(body: &Body, segment: Segment) -> Link<S> {
     let p = body.segment(segment);
-    let lower_end = if body.tree[segment].hangs() { -p.length_m } else { 0.0 };
-    let cg = p.cg_from_lower_end_m + lower_end;
-    let [joint_y, joint_z] = body.joint_m(segment);
+    let cg = (p.cg_m() - body.joint_m(segment)).z;
+    let [_, joint_y, joint_z] = body.offset_m(segment).into();
     let [ix, iy, iz] = p.inertia_kg_m2.into();
     let about_joint = p.mass_kg * cg * cg;
     Link {

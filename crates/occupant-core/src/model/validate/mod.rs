@@ -29,16 +29,7 @@ pub(crate) fn check(setup: &Setup, problems: &mut Problems) {
 /// Angles of more than half a turn, which a slip of the pen makes.
 fn check_posture(posture: &InitialPosture, problems: &mut Problems) {
     let InitialPosture::Seated(seating) = posture else { return };
-    let [middle, upper, head, lower] = seating.lean_rad;
-    let angles = [
-        ("middle_torso", middle),
-        ("upper_torso", upper),
-        ("head", head),
-        ("lower_torso", lower),
-        ("upper_arms", seating.upper_arms_rad),
-        ("elbows", seating.elbows_rad),
-    ];
-    for (key, angle_rad) in angles.into_iter().filter(|(_, angle)| angle.is_nan() || angle.abs() > PI) {
+    for (key, angle_rad) in seating.angles_rad.iter().filter(|(_, angle)| angle.is_nan() || angle.abs() > PI) {
         problems.error(format!("posture.{key}"), format!("{}°", angle_rad.to_degrees()), "an angle from −180° to 180°");
     }
 }

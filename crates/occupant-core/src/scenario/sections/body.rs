@@ -183,7 +183,8 @@ pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection)
     let mut body = Body {
         name: preset.unwrap_or(if section.describes_a_person() { "person" } else { "own" }).to_owned(),
         tree,
-        segments: std::array::from_fn(|i| segment(b, tree.segment_rows()[i].name, weighed_at_m_s2)),
+        segments: tree.segment_rows().iter().map(|row| segment(b, row.name, weighed_at_m_s2)).collect(),
+        places: Vec::new(),
         shoulder_half_width_m: b.needed("body", "shoulder_half_width", &section.shoulder_half_width),
         hip_half_width_m: b.needed("body", "hip_half_width", &section.hip_half_width),
         neck_height_m: si_or(&section.neck_height, 0.0),
@@ -199,12 +200,7 @@ fn segment(b: &mut Builder, name: &str, weighed_at_m_s2: f64) -> SegmentProperti
         let found = format!("the body has no segment `{name}`");
         let hint = "body.preset = \"male50\" gives a whole body to change";
         b.report(Problem::error(path, found, "all twelve segments").with_hint(Some(hint)));
-        return SegmentProperties {
-            length_m: f64::NAN,
-            mass_kg: f64::NAN,
-            cg_from_lower_end_m: f64::NAN,
-            inertia_kg_m2: Vector3::zeros(),
-        };
+        return SegmentProperties::new(f64::NAN, f64::NAN, f64::NAN, Vector3::zeros());
     };
     let mass_kg = match (&section.mass, &section.weight) {
         (None, Some(weight)) => weight.si() / weighed_at_m_s2,
@@ -217,12 +213,9 @@ fn segment(b: &mut Builder, name: &str, weighed_at_m_s2: f64) -> SegmentProperti
             Vector3::zeros()
         }
     };
-    SegmentProperties {
-        length_m: b.needed(&path, "length", &section.length),
-        mass_kg,
-        cg_from_lower_end_m: b.needed(&path, "cg_from_lower_end", &section.cg_from_lower_end),
-        inertia_kg_m2,
-    }
+    let length_m = b.needed(&path, "length", &section.length);
+    let cg_m = b.needed(&path, "cg_from_lower_end", &section.cg_from_lower_end);
+    SegmentProperties::new(length_m, mass_kg, cg_m, inertia_kg_m2)
 }
 
 /// The spheres: the report's in its order, then others as written.

@@ -91,9 +91,14 @@ fn seating(s: &Scenario, p: &PostureSection) -> Option<Seating> {
         cushion: part(&seat.cushion)?,
         back: part(&seat.back)?,
         lateral_m: si_or(&seat.y, 0.0),
-        lean_rad: [p.middle_torso.si(), p.upper_torso.si(), p.head.si(), p.lower_torso.si()],
-        upper_arms_rad: p.upper_arms.si(),
-        elbows_rad: p.elbows.si(),
+        angles_rad: Seating::angles(&[
+            ("middle_torso", p.middle_torso.si()),
+            ("upper_torso", p.upper_torso.si()),
+            ("head", p.head.si()),
+            ("lower_torso", p.lower_torso.si()),
+            ("upper_arms", p.upper_arms.si()),
+            ("elbows", p.elbows.si()),
+        ]),
         heels_m: all_si(&p.heels),
         settle: p.settle.unwrap_or(true),
     })
