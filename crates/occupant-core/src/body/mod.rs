@@ -3,6 +3,7 @@
 //! Report: "Body Geometry and Coordinate Systems", Figs 1 and 5. Segment axes are X ahead, Y to the
 //! occupant's left and Z up when the occupant stands upright with hanging arms; they are principal axes.
 
+pub(crate) mod named;
 pub(crate) mod people;
 pub(crate) mod tree;
 pub mod tti12;

@@ -6,15 +6,20 @@
 //! are stretches of the same body, from the weights and sitting heights of 49 CFR 571.208 S7.1.4 and mass fractions of
 //! Jensen; the lengths of their segments are the weakest numbers here.
 //!
-//! The 15 segments then become the 12 of [`TTI12`] by the parallel-axis theorem, products of inertia left out. The neck's
+//! The 15 segments are a body of their own: principal axes and joints as the generator has them, but for what lies beside
+//! the middle plane, which is that of the 12. The 17 have hands: a share of the forearm's mass beyond a wrist, so that both
+//! together keep mass, centre of gravity and inertia (the split is ours).
+//!
+//! The 15 segments become the 12 of [`TTI12`] by the parallel-axis theorem, products of inertia left out. The neck's
 //! joint is 125 mm below the centre of gravity of the reference's head, where one joint alone gives the path of a dummy's
 //! head in the neck pendulum of 49 CFR 572.7 (chords of 2ρ sin(θ/2) with ρ = 122 to 128 mm at 30, 60 and 68 degrees); the
 //! neck's mass belongs to the upper torso.
 
-use nalgebra::Vector3;
+use nalgebra::{UnitQuaternion, Vector2, Vector3};
 
+use super::named::{NamedJoint, NamedLandmarks, tree};
 use super::tti12::TTI12;
-use super::{Body, SEGMENTS, SegmentProperties};
+use super::{Body, JointKind, JointPlace, JointSite, SEGMENTS, SegmentProperties, Side};
 
 /// Which regressions hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -52,6 +57,30 @@ const POUND_KG: f64 = 0.453_592_37;
 /// lbf in s² in kg m².
 const INERTIA_KG_M2: f64 = 0.112_984_829;
 
+/// How many segments a body is divided into.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) enum Division {
+    /// The report's.
+    #[default]
+    Twelve,
+    /// With a neck and feet.
+    Fifteen,
+    /// With hands too.
+    Seventeen,
+}
+
+impl Division {
+    /// That of so many segments.
+    pub(crate) fn of(segments: i64) -> Option<Division> {
+        match segments {
+            12 => Some(Division::Twelve),
+            15 => Some(Division::Fifteen),
+            17 => Some(Division::Seventeen),
+            _ => None,
+        }
+    }
+}
+
 /// A part of the reference: weight in lb; principal inertias in lbf in s²; turn of the principal axes about Y in degrees.
 struct Part(f64, [f64; 3], f64);
 
@@ -67,6 +96,34 @@ const REFERENCE: [Part; PARTS] = [
     Part(4.21, [0.1141, 0.1213, 0.0236], 0.0),
     Part(4.05, [0.2667, 0.2654, 0.0154], 0.0),
 ];
+/// Names of the parts, and how far their ends are above and below their centre of gravity, inches.
+const ENDS: [(&str, [f64; 2]); PARTS] = [
+    ("lower_torso", [2.24, 1.52]),
+    ("middle_torso", [0.83, 2.25]),
+    ("upper_torso", [4.35, 6.99]),
+    ("neck", [2.51, 1.46]),
+    ("head", [4.90, 1.93]),
+    ("thigh", [7.55, 9.80]),
+    ("lower_leg", [6.91, 9.78]),
+    ("foot", [1.37, 1.39]),
+    ("upper_arm", [5.22, 5.04]),
+    ("forearm", [7.08, 9.20]),
+];
+/// Joints by their parts, with X and Z from the centre of gravity of each, inches.
+const JOINTS: [(&str, usize, [f64; 2], usize, [f64; 2]); 9] = [
+    ("upper_back", CT, [-1.76, 0.83], UT, [-0.32, -6.99]),
+    ("neck_base", UT, [-0.27, 7.26], N, [-0.93, -1.46]),
+    ("neck", N, [1.01, 2.51], H, [-0.83, -1.93]),
+    ("lower_back", CT, [-2.39, -2.25], LT, [-1.45, 2.24]),
+    ("shoulder", UT, [-0.96, 4.35], UA, [0.52, 5.22]),
+    ("elbow", UA, [-0.64, -5.04], LA, [-0.51, 7.08]),
+    ("hip", LT, [-0.51, -1.52], UL, [-0.32, 7.55]),
+    ("knee", UL, [-0.23, -9.80], LL, [0.67, 6.91]),
+    ("ankle", LL, [0.39, -9.78], F, [-2.76, 1.37]),
+];
+/// The hand: its share of the mass of forearm and hand (1.08 of 4.05 lb), and how far the wrist and its own centre of
+/// gravity are below that of both, inches. The wrist is where Drillis and Contini's 0.146 and 0.108 of stature meet.
+const HAND: (f64, f64, f64) = (0.267, 2.28, 5.77);
 /// Half widths of shoulders and hips, inches.
 const REFERENCE_HALF_WIDTHS: [f64; 2] = [6.57, 3.35];
 /// Radius of each standard sphere in inches, the part it grows with, and along which of its axes.
@@ -229,14 +286,14 @@ impl Person {
     }
 
     /// The body, and the factor of its masses: see the module.
-    pub(crate) fn body(&self) -> (Body, f64) {
+    pub(crate) fn body(&self, division: Division) -> (Body, f64) {
         let (stretch, factor) = self.stretch();
-        (stretch.body(), factor)
+        (stretch.body(division), factor)
     }
 }
 
 /// The child of a preset's name.
-pub(crate) fn child(name: &str) -> Option<Body> {
+pub(crate) fn child(name: &str, division: Division) -> Option<Body> {
     let (rows, [shoulder_m, hip_m]) = match name {
         "child06" => (&CHILD_06, [0.1082, 0.0497]),
         "child10" => (&CHILD_10, [0.1283, 0.0597]),
@@ -249,7 +306,7 @@ pub(crate) fn child(name: &str) -> Option<Body> {
         shoulder_half_width: shoulder_m / (shoulder_inch * INCH_M),
         hip_half_width: hip_m / (hip_inch * INCH_M),
     };
-    Some(stretch.body())
+    Some(stretch.body(division))
 }
 
 /// How many of a part a body has.
@@ -291,21 +348,36 @@ impl Stretch {
         self.scale[part][axis] * inches * INCH_M
     }
 
-    /// A part with its inertias stretched as second moments of mass, S_xx = (I_y + I_z − I_x)/2, about axes that the
-    /// body's 12 segments have; its centre of gravity lies `z_m` above the datum.
-    fn lump(&self, part: usize, z_m: f64) -> Lump {
-        let Part(pounds, [ix, iy, iz], turn_deg) = REFERENCE[part];
+    /// Principal moments of a part, stretched as second moments of mass, S_xx = (I_y + I_z − I_x)/2, kg m².
+    fn principal(&self, part: usize) -> [f64; 3] {
+        let Part(pounds, [ix, iy, iz], _) = REFERENCE[part];
         let [sx, sy, sz] = self.scale[part];
         let heavier = 0.5 * INERTIA_KG_M2 * self.mass_kg[part] / (pounds * POUND_KG);
         let [xx, yy, zz] = [(iy + iz - ix) * sx * sx, (iz + ix - iy) * sy * sy, (ix + iy - iz) * sz * sz];
-        let [ix, iy, iz] = [yy + zz, zz + xx, xx + yy].map(|inertia| heavier * inertia);
-        let sin2 = libm::sin(turn_deg.to_radians()).powi(2);
+        [yy + zz, zz + xx, xx + yy].map(|inertia| heavier * inertia)
+    }
+
+    /// A part with its inertias about axes that the body's 12 segments have; its centre of gravity lies `z_m` above the datum.
+    fn lump(&self, part: usize, z_m: f64) -> Lump {
+        let [ix, iy, iz] = self.principal(part);
+        let sin2 = libm::sin(REFERENCE[part].2.to_radians()).powi(2);
         let inertia_kg_m2 = [ix + (iz - ix) * sin2, iy, iz + (ix - iz) * sin2];
         Lump { mass_kg: self.mass_kg[part], z_m, inertia_kg_m2 }
     }
 
+    fn body(&self, division: Division) -> Body {
+        let mut body = match division {
+            Division::Twelve => self.merged(),
+            Division::Fifteen => self.divided(false),
+            Division::Seventeen => self.divided(true),
+        };
+        let radii_m = REFERENCE_SPHERES.map(|(inches, part, axis)| self.along(part, axis, inches));
+        body.spheres = body.standard_spheres(&radii_m);
+        body
+    }
+
     /// The parts become the 12 segments; distances of joints from centres of gravity are the reference's.
-    fn body(&self) -> Body {
+    fn merged(&self) -> Body {
         let z = |part, inches| self.along(part, 2, inches);
         let x = |part, inches| self.along(part, 0, inches);
         let plain = |part, above, below| self.lump(part, z(part, below)).segment(z(part, above) + z(part, below));
@@ -329,20 +401,96 @@ impl Stretch {
             plain(UL, 7.55, 9.80),
             leg.segment(z(LL, 6.91 + 9.78) + ankle_m),
         ];
-        let [shoulder_inch, hip_inch] = REFERENCE_HALF_WIDTHS;
-        let mut body = Body {
+        Body {
             name: "person".to_owned(),
             tree: &TTI12,
             segments: (0..SEGMENTS).map(|n| segments[if n < 4 { n } else { 4 + (n - 4) / 2 }]).collect(),
             places: Vec::new(),
-            shoulder_half_width_m: self.shoulder_half_width * shoulder_inch * INCH_M,
-            hip_half_width_m: self.hip_half_width * hip_inch * INCH_M,
+            shoulder_half_width_m: self.half_width_m(UA),
+            hip_half_width_m: self.half_width_m(UL),
             neck_height_m: z(UT, 2.91) + z(N, 0.98),
             spheres: Vec::new(),
+        }
+    }
+
+    /// Distance from the middle plane of the joint that carries a part.
+    fn half_width_m(&self, part: usize) -> f64 {
+        let [shoulder_inch, hip_inch] = REFERENCE_HALF_WIDTHS;
+        match part {
+            UA => self.shoulder_half_width * shoulder_inch * INCH_M,
+            UL => self.hip_half_width * hip_inch * INCH_M,
+            _ => 0.0,
+        }
+    }
+
+    /// The parts, limbs on both sides, as segments and joints of their own.
+    fn divided(&self, has_hands: bool) -> Body {
+        let mut made =
+            Made { stretch: self, has_hands, joints: Vec::new(), segments: vec![self.segment(CT, has_hands)] };
+        for (name, proximal, from, distal, to) in JOINTS {
+            let place = self.place(proximal, from, distal, to);
+            let sides: &[Option<Side>] = if distal < UL { &[None] } else { &[Some(Side::Left), Some(Side::Right)] };
+            sides.iter().for_each(|side| made.joint(name, [proximal, distal], place, *side));
+            if has_hands && distal == LA {
+                sides.iter().for_each(|side| made.wrist(*side));
+            }
+        }
+        made.body()
+    }
+
+    /// Axes of a part along which X and Z of its segment grow: the foot's X axis points up and its Z axis ahead.
+    const fn axes(part: usize) -> [usize; 2] {
+        if part == F { [2, 0] } else { [0, 2] }
+    }
+
+    /// Centre of gravity of a part from the lower end of its segment: the foot's is ahead of the ankle.
+    fn cg_m(&self, part: usize) -> Vector3<f64> {
+        let ahead = if part == F { self.along(F, 2, 2.76) } else { 0.0 };
+        Vector3::new(ahead, 0.0, self.along(part, Self::axes(part)[1], ENDS[part].1[1]))
+    }
+
+    /// A part as a segment; of forearm and hand the forearm where the hand is another.
+    fn segment(&self, part: usize, has_hands: bool) -> SegmentProperties {
+        if has_hands && part == LA {
+            return self.forearm_and_hand()[0];
+        }
+        let [above, below] = ENDS[part].1.map(|inches| self.along(part, Self::axes(part)[1], inches));
+        let [ix, iy, iz] = self.principal(part);
+        let inertia = if part == F { [iz, iy, ix] } else { [ix, iy, iz] };
+        let cg_m = self.cg_m(part);
+        SegmentProperties {
+            cg_beside_m: Vector2::new(cg_m.x, cg_m.y),
+            principal: UnitQuaternion::from_axis_angle(&Vector3::y_axis(), -REFERENCE[part].2.to_radians()),
+            ..SegmentProperties::new(above + below, self.mass_kg[part], cg_m.z, Vector3::from(inertia))
+        }
+    }
+
+    /// Both keep mass, centre of gravity and inertia of the part that they were, whose inertia they share as m·L².
+    fn forearm_and_hand(&self) -> [SegmentProperties; 2] {
+        let z = |inches| self.along(LA, 2, inches);
+        let (share, wrist, hand) = HAND;
+        let forearm = hand * share / (1.0 - share);
+        let [above, below] = ENDS[LA].1;
+        let (lengths, shares) = ([z(above + wrist), z(below - wrist)], [1.0 - share, share]);
+        let cg_m = [z(forearm + wrist), z(below - hand)];
+        let apart_m = z(forearm + hand);
+        let steiner = self.mass_kg[LA] * share * (1.0 - share) * apart_m * apart_m;
+        let own = Vector3::from(self.principal(LA)) - Vector3::new(steiner, steiner, 0.0);
+        let [weight, other] = [0, 1].map(|i| shares[i] * lengths[i] * lengths[i]);
+        std::array::from_fn(|i| {
+            let part = if i == 0 { weight } else { other } / (weight + other);
+            SegmentProperties::new(lengths[i], shares[i] * self.mass_kg[LA], cg_m[i], own * part)
+        })
+    }
+
+    /// A joint in the middle plane, from X and Z in inches from the centres of gravity of its parts.
+    fn place(&self, proximal: usize, from: [f64; 2], distal: usize, to: [f64; 2]) -> JointPlace {
+        let site = |part: usize, [x, z]: [f64; 2]| {
+            let [along_x, along_z] = Self::axes(part);
+            let seen = Vector3::new(self.along(part, along_x, x), 0.0, self.along(part, along_z, z));
+            JointSite::at(self.cg_m(part) + seen)
         };
-        let radii_m = REFERENCE_SPHERES.map(|(inches, part, axis)| self.along(part, axis, inches));
-        body.spheres = body.standard_spheres(&radii_m);
-        body
+        JointPlace { proximal: site(proximal, from), distal: site(distal, to) }
     }
 
     /// The foot: its X axis points up and its Z axis ahead.
@@ -350,6 +498,68 @@ impl Stretch {
         let foot = self.lump(F, self.along(F, 0, 1.39));
         let [ix, iy, iz] = foot.inertia_kg_m2;
         Lump { inertia_kg_m2: [iz, iy, ix], ..foot }
+    }
+}
+
+/// A body of parts under construction.
+struct Made<'a> {
+    stretch: &'a Stretch,
+    has_hands: bool,
+    /// Name, kind, proximal and distal segment, place.
+    joints: Vec<(String, JointKind, [String; 2], JointPlace)>,
+    segments: Vec<SegmentProperties>,
+}
+
+/// A name of one side.
+fn on(side: Option<Side>, name: &str) -> String {
+    match side {
+        None => name.to_owned(),
+        Some(Side::Left) => format!("left_{name}"),
+        Some(Side::Right) => format!("right_{name}"),
+    }
+}
+
+impl Made<'_> {
+    /// A joint with the segment that it carries.
+    fn joint(&mut self, name: &str, [proximal, distal]: [usize; 2], mut place: JointPlace, side: Option<Side>) {
+        let beside_m = self.stretch.half_width_m(distal);
+        place.proximal.point_m.y = if side == Some(Side::Right) { -beside_m } else { beside_m };
+        let of = |part: usize| on(side.filter(|_| part >= UL), ENDS[part].0);
+        let kind = if [LL, LA].contains(&distal) { JointKind::Hinge } else { JointKind::Ball };
+        if self.has_hands && distal == LA {
+            // seen from the lower end, which is the wrist
+            place.distal.point_m.z = self.stretch.forearm_and_hand()[0].length_m;
+        }
+        self.joints.push((on(side, name), kind, [of(proximal), of(distal)], place));
+        self.segments.push(self.stretch.segment(distal, self.has_hands));
+    }
+
+    fn wrist(&mut self, side: Option<Side>) {
+        let hand = self.stretch.forearm_and_hand()[1];
+        let upper = JointSite::at(Vector3::z() * hand.length_m);
+        let place = JointPlace { proximal: JointSite::at(Vector3::zeros()), distal: upper };
+        self.joints.push((on(side, "wrist"), JointKind::Ball, [on(side, "forearm"), on(side, "hand")], place));
+        self.segments.push(hand);
+    }
+
+    fn body(self) -> Body {
+        let named = self.joints.iter().map(|(name, kind, [proximal, distal], place)| {
+            let hangs = place.distal.point_m.z > 0.0;
+            NamedJoint { name, kind: *kind, proximal, distal, hangs }
+        });
+        let joints: Vec<NamedJoint<'_>> = named.collect();
+        // all landmarks are among the parts
+        let tree = tree(&joints, &NamedLandmarks::default()).unwrap_or(&TTI12);
+        Body {
+            name: "person".to_owned(),
+            tree,
+            segments: self.segments,
+            places: self.joints.into_iter().map(|joint| joint.3).collect(),
+            shoulder_half_width_m: self.stretch.half_width_m(UA),
+            hip_half_width_m: self.stretch.half_width_m(UL),
+            neck_height_m: 0.0,
+            spheres: Vec::new(),
+        }
     }
 }
 
@@ -362,6 +572,18 @@ mod tests {
     /// Segments that a neck's place does not touch: length m, mass kg, ρ m, I_x, I_y, I_z kg m², as an independent
     /// computation gave them, rounded.
     type Row = (usize, [f64; 6]);
+    const FIFTEEN: [(&str, [f64; 4]); 10] = [
+        ("lower_torso", [6.834, 0.05050, 0.04158, 0.05873]),
+        ("middle_torso", [1.147, 0.00546, 0.00287, 0.00807]),
+        ("upper_torso", [13.787, 0.20325, 0.14924, 0.13273]),
+        ("neck", [0.586, 0.00070, 0.00082, 0.00093]),
+        ("head", [3.448, 0.01477, 0.01652, 0.01077]),
+        ("left_thigh", [5.787, 0.06809, 0.07216, 0.02078]),
+        ("left_lower_leg", [2.248, 0.02592, 0.02632, 0.00313]),
+        ("left_foot", [0.477, 0.00028, 0.00150, 0.00160]),
+        ("left_upper_arm", [0.859, 0.00405, 0.00426, 0.00070]),
+        ("left_forearm", [0.864, 0.00989, 0.00984, 0.00050]),
+    ];
     const FEMALE_05: [Row; 6] = [
         (0, [0.0654, 1.147, 0.0477, 0.00546, 0.00287, 0.00807]),
         (3, [0.0798, 6.834, 0.0323, 0.05050, 0.04158, 0.05873]),
@@ -380,7 +602,7 @@ mod tests {
     ];
 
     fn named(name: &str) -> (Body, f64) {
-        Person::named(name).expect("a preset").body()
+        Person::named(name).expect("a preset").body(Division::Twelve)
     }
 
     fn agrees(body: &Body, rows: &[Row], relative: f64) {
@@ -420,10 +642,10 @@ mod tests {
             (8, [0.2692, 1.820, 0.1520, 0.01093, 0.01143, 0.00258]),
             (10, [0.3181, 1.391, 0.1580, 0.01543, 0.01670, 0.00227]),
         ];
-        let body = child("child06").expect("a preset");
+        let body = child("child06", Division::Twelve).expect("a preset");
         agrees(&body, &rows, 2e-3);
         assert_abs_diff_eq!(body.mass_kg(), 21.45, epsilon = 0.01);
-        assert_abs_diff_eq!(child("child10").expect("a preset").mass_kg(), 37.24, epsilon = 0.01);
+        assert_abs_diff_eq!(child("child10", Division::Twelve).expect("a preset").mass_kg(), 37.24, epsilon = 0.01);
     }
 
     /// The neck's place moves no matter: mass, centre of gravity and inertia of neck, head and upper torso together are those
@@ -456,7 +678,7 @@ mod tests {
             {
                 let person = Person { sex, stature_m, mass_kg: index * stature_m * stature_m };
                 assert!(person.is_within_reach() || stature_m > 2.05, "{person:?}");
-                let (body, factor) = person.body();
+                let (body, factor) = person.body(Division::Twelve);
                 assert_relative_eq!(body.mass_kg(), person.mass_kg, max_relative = 1e-12);
                 assert!((0.5..2.0).contains(&factor), "{person:?}: {factor}");
                 for p in &body.segments {
@@ -466,5 +688,84 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// Height of the centre of gravity of a body that stands straight above T1, m.
+    fn cg_height_m(body: &Body) -> f64 {
+        let mut joint_m = vec![0.0; body.segments.len()];
+        let mut moment = 0.0;
+        for segment in body.tree.segments() {
+            let n = segment.index();
+            if let Some(joint) = body.tree.carrier(segment) {
+                joint_m[n] = joint_m[body.tree[joint].proximal.index()] + body.offset_m(segment).z;
+            }
+            let p = body.segment(segment);
+            moment += p.mass_kg * (joint_m[n] + (p.cg_m() - body.joint_m(segment)).z);
+        }
+        moment / body.mass_kg()
+    }
+
+    fn divided(name: &str) -> [Body; 3] {
+        [Division::Twelve, Division::Fifteen, Division::Seventeen].map(|division| {
+            let made = child(name, division);
+            made.unwrap_or_else(|| Person::named(name).expect("a preset").body(division).0)
+        })
+    }
+
+    /// What 15 and 17 segments weigh and where their centre of gravity is, the 12 made of them have too.
+    #[test]
+    fn a_body_of_more_segments_is_the_same_body() {
+        for name in ["female05", "male50", "male95", "child06", "child10"] {
+            let [twelve, fifteen, seventeen] = divided(name);
+            assert_eq!([fifteen.segments.len(), seventeen.segments.len()], [15, 17]);
+            for body in [&fifteen, &seventeen] {
+                assert_relative_eq!(body.mass_kg(), twelve.mass_kg(), max_relative = 1e-12);
+                assert_abs_diff_eq!(cg_height_m(body), cg_height_m(&twelve), epsilon = 1e-12);
+                assert_eq!(body.places.len() + 1, body.segments.len());
+                assert_eq!(body.spheres.len(), 17);
+                for p in &body.segments {
+                    let i = p.inertia_kg_m2;
+                    assert!(i.min() > 0.0 && 2.0 * i.max() <= i.sum() * (1.0 + 1e-12), "{name}: {i}");
+                }
+            }
+            let marks = fifteen.tree.landmarks();
+            assert_eq!((fifteen.tree[marks.head].name, fifteen.tree[marks.neck].name), ("head", "neck"));
+            assert_eq!(fifteen.tree[fifteen.tree[marks.neck].proximal].name, "neck");
+            assert_eq!((marks.legs().count(), marks.arms().filter(|arm| arm.end.is_some()).count()), (2, 0));
+            assert_eq!(seventeen.tree.landmarks().arms().filter(|arm| arm.end.is_some()).count(), 2);
+        }
+    }
+
+    /// Masses and principal moments of an independent computation, rounded.
+    #[test]
+    fn fifteen_segments_are_those_of_an_independent_computation() {
+        let [_, female, _] = divided("female05");
+        let rows = FIFTEEN;
+        for (name, [mass_kg, ix, iy, iz]) in rows {
+            let segment = female.tree.segment_named(name).expect("a segment");
+            let p = female.segment(segment);
+            assert_abs_diff_eq!(p.mass_kg, mass_kg, epsilon = 6e-4 + 6e-4 * mass_kg);
+            for (got, expected) in p.inertia_kg_m2.iter().zip([ix, iy, iz]) {
+                assert_abs_diff_eq!(*got, expected, epsilon = 1.5e-5 + 1e-3 * expected);
+            }
+        }
+    }
+
+    /// Forearm and hand together are the forearm of 15 segments.
+    #[test]
+    fn a_hand_takes_nothing_away() {
+        let [_, whole, split] = divided("male50");
+        let of = |body: &Body, name: &str| *body.segment(body.tree.segment_named(name).expect("a segment"));
+        let [arm, forearm, hand] = [of(&whole, "left_forearm"), of(&split, "left_forearm"), of(&split, "left_hand")];
+        let apart_m = forearm.cg_from_lower_end_m + hand.length_m - hand.cg_from_lower_end_m;
+        let together = forearm.mass_kg + hand.mass_kg;
+        let steiner = forearm.mass_kg * hand.mass_kg / together * apart_m * apart_m;
+        let inertia = forearm.inertia_kg_m2 + hand.inertia_kg_m2 + Vector3::new(steiner, steiner, 0.0);
+        assert_relative_eq!(together, arm.mass_kg, max_relative = 1e-12);
+        assert_relative_eq!(inertia, arm.inertia_kg_m2, max_relative = 1e-9);
+        assert_relative_eq!(forearm.length_m + hand.length_m, arm.length_m, max_relative = 1e-12);
+        assert!(
+            (1.04..=1.11).contains(&(hand.mass_kg / POUND_KG)) && (2.9..=3.0).contains(&(forearm.mass_kg / POUND_KG))
+        );
     }
 }

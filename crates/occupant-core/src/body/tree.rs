@@ -90,6 +90,10 @@ pub enum JointKind {
     Ball,
     /// About the common Y axis only.
     Hinge,
+    /// About the X axis, then about the Y axis that it carries round.
+    Universal,
+    /// Not at all.
+    Fixed,
 }
 
 /// Where a joint is on its proximal segment.
@@ -123,9 +127,19 @@ pub struct JointRow {
 }
 
 impl JointRow {
-    /// True for elbows and knees.
+    /// The side that the joint is on.
+    pub(crate) fn side(&self) -> Option<Side> {
+        match self.place {
+            Place::Beside(_, side) => Some(side),
+            Place::Given if self.name.starts_with("left_") => Some(Side::Left),
+            Place::Given if self.name.starts_with("right_") => Some(Side::Right),
+            _ => None,
+        }
+    }
+
+    /// True for elbows and knees, and where two axes are free.
     pub(crate) const fn is_hinge(&self) -> bool {
-        matches!(self.kind, JointKind::Hinge)
+        matches!(self.kind, JointKind::Hinge | JointKind::Universal)
     }
 }
 
@@ -202,6 +216,10 @@ pub struct Tree {
     pub(super) spheres: &'static [SphereRow],
     pub(super) landmarks: Landmarks,
 }
+
+/// A landmark for which a body has no segment, by its key in a scenario.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct MissingLandmark(pub &'static str);
 
 /// A name that is kept to the end of the program, once for all that are spelt so.
 pub(crate) fn kept(name: &str) -> &'static str {

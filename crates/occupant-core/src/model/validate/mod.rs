@@ -6,6 +6,7 @@ mod time;
 
 use std::f64::consts::PI;
 
+use crate::body::tti12::TTI12;
 use crate::model::seating::InitialPosture;
 use crate::model::setup::Setup;
 pub(super) use path::check_path;
@@ -17,12 +18,27 @@ pub(crate) fn check(setup: &Setup, problems: &mut Problems) {
     setup.forces(&[]).check(&setup.body, problems);
     time::check_time(&setup.time, &setup.integrator, problems);
     check_posture(&setup.posture, problems);
+    check_coordinates(setup, problems);
     if !(setup.gravity_m_s2 >= 0.0 && setup.gravity_m_s2.is_finite()) {
         problems.error(
             "gravity",
             format!("{} m/s²", setup.gravity_m_s2),
             "zero or a positive acceleration (it acts downwards)",
         );
+    }
+}
+
+/// The report's coordinates are those of its own body.
+fn check_coordinates(setup: &Setup, problems: &mut Problems) {
+    if *setup.body.tree == TTI12 {
+        return;
+    }
+    let found = format!("the report's coordinates of a body of {} segments", setup.body.segments.len());
+    if !matches!(setup.posture, InitialPosture::Seated(_)) {
+        problems.error("initial_state", found.clone(), "`posture`, or the report's 12 segments");
+    }
+    if setup.output.report_coordinates {
+        problems.error("output.report_coordinates", found, "false, or the report's 12 segments");
     }
 }
 
