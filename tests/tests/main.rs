@@ -2,6 +2,7 @@
 
 mod appendix3;
 mod belts;
+mod bodies;
 mod cart_cases;
 mod contact_scene;
 mod driver;

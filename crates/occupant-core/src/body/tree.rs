@@ -275,6 +275,17 @@ impl Tree {
         self.spheres
     }
 
+    /// 6 of the first segment and those of the joints.
+    pub(crate) fn degrees_of_freedom(&self) -> usize {
+        let free = |row: &JointRow| match row.kind {
+            JointKind::Ball => 3,
+            JointKind::Hinge => 1,
+            JointKind::Universal => 2,
+            JointKind::Fixed => 0,
+        };
+        6 + self.joints.iter().map(free).sum::<usize>()
+    }
+
     /// Names of the standard spheres, in the table's order.
     pub fn sphere_names(&self) -> Vec<&'static str> {
         self.spheres.iter().map(|row| row.name).collect()

@@ -14,6 +14,9 @@ use placed_text::Problems;
 
 /// Reports every problem of the numbers of `setup`.
 pub(crate) fn check(setup: &Setup, problems: &mut Problems) {
+    if !body::check_count(&setup.body, problems) {
+        return;
+    }
     body::check_body(&setup.body, problems);
     setup.forces(&[]).check(&setup.body, problems);
     time::check_time(&setup.time, &setup.integrator, problems);
