@@ -86,7 +86,8 @@ fn ballast() -> String {
 
 #[test]
 fn twelve_segments_with_a_part_screwed_on_move_as_the_twelve() {
-    let plain: String = SLED.lines().filter(|line| !line.starts_with("neck = ")).map(|line| format!("{line}\n")).collect();
+    let plain: String =
+        SLED.lines().filter(|line| !line.starts_with("neck = ")).map(|line| format!("{line}\n")).collect();
     let run = |text: &str| {
         let setup = setup(text, &["body.segment_count=12", "time.end=0.08"]);
         let model = Model::new(setup).unwrap_or_else(|problems| panic!("{problems}"));

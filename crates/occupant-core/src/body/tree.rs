@@ -90,7 +90,7 @@ pub enum JointKind {
     Ball,
     /// About the common Y axis only.
     Hinge,
-    /// About the X axis, then about the Y axis that it carries round.
+    /// About the Y axis, then about the X axis that it carries round; its angle is the first.
     Universal,
     /// Not at all.
     Fixed,

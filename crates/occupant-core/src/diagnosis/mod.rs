@@ -21,7 +21,6 @@ use crate::motion::mobility::Mobility;
 use crate::vehicle::{PathCursor, VehiclePath};
 use rates::FrictionMasses;
 
-
 /// What will be simulated.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Diagnosis {

@@ -11,9 +11,9 @@ use crate::body::tree::Limb;
 use crate::body::{Body, Joint, Segment};
 use crate::forces::spring::{BilinearSpring, Spring};
 use crate::model::seating::Seating;
-use crate::motion::layout::{free_slot, hinge_slot};
+use crate::motion::layout::Layout;
 use crate::motion::report_coordinates::quaternion;
-use crate::motion::state::State;
+use crate::motion::state::{Shape, State};
 use crate::motion::vector::V3;
 use crate::vehicle::FrameMotion;
 use placed_text::Problems;
@@ -147,15 +147,17 @@ impl Pose {
     }
 
     fn state(&self, body: &Body, t1_m: Vector3<f64>, vehicle: &FrameMotion) -> State<f64> {
-        let mut state = State::zero();
-        state.t1 = V3::of(&vehicle.point_to_space(t1_m));
-        for n in body.tree.segments().map(Segment::index) {
-            if let Some(slot) = free_slot(n) {
-                // Bⁿ (111), which is Tⁿ at the start: X′ = Bⁿ X_n (110)
-                state.orientation[slot] = quaternion(&(vehicle.rotation * self.axes[n]));
-            }
-            if let Some(slot) = hinge_slot(n) {
-                state.hinge[slot] = self.hinge_rad[n];
+        let layout = Layout::of(body.tree);
+        let mut state = State::zero(Shape::of(&layout));
+        state.set_t1(V3::of(&vehicle.point_to_space(t1_m)));
+        for (slot, &n) in layout.free().iter().enumerate() {
+            // Bⁿ (111), which is Tⁿ at the start: X′ = Bⁿ X_n (110)
+            state.set_orientation(slot, quaternion(&(vehicle.rotation * self.axes[n])));
+        }
+        for (slot, &n) in layout.hinged().iter().enumerate() {
+            // of two axes the posture speaks of the first
+            if layout.hinge_slot(n) == Some(slot) {
+                state.hinge_mut()[slot] = self.hinge_rad[n];
             }
         }
         state

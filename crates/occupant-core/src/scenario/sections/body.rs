@@ -81,7 +81,7 @@ pub(crate) struct BodyJointSection {
     pub(crate) proximal: Option<String>,
     /// The segment that it carries.
     pub(crate) distal: Option<String>,
-    /// How it turns: "ball", any way; "pin", about one axis; "universal", about X, then Y of the joint's axes; "fixed", not
+    /// How it turns: "ball", any way; "pin", about one axis; "universal", about Y, then X of the joint's axes; "fixed", not
     /// at all. "ball" if absent.
     #[schemars(extend("enum" = ["ball", "pin", "universal", "fixed"]))]
     pub(crate) kind: Option<String>,

@@ -7,6 +7,7 @@ use super::builder::Builder;
 use super::quantity::{all_si, point};
 use crate::body::named::{NamedJoint, NamedLandmarks, tree};
 use crate::body::{JointKind, JointPlace, JointSite, Tree};
+use crate::motion::layout::{MOST_HINGES, MOST_SEGMENTS};
 use placed_text::with_key;
 
 /// A joint with the names of its segments.
@@ -69,6 +70,17 @@ fn named<'a>(b: &mut Builder, body: &'a BodySection, name: &'a str, section: &'a
 
 /// The joints, each behind the one that carries its proximal segment.
 fn ordered<'a>(b: &mut Builder, body: &'a BodySection, mut rest: Vec<Hung<'a>>) -> Option<Vec<Hung<'a>>> {
+    let axes = |joint: &Hung<'_>| match kind(joint.section) {
+        JointKind::Hinge => 1,
+        JointKind::Universal => 2,
+        JointKind::Ball | JointKind::Fixed => 0,
+    };
+    let (segments, axes) = (rest.len() + 1, rest.iter().map(axes).sum::<usize>());
+    if segments > MOST_SEGMENTS || axes > MOST_HINGES {
+        let found = format!("{segments} segments with {axes} axes of pins and universal joints");
+        b.error("body.joints", found, format!("{MOST_SEGMENTS} segments and {MOST_HINGES} axes at most"));
+        return None;
+    }
     let twice = rest.iter().enumerate().find_map(|(i, joint)| {
         let first = rest[..i].iter().find(|first| first.distal == joint.distal)?;
         Some((joint.name, format!("`{}` is carried by joint `{}` already", joint.distal, first.name)))

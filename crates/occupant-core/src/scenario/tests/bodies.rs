@@ -113,6 +113,13 @@ fn what_is_wrong_with_a_body_of_ones_own_is_said_at_its_place() {
         assert!(problem.contains(expected), "{new}: {problem}");
         assert!(problem.contains("--> s.toml"), "{new}: {problem}");
     }
+    let many: String = (0..20)
+        .map(|i| {
+            format!("segments.s{i} = {{ length = 1 }}\njoints.j{i} = {{ proximal = \"trunk\", distal = \"s{i}\" }}\n")
+        })
+        .collect();
+    let problem = complaint(&own(&format!("{many}{OWN}")));
+    assert!(problem.contains("23 segments with 1 axes"), "{problem}");
     let twice = complaint(&own(&format!("{OWN}\nsegments.skull = {{ length = 1 }}")));
     assert!(twice.contains("duplicate key") || twice.contains("twice"), "{twice}");
 }
