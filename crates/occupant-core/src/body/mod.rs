@@ -16,7 +16,7 @@ pub use tree::{
     both_sides,
 };
 
-/// Number of rigid segments of the bodies that the kernel is compiled for.
+/// Number of rigid segments of the report's body.
 pub const SEGMENTS: usize = tti12::TTI12.segment_rows().len();
 
 /// Mass and geometry of one segment.

@@ -88,9 +88,8 @@ pub(crate) fn seat(
     let pose = Pose::new(body, seating, &legs);
     let (first, Leg { thigh, shank }) = &legs[0];
     let knee_m = hip(first) + pose.axes[first.upper.index()] * link_m(body, first.upper, first.lower);
-    let t1 = pose.t1_m(body, marks.pelvis, lower_end);
-    let seated = Seated { sink_m, pelvis_m, knee_m, legs_rad: [*thigh, *shank] };
-    Some((pose.state(body, t1, vehicle), seated))
+    let state = pose.state(body, pose.t1_m(body, marks.pelvis, lower_end), vehicle);
+    Some((state, Seated { sink_m, pelvis_m, knee_m, legs_rad: [*thigh, *shank] }))
 }
 
 /// How the segments are turned, vehicle axes, and the angles of the hinges.

@@ -37,6 +37,10 @@ pub(super) fn check_body(body: &Body, problems: &mut Problems) {
         problems.check_at_least_zero(&format!("body.{key}"), value, "m");
     }
     problems.check_unique("body.spheres", "sphere", body.spheres.iter().map(|s| s.name.as_str()));
+    check_spheres(body, problems);
+}
+
+fn check_spheres(body: &Body, problems: &mut Problems) {
     for sphere in &body.spheres {
         let path = format!("body.spheres.{}", sphere.name);
         problems.check_positive(&format!("{path}.radius"), sphere.radius_m, "m");

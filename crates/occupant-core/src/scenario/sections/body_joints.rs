@@ -68,8 +68,8 @@ fn named<'a>(b: &mut Builder, body: &'a BodySection, name: &'a str, section: &'a
     Some(Hung { name, proximal: proximal?, distal: distal?, section })
 }
 
-/// The joints, each behind the one that carries its proximal segment.
-fn ordered<'a>(b: &mut Builder, body: &'a BodySection, mut rest: Vec<Hung<'a>>) -> Option<Vec<Hung<'a>>> {
+/// Whether the kernel can carry so many.
+fn fits(b: &mut Builder, rest: &[Hung<'_>]) -> bool {
     let axes = |joint: &Hung<'_>| match kind(joint.section) {
         JointKind::Hinge => 1,
         JointKind::Universal => 2,
@@ -79,6 +79,14 @@ fn ordered<'a>(b: &mut Builder, body: &'a BodySection, mut rest: Vec<Hung<'a>>) 
     if segments > MOST_SEGMENTS || axes > MOST_HINGES {
         let found = format!("{segments} segments with {axes} axes of pins and universal joints");
         b.error("body.joints", found, format!("{MOST_SEGMENTS} segments and {MOST_HINGES} axes at most"));
+        return false;
+    }
+    true
+}
+
+/// The joints, each behind the one that carries its proximal segment.
+fn ordered<'a>(b: &mut Builder, body: &'a BodySection, mut rest: Vec<Hung<'a>>) -> Option<Vec<Hung<'a>>> {
+    if !fits(b, &rest) {
         return None;
     }
     let twice = rest.iter().enumerate().find_map(|(i, joint)| {
