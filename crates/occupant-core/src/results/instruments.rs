@@ -46,9 +46,8 @@ impl Recorder for Signals {
         let neck = loads.reaction(marks.neck);
         push(&mut self.neck_n, neck.force_n);
         push(&mut self.neck_n_m, neck.moment_n_m);
-        let thighs = [marks.legs.right.upper, marks.legs.left.upper];
-        for (values, thigh) in self.femur_n.iter_mut().zip(thighs) {
-            values.push(loads.femur_axial_n(thigh));
+        for (values, leg) in self.femur_n.iter_mut().zip([marks.legs.right, marks.legs.left]) {
+            values.push(leg.map_or(f64::NAN, |leg| loads.femur_axial_n(leg.upper)));
         }
         Ok(Flow::Continue)
     }
