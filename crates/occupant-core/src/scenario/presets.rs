@@ -101,6 +101,9 @@ fn words(body: &Body) -> String {
         format!("hip_half_width = {}", quantity(body.hip_half_width_m, "m")),
         format!("neck_height = {}", quantity(body.neck_height_m, "m")),
     ];
+    if let Some(at) = body.condyles_m {
+        lines.push(format!("condyles = [{}, {}]", quantity(at.x, "m"), quantity(at.z, "m")));
+    }
     for (row, p) in body.tree.segment_rows().iter().zip(&body.segments) {
         let inertia = p.inertia_kg_m2.map(|moment| quantity(moment, "kg m^2"));
         lines.push(format!("[body.segments.{}]", row.name));
