@@ -3,7 +3,9 @@
 //! Report: "Seating the Passenger", Figs 19 and 20. In vehicle axes a segment that leans back by γ has
 //! Z = (−sin γ, 0, −cos γ). Our decisions: the pelvis sphere is tangent to the seat back and sinks into the cushion until
 //! the loading curve there, resolved along gravity, carries g·(M₁+…+M₈ + ½(M₉+M₁₀)); each leg is a two-link chain from hip
-//! to heel with the knee above the line.
+//! to heel with the knee above the line. Where the legs of a smaller person do not reach the heels' place, the thighs lie along
+//! the cushion and the feet stand as high as they were to, nearer; where they do not reach down to there either, the legs lie
+//! stretched along the cushion.
 
 use nalgebra::{Matrix3, Vector3};
 
@@ -17,6 +19,9 @@ use crate::motion::state::State;
 use crate::motion::vector::V3;
 use crate::vehicle::FrameMotion;
 use placed_text::Problems;
+
+/// Heels farther from the hips than this, m, are a mistake: nobody's legs are so long.
+const NOBODYS_LEG_M: f64 = 1.1;
 
 /// Figures of a seating, for the user to check.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,8 +84,14 @@ pub(crate) fn seat(
     let lean = leaned(seating.lean_rad[3]);
     let lower_end = pelvis_m - lean * pelvis.centre_from_lower_end_m.coords;
     let hip = Vector3::new(lower_end.x, 0.0, lower_end.z);
-    let legs = [&marks.legs.left, &marks.legs.right].map(|limb| leg(body, limb, hip, seating, problems));
+    let both = [&marks.legs.left, &marks.legs.right];
+    let legs = both.map(|limb| leg(body, limb, hip, &seat.cushion.normal, seating, problems));
     let [Some(left), Some(right)] = legs else { return None };
+    warn_short(
+        seating,
+        hip - along(left.thigh) * length(both[0].upper) - along(left.shank) * length(both[0].lower),
+        problems,
+    );
 
     let t1 = lower_end
         - along(seating.lean_rad[3]) * -length(marks.pelvis)
@@ -200,13 +211,49 @@ struct Leg {
     shank: f64,
 }
 
+/// Says where the feet are that do not reach the heels' place.
+fn warn_short(seating: &Seating, heel_m: Vector3<f64>, problems: &mut Problems) {
+    let [x, z] = seating.heels_m;
+    if (heel_m.x - x).hypot(heel_m.z - z) < 1e-6 {
+        return;
+    }
+    let how =
+        if (heel_m.z - z).abs() < 1e-6 { "stand nearer" } else { "do not reach down, and the legs lie on the cushion" };
+    problems.warning(
+        "posture.heels",
+        format!(
+            "the legs are too short for heels at [{x:.3}, {z:.3}] m: the feet {how}, at [{:.3}, {:.3}] m",
+            heel_m.x, heel_m.z
+        ),
+        "heels that the feet of this body reach",
+    );
+}
+
+/// Legs too short for the heels' place: along the cushion, and from the knees down to the height of the heels if they reach.
+fn short_leg(a: f64, b: f64, hip: Vector3<f64>, cushion: &Vector3<f64>, heel_z: f64) -> Leg {
+    let thigh = crash_measures::trig::atan2(-cushion.z, cushion.x);
+    let down = (heel_z - (hip - along(thigh) * a).z) / b;
+    let shank = if down.abs() < 1.0 { crash_measures::trig::acos(down) } else { thigh };
+    Leg { thigh, shank }
+}
+
 /// Two links from `hip` to the heel in the X_v–Z_v plane, the knee above the line.
-fn leg(body: &Body, limb: &Limb, hip: Vector3<f64>, seating: &Seating, problems: &mut Problems) -> Option<Leg> {
+fn leg(
+    body: &Body,
+    limb: &Limb,
+    hip: Vector3<f64>,
+    cushion: &Vector3<f64>,
+    seating: &Seating,
+    problems: &mut Problems,
+) -> Option<Leg> {
     let (a, b) = (body.segment(limb.upper).length_m, body.segment(limb.lower).length_m);
     let [x, z] = seating.heels_m;
     let to_heel = Vector3::new(x, 0.0, z) - hip;
     let distance = to_heel.norm();
     let (shortest, longest) = ((a - b).abs(), a + b);
+    if distance > longest && distance < NOBODYS_LEG_M {
+        return Some(short_leg(a, b, hip, cushion, z));
+    }
     if !(distance >= shortest && distance <= longest) {
         let (by, remedy) = if distance > longest {
             (distance - longest, "bring the heels nearer to the seat")
