@@ -108,10 +108,11 @@ impl Compartment {
             edge_force: EdgeForce::default(),
             longest_step_s: 1e-3,
         };
+        let skeleton = Skeleton::new(&system.body, -system.gravity.z);
         let forces = Forces {
             contacts: ContactSystem::new(&system.body, &data),
             belts: Vec::new(),
-            joints: JointSystem::new(&system.joints, &[f64::NAN; 7]),
+            joints: JointSystem::new(&system.joints, &skeleton, |_| f64::NAN),
             limits: Vec::new(),
         };
         let untouched = PairHistory { phase: OPEN, greatest: 0.0 };
@@ -123,12 +124,9 @@ impl Compartment {
             axes: M3::of(&self.vehicle.axes),
             velocity: V3::of(&self.vehicle.velocity),
             omega: V3::of(&self.vehicle.omega),
+            ..Moving::space()
         };
-        let kernel = kernel::System {
-            skeleton: Skeleton::new(&system.body, -system.gravity.z),
-            spheres: Site::all(&system.body),
-            forces,
-        };
+        let kernel = kernel::System { skeleton, spheres: Site::all(&system.body), forces };
         (kernel, [Moving::space(), vehicle], history)
     }
 
