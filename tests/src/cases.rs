@@ -51,6 +51,7 @@ pub fn male50() -> Body {
         shoulder_half_width_m: 6.57 * INCH_M,
         hip_half_width_m: 3.35 * INCH_M,
         neck_height_m: 0.0,
+        condyles_m: None,
         spheres: Vec::new(),
     };
     body.spheres = body.standard_spheres(&radius_m);
@@ -79,6 +80,7 @@ pub fn bead(inertia_kg_m2: f64) -> Body {
         shoulder_half_width_m: 0.0,
         hip_half_width_m: 0.0,
         neck_height_m: 0.0,
+        condyles_m: None,
         spheres: Vec::new(),
     }
 }

@@ -109,6 +109,7 @@ impl Golden {
             shoulder_half_width_m: self.shoulder_half_width,
             hip_half_width_m: self.hip_half_width,
             neck_height_m: 0.0,
+            condyles_m: None,
             spheres: self.spheres.iter().map(sphere).collect(),
         }
     }

@@ -70,6 +70,7 @@ impl Random {
             shoulder_half_width_m,
             hip_half_width_m: self.between(0.05, 0.15),
             neck_height_m: 0.5 * shoulder_half_width_m,
+            condyles_m: None,
             spheres: Vec::new(),
         };
         body.spheres = body.standard_spheres(&radius);

@@ -110,6 +110,9 @@ pub struct Body {
     pub hip_half_width_m: f64,
     /// Height of the neck's joint above the line of the shoulders along Z₂; 0 in the report.
     pub neck_height_m: f64,
+    /// The occipital condyles seen from the neck's joint, axes of the head: loads of the upper neck are given there.
+    /// Without them they are given at the joint.
+    pub condyles_m: Option<Vector3<f64>>,
     /// Contact spheres; the tree's standard ones unless a scenario says otherwise.
     pub spheres: Vec<ContactSphere>,
 }

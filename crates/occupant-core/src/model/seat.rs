@@ -3,7 +3,9 @@
 //! Report: "Seating the Passenger", Figs 19 and 20. In vehicle axes a segment that leans back by γ has
 //! Z = (−sin γ, 0, −cos γ). Our decisions: the pelvis sphere is tangent to the seat back and sinks into the cushion until
 //! the loading curve there, resolved along gravity, carries g·(M₁+…+M₈ + ½(M₉+M₁₀)); each leg is a two-link chain from hip
-//! to heel with the knee above the line.
+//! to heel with the knee above the line. Where the legs of a smaller person do not reach the heels' place, the thighs lie along
+//! the cushion and the feet stand as high as they were to, nearer; where they do not reach down to there either, the legs lie
+//! stretched along the cushion.
 
 use nalgebra::{Matrix3, UnitQuaternion, Vector3};
 
@@ -17,6 +19,9 @@ use crate::motion::state::{Shape, State};
 use crate::motion::vector::V3;
 use crate::vehicle::FrameMotion;
 use placed_text::Problems;
+
+/// Heels farther from the hips than this, m, are a mistake: nobody's legs are so long.
+const NOBODYS_LEG_M: f64 = 1.1;
 
 /// Figures of a seating, for the user to check.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -83,11 +88,13 @@ pub(crate) fn seat(
     let lean = leaned(seating.angle_of(body.tree[marks.pelvis].name).unwrap_or_default());
     let lower_end = pelvis_m - lean * pelvis.centre_from_lower_end_m.coords;
     let hip = |limb: &Limb| lower_end + lean * body.socket_m(limb.upper);
-    let legs: Vec<_> = marks.legs().map(|limb| (limb, leg(body, &limb, hip(&limb), seating, problems))).collect();
+    let legs: Vec<_> = marks.legs().map(|limb| (limb, leg(body, &limb, hip(&limb), &seat.cushion.normal, seating, problems))).collect();
     let legs: Vec<(Limb, Leg)> = legs.into_iter().map(|(limb, leg)| Some((limb, leg?))).collect::<Option<_>>()?;
     let pose = Pose::new(body, seating, &legs);
     let (first, Leg { thigh, shank }) = &legs[0];
     let knee_m = hip(first) + pose.axes[first.upper.index()] * link_m(body, first.upper, first.lower);
+    let heel_m = knee_m + pose.axes[first.lower.index()] * to_heel_m(body, first);
+    warn_short(seating, heel_m, problems);
     let state = pose.state(body, pose.t1_m(body, marks.pelvis, lower_end), vehicle);
     Some((state, Seated { sink_m, pelvis_m, knee_m, legs_rad: [*thigh, *shank] }))
 }
@@ -266,19 +273,61 @@ fn planar(link_m: &Vector3<f64>) -> (f64, f64) {
     ((link_m.x * link_m.x + link_m.z * link_m.z).sqrt(), ahead)
 }
 
-/// Two links from `hip` to the heel, the far end of the leg, in the X_v–Z_v plane, the knee above the line.
-fn leg(body: &Body, limb: &Limb, hip: Vector3<f64>, seating: &Seating, problems: &mut Problems) -> Option<Leg> {
-    let to_heel_m = match limb.end {
+/// From the knee to the heel, the far end of the leg, along the lower leg's axes, m.
+fn to_heel_m(body: &Body, limb: &Limb) -> Vector3<f64> {
+    match limb.end {
         Some(foot) => link_m(body, limb.lower, foot) - body.joint_m(foot),
         None => -body.joint_m(limb.lower),
-    };
+    }
+}
+
+/// Says where the feet are that do not reach the heels' place.
+fn warn_short(seating: &Seating, heel_m: Vector3<f64>, problems: &mut Problems) {
+    let [x, z] = seating.heels_m;
+    if (heel_m.x - x).hypot(heel_m.z - z) < 1e-6 {
+        return;
+    }
+    let how =
+        if (heel_m.z - z).abs() < 1e-6 { "stand nearer" } else { "do not reach down, and the legs lie on the cushion" };
+    problems.warning(
+        "posture.heels",
+        format!(
+            "the legs are too short for heels at [{x:.3}, {z:.3}] m: the feet {how}, at [{:.3}, {:.3}] m",
+            heel_m.x, heel_m.z
+        ),
+        "heels that the feet of this body reach",
+    );
+}
+
+/// Legs too short for the heels' place: along the cushion, and from the knees down to the height of the heels if they reach.
+fn short_leg(a: f64, b: f64, hip: Vector3<f64>, cushion: &Vector3<f64>, heel_z: f64) -> [f64; 2] {
+    let thigh = crash_measures::trig::atan2(-cushion.z, cushion.x);
+    let down = (heel_z - (hip - along(thigh) * a).z) / b;
+    let shank = if down.abs() < 1.0 { crash_measures::trig::acos(down) } else { thigh };
+    [thigh, shank]
+}
+
+/// Two links from `hip` to the heel in the X_v–Z_v plane, the knee above the line.
+fn leg(
+    body: &Body,
+    limb: &Limb,
+    hip: Vector3<f64>,
+    cushion: &Vector3<f64>,
+    seating: &Seating,
+    problems: &mut Problems,
+) -> Option<Leg> {
     let (a, thigh_ahead) = planar(&link_m(body, limb.upper, limb.lower));
-    let (b, shank_ahead) = planar(&to_heel_m);
+    let (b, shank_ahead) = planar(&to_heel_m(body, limb));
+    let of = |thigh: f64, shank: f64| Some(Leg { thigh: thigh - thigh_ahead, shank: shank - shank_ahead });
     let [x, z] = seating.heels_m;
     let hip = Vector3::new(hip.x, 0.0, hip.z);
     let to_heel = Vector3::new(x, 0.0, z) - hip;
     let distance = to_heel.norm();
     let (shortest, longest) = ((a - b).abs(), a + b);
+    if distance > longest && distance < NOBODYS_LEG_M {
+        let [thigh, shank] = short_leg(a, b, hip, cushion, z);
+        return of(thigh, shank);
+    }
     if !(distance >= shortest && distance <= longest) {
         let (by, remedy) = if distance > longest {
             (distance - longest, "bring the heels nearer to the seat")
@@ -305,5 +354,5 @@ fn leg(body: &Body, limb: &Limb, hip: Vector3<f64>, seating: &Seating, problems:
     let knee = hip - along(thigh_lean) * a;
     let down = Vector3::new(x, 0.0, z) - knee;
     let shank_lean = crash_measures::trig::atan2(down.x, down.z);
-    Some(Leg { thigh: thigh_lean - thigh_ahead, shank: shank_lean - shank_ahead })
+    of(thigh_lean, shank_lean)
 }

@@ -108,6 +108,9 @@ fn words(body: &Body, has_joints: bool) -> String {
         format!("hip_half_width = {}", quantity(body.hip_half_width_m, "m")),
         format!("neck_height = {}", quantity(body.neck_height_m, "m")),
     ];
+    if let Some(at) = body.condyles_m {
+        lines.push(format!("condyles = [{}, {}]", quantity(at.x, "m"), quantity(at.z, "m")));
+    }
     for (row, p) in body.tree.segment_rows().iter().zip(&body.segments) {
         lines.push(format!("[body.segments.{}]", row.name));
         lines.push(format!("length = {}", quantity(p.length_m, "m")));

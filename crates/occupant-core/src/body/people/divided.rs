@@ -168,6 +168,7 @@ impl Made<'_> {
             shoulder_half_width_m: self.stretch.half_width_m(UA),
             hip_half_width_m: self.stretch.half_width_m(UL),
             neck_height_m: 0.0,
+            condyles_m: None,
             spheres: Vec::new(),
         }
     }

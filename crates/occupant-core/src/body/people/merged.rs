@@ -80,6 +80,8 @@ impl Stretch {
             shoulder_half_width_m: self.half_width_m(UA),
             hip_half_width_m: self.half_width_m(UL),
             neck_height_m: z(UT, 2.91) + z(N, 0.98),
+            // the head's pivot lies 0.83 in behind and 1.93 in below the centre of gravity of the head
+            condyles_m: Some(Vector3::new(-x(H, 0.83), 0.0, z(N, 2.99))),
             spheres: Vec::new(),
         }
     }

@@ -7,7 +7,7 @@ use crash_measures::unit::Unit::{
 use super::Run;
 use crate::body::tree::{Landmarks, Limb, Pair, Segment};
 use crate::quantity::{Axes, Owner, Quantity, Take, to_j211};
-use crate::results::reaction::{femur_axial_n, reaction};
+use crate::results::reaction::{femur_axial_n, upper_neck};
 use crate::results::sample::Sample;
 
 /// A segment.
@@ -74,15 +74,15 @@ pub(super) fn instruments(legs: &Pair<Option<Limb>>) -> impl Iterator<Item = Ins
 }
 
 const NECK: [Instrument; 2] = [
-    Instrument::vector(Newton, Axes::J211, |s| to_j211(reaction(s, marks(s).neck).force_n))
+    Instrument::vector(Newton, Axes::J211, |s| to_j211(upper_neck(s).force_n))
         .channel(
             "neck.force",
             "upper neck force on the head at its joint: +x shear that pushes the head ahead, +z tension",
         )
         .field(2, "neck_force", "upper neck force on the head at its joint, SAE J211 axes: +z tension"),
-    Instrument::vector(NewtonMetre, Axes::J211, |s| to_j211(reaction(s, marks(s).neck).moment_n_m))
-        .channel("neck.moment", "upper neck moment on the head at its joint: +y in flexion")
-        .field(3, "neck_moment", "upper neck moment on the head at its joint, SAE J211 axes: +y flexion"),
+    Instrument::vector(NewtonMetre, Axes::J211, |s| to_j211(upper_neck(s).moment_n_m))
+        .channel("neck.moment", "upper neck moment on the head at the condyles (at its joint where the body has none): +y in flexion")
+        .field(3, "neck_moment", "upper neck moment on the head at the condyles (at its joint where the body has none), SAE J211 axes: +y flexion"),
 ];
 const RIGHT_FEMUR: Instrument = Instrument::number(Newton, |s| femur_n(s, marks(s).legs.right))
     .channel("right_femur.axial", FEMUR)

@@ -38,6 +38,9 @@ pub(crate) struct BodySection {
     pub(crate) hip_half_width: Option<Length<NOT_NEGATIVE>>,
     /// Height of the neck's joint above the line of the shoulders; 0 if absent, as in the report.
     pub(crate) neck_height: Option<Length<NOT_NEGATIVE>>,
+    /// The occipital condyles, [ahead of, above] the neck's joint in the head: loads of the upper neck are given there, at the
+    /// joint if absent.
+    pub(crate) condyles: Option<[Length; 2]>,
     /// Gravity by which a `weight` is divided to give a mass; standard gravity if absent.
     pub(crate) weighed_at: Option<Acceleration<POSITIVE>>,
     /// Into how many segments a preset or a person is divided: 12, the report's; 15, with a neck on two joints and feet;
@@ -216,6 +219,7 @@ pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection)
         shoulder_half_width_m: half_width_m(b, "shoulder_half_width", &section.shoulder_half_width),
         hip_half_width_m: half_width_m(b, "hip_half_width", &section.hip_half_width),
         neck_height_m: si_or(&section.neck_height, 0.0),
+        condyles_m: section.condyles.as_ref().map(all_si).map(|[ahead, above]| Vector3::new(ahead, 0.0, above)),
         spheres: Vec::new(),
     };
     body.spheres = spheres(b, &section.spheres, &body);
