@@ -61,10 +61,14 @@ fn lap_and_torso(integrator: Integrator) -> Setup {
     setup
 }
 
-/// Elastic limits instead of viscous stops.
+/// Elastic limits instead of viscous stops, locks that open, slip and close again, and a muscle.
 fn limited(integrator: Integrator) -> Setup {
     let text = include_str!("../../scenarios/cart-lap-torso.toml");
-    let text = text.replace("[joints]\npreset = \"male50\"", "[joints]\npreset = \"gebod\"");
+    let joints = "[joints]\npreset = \"gebod\"\nelbows.lock = { until = \"10 N m\", relock_below = 20 }\n\
+                  neck.lock = { until = \"15 N m\", slips = true }";
+    let text = text.replace("[joints]\npreset = \"male50\"", joints)
+        + "[triggers]\ngo = { kind = \"time\", at = 0.05 }\n\
+           [muscles]\nhips = { trigger = \"go\", rise = 0.02, stiffness = 60, damping = 2, limit = 20 }\n";
     let alone = |name: &str| Err(format!("no file beside the text: {name}"));
     let setup = Scenario::from_text(&text, Format::Toml, "cart", &alone).and_then(|s| s.build()).unwrap().0;
     assert!(setup.joints.has_limits());

@@ -45,7 +45,7 @@ impl<S: Scalar> Quat<S> {
 }
 
 /// Work sums of the force elements.
-pub(crate) const WORK_SUMS: usize = 4;
+pub(crate) const WORK_SUMS: usize = 5;
 
 /// Work done since the start, for the energy ledger, J.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -78,6 +78,11 @@ pub struct State<S> {
 #[inline(always)]
 fn zip_4<S: Copy, A: Copy, T>(a: &[S; 4], b: &[A; 4], f: &impl Fn(S, A) -> T) -> [T; 4] {
     [f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2]), f(a[3], b[3])]
+}
+
+#[inline(always)]
+fn zip_5<S: Copy, A: Copy, T>(a: &[S; 5], b: &[A; 5], f: &impl Fn(S, A) -> T) -> [T; 5] {
+    [f(a[0], b[0]), f(a[1], b[1]), f(a[2], b[2]), f(a[3], b[3]), f(a[4], b[4])]
 }
 
 impl<S: Scalar> Work<S> {
@@ -122,7 +127,7 @@ impl<S: Copy> State<S> {
                 u[7].zip(&v[7], &f),
             ],
             hinge_rate: zip_4(&self.hinge_rate, &other.hinge_rate, &f),
-            work: Work { sums: zip_4(&a.sums, &b.sums, &f), vehicle: f(a.vehicle, b.vehicle) },
+            work: Work { sums: zip_5(&a.sums, &b.sums, &f), vehicle: f(a.vehicle, b.vehicle) },
         }
     }
 }

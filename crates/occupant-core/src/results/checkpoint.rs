@@ -6,7 +6,7 @@
 use crate::forces::stored::Archive;
 use crate::forces::{Forces, History, Memory, Misfit, STORED};
 use crate::model::Model;
-use crate::motion::state::State;
+use crate::motion::state::{NUMBERS, State};
 use crate::quantity::FieldWords;
 use crate::results::energy::{EnergyStart, balance_error};
 use crate::results::outcome::{FirstTouch, Outcome, Status};
@@ -148,9 +148,9 @@ fn other_time(index: usize, found_s: f64, expected_s: Option<f64>) -> String {
 }
 
 /// How `state` is written.
-const STATE: &str = "75 numbers in space axes, SI: T1; w, x, y, z of the 8 free segments (middle_torso, upper_torso, head, \
+const STATE: &str = "76 numbers in space axes, SI: T1; w, x, y, z of the 8 free segments (middle_torso, upper_torso, head, \
 lower_torso, left_upper_arm, right_upper_arm, left_thigh, right_thigh); 4 hinges (left_forearm, right_forearm, left_lower_leg, \
-right_lower_leg); velocity of T1; angular velocities of the 8; hinge rates; work of contacts, friction, joints, belts, vehicle";
+right_lower_leg); velocity of T1; angular velocities of the 8; hinge rates; work of contacts, friction, joints, belts, muscles, vehicle";
 
 const STEP: &str =
     "start and end of the step in which the output lies, if it goes on beyond it; the columns below tell its start";
@@ -307,7 +307,12 @@ fn check_finite(numbers: impl IntoIterator<Item = f64>) -> Result<(), Checkpoint
 }
 
 fn to_state(numbers: &[f64], file: &mut dyn Archive) -> State<f64> {
-    numbers.try_into().map(State::from_numbers).unwrap_or_else(|_| {
+    let mut numbers = numbers.to_vec();
+    // files of 0.1.0 have no work of muscles
+    if numbers.len() == NUMBERS - 1 {
+        numbers.insert(NUMBERS - 2, 0.0);
+    }
+    numbers.as_slice().try_into().map(State::from_numbers).unwrap_or_else(|_| {
         file.refuse("a state of another number of coordinates");
         State::zero()
     })
