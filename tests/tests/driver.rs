@@ -58,7 +58,7 @@ fn braced(set: &[&str], channel: &str) -> (Vec<f64>, f64) {
     let model = Model::new(setup(BRACED, set)).unwrap();
     let mut series = Series::new(vec![find(&model, channel).unwrap()]);
     let outcome = simulate(&model, &mut series).unwrap();
-    (series.values.swap_remove(0), outcome.balance_error)
+    (series.values.swap_remove(0), outcome.energy.balance_error)
 }
 
 /// In half a second of hard braking a limp driver folds; one who braces himself stays.

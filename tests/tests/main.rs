@@ -1,5 +1,6 @@
 //! Proofs of the model, a module each, in one binary: linking each of them alone would cost more than running it.
 
+mod any_tree;
 mod appendix3;
 mod belts;
 mod cart_cases;
@@ -12,6 +13,7 @@ mod integration;
 mod joint_torques;
 mod joints;
 mod kernel;
+mod laboratory;
 mod lanes;
 mod lap_case;
 mod layers;

@@ -6,7 +6,7 @@ use occupant_core::body::tti12::{self, TTI12};
 use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
 use occupant_core::motion::dynamics::Wrench;
-use occupant_core::motion::layout::{BALL_JOINTS, BALLS, HINGE_JOINTS};
+use occupant_core::motion::layout::MOST_SEGMENTS;
 use occupant_core::results::channel::{channels, find, matching};
 use occupant_core::results::reaction::{femur_axial_n, reaction};
 use occupant_core::results::recorder::Watch;
@@ -35,9 +35,10 @@ fn a_ball_joint_carries_no_moment_but_that_of_its_damper_stop_and_spring() {
     let mut greatest = 0.0_f64;
     watch(&cart(), |s| {
         let k = &s.evaluation.kinematics;
-        for (i, &(_, outer)) in BALLS.iter().enumerate() {
-            let joint = BALL_JOINTS[i];
-            let moment = s.model.system().forces.joints.ball(i, k).moment;
+        let joints = &s.model.system().forces.joints;
+        for (i, ball) in joints.balls.iter().enumerate() {
+            let (joint, outer) = (ball.joint, ball.segments.1);
+            let moment = joints.ball(i, k).moment;
             let passive = k.axes[outer].into_frame(moment).to_vector();
             let carried = reaction(s, joint).moment_n_m;
             worst = worst.max((carried - passive).norm());
@@ -53,11 +54,11 @@ fn a_hinge_carries_its_torque_about_its_axis_and_more_across() {
     let mut worst = 0.0_f64;
     let mut across = 0.0_f64;
     watch(&cart(), |s| {
-        let mut passive = [Wrench::zero(); 12];
+        let mut passive = [Wrench::zero(); MOST_SEGMENTS];
         let k = &s.evaluation.kinematics;
         let joints = &s.model.system().forces.joints;
         joints.apply(k, s.state, &mut passive, &mut |_| {});
-        for &joint in HINGE_JOINTS {
+        for joint in joints.hinges.iter().map(|hinge| hinge.joint) {
             let n = TTI12[joint].distal.index();
             let torque = k.axes[n].y.dot(passive[n].moment);
             let carried = reaction(s, joint).moment_n_m;

@@ -19,7 +19,6 @@ use crate::model::settle::{Settled, kept, settle};
 use crate::model::setup::Setup;
 use crate::motion::frame::{Frames, Moving};
 use crate::motion::kinematics::Kinematics;
-use crate::motion::layout::FREE;
 use crate::motion::skeleton::Skeleton;
 use crate::motion::state::State;
 use crate::motion::vector::V3;
@@ -98,6 +97,13 @@ impl Model {
     /// The occupant at the start.
     pub fn start(&self) -> &Start {
         &self.start
+    }
+
+    /// The same, its body swept as any tree is.
+    #[cfg(test)]
+    pub(crate) fn without_closed_forms(mut self) -> Self {
+        self.system.skeleton = self.system.skeleton.without_closed_forms();
+        self
     }
 
     /// Things that a user should know but that do not stop a run.
@@ -242,12 +248,12 @@ fn seat_of<'a>(
 fn set_velocity(state: &mut State<f64>, velocity: &InitialVelocity, vehicle: &FrameMotion) {
     match velocity {
         InitialVelocity::WithVehicle => {
-            state.velocity = V3::of(&vehicle.velocity_at(state.t1.to_vector()));
-            state.omega = [V3::of(&vehicle.angular_velocity_rad_s); FREE.len()];
+            state.set_velocity(V3::of(&vehicle.velocity_at(state.t1().to_vector())));
+            state.turns().for_each(|slot| state.set_omega(slot, V3::of(&vehicle.angular_velocity_rad_s)));
         }
-        InitialVelocity::VehicleOrigin => state.velocity = V3::of(&vehicle.velocity_m_s),
+        InitialVelocity::VehicleOrigin => state.set_velocity(V3::of(&vehicle.velocity_m_s)),
         InitialVelocity::Given(v) => {
-            state.velocity = V3::of(&vehicle.vector_to_space(*v));
+            state.set_velocity(V3::of(&vehicle.vector_to_space(*v)));
         }
     }
 }

@@ -11,9 +11,9 @@ use crate::body::tree::Limb;
 use crate::body::{Body, Segment};
 use crate::forces::spring::{BilinearSpring, Spring};
 use crate::model::seating::Seating;
-use crate::motion::layout::{free_slot, hinge_slot};
+use crate::motion::layout::Layout;
 use crate::motion::report_coordinates::quaternion;
-use crate::motion::state::State;
+use crate::motion::state::{Shape, State};
 use crate::motion::vector::V3;
 use crate::vehicle::FrameMotion;
 use placed_text::Problems;
@@ -85,12 +85,13 @@ pub(crate) fn seat(
     let t1 = lower_end
         - along(seating.lean_rad[3]) * -length(marks.pelvis)
         - along(seating.lean_rad[0]) * -length(marks.middle);
-    let mut state = State::zero();
-    state.t1 = V3::of(&vehicle.point_to_space(t1));
+    let layout = Layout::of(body.tree);
+    let mut state = State::zero(Shape::of(&layout));
+    state.set_t1(V3::of(&vehicle.point_to_space(t1)));
     let mut lean = |segment: Segment, gamma: f64| {
-        if let Some(slot) = free_slot(segment.index()) {
+        if let Some(slot) = layout.free_slot(segment.index()) {
             // Bⁿ (111), which is Tⁿ at the start: X′ = Bⁿ X_n (110)
-            state.orientation[slot] = quaternion(&(vehicle.rotation * leaned(gamma)));
+            state.set_orientation(slot, quaternion(&(vehicle.rotation * leaned(gamma))));
         }
     };
     let trunk = [marks.middle, marks.chest, marks.head, marks.pelvis];
@@ -107,8 +108,8 @@ pub(crate) fn seat(
         lean(limb.upper, gamma);
     }
     for (limb, _, alpha) in limbs {
-        if let Some(slot) = hinge_slot(limb.lower.index()) {
-            state.hinge[slot] = alpha;
+        if let Some(slot) = layout.hinge_slot(limb.lower.index()) {
+            state.hinge_mut()[slot] = alpha;
         }
     }
     let knee_m = lower_end - Vector3::y() * body.hip_half_width_m - along(left.thigh) * length(marks.legs.left.upper);

@@ -15,9 +15,9 @@
 use nalgebra::Vector3;
 
 use crate::body::Joint;
-use crate::body::{SEGMENTS, Segment};
+use crate::body::Segment;
 use crate::motion::dynamics::Wrench;
-use crate::motion::layout::hung_from;
+use crate::motion::layout::MOST_SEGMENTS;
 use crate::motion::vector::{V3, v3};
 use crate::results::sample::Sample;
 
@@ -39,12 +39,12 @@ pub fn reaction(sample: &Sample<'_>, joint: Joint) -> Reaction {
 pub(super) struct Loads<'s, 'a> {
     sample: &'s Sample<'a>,
     /// Moments of dampers, stops, limits, friction, locks, springs and muscles, which the evaluation counts among the loads.
-    passive: [Wrench<f64>; SEGMENTS],
+    passive: [Wrench<f64>; MOST_SEGMENTS],
 }
 
 impl<'s, 'a> Loads<'s, 'a> {
     pub(super) fn new(sample: &'s Sample<'a>) -> Self {
-        let mut passive = [Wrench::zero(); SEGMENTS];
+        let mut passive = [Wrench::zero(); MOST_SEGMENTS];
         let k = &sample.evaluation.kinematics;
         sample.model.system().forces.joints.apply(k, sample.state, &mut passive, &mut |_| {});
         let limits = sample.actions.limits.iter().map(|action| (action.joint, action.moment));
@@ -65,10 +65,10 @@ impl<'s, 'a> Loads<'s, 'a> {
         let upward = v3(0.0, 0.0, skeleton.gravity);
         let inertial = (e.accelerations.cg(skeleton, k, n) + upward) * link.mass;
         let mut force = inertial - e.wrench[n].force;
-        let arm = k.axes[n].z * link.cg;
+        let arm = k.axes[n].out(link.cg);
         let applied = e.wrench[n].moment - self.passive[n].moment;
         let mut moment = self.spin(n) + arm.cross(inertial) - applied;
-        for &(next, _) in hung_from(n) {
+        for next in skeleton.layout.children(n) {
             let load = self.at(next);
             force += load.force;
             moment += load.moment + (k.joint[next] - k.joint[n]).cross(load.force);
@@ -80,11 +80,8 @@ impl<'s, 'a> Loads<'s, 'a> {
     fn spin(&self, n: usize) -> V3<f64> {
         let e = self.sample.evaluation;
         let axes = &e.kinematics.axes[n];
-        let [ix, iy, iz] = self.sample.model.system().skeleton.links[n].central;
-        let by_inertia = |v: V3<f64>| {
-            let v = axes.into_frame(v);
-            axes.out(v3(ix * v.x, iy * v.y, iz * v.z))
-        };
+        let link = &self.sample.model.system().skeleton.links[n];
+        let by_inertia = |v: V3<f64>| axes.out(link.by_inertia(axes.into_frame(v)));
         let omega = e.kinematics.omega[n];
         by_inertia(e.accelerations.alpha[n]) + omega.cross(by_inertia(omega))
     }
@@ -103,7 +100,8 @@ impl<'s, 'a> Loads<'s, 'a> {
     pub(super) fn femur_axial_n(&self, thigh: Segment) -> f64 {
         let sample = self.sample;
         let k = &sample.evaluation.kinematics;
-        let shanks = hung_from(thigh.index()).iter().map(|&(shank, _)| self.at(shank).force);
+        let layout = &sample.model.system().skeleton.layout;
+        let shanks = layout.children(thigh.index()).map(|shank| self.at(shank).force);
         let carried = shanks.reduce(|a, b| a + b).unwrap_or(V3::zero());
         let body = sample.model.body();
         let half_m = 0.5 * body.segment(thigh).length_m;

@@ -29,7 +29,7 @@ pub(crate) fn write(pages: &mut Pages, case: &Case, units: Units) {
         came_to_rest(pages, units, settled);
     }
     let recorded = case.file.checkpoints.first().filter(|c| c.index == 0);
-    if recorded.is_some_and(|c| c.state.to_numbers() != start.state.to_numbers()) {
+    if recorded.is_some_and(|c| c.state != start.state.numbers()) {
         pages.say("*** THE RECORDED START DIFFERS FROM THE ONE COMPUTED HERE: ANOTHER VERSION OF THE PROGRAM ***");
     }
     ELEMENTS.iter().for_each(|element| (element.start)(pages, case, units));

@@ -73,7 +73,7 @@ impl Turn<f64> {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Site {
     Ball,
-    /// The limb.
+    /// Its place among the state's hinges.
     Hinge(usize),
 }
 
@@ -258,7 +258,7 @@ impl<S: Scalar> LimitLaw<S> {
         let (k, (inner, outer)) = (at.k, self.segments);
         let mut action = LimitAction::none(self.joint);
         let acts = if let Site::Hinge(limb) = self.site {
-            let (angle, axis) = (at.state.hinge[limb], k.axes[inner].y);
+            let (angle, axis) = (at.state.hinge()[limb], k.hinge_axis[limb]);
             action.angles[0] = angle;
             let act =
                 |turn: &Turn<S>| turn.act::<COMMIT>(S::truth(true), angle, || axis, &mut past.stops[1], &mut action);
@@ -345,7 +345,7 @@ impl<S: Scalar> LimitLaw<S> {
     pub(super) fn excess(&self, at: &Instant<'_, S>) -> [Option<(&Stop<S>, S)>; 2] {
         let (k, (inner, outer)) = (at.k, self.segments);
         let pose = self.triads.pose(&k.axes[inner], &k.axes[outer]);
-        let angle = if let Site::Hinge(limb) = self.site { at.state.hinge[limb] } else { pose.twist() };
+        let angle = if let Site::Hinge(limb) = self.site { at.state.hinge()[limb] } else { pose.twist() };
         let bend = self.bend.as_ref().map(|b| (&b.stop, pose.bend() - b.angle.around(pose.azimuth()).0));
         [bend, self.turn.as_ref().map(|turn| (&turn.stop, turn.excess(angle).0))]
     }

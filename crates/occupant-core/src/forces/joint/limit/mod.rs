@@ -14,7 +14,7 @@ use crate::forces::element::{Element, Instant, Load, StoredEnergy, Unlike, WorkS
 use crate::forces::joint::{DAMPING, Joints};
 use crate::forces::list::STORES;
 use crate::forces::rate::Rate;
-use crate::motion::layout::HINGE_JOINTS;
+use crate::motion::layout::Layout;
 use crate::motion::mobility::{Mobility, across, greatest};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::V3;
@@ -100,8 +100,9 @@ impl Element for JointLimits {
         data.limits.iter().for_each(|limits| check::check(data, limits, problems));
     }
 
-    fn new(data: &Joints, _body: &Body) -> Vec<LimitLaw<f64>> {
-        data.limits.iter().map(|limits| law(data, limits)).collect()
+    fn new(data: &Joints, body: &Body) -> Vec<LimitLaw<f64>> {
+        let layout = Layout::of(body.tree);
+        data.limits.iter().map(|limits| law(data, limits, &layout)).collect()
     }
 
     fn begin(law: &mut Vec<LimitLaw<f64>>, data: &Joints, _: &Body, at: &Instant<'_, f64>, problems: &mut Problems) {
@@ -188,12 +189,11 @@ impl Element for JointLimits {
     }
 }
 
-fn law(data: &Joints, limits: &Limits) -> LimitLaw<f64> {
+fn law(data: &Joints, limits: &Limits, layout: &Layout) -> LimitLaw<f64> {
     let row = &data.tree()[limits.joint];
-    let limb = HINGE_JOINTS.iter().position(|joint| *joint == limits.joint);
     LimitLaw {
         joint: limits.joint,
-        site: limb.map_or(Site::Ball, Site::Hinge),
+        site: layout.hinge_slot(row.distal.index()).map_or(Site::Ball, Site::Hinge),
         segments: (row.proximal.index(), row.distal.index()),
         triads: Triads::new(data.tree(), limits.joint, &limits.centre),
         bend: limits.bend.clone(),
@@ -210,7 +210,7 @@ fn rates(data: &Joints, limits: &Limits, mobility: &Mobility<'_>) -> Vec<Rate> {
     let (inner, outer) = (row.proximal.index(), row.distal.index());
     let relative = mobility.of_joint(inner, outer);
     let z = mobility.kinematics.axes[outer].z.to_vector();
-    let hinge = HINGE_JOINTS.iter().position(|joint| *joint == limits.joint).map(|limb| mobility.of_hinge(limb));
+    let hinge = mobility.skeleton.layout.hinge_slot(outer).map(|hinge| mobility.of_hinge(hinge));
     let turning = hinge.unwrap_or(z.dot(&(relative * z)));
     let spring = |stop: &Stop<f64>, by: &str, give: f64| {
         let slope = stop.torque.steepness(ESTIMATE_RAD).0 / stop.returned;

@@ -248,7 +248,7 @@ pub(in crate::forces::joint) fn nodding(rate: f64, neck: &str, more: &str) -> Mo
 fn energies(model: &Model) -> (Vec<(EnergyLedger, f64)>, f64) {
     let mut list = Vec::new();
     let outcome = simulate(model, Watch(|s: &Sample<'_>| list.push((s.energy, s.actions.limits[0].excess)))).unwrap();
-    (list, outcome.balance_error)
+    (list, outcome.energy.balance_error)
 }
 
 #[test]
@@ -283,7 +283,7 @@ fn friction_takes_energy_and_brings_the_joint_to_rest() {
 fn actions(model: &Model) -> (Vec<(f64, LimitAction<f64>)>, f64) {
     let mut list = Vec::new();
     let outcome = simulate(model, Watch(|s: &Sample<'_>| list.push((s.time_s, s.actions.limits[0])))).unwrap();
-    (list, outcome.balance_error)
+    (list, outcome.energy.balance_error)
 }
 
 /// Small swings of a head on a locked neck have the period that stiffness and inertia make.

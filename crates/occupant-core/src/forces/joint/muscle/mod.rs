@@ -10,7 +10,6 @@ use crate::forces::joint::Joints;
 use crate::forces::joint::posture::Posture;
 use crate::forces::list::STORES;
 use crate::forces::rate::Rate;
-use crate::motion::layout::HINGE_JOINTS;
 use crate::motion::mobility::{Mobility, greatest};
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{M3, V3};
@@ -125,8 +124,9 @@ impl Element for Muscles {
 
 fn rates(data: &Joints, muscle: &Muscle, mobility: &Mobility<'_>) -> Vec<Rate> {
     let row = &data.tree()[muscle.joint];
-    let hinge = HINGE_JOINTS.iter().position(|joint| *joint == muscle.joint).map(|limb| mobility.of_hinge(limb));
-    let give = hinge.unwrap_or_else(|| greatest(mobility.of_joint(row.proximal.index(), row.distal.index())));
+    let (inner, outer) = (row.proximal.index(), row.distal.index());
+    let hinge = mobility.skeleton.layout.hinge_slot(outer).map(|hinge| mobility.of_hinge(hinge));
+    let give = hinge.unwrap_or_else(|| greatest(mobility.of_joint(inner, outer)));
     let spring = Rate::of_spring(row.name.to_owned(), "muscle".to_owned(), 1.0 / give, muscle.stiffness_n_m);
     let damper = Rate::of_damper(&format!("{}, muscle", row.name), 1.0 / give, muscle.damping_n_m_s);
     [Some(spring).filter(|spring| spring.coefficient > 0.0), damper].into_iter().flatten().collect()

@@ -23,7 +23,7 @@ fn run(model: &Model) -> (Vec<(f64, EnergyLedger, Vec<MuscleAction<f64>>)>, f64)
     let mut list = Vec::new();
     let watch = Watch(|s: &Sample<'_>| list.push((s.time_s, s.energy, s.actions.muscles.clone())));
     let outcome = simulate(model, watch).unwrap();
-    (list, outcome.balance_error)
+    (list, outcome.energy.balance_error)
 }
 
 const MUSCLES: &str = "muscles.neck = { trigger = \"go\", reaction = 0.03, rise = 0.01, until = 0.08, tone = 0.2, \
