@@ -24,8 +24,10 @@ pub fn bare(skeleton: Skeleton<f64>) -> (System<f64>, History<f64>) {
         longest_step_s: 1e-3,
     };
     let contacts = ContactSystem::new(&Random::new(0).body(), &nothing);
-    let forces = Forces { contacts, belts: Vec::new(), joints: JointSystem::default(), limits: Vec::new() };
-    let memory = Memory { contacts: Vec::new(), belts: Vec::new(), joints: Vec::new(), limits: Vec::new() };
+    let forces =
+        Forces { contacts, belts: Vec::new(), joints: JointSystem::default(), limits: Vec::new(), muscles: Vec::new() };
+    let memory =
+        Memory { contacts: Vec::new(), belts: Vec::new(), joints: Vec::new(), limits: Vec::new(), muscles: Vec::new() };
     let history = History::new(&forces, memory);
     (System { skeleton, spheres: Vec::new(), forces }, history)
 }

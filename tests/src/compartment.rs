@@ -114,11 +114,14 @@ impl Compartment {
             belts: Vec::new(),
             joints: JointSystem::new(&system.joints, &skeleton, |_| f64::NAN),
             limits: Vec::new(),
+            muscles: Vec::new(),
         };
         let untouched = PairHistory { phase: OPEN, greatest: 0.0 };
         let contacts = vec![untouched; forces.contacts.pairs.len()];
-        let history =
-            History::new(&forces, Memory { contacts, belts: Vec::new(), joints: Vec::new(), limits: Vec::new() });
+        let history = History::new(
+            &forces,
+            Memory { contacts, belts: Vec::new(), joints: Vec::new(), limits: Vec::new(), muscles: Vec::new() },
+        );
         let vehicle = Moving {
             origin: V3::of(&self.vehicle.origin),
             axes: M3::of(&self.vehicle.axes),
@@ -127,7 +130,7 @@ impl Compartment {
             ..Moving::space()
         };
         let kernel = kernel::System { skeleton, spheres: Site::all(&system.body), forces };
-        (kernel, [Moving::space(), vehicle], history)
+        (kernel, Frames { time: 0.0, moving: [Moving::space(), vehicle] }, history)
     }
 
     /// The same compartment in a scene turned by `r`; it must have no plane in space.

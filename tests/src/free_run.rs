@@ -54,11 +54,18 @@ impl FreeRun {
             belts: Vec::new(),
             joints: JointSystem::new(&system.joints, &skeleton, |_| f64::NAN),
             limits: Vec::new(),
+            muscles: Vec::new(),
         };
-        let memory = Memory { contacts: Vec::new(), belts: Vec::new(), joints: Vec::new(), limits: Vec::new() };
+        let memory = Memory {
+            contacts: Vec::new(),
+            belts: Vec::new(),
+            joints: Vec::new(),
+            limits: Vec::new(),
+            muscles: Vec::new(),
+        };
         let history = History::new(&forces, memory);
         let system = kernel::System { skeleton, spheres: Site::all(&system.body), forces };
-        FreeRun { system, history, frames: [Moving::space(), Moving::space()] }
+        FreeRun { system, history, frames: Frames { time: 0.0, moving: [Moving::space(); 2] } }
     }
 
     /// The state after `steps` steps of `h` seconds.

@@ -4,7 +4,7 @@ use allocation_counter::{AllocationInfo, measure};
 use occupant_core::forces::History;
 use occupant_core::model::Model;
 use occupant_core::model::setup::Integrator;
-use occupant_core::motion::frame::Moving;
+use occupant_core::motion::frame::{Frames, Moving};
 use occupant_core::motion::integrate::rk4;
 use occupant_core::motion::layout::Freedom;
 use occupant_core::results::summary::Summarizer;
@@ -39,7 +39,7 @@ fn a_step_of_any_tree_allocates_nothing() {
     let mut random = Random::new(3);
     let tree = AnyTree::random(&mut random, 17, Freedom::Ball);
     let (state, (kernel, mut history)) = (tree.state(&mut random), bare(tree.skeleton()));
-    let frames = [Moving::space(), Moving::space()];
+    let frames = Frames { time: 0.0, moving: [Moving::space(); 2] };
     let step = |history: &mut History<f64>| {
         rk4::step(&state, 1e-4, |_, s| kernel.rate_alone::<true>(s, &frames, history, &mut ()))
     };

@@ -3,7 +3,7 @@
 
 use nalgebra::Vector3;
 use occupant_core::motion::dynamics::{Accelerations, Wrench, solve};
-use occupant_core::motion::frame::{Moving, VEHICLE};
+use occupant_core::motion::frame::{Frames, Moving, VEHICLE};
 use occupant_core::motion::integrate::rk4;
 use occupant_core::motion::kinematics::Kinematics;
 use occupant_core::motion::layout::{Axis, Freedom, MOST_SEGMENTS};
@@ -141,7 +141,8 @@ fn a_pendulum_on_a_mount_swings_as_its_closed_form_says() {
         let (kernel, mut history) = bare(skeleton);
         let push = random.vector(100.0);
         let vehicle = Moving { acceleration: V3::of(&push), ..Moving::space() };
-        let found = kernel.rate::<false>(&state, &[Moving::space(), vehicle], &mut history);
+        let found =
+            kernel.rate::<false>(&state, &Frames { time: 0.0, moving: [Moving::space(), vehicle] }, &mut history);
         // (I_y + M l²) α̈ = M l (a_x cos α + (g + a_z) (−sin α)), the rod hanging along −Z
         let (part, l) = (&tree.parts[1], 0.3);
         let about = part.inertia_kg_m2[(1, 1)] + part.mass_kg * l * l;
@@ -187,7 +188,7 @@ fn a_tree_on_a_mount_that_turns_moves_as_its_segments_do_one_by_one() {
         // the state's own root is not looked at
         state.set_t1(v3(7.0, 8.0, 9.0));
         state.set_omega(0, v3(1.0, 2.0, 3.0));
-        let frames = [Moving::space(), vehicle];
+        let frames = Frames { time: 0.0, moving: [Moving::space(), vehicle] };
         let found = kernel.evaluate::<false>(&state, &frames, &mut history, &mut ());
         worst = worst.max(difference(&found.accelerations, &expected));
     }

@@ -4,6 +4,7 @@
 use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
 use occupant_core::motion::kinematics::Kinematics;
+use occupant_core::results::channel::{Series, find};
 use occupant_core::results::summary::{Caveat, RunStatus, Summarizer, Summary};
 use occupant_core::run::simulate::simulate;
 use occupant_tests::measure::assert_below;
@@ -104,4 +105,41 @@ fn feet_that_do_not_reach_stand_nearer_or_lie_on_the_cushion_and_it_is_said() {
     let (of_a_child, said) = foot("child06");
     assert!(of_a_child[1] < 0.10, "{of_a_child:?}");
     assert!(said.contains("the legs lie on the cushion"), "{said}");
+}
+
+const BRACED: &str = include_str!("../../scenarios/braced-driver.toml");
+
+/// Values of a channel in a run of the braced driver with these assignments.
+fn braced(set: &[&str], channel: &str) -> (Vec<f64>, f64) {
+    let model = Model::new(setup(BRACED, set)).unwrap();
+    let mut series = Series::new(vec![find(&model, channel).unwrap()]);
+    let outcome = simulate(&model, &mut series).unwrap();
+    (series.values.swap_remove(0), outcome.energy.balance_error)
+}
+
+/// In half a second of hard braking a limp driver folds; one who braces himself stays.
+#[test]
+fn a_braced_driver_keeps_his_posture_where_a_limp_one_folds() {
+    let way = |set: &[&str]| {
+        let (place_m, balance_error) = braced(set, "marker.t1.position.x");
+        assert_below("energy balance", balance_error, 1e-5);
+        place_m.iter().fold(0.0_f64, |most, x| most.max(x - place_m[0]))
+    };
+    let limp = ["muscles.*.trigger=\"never\"", "muscles.*.tone=0", "triggers.never={ kind = \"time\", at = 9 }"];
+    let (braced, limp) = (way(&[]), way(&limp));
+    assert_below("way of a braced driver's T1, m", braced, 0.1);
+    assert!(limp > 2.0 * braced, "{limp} {braced}");
+}
+
+/// Who sits still in a parked car feels his weight and nothing else: what is left when the muscles have taken it over.
+#[test]
+fn a_settled_body_at_rest_stays_at_1_g() {
+    let parked = ["path={ kind = \"fixed\" }", "time.end=3", "muscles.*.tone=1"];
+    for segment in ["head", "upper_torso", "lower_torso"] {
+        let (level, _) = braced(&parked, &format!("{segment}.acceleration.resultant"));
+        let late = &level[2000..];
+        assert_eq!(late.len(), 1001);
+        let off = late.iter().map(|a| (a / 9.80665 - 1.0).abs()).fold(0.0, f64::max);
+        assert_below(&format!("{segment} off 1 g"), off, 0.02);
+    }
 }

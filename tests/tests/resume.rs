@@ -61,10 +61,14 @@ fn lap_and_torso(integrator: Integrator) -> Setup {
     setup
 }
 
-/// Elastic limits instead of viscous stops.
+/// Elastic limits instead of viscous stops, locks that open, slip and close again, and a muscle.
 fn limited(integrator: Integrator) -> Setup {
     let text = include_str!("../../scenarios/cart-lap-torso.toml");
-    let text = text.replace("[joints]\npreset = \"male50\"", "[joints]\npreset = \"gebod\"");
+    let joints = "[joints]\npreset = \"gebod\"\nelbows.lock = { until = \"10 N m\", relock_below = 20 }\n\
+                  neck.lock = { until = \"15 N m\", slips = true }";
+    let text = text.replace("[joints]\npreset = \"male50\"", joints)
+        + "[triggers]\ngo = { kind = \"time\", at = 0.05 }\n\
+           [muscles]\nhips = { trigger = \"go\", rise = 0.02, stiffness = 60, damping = 2, limit = 20 }\n";
     let alone = |name: &str| Err(format!("no file beside the text: {name}"));
     let setup = Scenario::from_text(&text, Format::Toml, "cart", &alone).and_then(|s| s.build()).unwrap().0;
     assert!(setup.joints.has_limits());
@@ -164,7 +168,7 @@ fn a_checkpoint_of_another_scenario_is_refused() {
     let pair = |number| CheckpointError::Memory(Misfit::Impossible { of: "pair", number });
     let not_finite = CheckpointError::Memory(Misfit::NotFinite);
     let cases: [(CheckpointError, Change<'_>); 9] = [
-        (count("numbers of the state", 74, 75), &|c| c.state.truncate(74)),
+        (count("numbers of the state", 74, 76), &|c| c.state.truncate(74)),
         (count(many, pairs - 1, pairs), &|c| c.memory.contacts.truncate(pairs - 1)),
         (count(belts, 0, 1), &|c| c.memory.belts.clear()),
         (CheckpointError::Time { index: 300, found_s: sound.time_s, expected_s: None }, &|c| c.index = 300),

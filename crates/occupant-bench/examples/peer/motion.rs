@@ -82,7 +82,8 @@ fn alone(model: &Model, now: &Instant) -> Instant {
     let mut now = now.held(model);
     now.system.forces.belts = Vec::new();
     now.system.forces.joints = JointSystem::new(&joints, &now.system.skeleton, |_| 0.0);
-    let memory = Memory { contacts: Vec::new(), belts: Vec::new(), joints: Vec::new(), limits: Vec::new() };
+    let memory =
+        Memory { contacts: Vec::new(), belts: Vec::new(), joints: Vec::new(), limits: Vec::new(), muscles: Vec::new() };
     now.history = History::new(&now.system.forces, memory);
     now
 }

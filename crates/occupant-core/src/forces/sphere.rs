@@ -23,7 +23,7 @@ impl<S: Copy> Site<S> {
 }
 
 impl<S: Scalar> Site<S> {
-    fn new(body: &Body, sphere: &ContactSphere) -> Site<S> {
+    pub(crate) fn new(body: &Body, sphere: &ContactSphere) -> Site<S> {
         let offset = sphere.centre_from_lower_end_m.coords - body.joint_m(sphere.segment);
         Site { segment: sphere.segment.index(), offset: V3::of(&offset), radius: S::of(sphere.radius_m) }
     }

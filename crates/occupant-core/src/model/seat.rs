@@ -88,7 +88,10 @@ pub(crate) fn seat(
     let lean = leaned(seating.angle_of(body.tree[marks.pelvis].name).unwrap_or_default());
     let lower_end = pelvis_m - lean * pelvis.centre_from_lower_end_m.coords;
     let hip = |limb: &Limb| lower_end + lean * body.socket_m(limb.upper);
-    let legs: Vec<_> = marks.legs().map(|limb| (limb, leg(body, &limb, hip(&limb), &seat.cushion.normal, seating, problems))).collect();
+    let legs: Vec<_> = marks
+        .legs()
+        .map(|limb| (limb, leg(body, &limb, hip(&limb), &seat.cushion.normal, seating, problems)))
+        .collect();
     let legs: Vec<(Limb, Leg)> = legs.into_iter().map(|(limb, leg)| Some((limb, leg?))).collect::<Option<_>>()?;
     let pose = Pose::new(body, seating, &legs);
     let (first, Leg { thigh, shank }) = &legs[0];

@@ -11,6 +11,7 @@ use crate::forces::{Data, Instant};
 use crate::kernel::System;
 use crate::model::frames;
 use crate::model::setup::Setup;
+use crate::motion::frame::VEHICLE;
 use crate::motion::kinematics::Kinematics;
 use crate::motion::report_coordinates::quaternion;
 use crate::motion::state::State;
@@ -155,12 +156,10 @@ fn load(
     state: &State<f64>,
 ) -> Vector6<f64> {
     let mut system = system.clone();
-    let frames = frames(vehicle);
     // at rest: no friction, no damping
-    let still = frames.map(|mut f| {
-        (f.velocity, f.omega) = (V3::zero(), V3::zero());
-        f
-    });
+    let mut still = frames(setup.time.start_s, vehicle);
+    still[VEHICLE].velocity = V3::zero();
+    still[VEHICLE].omega = V3::zero();
     let k = Kinematics::new(&system.skeleton, state);
     let at = Instant { k: &k, state, frames: &still, spheres: &system.spheres };
     system.forces.lay(data, &setup.body, &at);

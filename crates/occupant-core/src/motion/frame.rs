@@ -2,6 +2,8 @@
 //!
 //! Report: Eqs 82, 83 and 94. Space is frame 0 and the vehicle frame 1; more frames are more entries.
 
+use std::ops::{Index, IndexMut};
+
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{M3, V3};
 use crate::vehicle::FrameMotion;
@@ -107,4 +109,33 @@ impl<S: Scalar> Moving<S> {
 }
 
 /// Motions of the frames at one instant, by [`SPACE`] and [`VEHICLE`].
-pub type Frames<S> = [Moving<S>; 2];
+#[derive(Clone, Copy, Debug)]
+pub struct Frames<S> {
+    /// Time of the scenario, s.
+    pub time: S,
+    /// The frames.
+    pub moving: [Moving<S>; 2],
+}
+
+impl<S: Copy> Frames<S> {
+    /// f applied to every number and the one in the same place of `other`.
+    pub fn zip<A: Copy, T>(&self, other: &Frames<A>, f: &impl Fn(S, A) -> T) -> Frames<T> {
+        let moving = std::array::from_fn(|i| self.moving[i].zip(&other.moving[i], f));
+        Frames { time: f(self.time, other.time), moving }
+    }
+}
+
+impl<S> Index<usize> for Frames<S> {
+    type Output = Moving<S>;
+
+    #[inline(always)]
+    fn index(&self, frame: usize) -> &Moving<S> {
+        &self.moving[frame]
+    }
+}
+
+impl<S> IndexMut<usize> for Frames<S> {
+    fn index_mut(&mut self, frame: usize) -> &mut Moving<S> {
+        &mut self.moving[frame]
+    }
+}

@@ -8,7 +8,7 @@ use nalgebra::{Matrix3, Vector3};
 
 use crate::body::{Body, Segment};
 use crate::motion::closed;
-use crate::motion::frame::Moving;
+use crate::motion::frame::{Frames, Moving};
 use crate::motion::layout::Layout;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{M3, Sym3, V3};
@@ -137,7 +137,7 @@ impl<S: Scalar> Link<S> {
 impl<S: Scalar> Mount<S> {
     /// Motion of the root in the frame that carries it.
     #[inline(always)]
-    pub(crate) fn of(&self, frames: &[Moving<S>]) -> Moving<S> {
+    pub(crate) fn of(&self, frames: &Frames<S>) -> Moving<S> {
         frames[self.frame].carried(self.place, &self.axes)
     }
 }

@@ -35,7 +35,7 @@ impl<S: Scalar> Quat<S> {
 }
 
 /// Work sums of the force elements.
-pub(crate) const WORK_SUMS: usize = 4;
+pub(crate) const WORK_SUMS: usize = 5;
 
 /// Work done since the start, for the energy ledger, J.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -56,7 +56,7 @@ impl<S: Scalar> Work<S> {
 }
 
 /// Most numbers that force elements have in a state.
-const MOST_OWN: usize = 41;
+const MOST_OWN: usize = 40;
 /// Most numbers of a state.
 const MOST_NUMBERS: usize = 6 + 7 * MOST_SEGMENTS + WORK_SUMS + 1 + MOST_OWN;
 
@@ -231,7 +231,7 @@ impl<S: Copy> State<S> {
     #[inline(always)]
     pub fn work(&self) -> Work<S> {
         let w = &self.numbers[self.shape.moving()..][..WORK_SUMS + 1];
-        Work { sums: [w[0], w[1], w[2], w[3]], vehicle: w[WORK_SUMS] }
+        Work { sums: from_fn(|i| w[i]), vehicle: w[WORK_SUMS] }
     }
 
     /// Gives it other [`State::work`] sums.
@@ -337,12 +337,12 @@ mod tests {
     #[test]
     fn a_state_is_its_numbers() {
         let shape = Shape::of(&Layout::of(&TTI12));
-        let numbers: [f64; 75] = from_fn(|i| i as f64 + 0.5);
+        let numbers: [f64; 76] = from_fn(|i| i as f64 + 0.5);
         let state = State::from_numbers(shape, &numbers).unwrap();
         assert_eq!(state.numbers(), numbers);
         assert_eq!((state.orientation(7).v.z, state.hinge()[0]), (34.5, 35.5));
         assert_eq!((state.velocity().x, state.omega(7).z, state.hinge_rate()), (39.5, 65.5, &numbers[66..70]));
-        assert_eq!((state.work().sums[0], state.work().vehicle), (70.5, 74.5));
+        assert_eq!((state.work().sums[0], state.work().vehicle), (70.5, 75.5));
         assert_eq!(State::from_numbers(shape, &numbers[1..]), None);
     }
 }

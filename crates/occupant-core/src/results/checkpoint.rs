@@ -148,9 +148,9 @@ fn other_time(index: usize, found_s: f64, expected_s: Option<f64>) -> String {
 }
 
 /// How `state` is written.
-const STATE: &str = "75 numbers in space axes, SI: T1; w, x, y, z of the 8 free segments (middle_torso, upper_torso, head, \
+const STATE: &str = "76 numbers in space axes, SI: T1; w, x, y, z of the 8 free segments (middle_torso, upper_torso, head, \
 lower_torso, left_upper_arm, right_upper_arm, left_thigh, right_thigh); 4 hinges (left_forearm, right_forearm, left_lower_leg, \
-right_lower_leg); velocity of T1; angular velocities of the 8; hinge rates; work of contacts, friction, joints, belts, vehicle";
+right_lower_leg); velocity of T1; angular velocities of the 8; hinge rates; work of contacts, friction, joints, belts, muscles, vehicle";
 
 const STEP: &str =
     "start and end of the step in which the output lies, if it goes on beyond it; the columns below tell its start";
@@ -272,7 +272,12 @@ impl Checkpoint {
     pub fn state_of(model: &Model, numbers: &[f64]) -> Result<State<f64>, CheckpointError> {
         let (shape, of) = (model.start().state.shape(), "numbers of the state");
         let misfit = Misfit::Count { of, found: numbers.len(), expected: shape.len() };
-        State::from_numbers(shape, numbers).ok_or(CheckpointError::Memory(misfit))
+        let mut numbers = numbers.to_vec();
+        // files of 0.1.0 have no work of muscles, which stands before that of the vehicle
+        if numbers.len() + 1 == shape.len() {
+            numbers.insert(numbers.len() - 1, 0.0);
+        }
+        State::from_numbers(shape, &numbers).ok_or(CheckpointError::Memory(misfit))
     }
 
     fn check_step(&self, step: &StepStart, forces: &Forces<f64>) -> Result<(), CheckpointError> {

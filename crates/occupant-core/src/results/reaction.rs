@@ -9,7 +9,7 @@
 //! τ = Iα + ω × Iω + r × M (a + g Z′) − T + Σ (τ_distal + c × f_distal)
 //! ```
 //!
-//! F and T are the loads of contacts and all other force elements but joints. The moment of a ball joint is that of its damper, stop and spring, for it constrains none;
+//! F and T are the loads of contacts and all other force elements but joints. The moment of a ball joint is that of its damper, stop, spring and muscle, for it constrains none;
 //! a hinge adds the two constraint moments across its axis.
 
 use nalgebra::Vector3;
@@ -38,7 +38,7 @@ pub fn reaction(sample: &Sample<'_>, joint: Joint) -> Reaction {
 /// Loads of force elements, from which reactions follow.
 pub(super) struct Loads<'s, 'a> {
     sample: &'s Sample<'a>,
-    /// Moments of dampers, stops, limits, friction and springs, which the evaluation counts among the loads.
+    /// Moments of dampers, stops, limits, friction, locks, springs and muscles, which the evaluation counts among the loads.
     passive: [Wrench<f64>; MOST_SEGMENTS],
 }
 
@@ -47,10 +47,12 @@ impl<'s, 'a> Loads<'s, 'a> {
         let mut passive = [Wrench::zero(); MOST_SEGMENTS];
         let k = &sample.evaluation.kinematics;
         sample.model.system().forces.joints.apply(k, sample.state, &mut passive, &mut |_| {});
-        for action in &sample.actions.limits {
-            let row = &sample.model.body().tree[action.joint];
-            passive[row.distal.index()].moment += action.moment;
-            passive[row.proximal.index()].moment -= action.moment;
+        let limits = sample.actions.limits.iter().map(|action| (action.joint, action.moment));
+        let muscles = sample.actions.muscles.iter().map(|action| (action.joint, action.moment));
+        for (joint, moment) in limits.chain(muscles) {
+            let row = &sample.model.body().tree[joint];
+            passive[row.distal.index()].moment += moment;
+            passive[row.proximal.index()].moment -= moment;
         }
         Loads { sample, passive }
     }

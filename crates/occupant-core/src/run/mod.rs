@@ -51,7 +51,7 @@ pub struct Run {
     greatest: Greatest,
     mass_kg: f64,
     actions: Actions<f64>,
-    /// Times at which the motion of the vehicle jumps, s.
+    /// Times at which the motion of the vehicle or an activation jumps, s.
     pub breaks_s: Vec<f64>,
     /// The accepted steps since it was last emptied, where somebody wants to follow them.
     pub taken: Option<Vec<Step>>,
@@ -84,7 +84,7 @@ impl Run {
             mass_kg: model.body().mass_kg(),
             actions: Actions::with_room(&model.system().forces),
             seen: Seen::new(model),
-            breaks_s: model.setup().path.breaks_s(),
+            breaks_s: model.breaks_s(),
             taken: None,
         }
     }
@@ -125,7 +125,7 @@ impl Run {
         let path = &model.setup().path;
         let vehicle = path.motion(t, t, &mut self.cursor);
         let vehicle_pose = path.attitude(t, &mut self.cursor);
-        let frames = frames(&vehicle);
+        let frames = frames(t, &vehicle);
         let system = model.system();
         self.actions.clear();
         let evaluation = system.evaluate::<true>(&self.state, &frames, &mut self.history, &mut self.actions);

@@ -57,7 +57,13 @@ pub(super) fn base(section: &Node, key: &str) -> Option<(String, Document)> {
     match (key, preset) {
         ("joints", Some("male50")) => Some(("preset male50".to_owned(), male50()?.clone())),
         ("body", Some(OLD)) if section.get("joints").is_none() => Some(("preset male50".to_owned(), male50()?.clone())),
-        ("joints", Some("gebod")) => Some(("preset gebod".to_owned(), gebod()?.clone())),
+        ("joints", Some(name)) => {
+            let at = ELASTIC.iter().position(|(known, _)| *known == name)?;
+            static READ: [OnceLock<Option<Document>>; ELASTIC.len()] = [const { OnceLock::new() }; ELASTIC.len()];
+            let title = format!("preset {name}");
+            let document = READ[at].get_or_init(|| written(&title, ELASTIC[at].1)).clone()?;
+            Some((title, document))
+        }
         ("body", _) => {
             let division = BodySection::deserialize(section).ok()?.division().unwrap_or_default();
             let old = || (preset == Some(OLD)).then(|| Body::preset(OLD)).flatten();
@@ -80,11 +86,13 @@ fn male50() -> Option<&'static Document> {
     READ.get_or_init(|| written("preset male50", include_str!("presets/male50-1970.toml"))).as_ref()
 }
 
-/// Joints with elastic limits.
-fn gebod() -> Option<&'static Document> {
-    static READ: OnceLock<Option<Document>> = OnceLock::new();
-    READ.get_or_init(|| written("preset gebod", include_str!("presets/gebod.toml"))).as_ref()
-}
+/// Joints with elastic limits, by name.
+const ELASTIC: [(&str, &str); 4] = [
+    ("gebod", include_str!("presets/gebod.toml")),
+    ("dummy50-like", include_str!("presets/dummy50-like.toml")),
+    ("dummy05f-like", include_str!("presets/dummy05f-like.toml")),
+    ("dummy06c-like", include_str!("presets/dummy06c-like.toml")),
+];
 
 /// The grown-up that a body section speaks of; the reference where it is too incomplete or out of reach, which is reported
 /// when the body is built.

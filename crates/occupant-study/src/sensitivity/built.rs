@@ -128,7 +128,7 @@ impl Path {
         let mut values = [[0.0; MOTION]; POINTS];
         let paths = self.paths.iter().zip(&mut self.cursors);
         for (values, (path, cursor)) in values.iter_mut().zip(paths) {
-            *values = motion_numbers(&frames(&path.motion(t_s, middle_s, cursor))[VEHICLE]);
+            *values = motion_numbers(&frames(t_s, &path.motion(t_s, middle_s, cursor))[VEHICLE]);
         }
         let count = self.paths.len();
         from_fn(|i| {
@@ -221,7 +221,7 @@ pub(super) fn dual_frames<const N: usize>(
     middle_s: f64,
 ) -> Frames<Dual<N>> {
     let still = |x: f64, _: f64| Dual::new(x, [0.0; N]);
-    let mut dual = plain.map(|frame| frame.zip(&frame, &still));
+    let mut dual = plain.zip(plain, &still);
     let numbers = motion_numbers(&plain[VEHICLE]);
     for (k, built) in built.iter_mut().enumerate().take(N) {
         let Some(path) = &mut built.path else { continue };

@@ -4,6 +4,8 @@ mod check;
 mod data;
 mod law;
 pub(crate) mod limit;
+pub(crate) mod muscle;
+mod posture;
 mod rates;
 
 pub use data::*;

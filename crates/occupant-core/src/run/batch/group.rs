@@ -101,6 +101,7 @@ impl<L: Machine> Group<L> {
             for (lanes, t_s) in bench.frames.iter_mut().zip(times_s) {
                 // space stands still
                 let vehicle = place.model.setup().path.motion(t_s, times_s[1], &mut place.run.cursor);
+                lanes.time.set_lane(i, t_s);
                 lanes[VEHICLE].each(&Moving::of(&vehicle), &mut |lanes: &mut L, x: f64| lanes.set_lane(i, x));
             }
         }
@@ -197,7 +198,7 @@ fn new_bench<L: Machine>(model: &Model) -> Option<Bench<L>> {
     let mut cursor = Default::default();
     let start_s = model.setup().time.start_s;
     let frames = model.frames(start_s, start_s, &mut cursor);
-    let frames = frames.map(|frame| frame.zip(&frame, &|x, _| L::of(x)));
+    let frames = frames.zip(&frames, &|x, _| L::of(x));
     let start = &model.start().state;
     let scratch = Scratch::blank(&system.skeleton);
     Some(Bench { state: start.zip(start, |x, _| L::of(x)), system, history, frames: [frames; 3], scratch })

@@ -5,7 +5,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::builder::Builder;
-use super::limits::{BendLimitSection, CentreSection, FrictionSection, RangeLimitSection, limits};
+use super::limits::{BendLimitSection, CentreSection, FrictionSection, LockSection, RangeLimitSection, limits};
 use super::quantity::{NOT_NEGATIVE, si_or};
 use super::{Angle, Ratio, RotationalDamping, RotationalStiffness};
 use crate::body::{JointKind, Tree};
@@ -16,8 +16,9 @@ use placed_text::{Problem, with_key};
 /// and that replaces the preset. Every joint needs a damping from somewhere.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 pub(crate) struct JointsSection {
-    /// Joints to start from: "male50", the viscous stops of the report, or "gebod", elastic limits of the GEBOD generator.
-    #[schemars(extend("enum" = ["male50", "gebod"]))]
+    /// Joints to start from: "male50", the viscous stops of the report; "gebod", elastic limits of the GEBOD generator;
+    /// "dummy50-like", "dummy05f-like", "dummy06c-like", what the calibration of dummies asks of neck, trunk and hips.
+    #[schemars(extend("enum" = ["male50", "gebod", "dummy50-like", "dummy05f-like", "dummy06c-like"]))]
     pub(crate) preset: Option<String>,
     /// ε that keeps joint angles smooth where two segments are in line; 0.001 if absent, 0 is the report's formula.
     pub(crate) epsilon: Option<Ratio<NOT_NEGATIVE>>,
@@ -60,6 +61,8 @@ pub(crate) struct JointSection {
     pub(crate) angle_limit: Option<Box<RangeLimitSection>>,
     /// Dry friction.
     pub(crate) friction: Option<Box<FrictionSection>>,
+    /// Held until a moment is reached.
+    pub(crate) lock: Option<Box<LockSection>>,
 }
 
 /// Damping that grows towards a limit of travel.
@@ -145,7 +148,8 @@ fn hinge(b: &mut Builder, name: &str) -> HingeJoint {
     let Some(section) = given(b, name) else { return HingeJoint::default() };
     let path = format!("joints.{name}");
     let foreign = ["stop", "twist_damping", "stiffness", "rest_angle", "centre", "limit", "twist_limit"];
-    let expected = "`damping`, `lower_stop`, `upper_stop`, `angle_limit`, `friction`: elbows and knees are hinges";
+    let expected =
+        "`damping`, `lower_stop`, `upper_stop`, `angle_limit`, `friction`, `lock`: elbows and knees are hinges";
     b.refuse_keys(&path, &foreign, |key| format!("`{key}` of a hinge"), expected);
     HingeJoint {
         damping_n_m_s: si_or(&section.damping, f64::NAN),

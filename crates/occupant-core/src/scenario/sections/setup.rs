@@ -8,8 +8,8 @@ use serde::Deserialize;
 use super::builder::Builder;
 use super::quantity::si_or;
 use super::{
-    BodySection, JointsSection, Scenario, belts, body, joints, materials, path, plausible, posture, run, solids,
-    surfaces,
+    BodySection, JointsSection, Scenario, belts, body, joints, materials, muscles, path, plausible, posture, run,
+    solids, surfaces,
 };
 use crate::body::Body;
 use crate::forces::joint::Joints;
@@ -29,7 +29,7 @@ pub(in crate::scenario) fn setup(
     let Some(body) = body::body(b, written.body.preset.as_deref(), &explicit.body) else {
         return Err(std::mem::take(&mut b.problems));
     };
-    let joints = joints::joints(b, &explicit.joints, body.tree);
+    let mut joints = joints::joints(b, &explicit.joints, body.tree);
     references(&document.root, &[]).into_iter().for_each(|problem| b.report(problem));
     let surfaces = surfaces::surfaces(b, explicit, &body);
     let solids = solids::solids(b, explicit, &body);
@@ -37,8 +37,12 @@ pub(in crate::scenario) fn setup(
     let (posture, velocity) = posture::posture(b, explicit, &body);
     let time = run::time(b, explicit);
     let integrator = run::integrator(b, explicit);
+    let output = run::output(b, explicit, &body);
     let gravity_m_s2 = si_or(&explicit.gravity, STANDARD_GRAVITY_M_S2);
     let path = path::path(b, &explicit.path, path_table, gravity_m_s2);
+    if let Some(path) = &path {
+        joints.muscles = muscles::muscles(b, explicit, &body, path, &time);
+    }
     check_provenance(b, written);
     let (Some(path), Some(posture), false) = (path, posture, b.problems.has_errors()) else {
         return Err(std::mem::take(&mut b.problems));
@@ -58,7 +62,7 @@ pub(in crate::scenario) fn setup(
         velocity,
         time,
         integrator,
-        output: run::output(explicit),
+        output,
     };
     plausible::check(b, &setup, explicit);
     Ok((setup, std::mem::take(&mut b.problems)))
