@@ -24,8 +24,9 @@ const ENDS: [(&str, [f64; 2]); PARTS] = [
     ("upper_arm", [5.22, 5.04]),
     ("forearm", [7.08, 9.20]),
 ];
-/// Joints by their parts, with X and Z from the centre of gravity of each, inches.
-const JOINTS: [(&str, usize, [f64; 2], usize, [f64; 2]); 9] = [
+/// A joint on both of its parts, with X and Z from the centre of gravity of each, inches.
+type JointRow = (&'static str, usize, [f64; 2], usize, [f64; 2]);
+const JOINTS: [JointRow; 9] = [
     ("upper_back", CT, [-1.76, 0.83], UT, [-0.32, -6.99]),
     ("neck_base", UT, [-0.27, 7.26], N, [-0.93, -1.46]),
     ("neck", N, [1.01, 2.51], H, [-0.83, -1.93]),

@@ -78,7 +78,7 @@ fn check_segment(p: &SegmentProperties, path: &str, problems: &mut Problems) {
         );
     }
     let beside_m = p.cg_beside_m.norm();
-    if !(beside_m <= p.length_m.max(WIDEST_M)) {
+    if beside_m.is_nan() || beside_m > p.length_m.max(WIDEST_M) {
         let found = format!("a centre of gravity {beside_m} m beside a segment of {} m", p.length_m);
         problems.error(format!("{path}.cg_beside"), found, "a centre of gravity that is near its segment");
     }
