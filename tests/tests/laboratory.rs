@@ -16,6 +16,7 @@ struct Curves {
 
 impl Curves {
     /// The table of this name; none, with a word, where no curves are.
+    #[expect(clippy::print_stderr, reason = "a test that is left out says so")]
     fn open(name: &str) -> Option<Curves> {
         let beside = || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../shared/reference/tests");
         let folder = std::env::var_os("OCCUPANT_CRASH_TESTS").map_or_else(beside, PathBuf::from);
