@@ -73,7 +73,10 @@ fn people_of_every_size_sit_in_every_template_and_stay_in_the_car() {
             let (model, summary) = summary(setup(text, &[&format!("body.preset = {body:?}")]));
             assert_eq!(summary.status, RunStatus::Completed, "{body}, {name}");
             let left_over = model.start().settled.unwrap();
-            assert_below(&format!("{body}, {name}: left over"), left_over.residual_force_n, 0.01 * left_over.weight_n);
+            // a child's legs on the cushion are not carried as the posture has them, and it is said
+            let is_said = model.warnings().to_string().contains("does not come to rest");
+            let bound = if is_said { 0.10 } else { 0.01 };
+            assert_below(&format!("{body}, {name}: left over"), left_over.residual_force_n, bound * left_over.weight_n);
             assert_below(&format!("{body}, {name}: energy balance"), summary.energy.balance_error, 0.01);
             let is_lost = |c: &&Caveat| ["_passed", "_cut", "_bottomed"].iter().any(|sign| c.name.ends_with(sign));
             let lost: Vec<_> = summary.caveats.iter().filter(is_lost).map(|caveat| &caveat.text).collect();
@@ -82,14 +85,14 @@ fn people_of_every_size_sit_in_every_template_and_stay_in_the_car() {
     }
 }
 
-/// Where the left foot starts, and what is said of it.
+/// Where the left foot starts, x and z (down), and what is said of it.
 fn foot(body: &str) -> ([f64; 2], String) {
     let text = TEMPLATES[2].1;
     let model = Model::new(setup(text, &[&format!("body.preset = {body:?}")])).unwrap();
     let foot = model.body().sphere("left_foot").unwrap();
     let k = Kinematics::new(&model.system().skeleton, &model.start().state);
     let (_, centre, _) = model.system().sphere(&k, foot);
-    ([centre.x, centre.z], model.warnings().to_string())
+    ([centre.x, -centre.z], model.warnings().to_string())
 }
 
 #[test]
@@ -104,4 +107,15 @@ fn feet_that_do_not_reach_stand_nearer_or_lie_on_the_cushion_and_it_is_said() {
     let (of_a_child, said) = foot("child06");
     assert!(of_a_child[1] < 0.10, "{of_a_child:?}");
     assert!(said.contains("the legs lie on the cushion"), "{said}");
+}
+
+#[test]
+fn a_head_above_the_roof_is_warned_of() {
+    let said = |z: f64| {
+        let roof = format!("solids.roof.profile = [[0.42, {z}], [-1.60, {z}], [-1.60, -0.96], [0.42, -0.96]]");
+        Model::new(setup(DRIVER, &["body.preset = \"male95\"", &roof])).unwrap().warnings().to_string()
+    };
+    assert_eq!(said(-0.90), "");
+    let low = said(-0.77);
+    assert!(low.contains("solids.roof") && low.contains("head starts"), "{low}");
 }

@@ -84,14 +84,7 @@ pub(crate) fn seat(
     let lean = leaned(seating.lean_rad[3]);
     let lower_end = pelvis_m - lean * pelvis.centre_from_lower_end_m.coords;
     let hip = Vector3::new(lower_end.x, 0.0, lower_end.z);
-    let both = [&marks.legs.left, &marks.legs.right];
-    let legs = both.map(|limb| leg(body, limb, hip, &seat.cushion.normal, seating, problems));
-    let [Some(left), Some(right)] = legs else { return None };
-    warn_short(
-        seating,
-        hip - along(left.thigh) * length(both[0].upper) - along(left.shank) * length(both[0].lower),
-        problems,
-    );
+    let [left, right] = legs(body, hip, &seat.cushion.normal, seating, problems)?;
 
     let t1 = lower_end
         - along(seating.lean_rad[3]) * -length(marks.pelvis)
@@ -210,6 +203,23 @@ fn place_pelvis(
 struct Leg {
     thigh: f64,
     shank: f64,
+}
+
+/// Both legs.
+fn legs(
+    body: &Body,
+    hip: Vector3<f64>,
+    cushion: &Vector3<f64>,
+    seating: &Seating,
+    problems: &mut Problems,
+) -> Option<[Leg; 2]> {
+    let limbs = &body.tree.landmarks().legs;
+    let [left, right] = [&limbs.left, &limbs.right].map(|limb| leg(body, limb, hip, cushion, seating, problems));
+    let (left, right) = (left?, right?);
+    let length = |s: Segment| body.segment(s).length_m;
+    let heel = hip - along(left.thigh) * length(limbs.left.upper) - along(left.shank) * length(limbs.left.lower);
+    warn_short(seating, heel, problems);
+    Some([left, right])
 }
 
 /// Says where the feet are that do not reach the heels' place.
