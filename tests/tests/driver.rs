@@ -74,7 +74,10 @@ fn people_of_every_size_sit_in_every_template_and_stay_in_the_car() {
             let (model, summary) = summary(setup(text, &[&format!("body.preset = {body:?}")]));
             assert_eq!(summary.status, RunStatus::Completed, "{body}, {name}");
             let left_over = model.start().settled.unwrap();
-            assert_below(&format!("{body}, {name}: left over"), left_over.residual_force_n, 0.01 * left_over.weight_n);
+            // a child's legs on the cushion are not carried as the posture has them, and it is said
+            let is_said = model.warnings().to_string().contains("does not come to rest");
+            let bound = if is_said { 0.10 } else { 0.01 };
+            assert_below(&format!("{body}, {name}: left over"), left_over.residual_force_n, bound * left_over.weight_n);
             assert_below(&format!("{body}, {name}: energy balance"), summary.energy.balance_error, 0.01);
             let is_lost = |c: &&Caveat| ["_passed", "_cut", "_bottomed"].iter().any(|sign| c.name.ends_with(sign));
             let lost: Vec<_> = summary.caveats.iter().filter(is_lost).map(|caveat| &caveat.text).collect();
@@ -83,14 +86,14 @@ fn people_of_every_size_sit_in_every_template_and_stay_in_the_car() {
     }
 }
 
-/// Where the left foot starts, and what is said of it.
+/// Where the left foot starts, x and z (down), and what is said of it.
 fn foot(body: &str) -> ([f64; 2], String) {
     let text = TEMPLATES[2].1;
     let model = Model::new(setup(text, &[&format!("body.preset = {body:?}")])).unwrap();
     let foot = model.body().sphere("left_foot").unwrap();
     let k = Kinematics::new(&model.system().skeleton, &model.start().state);
     let (_, centre, _) = model.system().sphere(&k, foot);
-    ([centre.x, centre.z], model.warnings().to_string())
+    ([centre.x, -centre.z], model.warnings().to_string())
 }
 
 #[test]
@@ -142,4 +145,15 @@ fn a_settled_body_at_rest_stays_at_1_g() {
         let off = late.iter().map(|a| (a / 9.80665 - 1.0).abs()).fold(0.0, f64::max);
         assert_below(&format!("{segment} off 1 g"), off, 0.02);
     }
+}
+
+#[test]
+fn a_head_above_the_roof_is_warned_of() {
+    let said = |z: f64| {
+        let roof = format!("solids.roof.profile = [[0.42, {z}], [-1.60, {z}], [-1.60, -0.96], [0.42, -0.96]]");
+        Model::new(setup(DRIVER, &["body.preset = \"male95\"", &roof])).unwrap().warnings().to_string()
+    };
+    assert_eq!(said(-0.90), "");
+    let low = said(-0.77);
+    assert!(low.contains("solids.roof") && low.contains("head starts"), "{low}");
 }
