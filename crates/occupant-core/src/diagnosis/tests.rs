@@ -7,7 +7,6 @@ use crate::motion::frame::Moving;
 use crate::motion::kinematics::Kinematics;
 use crate::motion::layout::MOST_SEGMENTS;
 use crate::motion::mobility::greatest;
-use crate::motion::state::State;
 use crate::motion::vector::V3;
 use crate::results::energy::kinetic;
 use crate::run::simulate::simulate;
