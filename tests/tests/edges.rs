@@ -155,7 +155,7 @@ fn gain(setup: Setup) -> (f64, f64) {
     )
     .unwrap();
     assert_eq!(outcome.first_touches.len(), 1);
-    (kinetic[1] - kinetic[0], outcome.balance_error)
+    (kinetic[1] - kinetic[0], outcome.energy.balance_error)
 }
 
 #[test]

@@ -124,5 +124,5 @@ fn what_friction_takes_from_a_sliding_body_stands_in_the_ledger() {
     // Measured: 74.35.
     assert_within("lost to friction, J", energy.lost_j[FRICTION], [70.0, 80.0]);
     // Measured: 7.3e-15.
-    assert_below("energy imbalance", outcome.balance_error, 1e-9);
+    assert_below("energy imbalance", outcome.energy.balance_error, 1e-9);
 }

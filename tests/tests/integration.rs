@@ -113,7 +113,7 @@ fn halving_the_step_of_rk4_divides_every_error_by_sixteen() {
 
 #[test]
 fn the_energy_imbalance_of_rk4_falls_with_the_fourth_power_of_the_step() {
-    let error = |step_s| end(smooth_case(Integrator::Rk4 { step_s })).1.balance_error;
+    let error = |step_s| end(smooth_case(Integrator::Rk4 { step_s })).1.energy.balance_error;
     let (coarse, fine) = (error(2e-3), error(1e-3));
     // Measured: 3.984.
     assert_within("order", (coarse / fine).log2(), [3.7, 5.2]);
@@ -187,7 +187,7 @@ fn crash(integrator: Integrator) -> (Vec<(f64, Vector3<f64>)>, f64) {
         }),
     )
     .unwrap();
-    (places, outcome.balance_error)
+    (places, outcome.energy.balance_error)
 }
 
 /// Greatest distance of two runs' spheres until `end_s`, m.

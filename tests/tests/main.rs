@@ -13,6 +13,7 @@ mod integration;
 mod joint_torques;
 mod joints;
 mod kernel;
+mod laboratory;
 mod lanes;
 mod lap_case;
 mod layers;

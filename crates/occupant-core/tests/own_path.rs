@@ -62,7 +62,7 @@ fn struck(integrator: Integrator, yaw_rate_after_rad_s: f64) -> Model {
 fn alone(model: &Model) -> Outputs {
     let mut outputs = Outputs::default();
     let outcome = simulate(model, &mut outputs).unwrap();
-    assert!(outcome.balance_error < 1e-4, "{}", outcome.balance_error);
+    assert!(outcome.energy.balance_error < 1e-4, "{:?}", outcome.energy);
     outputs
 }
 

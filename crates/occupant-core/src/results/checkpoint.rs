@@ -8,7 +8,7 @@ use crate::forces::{Forces, History, Memory, Misfit, STORED};
 use crate::model::Model;
 use crate::motion::state::State;
 use crate::quantity::FieldWords;
-use crate::results::energy::{EnergyStart, balance_error};
+use crate::results::energy::{EnergyStart, Greatest};
 use crate::results::outcome::{FirstTouch, Outcome, Status};
 use crate::results::sample::Effort;
 
@@ -76,10 +76,8 @@ pub struct Progress {
     pub step_error: f64,
     /// Energies from which the balance counts.
     pub energy_start: EnergyStart,
-    /// Greatest kinetic energy relative to the vehicle among the outputs, J.
-    pub greatest_kinetic_j: f64,
-    /// Greatest energy imbalance among the outputs, J.
-    pub greatest_imbalance_j: f64,
+    /// Greatest energies so far.
+    pub greatest: Greatest,
 }
 
 impl Progress {
@@ -97,8 +95,9 @@ impl Progress {
                 file.number(held.start, &mut start.stored_j[energy.at]);
             }
         }
-        file.number(words(23, "greatest_kinetic_j", "greatest kinetic energy relative to the vehicle so far"), &mut self.greatest_kinetic_j);
-        file.number(words(24, "greatest_imbalance_j", "greatest energy imbalance so far"), &mut self.greatest_imbalance_j);
+        file.number(words(23, "greatest_kinetic_j", "greatest kinetic energy relative to the vehicle so far"), &mut self.greatest.kinetic_j);
+        file.number(words(24, "greatest_imbalance_j", "greatest energy imbalance so far"), &mut self.greatest.imbalance_j);
+        file.number(words(46, "greatest_work_j", "greatest work of gravity and force elements so far"), &mut self.greatest.work_j);
         file.number(words(25, "step_error", "error of the last accepted step in units of the tolerance"), &mut self.step_error);
     }
 }
@@ -237,14 +236,12 @@ impl Checkpoint {
 
     /// The outcome of a run of `model` that ends here.
     pub fn outcome(&self, model: &Model) -> Outcome {
-        let Progress { effort, greatest_kinetic_j, greatest_imbalance_j, .. } = self.progress;
         Outcome {
             status: Status::Completed,
             time_s: self.time_s,
-            effort,
+            effort: self.progress.effort,
             first_touches: self.first_touches.clone(),
-            greatest_kinetic_j,
-            balance_error: balance_error(greatest_imbalance_j, greatest_kinetic_j, model.body().mass_kg()),
+            energy: self.progress.greatest.check(model.body().mass_kg()),
         }
     }
 
@@ -300,8 +297,8 @@ impl Checkpoint {
     fn check_numbers(&self, forces: &Forces<f64>) -> Result<(), CheckpointError> {
         check_histories(&self.memory, &self.state, forces)?;
         let p = &self.progress;
-        let numbers =
-            [p.wanted_s, p.step_error, p.greatest_kinetic_j, p.greatest_imbalance_j, p.energy_start.mechanical_j];
+        // a balance may be lost without end
+        let numbers = [p.wanted_s, p.step_error, p.greatest.kinetic_j, p.greatest.work_j, p.energy_start.mechanical_j];
         check_finite(numbers.into_iter().chain(p.energy_start.stored_j))
     }
 }

@@ -20,9 +20,10 @@ use crate::model::setup::Integrator;
 use crate::model::{Model, frames};
 use crate::motion::frame::VEHICLE;
 use crate::motion::integrate::bogacki_shampine::Tolerance;
+use crate::motion::kinematics::Kinematics;
 use crate::motion::state::State;
 use crate::results::checkpoint::{Checkpoint, CheckpointError, Progress};
-use crate::results::energy::{EnergyLedger, EnergyStart, balance_error};
+use crate::results::energy::{self, EnergyLedger, EnergyStart, Greatest};
 use crate::results::outcome::{Outcome, RecordingFailed, Status, StepError};
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::{Effort, Sample};
@@ -46,8 +47,8 @@ pub struct Run {
     front: Option<Box<Front>>,
     control: Memory,
     energy_start: Option<EnergyStart>,
-    greatest_kinetic_j: f64,
-    greatest_imbalance_j: f64,
+    start_gravity_j: f64,
+    greatest: Greatest,
     mass_kg: f64,
     actions: Actions<f64>,
     /// Times at which the motion of the vehicle jumps, s.
@@ -61,6 +62,7 @@ impl Run {
     pub fn new(model: &Model) -> Self {
         let start = model.start();
         let (integrator, time_s) = (&model.setup().integrator, model.setup().time.start_s);
+        let skeleton = &model.system().skeleton;
         Run {
             index: 0,
             time_s,
@@ -77,8 +79,8 @@ impl Run {
             },
             control: Memory::new(first_step(integrator)),
             energy_start: None,
-            greatest_kinetic_j: 0.0,
-            greatest_imbalance_j: 0.0,
+            start_gravity_j: energy::gravity(skeleton, &Kinematics::new(skeleton, &start.state)),
+            greatest: Greatest::default(),
             mass_kg: model.body().mass_kg(),
             actions: Actions::with_room(&model.system().forces),
             seen: Seen::new(model),
@@ -107,8 +109,7 @@ impl Run {
             }));
         }
         run.energy_start = Some(progress.energy_start);
-        run.greatest_kinetic_j = progress.greatest_kinetic_j;
-        run.greatest_imbalance_j = progress.greatest_imbalance_j;
+        run.greatest = progress.greatest;
         run.seen.know(&from.first_touches);
         Ok(run)
     }
@@ -144,8 +145,8 @@ impl Run {
         };
         let energy_start = *self.energy_start.get_or_insert_with(|| ledger(&EnergyStart::default()).as_start());
         let energy = ledger(&energy_start);
-        self.greatest_kinetic_j = self.greatest_kinetic_j.max(energy.kinetic_relative_j);
-        self.greatest_imbalance_j = self.greatest_imbalance_j.max(energy.balance_j.abs());
+        let by_elements = self.state.work().sums.iter().map(|work| work.abs()).sum::<f64>();
+        self.greatest.see(&energy, (energy.gravity_j - self.start_gravity_j).abs() + by_elements);
         let index = self.index;
         self.index += 1;
         let recorded = recorder.record(&Sample {
@@ -166,8 +167,7 @@ impl Run {
                 wanted_s: self.control.wanted_s,
                 step_error: self.control.error,
                 energy_start,
-                greatest_kinetic_j: self.greatest_kinetic_j,
-                greatest_imbalance_j: self.greatest_imbalance_j,
+                greatest: self.greatest,
             },
             first_touches: &self.seen.touches,
             under_way: self.front.as_ref().and_then(|front| front.under_way(t)),
@@ -235,17 +235,12 @@ impl Run {
     }
 
     fn outcome(self, status: Status) -> Outcome {
-        let balance_error = match status {
-            Status::Failed(_) => f64::NAN,
-            _ => balance_error(self.greatest_imbalance_j, self.greatest_kinetic_j, self.mass_kg),
-        };
         Outcome {
             status,
             time_s: self.time_s,
             effort: self.effort,
             first_touches: self.seen.touches,
-            greatest_kinetic_j: self.greatest_kinetic_j,
-            balance_error,
+            energy: self.greatest.check(self.mass_kg),
         }
     }
 

@@ -4,6 +4,7 @@ use std::path::Path;
 
 use occupant_core::forces::contact::PairHistory;
 use occupant_core::model::Model;
+use occupant_core::results::summary::RunStatus;
 use occupant_core::scenario::Loaded;
 
 use cardio_legacy::{CompartmentLayout, passed_pairs};
@@ -89,8 +90,7 @@ impl Case {
 
     /// Whether the run reached its end.
     pub(crate) fn is_complete(&self) -> bool {
-        let status = self.file.result.as_ref().and_then(|r| r.get("status"));
-        status.is_some_and(|s| s == "completed") && self.file.lost().is_none()
+        self.file.ending().0 == RunStatus::Completed
     }
 
     /// A surface by its number and name.

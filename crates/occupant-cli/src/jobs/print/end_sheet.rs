@@ -35,14 +35,17 @@ fn ending(pages: &mut Pages, case: &Case) {
         return;
     };
     let known = |key: &str| result.get(key).map_or("-", String::as_str);
-    let imbalance = known("balance_error").parse().unwrap_or(f64::NAN);
+    let imbalance: f64 = known("balance_error").parse().unwrap_or(f64::NAN);
+    // files of 0.1.0 do not say it
+    let reference = result.get("balance_reference").map_or("greatest kinetic energy", |words| words);
     match known("status") {
         "completed" => pages.say("THE RUN REACHED ITS END TIME"),
         status => pages.say(&format!("*** PARTIAL: THE RUN WAS NOT COMPLETED ({status}): {} ***", known("reason"))),
     }
     pages.say(&reached);
     pages.say(&format!(
-        "GREATEST ENERGY IMBALANCE {imbalance:.2E} OF THE GREATEST KINETIC ENERGY; {} STEPS, {} REJECTED, {} EVALUATIONS",
+        "GREATEST ENERGY IMBALANCE {imbalance:.2E} OF THE {}; {} STEPS, {} REJECTED, {} EVALUATIONS",
+        reference.to_uppercase(),
         known("steps"),
         known("rejected"),
         known("evaluations")

@@ -206,7 +206,7 @@ fn nodding(neck: &str) -> Model {
 fn energies(model: &Model) -> (Vec<(EnergyLedger, f64)>, f64) {
     let mut list = Vec::new();
     let outcome = simulate(model, Watch(|s: &Sample<'_>| list.push((s.energy, s.actions.limits[0].excess)))).unwrap();
-    (list, outcome.balance_error)
+    (list, outcome.energy.balance_error)
 }
 
 #[test]
