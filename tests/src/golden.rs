@@ -99,11 +99,9 @@ impl Golden {
             cg_from_lower_end_m: s.cg_from_lower_end,
             inertia_kg_m2: Vector3::from(s.inertia),
         };
-        let sphere = |s: &GoldenSphere| ContactSphere {
-            name: s.name.clone(),
-            segment: TTI12.segment(s.segment - 1),
-            centre_from_lower_end_m: Point3::from(s.centre_from_lower_end),
-            radius_m: s.radius,
+        let sphere = |s: &GoldenSphere| {
+            let segment = TTI12.segment(s.segment - 1);
+            ContactSphere::new(&s.name, segment, Point3::from(s.centre_from_lower_end), s.radius)
         };
         Body {
             name: "appendix3".to_owned(),

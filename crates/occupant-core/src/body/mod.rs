@@ -4,6 +4,7 @@
 //! occupant's left and Z up when the occupant stands upright with hanging arms; they are principal axes.
 
 pub(crate) mod people;
+pub(crate) mod shape;
 pub(crate) mod tree;
 pub mod tti12;
 
@@ -42,6 +43,19 @@ pub struct ContactSphere {
     pub centre_from_lower_end_m: Point3<f64>,
     /// r.
     pub radius_m: f64,
+    /// The part of the body that it belongs to, such as `head` or `left_shin`: results speak of the forces on all its spheres
+    /// as one. A sphere alone is a part by its own name.
+    pub part: String,
+    /// What its contact forces are multiplied by, for a material that was measured on the whole part; 1 by default.
+    pub share: f64,
+}
+
+impl ContactSphere {
+    /// A sphere that is a part of its own.
+    pub fn new(name: impl Into<String>, segment: Segment, centre_from_lower_end_m: Point3<f64>, radius_m: f64) -> Self {
+        let name = name.into();
+        ContactSphere { part: name.clone(), name, segment, centre_from_lower_end_m, radius_m, share: 1.0 }
+    }
 }
 
 /// A whole body.
@@ -79,6 +93,36 @@ impl Body {
         self.spheres.iter().position(|s| s.name == name)
     }
 
+    /// Indices of the spheres of the part with this name, or else of the sphere.
+    pub(crate) fn spheres_called(&self, name: &str) -> Vec<usize> {
+        let part = (0..self.spheres.len()).filter(|i| self.spheres[*i].part == name);
+        let part: Vec<usize> = part.collect();
+        if part.is_empty() { self.sphere(name).into_iter().collect() } else { part }
+    }
+
+    /// Names of the parts, each once.
+    pub fn parts(&self) -> impl Iterator<Item = &str> {
+        let is_first = |i: &usize| self.spheres[..*i].iter().all(|other| other.part != self.spheres[*i].part);
+        (0..self.spheres.len()).filter(is_first).map(|i| self.spheres[i].part.as_str())
+    }
+
+    /// Centres of the spheres of a body that stands upright with hanging arms; from T1 ahead, to the left and up, m.
+    pub(crate) fn standing_m(&self) -> Vec<Point3<f64>> {
+        let mut joints_m = vec![Vector3::zeros(); self.segments.len()];
+        for segment in self.tree.segments() {
+            if let Some(carrier) = self.tree.carrier(segment) {
+                let [y, z] = self.joint_m(segment);
+                joints_m[segment.index()] = joints_m[self.tree[carrier].proximal.index()] + Vector3::new(0.0, y, z);
+            }
+        }
+        let place = |sphere: &ContactSphere| {
+            let lower_end_m = self.far_m(sphere.segment).min(0.0);
+            let joint_m = joints_m[sphere.segment.index()];
+            sphere.centre_from_lower_end_m + joint_m + Vector3::new(0.0, 0.0, lower_end_m)
+        };
+        self.spheres.iter().map(place).collect()
+    }
+
     /// Y of what is beside the middle plane, m.
     pub(crate) fn beside_m(&self, width: Width, side: Side) -> f64 {
         let half_width_m = match width {
@@ -112,15 +156,10 @@ impl Body {
 
     /// The tree's spheres (Fig. 5) on this body's segments; `radius_m` in the tree's order.
     pub fn standard_spheres(&self, radius_m: &[f64]) -> Vec<ContactSphere> {
-        let sphere = |(row, &radius_m): (&SphereRow, &f64)| ContactSphere {
-            name: row.name.to_owned(),
-            segment: row.segment,
-            centre_from_lower_end_m: Point3::new(
-                0.0,
-                row.beside.map_or(0.0, |(width, side)| self.beside_m(width, side)),
-                row.lengths * self.segment(row.segment).length_m + row.radii * radius_m,
-            ),
-            radius_m,
+        let sphere = |(row, &radius_m): (&SphereRow, &f64)| {
+            let y_m = row.beside.map_or(0.0, |(width, side)| self.beside_m(width, side));
+            let z_m = row.lengths * self.segment(row.segment).length_m + row.radii * radius_m;
+            ContactSphere::new(row.name, row.segment, Point3::new(0.0, y_m, z_m), radius_m)
         };
         self.tree.spheres().iter().zip(radius_m).map(sphere).collect()
     }

@@ -6,6 +6,7 @@
 use super::check::check_words;
 use super::presets;
 use super::sections::schema;
+use crate::body::shape;
 use crate::body::tree::{JointRow, both_sides};
 use crate::body::tti12::TTI12;
 use placed_text::{Document, Entry, Format, Node, Sources, Table, Value};
@@ -76,9 +77,9 @@ fn body(layers: &[Node]) -> Table {
     let names = TTI12.segment_rows().iter().map(|row| row.name);
     put(&mut explicit, "segments", &segments, members(&segments, names));
     let spheres = parts("spheres");
-    let standard = TTI12.sphere_names();
-    let others = other_names(&spheres, &standard);
-    let names = standard.iter().copied().chain(others.iter().map(String::as_str));
+    let known = shape::names(&TTI12);
+    let others = other_names(&spheres, &known);
+    let names = known.iter().chain(&others).map(String::as_str);
     put(&mut explicit, "spheres", &spheres, members(&spheres, names));
     explicit
 }
@@ -149,7 +150,7 @@ fn plain_keys(layers: &[Node], except: &[&str]) -> Table {
 }
 
 /// Names in the layers that are neither a pair's word nor among `known`, in order of appearance.
-fn other_names(layers: &[Node], known: &[&str]) -> Vec<String> {
+fn other_names(layers: &[Node], known: &[String]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for key in layers.iter().filter_map(Node::as_table).flat_map(Table::keys) {
         let is_known = known.iter().any(|name| name == key || both_sides(name).as_ref() == Some(key));

@@ -7,11 +7,11 @@ use serde::{Deserialize, Serialize};
 
 use super::builder::Builder;
 use super::quantity::{NOT_NEGATIVE, POSITIVE, all_si, point, si_or};
-use super::{Acceleration, Force, Inertia, Length, Mass};
+use super::{Acceleration, Force, Inertia, Length, Mass, Ratio};
 use crate::body::people::{Person, REACH, REFERENCE_PERSON, Sex};
 use crate::body::tree::SphereRow;
 use crate::body::tti12::TTI12;
-use crate::body::{Body, ContactSphere, SegmentProperties, Tree};
+use crate::body::{Body, ContactSphere, SegmentProperties, Tree, shape};
 use crate::model::setup::STANDARD_GRAVITY_M_S2;
 use placed_text::{Problem, with_key};
 
@@ -41,10 +41,23 @@ pub(crate) struct BodySection {
     pub(crate) weighed_at: Option<Acceleration<POSITIVE>>,
     /// The twelve segments. `upper_arms`, `forearms`, `thighs`, `lower_legs` stand for left and right.
     pub(crate) segments: Option<Segments>,
+    /// Which spheres there are besides those of `spheres` that you name yourself; "report" if absent.
+    pub(crate) sphere_set: Option<SphereSet>,
     /// Contact spheres by name. The report's 17 (`head`, `chest`, `pelvis`, `left_shoulder`, …) know their place and need
     /// only a radius; `shoulders`, `elbows`, `hands`, `thighs`, `knees`, `shins`, `feet` stand for left and right.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) spheres: IndexMap<String, SphereSection>,
+}
+
+/// A set of contact spheres.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum SphereSet {
+    /// The 17 of the report, with gaps between them.
+    Report,
+    /// Without gaps: a face, a chin and a neck, sides of chest and pelvis, an abdomen, rows along the limbs, forefeet. Sizes
+    /// follow from the radii of the 17, of which thighs and shins become rows.
+    Full,
 }
 
 /// The twelve segments of the body.
@@ -108,7 +121,12 @@ pub(crate) struct SegmentSection {
 pub(crate) struct SphereSection {
     /// Radius.
     pub(crate) radius: Option<Length<POSITIVE>>,
-    /// Segment that carries it; the 17 of the report know theirs.
+    /// Part of the body that it belongs to, such as "head"; results speak of the forces on all its spheres as one. Absent: the
+    /// part where the sphere set has it, else a part by its own name.
+    pub(crate) part: Option<String>,
+    /// What its contact forces are multiplied by, for a material that was measured on the whole part; 1 if absent.
+    pub(crate) share: Option<Ratio<POSITIVE>>,
+    /// Segment that carries it; those of the sphere set know theirs.
     #[schemars(extend("enum" = [
         "middle_torso", "upper_torso", "head", "lower_torso", "left_upper_arm", "right_upper_arm",
         "left_forearm", "right_forearm", "left_thigh", "right_thigh", "left_lower_leg", "right_lower_leg",
@@ -189,7 +207,7 @@ pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection)
         neck_height_m: si_or(&section.neck_height, 0.0),
         spheres: Vec::new(),
     };
-    body.spheres = spheres(b, &section.spheres, &body);
+    body.spheres = spheres(b, section, &body);
     body
 }
 
@@ -225,8 +243,9 @@ fn segment(b: &mut Builder, name: &str, weighed_at_m_s2: f64) -> SegmentProperti
     }
 }
 
-/// The spheres: the report's in its order, then others as written.
-fn spheres(b: &mut Builder, sections: &IndexMap<String, SphereSection>, body: &Body) -> Vec<ContactSphere> {
+/// The spheres: those of the set in its order, then others as written.
+fn spheres(b: &mut Builder, body_section: &BodySection, body: &Body) -> Vec<ContactSphere> {
+    let sections = &body_section.spheres;
     let kept = |name: &str| {
         let section = sections.get(name)?;
         (section.remove != Some(true)).then_some(section)
@@ -239,19 +258,26 @@ fn spheres(b: &mut Builder, sections: &IndexMap<String, SphereSection>, body: &B
     let mut spheres = Vec::new();
     for sphere in body.standard_spheres(&radii_m) {
         if let Some(section) = kept(&sphere.name) {
-            spheres.push(moved(b, body.tree, sphere, section));
+            spheres.push(changed(b, body.tree, sphere, section));
         }
     }
-    for (name, section) in sections {
-        if standard.iter().all(|row| row.name != name) && section.remove != Some(true) {
-            spheres.extend(own_sphere(b, body.tree, name, section));
+    if body_section.sphere_set == Some(SphereSet::Full) {
+        spheres = shape::full(body, spheres);
+    }
+    for (name, section) in sections.iter().filter(|(name, _)| standard.iter().all(|row| row.name != *name)) {
+        let known = spheres.iter().position(|sphere| sphere.name == *name);
+        match (known, section.remove) {
+            (Some(i), Some(true)) => drop(spheres.remove(i)),
+            (Some(i), _) => spheres[i] = changed(b, body.tree, spheres[i].clone(), section),
+            (None, Some(true)) => {}
+            (None, _) => spheres.extend(own_sphere(b, body.tree, name, section)),
         }
     }
     spheres
 }
 
-/// A standard sphere with a place of its own.
-fn moved(b: &mut Builder, tree: &Tree, mut sphere: ContactSphere, section: &SphereSection) -> ContactSphere {
+/// A sphere of the set with a size, a place or a part of its own.
+fn changed(b: &mut Builder, tree: &Tree, mut sphere: ContactSphere, section: &SphereSection) -> ContactSphere {
     let path = with_key("body.spheres", &sphere.name);
     let segment = section.segment.as_deref().and_then(|name| tree.segment_named(name));
     if let Some(centre) = &section.centre {
@@ -264,7 +290,12 @@ fn moved(b: &mut Builder, tree: &Tree, mut sphere: ContactSphere, section: &Sphe
             "centre = [x, y, z] from the lower end of that segment",
         );
     }
-    sphere
+    ContactSphere {
+        radius_m: si_or(&section.radius, sphere.radius_m),
+        part: section.part.clone().unwrap_or(sphere.part),
+        share: si_or(&section.share, sphere.share),
+        ..sphere
+    }
 }
 
 fn own_sphere(b: &mut Builder, tree: &Tree, name: &str, section: &SphereSection) -> Option<ContactSphere> {
@@ -280,10 +311,8 @@ fn own_sphere(b: &mut Builder, tree: &Tree, name: &str, section: &SphereSection)
         let found = format!("sphere `{name}` without a centre");
         b.error(&path, found, "centre = [x, y, z] from the lower end of its segment");
     }
-    Some(ContactSphere {
-        name: name.to_owned(),
-        segment: segment?,
-        centre_from_lower_end_m: section.centre.as_ref().map_or_else(Point3::origin, point),
-        radius_m,
-    })
+    let centre_m = section.centre.as_ref().map_or_else(Point3::origin, point);
+    let sphere = ContactSphere::new(name, segment?, centre_m, radius_m);
+    let part = section.part.clone().unwrap_or_else(|| name.to_owned());
+    Some(ContactSphere { part, share: si_or(&section.share, 1.0), ..sphere })
 }

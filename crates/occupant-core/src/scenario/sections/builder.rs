@@ -3,7 +3,8 @@
 use serde::de::DeserializeOwned;
 
 use super::quantity::Quantity;
-use placed_text::{Diagnostics, Document, Problem, follow, parse_path, with_key};
+use crate::body::Body;
+use placed_text::{Diagnostics, Document, Problem, did_you_mean, follow, one_of, parse_path, with_key};
 
 /// Collects problems while the plain data are put together.
 pub(super) struct Builder<'a> {
@@ -40,6 +41,35 @@ impl Builder<'_> {
         for key in keys.iter().filter(|key| section.is_some_and(|s| s.get(key).is_some())) {
             self.error(&with_key(path, key), found(key), expected);
         }
+    }
+
+    /// The spheres of the parts, or single ones, that a list at `path` names.
+    pub(super) fn spheres(&mut self, path: &str, names: &[String], body: &Body) -> Vec<usize> {
+        let mut spheres = Vec::new();
+        for (i, name) in names.iter().enumerate() {
+            let called = body.spheres_called(name);
+            if called.is_empty() {
+                self.no_sphere(&format!("{path}[{i}]"), name, body);
+            }
+            spheres.extend(called);
+        }
+        spheres
+    }
+
+    /// The sphere that is named at `path`; a whole part is none.
+    pub(super) fn sphere(&mut self, path: &str, name: &str, body: &Body) -> usize {
+        let sphere = body.sphere(name);
+        if sphere.is_none() {
+            self.no_sphere(path, name, body);
+        }
+        sphere.unwrap_or(0)
+    }
+
+    fn no_sphere(&mut self, path: &str, name: &str, body: &Body) {
+        let names: Vec<&str> = body.spheres.iter().map(|sphere| sphere.name.as_str()).collect();
+        let found = format!("no sphere is named \"{name}\"");
+        let hint = did_you_mean(name, &names, '"');
+        self.report(Problem::error(path, found, one_of(&names, '"')).with_hint(hint));
     }
 
     /// Adds an error.

@@ -8,8 +8,8 @@ use serde::Deserialize;
 use super::builder::Builder;
 use super::quantity::si_or;
 use super::{
-    BodySection, JointsSection, Scenario, belts, body, joints, materials, path, plausible, posture, run, solids,
-    surfaces,
+    BodySection, JointsSection, Scenario, belts, body, joints, materials, path, plausible, posture, run, self_contact,
+    solids, surfaces,
 };
 use crate::body::Body;
 use crate::forces::joint::Joints;
@@ -28,10 +28,11 @@ pub(in crate::scenario) fn setup(
     let b = &mut Builder { document, problems: Diagnostics::new() };
     let body = body::body(b, written.body.preset.as_deref(), &explicit.body);
     let joints = joints::joints(b, &explicit.joints);
-    references(&document.root, &[]).into_iter().for_each(|problem| b.report(problem));
+    references(&document.root, None).into_iter().for_each(|problem| b.report(problem));
     let surfaces = surfaces::surfaces(b, explicit, &body);
     let solids = solids::solids(b, explicit, &body);
-    let belts = belts::belts(explicit, &body);
+    let self_contact = self_contact::self_contact(b, explicit, &body);
+    let belts = belts::belts(b, explicit, &body);
     let (posture, velocity) = posture::posture(b, explicit, &body);
     let time = run::time(b, explicit);
     let integrator = run::integrator(b, explicit);
@@ -50,6 +51,7 @@ pub(in crate::scenario) fn setup(
         surfaces,
         solids,
         edge_force: surfaces::edge_force(explicit),
+        self_contact,
         belts,
         path,
         posture,

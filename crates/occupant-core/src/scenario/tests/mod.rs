@@ -11,6 +11,7 @@ mod round_trip;
 mod schema;
 mod sensors;
 mod side_slope;
+mod spheres;
 mod tables;
 mod units;
 
