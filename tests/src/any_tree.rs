@@ -19,6 +19,7 @@ pub fn bare(skeleton: Skeleton<f64>) -> (System<f64>, History<f64>) {
         surfaces: &[],
         faces: &[],
         solids: &[],
+        self_contact: None,
         materials: &[],
         edge_force: EdgeForce::default(),
         longest_step_s: 1e-3,

@@ -30,6 +30,7 @@ pub fn lap(integrator: Integrator) -> Setup {
         materials: materials(),
         surfaces: surfaces(),
         solids: Vec::new(),
+        self_contact: None,
         edge_force: EdgeForce::AtContactPoint,
         belts: vec![lap_belt()],
         path: path(),

@@ -100,6 +100,7 @@ pub fn afloat(body: Body, end_s: f64, step_s: f64) -> Setup {
         materials: Vec::new(),
         surfaces: Vec::new(),
         solids: Vec::new(),
+        self_contact: None,
         edge_force: EdgeForce::default(),
         belts: Vec::new(),
         path: parked(),

@@ -104,6 +104,7 @@ impl Compartment {
             surfaces: &self.surfaces,
             faces: &faces,
             solids: &[],
+            self_contact: None,
             materials: &self.materials,
             edge_force: EdgeForce::default(),
             longest_step_s: 1e-3,

@@ -44,6 +44,7 @@ impl FreeRun {
             surfaces: &[],
             faces: &[],
             solids: &[],
+            self_contact: None,
             materials: &[],
             edge_force: EdgeForce::default(),
             longest_step_s: 1e-3,

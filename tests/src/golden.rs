@@ -95,11 +95,9 @@ impl Golden {
     pub fn body(&self) -> Body {
         let segment =
             |s: &GoldenSegment| SegmentProperties::new(s.length, s.mass, s.cg_from_lower_end, Vector3::from(s.inertia));
-        let sphere = |s: &GoldenSphere| ContactSphere {
-            name: s.name.clone(),
-            segment: TTI12.segment(s.segment - 1),
-            centre_from_lower_end_m: Point3::from(s.centre_from_lower_end),
-            radius_m: s.radius,
+        let sphere = |s: &GoldenSphere| {
+            let segment = TTI12.segment(s.segment - 1);
+            ContactSphere::new(&s.name, segment, Point3::from(s.centre_from_lower_end), s.radius)
         };
         Body {
             name: "appendix3".to_owned(),

@@ -5,6 +5,7 @@ pub mod cart;
 pub mod cases;
 pub mod compartment;
 pub mod core_side;
+pub mod dropped;
 pub mod free_run;
 pub mod golden;
 pub mod measure;

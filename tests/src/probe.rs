@@ -51,12 +51,7 @@ pub fn bead_among(materials: Vec<Material>, surfaces: Vec<Surface>, edge_force: 
 
 /// The probe's sphere.
 pub fn sphere_round_t1() -> ContactSphere {
-    ContactSphere {
-        name: "probe".into(),
-        segment: tti12::MIDDLE_TORSO,
-        centre_from_lower_end_m: Point3::new(0.0, 0.0, BEAD_LENGTH_M),
-        radius_m: RADIUS_M,
-    }
+    ContactSphere::new("probe", tti12::MIDDLE_TORSO, Point3::new(0.0, 0.0, BEAD_LENGTH_M), RADIUS_M)
 }
 
 impl Probe {

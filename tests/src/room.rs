@@ -1,6 +1,9 @@
 //! A body among solids.
 
 use occupant_core::model::setup::Setup;
+use occupant_core::results::checkpoint::Checkpoint;
+use occupant_core::results::recorder::{Flow, Recorder, RecorderError};
+use occupant_core::results::sample::Sample;
 use occupant_core::scenario::{Draft, Format};
 
 const ROOM: &str = include_str!("../data/room.toml");
@@ -16,4 +19,15 @@ pub fn setup(text: &str, set: &[&str]) -> Setup {
 /// A body that falls tumbling through a room of twenty solids, with these assignments.
 pub fn room(set: &[&str]) -> Setup {
     setup(ROOM, set)
+}
+
+/// Keeps the last checkpoint.
+#[derive(Default)]
+pub struct Last(pub Option<Checkpoint>);
+
+impl Recorder for Last {
+    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
+        self.0 = Some(sample.checkpoint());
+        Ok(Flow::Continue)
+    }
 }

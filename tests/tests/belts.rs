@@ -271,12 +271,7 @@ fn an_anchor_inside_the_sphere_is_an_error_that_names_it_and_the_distance() {
 fn the_belt_force_acts_at_the_spheres_centre() {
     // a sphere off its segment's joint: the moment about the joint is arm × force
     let mut setup = afloat(male50(), 0.1, 1e-3);
-    setup.body.spheres = vec![ContactSphere {
-        name: "probe".into(),
-        segment: tti12::UPPER_TORSO,
-        centre_from_lower_end_m: Point3::new(0.04, -0.03, 0.2),
-        radius_m: R,
-    }];
+    setup.body.spheres = vec![ContactSphere::new("probe", tti12::UPPER_TORSO, Point3::new(0.04, -0.03, 0.2), R)];
     let anchors = [Point3::new(-0.4, -0.2, 0.1), Point3::new(-0.3, 0.25, 0.2)];
     setup.belts = vec![belt(anchors, K, -0.01)];
     let model = Model::new(setup).unwrap();

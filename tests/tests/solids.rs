@@ -8,12 +8,12 @@ use occupant_core::model::Model;
 use occupant_core::model::setup::Setup;
 use occupant_core::results::checkpoint::Checkpoint;
 use occupant_core::results::outcome::{Outcome, Status};
-use occupant_core::results::recorder::{Flow, Recorder, RecorderError, Watch};
+use occupant_core::results::recorder::Watch;
 use occupant_core::results::sample::Sample;
 use occupant_core::results::summary::Summarizer;
 use occupant_core::run::batch::{Ended, Job, Kernel, simulate_many};
 use occupant_core::run::simulate::{resume, simulate};
-use occupant_tests::room::{room, setup};
+use occupant_tests::room::{Last, room, setup};
 
 const FREE: &str = include_str!("../../scenarios/free-fall.toml");
 const SOIL: &str = "materials.soil={ k1 = 50000, mu1 = 0.5, friction = 0 }";
@@ -84,17 +84,6 @@ fn among_solids_a_run_resumed_from_a_checkpoint_has_the_bits_of_the_whole_run() 
         let resumed = resume(&model, &middle, Watch(|s: &Sample<'_>| last = Some(s.checkpoint()))).unwrap();
         assert_eq!(last, checkpoints.pop());
         assert_eq!(resumed.energy.balance_error.to_bits(), whole.energy.balance_error.to_bits());
-    }
-}
-
-/// Keeps the last checkpoint.
-#[derive(Default)]
-struct Last(Option<Checkpoint>);
-
-impl Recorder for Last {
-    fn record(&mut self, sample: &Sample<'_>) -> Result<Flow, RecorderError> {
-        self.0 = Some(sample.checkpoint());
-        Ok(Flow::Continue)
     }
 }
 

@@ -1,12 +1,21 @@
 //! What must not matter to the simulator: which side is left, which way is forward, how fast the whole scene moves.
 
-use nalgebra::{UnitQuaternion, Vector3};
+use nalgebra::{Point3, UnitQuaternion, Vector3};
 use occupant_core::body::tti12;
+use occupant_core::forces::contact::solid::Shape;
+use occupant_core::model::Model;
+use occupant_core::model::seating::InitialPosture;
+use occupant_core::model::setup::Setup;
+use occupant_core::results::recorder::Watch;
+use occupant_core::results::sample::Sample;
+use occupant_core::run::simulate::simulate;
 use occupant_tests::{
     core_side::CoreSide,
     free_run::{FreeRun, distance},
+    measure::assert_below,
     random::Random,
     reference::System,
+    room::setup,
     space_state::SpaceState,
 };
 
@@ -109,4 +118,66 @@ fn a_scene_that_is_elsewhere_and_moves_steadily_accelerates_the_same() {
     }
     // Places 100 m away cost three digits of arms of 0.1 m.
     assert!(worst < 1e-10, "{worst:e}"); // Measured: 2.7e-13.
+}
+
+/// A whole run in the mirror: the driver among solids, full spheres, contact with itself, belts, limits.
+#[test]
+fn the_mirror_image_of_a_driver_among_solids_moves_in_the_mirror() {
+    let set = [
+        "body.sphere_set=full",
+        "materials.flesh={ k1 = \"156 kN/m\", mu1 = 0.7, friction = 0.25 }",
+        "self_contact={ skin = \"flesh\" }",
+        "time.end=0.12",
+        "posture.settle=false",
+    ];
+    let here = setup(include_str!("../../scenarios/templates/driver.toml"), &set);
+    let there = mirrored(here.clone());
+    let paths = |setup: Setup| {
+        let model = Model::new(setup).unwrap();
+        let mut places = Vec::new();
+        let look = |s: &Sample<'_>| {
+            let spheres = s.model.body().spheres.iter().enumerate();
+            places.push(spheres.map(|(i, sphere)| (sphere.name.clone(), s.sphere_centre_m(i))).collect::<Vec<_>>());
+        };
+        let outcome = simulate(&model, Watch(look)).unwrap();
+        assert!(outcome.first_touches.len() > 10);
+        places
+    };
+    let other = |name: &str| match name.split_once('_') {
+        Some(("left", part)) => format!("right_{part}"),
+        Some(("right", part)) => format!("left_{part}"),
+        _ => name.to_owned(),
+    };
+    let mut worst: f64 = 0.0;
+    for (here, there) in paths(here).iter().zip(&paths(there)) {
+        for (name, place) in here {
+            let image = there.iter().find(|(image, _)| *image == other(name)).unwrap().1;
+            worst = worst.max((place.coords - Vector3::new(image.x, -image.y, image.z)).norm());
+        }
+    }
+    assert_below("paths in the mirror, m", worst, 1e-8);
+}
+
+/// Solids, belts and seat on the other side.
+fn mirrored(mut setup: Setup) -> Setup {
+    let flip = |p: &mut Point3<f64>| p.y = -p.y;
+    for solid in &mut setup.solids {
+        match &mut solid.shape {
+            Shape::Prism { corners_m, .. } => corners_m.iter_mut().for_each(flip),
+            Shape::Disc { centre_m, axis, .. } | Shape::Rim { centre_m, axis, .. } => {
+                flip(centre_m);
+                axis.y = -axis.y;
+            }
+            Shape::Capsule { ends_m, .. } => ends_m.iter_mut().for_each(flip),
+            Shape::HalfSpace { point_m, normal } => {
+                flip(point_m);
+                normal.y = -normal.y;
+            }
+        }
+    }
+    setup.belts.iter_mut().flat_map(|belt| &mut belt.anchors_m).for_each(flip);
+    if let InitialPosture::Seated(seating) = &mut setup.posture {
+        seating.lateral_m = -seating.lateral_m;
+    }
+    setup
 }

@@ -94,6 +94,7 @@ impl Instant {
             surfaces: &[],
             faces: &[],
             solids: &[],
+            self_contact: None,
             materials: &[],
             edge_force: setup.edge_force,
             longest_step_s: STEP_S,

@@ -5,6 +5,7 @@
 
 pub(crate) mod named;
 pub(crate) mod people;
+pub(crate) mod shape;
 pub(crate) mod tree;
 pub mod tti12;
 
@@ -91,6 +92,19 @@ pub struct ContactSphere {
     pub centre_from_lower_end_m: Point3<f64>,
     /// r.
     pub radius_m: f64,
+    /// The part of the body that it belongs to, such as `head` or `left_shin`: results speak of the forces on all its spheres
+    /// as one. A sphere alone is a part by its own name.
+    pub part: String,
+    /// What its contact forces are multiplied by, for a material that was measured on the whole part; 1 by default.
+    pub share: f64,
+}
+
+impl ContactSphere {
+    /// A sphere that is a part of its own.
+    pub fn new(name: impl Into<String>, segment: Segment, centre_from_lower_end_m: Point3<f64>, radius_m: f64) -> Self {
+        let name = name.into();
+        ContactSphere { part: name.clone(), name, segment, centre_from_lower_end_m, radius_m, share: 1.0 }
+    }
 }
 
 /// A whole body.
@@ -131,6 +145,37 @@ impl Body {
     /// Index of the sphere with this name.
     pub fn sphere(&self, name: &str) -> Option<usize> {
         self.spheres.iter().position(|s| s.name == name)
+    }
+
+    /// Indices of the spheres of the part with this name, or else of the sphere.
+    pub(crate) fn spheres_called(&self, name: &str) -> Vec<usize> {
+        let part = (0..self.spheres.len()).filter(|i| self.spheres[*i].part == name);
+        let part: Vec<usize> = part.collect();
+        if part.is_empty() { self.sphere(name).into_iter().collect() } else { part }
+    }
+
+    /// Names of the parts, each once.
+    pub fn parts(&self) -> impl Iterator<Item = &str> {
+        let is_first = |i: &usize| self.spheres[..*i].iter().all(|other| other.part != self.spheres[*i].part);
+        (0..self.spheres.len()).filter(is_first).map(|i| self.spheres[i].part.as_str())
+    }
+
+    /// Centres of the spheres of a body that stands upright with hanging arms; from T1 ahead, to the left and up, m.
+    pub(crate) fn standing_m(&self) -> Vec<Point3<f64>> {
+        let mut placed = vec![(UnitQuaternion::identity(), Vector3::zeros()); self.segments.len()];
+        for segment in self.tree.segments() {
+            if let Some(carrier) = self.tree.carrier(segment) {
+                let (turn, joint_m) = placed[self.tree[carrier].proximal.index()];
+                let JointPlace { proximal, distal } = self.place(carrier);
+                let turned = turn * proximal.axes * distal.axes.inverse();
+                placed[segment.index()] = (turned, joint_m + turn * self.offset_m(segment));
+            }
+        }
+        let place = |sphere: &ContactSphere| {
+            let (turn, joint_m) = placed[sphere.segment.index()];
+            Point3::from(joint_m + turn * (sphere.centre_from_lower_end_m.coords - self.joint_m(sphere.segment)))
+        };
+        self.spheres.iter().map(place).collect()
     }
 
     /// Y of what is beside the middle plane, m.
@@ -202,15 +247,10 @@ impl Body {
 
     /// The tree's spheres (Fig. 5) on this body's segments; `radius_m` in the tree's order.
     pub fn standard_spheres(&self, radius_m: &[f64]) -> Vec<ContactSphere> {
-        let sphere = |(row, &radius_m): (&SphereRow, &f64)| ContactSphere {
-            name: row.name.to_owned(),
-            segment: row.segment,
-            centre_from_lower_end_m: Point3::new(
-                0.0,
-                row.beside.map_or(0.0, |(width, side)| self.beside_m(width, side)),
-                row.lengths * self.segment(row.segment).length_m + row.radii * radius_m,
-            ),
-            radius_m,
+        let sphere = |(row, &radius_m): (&SphereRow, &f64)| {
+            let y_m = row.beside.map_or(0.0, |(width, side)| self.beside_m(width, side));
+            let z_m = row.lengths * self.segment(row.segment).length_m + row.radii * radius_m;
+            ContactSphere::new(row.name, row.segment, Point3::new(0.0, y_m, z_m), radius_m)
         };
         self.tree.spheres().iter().zip(radius_m).map(sphere).collect()
     }

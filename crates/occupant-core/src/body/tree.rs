@@ -375,10 +375,8 @@ impl Tree {
 
 /// The word for the left and the right one of two: "feet" for "left_foot"; none for what stands in the middle.
 pub fn both_sides(name: &str) -> Option<String> {
-    match name.strip_prefix("left_").or(name.strip_prefix("right_"))? {
-        "foot" => Some("feet".to_owned()),
-        one => Some(format!("{one}s")),
-    }
+    let one = name.strip_prefix("left_").or(name.strip_prefix("right_"))?;
+    Some(one.strip_suffix("foot").map_or_else(|| format!("{one}s"), |stem| format!("{stem}feet")))
 }
 
 impl Index<Segment> for Tree {

@@ -6,6 +6,7 @@ mod friction;
 mod rates;
 mod start;
 
+use indexmap::IndexMap;
 use nalgebra::Vector3;
 use serde::Serialize;
 
@@ -40,6 +41,10 @@ pub struct Diagnosis {
     pub contacts: Vec<ContactStart>,
     /// Spheres that start behind a surface and do not feel it until they have come out.
     pub behind: Vec<SphereBehind>,
+    /// Corners of two surfaces within reach that a sphere may come round without touching either.
+    pub corners: Vec<[String; 2]>,
+    /// Parts of the body with those that they can touch.
+    pub self_contact: IndexMap<String, Vec<String>>,
     /// Force elements that have something to say of themselves.
     #[serde(flatten)]
     pub elements: Tables,
@@ -143,10 +148,12 @@ pub fn diagnose(model: &Model) -> Diagnosis {
             gravity_m_s2: setup.gravity_m_s2,
         },
         vehicle: vehicle(model),
-        surfaces: setup.surface_names().count(),
+        surfaces: setup.surfaces.len() + setup.solids.len(),
         seat: start::seat(model),
         contacts: start.contacts,
         behind: start::behind(model, &mobility),
+        corners: start::corners(model),
+        self_contact: start::self_contact(model),
         elements: start.elements,
         sphere_rates,
         other_rates,

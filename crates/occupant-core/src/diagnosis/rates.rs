@@ -59,14 +59,19 @@ impl FrictionMasses {
     }
 }
 
-/// Pairs of sphere and surface that can touch.
+/// Pairs of sphere and surface that can touch; a sphere of the body is a surface to another.
 fn pairs(model: &Model) -> impl Iterator<Item = (usize, usize)> + '_ {
     let contacts = &model.system().forces.contacts;
     let faces = contacts.groups.iter().flat_map(move |group| {
         let parts = contacts.pairs[group.pairs.clone()].iter().flat_map(|p| &p.parts);
         parts.map(move |part| (group.sphere, part.surface))
     });
-    faces.chain(contacts.solids.met().map(|(group, member)| (group.sphere, member.surface)))
+    let solids = contacts.solids.met().map(|(group, member)| (group.sphere, member.surface));
+    let own = contacts.own.pairs.iter().flat_map(|pair| {
+        let [a, b] = pair.spheres;
+        [(a, contacts.own.surface + b), (b, contacts.own.surface + a)]
+    });
+    faces.chain(solids).chain(own)
 }
 
 /// Smallest effective mass along the surface at the point of contact A = centre − r N̂, kg.
@@ -74,6 +79,12 @@ fn tangential(model: &Model, mobility: &Mobility<'_>, sphere: usize, surface: us
     let system = model.system();
     let site = &system.spheres[sphere];
     let (_, centre, _) = system.sphere(&mobility.kinematics, sphere);
+    if let Some(other) = surface.checked_sub(system.forces.contacts.own.surface) {
+        // of the body: whatever the direction
+        let (_, other_centre, _) = system.sphere(&mobility.kinematics, other);
+        let give = |segment, centre| greatest(mobility.of_point(segment, centre));
+        return 1.0 / (give(site.segment, centre) + give(system.spheres[other].segment, other_centre));
+    }
     let normal = normal_in_space(model, centre, surface);
     let point = centre - V3::of(&normal) * site.radius;
     1.0 / greatest(across(&mobility.of_point(site.segment, point), &normal))
@@ -118,7 +129,8 @@ pub(super) fn of_spheres(
     let setup = model.setup();
     let one = |sphere: usize| {
         let own = || pairs(model).filter(move |&(s, _)| s == sphere).map(|(_, f)| f);
-        let slope = |&surface: &usize| material_of(setup, surface).spring.steepest_n_per_m();
+        let share = setup.body.spheres[sphere].share;
+        let slope = |&surface: &usize| share * material_of(setup, surface).spring.steepest_n_per_m();
         let stiffest = own().max_by(|a, b| slope(a).total_cmp(&slope(b)))?;
         let site = &model.system().spheres[sphere];
         let (_, centre, _) = model.system().sphere(&mobility.kinematics, sphere);

@@ -1,11 +1,13 @@
 //! Where things stand at the start: seat, contacts, other force elements.
 
+use indexmap::IndexMap;
 use serde::Serialize;
 
 use super::rates::vehicle_at_start;
 use crate::forces::Instant;
 use crate::forces::contact::PASSED;
-use crate::forces::contact::surface::Frame;
+use crate::forces::contact::flat_face::FlatFace;
+use crate::forces::contact::surface::{Frame, Outline};
 use crate::forces::rate::Rate;
 use crate::forces::table::Tables;
 use crate::model::Model;
@@ -149,4 +151,35 @@ pub(super) fn behind(model: &Model, mobility: &Mobility<'_>) -> Vec<SphereBehind
         }
     }
     behind
+}
+
+/// Convex corners of two surfaces that are nearer to the body than it can reach.
+pub(super) fn corners(model: &Model) -> Vec<[String; 2]> {
+    let (setup, faces) = (model.setup(), model.faces());
+    let t1_m = model.start().state.t1().to_vector();
+    let spheres = setup.body.spheres.iter().zip(setup.body.standing_m());
+    let reach_m = spheres.map(|(sphere, place)| place.coords.norm() + sphere.radius_m).fold(0.0, f64::max);
+    let vehicle = vehicle_at_start(model);
+    let is_near = |face: &FlatFace| {
+        let from = if face.frame == Frame::Space { t1_m } else { vehicle.point_to_frame(t1_m) };
+        matches!(&face.outline, Outline::Polygon(corners) if corners.iter().any(|p| (p.coords - from).norm() < reach_m))
+    };
+    let near: Vec<usize> = (0..faces.len()).filter(|i| is_near(&faces[*i])).collect();
+    let pairs = near.iter().flat_map(|i| near.iter().map(move |j| [*i, *j]));
+    let corners = pairs.filter(|[i, j]| i < j && faces[*i].has_corner_with(&faces[*j]));
+    corners.map(|pair| pair.map(|i| setup.surfaces[i].name.clone())).collect()
+}
+
+/// Which parts of the body can touch which others.
+pub(super) fn self_contact(model: &Model) -> IndexMap<String, Vec<String>> {
+    let part = |sphere: usize| model.body().spheres[sphere].part.clone();
+    let mut list: IndexMap<String, Vec<String>> = IndexMap::new();
+    for pair in model.setup().self_contact.iter().flat_map(|own| &own.pairs) {
+        let [one, other] = pair.map(part);
+        let others = list.entry(one).or_default();
+        if !others.contains(&other) {
+            others.push(other);
+        }
+    }
+    list
 }

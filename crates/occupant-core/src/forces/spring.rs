@@ -46,6 +46,11 @@ impl BilinearSpring {
         BilinearSpring { break_m, k2_n_per_m, ..self }
     }
 
+    /// The same with forces and energies multiplied by `share`.
+    pub(crate) fn times(self, share: f64) -> Self {
+        BilinearSpring { k1_n_per_m: share * self.k1_n_per_m, k2_n_per_m: share * self.k2_n_per_m, ..self }
+    }
+
     /// Slope of the stiffest branch, N/m.
     pub(crate) fn steepest_n_per_m(&self) -> f64 {
         Spring::<f64>::new(self).steepest()
@@ -127,6 +132,11 @@ impl<S: Scalar> Spring<S> {
         let (f1, f2) = (self.k1_back * e1, self.k2_back * e2);
         let half = S::of(0.5);
         (f1 + f2, half * f1 * e1 + self.k1 * a * e2 + half * f2 * e2)
+    }
+
+    /// Deformation at which the slope changes, m.
+    pub(crate) fn knee(&self) -> S {
+        self.limit
     }
 
     /// Slope of the stiffest branch, N/m, for estimates of the fastest time scale.

@@ -11,6 +11,7 @@ use crate::forces::Data;
 use crate::forces::belt::Belt;
 use crate::forces::contact::flat_face::FlatFace;
 use crate::forces::contact::material::Material;
+use crate::forces::contact::self_contact::SelfContact;
 use crate::forces::contact::solid::Solid;
 use crate::forces::contact::surface::Surface;
 use crate::forces::contact::{ContactData, EdgeForce};
@@ -121,7 +122,7 @@ impl Marker {
     /// As the kernel sees it: a sphere without a radius.
     pub(crate) fn site(&self, body: &Body) -> Site<f64> {
         let (segment, centre_from_lower_end_m) = (self.segment, self.place_from_lower_end_m);
-        Site::new(body, &ContactSphere { name: self.name.clone(), segment, centre_from_lower_end_m, radius_m: 0.0 })
+        Site::new(body, &ContactSphere::new(&self.name, segment, centre_from_lower_end_m, 0.0))
     }
 }
 
@@ -157,6 +158,8 @@ pub struct Setup {
     pub solids: Vec<Solid>,
     /// Where the edge force acts.
     pub edge_force: EdgeForce,
+    /// What parts of the body do to each other; none if they go through each other, as in the report.
+    pub self_contact: Option<SelfContact>,
     /// Belts.
     pub belts: Vec<Belt>,
     /// Motion of the vehicle.
@@ -183,20 +186,24 @@ impl Setup {
         }
     }
 
-    /// Names of surfaces, then of solids.
+    /// Names of surfaces, then of solids, then of spheres that can be touched by others.
     pub fn surface_names(&self) -> impl Iterator<Item = &str> {
-        self.surfaces.iter().map(|s| s.name.as_str()).chain(self.solids.iter().map(|s| s.name.as_str()))
+        let spheres = self.self_contact.iter().flat_map(|_| self.body.spheres.iter().map(|s| s.name.as_str()));
+        let solids = self.solids.iter().map(|s| s.name.as_str());
+        self.surfaces.iter().map(|s| s.name.as_str()).chain(solids).chain(spheres)
     }
 
-    /// Name of the surface or solid of this index; none for one that there is not.
+    /// Name of the surface, solid or sphere of this index; none for one that there is not.
     pub fn surface_name(&self, index: usize) -> Option<&str> {
         self.surface_names().nth(index)
     }
 
-    /// Index of the material of the surface or solid of this index, which there must be.
+    /// Index of the material of the surface, solid or sphere of this index, which there must be.
     pub fn surface_material(&self, index: usize) -> usize {
-        let surface = self.surfaces.get(index).map(|s| s.material);
-        surface.unwrap_or_else(|| self.solids[index - self.surfaces.len()].material)
+        let solids = self.solids.iter().map(|s| s.material);
+        let skins = self.self_contact.iter().flat_map(|own| own.skins.iter().copied());
+        let all = self.surfaces.iter().map(|s| s.material).chain(solids).chain(skins);
+        all.skip(index).next().unwrap_or_default()
     }
 
     /// What it says of force elements; `faces` are the planes of its surfaces.
@@ -205,6 +212,7 @@ impl Setup {
             surfaces: &self.surfaces,
             faces,
             solids: &self.solids,
+            self_contact: self.self_contact.as_ref(),
             materials: &self.materials,
             edge_force: self.edge_force,
             longest_step_s: self.integrator.longest_step_s(),
@@ -232,6 +240,7 @@ impl SetupBuilder {
             surfaces: Vec::new(),
             solids: Vec::new(),
             edge_force: EdgeForce::default(),
+            self_contact: None,
             belts: Vec::new(),
             path: VehiclePath::parked(),
             posture: InitialPosture::Coordinates(Box::new(ReportCoordinates { q: [0.0; DOF], rates: [0.0; DOF] })),

@@ -36,7 +36,7 @@ pub enum Status {
 pub struct FirstTouch {
     /// Index of the sphere.
     pub sphere: usize,
-    /// Index of the surface.
+    /// Index of the surface, of the solid behind all surfaces, or of another sphere of the body behind all solids.
     pub surface: usize,
     /// Time of the step's end, s; the start of the run for what touches at the start.
     pub time_s: f64,

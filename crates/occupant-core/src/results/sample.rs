@@ -71,10 +71,12 @@ pub struct Sample<'a> {
 pub struct Contact {
     /// Index of the sphere.
     pub sphere: usize,
-    /// Index of the surface, or of the solid behind all surfaces.
+    /// Index of the surface, of the solid behind all surfaces, or of another sphere of the body behind all solids.
     pub surface: usize,
     /// Δ, m.
     pub depth_m: f64,
+    /// How thick a solid is behind the face that the sphere went in by, m; infinite for what has no thickness.
+    pub thickness_m: f64,
     /// wF along N̂, N.
     pub normal_force_n: f64,
     /// Normal, edge and friction force on the sphere, vehicle axes, N.
@@ -159,19 +161,23 @@ impl<'a> Sample<'a> {
     /// Touching pairs, one by one (item 5).
     pub fn contacts(&self) -> impl Iterator<Item = Contact> + 'a {
         let sample = *self;
-        self.actions.contacts.iter().map(move |t| sample.contact(t))
+        self.touches().map(move |t| sample.contact(&t))
+    }
+
+    /// What each sphere feels, one by one: of two spheres of the body that touch each other both do.
+    fn touches(&self) -> impl Iterator<Item = Touch<f64>> + use<'a> {
+        let contacts = &self.model.system().forces.contacts;
+        self.actions.contacts.iter().flat_map(move |touch| contacts.sides(touch))
     }
 
     /// Sum of contact and friction forces on a sphere, vehicle axes, N; other elements apart (item 5).
     pub fn sphere_force_n(&self, sphere: usize) -> Vector3<f64> {
-        let own = self.actions.contacts.iter().filter(|t| t.sphere == sphere);
-        own.map(|t| self.contact(t).force_n).sum()
+        self.touches().filter(|t| t.sphere == sphere).map(|t| self.contact(&t).force_n).sum()
     }
 
     /// Greatest Δ of a sphere, m; 0 without contact.
     pub(crate) fn penetration_m(&self, sphere: usize) -> f64 {
-        let own = self.actions.contacts.iter().filter(|t| t.sphere == sphere);
-        own.map(|t| t.depth).fold(0.0, f64::max)
+        self.touches().filter(|t| t.sphere == sphere).map(|t| t.depth).fold(0.0, f64::max)
     }
 
     /// Force of all elements but contacts on a sphere, or of those called `of` alone, vehicle axes, N.
@@ -185,14 +191,6 @@ impl<'a> Sample<'a> {
         sum_n
     }
 
-    /// How thick a solid that a sphere touches is behind the face that the sphere went in by, m.
-    pub(crate) fn solid_thickness_m(&self, sphere: usize, solid: usize) -> f64 {
-        let solids = &self.model.system().forces.contacts.solids;
-        let member = solids.met().find(|(group, member)| group.sphere == sphere && member.solid == solid);
-        let phase = member.map_or(0.0, |(_, member)| self.history.memory.contacts[member.past].phase);
-        solids.shapes[solid].thickness_m(phase)
-    }
-
     /// Centre of a sphere, vehicle axes, m.
     pub fn sphere_centre_m(&self, sphere: usize) -> Point3<f64> {
         self.place_m(self.model.system().sphere(&self.evaluation.kinematics, sphere).1)
@@ -202,11 +200,10 @@ impl<'a> Sample<'a> {
     /// touched, weighted by wF (item 6). `None` without contact.
     pub fn application_point_m(&self, sphere: usize) -> Option<Vector3<f64>> {
         let site = &self.model.system().spheres[sphere];
-        let own = self.actions.contacts.iter().filter(|t| t.sphere == sphere);
         let (mut sum, mut total) = (Vector3::zeros(), 0.0);
-        for t in own {
+        for t in self.touches().filter(|t| t.sphere == sphere) {
             let normal = self.frames[t.frame].axes.out(t.normal);
-            let lever = self.model.system().forces.contacts.lever(t, site.radius);
+            let lever = self.model.system().forces.contacts.lever(&t, site.radius);
             sum -= normal.to_vector() * (lever * t.normal_force);
             total += t.normal_force;
         }
@@ -249,6 +246,7 @@ impl<'a> Sample<'a> {
             sphere: t.sphere,
             surface,
             depth_m: t.depth,
+            thickness_m: contacts.thickness_m(t, &self.history.memory.contacts),
             normal_force_n: t.normal_force,
             force_n: to_vehicle(t.normal * t.normal_force + t.edge + t.friction),
             friction_n: to_vehicle(t.friction),

@@ -6,6 +6,7 @@ use super::kind::UnitSystem;
 use super::loaded::{Loaded, Resolver};
 use super::overrides::{needs_explicit, put};
 use super::sections::schema;
+use crate::body::shape;
 use crate::body::tti12::TTI12;
 use placed_text::{
     Diagnostics, Document, Format, Node, SourceId, Step, Value, follow, parse_path, parse_value, refuse, targets,
@@ -96,7 +97,7 @@ impl Draft {
         // where the words are right, names are looked up when the plain data are built
         if problems.has_errors() {
             let root = self.explicit();
-            let unknown = references(&root, &TTI12.sphere_names());
+            let unknown = references(&root, Some(&shape::names(&TTI12)));
             if !unknown.is_empty() {
                 let whole = Document { root, ..self.document.clone() };
                 unknown.into_iter().for_each(|problem| problems.add(problem, |problem| whole.place(problem)));

@@ -6,6 +6,7 @@
 use super::check::check_words;
 use super::presets;
 use super::sections::schema;
+use crate::body::shape;
 use crate::body::tree::both_sides;
 use crate::body::tti12::TTI12;
 use placed_text::{Document, Entry, Format, Node, Sources, Table, Value};
@@ -95,8 +96,7 @@ fn body(layers: &[Node]) -> Table {
     let segments = parts("segments");
     put(&mut explicit, "segments", &segments, all_members(&segments, &names));
     let spheres = parts("spheres");
-    let standard = TTI12.sphere_names().into_iter().map(str::to_owned).collect::<Vec<_>>();
-    put(&mut explicit, "spheres", &spheres, all_members(&spheres, &standard));
+    put(&mut explicit, "spheres", &spheres, all_members(&spheres, &shape::names(&TTI12)));
     explicit
 }
 
@@ -118,7 +118,7 @@ fn segment_names(joints: &Table) -> Vec<String> {
 /// One merged entry for each of `names` and for every other one in the layers.
 fn all_members(layers: &[Node], names: &[String]) -> Table {
     let known: Vec<&str> = names.iter().map(String::as_str).collect();
-    let others = other_names(layers, &known);
+    let others = other_names(layers, names);
     members(layers, known.iter().copied().chain(others.iter().map(String::as_str)))
 }
 
@@ -191,7 +191,7 @@ fn plain_keys(layers: &[Node], except: &[&str]) -> Table {
 }
 
 /// Names in the layers that are neither a pair's word nor among `known`, in order of appearance.
-fn other_names(layers: &[Node], known: &[&str]) -> Vec<String> {
+fn other_names(layers: &[Node], known: &[String]) -> Vec<String> {
     let mut names: Vec<String> = Vec::new();
     for key in layers.iter().filter_map(Node::as_table).flat_map(Table::keys) {
         let is_known = known.iter().any(|name| name == key || both_sides(name).as_ref() == Some(key));

@@ -15,6 +15,13 @@ pub(crate) fn check_text(d: &Diagnosis) -> String {
         parts.push(seating(seat));
     }
     parts.push(contacts(d));
+    if !d.corners.is_empty() {
+        parts.push(corners(d));
+    }
+    if !d.self_contact.is_empty() {
+        let rows = d.self_contact.iter().map(|(part, others)| [part.clone(), others.join(", ")]);
+        parts.push(table(&[(Left, &["part of the body", "can touch"])], rows));
+    }
     parts.extend(elements::texts(&d.elements, &Marks::default()));
     parts.push(sphere_rates(d));
     if !d.other_rates.is_empty() {
@@ -106,6 +113,13 @@ fn contacts(d: &Diagnosis) -> String {
         [c.sphere.clone(), c.surface.clone(), depth, force]
     });
     table(&[(Left, &["touches at the start", "surface"]), (Right, &["depth, mm", "force, N"])], rows)
+}
+
+/// Corners that a sphere may come round.
+fn corners(d: &Diagnosis) -> String {
+    let rows = d.corners.iter().cloned();
+    let note = "a sphere that comes round such a corner goes through without force; a solid holds it off\n";
+    table(&[(Left, &["convex corner of", "and"])], rows) + note
 }
 
 fn sphere_rates(d: &Diagnosis) -> String {

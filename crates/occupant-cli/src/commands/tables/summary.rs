@@ -99,23 +99,32 @@ fn acceleration(name: &str, part: &Acceleration, marks: &Marks) -> [String; 6] {
     ]
 }
 
+/// Parts whose row is there even if they touched nothing.
+const ALWAYS: [&str; 4] = ["head", "chest", "left_knee", "right_knee"];
+
 fn first_contacts(summary: &Summary, marks: &Marks) -> String {
-    let heads = ["at, ms", "speed, m/s", "closing, m/s", "greatest force, N", "at, ms"];
-    let rows = summary.first_contacts.iter().flat_map(|first| rows_of(summary, first, marks));
+    let heads = ["at, ms", "speed, m/s", "closing, m/s", "depth, mm", "greatest force, N", "at, ms"];
+    let is_shown = |first: &&FirstContact| first.contact.is_some() || ALWAYS.contains(&first.sphere.as_str());
+    let rows = summary.first_contacts.iter().filter(is_shown).flat_map(|first| rows_of(summary, first, marks));
     table(&[(Left, &["contact", "surface"]), (Right, &heads), (Left, &["on"])], rows)
 }
 
-/// A row for each surface that a sphere touched; the greatest force of the whole run stands in the first.
-fn rows_of(summary: &Summary, first: &FirstContact, marks: &Marks) -> Vec<[String; 8]> {
+/// A row for each surface that a part touched; the greatest force of the whole run stands in the first.
+fn rows_of(summary: &Summary, first: &FirstContact, marks: &Marks) -> Vec<[String; 9]> {
     let peak = summary.sphere_forces.iter().find(|p| p.sphere == first.sphere);
     let none = || NONE.to_owned();
     let name = word(&first.sphere);
     let mark = |figure: &str, text| marks.put(&format!("contacts.{name}.{figure}"), text);
     let force = match peak {
-        Some(p) => [mark("peak", number(p.force_n, 0)), mark("peak_time", ms(p.time_s)), p.surface.clone()],
-        None => [none(), none(), none()],
+        Some(p) => [
+            mark("penetration", number(p.penetration_m * 1e3, 0)),
+            mark("peak", number(p.force_n, 0)),
+            mark("peak_time", ms(p.time_s)),
+            p.surface.clone(),
+        ],
+        None => [none(), none(), none(), none()],
     };
-    let own = summary.contacts.iter().filter(|c| c.sphere == first.sphere);
+    let own = summary.contacts.iter().filter(|c| c.part == first.sphere);
     let mut touches: Vec<[String; 4]> = own.map(touch).collect();
     let is_first = |t: &&[String; 4]| Some(&t[1]) == first.contact.as_ref().map(|c| ms(c.time_s)).as_ref();
     let arrival = touches.iter().position(|t| is_first(&t));
@@ -129,11 +138,11 @@ fn rows_of(summary: &Summary, first: &FirstContact, marks: &Marks) -> Vec<[Strin
         touches.push([none(), none(), none(), none()]);
     }
     let row = |(i, [surface, at, speed, closing]): (usize, [String; 4])| {
-        let (name, [n, when, on]) = match i {
+        let (name, [depth, n, when, on]) = match i {
             0 => (first.sphere.clone(), force.clone()),
-            _ => (String::new(), [String::new(), String::new(), String::new()]),
+            _ => Default::default(),
         };
-        [name, surface, at, speed, closing, n, when, on]
+        [name, surface, at, speed, closing, depth, n, when, on]
     };
     touches.into_iter().enumerate().map(row).collect()
 }

@@ -7,6 +7,7 @@ use crate::body::Body;
 use crate::forces::contact::face::{Outline, V2};
 use crate::forces::contact::flat_face::{FlatFace, SAME_M};
 use crate::forces::contact::material::{Material, Memory};
+use crate::forces::contact::self_contact::SelfPairs;
 use crate::forces::contact::solid::Solids;
 use crate::forces::contact::surface::{Frame, Outline as FaceOutline, Surface};
 use crate::forces::contact::{ContactSystem, Group, MaterialLaw, Pair, Part, Plane};
@@ -20,7 +21,7 @@ pub(crate) const FASTEST_M_S: f64 = 100.0;
 impl ContactSystem<f64> {
     /// All pairs of `body` with surfaces whose planes are known.
     pub fn new(body: &Body, data: &ContactData<'_>) -> Self {
-        let &ContactData { surfaces, faces, solids, materials, edge_force, longest_step_s } = data;
+        let &ContactData { surfaces, faces, solids, self_contact, materials, edge_force, longest_step_s } = data;
         let mut system = ContactSystem {
             groups: Vec::new(),
             planes: Vec::new(),
@@ -31,6 +32,7 @@ impl ContactSystem<f64> {
             },
             reach_of_a_step: FASTEST_M_S * longest_step_s,
             solids: Solids::none(),
+            own: SelfPairs::new(body, None, materials, 0, 0),
         };
         let seams = seams(faces);
         for (sphere, data) in body.spheres.iter().enumerate() {
@@ -38,7 +40,7 @@ impl ContactSystem<f64> {
                 let first = system.pairs.len();
                 for parts in joined(sphere, frame, surfaces, &seams) {
                     system.planes.push(plane(&faces[parts[0]], data.radius_m));
-                    system.pairs.push(pair(&parts, surfaces, faces, materials));
+                    system.pairs.push(pair(&parts, surfaces, faces, materials, data.share));
                 }
                 let pairs = first..system.pairs.len();
                 if !pairs.is_empty() {
@@ -47,6 +49,8 @@ impl ContactSystem<f64> {
             }
         }
         system.solids = Solids::new(body, solids, surfaces.len(), materials, system.pairs.len());
+        let (first, names) = (system.pairs.len() + system.solids.count(), surfaces.len() + solids.len());
+        system.own = SelfPairs::new(body, self_contact, materials, first, names);
         system
     }
 }
@@ -97,7 +101,13 @@ fn plane<S: Scalar>(face: &FlatFace, radius_m: f64) -> Plane<S> {
     Plane { normal: V3::of(&face.normal), reach: S::of(radius_m + face.offset_m) }
 }
 
-fn pair<S: Scalar>(parts: &[usize], surfaces: &[Surface], faces: &[FlatFace], materials: &[Material]) -> Pair<S> {
+fn pair<S: Scalar>(
+    parts: &[usize],
+    surfaces: &[Surface],
+    faces: &[FlatFace],
+    materials: &[Material],
+    share: f64,
+) -> Pair<S> {
     let first = &faces[parts[0]];
     let (u, v) = first.plane_axes();
     let flat = |p: &Point3<f64>| [u.dot(&p.coords), v.dot(&p.coords)];
@@ -111,7 +121,7 @@ fn pair<S: Scalar>(parts: &[usize], surfaces: &[Surface], faces: &[FlatFace], ma
             }
             FaceOutline::Unbounded { .. } => Outline::Unbounded,
         };
-        Part { surface: i, outline, law: MaterialLaw::new(material) }
+        Part { surface: i, outline, law: MaterialLaw::new(material, share) }
     };
     let retains = parts.iter().any(|&i| materials[surfaces[i].material].memory == Memory::Retain);
     Pair {

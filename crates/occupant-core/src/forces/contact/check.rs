@@ -1,8 +1,8 @@
 //! What is wrong with materials and surfaces by themselves.
 
 use crate::body::Body;
-use crate::forces::contact::solid::{Solid, build};
-use crate::forces::contact::{ContactData, ContactSystem, OPEN};
+use crate::forces::contact::solid::{Solid, build, concave_rad};
+use crate::forces::contact::{ContactData, ContactSystem, OPEN, PASSED};
 use crate::forces::element::Instant;
 use placed_text::{Problem, Problems};
 
@@ -34,6 +34,23 @@ pub(super) fn check(data: &ContactData<'_>, body: &Body, problems: &mut Problems
         }
     }
     check_solids(data, body, problems);
+    check_skins(data, body, problems);
+}
+
+/// Skins deform in series, which needs a stiffness of each.
+fn check_skins(data: &ContactData<'_>, body: &Body, problems: &mut Problems) {
+    let Some(own) = data.self_contact else { return };
+    let is_known = |sphere: &usize| *sphere < body.spheres.len();
+    if own.skins.len() != body.spheres.len() || own.skins.iter().any(|skin| *skin >= data.materials.len()) {
+        problems.error("self_contact.skin", "not a material for each sphere", "a named material for each sphere");
+    } else if !own.pairs.iter().flatten().all(is_known) {
+        problems.error("self_contact.pairs", "no such sphere", "spheres of the body");
+    }
+    let mut skins = own.skins.iter().filter_map(|skin| data.materials.get(*skin));
+    if let Some(soft) = skins.find(|m| m.spring.k1_n_per_m.min(m.spring.k2_n_per_m) <= 0.0) {
+        let found = format!("the skin {} has no stiffness", soft.name);
+        problems.error("self_contact.skin", found, "positive k1 and k2: skins deform in series");
+    }
 }
 
 fn check_solids(data: &ContactData<'_>, body: &Body, problems: &mut Problems) {
@@ -57,7 +74,7 @@ fn check_solids(data: &ContactData<'_>, body: &Body, problems: &mut Problems) {
     }
 }
 
-/// A solid with the first of its group, which tells frame and material.
+/// A solid with those before it of its group, of which the first tells frame and material.
 fn check_group(solid: &Solid, before: &[Solid], problems: &mut Problems) {
     let Some(group) = &solid.group else { return };
     let Some(first) = before.iter().find(|other| other.group.as_ref() == Some(group)) else { return };
@@ -68,6 +85,31 @@ fn check_group(solid: &Solid, before: &[Solid], problems: &mut Problems) {
             let path = format!("solids.{}.{key}", solid.name);
             problems.error_with_hint(path, found, format!("one {key} for a group, which is met as one body"), hint);
         }
+    }
+    let same = before.iter().filter(|other| other.group.as_ref() == Some(group));
+    for (other, angle_rad) in same.filter_map(|other| Some((other, concave_rad(other, solid)?))) {
+        let turn = angle_rad.to_degrees();
+        let found = format!(
+            "a concave corner or a gap to {} of the same group, of which the sides differ by {turn:.0}°",
+            other.name
+        );
+        let expected =
+            "solids of a group that bend inwards by 30° at most: the nearest alone pushes; without `group` all do";
+        problems.warning(format!("solids.{}.group", solid.name), found, expected);
+    }
+}
+
+/// Tells which parts of the body overlap at the start, and so do not feel each other until they come apart.
+pub(super) fn overlaps(law: &ContactSystem<f64>, body: &Body, at: &Instant<'_, f64>, problems: &mut Problems) {
+    let passed = law.own.pairs.iter().zip(law.own.start(at)).filter(|(_, past)| past.phase == PASSED);
+    let mut names: Vec<String> =
+        passed.map(|(pair, _)| pair.spheres.map(|sphere| body.spheres[sphere].part.as_str()).join(" and ")).collect();
+    names.sort_unstable();
+    names.dedup();
+    if !names.is_empty() {
+        let found = format!("parts of the body that overlap at the start: {}", names.join(", "));
+        let expected = "parts that are apart; these do not feel each other until they have come apart";
+        problems.warning("self_contact", found, expected);
     }
 }
 

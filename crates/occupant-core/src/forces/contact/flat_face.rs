@@ -9,6 +9,8 @@ use placed_text::Problems;
 
 /// Points closer than this are the same point, m.
 pub(super) const SAME_M: f64 = 1e-6;
+/// cos 30°.
+const COS_30: f64 = 0.866_025_403_784_438_6;
 
 /// A surface whose plane and open side are known, in the axes of its frame.
 #[derive(Clone, Debug, PartialEq)]
@@ -91,6 +93,20 @@ impl FlatFace {
             a.0 > b.1 + SAME_M || b.0 > a.1 + SAME_M
         };
         coplanar && !(0..3).any(apart) && sides(a).any(|s| sides(b).any(|t| overlap(s, t)))
+    }
+
+    /// True if the two faces of one frame share part of an edge from which both fall away by more than 30° together: a corner
+    /// that a sphere may come round without touching either.
+    pub(crate) fn has_corner_with(&self, other: &FlatFace) -> bool {
+        let (Outline::Polygon(a), Outline::Polygon(b)) = (&self.outline, &other.outline) else {
+            return false;
+        };
+        let is_behind = |face: &FlatFace, p: &Point3<f64>| face.normal.dot(&p.coords) - face.offset_m < SAME_M;
+        self.frame == other.frame
+            && self.normal.dot(&other.normal) < COS_30
+            && b.iter().all(|p| is_behind(self, p))
+            && a.iter().all(|p| is_behind(other, p))
+            && sides(a).any(|s| sides(b).any(|t| overlap(s, t)))
     }
 }
 

@@ -29,6 +29,33 @@ pub struct ContactHints<S: Scalar> {
     pub(super) near: Vec<Near<S>>,
     /// By group of pairs.
     looks: Vec<Look<S>>,
+    pub(super) own: OwnHints<S>,
+}
+
+/// Which pairs of spheres of the body are worth looking at.
+#[derive(Clone, Debug)]
+pub(super) struct OwnHints<S: Scalar> {
+    /// The first of them, `count`, can exert a force before the next commit.
+    pub near: Vec<Near<S>>,
+    pub count: usize,
+    /// Room for the centres of all spheres.
+    pub centres: Vec<V3<S>>,
+}
+
+impl<S: Scalar> OwnHints<S> {
+    fn new(pairs: usize, spheres: usize) -> Self {
+        let near: Vec<_> = (0..pairs as u32).map(|pair| Near { pair, lanes: S::truth(true) }).collect();
+        OwnHints { near, count: pairs, centres: vec![V3::zero(); if pairs > 0 { spheres } else { 0 }] }
+    }
+
+    /// Adds pair `i` in these lanes.
+    #[inline(always)]
+    pub(super) fn note(&mut self, i: usize, lanes: S::Mask) {
+        if S::any(lanes) {
+            self.near[self.count] = Near { pair: i as u32, lanes };
+            self.count += 1;
+        }
+    }
 }
 
 /// A pair that can exert a force before the next commit.
@@ -67,6 +94,7 @@ impl<S: Scalar> ContactHints<S> {
             watched: all.clone().collect(),
             near: all.map(|pair| Near { pair, lanes }).collect(),
             looks: looks.collect(),
+            own: OwnHints::new(contacts.own.pairs.len(), contacts.own.spheres),
         }
     }
 
@@ -98,6 +126,8 @@ impl<S: Scalar> Hints for ContactHints<S> {
         self.watched.copy_from_slice(&other.watched);
         self.near.copy_from_slice(&other.near);
         self.looks.copy_from_slice(&other.looks);
+        self.own.near.copy_from_slice(&other.own.near);
+        self.own.count = other.own.count;
     }
 
     fn look_again(&mut self) {

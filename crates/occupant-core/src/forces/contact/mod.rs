@@ -1,4 +1,4 @@
-//! Contact of spheres with bounded plane surfaces and with solids.
+//! Contact of spheres with bounded plane surfaces, with solids, and with each other.
 
 mod assembly;
 mod check;
@@ -8,6 +8,7 @@ pub mod flat_face;
 mod hints;
 pub mod material;
 mod results;
+pub mod self_contact;
 pub mod solid;
 pub mod surface;
 mod system;
@@ -29,7 +30,8 @@ use crate::quantity::energy;
 use encounter::Sphere;
 use hints::{Looking, Near, Nearing};
 use placed_text::Problems;
-use solid::lever;
+use self_contact::SelfContact;
+use solid::{Member, lever};
 
 /// Place of the work put into contacts along their normals and edge bands, stored and dissipated.
 pub const PRESS: usize = 0;
@@ -45,6 +47,8 @@ pub struct ContactData<'a> {
     pub faces: &'a [FlatFace],
     /// Solids of vehicle and space.
     pub solids: &'a [Solid],
+    /// What the body does to itself, if anything.
+    pub self_contact: Option<&'a SelfContact>,
     /// Materials.
     pub materials: &'a [Material],
     /// Where the edge force acts.
@@ -97,6 +101,7 @@ impl Element for Contacts {
         problems: &mut Problems,
     ) {
         check::centres(law, &data, body, at, problems);
+        check::overlaps(law, body, at, problems);
     }
 
     fn start(law: &ContactSystem<f64>, at: &Instant<'_, f64>) -> Vec<PairHistory<f64>> {
@@ -108,11 +113,11 @@ impl Element for Contacts {
     }
 
     fn count<S>(law: &ContactSystem<S>) -> usize {
-        law.pairs.len() + law.solids.count()
+        law.own.first + law.own.pairs.len()
     }
 
     fn most_actions<S>(law: &ContactSystem<S>) -> usize {
-        law.pairs.len() + law.solids.pairs.len()
+        law.pairs.len() + law.solids.pairs.len() + law.own.pairs.len()
     }
 
     fn zip<S: Copy, A: Copy, T>(
@@ -134,7 +139,7 @@ impl Element for Contacts {
 
     fn is_possible(law: &ContactSystem<f64>, number: usize, past: &PairHistory<f64>) -> bool {
         let is_face = past.phase.fract() == 0.0 && (FACE..FACE + MOST_FACES).contains(&past.phase);
-        let may_be_face = number >= law.pairs.len() + law.solids.pairs.len();
+        let may_be_face = (law.pairs.len() + law.solids.pairs.len()..law.own.first).contains(&number);
         ([OPEN, TOUCHING, PASSED].contains(&past.phase) || may_be_face && is_face)
             && past.greatest.is_finite()
             && past.greatest >= 0.0
@@ -159,6 +164,7 @@ impl Element for Contacts {
         for (g, group) in (law.groups.len()..).zip(&law.solids.groups) {
             meet_all::<S, COMMIT, true>(law, g, group, at, past, hints, load, show);
         }
+        law.own.apply::<COMMIT>(at, past, &mut hints.own, law.reach_of_a_step, load, show);
     }
 
     fn stored_j(actions: &[Touch<f64>], stored_j: &mut [f64; STORES]) {
@@ -216,21 +222,55 @@ impl<S: Scalar> ContactSystem<S> {
     /// How far the point A of a touch is from the sphere's centre against N̂, m.
     #[inline(always)]
     pub(crate) fn lever(&self, touch: &Touch<S>, radius: S) -> S {
-        if touch.pair < self.pairs.len() { radius } else { lever(touch.depth, radius) }
+        match touch.pair {
+            pair if pair < self.pairs.len() => radius,
+            pair if pair < self.own.first => lever(touch.depth, radius),
+            _ => self_contact::lever(touch.depth, radius),
+        }
     }
 }
 
-impl<S> ContactSystem<S> {
-    /// What the part of a pair is: the index of a surface, or of a solid behind all surfaces.
+impl<S: Scalar> ContactSystem<S> {
+    /// What the part of a pair is: the index of a surface, of a solid behind all surfaces, or of a sphere behind all solids.
     pub fn surface(&self, pair: usize, part: usize) -> usize {
-        match self.pairs.get(pair) {
-            Some(pair) => pair.parts[part].surface,
-            None => self.solids.pairs[pair - self.pairs.len()].members[part].surface,
+        match (self.own.get(pair), self.pairs.get(pair)) {
+            (Some(own), _) => self.own.surface + own.spheres[1 - part],
+            (None, Some(pair)) => pair.parts[part].surface,
+            (None, None) => self.solids.pairs[pair - self.pairs.len()].members[part].surface,
         }
     }
 }
 
 impl ContactSystem<f64> {
+    /// What each sphere feels of a touch: one, or two of the body that touch each other.
+    pub(crate) fn sides(&self, touch: &Touch<f64>) -> impl Iterator<Item = Touch<f64>> + use<> {
+        let other = self.own.get(touch.pair).map(|pair| touch.mirrored(pair.spheres));
+        [*touch].into_iter().chain(other)
+    }
+
+    /// The solid of a touch and its place in what is remembered.
+    pub(crate) fn member(&self, touch: &Touch<f64>) -> Option<&Member> {
+        let union = self.solids.pairs.get(touch.pair.checked_sub(self.pairs.len())?)?;
+        union.members.get(touch.part as usize)
+    }
+
+    /// How thick the solid of a touch is behind the face that `past` remembers, m; infinite for what is no solid.
+    pub(crate) fn thickness_m(&self, touch: &Touch<f64>, past: &[PairHistory<f64>]) -> f64 {
+        let of = |member: &Member| self.solids.shapes[member.solid].thickness_m(past[member.past].phase);
+        self.member(touch).map_or(f64::INFINITY, of)
+    }
+
+    /// Deformation at which the slope of a pair's spring changes, m.
+    pub fn knee_m(&self, pair: usize, part: usize) -> f64 {
+        match (self.own.get(pair), self.pairs.get(pair)) {
+            (Some(own), _) => &own.law,
+            (None, Some(faces)) => &faces.parts[part].law,
+            (None, None) => &self.solids.pairs[pair - self.pairs.len()].law,
+        }
+        .spring
+        .knee()
+    }
+
     /// Pair states where an earlier run ended: the listed pairs of sphere and surface have passed, all others that overlap
     /// touch.
     pub(crate) fn continued(&self, at: &Instant<'_, f64>, passed: &[(usize, usize)]) -> Vec<PairHistory<f64>> {
@@ -260,6 +300,8 @@ impl ContactSystem<f64> {
                 self.solids.pairs[j].commit(nearest.depth, &mut list[i]);
             }
         }
+        list.truncate(self.own.first);
+        list.extend(self.own.start(at));
         list
     }
 }

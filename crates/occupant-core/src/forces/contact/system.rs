@@ -15,6 +15,7 @@ use serde::{Deserialize, Serialize};
 use crate::forces::contact::encounter::Approach;
 use crate::forces::contact::face::{Offset, Outline, V2};
 use crate::forces::contact::material::Material;
+use crate::forces::contact::self_contact::SelfPairs;
 use crate::forces::contact::solid::Solids;
 use crate::forces::spring::Spring;
 use crate::motion::scalar::Scalar;
@@ -120,7 +121,8 @@ pub struct Touch<S> {
     pub frame: usize,
     /// Index of the pair.
     pub pair: usize,
-    /// Which of the pair's parts is nearest and gives the material (an index, as a number per lane).
+    /// Which of the pair's parts is nearest and gives the material (an index, as a number per lane). Of two spheres of the body
+    /// 0 is the second, 1 the first.
     pub part: S,
     /// w, greater than 0 where the pair exerts a force: in one lane at least.
     pub weight: S,
@@ -156,6 +158,8 @@ pub struct ContactSystem<S> {
     pub(crate) edge_lever: S,
     /// Bodies with thickness; their pairs are numbered behind those of faces.
     pub(crate) solids: Solids<S>,
+    /// Pairs of spheres of the body, numbered behind all that is remembered of solids.
+    pub(crate) own: SelfPairs<S>,
     /// A face farther than this, m, cannot be met within one step.
     pub(crate) reach_of_a_step: S,
 }
@@ -332,9 +336,10 @@ pub(super) struct Law<S> {
 }
 
 impl<S: Scalar> MaterialLaw<S> {
-    pub(super) fn new(material: &Material) -> Self {
+    /// Of a material whose forces are multiplied by `share`.
+    pub(super) fn new(material: &Material, share: f64) -> Self {
         MaterialLaw {
-            spring: Spring::new(&material.spring),
+            spring: Spring::new(&material.spring.times(share)),
             friction: S::of(material.friction),
             friction_speed_squared: S::of(material.friction_speed_m_s.powi(2)),
         }
@@ -346,6 +351,16 @@ impl<S: Scalar> MaterialLaw<S> {
         let (force, energy) = self.spring.respond(depth, greatest);
         let (friction, friction_speed_squared) = (self.friction, self.friction_speed_squared);
         Law { force, energy, friction, friction_speed_squared }
+    }
+}
+
+impl Touch<f64> {
+    /// The same as the other sphere of a pair feels it.
+    pub(crate) fn mirrored(&self, spheres: [usize; 2]) -> Self {
+        let (normal, friction) = (-self.normal, -self.friction);
+        let (velocity, slip) = (-self.velocity, -self.slip);
+        let (sphere, part) = if self.sphere == spheres[0] { (spheres[1], 1.0) } else { (spheres[0], 0.0) };
+        Touch { sphere, part, normal, friction, velocity, slip, ..*self }
     }
 }
 

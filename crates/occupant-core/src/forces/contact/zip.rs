@@ -25,6 +25,7 @@ impl<S: Copy> ContactSystem<S> {
             pairs: pairs.map(|(a, b)| a.zip(b, f)).collect::<Result<_, _>>()?,
             edge_lever: f(self.edge_lever, other.edge_lever),
             solids: self.solids.zip(&other.solids, f)?,
+            own: self.own.zip(&other.own, f)?,
             reach_of_a_step: f(self.reach_of_a_step, other.reach_of_a_step),
         })
     }

@@ -44,6 +44,7 @@ fn check_spheres(body: &Body, problems: &mut Problems) {
     for sphere in &body.spheres {
         let path = format!("body.spheres.{}", sphere.name);
         problems.check_positive(&format!("{path}.radius"), sphere.radius_m, "m");
+        problems.check_positive(&format!("{path}.share"), sphere.share, "");
         let length = body.segment(sphere.segment).length_m;
         let centre = sphere.centre_from_lower_end_m;
         let z = centre.z;

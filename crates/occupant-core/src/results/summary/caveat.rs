@@ -83,15 +83,22 @@ impl Caveat {
 
     /// A sphere that used up a solid, or went through it.
     pub(super) fn bottomed(body: &Body, sphere: usize, solid: &str, depth: Peak, thickness_m: f64) -> Self {
-        let seen = format!("{} deep in {solid} {}, which is {} thick", mm(depth.value), at(depth), mm(thickness_m));
+        let (deep, share) = (mm(depth.value), 100.0 * depth.value / thickness_m);
+        let seen = format!("{deep} deep in {solid} {}, {share:.0} % of its {}", at(depth), mm(thickness_m));
         Caveat::of_sphere(body, sphere, "bottomed", seen)
+    }
+
+    /// A sphere whose centre went through the axis of a bar or a rim, and was pushed on.
+    pub(super) fn through(body: &Body, sphere: usize, solid: &str, depth: Peak) -> Self {
+        let seen = format!("went through {solid} {} and was pushed out beyond", at(depth));
+        Caveat::of_sphere(body, sphere, "through", seen)
     }
 
     fn of_sphere(body: &Body, sphere: usize, sign: &str, seen: String) -> Self {
         let own = &body.spheres[sphere];
-        let name = own.name.replace('_', " ");
-        let text = format!("{name} {seen}; {}", not_to_be_quoted(&name));
-        Caveat::new(format!("{}_{sign}", word(&own.name)), text, figures_of(body, own.segment))
+        let [name, part] = [&own.name, &own.part].map(|name| name.replace('_', " "));
+        let text = format!("{name} {seen}; {}", not_to_be_quoted(&part));
+        Caveat::new(format!("{}_{sign}", word(&own.part)), text, figures_of(body, own.segment))
     }
 
     /// A limb that went through a surface between its spheres, the nearest of which was `clear` away.
@@ -181,6 +188,8 @@ fn figures_of(body: &Body, segment: Segment) -> Vec<String> {
         &[]
     };
     let spheres = body.spheres.iter().filter(|sphere| sphere.segment == segment);
-    let touched = spheres.map(|sphere| format!("contacts.{}.*", word(&sphere.name)));
-    owned(measured).into_iter().chain(touched).collect()
+    let touched = spheres.map(|sphere| format!("contacts.{}.*", word(&sphere.part)));
+    let mut figures: Vec<String> = owned(measured).into_iter().chain(touched).collect();
+    figures.dedup();
+    figures
 }

@@ -69,16 +69,16 @@ impl Summary {
         }
     }
 
-    /// The greatest force on every sphere, zero where it touched nothing; first contacts where the summary follows them.
+    /// The greatest force on every part of the body, zero where it touched nothing, and its first contact.
     fn list_contacts(&self, list: &mut List, model: &Model) {
-        for sphere in &model.body().spheres {
-            let name = format!("contacts.{}", word(&sphere.name));
-            let peak = self.sphere_forces.iter().find(|p| p.sphere == sphere.name);
+        for part in model.body().parts() {
+            let name = format!("contacts.{}", word(part));
+            let peak = self.sphere_forces.iter().find(|p| p.sphere == part);
             list.add(format!("{name}.peak"), Newton, peak.map_or(0.0, |p| p.force_n));
             list.add(format!("{name}.peak_time"), Second, peak.map(|p| p.time_s));
             let depth_m = peak.map_or(0.0, |p| p.penetration_m);
             list.add(format!("{name}.penetration"), Metre, depth_m);
-            let first = self.first_contacts.iter().find(|f| f.sphere == sphere.name);
+            let first = self.first_contacts.iter().find(|f| f.sphere == part);
             if let Some(FirstContact { contact, .. }) = first {
                 let contact = contact.as_ref();
                 list.add(format!("{name}.first_time"), Second, contact.map(|c| c.time_s));

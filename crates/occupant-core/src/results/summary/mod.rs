@@ -44,11 +44,11 @@ pub struct Summary {
     /// Peaks of force elements.
     #[serde(flatten)]
     pub elements: Tables,
-    /// First contacts of head, chest and knees after the start.
+    /// First contacts of the parts of the body after the start.
     pub first_contacts: Vec<FirstContact>,
-    /// Every first touch of a sphere with a surface, in the order in which they happened.
+    /// Every first touch of a part of the body with a surface, in the order in which they happened.
     pub contacts: Vec<ContactBegin>,
-    /// Greatest contact force on each sphere that touched anything, in the body's order.
+    /// Greatest contact force on each part of the body that touched anything, in the body's order.
     pub sphere_forces: Vec<SpherePeak>,
     /// How far the head's centre went from where it was at the start; absent without a sphere `head`.
     pub head_excursion: Option<Excursion>,
@@ -124,16 +124,18 @@ pub struct Level {
 /// The first contact of a part of the body after the start of the run.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FirstContact {
-    /// Name of the sphere.
+    /// Name of the part; without a full set of spheres that of its one sphere.
     pub sphere: String,
     /// What it touched; absent if it touched nothing new.
     pub contact: Option<ContactBegin>,
 }
 
-/// The first touch of a sphere with a surface.
+/// The first touch of a part of the body with a surface.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ContactBegin {
-    /// Name of the sphere.
+    /// Name of the part of the body.
+    pub part: String,
+    /// Name of the sphere of it.
     pub sphere: String,
     /// Name of the surface.
     pub surface: String,
@@ -147,10 +149,11 @@ pub struct ContactBegin {
     pub at_start: bool,
 }
 
-/// The greatest contact force on a sphere: normal, edge and friction forces of all surfaces together; other elements apart.
+/// The greatest contact force on a part of the body: normal, edge and friction forces of all surfaces on all its spheres
+/// together, as vectors; other elements apart.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpherePeak {
-    /// Name of the sphere.
+    /// Name of the part; without a full set of spheres that of its one sphere.
     pub sphere: String,
     /// Greatest force.
     pub force_n: f64,
@@ -162,6 +165,8 @@ pub struct SpherePeak {
     pub penetration_m: f64,
     /// Its time.
     pub penetration_time_s: f64,
+    /// Greatest penetration of a solid as a fraction of its thickness there; 0 where no solid with an end was touched.
+    pub thickness_used: f64,
 }
 
 /// Work of the integrator.

@@ -3,7 +3,7 @@
 use super::caveat::{Caveat, Turned};
 use super::peak::Peak;
 use crate::body::{Body, Segment};
-use crate::forces::contact::{ContactSystem, Group, PASSED, Part, Plane};
+use crate::forces::contact::{ContactSystem, Group, PASSED, Part, Plane, Touch};
 use crate::forces::joint::JointLaw;
 use crate::model::Model;
 use crate::model::seating::InitialPosture;
@@ -35,6 +35,10 @@ pub(super) struct Signs {
     deep: Vec<Sunk>,
     /// By sphere: depth at which a solid is used up, and how thick that is, m.
     bottomed: Vec<(Sunk, f64)>,
+    /// By sphere: depth in a bar or rim whose axis its centre went through.
+    through: Vec<Sunk>,
+    /// By what pairs remember, of bars and rims.
+    normals: Vec<Option<Bar>>,
     /// By segment: how far from its spheres it went through a surface.
     cuts: Vec<Sunk>,
     /// By pair: whether it had passed at the start, whether the sphere's limb went through it.
@@ -50,6 +54,15 @@ pub(super) struct Signs {
 struct Sunk {
     most: Peak,
     surface: usize,
+}
+
+/// A bar or a rim when a sphere touched it last.
+#[derive(Clone, Copy, Debug)]
+struct Bar {
+    normal: V3<f64>,
+    /// Whether the sphere's centre was within it.
+    inside: bool,
+    output: usize,
 }
 
 impl Sunk {
@@ -78,6 +91,8 @@ impl Signs {
             joints: vec![turned; body.tree.joints().len()],
             passed: spheres.clone(),
             bottomed: spheres.iter().map(|none| (*none, 0.0)).collect(),
+            through: spheres.clone(),
+            normals: vec![None; model.start().history.memory.contacts.len()],
             deep: spheres,
             cuts: vec![Sunk::NONE; body.tree.segments().len()],
             begun: vec![[false; 2]; model.system().forces.contacts.pairs.len()],
@@ -99,10 +114,13 @@ impl Signs {
             self.joints[limited.joint.index()].see_limit(limited.excess, time_s);
         }
         for contact in sample.contacts() {
-            match contact.surface.checked_sub(model.faces().len()) {
-                None => self.deep[contact.sphere].see(contact.depth_m, contact.surface, time_s),
-                Some(solid) => self.see_solid(sample, &contact, solid),
+            match contact.surface < model.faces().len() {
+                true => self.deep[contact.sphere].see(contact.depth_m, contact.surface, time_s),
+                false => self.see_solid(sample, &contact),
             }
+        }
+        for touch in &sample.actions.contacts {
+            self.see_bar(sample, touch);
         }
         if !self.is_begun || time_s - self.seen_s >= LOOK_S {
             for group in &model.system().forces.contacts.groups {
@@ -113,13 +131,28 @@ impl Signs {
     }
 
     /// A sphere in a solid.
-    fn see_solid(&mut self, sample: &Sample<'_>, contact: &Contact, solid: usize) {
-        let thickness_m = sample.solid_thickness_m(contact.sphere, solid);
+    fn see_solid(&mut self, sample: &Sample<'_>, contact: &Contact) {
+        let thickness_m = contact.thickness_m;
         let radius_m = sample.model.body().spheres[contact.sphere].radius_m;
         let most_m = if thickness_m > radius_m { BOTTOM * thickness_m } else { radius_m + thickness_m };
         let (bottomed, of_m) = &mut self.bottomed[contact.sphere];
         if contact.depth_m > most_m && bottomed.most.see(contact.depth_m, sample.time_s) {
             (bottomed.surface, *of_m) = (contact.surface, thickness_m);
+        }
+    }
+
+    /// A sphere whose centre has gone through the axis of a bar or a rim since the output before: the normal has turned round
+    /// while the centre was within.
+    fn see_bar(&mut self, sample: &Sample<'_>, touch: &Touch<f64>) {
+        let contacts = &sample.model.system().forces.contacts;
+        let Some(member) = contacts.member(touch).filter(|member| contacts.solids.shapes[member.solid].is_bar()) else {
+            return;
+        };
+        let inside = touch.depth > sample.model.body().spheres[touch.sphere].radius_m;
+        let last = self.normals[member.past].replace(Bar { normal: touch.normal, inside, output: sample.index });
+        let turned = last.filter(|last| last.output + 1 == sample.index && last.normal.dot(touch.normal) < 0.0);
+        if turned.is_some_and(|last| last.inside || inside) {
+            self.through[touch.sphere].see(touch.depth, member.surface, sample.time_s);
         }
     }
 
@@ -160,20 +193,38 @@ impl Signs {
         let joints = body.tree.joints().zip(&self.joints).filter(|(_, turned)| turned.beyond.value > AT_STOP_RAD);
         let joints = joints.map(|(joint, turned)| Caveat::beyond_stop(body, joint, turned));
         let passed = self.passed.iter().enumerate().filter(|(_, sunk)| sunk.most.value > GRAZE_M);
+        let passed = worst_of_parts(body, passed).into_iter();
         let passed = passed.map(|(sphere, sunk)| Caveat::passed(body, sphere, name(sunk), sunk.most));
         let most_m = |(sphere, sunk): &(usize, &Sunk)| {
             let diameter_m = 2.0 * body.spheres[*sphere].radius_m;
             if self.cushion == Some(sunk.surface) { diameter_m.min(CUSHION_M) } else { diameter_m }
         };
-        let deep = self.deep.iter().enumerate().map(|one| (one.0, one.1, most_m(&one)));
-        let deep = deep.filter(|(_, sunk, most_m)| sunk.most.value > *most_m);
-        let deep = deep.map(|(sphere, sunk, most_m)| Caveat::too_deep(body, sphere, name(sunk), sunk.most, most_m));
+        let deep = self.deep.iter().enumerate().filter(|one| one.1.most.value > most_m(one));
+        let deep = worst_of_parts(body, deep).into_iter();
+        let deep = deep.map(|one| Caveat::too_deep(body, one.0, name(one.1), one.1.most, most_m(&one)));
         let cuts = body.tree.segments().zip(&self.cuts).filter(|(_, sunk)| sunk.most.value > GRAZE_M);
         let cuts = cuts.map(|(limb, sunk)| Caveat::cut(body, limb, name(sunk), sunk.most));
-        let bottomed = self.bottomed.iter().enumerate().filter(|(_, (sunk, _))| sunk.most.value > 0.0);
-        let bottomed = bottomed.map(|(s, (sunk, of_m))| Caveat::bottomed(body, s, name(sunk), sunk.most, *of_m));
-        joints.chain(passed).chain(deep).chain(bottomed).chain(cuts).collect()
+        let bottomed = self.bottomed.iter().map(|(sunk, _)| sunk).enumerate().filter(|(_, sunk)| sunk.most.value > 0.0);
+        let bottomed = worst_of_parts(body, bottomed).into_iter();
+        let bottomed = bottomed.map(|(s, sunk)| Caveat::bottomed(body, s, name(sunk), sunk.most, self.bottomed[s].1));
+        let through = self.through.iter().enumerate().filter(|(_, sunk)| sunk.most.value > 0.0);
+        let through = worst_of_parts(body, through).into_iter();
+        let through = through.map(|(sphere, sunk)| Caveat::through(body, sphere, name(sunk), sunk.most));
+        joints.chain(passed).chain(deep).chain(bottomed).chain(through).chain(cuts).collect()
     }
+}
+
+/// Of each part of the body the sphere that sank deepest.
+fn worst_of_parts<'s>(body: &Body, list: impl Iterator<Item = (usize, &'s Sunk)>) -> Vec<(usize, &'s Sunk)> {
+    let mut worst: Vec<(usize, &Sunk)> = Vec::new();
+    for one in list {
+        match worst.iter_mut().find(|other| body.spheres[other.0].part == body.spheres[one.0].part) {
+            Some(known) if known.1.most.value < one.1.most.value => *known = one,
+            Some(_) => {}
+            None => worst.push(one),
+        }
+    }
+    worst
 }
 
 impl Turned {

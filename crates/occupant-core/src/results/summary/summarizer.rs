@@ -8,17 +8,14 @@ use super::{
     Acceleration, Accelerations, Caveat, ContactBegin, Excursion, FirstContact, Level, Peak, RunStatus, Solver,
     SpherePeak, Summary,
 };
-use crate::body::Body;
+use crate::body::{Body, ContactSphere};
 use crate::model::Model;
-use crate::model::setup::{STANDARD_GRAVITY_M_S2, TimeSpan};
-use crate::results::outcome::{FirstTouch, Outcome, Status};
+use crate::model::setup::{STANDARD_GRAVITY_M_S2, Setup, TimeSpan};
+use crate::results::outcome::{Outcome, Status};
 use crate::results::recorder::{Flow, Recorder, RecorderError};
 use crate::results::sample::Sample;
 use crash_measures::injury::{self, Measure, Options, Readings, Signals};
 use crash_measures::measure::ThreeMs;
-
-/// Spheres whose first contacts are summarised.
-const STRUCK: [&str; 4] = ["head", "chest", "left_knee", "right_knee"];
 
 /// Measures that change by more of their value without every other output are not quoted to a per cent.
 const COARSE: f64 = 0.02;
@@ -33,7 +30,9 @@ pub struct Summarizer {
     /// Of head, chest and pelvis.
     accelerations: [Option<Peak>; 3],
     elements: ElementPeaks,
-    spheres: Vec<SphereTrack>,
+    /// By sphere: which part it belongs to, in the order of [`Body::parts`].
+    part_of: Vec<usize>,
+    parts: Vec<PartTrack>,
     pub(super) signals: Signals,
     head_start: Option<Point3<f64>>,
     /// Of the head.
@@ -47,16 +46,24 @@ pub struct Summarizer {
 struct Case {
     title: String,
     body: Body,
+    /// What can be touched: surfaces, solids, and where the body meets itself the parts of its spheres.
     surfaces: Vec<String>,
+    meets_itself: bool,
     integrator: &'static str,
     time: TimeSpan,
 }
 
 #[derive(Clone, Copy, Debug)]
-struct SphereTrack {
+struct PartTrack {
     force: Peak,
     penetration: Peak,
+    /// Greatest Δ over the thickness of a solid.
+    used: f64,
     surface: usize,
+    /// At the present output: sum of the forces, the greatest normal force, and what exerts it.
+    now_n: Vector3<f64>,
+    hardest: Peak,
+    hit: usize,
 }
 
 impl Summarizer {
@@ -139,16 +146,17 @@ impl Summarizer {
     }
 
     fn sphere_forces(&self, case: &Case) -> Vec<SpherePeak> {
-        let named = case.body.spheres.iter().zip(&self.spheres);
+        let named = case.body.parts().zip(&self.parts);
         named
             .filter(|(_, track)| track.force.value > 0.0)
-            .map(|(sphere, track)| SpherePeak {
-                sphere: sphere.name.clone(),
+            .map(|(part, track)| SpherePeak {
+                sphere: part.to_owned(),
                 force_n: track.force.value,
                 time_s: track.force.time_s,
                 surface: case.surfaces[track.surface].clone(),
                 penetration_m: track.penetration.value.max(0.0),
                 penetration_time_s: track.penetration.time_s,
+                thickness_used: track.used,
             })
             .collect()
     }
@@ -162,22 +170,21 @@ impl Summarizer {
 
     fn see_contacts(&mut self, sample: &Sample<'_>) {
         // touches come sphere by sphere or frame by frame: add up first, then compare
-        for (sphere, track) in self.spheres.iter_mut().enumerate() {
-            if !sample.actions.contacts.iter().any(|t| t.sphere == sphere) {
-                continue;
+        for track in &mut self.parts {
+            (track.now_n, track.hardest) = (Vector3::zeros(), Peak::NONE);
+        }
+        for contact in sample.contacts() {
+            let track = &mut self.parts[self.part_of[contact.sphere]];
+            track.now_n += contact.force_n;
+            track.penetration.see(contact.depth_m, sample.time_s);
+            track.used = track.used.max(contact.depth_m / contact.thickness_m);
+            if track.hardest.see(contact.normal_force_n, sample.time_s) {
+                track.hit = contact.surface;
             }
-            let mut sum_n = Vector3::zeros();
-            let mut hardest = Peak::NONE;
-            let mut surface = 0;
-            for contact in sample.contacts().filter(|c| c.sphere == sphere) {
-                sum_n += contact.force_n;
-                track.penetration.see(contact.depth_m, sample.time_s);
-                if hardest.see(contact.normal_force_n, sample.time_s) {
-                    surface = contact.surface;
-                }
-            }
-            if track.force.see(sum_n.norm(), sample.time_s) {
-                track.surface = surface;
+        }
+        for track in self.parts.iter_mut().filter(|track| track.hardest.value > Peak::NONE.value) {
+            if track.force.see(track.now_n.norm(), sample.time_s) {
+                track.surface = track.hit;
             }
         }
     }
@@ -203,17 +210,22 @@ impl Recorder for Summarizer {
         let case = Case {
             title: setup.title.clone(),
             body: setup.body.clone(),
-            surfaces: setup.surface_names().map(str::to_owned).collect(),
+            surfaces: touchable(setup),
+            meets_itself: setup.self_contact.is_some(),
             integrator: setup.integrator.name(),
             time: setup.time,
         };
-        let sphere = SphereTrack { force: Peak::NONE, penetration: Peak::NONE, surface: 0 };
+        let [force, penetration, hardest] = [Peak::NONE; 3];
+        let part = PartTrack { force, penetration, used: 0.0, surface: 0, now_n: Vector3::zeros(), hardest, hit: 0 };
+        let parts: Vec<&str> = setup.body.parts().collect();
+        let part_of = |sphere: &ContactSphere| parts.iter().position(|part| *part == sphere.part).unwrap_or(0);
         *self = Summarizer {
             signals: begun(model)?,
             options: self.options,
             head: setup.body.sphere("head"),
             elements: ElementPeaks::new(model),
-            spheres: vec![sphere; setup.body.spheres.len()],
+            part_of: setup.body.spheres.iter().map(part_of).collect(),
+            parts: vec![part; parts.len()],
             signs: Signs::new(model),
             case: Some(case),
             ..Summarizer::default()
@@ -238,25 +250,45 @@ impl Recorder for Summarizer {
     }
 }
 
+/// Names of surfaces and solids, and the parts of the spheres that others can touch.
+fn touchable(setup: &Setup) -> Vec<String> {
+    let fixed = setup.surfaces.len() + setup.solids.len();
+    let parts = setup.self_contact.iter().flat_map(|_| setup.body.spheres.iter().map(|sphere| sphere.part.as_str()));
+    setup.surface_names().take(fixed).chain(parts).map(str::to_owned).collect()
+}
+
+/// First touches part by part; two parts of the body touch each other.
 fn contacts(outcome: &Outcome, case: &Case) -> Vec<ContactBegin> {
-    let contact = |t: &FirstTouch| ContactBegin {
-        sphere: case.body.spheres[t.sphere].name.clone(),
-        surface: case.surfaces[t.surface].clone(),
-        time_s: t.time_s,
-        speed_m_s: t.speed_m_s,
-        closing_m_s: t.closing_m_s,
-        at_start: t.time_s <= case.time.start_s,
-    };
-    outcome.first_touches.iter().map(contact).collect()
+    let spheres = &case.body.spheres;
+    let mut list: Vec<ContactBegin> = Vec::new();
+    for touch in &outcome.first_touches {
+        let fixed = case.surfaces.len().saturating_sub(spheres.len());
+        let other = touch.surface.checked_sub(fixed).filter(|_| case.meets_itself);
+        let both = [Some((touch.sphere, touch.surface)), other.map(|other| (other, fixed + touch.sphere))];
+        for (sphere, surface) in both.into_iter().flatten() {
+            let (sphere, surface) = (&spheres[sphere], &case.surfaces[surface]);
+            if list.iter().all(|known| known.part != sphere.part || known.surface != *surface) {
+                list.push(ContactBegin {
+                    part: sphere.part.clone(),
+                    sphere: sphere.name.clone(),
+                    surface: surface.clone(),
+                    time_s: touch.time_s,
+                    speed_m_s: touch.speed_m_s,
+                    closing_m_s: touch.closing_m_s,
+                    at_start: touch.time_s <= case.time.start_s,
+                });
+            }
+        }
+    }
+    list
 }
 
 fn first_contacts(contacts: &[ContactBegin], body: &Body) -> Vec<FirstContact> {
-    let present = STRUCK.iter().filter(|name| body.sphere(name).is_some());
-    let first = |name: &&str| FirstContact {
-        sphere: (*name).to_owned(),
-        contact: contacts.iter().find(|c| c.sphere == *name && !c.at_start).cloned(),
+    let first = |part: &str| FirstContact {
+        sphere: part.to_owned(),
+        contact: contacts.iter().find(|c| c.part == part && !c.at_start).cloned(),
     };
-    present.map(first).collect()
+    body.parts().map(first).collect()
 }
 
 fn ending(status: &Status) -> (RunStatus, Option<String>) {

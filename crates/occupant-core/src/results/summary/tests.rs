@@ -52,7 +52,7 @@ fn a_free_fall_feels_nothing_and_goes_half_g_t_squared() {
         assert!(a.peak_m_s2 < 1e-9 && a.three_ms_contiguous.unwrap().level_m_s2 < 1e-9);
     }
     assert!(s.contacts.is_empty() && s.sphere_forces.is_empty() && s.elements["belts"].rows.is_empty());
-    assert_eq!(s.first_contacts.len(), 4);
+    assert_eq!(s.first_contacts.len(), 17);
     assert!(s.first_contacts.iter().all(|f| f.contact.is_none()));
     // measured: 1.7e-14
     assert!(s.energy.balance_error < 1e-12);

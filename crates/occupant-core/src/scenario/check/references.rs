@@ -4,7 +4,7 @@ use indexmap::IndexSet;
 use placed_text::{Node, Problem, did_you_mean, follow, one_of, parse_path, targets, to_text};
 
 /// Where a name stands, what it names, and the tables that have things of that kind.
-const REFERENCES: [(&str, &str, &str); 12] = [
+const REFERENCES: [(&str, &str, &str); 16] = [
     ("joints.*.set", "joint set", "joint_sets"),
     ("muscles.*.trigger", "trigger", "triggers"),
     ("surfaces.*.material", "material", "materials"),
@@ -12,6 +12,10 @@ const REFERENCES: [(&str, &str, &str); 12] = [
     ("solids.*.material", "material", "materials"),
     ("solids.*.spheres[*]", "sphere", "body.spheres"),
     ("belts.*.sphere", "sphere", "body.spheres"),
+    ("self_contact.skin", "material", "materials"),
+    ("self_contact.skins.*", "material", "materials"),
+    ("self_contact.pairs[*][0]", "sphere", "body.spheres"),
+    ("self_contact.pairs[*][1]", "sphere", "body.spheres"),
     ("seats.*.cushion", "surface", "surfaces|solids"),
     ("seats.*.back", "surface", "surfaces|solids"),
     ("posture.seat", "seat", "seats"),
@@ -22,13 +26,14 @@ const REFERENCES: [(&str, &str, &str); 12] = [
 /// So many problems are shown.
 const SHOWN: usize = 50;
 
-/// Names in an explicit scenario that lead nowhere; `spheres` are known besides those that it has.
-pub(in crate::scenario) fn references(explicit: &Node, spheres: &[&str]) -> Vec<Problem> {
+/// Names in an explicit scenario that lead nowhere; `spheres` are known besides those that it has. Without them those of
+/// spheres are left to whoever has the body.
+pub(in crate::scenario) fn references(explicit: &Node, spheres: Option<&[String]>) -> Vec<Problem> {
     let mut problems = Vec::new();
-    for (pattern, what, tables) in REFERENCES {
+    for (pattern, what, tables) in REFERENCES.into_iter().filter(|of| of.1 != "sphere" || spheres.is_some()) {
         let mut names: IndexSet<&str> = tables.split('|').flat_map(|table| names_in(explicit, table)).collect();
         if what == "sphere" {
-            names.extend(spheres);
+            names.extend(spheres.iter().copied().flatten().map(String::as_str));
         }
         let listed: Vec<&str> = names.iter().copied().collect();
         for steps in targets(explicit, &parse_path(pattern).unwrap_or_default()) {

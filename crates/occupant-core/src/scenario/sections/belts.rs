@@ -3,12 +3,13 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::builder::index_of;
+use super::builder::Builder;
 use super::materials::spring;
 use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, point, si_or};
 use super::{Length, Ratio, Scenario, Stiffness};
 use crate::body::Body;
 use crate::forces::belt::{Belt, RestLength};
+use placed_text::with_key;
 
 /// A belt that loops round one sphere of the body: the pelvis for a lap belt, the chest for a torso belt.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -36,12 +37,12 @@ pub(crate) struct BeltSection {
 }
 
 /// All belts, in the order written.
-pub(super) fn belts(scenario: &Scenario, body: &Body) -> Vec<Belt> {
-    scenario.belts.iter().map(|(name, section)| belt(body, name, section)).collect()
+pub(super) fn belts(b: &mut Builder, scenario: &Scenario, body: &Body) -> Vec<Belt> {
+    scenario.belts.iter().map(|(name, section)| belt(b, body, name, section)).collect()
 }
 
-fn belt(body: &Body, name: &str, s: &BeltSection) -> Belt {
-    let sphere = index_of(&s.sphere, body.spheres.iter().map(|s| s.name.as_str()));
+fn belt(b: &mut Builder, body: &Body, name: &str, s: &BeltSection) -> Belt {
+    let sphere = b.sphere(&format!("{}.sphere", with_key("belts", name)), &s.sphere, body);
     let webbing = spring(&s.k1, &s.k2, &s.delta_b, si_or(&s.mu1, 1.0), &s.mu2);
     let plain = Belt::new(name, sphere, s.anchors.each_ref().map(point), webbing);
     let rest = match (&s.length, &s.slack) {

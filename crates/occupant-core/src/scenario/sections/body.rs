@@ -12,7 +12,7 @@ use super::{Acceleration, Angle, Force, Inertia, Length, Mass, Ratio};
 use crate::body::people::{Division, Person, REACH, REFERENCE_PERSON, Sex};
 use crate::body::tree::SphereRow;
 use crate::body::tti12::TTI12;
-use crate::body::{Body, ContactSphere, Segment, SegmentProperties, Tree};
+use crate::body::{Body, ContactSphere, Segment, SegmentProperties, Tree, shape};
 use crate::model::setup::STANDARD_GRAVITY_M_S2;
 use placed_text::{Problem, with_key};
 
@@ -57,10 +57,23 @@ pub(crate) struct BodySection {
     /// One segment is carried by no joint: its upper end is the reference point T1.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) joints: IndexMap<String, BodyJointSection>,
+    /// Which spheres there are besides those of `spheres` that you name yourself; "report" if absent.
+    pub(crate) sphere_set: Option<SphereSet>,
     /// Contact spheres by name. The report's 17 (`head`, `chest`, `pelvis`, `left_shoulder`, …) know their place and need
     /// only a radius; `shoulders`, `elbows`, `hands`, `thighs`, `knees`, `shins`, `feet` stand for left and right.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) spheres: IndexMap<String, SphereSection>,
+}
+
+/// A set of contact spheres.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "lowercase")]
+pub(crate) enum SphereSet {
+    /// The 17 of the report, with gaps between them.
+    Report,
+    /// Without gaps: a face, a chin and a neck, sides of chest and pelvis, an abdomen, rows along the limbs, forefeet. Sizes
+    /// follow from the radii of the 17, of which thighs and shins become rows.
+    Full,
 }
 
 /// Segments that carry instruments.
@@ -128,7 +141,12 @@ pub(crate) struct SegmentSection {
 pub(crate) struct SphereSection {
     /// Radius.
     pub(crate) radius: Option<Length<POSITIVE>>,
-    /// Segment that carries it; the 17 of the report know theirs.
+    /// Part of the body that it belongs to, such as "head"; results speak of the forces on all its spheres as one. Absent: the
+    /// part where the sphere set has it, else a part by its own name.
+    pub(crate) part: Option<String>,
+    /// What its contact forces are multiplied by, for a material that was measured on the whole part; 1 if absent.
+    pub(crate) share: Option<Ratio<POSITIVE>>,
+    /// Segment that carries it; those of the sphere set know theirs.
     pub(crate) segment: Option<String>,
     /// Centre from the segment's lower end, in segment axes (X ahead, Y left, Z up when standing).
     pub(crate) centre: Option<[Length; 3]>,
@@ -222,7 +240,7 @@ pub(super) fn body(b: &mut Builder, preset: Option<&str>, section: &BodySection)
         condyles_m: section.condyles.as_ref().map(all_si).map(|[ahead, above]| Vector3::new(ahead, 0.0, above)),
         spheres: Vec::new(),
     };
-    body.spheres = spheres(b, &section.spheres, &body);
+    body.spheres = spheres(b, section, &body);
     Some(body)
 }
 
@@ -272,8 +290,9 @@ pub(super) fn turned(angles: &Option<[Angle; 3]>) -> UnitQuaternion<f64> {
     UnitQuaternion::from_euler_angles(roll, pitch, yaw)
 }
 
-/// The spheres: the report's in its order, then others as written.
-fn spheres(b: &mut Builder, sections: &IndexMap<String, SphereSection>, body: &Body) -> Vec<ContactSphere> {
+/// The spheres: those of the set in its order, then others as written.
+fn spheres(b: &mut Builder, body_section: &BodySection, body: &Body) -> Vec<ContactSphere> {
+    let sections = &body_section.spheres;
     let kept = |name: &str| {
         let section = sections.get(name)?;
         (section.remove != Some(true)).then_some(section)
@@ -286,19 +305,26 @@ fn spheres(b: &mut Builder, sections: &IndexMap<String, SphereSection>, body: &B
     let mut spheres = Vec::new();
     for sphere in body.standard_spheres(&radii_m) {
         if let Some(section) = kept(&sphere.name) {
-            spheres.push(moved(b, body.tree, sphere, section));
+            spheres.push(changed(b, body.tree, sphere, section));
         }
     }
-    for (name, section) in sections {
-        if standard.iter().all(|row| row.name != name) && section.remove != Some(true) {
-            spheres.extend(own_sphere(b, body.tree, name, section));
+    if body_section.sphere_set == Some(SphereSet::Full) {
+        spheres = shape::full(body, spheres);
+    }
+    for (name, section) in sections.iter().filter(|(name, _)| standard.iter().all(|row| row.name != *name)) {
+        let known = spheres.iter().position(|sphere| sphere.name == *name);
+        match (known, section.remove) {
+            (Some(i), Some(true)) => drop(spheres.remove(i)),
+            (Some(i), _) => spheres[i] = changed(b, body.tree, spheres[i].clone(), section),
+            (None, Some(true)) => {}
+            (None, _) => spheres.extend(own_sphere(b, body.tree, name, section)),
         }
     }
     spheres
 }
 
-/// A standard sphere with a place of its own.
-fn moved(b: &mut Builder, tree: &Tree, mut sphere: ContactSphere, section: &SphereSection) -> ContactSphere {
+/// A sphere of the set with a size, a place or a part of its own.
+fn changed(b: &mut Builder, tree: &Tree, mut sphere: ContactSphere, section: &SphereSection) -> ContactSphere {
     let path = with_key("body.spheres", &sphere.name);
     let segment = carrier(b, tree, &path, section);
     if let Some(centre) = &section.centre {
@@ -311,7 +337,12 @@ fn moved(b: &mut Builder, tree: &Tree, mut sphere: ContactSphere, section: &Sphe
             "centre = [x, y, z] from the lower end of that segment",
         );
     }
-    sphere
+    ContactSphere {
+        radius_m: si_or(&section.radius, sphere.radius_m),
+        part: section.part.clone().unwrap_or(sphere.part),
+        share: si_or(&section.share, sphere.share),
+        ..sphere
+    }
 }
 
 /// The segment that a sphere is said to be on.
@@ -338,10 +369,8 @@ fn own_sphere(b: &mut Builder, tree: &Tree, name: &str, section: &SphereSection)
         let found = format!("sphere `{name}` without a centre");
         b.error(&path, found, "centre = [x, y, z] from the lower end of its segment");
     }
-    Some(ContactSphere {
-        name: name.to_owned(),
-        segment: segment?,
-        centre_from_lower_end_m: section.centre.as_ref().map_or_else(Point3::origin, point),
-        radius_m,
-    })
+    let centre_m = section.centre.as_ref().map_or_else(Point3::origin, point);
+    let sphere = ContactSphere::new(name, segment?, centre_m, radius_m);
+    let part = section.part.clone().unwrap_or_else(|| name.to_owned());
+    Some(ContactSphere { part, share: si_or(&section.share, 1.0), ..sphere })
 }

@@ -3,6 +3,7 @@
 use serde::de::DeserializeOwned;
 
 use super::quantity::Quantity;
+use crate::body::Body;
 use placed_text::{Diagnostics, Document, Problem, did_you_mean, follow, one_of, parse_path, with_key};
 
 /// Collects problems while the plain data are put together.
@@ -46,6 +47,33 @@ impl Builder<'_> {
     pub(super) fn unknown(&mut self, path: &str, what: &str, name: &str, names: &[&str]) {
         let problem = Problem::error(path, format!("no {what} is named \"{name}\""), one_of(names, '"'));
         self.report(problem.with_hint(did_you_mean(name, names, '"')));
+    }
+
+    /// The spheres of the parts, or single ones, that a list at `path` names.
+    pub(super) fn spheres(&mut self, path: &str, names: &[String], body: &Body) -> Vec<usize> {
+        let mut spheres = Vec::new();
+        for (i, name) in names.iter().enumerate() {
+            let called = body.spheres_called(name);
+            if called.is_empty() {
+                self.no_sphere(&format!("{path}[{i}]"), name, body);
+            }
+            spheres.extend(called);
+        }
+        spheres
+    }
+
+    /// The sphere that is named at `path`; a whole part is none.
+    pub(super) fn sphere(&mut self, path: &str, name: &str, body: &Body) -> usize {
+        let sphere = body.sphere(name);
+        if sphere.is_none() {
+            self.no_sphere(path, name, body);
+        }
+        sphere.unwrap_or(0)
+    }
+
+    fn no_sphere(&mut self, path: &str, name: &str, body: &Body) {
+        let names: Vec<&str> = body.spheres.iter().map(|sphere| sphere.name.as_str()).collect();
+        self.unknown(path, "sphere", name, &names);
     }
 
     /// Adds an error.

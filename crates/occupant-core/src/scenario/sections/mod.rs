@@ -20,6 +20,7 @@ mod pulse;
 mod quantity;
 mod record_file;
 mod run;
+mod self_contact;
 mod sensors;
 mod setup;
 mod solids;
@@ -46,6 +47,7 @@ use self::path::PathSection;
 use self::posture::{InitialStateSection, PostureSection, SeatSection};
 use self::quantity::ANY;
 use self::run::{IntegratorSection, OutputSection, TimeSection};
+use self::self_contact::SelfContactSection;
 use self::solids::SolidSection;
 use self::surfaces::{ContactSection, SurfaceSection};
 use self::triggers::TriggerSection;
@@ -140,6 +142,8 @@ pub struct Scenario {
     pub(crate) materials: IndexMap<String, MaterialSection>,
     /// How contact forces act.
     pub(crate) contact: Option<ContactSection>,
+    /// What parts of the body do to each other.
+    pub(crate) self_contact: Option<SelfContactSection>,
     /// Surfaces by name.
     #[serde(default, skip_serializing_if = "IndexMap::is_empty")]
     pub(crate) surfaces: IndexMap<String, SurfaceSection>,

@@ -167,7 +167,7 @@ fn state_of(b: &mut Builder, s: &Scenario, state: &InitialStateSection, body: &B
             b.report(Problem::error(path, found, expected).with_hint(Some(hint)));
         }
         passed.push((
-            index_of(sphere, body.spheres.iter().map(|s| s.name.as_str())),
+            b.sphere(&format!("initial_state.passed[{i}][0]"), sphere, body),
             index_of(surface, s.surfaces.keys().map(String::as_str)),
         ));
     }

@@ -9,7 +9,7 @@ use super::builder::Builder;
 use super::quantity::si_or;
 use super::{
     BodySection, JointsSection, Scenario, belts, body, joints, materials, muscles, path, plausible, posture, run,
-    solids, surfaces,
+    self_contact, solids, surfaces,
 };
 use crate::body::Body;
 use crate::forces::joint::Joints;
@@ -30,10 +30,11 @@ pub(in crate::scenario) fn setup(
         return Err(std::mem::take(&mut b.problems));
     };
     let mut joints = joints::joints(b, &explicit.joints, body.tree);
-    references(&document.root, &[]).into_iter().for_each(|problem| b.report(problem));
+    references(&document.root, None).into_iter().for_each(|problem| b.report(problem));
     let surfaces = surfaces::surfaces(b, explicit, &body);
     let solids = solids::solids(b, explicit, &body);
-    let belts = belts::belts(explicit, &body);
+    let self_contact = self_contact::self_contact(b, explicit, &body);
+    let belts = belts::belts(b, explicit, &body);
     let (posture, velocity) = posture::posture(b, explicit, &body);
     let time = run::time(b, explicit);
     let integrator = run::integrator(b, explicit);
@@ -56,6 +57,7 @@ pub(in crate::scenario) fn setup(
         surfaces,
         solids,
         edge_force: surfaces::edge_force(explicit),
+        self_contact,
         belts,
         path,
         posture,

@@ -37,7 +37,7 @@ macro_rules! kinds {
                 pub(crate) frame: Option<Frame>,
                 /// Solids of one group are met as one body without seams; they have one frame and one material.
                 pub(crate) group: Option<String>,
-                /// Names of the spheres that can touch it; all if absent.
+                /// Names of the parts or spheres of the body that can touch it; all if absent.
                 pub(crate) spheres: Option<Vec<String>>,
                 $($(#[$doc])* pub(crate) $key: $Type,)*
             }
@@ -169,15 +169,14 @@ pub(super) fn solids(b: &mut Builder, scenario: &Scenario, body: &Body) -> Vec<S
             _ => shape(section),
         };
         let Some(shape) = shape else { continue };
-        let known = body.spheres.iter().map(|s| s.name.as_str());
-        let indices = |names: &Vec<String>| names.iter().map(|n| index_of(n, known.clone())).collect();
+        let spheres = format!("{}.spheres", with_key("solids", name));
         solids.push(Solid {
             name: name.to_owned(),
             frame: common.frame,
             shape,
             material: index_of(common.material, scenario.materials.keys().map(String::as_str)),
             group: common.group.clone(),
-            spheres: common.spheres.as_ref().map(indices),
+            spheres: common.spheres.as_ref().map(|names| b.spheres(&spheres, names, body)),
         });
     }
     report_undecided(b, &undecided);

@@ -43,7 +43,7 @@ pub(crate) struct SurfaceSection {
     pub(crate) inside: Option<[Length; 3]>,
     /// "order" takes the open side from the order of the corners, or from `normal`, instead of from a point.
     pub(crate) facing: Option<FacingChoice>,
-    /// Names of the spheres that can touch it; all if absent.
+    /// Names of the parts or spheres of the body that can touch it; all if absent.
     pub(crate) spheres: Option<Vec<String>>,
 }
 
@@ -113,14 +113,14 @@ pub(super) fn surface(
     undecided: &mut Vec<String>,
 ) -> Surface {
     let frame = section.frame.unwrap_or_default();
-    let known = body.spheres.iter().map(|s| s.name.as_str());
+    let spheres = format!("{path}.spheres");
     Surface {
         name: name.to_owned(),
         frame,
         outline: outline(b, path, section, frame),
         facing: facing(b, scenario, (path, section), frame, undecided),
         material: index_of(&section.material, scenario.materials.keys().map(String::as_str)),
-        spheres: section.spheres.as_ref().map(|names| names.iter().map(|n| index_of(n, known.clone())).collect()),
+        spheres: section.spheres.as_ref().map(|names| b.spheres(&spheres, names, body)),
     }
 }
 

@@ -13,6 +13,7 @@ mod round_trip;
 mod schema;
 mod sensors;
 mod side_slope;
+mod spheres;
 mod tables;
 mod units;
 

@@ -104,10 +104,10 @@ impl Lookout {
         past: &PairHistory<Dual<N>>,
         notes: &mut Notes<N>,
     ) {
-        let setup = model.setup();
-        let surface = model.system().forces.contacts.surface(touch.pair, touch.part.value as usize);
+        let (setup, contacts) = (model.setup(), &model.system().forces.contacts);
+        let part = touch.part.value as usize;
+        let surface = contacts.surface(touch.pair, part);
         let sphere = touch.sphere;
-        let material = &setup.materials[setup.surface_material(surface)];
         let before = self.pairs[touch.pair];
         let begins = before.seen + 1 != self.looks;
         let slip = V3 { x: touch.slip.x.value, y: touch.slip.y.value, z: touch.slip.z.value };
@@ -118,7 +118,7 @@ impl Lookout {
             sphere,
             surface,
             on_edge: touch.weight.value < 1.0,
-            stiff: depth > material.spring.break_m,
+            stiff: depth > contacts.knee_m(touch.pair, part),
             unloading: depth < past.greatest.value,
             slip: Some(slip),
             edge_n,

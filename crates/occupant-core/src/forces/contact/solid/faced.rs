@@ -113,6 +113,11 @@ impl Faced<f64> {
         Some((face.normal.to_vector(), face.offset))
     }
 
+    /// Whether a sphere that goes through its axis comes out beyond: a capsule or a rim.
+    pub(crate) fn is_bar(&self) -> bool {
+        self.faces.is_empty() && !self.whole.is_half_space()
+    }
+
     /// How thick it is behind the remembered face, m.
     pub(crate) fn thickness_m(&self, phase: f64) -> f64 {
         self.faces.get((phase - FACE) as usize).filter(|_| phase >= FACE).map_or(self.thickness, |face| face.thickness)

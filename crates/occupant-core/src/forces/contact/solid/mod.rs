@@ -4,6 +4,7 @@
 //! distance φ, and Δ = r − φ is a function of the sphere's centre, round its edges and corners too. The report has none.
 
 mod build;
+mod concave;
 mod distance;
 mod faced;
 mod outline;
@@ -12,8 +13,9 @@ mod system;
 mod tests;
 
 pub(crate) use build::build;
+pub(crate) use concave::concave_rad;
 pub(crate) use faced::Faced;
-pub(crate) use system::{Solids, lever};
+pub(crate) use system::{Member, Solids, lever};
 
 use nalgebra::{Matrix3, Point3, Vector3};
 

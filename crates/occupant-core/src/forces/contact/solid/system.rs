@@ -68,7 +68,7 @@ impl Solids<f64> {
         pairs: usize,
     ) -> Solids<f64> {
         let mut all = Solids { shapes: solids.iter().flat_map(|s| build(&s.shape)).collect(), ..Solids::none() };
-        for sphere in 0..body.spheres.len() {
+        for (sphere, data) in body.spheres.iter().enumerate() {
             for (frame, index) in [(Frame::Vehicle, VEHICLE), (Frame::Space, SPACE)] {
                 let first = all.pairs.len();
                 let meets = |s: &Solid| s.frame == frame && s.spheres.as_ref().is_none_or(|s| s.contains(&sphere));
@@ -78,7 +78,7 @@ impl Solids<f64> {
                     let known = all.pairs[first..].iter_mut().find(is_same).filter(|_| solid.group.is_some());
                     match known {
                         Some(union) => union.members.push(member),
-                        None => all.pairs.push(Union::new(member, &materials[solid.material])),
+                        None => all.pairs.push(Union::new(member, &materials[solid.material], data.share)),
                     }
                 }
                 let pairs = pairs + first..pairs + all.pairs.len();
@@ -96,9 +96,9 @@ impl Solids<f64> {
 }
 
 impl Union<f64> {
-    fn new(member: Member, material: &Material) -> Self {
+    fn new(member: Member, material: &Material, share: f64) -> Self {
         let retain = if material.memory == Memory::Retain { 1.0 } else { 0.0 };
-        Union { members: vec![member], law: MaterialLaw::new(material), retain }
+        Union { members: vec![member], law: MaterialLaw::new(material, share), retain }
     }
 }
 

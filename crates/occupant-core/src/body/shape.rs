@@ -1,0 +1,210 @@
+//! Spheres without gaps between them: what a body may have in place of the report's 17.
+//!
+//! Ours, not measured. Each is placed by one of the report's spheres and has its size from it, or stands in a row along a
+//! limb; so every tree that has those spheres and segments of these names has them. Left and right are mirrored.
+
+use nalgebra::Vector3;
+
+use super::{Body, ContactSphere, Tree};
+
+/// A sphere beside one of the report's, whose part it belongs to.
+struct Beside {
+    name: &'static str,
+    of: &'static str,
+    /// Radius, and centre from that sphere's ahead, to the left and up, in its radii.
+    radius: f64,
+    place: [f64; 3],
+}
+
+const BESIDE: [Beside; 8] = [
+    beside("face", "head", 0.6, [0.45, 0.0, -0.65]),
+    beside("chin", "head", 0.35, [0.6, 0.0, -1.0]),
+    beside("right_chest", "chest", 0.8, [0.0, -0.54, 0.0]),
+    beside("left_chest", "chest", 0.8, [0.0, 0.54, 0.0]),
+    beside("right_pelvis", "pelvis", 0.8, [0.0, -0.67, 0.0]),
+    beside("left_pelvis", "pelvis", 0.8, [0.0, 0.67, 0.0]),
+    beside("right_forefoot", "right_foot", 0.7, [3.2, 0.0, -0.3]),
+    beside("left_forefoot", "left_foot", 0.7, [3.2, 0.0, -0.3]),
+];
+
+/// Spheres of the trunk that are parts of their own.
+const TRUNK: [&str; 2] = ["neck", "abdomen"];
+
+/// A row of spheres along a segment from its joint to `end`, in place of the report's sphere of that name, if there is one;
+/// without sides. Radii go straight from that of one sphere to that of another.
+struct Row {
+    part: &'static str,
+    segment: &'static str,
+    end: &'static str,
+    radii: [&'static str; 2],
+}
+
+const ROWS: [Row; 4] = [
+    row("upper_arm", "upper_arm", "elbow", ["shoulder", "elbow"]),
+    row("forearm", "forearm", "hand", ["elbow", "hand"]),
+    row("thigh", "thigh", "knee", ["thigh", "thigh"]),
+    row("shin", "lower_leg", "foot", ["shin", "shin"]),
+];
+
+const SIDES: [&str; 2] = ["right", "left"];
+
+/// Spheres of a row are at most so far apart, in their mean radii: their envelope sags by 0.4 of one.
+const APART: f64 = 1.6;
+/// Spheres of a row, at most.
+const MOST_IN_ROW: usize = 9;
+
+/// Height of the neck's middle between the line of the shoulders and the crown.
+const NECK: f64 = 0.32;
+
+const fn beside(name: &'static str, of: &'static str, radius: f64, place: [f64; 3]) -> Beside {
+    Beside { name, of, radius, place }
+}
+
+const fn row(part: &'static str, segment: &'static str, end: &'static str, radii: [&'static str; 2]) -> Row {
+    Row { part, segment, end, radii }
+}
+
+/// Every name that a sphere or a part of a body with this tree may have without being given one by a scenario.
+pub(crate) fn names(tree: &Tree) -> Vec<String> {
+    let standard = tree.sphere_names().into_iter().chain(BESIDE.iter().map(|b| b.name)).chain(TRUNK);
+    let rows = SIDES.iter().flat_map(|side| ROWS.iter().map(move |row| format!("{side}_{}", row.part)));
+    let in_row = |part: String| [part.clone()].into_iter().chain((1..=MOST_IN_ROW).map(move |i| format!("{part}_{i}")));
+    standard.map(str::to_owned).chain(rows.flat_map(in_row)).collect()
+}
+
+/// The spheres without gaps of a body that has `report`, the report's spheres.
+pub(crate) fn full(body: &Body, report: Vec<ContactSphere>) -> Vec<ContactSphere> {
+    let of = |name: &str| report.iter().find(|sphere| sphere.name == name);
+    let beside = BESIDE.iter().filter_map(|b| {
+        let of = of(b.of)?;
+        let centre = of.centre_from_lower_end_m + Vector3::from(b.place) * of.radius_m;
+        let sphere = ContactSphere { name: b.name.to_owned(), centre_from_lower_end_m: centre, ..of.clone() };
+        Some(ContactSphere { radius_m: b.radius * of.radius_m, ..sphere })
+    });
+    let trunk = [of("head").map(|head| neck(body, head)), of("pelvis").and_then(|pelvis| abdomen(body, pelvis))];
+    let rows = SIDES.iter().flat_map(|side| ROWS.iter().flat_map(move |r| in_row(body, side, r, &of)));
+    let is_replaced =
+        |name: &str| ROWS.iter().any(|row| SIDES.iter().any(|side| name == format!("{side}_{}", row.part)));
+    let kept = report.iter().filter(|sphere| !is_replaced(&sphere.name)).cloned();
+    kept.chain(beside).chain(trunk.into_iter().flatten()).chain(rows).collect()
+}
+
+/// On the neck, where the body has one, else on the head.
+fn neck(body: &Body, head: &ContactSphere) -> ContactSphere {
+    let height_m = |segment| body.segment(segment).length_m;
+    let (segment, z_m) = match body.tree.segment_named("neck") {
+        Some(neck) => (neck, 0.5 * height_m(neck)),
+        None => {
+            let above_m = body.neck_above_m(body.tree.landmarks().chest).unwrap_or_default();
+            (head.segment, NECK * (above_m + height_m(head.segment)) - above_m)
+        }
+    };
+    ContactSphere::new("neck", segment, [0.0, 0.0, z_m].into(), 0.62 * head.radius_m)
+}
+
+fn abdomen(body: &Body, pelvis: &ContactSphere) -> Option<ContactSphere> {
+    let middle = body.tree.segment_named("middle_torso")?;
+    let centre_m = [0.0, 0.0, 0.5 * body.segment(middle).length_m].into();
+    Some(ContactSphere::new("abdomen", middle, centre_m, 0.93 * pelvis.radius_m))
+}
+
+/// The spheres of a row, numbered from the trunk; none where the body lacks what places them.
+fn in_row<'s>(
+    body: &Body,
+    side: &str,
+    row: &Row,
+    of: &impl Fn(&str) -> Option<&'s ContactSphere>,
+) -> Vec<ContactSphere> {
+    let sided = |word: &str| format!("{side}_{word}");
+    let [from, to] = row.radii.map(|word| of(&sided(word)));
+    let (Some(segment), Some(from), Some(to)) = (body.tree.segment_named(&sided(row.segment)), from, to) else {
+        return Vec::new();
+    };
+    let top = Vector3::new(0.0, 0.0, body.segment(segment).length_m);
+    let end = of(&sided(row.end)).filter(|end| end.segment == segment);
+    let down = end.map_or(Vector3::zeros(), |end| end.centre_from_lower_end_m.coords) - top;
+    let gaps =
+        (down.norm() / (APART * 0.5 * (from.radius_m + to.radius_m))).ceil().clamp(1.0, MOST_IN_ROW as f64 + 1.0);
+    let sphere = |i: usize| {
+        let along = i as f64 / gaps;
+        let part = sided(row.part);
+        let radius_m = from.radius_m + along * (to.radius_m - from.radius_m);
+        let share = of(&part).map_or(1.0, |replaced| replaced.share);
+        let name = format!("{part}_{i}");
+        let plain = ContactSphere::new(name, segment, (top + down * along).into(), radius_m);
+        ContactSphere { part, share, ..plain }
+    };
+    (1..gaps as usize).map(sphere).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use approx::assert_relative_eq;
+
+    use super::*;
+
+    fn body() -> Body {
+        let body = Body::male50();
+        Body { spheres: full(&body, body.spheres.clone()), ..body }
+    }
+
+    fn of_part<'b>(body: &'b Body, part: &str) -> Vec<&'b ContactSphere> {
+        body.spheres.iter().filter(|sphere| sphere.part == part).collect()
+    }
+
+    #[test]
+    fn a_man_has_as_many_spheres_along_his_limbs_as_specified() {
+        let body = body();
+        for (part, count) in [("upper_arm", 2), ("forearm", 4), ("thigh", 3), ("shin", 4), ("foot", 2)] {
+            for side in SIDES {
+                assert_eq!(of_part(&body, &format!("{side}_{part}")).len(), count, "{side} {part}");
+            }
+        }
+        let threes = ["head", "chest", "pelvis"].map(|part| of_part(&body, part).len());
+        assert_eq!((threes, body.spheres.len()), ([3; 3], 49));
+        let known = names(body.tree);
+        assert!(body.spheres.iter().all(|s| known.contains(&s.name) && known.contains(&s.part)));
+    }
+
+    /// From sphere to sphere along each limb no gap is wider than 1.6 mean radii, joints and ends included.
+    #[test]
+    fn limbs_have_no_holes() {
+        for name in ["male50", "male50-1970", "female05", "male95", "child06"] {
+            let report = Body::preset(name).expect("a preset");
+            let body = Body { spheres: full(&report, report.spheres.clone()), ..report };
+            let places = body.standing_m();
+            for (part, ends) in
+                [("upper_arm", ["shoulder", "elbow"]), ("forearm", ["elbow", "hand"]), ("shin", ["knee", "foot"])]
+            {
+                let row = of_part(&body, &format!("left_{part}"));
+                let names = row.iter().map(|s| s.name.clone());
+                let ends = ends.map(|end| format!("left_{end}"));
+                let chain: Vec<usize> = [ends[0].clone()]
+                    .into_iter()
+                    .chain(names)
+                    .chain([ends[1].clone()])
+                    .flat_map(|n| body.sphere(&n))
+                    .collect();
+                for pair in chain.windows(2) {
+                    let radii_m = 0.5 * (row[0].radius_m + row[row.len() - 1].radius_m);
+                    let apart_m = (places[pair[0]] - places[pair[1]]).norm();
+                    assert!(apart_m <= 1.6 * radii_m + 1e-12, "{name} {part}: {apart_m} of {radii_m}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn left_and_right_are_mirrored() {
+        let body = body();
+        let places = body.standing_m();
+        for (left, place) in body.spheres.iter().zip(&places) {
+            let Some(name) = left.name.strip_prefix("left_") else { continue };
+            let i = body.sphere(&format!("right_{name}")).expect("its mirror image");
+            let right = &body.spheres[i];
+            assert_relative_eq!(places[i], nalgebra::Point3::new(place.x, -place.y, place.z), epsilon = 1e-15);
+            assert_eq!(left.radius_m, right.radius_m);
+            assert_eq!(left.part.replace("left_", "right_"), right.part);
+        }
+    }
+}
