@@ -5,13 +5,14 @@
 Kills: run, sweep, ensemble with bands, and fit end with SIGKILL at a random moment, again and again, until one process comes to
 its end; its results must be the bytes of one that nobody disturbed (times and paths of the machine aside). Disks: small file
 systems in memory (root mounts them) take run, sweep, bands, fit, print, report, export, plot, view, convert and new; the
-exit code must be 1, the message must name a file, and what has its final name must be whole.
+exit code must be 1, the message must name the file and say that there is no room, and what has its final name must be whole.
 """
 
 import argparse
 import collections
 import json
 import random
+import re
 import shutil
 import signal
 import subprocess
@@ -125,8 +126,16 @@ SMALL = [
     "export ../texts/seed.mcap -o out.csv", "export ../texts/seed.mcap -o out.parquet", "export ../texts/seed.mcap -o out.mme",
     "plot ../texts/seed.mcap -o out.svg", "plot ../texts/seed.mcap -o out.png", "view ../texts/seed.mcap -o out.png",
     "convert ../texts/deck.dat -o out.toml", "new out.toml", "run case.toml -q --ensemble 4 -o run.mcap",
-    "sensitivity case.toml --to hic15 --of joints.neck.damping --channels head.* -o out.csv",
+    "sensitivity case.toml --to hic15 --of joints.neck.damping --channels head.* -o out.csv", "study bands swept",
 ]
+
+
+def named(words, said):
+    """Whether a message says which file or folder of the command's output it is about."""
+    words = words.split(" ")
+    output = words[words.index("-o") + 1] if "-o" in words else words[-1]
+    stem, _, ending = output.partition(".")
+    return re.search(rf"(^|[ /]){stem}(\.partial(-\d+)?)?(\.{ending or '$'}|[/:. ])", said, re.M) is not None
 
 
 def disks(occupant, base, count, dice):
@@ -135,25 +144,26 @@ def disks(occupant, base, count, dice):
     place.mkdir()
     for number in range(count):
         for words in SMALL:
-            whole = sum(p.stat().st_size for p in (base / "texts").iterdir() if p.suffix != ".mcap") // 4096 + 20
+            given = [p for p in (base / "texts").rglob("*") if p.suffix != ".mcap" and ("swept" in words or "swept" not in p.parts)]
+            whole = sum(-(-p.stat().st_size // 4096) for p in given) + 20
             pages = whole + dice.choice([0, 1, 2, 3, 5, 8, 13, 21, 34, 55, 89, 144])
             subprocess.run(["mount", "-t", "tmpfs", "-o", f"size={pages * 4}k", "tmpfs", place], check=True)
             try:
-                for path in (base / "texts").iterdir():
-                    if path.suffix != ".mcap":
-                        shutil.copy(path, place / path.name)
+                for path in given:
+                    to = place / path.relative_to(base / "texts")
+                    to.mkdir() if path.is_dir() else shutil.copy(path, to)
+                before = set(place.rglob("*"))
                 code, said = do(occupant, words, place)
                 ends[code] += 1
-                if code not in (0, 1) or "panick" in said or (code == 1 and "o space left" not in said):
+                if code not in (0, 1) or "panick" in said or (code == 1 and not ("o space left" in said and named(words, said))):
                     print(f"FINDING {words} on {pages} pages: exit {code}: {said[:400]}", flush=True)
                     wrong += 1
-                there = {p.name for p in (base / "texts").iterdir()}
-                left = [p for p in place.rglob("*") if p.is_file() and p.name not in there]
+                left = [p for p in place.rglob("*") if p.is_file() and p not in before]
                 for path in left:
                     if code == 1 and path.name.startswith("out") or path.suffix == ".json" and not readable(path):
                         print(f"FINDING {words}: exit {code} and {path.name} of {path.stat().st_size} bytes", flush=True)
                         wrong += 1
-                if code == 1 and words.startswith(("sweep", "fit")):
+                if code == 1 and words.startswith(("sweep", "fit", "study")):
                     subprocess.run(["mount", "-o", "remount,size=200M", place], check=True)
                     code, said = do(occupant, words, place)
                     if code != 0:
@@ -191,7 +201,8 @@ def main():
         texts(base / "texts", 24)
         root = Path(__file__).resolve().parents[3]
         shutil.copy(root / "scenarios/decks/driver-lap-torso.dat", base / "texts/deck.dat")
-        for words in ("new case.toml", "run case.toml -q -o seed.mcap --set time.end=0.04", "export seed.mcap -o test.csv"):
+        first = ("new case.toml", "run case.toml -q -o seed.mcap --set time.end=0.04", "export seed.mcap -o test.csv")
+        for words in (*first, "sweep ensemble.toml -o swept -q"):
             code, said = do(asked.occupant, words, base / "texts")
             assert code == 0, (words, said)
         (base / "texts/test.csv-metadata.json").unlink(missing_ok=True)

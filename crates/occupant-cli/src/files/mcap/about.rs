@@ -93,7 +93,7 @@ pub(crate) fn result(outcome: &Outcome, outputs: u64) -> Metadata {
         ("evaluations", outcome.effort.evaluations.to_string()),
         ("greatest_kinetic_j", outcome.energy.greatest_kinetic_j.to_string()),
         ("balance_error", outcome.energy.balance_error.to_string()),
-        ("balance_reference", format!("{}, {} J", outcome.energy.reference, outcome.energy.reference_j)),
+        ("balance_reference", outcome.energy.reference.to_owned()),
     ];
     Metadata { name: RESULT.to_owned(), metadata: entries.map(|(k, v)| (k.to_owned(), v)).into() }
 }

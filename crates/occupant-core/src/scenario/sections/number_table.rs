@@ -61,8 +61,15 @@ pub(super) fn read_csv(sources: &Sources, id: SourceId, columns: &[Column]) -> R
         reader.error(sources.start_of(id), "an empty table", "a line that names the columns");
         return Err(reader.problems);
     };
-    reader.header(&cells(sources, header), header);
+    let named = cells(sources, header);
     let mut table = NumberTable::new(header);
+    if named.iter().all(|cell| reader.place(name_and_unit(cell.text).0).is_none()) {
+        // any file can be named in a scenario: what is no such table is not shown
+        let expected = one_of(&reader.names(), '`');
+        reader.error(header, "a first line that names no column of such a table", expected);
+        return Err(reader.problems);
+    }
+    reader.header(&named, header);
     for line in lines {
         let cells = cells(sources, line);
         let numbers = cells.iter().map(|c| reader.number(c)).collect();
@@ -134,11 +141,19 @@ impl<'a> Reader<'a> {
         }
     }
 
+    fn names(&self) -> Vec<&'a str> {
+        self.wanted.iter().map(|column| column.name).collect()
+    }
+
+    /// Which of the columns has this name.
+    fn place(&self, name: &str) -> Option<usize> {
+        self.wanted.iter().position(|c| c.name == name || (c.alias == name && !name.is_empty()))
+    }
+
     fn column(&mut self, cell: &Cell) -> Option<(usize, f64)> {
         let (name, unit_text) = name_and_unit(cell.text);
-        let names: Vec<&str> = self.wanted.iter().map(|c| c.name).collect();
-        let wanted = |c: &Column| c.name == name || (c.alias == name && !name.is_empty());
-        let Some(i) = self.wanted.iter().position(wanted) else {
+        let Some(i) = self.place(name) else {
+            let names = self.names();
             let problem =
                 Problem::error("", format!("unknown column `{}`", shortened(name, CELL)), one_of(&names, '`'));
             self.report(cell.span, problem.with_hint(did_you_mean(name, &names, '`')));

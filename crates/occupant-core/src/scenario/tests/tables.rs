@@ -76,6 +76,12 @@ fn mistakes_name_the_file_line_and_column() {
   = expected: the unit of a time in brackets, such as `t[s]`",
         ),
         (
+            "user:secret,q\nroot:hidden,0\n",
+            "error: a first line that names no column of such a table
+ --> path.csv:1:1
+  = expected: `t`, `x`, `y`, `z`, `roll`, `pitch` or `yaw`",
+        ),
+        (
             "x[m]\n0\n",
             "error: no column `t`
  --> path.csv:1:1
