@@ -68,7 +68,7 @@ fn the_energy_balance_of_every_cart_case_closes_and_does_so_better_with_half_the
 
 /// Losses of contacts, friction, joints and belts, J.
 fn losses(e: &EnergyLedger) -> [f64; 4] {
-    e.lost_j
+    std::array::from_fn(|i| e.lost_j[i])
 }
 
 #[test]

@@ -29,7 +29,7 @@ fn evaluate(system: &System, room: &Compartment, state: &SpaceState) -> Evaluati
 
 fn accelerations(evaluation: &Evaluation<f64>) -> SpaceMotion {
     let found = &evaluation.accelerations;
-    SpaceMotion::of_core(&found)
+    SpaceMotion::of_core(found)
 }
 
 #[test]

@@ -16,11 +16,12 @@ struct Curves {
 
 impl Curves {
     /// The table of this name; none, with a word, where no curves are.
+    #[expect(clippy::print_stderr, reason = "a test that is left out says so")]
     fn open(name: &str) -> Option<Curves> {
         let beside = || PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../shared/reference/tests");
         let folder = std::env::var_os("OCCUPANT_CRASH_TESTS").map_or_else(beside, PathBuf::from);
         let Ok(text) = std::fs::read_to_string(folder.join(name)) else {
-            println!("left out: {name} is not there (OCCUPANT_CRASH_TESTS names the folder of crash tests)");
+            eprintln!("left out: {name} is not there (OCCUPANT_CRASH_TESTS names the folder of crash tests)");
             return None;
         };
         let mut lines = text.lines();
@@ -54,7 +55,6 @@ fn same_hic(table: &str, occupant: &str, window: HicWindow, [value, from_ms, to_
     let resultant = curves.resultant(names.each_ref().map(String::as_str));
     let dt_s = curves.interval_s();
     let ours = hic(&resultant, dt_s, window).unwrap();
-    println!("{table} {occupant}: {:.2} from {:.2} to {:.2} ms", ours.value, 1e3 * ours.start_s, 1e3 * ours.end_s);
     assert_eq!(ours.value.round(), value, "{table} {occupant}");
     for (found, printed) in [(ours.start_s, from_ms), (ours.end_s, to_ms)] {
         assert!((1e3 * found - printed).abs() <= 1e3 * dt_s + 1e-9, "{table} {occupant}: {found} {printed}");
@@ -70,7 +70,6 @@ fn the_head_injury_criterion_is_the_laboratorys_own() {
 
 /// Within half a per cent of what a record prints.
 fn near(what: &str, ours: f64, printed: f64) {
-    println!("{what}: {ours:.2}, the record {printed}");
     assert!((ours / printed - 1.0).abs() < 5e-3, "{what}: {ours} {printed}");
 }
 

@@ -3,6 +3,7 @@
 mod any_tree;
 mod appendix3;
 mod belts;
+mod bodies;
 mod cart_cases;
 mod contact_scene;
 mod driver;

@@ -222,8 +222,8 @@ impl<S: Scalar> Sweep<S> {
         for i in row.hinges().rev() {
             // the hinges before this one carry its axis round
             let mut w = k.omega[row.parent.unwrap_or(0)];
-            for j in row.slot..i {
-                w += k.hinge_axis[j] * hinge_rate[j];
+            for (axis, rate) in k.hinge_axis[row.slot..i].iter().zip(&hinge_rate[row.slot..i]) {
+                w += *axis * *rate;
             }
             let axis = k.hinge_axis[i];
             self.hinges[i] = self.needs[n].release(axis, w.cross(axis) * hinge_rate[i]);

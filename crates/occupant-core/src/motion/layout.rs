@@ -2,7 +2,7 @@
 //!
 //! Segments are indices here; a segment's joint is the one that carries it. A segment stands after the one that carries it.
 
-use crate::body::tree::Tree;
+use crate::body::tree::{JointKind, JointRow, Tree};
 
 /// Most segments of a tree.
 pub const MOST_SEGMENTS: usize = 20;
@@ -113,10 +113,16 @@ impl Layout {
 
     /// Of a body's tree.
     pub fn of(tree: &Tree) -> Self {
-        Layout::of_rows(tree.segments().map(|segment| match tree.carrier(segment).map(|joint| &tree[joint]) {
-            Some(joint) if joint.is_hinge() => (Some(joint.proximal.index()), Freedom::Hinges(&[Axis::Y])),
-            joint => (joint.map(|joint| joint.proximal.index()), Freedom::Ball),
-        }))
+        let freedom = |joint: &JointRow| match joint.kind {
+            JointKind::Ball => Freedom::Ball,
+            JointKind::Hinge => Freedom::Hinges(&[Axis::Y]),
+            JointKind::Universal => Freedom::Hinges(&[Axis::Y, Axis::X]),
+            JointKind::Fixed => Freedom::Hinges(&[]),
+        };
+        let rows = tree.segments().map(|segment| tree.carrier(segment).map(|joint| &tree[joint]));
+        Layout::of_rows(
+            rows.map(|joint| (joint.map(|joint| joint.proximal.index()), joint.map_or(Freedom::Ball, freedom))),
+        )
     }
 
     fn of_rows(segments: impl Iterator<Item = (Option<usize>, Freedom)>) -> Self {

@@ -77,12 +77,6 @@ pub struct Skeleton<S> {
 }
 
 impl Part {
-    /// That of a segment whose principal axes are its own, whose joint has no axes but theirs.
-    pub(crate) fn plain(mass_kg: f64, cg_m: Vector3<f64>, inertia: Vector3<f64>, joint_m: Vector3<f64>) -> Self {
-        let inertia_kg_m2 = Matrix3::from_diagonal(&inertia);
-        Part { mass_kg, cg_m, inertia_kg_m2, joint_m, triads: [Matrix3::identity(); 2] }
-    }
-
     /// One of the parts of which [`closed`] treats: principal axes along its own, centre of gravity and joint on Z of both
     /// segments, the joint beside it on Y.
     fn is_plain(&self) -> bool {
@@ -176,7 +170,9 @@ impl Skeleton<f64> {
     /// Constants of `body` under gravity `gravity_m_s2`.
     pub fn new(body: &Body, gravity_m_s2: f64) -> Self {
         let parts: Vec<Part> = body.tree.segments().map(|segment| part(body, segment)).collect();
-        Skeleton::of(Layout::of(body.tree), &parts, gravity_m_s2)
+        let skeleton = Skeleton::of(Layout::of(body.tree), &parts, gravity_m_s2);
+        // joints that a body places itself may be where no closed form has them
+        if body.places.is_empty() { skeleton } else { skeleton.without_closed_forms() }
     }
 
     /// Constants of a tree of `parts`, in the layout's order. A guided root stays where it is without a [`Mount`].
@@ -195,8 +191,17 @@ impl Skeleton<f64> {
 
 fn part(body: &Body, segment: Segment) -> Part {
     let p = body.segment(segment);
-    let lower_end = if body.tree[segment].hangs() { -p.length_m } else { 0.0 };
-    let cg = p.cg_from_lower_end_m + lower_end;
-    let [joint_y, joint_z] = body.joint_m(segment);
-    Part::plain(p.mass_kg, Vector3::new(0.0, 0.0, cg), p.inertia_kg_m2, Vector3::new(0.0, joint_y, joint_z))
+    let turn = p.principal.to_rotation_matrix().into_inner();
+    let triads = body
+        .tree
+        .carrier(segment)
+        .map(|joint| body.place(joint))
+        .map(|place| [place.proximal, place.distal].map(|site| site.axes.to_rotation_matrix().into_inner()));
+    Part {
+        mass_kg: p.mass_kg,
+        cg_m: p.cg_m() - body.joint_m(segment),
+        inertia_kg_m2: turn * Matrix3::from_diagonal(&p.inertia_kg_m2) * turn.transpose(),
+        joint_m: body.offset_m(segment),
+        triads: triads.unwrap_or([Matrix3::identity(); 2]),
+    }
 }

@@ -109,7 +109,7 @@ impl Greatest {
     /// How well a run of a body of `mass_kg` kept its energy.
     pub(crate) fn check(&self, mass_kg: f64) -> EnergyCheck {
         let is_of_vehicle = self.kinetic_j > 0.5 * mass_kg * FASTEST_M_S.powi(2);
-        let (reference, reference_j) = if is_of_vehicle || self.kinetic_j < self.work_j {
+        let (reference, reference_j) = if is_of_vehicle {
             ("greatest work of gravity and force elements", self.work_j)
         } else {
             ("greatest kinetic energy in the vehicle", self.kinetic_j)
@@ -130,8 +130,8 @@ pub struct EnergyCheck {
     /// Greatest imbalance among the outputs as a fraction of the reference; not a number, `null` in JSON, where nothing
     /// moved or pulled.
     pub balance_error: f64,
-    /// The larger of the greatest kinetic energy relative to the vehicle and the greatest work of gravity and force elements;
-    /// the latter where the former takes speeds above 100 m/s, which are those of the vehicle.
+    /// The greatest kinetic energy relative to the vehicle; where that takes speeds above 100 m/s, which are the vehicle's, the
+    /// greatest work of gravity and force elements.
     pub reference: &'static str,
     /// Its size, J.
     pub reference_j: f64,

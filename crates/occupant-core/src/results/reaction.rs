@@ -96,6 +96,14 @@ impl<'s, 'a> Loads<'s, 'a> {
         }
     }
 
+    /// [`upper_neck`].
+    pub(super) fn upper_neck(&self) -> Reaction {
+        let body = self.sample.model.body();
+        let at_joint = self.reaction(body.tree.landmarks().neck);
+        let Some(condyles_m) = body.condyles_m else { return at_joint };
+        Reaction { moment_n_m: at_joint.moment_n_m - condyles_m.cross(&at_joint.force_n), ..at_joint }
+    }
+
     /// [`femur_axial_n`] of `thigh`.
     pub(super) fn femur_axial_n(&self, thigh: Segment) -> f64 {
         let sample = self.sample;
@@ -115,6 +123,13 @@ impl<'s, 'a> Loads<'s, 'a> {
         // Z of a thigh points from the knee to the hip: a force at the knee against it pulls
         -(pushed - carried).dot(k.axes[thigh.index()].z)
     }
+}
+
+/// What the neck carries at the occipital condyles, where limits of necks hold: M − c × F with M and F at the neck's joint and
+/// c the condyles seen from there. It follows from the head's motion and what touches it, wherever the joint is. Of a body
+/// that does not say where they are, what its neck's joint carries.
+pub(crate) fn upper_neck(sample: &Sample<'_>) -> Reaction {
+    Loads::new(sample).upper_neck()
 }
 
 /// Axial force in a thigh at its knee end, tension positive as a load cell in the femur reports it, N: what the shank, the

@@ -109,10 +109,10 @@ impl<'a> Sample<'a> {
     pub fn end_points_m(&self, segment: Segment) -> [Point3<f64>; 2] {
         let k = &self.evaluation.kinematics;
         let n = segment.index();
-        let near = k.joint[n];
-        let far = near + k.axes[n].z * self.model.body().far_m(segment);
-        let (upper, lower) = if self.model.body().tree[segment].hangs() { (near, far) } else { (far, near) };
-        [self.place_m(upper), self.place_m(lower)]
+        let body = self.model.body();
+        let ends = [Vector3::z() * body.segment(segment).length_m, Vector3::zeros()];
+        let seen = ends.map(|end| k.axes[n].out(V3::of(&(end - body.joint_m(segment)))));
+        seen.map(|end| self.place_m(k.joint[n] + end))
     }
 
     /// Centre of gravity of a segment, vehicle axes, m.

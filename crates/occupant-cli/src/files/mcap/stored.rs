@@ -28,7 +28,7 @@ pub struct StoredRun {
     /// Bytes that checkpoints may still take.
     room: usize,
     /// Bytes that compressed chunks may still make.
-    unpacked: u64,
+    pub(super) unpacked: u64,
 }
 
 /// Bytes that the checkpoints of a small file may take; one of a large file may take so many times its own.

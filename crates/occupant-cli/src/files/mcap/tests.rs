@@ -25,7 +25,7 @@ fn mutations() -> u64 {
 /// Bytes of a run with outputs every 0.1 ms, 50 in a chunk.
 fn recorded(folder: &Path, end: &str) -> Vec<u8> {
     let scenario = folder.join("case.toml");
-    fs::write(&scenario, include_str!("../../commands/starter.toml")).unwrap();
+    fs::write(&scenario, include_str!("../../../tests/case.toml")).unwrap();
     let overrides = vec![format!("time.end={end}"), "output.interval='0.1 ms'".to_owned()];
     let args = ScenarioArgs { scenario, overrides };
     let opened = scenario::open(&args).unwrap();

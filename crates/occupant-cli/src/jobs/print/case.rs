@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use occupant_core::body::tti12::TTI12;
 use occupant_core::forces::contact::PairHistory;
 use occupant_core::model::Model;
 use occupant_core::results::summary::RunStatus;
@@ -52,6 +53,15 @@ impl Case {
             return Err(refused(found));
         }
         let (loaded, model, warnings) = stored(path, &file)?;
+        if *model.body().tree != TTI12 {
+            let count = model.body().segments.len();
+            return Err(Failure::with_help(
+                format!(
+                    "{name} cannot be printed: its body has {count} segments, the report's pages have lines for 12"
+                ),
+                "`occupant report`, `export` and `plot` show a run of any body",
+            ));
+        }
         file.checkpoints.iter().try_for_each(|c| c.check(&model)).map_err(|e| refused(e.to_string()))?;
         let report = report_numbers(&model);
         let in_order = || (1..=model.setup().surface_names().count()).collect();

@@ -4,7 +4,7 @@ use crate::body::Body;
 use crate::forces::contact::solid::{Solid, build};
 use crate::forces::contact::{ContactData, ContactSystem, OPEN};
 use crate::forces::element::Instant;
-use placed_text::Problems;
+use placed_text::{Problem, Problems};
 
 /// More pairs of sphere and surface than this are a slip, or a mesh that should be made coarser.
 const MOST_PAIRS: usize = 200_000;
@@ -71,7 +71,12 @@ fn check_group(solid: &Solid, before: &[Solid], problems: &mut Problems) {
     }
 }
 
-/// Refuses spheres whose centre is inside a solid at the start.
+/// Solids press from above where their normal points down by more than this, and where a sphere is deeper than a graze, m.
+const FROM_ABOVE: f64 = 0.7;
+const GRAZE_M: f64 = 0.005;
+
+/// Refuses spheres whose centre is inside a solid at the start, and warns of those that a solid presses down from above: a head
+/// under the roof.
 pub(super) fn centres(
     law: &ContactSystem<f64>,
     data: &ContactData<'_>,
@@ -80,13 +85,18 @@ pub(super) fn centres(
     problems: &mut Problems,
 ) {
     for (group, member) in law.solids.met() {
-        let (centre, sphere) = (at.centre_in(group.sphere, group.frame), &body.spheres[group.sphere].name);
-        let phi_m = law.solids.shapes[member.solid].distance(centre, OPEN).phi;
-        if phi_m < 0.0 {
-            let path = format!("solids.{}", data.solids[member.solid].name);
-            let found = format!("the centre of {sphere} is {:.1} mm inside at the start", -1e3 * phi_m);
-            let hint = format!("move the solid or the body, or leave {sphere} out of the solid's `spheres`");
+        let (centre, sphere) = (at.centre_in(group.sphere, group.frame), &body.spheres[group.sphere]);
+        let near = law.solids.shapes[member.solid].distance(centre, OPEN);
+        let (path, name) = (format!("solids.{}", data.solids[member.solid].name), &sphere.name);
+        if near.phi < 0.0 {
+            let found = format!("the centre of {name} is {:.1} mm inside at the start", -1e3 * near.phi);
+            let hint = format!("move the solid or the body, or leave {name} out of the solid's `spheres`");
             problems.error_with_hint(path, found, "a centre outside, from where the sphere is held off", hint);
+        } else if near.phi < sphere.radius_m - GRAZE_M && near.normal.z > FROM_ABOVE {
+            let deep_mm = 1e3 * (sphere.radius_m - near.phi);
+            let found = format!("{name} starts {deep_mm:.1} mm deep in it from below: there is no room for this body");
+            let hint = "move the solid, lower the seat or lean the body back";
+            problems.push(Problem::warning(path, found, "room above the body").with_hint(Some(hint)));
         }
     }
 }

@@ -174,7 +174,7 @@ impl<S: Scalar> Sweep<S> {
         // root: the forces that all halves ask of T1 vanish together
         let (mut mass, mut bias) = (demand[ROOTS[0]].mass, demand[ROOTS[0]].bias);
         for &n in &ROOTS[1..] {
-            mass = mass + demand[n].mass;
+            mass += demand[n].mass;
             bias += demand[n].bias;
         }
         let a_root = -mass.inverse().mul(bias);
@@ -232,7 +232,7 @@ fn reduce<S: Scalar>(
     let mut moment = wrench.moment - gyroscopic;
     for &child in children {
         let (c, demand) = (k.joint[child] - k.joint[n], &demands[child]);
-        mass = mass + demand.mass;
+        mass += demand.mass;
         let m = &demand.mass;
         let (gx, gy, gz) = (m.row_x().cross(c), m.row_y().cross(c), m.row_z().cross(c));
         b_x += gx;

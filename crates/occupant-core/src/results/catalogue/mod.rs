@@ -157,7 +157,8 @@ impl Catalogue {
             let place = Place { message: "SegmentState", topic, name, words: &name.replace('_', " ") };
             all.add(&place, body::SEGMENT, move |s| (s, segment));
         }
-        all.whole("Instruments", "/occupant/instruments", "", body::INSTRUMENTS, |s| s);
+        let instruments: Vec<_> = body::instruments(&tree.landmarks().legs).collect();
+        all.whole("Instruments", "/occupant/instruments", "", &instruments, |s| s);
         let names = model.body().spheres.iter().map(|s| s.name.as_str());
         for (i, (name, topic)) in named("/occupant/sphere", names).into_iter().enumerate() {
             let (channel, words) = (format!("sphere.{name}"), format!("sphere {name}"));

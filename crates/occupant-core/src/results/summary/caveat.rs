@@ -166,16 +166,16 @@ fn owned(names: &[&str]) -> Vec<String> {
 /// What is measured of a segment, and of the spheres on it.
 fn figures_of(body: &Body, segment: Segment) -> Vec<String> {
     let marks = body.tree.landmarks();
-    let is_of = |leg: &Limb| [leg.upper, leg.lower].contains(&segment);
+    let is_of = |leg: Option<Limb>| leg.is_some_and(|leg| body.tree.is_of(segment, &leg));
     let measured: &[&str] = if segment == marks.head {
         &["hic15", "hic36", "gsi", "bric", "damage", "head*", "nij", "neck_*"]
     } else if segment == marks.chest {
         &["chest*", "csi"]
     } else if segment == marks.pelvis {
         &["pelvis*"]
-    } else if is_of(&marks.legs.right) {
+    } else if is_of(marks.legs.right) {
         &["right_femur*"]
-    } else if is_of(&marks.legs.left) {
+    } else if is_of(marks.legs.left) {
         &["left_femur*"]
     } else {
         &[]

@@ -3,7 +3,7 @@
 use serde::de::DeserializeOwned;
 
 use super::quantity::Quantity;
-use placed_text::{Diagnostics, Document, Problem, follow, parse_path, with_key};
+use placed_text::{Diagnostics, Document, Problem, did_you_mean, follow, one_of, parse_path, with_key};
 
 /// Collects problems while the plain data are put together.
 pub(super) struct Builder<'a> {
@@ -40,6 +40,12 @@ impl Builder<'_> {
         for key in keys.iter().filter(|key| section.is_some_and(|s| s.get(key).is_some())) {
             self.error(&with_key(path, key), found(key), expected);
         }
+    }
+
+    /// Adds an error about a name that leads nowhere; `names` are those that there are.
+    pub(super) fn unknown(&mut self, path: &str, what: &str, name: &str, names: &[&str]) {
+        let problem = Problem::error(path, format!("no {what} is named \"{name}\""), one_of(names, '"'));
+        self.report(problem.with_hint(did_you_mean(name, names, '"')));
     }
 
     /// Adds an error.

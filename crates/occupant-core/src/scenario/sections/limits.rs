@@ -8,8 +8,7 @@ use super::builder::Builder;
 use super::joints::JointSection;
 use super::quantity::{FRACTION, NOT_NEGATIVE, POSITIVE, all_si, si_or};
 use super::{Angle, AngularVelocity, Moment, MomentPerAngle2, MomentPerAngle3, Ratio, RotationalStiffness};
-use crate::body::tree::Joint;
-use crate::body::tti12::TTI12;
+use crate::body::{Joint, JointRow};
 use crate::forces::joint::limit::{Bend, Centre, Curve, Friction, Limits, Lock, Stop, Turn};
 use crate::forces::spring::LEAST_FRACTION;
 use placed_text::{Problem, with_key};
@@ -105,8 +104,7 @@ pub(crate) struct LockSection {
 }
 
 /// Limits, friction and lock of a joint, if it has any.
-pub(super) fn limits(b: &mut Builder, joint: Joint, section: &JointSection) -> Option<Limits> {
-    let row = &TTI12[joint];
+pub(super) fn limits(b: &mut Builder, joint: Joint, row: &JointRow, section: &JointSection) -> Option<Limits> {
     let path = format!("joints.{}", row.name);
     let key = if row.is_hinge() { "angle_limit" } else { "twist_limit" };
     let range = if row.is_hinge() { &section.angle_limit } else { &section.twist_limit };

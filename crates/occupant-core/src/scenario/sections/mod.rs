@@ -5,6 +5,7 @@
 
 mod belts;
 mod body;
+mod body_joints;
 mod builder;
 mod joints;
 mod limits;

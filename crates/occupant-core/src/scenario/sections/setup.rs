@@ -26,8 +26,10 @@ pub(in crate::scenario) fn setup(
     path_table: Option<SourceId>,
 ) -> Result<(Setup, Diagnostics), Diagnostics> {
     let b = &mut Builder { document, problems: Diagnostics::new() };
-    let body = body::body(b, written.body.preset.as_deref(), &explicit.body);
-    let mut joints = joints::joints(b, &explicit.joints);
+    let Some(body) = body::body(b, written.body.preset.as_deref(), &explicit.body) else {
+        return Err(std::mem::take(&mut b.problems));
+    };
+    let mut joints = joints::joints(b, &explicit.joints, body.tree);
     references(&document.root, &[]).into_iter().for_each(|problem| b.report(problem));
     let surfaces = surfaces::surfaces(b, explicit, &body);
     let solids = solids::solids(b, explicit, &body);
@@ -71,8 +73,9 @@ pub(in crate::scenario) fn occupant(preset: &str, document: &Document) -> Option
     let body = BodySection::deserialize(document.root.get("body")?).ok()?;
     let joints = JointsSection::deserialize(document.root.get("joints")?).ok()?;
     let b = &mut Builder { document, problems: Diagnostics::new() };
-    let occupant = (body::body(b, Some(preset), &body), joints::joints(b, &joints));
-    (!b.problems.has_errors()).then_some(occupant)
+    let body = body::body(b, Some(preset), &body)?;
+    let joints = joints::joints(b, &joints, body.tree);
+    (!b.problems.has_errors()).then_some((body, joints))
 }
 
 /// Warns of provenance notes that speak of nothing in the scenario.

@@ -130,7 +130,8 @@ impl<S: Scalar> Lock<S> {
         let ((k, l), closed) = (pair.axes, past.is_closed());
         let turned = past.held.turned_to(k, l);
         let (angle, most) = (length(turned), self.until / self.stiffness);
-        let yields = closed & angle.gt(most);
+        // beyond by more than rounding: a commit of the same posture, as at the start of a resumed run, changes nothing
+        let yields = closed & angle.gt(most * S::of(1.0 + 1e-9));
         if self.slips {
             let followed = Posture::new(k, l, turned * (most / angle));
             past.held = followed.zip(&past.held, &|new, old| S::select(yields, new, old));

@@ -18,8 +18,11 @@ fn decay_is_the_exponential() {
     assert_eq!((decay(0.0), decay(1e30)), (1.0, decay(32.0)));
 }
 
-/// Energies and muscles at every output of a run, and how well it kept its energy.
-fn run(model: &Model) -> (Vec<(f64, EnergyLedger, Vec<MuscleAction<f64>>)>, f64) {
+/// Time, energies and muscles at an output.
+type Output = (f64, EnergyLedger, Vec<MuscleAction<f64>>);
+
+/// What every output of a run has, and how well the run kept its energy.
+fn run(model: &Model) -> (Vec<Output>, f64) {
     let mut list = Vec::new();
     let watch = Watch(|s: &Sample<'_>| list.push((s.time_s, s.energy, s.actions.muscles.clone())));
     let outcome = simulate(model, watch).unwrap();
