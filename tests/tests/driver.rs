@@ -130,8 +130,9 @@ fn a_braced_driver_keeps_his_posture_where_a_limp_one_folds() {
     };
     let limp = ["muscles.*.trigger=\"never\"", "muscles.*.tone=0", "triggers.never={ kind = \"time\", at = 9 }"];
     let (braced, limp) = (way(&[]), way(&limp));
-    assert_below("way of a braced driver's T1, m", braced, 0.1);
-    assert!(limp > 2.0 * braced, "{limp} {braced}");
+    // Measured: 0.097, 0.489.
+    assert_below("way of a braced driver's T1, m", braced, 0.12);
+    assert!(limp > 3.0 * braced, "{limp} {braced}");
 }
 
 /// Who sits still in a parked car feels his weight and nothing else: what is left when the muscles have taken it over.
@@ -140,9 +141,10 @@ fn a_settled_body_at_rest_stays_at_1_g() {
     let parked = ["path={ kind = \"fixed\" }", "time.end=3", "muscles.*.tone=1"];
     for segment in ["head", "upper_torso", "lower_torso"] {
         let (level, _) = braced(&parked, &format!("{segment}.acceleration.resultant"));
-        let late = &level[2000..];
-        assert_eq!(late.len(), 1001);
+        let late = &level[1000..];
+        assert_eq!(late.len(), 2001);
         let off = late.iter().map(|a| (a / 9.80665 - 1.0).abs()).fold(0.0, f64::max);
+        // Measured: 7e-4 of the head after the first second, 6e-6 after the second.
         assert_below(&format!("{segment} off 1 g"), off, 0.02);
     }
 }

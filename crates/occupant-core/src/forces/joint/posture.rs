@@ -8,6 +8,7 @@ use crate::motion::vector::{M3, V3};
 pub(super) struct Posture<S>(pub(super) M3<S>);
 
 impl<S: Copy> Posture<S> {
+    #[inline(always)]
     pub(super) fn zip<A: Copy, T>(&self, other: &Posture<A>, f: &impl Fn(S, A) -> T) -> Posture<T> {
         Posture(self.0.zip(&other.0, f))
     }

@@ -267,7 +267,8 @@ impl<S: Scalar> LimitLaw<S> {
             self.act_ball::<COMMIT>(&self.triads.pose(&k.axes[inner], &k.axes[outer]), past, &mut action)
         };
         let omega = k.omega[outer] - k.omega[inner];
-        let locks = self.act_lock::<COMMIT>(at, omega, &mut past.lock, &mut action);
+        let mut act = |lock: &Lock<S>| lock.act::<COMMIT>(&self.pair(at, omega), &mut past.lock, &mut action);
+        let locks = self.lock.as_ref().map_or(S::truth(false), &mut act);
         action.moment = action.stop + action.lock;
         let Some(friction) = &self.friction else { return (action, acts | locks) };
         // T = −C_f ω/√(|ω|² + ω_f²)
@@ -278,30 +279,7 @@ impl<S: Scalar> LimitLaw<S> {
         (action, S::truth(true))
     }
 
-    /// The lock.
     #[inline(always)]
-    fn act_lock<const COMMIT: bool>(
-        &self,
-        at: &Instant<'_, S>,
-        omega: V3<S>,
-        past: &mut LockPast<S>,
-        action: &mut LimitAction<S>,
-    ) -> S::Mask {
-        let Some(lock) = &self.lock else { return S::truth(false) };
-        let pair = self.pair(at, omega);
-        if COMMIT {
-            lock.commit(&pair, past);
-        }
-        let closed = past.is_closed();
-        action.lost += past.lost;
-        if S::any(closed) {
-            let (moment, stored) = lock.respond(&pair, past);
-            (action.lock, action.closed) = (moment, past.closed);
-            action.stored += stored;
-        }
-        closed
-    }
-
     fn pair<'a>(&self, at: &Instant<'a, S>, omega: V3<S>) -> Pair<'a, S> {
         let (inner, outer) = self.segments;
         Pair { axes: (&at.k.axes[inner], &at.k.axes[outer]), omega, time: at.frames.time }

@@ -5,6 +5,7 @@
 //! its torque at T_y and its posture follows along ρ so that K|ρ| = T_y, which loses T_y for each radian.
 
 use super::super::posture::{Posture, length};
+use super::LimitAction;
 use crate::motion::scalar::Scalar;
 use crate::motion::vector::{M3, V3, v3};
 
@@ -97,14 +98,35 @@ impl<S: Scalar> LockPast<S> {
     }
 
     #[inline(always)]
-    pub(super) fn is_closed(&self) -> S::Mask {
+    fn is_closed(&self) -> S::Mask {
         self.closed.gt(S::zero())
     }
 }
 
 impl<S: Scalar> Lock<S> {
+    /// What it does, and in which lanes it is closed. With `COMMIT` it first takes over the present posture.
     #[inline(always)]
-    pub(super) fn commit(&self, pair: &Pair<'_, S>, past: &mut LockPast<S>) {
+    pub(super) fn act<const COMMIT: bool>(
+        &self,
+        pair: &Pair<'_, S>,
+        past: &mut LockPast<S>,
+        action: &mut LimitAction<S>,
+    ) -> S::Mask {
+        if COMMIT {
+            self.commit(pair, past);
+        }
+        let closed = past.is_closed();
+        action.lost += past.lost;
+        if S::any(closed) {
+            let (moment, stored) = self.respond(pair, past);
+            (action.lock, action.closed) = (moment, past.closed);
+            action.stored += stored;
+        }
+        closed
+    }
+
+    #[inline(always)]
+    fn commit(&self, pair: &Pair<'_, S>, past: &mut LockPast<S>) {
         let ((k, l), closed) = (pair.axes, past.is_closed());
         let turned = past.held.turned_to(k, l);
         let (angle, most) = (length(turned), self.until / self.stiffness);
