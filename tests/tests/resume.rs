@@ -14,6 +14,7 @@ use occupant_core::results::sample::Sample;
 use occupant_core::run::simulate::{replay, resume, simulate};
 use occupant_core::scenario::{Format, Scenario};
 use occupant_tests::cart::lap;
+use occupant_tests::room::setup;
 
 const RK4: Integrator = Integrator::Rk4 { step_s: 3e-4 };
 const ADAPTIVE: Integrator =
@@ -75,8 +76,23 @@ fn limited(integrator: Integrator) -> Setup {
     Setup { integrator, ..setup }
 }
 
-fn cases() -> [Setup; 6] {
-    [lap(RK4), lap(ADAPTIVE), lap_and_torso(RK4), lap_and_torso(ADAPTIVE), limited(RK4), limited(ADAPTIVE)]
+/// A body of 17 segments.
+fn seventeen(integrator: Integrator) -> Setup {
+    let text = include_str!("../../scenarios/sled-17-segments.toml");
+    Setup { integrator, ..setup(text, &["time.end=\"120 ms\""]) }
+}
+
+fn cases() -> [Setup; 8] {
+    [
+        lap(RK4),
+        lap(ADAPTIVE),
+        lap_and_torso(RK4),
+        lap_and_torso(ADAPTIVE),
+        limited(RK4),
+        limited(ADAPTIVE),
+        seventeen(RK4),
+        seventeen(ADAPTIVE),
+    ]
 }
 
 #[test]

@@ -248,7 +248,7 @@ fn check_division(b: &mut Builder, preset: Option<&str>, section: &BodySection) 
     let Some(count) = section.segment_count else { return };
     if section.division().is_none() {
         b.error("body.segment_count", format!("{count} segments"), "12, 15 or 17");
-    } else if preset.is_none() && !section.describes_a_person() && section.joints.is_empty() {
+    } else if count != 12 && preset.is_none() && !section.describes_a_person() && section.joints.is_empty() {
         let expected = "a preset or a person to divide, or `[body.joints]` of one's own";
         b.error("body.segment_count", "`segment_count` of a body of one's own", expected);
     } else if preset == Some("male50-1970") && count != 12 {

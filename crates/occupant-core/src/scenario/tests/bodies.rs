@@ -45,6 +45,9 @@ fn the_explicit_form_of_a_divided_body_is_the_same_body() {
     assert_eq!((&again.segments, &again.places, &again.spheres), (&first.segments, &first.places, &first.spheres));
     assert!(std::ptr::eq(again.tree, first.tree));
     assert_eq!(first.segments[2].mass_kg, 1.2);
+    let twelve = load(&body_of("preset = \"male50\"\nsegment_count = 12")).unwrap();
+    let again = build(&twelve.explicit().to_toml().unwrap()).body;
+    assert_eq!(again.segments, twelve.build().unwrap().0.body.segments);
 }
 
 #[test]
