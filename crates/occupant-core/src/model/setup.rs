@@ -202,8 +202,8 @@ impl Setup {
     pub fn surface_material(&self, index: usize) -> usize {
         let solids = self.solids.iter().map(|s| s.material);
         let skins = self.self_contact.iter().flat_map(|own| own.skins.iter().copied());
-        let all = self.surfaces.iter().map(|s| s.material).chain(solids).chain(skins);
-        all.skip(index).next().unwrap_or_default()
+        let mut all = self.surfaces.iter().map(|s| s.material).chain(solids).chain(skins);
+        all.nth(index).unwrap_or_default()
     }
 
     /// What it says of force elements; `faces` are the planes of its surfaces.

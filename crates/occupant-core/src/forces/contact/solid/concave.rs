@@ -13,7 +13,7 @@ use crate::motion::vector::V3;
 /// Centres of spheres so far from a solid are tried, m.
 const AWAY_M: f64 = 0.03;
 /// Normals of two solids that push in directions nearer to each other than this are one, rad: 30°.
-const ONE_RAD: f64 = 0.5236;
+const ONE_RAD: f64 = std::f64::consts::FRAC_PI_6;
 
 /// The greatest angle between the normals of two solids at places that are equally near to both, rad; none if it is small.
 pub(crate) fn concave_rad(one: &Solid, other: &Solid) -> Option<f64> {
