@@ -112,13 +112,14 @@ fn joint_load(s: &Sample<'_>, joint: Joint) -> Fields {
 
 fn instruments(s: &Sample<'_>) -> Fields {
     let neck = reaction(s, NECK);
-    let condyles_m = s.model.body().condyles_m.unwrap_or_default();
+    let at_joint = neck.moment_n_m;
+    let moment_n_m = s.model.body().condyles_m.map_or(at_joint, |at| at_joint - at.cross(&neck.force_n));
     // J211 axes: right and down where the segment's are left and up
     let j211 = |v: Vector3<f64>| vec![v.x, -v.y, -v.z];
     vec![
         ("time_s", vec![s.time_s]),
         ("neck_force_j211_n", j211(neck.force_n)),
-        ("neck_moment_j211_n_m", j211(neck.moment_n_m - condyles_m.cross(&neck.force_n))),
+        ("neck_moment_j211_n_m", j211(moment_n_m)),
         ("right_femur_axial_n", vec![femur_axial_n(s, RIGHT_THIGH)]),
         ("left_femur_axial_n", vec![femur_axial_n(s, LEFT_THIGH)]),
     ]
